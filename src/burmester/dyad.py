@@ -1,0 +1,157 @@
+"""The four planar dyads: RR, PR, RP and PP, their letters read from ground to coupler.
+
+Each holds its dimensions as arrays with the same leading axes, so that one dyad and a
+million are the same type.  `residual` is how far a displacement is from being possible for
+the dyad, signed and in the task's length unit (radians for PP); `coefficients` is its
+constraint manifold.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import Any, Self, TypeAlias, final
+
+import numpy as np
+
+from burmester import manifold
+from burmester.displacement import Displacement, FloatArray
+
+__all__ = ["PP", "PR", "RP", "RR", "Dyad", "refitted_circles"]
+
+
+class _Dimensions:
+    """What the four kinds share: fields made float arrays once, and leading axes to pick from."""
+
+    __slots__ = ()
+
+    def __post_init__(self) -> None:
+        for field in fields(self):  # type: ignore[arg-type]
+            value = np.asarray(getattr(self, field.name), dtype=np.float64)
+            object.__setattr__(self, field.name, value)
+
+    def __getitem__(self, index: Any) -> Self:
+        """Pick along the leading axes (indices, slices, masks, new axes)."""
+        values = []
+        for field in fields(self):  # type: ignore[arg-type]
+            value = getattr(self, field.name)
+            if field.name.endswith("pivot"):
+                value = np.stack([value[..., 0][index], value[..., 1][index]], axis=-1)
+            else:
+                value = value[index]
+            values.append(value)
+        return type(self)(*values)
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class RR(_Dimensions):
+    """A point of M stays on a circle of F: a link with two pins.
+
+    fixed_pivot: (*, 2) in F; moving_pivot: (*, 2) in M; radius: (*,), the link's length.
+    """
+
+    fixed_pivot: FloatArray
+    moving_pivot: FloatArray
+    radius: FloatArray
+
+    def coefficients(self) -> FloatArray:
+        """The constraint manifold p (*, 8), Eqs. (6), (7) and (13)."""
+        return manifold.coefficients_of_circle(self.fixed_pivot, self.moving_pivot, self.radius)
+
+    def residual(self, poses: Displacement) -> FloatArray:
+        """The distance of the moving pivot from the circle, |R m + d - c| - r."""
+        arm = poses.act(self.moving_pivot) - self.fixed_pivot
+        return np.hypot(arm[..., 0], arm[..., 1]) - self.radius
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class PR(_Dimensions):
+    """A point of M stays on a line of F: a slider on the ground with a pin on it.
+
+    The line is n · X = offset with n = (cos, sin)(normal_angle) in F, normal_angle (*,) in
+    radians, offset (*,); moving_pivot: (*, 2) in M.
+    """
+
+    normal_angle: FloatArray
+    offset: FloatArray
+    moving_pivot: FloatArray
+
+    def coefficients(self) -> FloatArray:
+        """The constraint manifold p (*, 8); p1 = 0."""
+        return manifold.coefficients_of_fixed_line(
+            self.normal_angle, self.offset, self.moving_pivot
+        )
+
+    def residual(self, poses: Displacement) -> FloatArray:
+        """The distance of the moving pivot from the line, n · (R m + d) - offset."""
+        point = poses.act(self.moving_pivot)
+        n1, n2 = np.cos(self.normal_angle), np.sin(self.normal_angle)
+        return n1 * point[..., 0] + n2 * point[..., 1] - self.offset
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class RP(_Dimensions):
+    """A point of F stays on a line of M: a pin on the ground in a slot of the body.
+
+    fixed_pivot: (*, 2) in F; the line is n · x = offset with n = (cos, sin)(normal_angle)
+    in M, normal_angle (*,) in radians, offset (*,).
+    """
+
+    fixed_pivot: FloatArray
+    normal_angle: FloatArray
+    offset: FloatArray
+
+    def coefficients(self) -> FloatArray:
+        """The constraint manifold p (*, 8); p1 = 0."""
+        return manifold.coefficients_of_moving_line(
+            self.fixed_pivot, self.normal_angle, self.offset
+        )
+
+    def residual(self, poses: Displacement) -> FloatArray:
+        """The distance of the fixed pivot from the line, n · R⁻¹(c - d) - offset."""
+        return PR(self.normal_angle, self.offset, self.fixed_pivot).residual(poses.inverse())
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class PP(_Dimensions):
+    """M only translates: two sliders, one on the other.  angle: (*,), kept, in radians."""
+
+    angle: FloatArray
+
+    def coefficients(self) -> FloatArray:
+        """The constraint manifold p (*, 8): a plane of the image space, doubled."""
+        return manifold.coefficients_of_rotation(self.angle)
+
+    def residual(self, poses: Displacement) -> FloatArray:
+        """The rotation away from `angle`, in radians, in [-pi, pi]."""
+        turn = poses.angle - self.angle
+        return np.arctan2(np.sin(turn), np.cos(turn))
+
+
+Dyad: TypeAlias = RR | PR | RP | PP
+
+
+def refitted_circles(
+    p: FloatArray, poses: Displacement, weights: FloatArray | None = None
+) -> tuple[RR, FloatArray, FloatArray]:
+    """The circles of p (*, k, 8), their radii refitted to the poses (*, N), and their errors.
+
+    The mean distance of the moving pivot from the fixed one is the radius with the least sum
+    of squares.  Returned with the rms and the greatest residual over the poses, (*, k) each.
+    The radius that p itself holds is not used: noise makes its two versions disagree.
+    """
+    fixed_pivot, moving_pivot, _ = manifold.circle(p)
+    centred = RR(fixed_pivot, moving_pivot, np.zeros(fixed_pivot.shape[:-1]))
+    with np.errstate(invalid="ignore"):
+        distance = centred[..., None].residual(poses[..., None, :])
+    if weights is None:
+        radius = distance.mean(axis=-1)
+    else:
+        share = weights[..., None, :]
+        radius = (distance * share).sum(axis=-1) / share.sum(axis=-1)
+    miss = distance - radius[..., None]
+    rms = np.sqrt((miss**2).mean(axis=-1))
+    return RR(fixed_pivot, moving_pivot, radius), rms, np.abs(miss).max(axis=-1)

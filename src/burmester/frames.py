@@ -1,0 +1,88 @@
+"""Canonical frames: where a fit is done, so that its answer does not depend on F, M or units.
+
+The paper's fit changes with the unit of length and with the origins of F and M.  Here both
+origins are moved to the pair of points (c in F, m in M) that stay closest together over the
+poses, the minimum of the sum of |R m + d - c|², and lengths are measured in the root mean
+square of what remains.  The pair goes along with F and M wherever they are put, and
+exchanging F and M exchanges its points.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Self, final
+
+import numpy as np
+
+from burmester.displacement import Displacement, FloatArray
+from burmester.dyad import RR
+
+__all__ = ["CanonicalFrames"]
+
+POLE_ONLY = 1e-10  # below this share of the motion's size the poses share a pole exactly
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class CanonicalFrames:
+    """New origins of F and M, and the length that becomes 1.
+
+    fixed_origin: (*, 2) in F; moving_origin: (*, 2) in M; length: (*,) in the task's unit.
+    """
+
+    fixed_origin: FloatArray
+    moving_origin: FloatArray
+    length: FloatArray
+
+    @classmethod
+    def as_given(cls, shape: tuple[int, ...] = ()) -> Self:
+        """The task's own frames and unit: nothing changes."""
+        return cls(np.zeros((*shape, 2)), np.zeros((*shape, 2)), np.ones(shape))
+
+    @classmethod
+    def of(
+        cls, poses: Displacement, weights: FloatArray | None = None
+    ) -> tuple[Self, Displacement]:
+        """The canonical frames of poses (*, N), and the poses seen in them."""
+        share = np.ones(poses.shape) if weights is None else np.broadcast_to(weights, poses.shape)
+        share = share / share.sum(axis=-1, keepdims=True)
+        d = poses.translation[..., 0] + 1j * poses.translation[..., 1]
+        turn = np.exp(1j * poses.angle)
+        mean_d = (share * d).sum(axis=-1, keepdims=True)
+        mean_turn = (share * turn).sum(axis=-1, keepdims=True)
+        d0, turn0 = d - mean_d, turn - mean_turn
+        spread = (share * (turn0.real**2 + turn0.imag**2)).sum(axis=-1, keepdims=True)
+        moment = -(share * turn0.conj() * d0).sum(axis=-1, keepdims=True)
+        m = np.divide(moment, spread, out=np.zeros_like(moment), where=spread > 0)
+        c = mean_d + mean_turn * m
+        rest = d0 + turn0 * m
+        before = _rms(share, d0)
+        length = _rms(share, rest)
+        # Poses with a common pole leave nothing to measure by but the motion itself.
+        length = np.where(length > POLE_ONLY * before, length, before)
+        length = np.where(length > 0, length, 1.0)
+        frames = cls(_pair(c[..., 0]), _pair(m[..., 0]), length)
+        return frames, Displacement(_pair(rest / length[..., None]), poses.angle)
+
+    def circle_back(self, circle: RR) -> RR:
+        """An RR dyad found in these frames, as the task's frames see it.
+
+        Leading axes of the frames go with those of the dyad, which may have one more.
+        """
+        extra = circle.radius.ndim - self.length.ndim
+        length = self.length.reshape(self.length.shape + (1,) * extra)
+        origins = (*self.length.shape, *(1,) * extra, 2)
+        return RR(
+            circle.fixed_pivot * length[..., None] + self.fixed_origin.reshape(origins),
+            circle.moving_pivot * length[..., None] + self.moving_origin.reshape(origins),
+            circle.radius * length,
+        )
+
+
+def _rms(share: FloatArray, values: np.ndarray) -> FloatArray:
+    squares: FloatArray = (share * (values.real**2 + values.imag**2)).sum(axis=-1)
+    return np.sqrt(squares)
+
+
+def _pair(values: np.ndarray) -> FloatArray:
+    return np.stack([values.real, values.imag], axis=-1)

@@ -1,0 +1,76 @@
+"""A task: the poses a body must pass through, and how exactly they are known."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from burmester.displacement import Displacement, FloatArray
+from burmester.errors import InputError
+
+__all__ = ["Task"]
+
+LEAST_POSES = 3  # two poses are met by every moving pivot with a whole line of fixed pivots
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Task:
+    """What a synthesis is asked for; whatever gets past here can be computed with.
+
+    poses: (N,) displacements, N >= 3.
+    weights: (N,) positive, or None for equal ones; a pose of weight 2 counts as if it were
+        given twice.
+    names: one name a pose, or None.
+    length_unit: the unit of x and y as its user writes it ("mm"), or None.
+    resolution: how exactly a pose is known, (length in the task's unit, angle in radians);
+        half of the last digit that a file gives, 0 for exact numbers.
+    Raises InputError: E103 (a number that is not finite), E120 (too few poses), E122
+    (weights or names that do not fit the poses).
+    """
+
+    poses: Displacement
+    weights: FloatArray | None = None
+    names: tuple[str, ...] | None = None
+    length_unit: str | None = None
+    resolution: tuple[float, float] = (0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        if len(self.poses.shape) != 1:
+            raise ValueError(f"a task takes poses of shape (N,), not {self.poses.shape}")
+        count = self.poses.shape[0]
+        if count < LEAST_POSES:
+            raise InputError(
+                "E120",
+                f"{count} pose{'' if count == 1 else 's'}: too few for a linkage",
+                why="two poses or fewer leave the choice of every pivot open",
+                help="give at least 3 poses; 5 are met exactly, 6 or more as closely as possible",
+            )
+        self.poses.require_finite()
+        if self.weights is not None:
+            weights = np.asarray(self.weights, dtype=np.float64)
+            if weights.shape != (count,) or not (np.isfinite(weights) & (weights > 0)).all():
+                raise InputError(
+                    "E122",
+                    "the weights do not fit the poses",
+                    why=f"{count} poses need {count} finite weights above zero",
+                    help="give every pose a weight above zero; to drop a pose, delete it",
+                )
+            object.__setattr__(self, "weights", weights)
+        if self.names is not None and len(self.names) != count:
+            raise InputError(
+                "E122",
+                f"{len(self.names)} names for {count} poses",
+                help="give one name a pose, or none",
+            )
+
+    @classmethod
+    def from_degrees(cls, poses: ArrayLike, length_unit: str | None = None) -> Task:
+        """A task from rows (x, y, angle in degrees), shape (N, 3)."""
+        rows = np.array(poses, dtype=np.float64)
+        if rows.ndim != 2 or rows.shape[1] != 3:
+            raise ValueError(f"poses need shape (N, 3): x, y, angle in degrees; not {rows.shape}")
+        return cls(Displacement(rows[:, :2], np.radians(rows[:, 2])), length_unit=length_unit)
