@@ -63,6 +63,16 @@ class RR(_Dimensions):
         arm = poses.act(self.moving_pivot) - self.fixed_pivot
         return np.hypot(arm[..., 0], arm[..., 1]) - self.radius
 
+    def gradient(self, poses: Displacement) -> FloatArray:
+        """The derivatives (*, 3) of the residual by d1, d2 and the angle.
+
+        Zero where the moving pivot is at the fixed one and no direction leads away from it.
+        """
+        turned = poses.rotate(self.moving_pivot)
+        arm = turned + poses.translation - self.fixed_pivot
+        size = np.linalg.norm(arm, axis=-1, keepdims=True)
+        return _wrench(np.divide(arm, size, out=np.zeros_like(arm), where=size > 0), turned)
+
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
@@ -89,6 +99,11 @@ class PR(_Dimensions):
         n1, n2 = np.cos(self.normal_angle), np.sin(self.normal_angle)
         return n1 * point[..., 0] + n2 * point[..., 1] - self.offset
 
+    def gradient(self, poses: Displacement) -> FloatArray:
+        """The derivatives (*, 3) of the residual by d1, d2 and the angle."""
+        normal = np.stack([np.cos(self.normal_angle), np.sin(self.normal_angle)], axis=-1)
+        return _wrench(normal, poses.rotate(self.moving_pivot))
+
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
@@ -113,6 +128,11 @@ class RP(_Dimensions):
         """The distance of the fixed pivot from the line, n · R⁻¹(c - d) - offset."""
         return PR(self.normal_angle, self.offset, self.fixed_pivot).residual(poses.inverse())
 
+    def gradient(self, poses: Displacement) -> FloatArray:
+        """The derivatives (*, 3) of the residual by d1, d2 and the angle."""
+        normal = np.stack([np.cos(self.normal_angle), np.sin(self.normal_angle)], axis=-1)
+        return _wrench(-poses.rotate(normal), self.fixed_pivot - poses.translation)
+
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
@@ -130,8 +150,23 @@ class PP(_Dimensions):
         turn = poses.angle - self.angle
         return np.arctan2(np.sin(turn), np.cos(turn))
 
+    def gradient(self, poses: Displacement) -> FloatArray:
+        """The derivatives (*, 3) of the residual by d1, d2 and the angle."""
+        shape = np.broadcast_shapes(self.angle.shape, poses.shape)
+        return np.broadcast_to(np.array([0.0, 0.0, 1.0]), (*shape, 3))
+
 
 Dyad: TypeAlias = RR | PR | RP | PP
+
+
+def _wrench(force: FloatArray, at: FloatArray) -> FloatArray:
+    """A force and its moment about the origin of M, put at `at` from there: (*, 3).
+
+    A constraint's gradient is the wrench it can bear (the distance grows as it does work).
+    """
+    moment = at[..., 0] * force[..., 1] - at[..., 1] * force[..., 0]
+    x, y = force[..., 0], force[..., 1]
+    return np.stack(np.broadcast_arrays(x, y, moment), axis=-1)
 
 
 def refitted_circles(

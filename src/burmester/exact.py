@@ -48,8 +48,9 @@ class FivePoseDyads:
     frames: where they were found; coefficients are of manifolds in those frames.
     singular_values: (*, 5) of the design matrix, ascending; the first is zero where the five
         poses are not five different ones, and then there are more dyads than these.
-    coefficients: (*, 4, 8), complex, of unit norm, the largest of each real and positive.
+    roots: (*, 4, 8), complex coefficients of unit norm, the largest of each real and positive.
     real: (*, 4), which are real; complex ones come in conjugate pairs.
+    coefficients: (*, 4, 8), the real ones; nan where not real.
     residual: (*, 4), of the linear equations and the two conditions at unit coefficients.
     separation: (*, 4), distance to the nearest other root as points of the projective space;
         zero is a double root.
@@ -63,14 +64,25 @@ class FivePoseDyads:
 
     frames: CanonicalFrames
     singular_values: FloatArray
-    coefficients: ComplexArray
+    roots: ComplexArray
     real: NDArray[np.bool_]
+    coefficients: FloatArray
     residual: FloatArray
     separation: FloatArray
     determined: NDArray[np.bool_]
     dyads: RR
     rms_error: FloatArray
     max_error: FloatArray
+
+    @property
+    def noise(self) -> FloatArray:
+        """Zero (*,): five poses are met exactly."""
+        return np.zeros(self.determined.shape)
+
+    @property
+    def gap(self) -> FloatArray:
+        """The least singular value (*,); zero where the dyads are infinitely many."""
+        return np.where(self.determined, self.singular_values[..., 0], 0.0)
 
 
 def dyads_of_five(poses: Displacement) -> FivePoseDyads:
@@ -95,15 +107,15 @@ def dyads_of_five(poses: Displacement) -> FivePoseDyads:
     residual = np.linalg.norm(_equations(p, design), axis=-1)
     overlap = np.abs(p.conj() @ np.swapaxes(p, -1, -2)) * (1 - np.eye(4))
     separation = np.sqrt(np.maximum(1 - overlap.max(axis=-1) ** 2, 0))
-    circles, rms_error, max_error = refitted_circles(
-        np.where(real[..., None], p.real, np.nan), seen
-    )
+    coefficients = np.where(real[..., None], p.real, np.nan)
+    circles, rms_error, max_error = refitted_circles(coefficients, seen)
     length = frames.length[..., None]
     return FivePoseDyads(
         frames,
         singular_values[..., ::-1],
         p,
         real,
+        coefficients,
         residual,
         separation,
         determined,

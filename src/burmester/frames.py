@@ -15,7 +15,7 @@ from typing import Self, final
 import numpy as np
 
 from burmester.displacement import Displacement, FloatArray
-from burmester.dyad import RR
+from burmester.dyad import PR, RP, RR
 
 __all__ = ["CanonicalFrames"]
 
@@ -64,19 +64,30 @@ class CanonicalFrames:
         frames = cls(_pair(c[..., 0]), _pair(m[..., 0]), length)
         return frames, Displacement(_pair(rest / length[..., None]), poses.angle)
 
-    def circle_back(self, circle: RR) -> RR:
-        """An RR dyad found in these frames, as the task's frames see it.
+    def see(self, poses: Displacement) -> Displacement:
+        """Poses (N,) as these frames, of one task, see them."""
+        moved = poses.act(self.moving_origin) - self.fixed_origin
+        return Displacement(moved / self.length, poses.angle)
 
-        Leading axes of the frames go with those of the dyad, which may have one more.
-        """
-        extra = circle.radius.ndim - self.length.ndim
-        length = self.length.reshape(self.length.shape + (1,) * extra)
-        origins = (*self.length.shape, *(1,) * extra, 2)
+    def circle_back(self, circle: RR) -> RR:
+        """RR dyads (*, k) found in these frames (*,), as the task's own frames see them."""
+        length = self.length[..., None]
         return RR(
-            circle.fixed_pivot * length[..., None] + self.fixed_origin.reshape(origins),
-            circle.moving_pivot * length[..., None] + self.moving_origin.reshape(origins),
+            circle.fixed_pivot * length[..., None] + self.fixed_origin[..., None, :],
+            circle.moving_pivot * length[..., None] + self.moving_origin[..., None, :],
             circle.radius * length,
         )
+
+    def line_back(self, line: PR | RP) -> PR | RP:
+        """A PR or RP dyad found in these frames, of one task, as its own frames see it."""
+        normal = np.stack([np.cos(line.normal_angle), np.sin(line.normal_angle)], axis=-1)
+        if isinstance(line, PR):
+            offset = line.offset * self.length + normal @ self.fixed_origin
+            pivot = line.moving_pivot * self.length + self.moving_origin
+            return PR(line.normal_angle, offset, pivot)
+        offset = line.offset * self.length + normal @ self.moving_origin
+        pivot = line.fixed_pivot * self.length + self.fixed_origin
+        return RP(pivot, line.normal_angle, offset)
 
 
 def _rms(share: FloatArray, values: np.ndarray) -> FloatArray:

@@ -52,6 +52,7 @@ class Pencil:
         maximum, its greatest maximum, in radians modulo pi; the middle two are nan where E has
         one minimum only.
     error: (*, 4), E there.
+    coefficients: (*, 2, 8), the manifolds at the two minima; nan where there is no second one.
     dyads: (*, 2), the two minima as RR dyads in the task's own frames, the radius refitted
         to the poses; nan where there is no second minimum.
     rms_error, max_error: (*, 2), the distance of the moving pivot from its circle over the
@@ -63,9 +64,20 @@ class Pencil:
     vectors: FloatArray
     theta: FloatArray
     error: FloatArray
+    coefficients: FloatArray
     dyads: RR
     rms_error: FloatArray
     max_error: FloatArray
+
+    @property
+    def noise(self) -> FloatArray:
+        """The greater singular value of the pencil (*,): zero for an exact motion."""
+        return self.singular_values[..., 1]
+
+    @property
+    def gap(self) -> FloatArray:
+        """The least singular value outside the pencil (*,): zero where more quadrics fit."""
+        return self.singular_values[..., 2]
 
     def at(self, theta: FloatArray) -> FloatArray:
         """The quadrics p(theta), Eq. (16): (*, k) angles to (*, k, 8) coefficients."""
@@ -114,6 +126,7 @@ def fit_pencil(
         vectors,
         theta,
         error,
+        p[..., :2, :],
         frames.circle_back(dyads),
         rms_error * frames.length[..., None],
         max_error * frames.length[..., None],

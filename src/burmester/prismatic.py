@@ -59,10 +59,11 @@ def moving_lines(
 
 def straightened(
     coefficients: FloatArray, poses: Displacement, weights: FloatArray | None = None
-) -> tuple[PR | RP, float, float]:
-    """The slider that a manifold p (8,) with p1 ~ 0 means, its rms and greatest residual.
+) -> tuple[PR | RP, float, float, float]:
+    """The slider nearest to a manifold p (8,) with p1 ~ 0, its rms and greatest residual.
 
     Of the stationary sliders of the poses (N,), the one whose line points as that of p does.
+    Last comes how far it is from p: the sine of the angle between the two as vectors.
     """
     fixed, moving = manifold.prismatic_parts(coefficients)
     on_ground = np.linalg.norm(fixed) >= np.linalg.norm(moving)
@@ -70,4 +71,8 @@ def straightened(
     lines, rms, worst = fixed_lines(poses, weights) if on_ground else moving_lines(poses, weights)
     along = np.cos(lines.normal_angle) * part[0] + np.sin(lines.normal_angle) * part[1]
     nearest = int(np.abs(along).argmax())
-    return lines[nearest], float(rms[nearest]), float(worst[nearest])
+    line = lines[nearest]
+    p, q = coefficients, line.coefficients()
+    p, q = p / np.linalg.norm(p), q / np.linalg.norm(q)
+    apart = np.linalg.norm(p - (p @ q) * q)  # not from the cosine, which cannot tell below 1e-8
+    return line, float(rms[nearest]), float(worst[nearest]), float(apart)

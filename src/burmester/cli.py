@@ -1,0 +1,178 @@
+"""The command `burmester`: decode, call one function, encode."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, Literal
+
+import click
+
+from burmester import __version__
+from burmester.errors import BurmesterError, InputError
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+__all__ = ["main"]
+
+# Rooms are imported inside the commands, so that `burmester --help` stays fast.
+
+EXIT_FOUND, EXIT_NOTHING, EXIT_BAD_INPUT, EXIT_BUG, EXIT_INTERRUPT = 0, 1, 2, 3, 130
+
+POSES_HELP = """POSES is a CSV, JSON or TOML file, "-" for standard input, or case:NAME for one of
+the cases that burmester carries (see `burmester cases`). A CSV file starts with the line
+x,y,angle_deg (or angle_rad; x_mm,y_mm and the like name a unit)."""
+
+
+@click.group(context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(__version__, prog_name="burmester")
+def burmester() -> None:
+    r"""Planar four-bar linkages that guide a body through given poses.
+
+    \b
+    burmester synthesize poses.csv     find dyads and linkages
+    burmester cases                    tasks with known answers
+    burmester reproduce                the tables of Ge et al. 2012, recomputed
+    """
+
+
+@burmester.command(epilog=POSES_HELP)
+@click.argument("poses")
+@click.option(
+    "--method",
+    type=click.Choice(["auto", "pencil", "exact"]),
+    default="auto",
+    show_default=True,
+    help="pencil: 6 poses or more, as closely as the paper's method can; "
+    "exact: 5 poses; auto: by the number of poses.",
+)
+@click.option(
+    "--raw",
+    is_flag=True,
+    help="Fit the numbers as they come, as the paper does; the answer then depends on frames "
+    "and units.",
+)
+@click.option(
+    "--angle-unit",
+    type=click.Choice(["deg", "rad"]),
+    help="Unit of an angle column that does not name one.",
+)
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object and nothing else.")
+def synthesize(
+    poses: str,
+    method: Literal["auto", "pencil", "exact"],
+    raw: bool,
+    angle_unit: Literal["deg", "rad"] | None,
+    as_json: bool,
+) -> int:
+    """Find the dyads and the four-bars that guide a body through POSES."""
+    from burmester.io.poses import read_task
+    from burmester.synthesis import synthesize as run
+
+    synthesis = run(read_task(poses, angle_unit=angle_unit), method, normalise=not raw)
+    if as_json:
+        from burmester.io.result import plain
+
+        _print_json(plain(synthesis))
+    else:
+        from burmester.io.terminal import show_synthesis
+
+        show_synthesis(synthesis, _console())
+    return EXIT_FOUND if synthesis.linkages else EXIT_NOTHING
+
+
+@burmester.command()
+@click.argument("name", required=False)
+def cases(name: str | None) -> int:
+    """List the tasks with known answers, or print one as JSON."""
+    from burmester.io.cases import load, names
+
+    if name is not None:
+        _print_json(load(name))
+        return EXIT_FOUND
+    width = max(map(len, names()))
+    for each in names():
+        case = load(each)
+        click.echo(f"{each:{width}}  {len(case['poses']):2} poses  {case['source']}")
+    return EXIT_FOUND
+
+
+@burmester.command()
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object and nothing else.")
+def reproduce(as_json: bool) -> int:
+    """Recompute the tables of Ge, Zhao, Purwar and Li 2012 beside what they print."""
+    from burmester.reproduce import as_json as plain
+    from burmester.reproduce import reproduce as run
+
+    sections = run()
+    if as_json:
+        _print_json(plain(sections))
+    else:
+        from burmester.io.terminal import show_reproduction
+
+        show_reproduction(sections, _console())
+    return EXIT_FOUND
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run the command and exit: 0 found, 1 nothing found, 2 bad input or usage, 3 a bug."""
+    given = list(sys.argv[1:] if arguments is None else arguments)
+    try:
+        code = burmester.main(given, prog_name="burmester", standalone_mode=False)
+    except click.exceptions.Exit as stop:
+        code = stop.exit_code
+    except click.UsageError as error:
+        code = _report(_usage(error), "--json" in given)
+    except BurmesterError as error:
+        code = _report(error, "--json" in given)
+    except (click.Abort, KeyboardInterrupt):
+        click.echo("interrupted; nothing was written", err=True)
+        code = EXIT_INTERRUPT
+    except BrokenPipeError:
+        # The reader has gone (as `head` does); what is left in the buffer has nowhere to go.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        code = EXIT_FOUND
+    except Exception as error:
+        code = _report(_bug(error), "--json" in given)
+    sys.exit(code)
+
+
+def _report(error: BurmesterError, as_json: bool) -> int:
+    if as_json:
+        from burmester.io.result import failure
+
+        _print_json(failure(error))
+    from burmester.io.terminal import show_error
+
+    show_error(error, _console(stderr=True))
+    return error.exit_code
+
+
+def _usage(error: click.UsageError) -> InputError:
+    command = error.ctx.command_path if error.ctx else "burmester"
+    return InputError("E100", error.format_message(), help=f"see `{command} --help`")
+
+
+def _bug(error: Exception) -> BurmesterError:
+    import traceback
+
+    last = traceback.extract_tb(error.__traceback__)[-1]
+    return BurmesterError(
+        "E900",
+        f"burmester itself failed: {type(error).__name__}: {error}",
+        where=f"{os.path.basename(last.filename)}:{last.lineno} in {last.name}",
+        help="this is a bug; please report it with the command and the input that led here",
+    )
+
+
+def _console(stderr: bool = False) -> Console:
+    from rich.console import Console
+
+    return Console(stderr=stderr, highlight=False)
+
+
+def _print_json(data: dict[str, Any]) -> None:
+    click.echo(json.dumps(data, ensure_ascii=False, allow_nan=False))

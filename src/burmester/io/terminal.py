@@ -1,0 +1,189 @@
+"""A synthesis, the reproduction of the paper and errors, as a terminal shows them."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Sequence
+
+import numpy as np
+from rich import box
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from burmester.comparison import Section, Verdict
+from burmester.dyad import PP, PR, RP, RR, Dyad
+from burmester.errors import BurmesterError
+from burmester.synthesis import ROUNDING, FoundLinkage, Synthesis
+
+__all__ = ["show_error", "show_reproduction", "show_synthesis"]
+
+DIGITS = 1e-4  # of the characteristic length: what pivots are shown to, errors permitting
+
+
+def show_synthesis(synthesis: Synthesis, console: Console) -> None:
+    """What was found, first in a sentence, then as tables of dyads and linkages."""
+    code, message = synthesis.outcome.code, synthesis.outcome.message
+    if synthesis.linkages:
+        best = synthesis.linkages[0]
+        console.print(Text(f"{message}.", style="bold"))
+        console.print(f"Best: {best.id}, a {best.linkage.type}, {_meets(synthesis, best)}.")
+    else:
+        console.print(Text(f"result[{code}]: {message}", style="bold"))
+    if synthesis.dyads:
+        console.print(_dyads(synthesis))
+    if synthesis.linkages:
+        console.print(_linkages(synthesis))
+        unit = synthesis.task.length_unit
+        console.print(
+            f"\nLengths in {unit or 'the unit of the poses'}; F is the ground, M the body. Not "
+            "judged yet: whether a linkage meets the poses in one assembly, without locking and "
+            "in their order.",
+            style="dim",
+        )
+    for warning in synthesis.warnings:
+        console.print(Text(f"warning[{warning.code}]: {warning.message}", style="yellow"))
+        console.print(Text(f"  help: {warning.help}"))
+
+
+def show_reproduction(sections: Sequence[Section], console: Console) -> None:
+    """The paper's numbers beside the computed ones, and a count of the verdicts."""
+    for section in sections:
+        console.print(Text(f"\n{section.title}", style="bold"))
+        if section.rows:
+            console.print(_comparisons(section))
+        for row in section.rows:
+            if row.note:
+                console.print(Text(f"{row.item}: {row.note}", style="dim"))
+        for remark in section.remarks:
+            console.print(Text(remark))
+    counts = Counter(row.verdict for section in sections for row in section.rows)
+    said = ", ".join(f"{counts[verdict]} {verdict}" for verdict in Verdict)
+    console.print(Text(f"\n{sum(counts.values())} printed numbers: {said}", style="bold"))
+
+
+def show_error(error: BurmesterError, console: Console) -> None:
+    """An error as it stands, its code in colour where there is colour."""
+    head, _, rest = str(error).partition(": ")
+    console.print(Text(head, style="bold red") + Text(": " + rest), soft_wrap=True)
+
+
+_STYLE = {Verdict.MISPRINT: "yellow", Verdict.DIFFERS: "bold red", Verdict.AGREES: "green"}
+
+
+def _comparisons(section: Section) -> Table:
+    places = {row.item.partition(", ")[0] for row in section.rows}
+    table = _table()
+    table.add_column("", no_wrap=True)
+    for name in ("print", "computed", "spread by rounding"):
+        table.add_column(name, justify="right", no_wrap=True)
+    table.add_column("verdict", no_wrap=True)
+    for row in section.rows:
+        item, *numbers, verdict = row.cells()
+        shown = item if len(places) > 1 else item.partition(", ")[2]
+        table.add_row(shown, *numbers, Text(verdict, style=_STYLE.get(row.verdict, "")))
+    return table
+
+
+def _dyads(synthesis: Synthesis) -> Table:
+    table = _table("Dyads")
+    table.add_column("", no_wrap=True)
+    table.add_column("kind", no_wrap=True)
+    table.add_column("on the ground (F)")
+    table.add_column("on the body (M)")
+    table.add_column("length", justify="right", no_wrap=True)
+    table.add_column("rms miss", justify="right", no_wrap=True)
+    table.add_column("worst", justify="right", no_wrap=True)
+    for found in synthesis.dyads:
+        ground, body, length = _sides(found.dyad, _decimals(synthesis, found.rms_error))
+        errors = _error(synthesis, found.rms_error), _error(synthesis, found.max_error)
+        kind = type(found.dyad).__name__ + (" slider" if length == "-" else "")
+        table.add_row(found.id, kind, ground, body, length, *errors)
+    return table
+
+
+def _linkages(synthesis: Synthesis) -> Table:
+    table = _table("Linkages, by worst miss")
+    table.add_column("", no_wrap=True)
+    table.add_column("type")
+    table.add_column("dyads", no_wrap=True)
+    all_pins = any(found.linkage.links is not None for found in synthesis.linkages)
+    for link in ("ground", "driver", "coupler", "follower") if all_pins else ():
+        table.add_column(link, justify="right", no_wrap=True)
+    table.add_column("worst", justify="right", no_wrap=True)
+    table.add_column("angle", justify="right", no_wrap=True)
+    for found in synthesis.linkages:
+        angle = float(found.error.angle.max())
+        table.add_row(
+            found.id,
+            found.linkage.type,
+            " ".join(dyad.id for dyad in found.dyads),
+            *(_links(synthesis, found) if all_pins else ()),
+            _error(synthesis, float(found.error.position.max())),
+            "exact" if angle < ROUNDING else f"{_short(math.degrees(angle))}°",
+        )
+    return table
+
+
+def _table(title: str | None = None) -> Table:
+    return Table(
+        title=title and f"\n{title}",
+        title_justify="left",
+        title_style="bold",
+        box=box.SIMPLE_HEAD,
+        padding=(0, 1, 0, 0),
+        pad_edge=False,
+        show_edge=False,
+    )
+
+
+def _meets(synthesis: Synthesis, best: FoundLinkage) -> str:
+    if not math.isfinite(best.error.worst):
+        return "cannot be assembled near all of the poses"
+    if best.error.worst < ROUNDING * (synthesis.length or 1.0):
+        return "passes every pose exactly, up to rounding"
+    angle = math.degrees(float(best.error.angle.max()))
+    unit = f" {synthesis.task.length_unit}" if synthesis.task.length_unit else ""
+    return f"passes every pose within {_short(best.error.worst)}{unit} and {_short(angle)}°"
+
+
+def _sides(dyad: Dyad, digits: int) -> tuple[str, str, str]:
+    """A dyad's pivots or lines on the ground and on the body, and its link's length."""
+
+    def point(pivot: np.ndarray) -> str:
+        return f"({pivot[0]:.{digits}f}, {pivot[1]:.{digits}f})"
+
+    def line(side: PR | RP) -> str:
+        angle = math.degrees(side.normal_angle)
+        return f"normal {angle:.2f}°,\noffset {side.offset:.{digits}f}"
+
+    match dyad:
+        case RR():
+            return point(dyad.fixed_pivot), point(dyad.moving_pivot), f"{dyad.radius:.{digits}f}"
+        case PR():
+            return line(dyad), point(dyad.moving_pivot), "-"
+        case RP():
+            return point(dyad.fixed_pivot), line(dyad), "-"
+        case PP():
+            return f"angle {math.degrees(dyad.angle):.2f}°", "-", "-"
+
+
+def _links(synthesis: Synthesis, found: FoundLinkage) -> list[str]:
+    digits = _decimals(synthesis, max(dyad.rms_error for dyad in found.dyads))
+    links = found.linkage.links
+    return ["-"] * 4 if links is None else [f"{length:.{digits}f}" for length in links]
+
+
+def _decimals(synthesis: Synthesis, error: float) -> int:
+    """Decimals down to a dyad's error; the poses can tell no more, and JSON keeps them all."""
+    size = max(error if math.isfinite(error) else 0.0, DIGITS * (synthesis.length or 1.0))
+    return int(np.clip(-math.floor(math.log10(size)), 0, 12))
+
+
+def _error(synthesis: Synthesis, value: float) -> str:
+    return "exact" if value < ROUNDING * (synthesis.length or 1.0) else _short(value)
+
+
+def _short(value: float) -> str:
+    return f"{value:.2g}" if math.isfinite(value) else "never"

@@ -1,0 +1,171 @@
+"""Two dyads joined: a linkage, its links, its type, and where its coupler can be.
+
+The coupler moves where both constraint manifolds meet.  At a given coupler angle each of
+them is a circle (or a line) in the (Z1, Z2) plane, so the coupler's places are where two
+circles meet: one formula for every pair of RR, PR and RP.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple, final
+
+import numpy as np
+
+from burmester.displacement import Displacement, FloatArray
+from burmester.dyad import PR, RP, RR, Dyad
+
+__all__ = ["Linkage", "Links", "grashof"]
+
+CHANGE_POINT = 1e-9  # relative excess of link lengths below which Grashof's sum is a tie
+BLOCK = 4096  # poses looked at together by `nearest`
+STEPS = 40  # at most, of the projection in `nearest`; a few are enough near the poses
+
+# Coupler angles tried around that of a pose, in radians: dense where the answer will be.
+_AROUND = np.concatenate([[0.0], *((-a, a) for a in np.pi * 0.5 ** np.arange(12))])
+
+_TYPES = {
+    frozenset({RR, PR}): "slider-crank",
+    frozenset({RR, RP}): "inverted slider-crank",
+    frozenset({PR}): "double slider",
+    frozenset({RP}): "Oldham linkage",
+    frozenset({PR, RP}): "Rapson slide",
+}
+
+
+class Links(NamedTuple):
+    """The four link lengths of a 4R linkage, (*,) each, in the task's unit."""
+
+    ground: FloatArray
+    driver: FloatArray
+    coupler: FloatArray
+    follower: FloatArray
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Linkage:
+    """A four-bar: a coupler held to the ground by two dyads."""
+
+    first: Dyad
+    second: Dyad
+
+    @property
+    def links(self) -> Links | None:
+        """Link lengths of a 4R linkage; None where a dyad is a slider."""
+        a, b = self.first, self.second
+        if not (isinstance(a, RR) and isinstance(b, RR)):
+            return None
+        ground = np.linalg.norm(b.fixed_pivot - a.fixed_pivot, axis=-1)
+        coupler = np.linalg.norm(b.moving_pivot - a.moving_pivot, axis=-1)
+        return Links(ground, a.radius, coupler, b.radius)
+
+    @property
+    def type(self) -> str:
+        """The type in words: Grashof's for 4R, else the name of the slider linkage."""
+        if (links := self.links) is not None:
+            return grashof(links)
+        pair = frozenset({type(self.first), type(self.second)})
+        return _TYPES.get(pair, "translating linkage")
+
+    def couplers(self, angle: FloatArray) -> Displacement:
+        """The coupler's places at coupler angles (*,), radians: displacements (*, 2).
+
+        nan where the linkage cannot be assembled at that angle.  The two places exchange roles
+        where they meet.  Not for PP dyads, nor for a coupler that only translates.
+        """
+        angle = np.asarray(angle, dtype=np.float64)
+        s, c = np.sin(angle / 2), np.cos(angle / 2)
+        p, q = self.first.coefficients(), self.second.coefficients()
+        if abs(q[0]) > abs(p[0]):
+            p, q = q, p
+        (bp, ep), (bq, eq) = _slice(p, s, c), _slice(q, s, c)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            if p[0] == 0:  # two sliders: two lines
+                cross = bp[0] * bq[1] - bp[1] * bq[0]
+                z1 = (bp[1] * eq - bq[1] * ep) / cross
+                z2 = (bq[0] * ep - bp[0] * eq) / cross
+                z = np.stack([[z1, z2], np.full((2, *angle.shape), np.nan)], axis=-1)
+            else:
+                centre = -bp / (2 * p[0])
+                squared = (centre * centre).sum(axis=0) - ep / p[0]
+                normal = bq - q[0] / p[0] * bp  # of the line through both common points
+                size = np.hypot(*normal)
+                normal = normal / size
+                away = (normal * centre).sum(axis=0) + (eq - q[0] / p[0] * ep) / size
+                half = np.sqrt(squared - away * away)
+                foot, along = centre - away * normal, np.stack([-normal[1], normal[0]])
+                z = np.stack([foot - half * along, foot + half * along], axis=-1)
+        z = np.where(np.isfinite(z).all(axis=0), z, np.nan)
+        points = np.stack(np.broadcast_arrays(z[0], z[1], s[..., None], c[..., None]), axis=-1)
+        return Displacement(Displacement.from_image_point(points).translation, angle[..., None])
+
+    def nearest(self, poses: Displacement, length: float) -> Displacement:
+        """The coupler's place nearest to each pose (N,), on whichever circuit it lies.
+
+        Near means the least |position difference|² + (length x angle difference)².  Started
+        from the best of 50 places of the coupler about the angle of the pose and followed by
+        projection to the local minimum; that no other minimum is nearer is not proved.
+        nan where the linkage reaches no place at all.
+        """
+        blocks = [poses[at : at + BLOCK] for at in range(0, poses.shape[0], BLOCK)]
+        rows = np.concatenate([self._nearest(block, length) for block in blocks])
+        return Displacement(rows[:, :2], rows[:, 2] / length)
+
+    def _nearest(self, poses: Displacement, length: float) -> FloatArray:
+        """Rows (N, 3) of x, y, length x angle; see `nearest`."""
+        wanted = _rows(poses, length)
+        tries = _rows(self.couplers(poses.angle[:, None] + _AROUND), length)
+        tries = tries.reshape(poses.shape[0], -1, 3)
+        distance = np.nan_to_num(np.linalg.norm(tries - wanted[:, None], axis=-1), nan=np.inf)
+        best = distance.argmin(axis=1)[:, None]
+        start = np.take_along_axis(tries, best[..., None], axis=1)[:, 0]
+        reach = np.take_along_axis(distance, best, axis=1)[:, 0]
+
+        at = np.where(np.isfinite(reach)[:, None], start, wanted)
+        for _ in range(STEPS):
+            miss, slope = self._tangents(at, length)
+            # The point of both tangent planes that is nearest to the wanted pose.
+            gap = miss + (slope @ (wanted - at)[..., None])[..., 0]
+            step = wanted - at - (np.linalg.pinv(slope) @ gap[..., None])[..., 0]
+            at = at + step
+            if not np.isfinite(at).all() or np.abs(step).max() < 1e-14 * length:
+                break
+        miss, _ = self._tangents(at, length)
+        met = (np.abs(miss) < 1e-9 * length).all(axis=-1)
+        closer = ~(np.linalg.norm(at - wanted, axis=-1) > reach)
+        return np.where((met & closer)[:, None], at, start)
+
+    def _tangents(self, rows: FloatArray, length: float) -> tuple[FloatArray, FloatArray]:
+        """Residuals (N, 2) of both dyads and their gradients (N, 2, 3) at rows; see `_nearest`."""
+        place = Displacement(rows[:, :2], rows[:, 2] / length)
+        dyads = (self.first, self.second)
+        miss = np.stack([dyad.residual(place) for dyad in dyads], axis=-1)
+        slope = np.stack([dyad.gradient(place) for dyad in dyads], axis=-2)
+        return miss, slope / np.array([1.0, 1.0, length])
+
+
+def _rows(places: Displacement, length: float) -> FloatArray:
+    return np.concatenate([places.translation, length * places.angle[..., None]], axis=-1)
+
+
+def grashof(links: Links) -> str:
+    """The type of one 4R linkage from its link lengths (Grashof's rule).
+
+    A tie of s + l and p + q within 1e-9 of their sum is called a change point.
+    """
+    lengths = np.array([float(length) for length in links])
+    s, p, q, longest = np.sort(lengths)
+    excess = s + longest - p - q
+    if abs(excess) <= CHANGE_POINT * lengths.sum():
+        return "change-point"
+    if excess > 0:
+        return "triple-rocker"
+    names = ("double-crank", "crank-rocker", "double-rocker", "rocker-crank")
+    return names[int(lengths.argmin())]
+
+
+def _slice(p: FloatArray, s: FloatArray, c: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """The circle p1 |z|² + b · z + e = 0 of a manifold p (8,) at a half angle: b (2, *), e (*,)."""
+    b = np.stack([p[2] * s + p[4] * c, p[3] * s + p[5] * c])
+    return b, p[1] * s * s + p[6] * s * c + p[7] * c * c

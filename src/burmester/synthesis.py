@@ -1,0 +1,311 @@
+"""The whole road: from a task to dyads, from dyads to linkages, everything kept and ranked."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from typing import Literal, final
+
+import numpy as np
+
+from burmester.displacement import Displacement, FloatArray
+from burmester.dyad import RR, Dyad
+from burmester.errors import InputError
+from burmester.exact import FivePoseDyads, dyads_of_five
+from burmester.linkage import Linkage
+from burmester.pencil import Pencil, fit_pencil
+from burmester.prismatic import straightened
+from burmester.task import Task
+
+__all__ = [
+    "Advice",
+    "FoundDyad",
+    "FoundLinkage",
+    "Method",
+    "Outcome",
+    "PoseError",
+    "Synthesis",
+    "synthesize",
+]
+
+Method = Literal["auto", "pencil", "exact"]
+
+# In characteristic lengths of the task, where they are lengths.
+NEARLY_STRAIGHT = 0.05  # a manifold nearer than this to a slider's may be that slider
+LONG = 100.0  # a longer link is a slider if that fits half as well, or is called nearly one
+SAME = 1e-6  # dyads with both pivots nearer than this are one
+COARSE = 1e-3  # coarser digits than this count as meant exactly, not as measured
+ROUNDING = 1e-11  # errors below this are rounding of the computation, and all equally good
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What came of a task: a stable code, and a sentence."""
+
+    code: str
+    message: str
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Advice:
+    """A warning with what to do about it."""
+
+    code: str
+    message: str
+    help: str
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class FoundDyad:
+    """A dyad with its distance from the poses, in the task's length unit.
+
+    minimum: whether it is a local minimum of what the method minimises; the exact method's
+    dyads pass through the poses and are minima all.
+    """
+
+    id: str
+    dyad: Dyad
+    rms_error: float
+    max_error: float
+    minimum: bool = True
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class PoseError:
+    """How far the coupler stays from the poses at its nearest places (`Linkage.nearest`).
+
+    Position in the task's length unit, angle in radians.
+    """
+
+    places: Displacement
+    position: FloatArray
+    angle: FloatArray
+
+    @classmethod
+    def of(cls, linkage: Linkage, poses: Displacement, length: float) -> PoseError:
+        """The pose error of a linkage; `length` trades angle against position."""
+        places = linkage.nearest(poses, length)
+        gap = places.translation - poses.translation
+        return cls(places, np.hypot(gap[:, 0], gap[:, 1]), np.abs(places.angle - poses.angle))
+
+    @property
+    def worst(self) -> float:
+        """The greatest position error, infinite where some pose has no place near it."""
+        return float(np.nan_to_num(self.position, nan=np.inf).max())
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class FoundLinkage:
+    """A linkage made of two of the dyads found, and how well it meets the poses."""
+
+    id: str
+    rank: int
+    dyads: tuple[FoundDyad, FoundDyad]
+    linkage: Linkage
+    error: PoseError
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Synthesis:
+    """All that came of a task, nothing thrown away.
+
+    length: the characteristic length of the task (see `frames`), in its unit; it weighs
+        angles against positions in `FoundLinkage.error`.
+    dyads: every dyad found, by rising rms error (shorter links first among exact ones).
+    linkages: every pair of them, by rising worst position error.  Whether a linkage meets the
+        poses in one piece and in order (circuit, branch and order defects) is not judged.
+    fit: what the method learnt (singular values, all roots), or None where it does not apply.
+    """
+
+    task: Task
+    method: Method
+    outcome: Outcome
+    length: float | None
+    dyads: tuple[FoundDyad, ...]
+    linkages: tuple[FoundLinkage, ...]
+    warnings: tuple[Advice, ...]
+    fit: Pencil | FivePoseDyads | None
+
+
+def synthesize(task: Task, method: Method = "auto", *, normalise: bool = True) -> Synthesis:
+    """The dyads of a task and the linkages made of them.
+
+    method: "pencil" is the paper's, for 6 or more poses, met as closely as it can; "exact"
+        solves Burmester's problem for 5; "auto" takes the one that fits the number of poses.
+    normalise: False lets the pencil fit the numbers as they come, as the paper does.
+    Three or four poses have infinitely many dyads: see `exact` and `curve` for them all.
+    Raises InputError E121 where the method does not take that number of poses.
+    """
+    count = task.poses.shape[0]
+    if method == "auto":
+        method = "pencil" if count >= 6 else "exact"
+    if method == "pencil":
+        pencil = fit_pencil(task.poses, task.weights, normalise=normalise)
+        return _finish(task, method, pencil)
+    if count > 5:
+        raise InputError(
+            "E121",
+            f"the exact method takes 5 poses, not {count}",
+            why="six poses or more have no dyad that meets them all, but by chance",
+            help="use --method pencil, or give 5 poses",
+        )
+    if count < 5:
+        family = "a two-parameter family" if count == 3 else "a one-parameter family"
+        calls = "dyad_with_moving_pivot" if count == 3 else "dyad_curve"
+        return Synthesis(
+            task,
+            method,
+            Outcome(
+                "R303",
+                f"{count} poses leave infinitely many linkages: {family} of dyads passes "
+                "through all of them",
+            ),
+            None,
+            (),
+            (),
+            (
+                Advice(
+                    "W203",
+                    f"{count} poses do not determine a linkage",
+                    f"add {5 - count} more pose{'s' if count == 3 else ''} to get all that pass "
+                    f"exactly, or choose from the family in Python: burmester.{calls}",
+                ),
+            ),
+            None,
+        )
+    return _finish(task, method, dyads_of_five(task.poses))
+
+
+def _pick(fit: Pencil | FivePoseDyads, task: Task) -> list[FoundDyad]:
+    """The dyads of a fit, each as the circle or the slider that it is.
+
+    A long link is a slider where the line it nearly follows fits the poses as well as the
+    circle does, or as well as the poses are known.  For noisy poses that is a heuristic.
+    Sorted by rms error; where errors are mere rounding, by the length of the link.
+    """
+    length = float(fit.frames.length)
+    seen = fit.frames.see(task.poses)
+    known = _known(task, length) * length
+    # Noise turns the null space, and so every manifold in it, by about this angle.
+    blur = max(float(fit.noise), _known(task, length) * np.sqrt(len(seen.angle)))
+    near = min(3 * blur / max(float(fit.gap), 1e-300), NEARLY_STRAIGHT)
+    found: list[tuple[Dyad, float, float]] = []
+    for k in np.flatnonzero(np.isfinite(fit.coefficients).all(axis=-1)):
+        p = fit.coefficients[k]
+        circle = fit.dyads[k]
+        best: tuple[Dyad, float, float]
+        best = circle, float(fit.rms_error[k]), float(fit.max_error[k])
+        if abs(p[0]) < NEARLY_STRAIGHT * np.linalg.norm(p):
+            line, *errors, apart = straightened(p, seen, task.weights)
+            rms, worst = length * errors[0], length * errors[1]
+            allowed = max(best[1] * (1 if circle.radius < LONG * length else 2), known)
+            if apart < near and not rms > allowed:
+                best = fit.frames.line_back(line), rms, worst
+        found.append(best)
+
+    def order(item: tuple[Dyad, float, float]) -> tuple[float, float]:
+        size = float(item[0].radius) if isinstance(item[0], RR) else np.inf
+        return np.round(item[1] / (ROUNDING * length)), size
+
+    found.sort(key=order)
+    return [FoundDyad(f"D{i}", *item) for i, item in enumerate(found, start=1)]
+
+
+def _known(task: Task, length: float) -> float:
+    """How exactly the poses are known, as a share of the characteristic length."""
+    position, angle = task.resolution
+    return max(min(position / length + angle, COARSE), ROUNDING)
+
+
+def _finish(task: Task, method: Method, fit: Pencil | FivePoseDyads) -> Synthesis:
+    """Join the dyads of a fit to linkages, rank them, and say what came of it."""
+    length = float(fit.frames.length)
+    if (special := _special(task, fit)) is not None:
+        return Synthesis(task, method, special, length, (), (), (), fit)
+    found = _pick(fit, task)
+    warnings = [
+        Advice(
+            "W204",
+            f"{item.id} has a link of {item.dyad.radius / length:.0f} times the motion's size: "
+            "nearly a slider",
+            "use a slider in its place if a link that long cannot be built",
+        )
+        for item in found
+        if isinstance(item.dyad, RR) and item.dyad.radius > LONG * length
+    ]
+    pairs = []
+    for first, second in combinations(found, 2):
+        if _same(first.dyad, second.dyad, length):
+            warnings.append(
+                Advice(
+                    "W205",
+                    f"{first.id} and {second.id} are the same dyad within rounding",
+                    "only one constraint was found; give more poses, or more different ones",
+                )
+            )
+            continue
+        linkage = Linkage(first.dyad, second.dyad)
+        pairs.append(((first, second), linkage, PoseError.of(linkage, task.poses, length)))
+    # Stable: where errors are mere rounding the order of the dyads stays.
+    pairs.sort(key=lambda pair: np.round(pair[2].worst / (ROUNDING * length)))
+    linkages = tuple(
+        FoundLinkage(f"L{rank}", rank, dyads, linkage, error)
+        for rank, (dyads, linkage, error) in enumerate(pairs, start=1)
+    )
+    outcome = _outcome(fit, found, linkages)
+    return Synthesis(task, method, outcome, length, tuple(found), linkages, tuple(warnings), fit)
+
+
+def _same(a: Dyad, b: Dyad, length: float) -> bool:
+    if not (isinstance(a, RR) and isinstance(b, RR)):
+        return False
+    gaps = [a.fixed_pivot - b.fixed_pivot, a.moving_pivot - b.moving_pivot]
+    return bool(np.abs(gaps).max() < SAME * length)
+
+
+def _special(task: Task, fit: Pencil | FivePoseDyads) -> Outcome | None:
+    """The outcome where more quadrics contain the poses than the method can tell apart.
+
+    The least singular value that must not vanish is held against what the rounding of the
+    poses makes of a zero.  With digits coarser than COARSE that is a heuristic.
+    """
+    noise = _known(task, float(fit.frames.length)) * np.sqrt(task.poses.shape[0] / 3)
+    if fit.gap > 3 * noise:
+        return None
+    poses, nullity = task.poses, 2 if isinstance(fit, Pencil) else 3
+    turns = np.stack([np.cos(poses.angle), np.sin(poses.angle)], axis=-1)
+    rows = np.concatenate([poses.translation / fit.frames.length, turns], axis=-1)
+    different = len(np.unique(np.round(rows, 12), axis=0))
+    reason = (
+        f"only {different} of the {len(rows)} poses are different"
+        if different < len(rows)
+        else "the motion is a special one (a translation, a turn about one point, a parallelogram, "
+        "two sliders) or too small for the digits given"
+    )
+    return Outcome(
+        "R304",
+        f"the poses do not determine the dyads: more than {nullity} independent quadrics contain "
+        f"them; {reason}",
+    )
+
+
+def _outcome(
+    fit: Pencil | FivePoseDyads, found: Sequence[FoundDyad], linkages: Sequence[FoundLinkage]
+) -> Outcome:
+    def count(number: int, noun: str) -> str:
+        return f"{number or 'no'} {noun}{'' if number == 1 else 's'}"
+
+    if isinstance(fit, FivePoseDyads):
+        dyads = count(len(found), "real dyad") + " (of the 4 that five poses have)"
+    else:
+        dyads = count(len(found), "dyad")
+    if linkages:
+        return Outcome("R300", f"{count(len(linkages), 'four-bar')} from {dyads}")
+    return Outcome("R302", f"no four-bar: {dyads}, and it takes two different ones")

@@ -1,0 +1,276 @@
+"""The command as its users meet it: as a process of its own."""
+
+import json
+import signal
+import subprocess
+import sys
+import time
+from importlib import resources
+
+import jsonschema
+import numpy as np
+import pytest
+
+import burmester
+
+TABLE_2 = """x,y,angle_deg
+-0.8253,-1.0329,91.91
+-1.6554,-0.2721,66.99
+-2.6392,0.2920,49.90
+-3.5027,0.3088,43.94
+-4.0549,-0.2141,45.58
+-4.1022,-1.0521,52.87
+-3.5805,-1.8708,64.52
+-2.6250,-2.3408,78.84
+-1.5557,-2.2742,93.02
+-0.8016,-1.7382,101.25
+"""
+
+
+def run(*arguments, stdin=None):
+    return subprocess.run(
+        [sys.executable, "-m", "burmester", *map(str, arguments)],
+        input=stdin,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=60,
+    )
+
+
+@pytest.fixture
+def poses(tmp_path):
+    file = tmp_path / "poses.csv"
+    file.write_text(TABLE_2)
+    return file
+
+
+def schema():
+    text = resources.files("burmester").joinpath("io/synthesis.schema.json").read_text()
+    return json.loads(text)
+
+
+def valid(stdout):
+    data = json.loads(stdout)
+    jsonschema.Draft202012Validator(schema()).validate(data)
+    return data
+
+
+def test_main_job_prints_the_published_linkage(poses):
+    done = run("synthesize", poses)
+    assert done.returncode == 0
+    assert done.stderr == ""
+    assert "1 four-bar from 2 dyads" in done.stdout
+    assert "crank-rocker" in done.stdout
+    assert "(-2.19988, 0.10022)" in done.stdout
+    assert max(map(len, done.stdout.splitlines())) <= 80
+
+
+@pytest.mark.parametrize(
+    "case",
+    [
+        "ge2012-exact",
+        "ge2012-approximate",
+        "motiongen-shoulder",
+        "motiongen-mixed5",
+        "motiongen-rrrp",
+        "motiongen-rrpr",
+        "motiongen-prpr",
+    ],
+)
+def test_json_keeps_the_contract(case):
+    done = run("synthesize", f"case:{case}", "--json")
+    assert done.returncode == 0
+    data = valid(done.stdout)
+    assert data["outcome"]["code"] == "R300"
+    carried = json.loads(resources.files("burmester").joinpath(f"cases/{case}.json").read_text())
+    rows = [[p["x"], p["y"], p["angle_deg"]] for p in data["task"]["poses"]]
+    assert np.allclose(rows, carried["poses"], rtol=0, atol=1e-12)
+    for linkage in data["linkages"]:
+        # The coupler's places printed are on the circles printed, to the last digit.
+        for dyad in linkage["dyads"]:
+            if dyad["kind"] == "RR":
+                for place in linkage["coupler"]:
+                    turn = np.exp(1j * np.radians(place["angle_deg"]))
+                    pin = complex(*dyad["moving_pivot"]) * turn + place["x"] + 1j * place["y"]
+                    radius = abs(pin - complex(*dyad["fixed_pivot"]))
+                    assert np.isclose(radius, dyad["radius"], rtol=1e-9)
+
+
+def test_json_of_one_run_is_the_input_of_the_next(poses):
+    first = run("synthesize", poses, "--json")
+    second = run("synthesize", "-", "--json", stdin=first.stdout)
+    assert second.returncode == 0
+    one, two = json.loads(first.stdout), json.loads(second.stdout)
+    for a, b in zip(one["dyads"], two["dyads"], strict=True):
+        assert np.allclose(a["fixed_pivot"], b["fixed_pivot"], rtol=0, atol=1e-9)
+
+
+BAD = {
+    "inf": (TABLE_2.replace("49.90", "inf"), "E103", ["row 3", "bad.csv:4:", "inf", "^"]),
+    "text": (TABLE_2.replace("-3.5027", "abc"), "E104", ["bad.csv:5:1", "abc", "^"]),
+    "empty": ("", "E102", ["bad.csv"]),
+    "header only": ("x,y,angle_deg\n", "E102", ["bad.csv"]),
+    "no unit": (TABLE_2.replace("angle_deg", "angle"), "E110", ["--angle-unit", "bad.csv:1"]),
+    "no y": (TABLE_2.replace("x,y,", "x,z,"), "E10", ["y"]),
+    "two poses": ("\n".join(TABLE_2.splitlines()[:3]), "E120", ["2 poses"]),
+    "one pose": ("\n".join(TABLE_2.splitlines()[:2]), "E120", ["1 pose"]),
+    "short row": (TABLE_2.replace(",101.25", ""), "E106", ["bad.csv:11"]),
+}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_a_bad_file_is_one_clear_message(tmp_path, name):
+    text, code, said = BAD[name]
+    file = tmp_path / "bad.csv"
+    file.write_text(text)
+    done = run("synthesize", file)
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert done.stderr.startswith(f"error[{code}")
+    assert done.stderr.count("error[") == 1
+    assert "Traceback" not in done.stderr
+    assert "help:" in done.stderr
+    for words in said:
+        assert words in done.stderr
+    as_json = run("synthesize", file, "--json")
+    assert as_json.returncode == 2
+    data = valid(as_json.stdout)
+    assert data["outcome"]["code"].startswith(code)
+    assert file.read_text() == text
+
+
+def test_following_the_help_on_the_angle_unit_works(tmp_path):
+    file = tmp_path / "poses.csv"
+    file.write_text(TABLE_2.replace("angle_deg", "angle"))
+    assert run("synthesize", file).returncode == 2
+    assert run("synthesize", file, "--angle-unit", "deg").returncode == 0
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("synthesize",),
+        ("synthesize", "x.csv", "--method", "magic"),
+        ("fly",),
+        ("synthesize", "--no"),
+    ],
+)
+def test_wrong_usage_is_one_message(arguments):
+    done = run(*arguments)
+    assert done.returncode == 2
+    assert done.stderr.startswith("error[E100]")
+    assert "--help" in done.stderr
+    data = valid(run(*arguments, "--json").stdout)
+    assert data["outcome"]["code"] == "E100"
+
+
+def test_a_missing_file(tmp_path):
+    done = run("synthesize", tmp_path / "none.csv")
+    assert done.returncode == 2
+    assert done.stderr.startswith("error[E101]")
+
+
+def test_sound_input_without_a_linkage_is_exit_code_1(tmp_path):
+    file = tmp_path / "four.csv"
+    file.write_text("\n".join(TABLE_2.splitlines()[:5]))
+    done = run("synthesize", file)
+    assert done.returncode == 1
+    assert "infinitely many" in done.stdout
+    data = valid(run("synthesize", file, "--json").stdout)
+    assert data["outcome"]["code"] == "R303"
+
+
+def test_methods_by_number_of_poses(poses):
+    assert run("synthesize", poses, "--method", "pencil").returncode == 0
+    refused = run("synthesize", poses, "--method", "exact")
+    assert refused.returncode == 2
+    assert "E121" in refused.stderr
+    raw = json.loads(run("synthesize", poses, "--raw", "--json").stdout)
+    wanted = [5.69e-06, 1.22e-04, 0.0073, 0.1525, 0.1868, 1.2043, 1.6355, 10.4665]
+    assert np.allclose(raw["singular_values"], wanted, rtol=0, atol=6e-5)
+
+
+def test_cases_are_listed_and_printed():
+    listed = run("cases")
+    assert listed.returncode == 0
+    assert len(listed.stdout.splitlines()) == 7
+    case = json.loads(run("cases", "ge2012-exact").stdout)
+    assert case["poses"][5] == [-4.1022, -1.0521, 52.87]
+    assert run("cases", "nothing").returncode == 2
+
+
+def test_reproduce_prints_every_table_and_its_verdicts():
+    done = run("reproduce")
+    assert done.returncode == 0
+    for title in ("Table 3", "Table 4", "Table 6", "Table 7", "Table 8", "Eqs. (19) to (21)"):
+        assert title in done.stdout
+    assert "0 differs" in " ".join(done.stdout.split())
+    data = json.loads(run("reproduce", "--json").stdout)
+    verdicts = [row["verdict"] for section in data["sections"] for row in section["rows"]]
+    assert verdicts.count("differs") == 0
+    assert verdicts.count("misprint") == 12
+
+
+def imported(*arguments):
+    """The modules that a run imports."""
+    code = (
+        "import sys; from burmester.cli import main\n"
+        f"try: main({list(map(str, arguments))})\n"
+        "except SystemExit: pass\n"
+        "print('\\n'.join(sys.modules), file=sys.stderr)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    return set(done.stderr.split())
+
+
+def test_help_imports_next_to_nothing():
+    loaded = imported("--help")
+    assert "click" in loaded
+    assert not loaded & {"numpy", "rich", "pydantic", "scipy"}
+
+
+def test_the_main_job_does_without_what_it_does_not_need(poses):
+    loaded = imported("synthesize", poses)
+    assert {"numpy", "rich"} <= loaded
+    assert not loaded & {"scipy", "pydantic", "matplotlib"}
+
+
+def test_exported_names_are_what_the_package_says():
+    rooms = {name for names in burmester._ROOMS.values() for name in names}
+    assert rooms | {"__version__"} == set(burmester.__all__)
+    for name in burmester.__all__:
+        assert getattr(burmester, name) is not None
+    with pytest.raises(AttributeError):
+        burmester.no_such_thing  # noqa: B018
+
+
+def test_ctrl_c_leaves_quietly(tmp_path):
+    process = subprocess.Popen(
+        [sys.executable, "-m", "burmester", "synthesize", "-"],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    time.sleep(1.0)  # it waits for standard input by then
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=30)
+    assert process.returncode == 130
+    assert out == ""
+    assert "Traceback" not in err
+    assert "interrupted" in err
+
+
+def test_a_closed_pipe_is_not_an_error(poses):
+    done = subprocess.run(
+        f"{sys.executable} -m burmester reproduce | head -n 1; echo ${{PIPESTATUS[0]}}",
+        shell=True,
+        executable="/bin/bash",
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=60,
+    )
+    assert "Traceback" not in done.stderr
+    assert "error" not in done.stderr

@@ -1,0 +1,801 @@
+"""Poses from files: what is read is exact, what is refused says where, and the help helps."""
+
+from __future__ import annotations
+
+import io
+import json
+import math
+import os
+import re
+import subprocess
+import sys
+from collections.abc import Callable
+from decimal import Decimal
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from burmester.errors import InputError
+from burmester.io import cases, poses
+from burmester.io.poses import read_task
+from burmester.task import Task
+
+Read = Callable[..., Task]
+
+TRIPLES = [(-0.8253, -1.0329, 91.91), (-1.6554, 0.0, 66.99), (1e-05, 0.292, 49.9)]
+ROWS = "-0.8253,-1.0329,91.91\n-1.6554,0,66.99\n1e-05,0.292,49.9\n"
+CSV = "x,y,angle_deg\n" + ROWS
+JSON = '{"angle_unit": "deg", "poses": [[-0.8253, -1.0329, 91.91], [-1.6554, 0, 66.99], '
+JSON += "[1e-05, 0.292, 49.9]]}"
+TOML = 'angle_unit = "deg"\nposes = [[-0.8253, -1.0329, 91.91], [-1.6554, 0, 66.99], '
+TOML += "[1e-05, 0.292, 49.9]]\n"
+
+
+@pytest.fixture(scope="module")
+def read(tmp_path_factory: pytest.TempPathFactory) -> Read:
+    """Read text or bytes as if they were the file `poses.SUFFIX`."""
+    folder = tmp_path_factory.mktemp("poses")
+
+    def read(content: str | bytes, suffix: str = ".csv", **options: Any) -> Task:
+        path = folder / f"poses{suffix}"
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+        return read_task(path, **options)
+
+    return read
+
+
+def refused(read: Read, content: str | bytes, suffix: str = ".csv", **options: Any) -> InputError:
+    with pytest.raises(InputError) as caught:
+        read(content, suffix, **options)
+    error = caught.value
+    assert error.where, "every refusal says where"
+    assert error.help, "every refusal says what to do"
+    return error
+
+
+def triples(task: Task) -> list[tuple[float, float, float]]:
+    """The poses in degrees as given: np.radians is undone by repeating it, not by inverting it."""
+    x, y = task.poses.translation.T
+    return list(zip(x.tolist(), y.tolist(), task.poses.angle.tolist(), strict=True))
+
+
+def in_radians(rows: list[tuple[float, float, float]]) -> list[tuple[float, float, float]]:
+    return [(x, y, float(np.radians(angle))) for x, y, angle in rows]
+
+
+# What is read -------------------------------------------------------------------------------
+
+OBJECTS = [{"x": x, "y": y, "angle_deg": a} for x, y, a in TRIPLES]
+GOOD = {
+    "csv": (".csv", CSV),
+    "txt": (".txt", CSV),
+    "upper-case suffix": (".CSV", CSV),
+    "unknown suffix": (".dat", CSV),
+    "no suffix": ("", CSV),
+    "no newline at the end": (".csv", CSV.rstrip()),
+    "blank lines": (".csv", "\n\n" + CSV.replace("\n", "\n\n") + "  \n\t\n"),
+    "comments": (".csv", "# measured\n" + CSV.replace("\n", "\n  # and so on, 1,2\n")),
+    "blanks around cells": (".csv", CSV.replace(",", " , ")),
+    "upper-case header": (".csv", CSV.replace("x,y,angle_deg", " X, Y,Angle_Deg")),
+    "other column order": (
+        ".csv",
+        "angle_deg,x,y\n" + "".join(f"{a},{x},{y}\n" for x, y, a in TRIPLES),
+    ),
+    "ignored column": (
+        ".csv",
+        "x,#note,y,angle_deg\n" + "".join(f"{x},say what,{y},{a}\n" for x, y, a in TRIPLES),
+    ),
+    "byte order mark": (".csv", "\ufeff" + CSV),
+    "carriage returns": (".csv", CSV.replace("\n", "\r\n")),
+    "old Mac line ends": (".csv", CSV.replace("\n", "\r")),
+    "utf-16": (".csv", CSV.encode("utf-16")),
+    "utf-16 big-endian": (".csv", b"\xfe\xff" + CSV.encode("utf-16-be")),
+    "tabs": (".tsv", CSV.replace(",", "\t")),
+    "tabs in txt": (".txt", CSV.replace(",", "\t")),
+    "semicolons": (".csv", CSV.replace(",", ";")),
+    "semicolons, decimal commas": (".csv", CSV.replace(",", ";").replace(".", ",")),
+    "tabs, decimal commas": (".csv", CSV.replace(",", "\t").replace(".", ",")),
+    "quoted cells": (".csv", re.sub(r"[^,\n]+", r'"\g<0>"', CSV)),
+    "quoted decimal commas": (
+        ".csv",
+        re.sub(r"[^;\n]+", r'"\g<0>"', CSV.replace(",", ";").replace(".", ",")),
+    ),
+    "plus, bare points, exponents": (
+        ".csv",
+        "x,y,angle_deg\n-8253.e-4,-.10329E+1,+91.91\n-1.6554,0,66.99\n1e-05,+.292,4990e-2\n",
+    ),
+    "json": (".json", JSON),
+    "json without a suffix": ("", JSON),
+    "json list": ("", json.dumps(OBJECTS)),
+    "json objects": (".json", json.dumps({"poses": OBJECTS, "more": [1]})),
+    "json, byte order mark": (".json", "\ufeff" + JSON),
+    "json of synthesize": (
+        ".json",
+        json.dumps({"schema": "s/1", "task": {"poses": OBJECTS, "length_unit": None}}),
+    ),
+    "toml": (".toml", TOML),
+    "toml tables": (
+        ".toml",
+        "".join(f"[[poses]]\nx = {x}\ny = {y}\nangle_deg = {a}\n" for x, y, a in TRIPLES),
+    ),
+}
+
+
+@pytest.mark.parametrize(("suffix", "content"), GOOD.values(), ids=GOOD)
+def test_every_dialect_gives_the_same_numbers(
+    read: Read, suffix: str, content: str | bytes
+) -> None:
+    task = read(content, suffix)
+    assert triples(task) == in_radians(TRIPLES)
+    assert task.length_unit is None
+    assert task.names is None
+    assert task.weights is None
+
+
+def test_radians_are_taken_as_they_are(read: Read) -> None:
+    task = read("x,y,angle_rad\n" + ROWS)
+    assert triples(task) == TRIPLES
+
+
+@pytest.mark.parametrize("unit", ["um", "mm", "cm", "m", "in", "ft"])
+def test_header_states_the_length_unit_and_nothing_is_converted(read: Read, unit: str) -> None:
+    task = read(f"x_{unit},Y_{unit.upper()},angle_rad\n{ROWS}")
+    assert task.length_unit == unit
+    assert triples(task) == TRIPLES
+
+
+def test_weights_and_names(read: Read) -> None:
+    text = 'name,x,y,angle_rad,weight\n open ,1,2,3,1\n"left, ""top""",4,5,6,2.5\n,7,8,9,1e1\n'
+    task = read(text)
+    assert task.names == ("open", 'left, "top"', "")
+    assert task.weights is not None
+    assert task.weights.tolist() == [1.0, 2.5, 10.0]
+    assert triples(task) == [(1, 2, 3), (4, 5, 6), (7, 8, 9)]
+
+
+def test_names_in_quotes_and_with_an_inch_mark(read: Read) -> None:
+    task = read('x,y,angle_rad,name\n1,2,3,"a"\n4,5,6,5" pin\n7,8,9, b \n')
+    assert task.names == ("a", '5" pin', "b")
+
+
+def test_a_row_that_is_commented_out_is_left_out(read: Read) -> None:
+    task = read("name,x,y,angle_rad\na,1,2,3\n#b,4,5,6\nc,7,8,9\nd,1,2,3\n")
+    assert task.names == ("a", "c", "d")
+    assert triples(task)[1] == (7, 8, 9)
+
+
+def test_weights_and_names_in_json(read: Read) -> None:
+    listed: list[dict[str, Any]] = [{"x": i, "y": -i, "angle_rad": 0.5 * i} for i in range(4)]
+    listed[1] |= {"weight": 2, "name": "mid"}
+    listed[2] |= {"weight": None, "name": None}
+    task = read(json.dumps({"poses": listed, "length_unit": "mm"}), ".json")
+    assert task.names == ("", "mid", "", "")
+    assert task.weights is not None
+    assert task.weights.tolist() == [1.0, 2.0, 1.0, 1.0]
+    assert task.length_unit == "mm"
+    assert triples(task)[3] == (3.0, -3.0, 1.5)
+
+
+def test_numbers_as_names_stay_text_on_the_fast_path(read: Read) -> None:
+    task = read("x,y,angle_rad,name\n1,2,3,07\n4,5,6,1e3\n7,8,9,\n")
+    assert task.names == ("07", "1e3", "")
+
+
+def test_a_name_may_hold_a_line_separator_of_unicode(read: Read) -> None:
+    error = refused(read, "x,y,angle_rad,name\n1,2,3,a\u2028b\n1,2,oh,c\n")
+    assert error.where is not None
+    assert error.where.splitlines()[0].endswith(":3:5")
+
+
+RESOLUTIONS = [
+    ("x,y,angle_deg\n1.25,2,91.9\n1,2.125,90\n0,0,0\n", 0.0005, math.radians(0.05)),
+    ("x,y,angle_rad\n1.50,2,0\n1,2,1\n0,0,0\n", 0.005, 0.5),
+    ("x,y,angle_rad\n1.5e-3,2,1.25e2\n1,2,1e5\n0,0,1.5e1\n", 0.00005, 0.5),
+    ("x;y;angle_rad\n1,5;2;0,001\n1;2;1\n0;0;0\n", 0.05, 0.0005),
+    ("x,y,angle_rad\n# by hand\n1.5,2,1\n1,2.25,1\n0,0,0.125\n", 0.005, 0.0005),
+]
+
+
+@pytest.mark.parametrize(("text", "length", "angle"), RESOLUTIONS)
+def test_resolution_is_half_of_the_last_printed_digit(
+    read: Read, text: str, length: float, angle: float
+) -> None:
+    assert read(text).resolution == pytest.approx((length, angle), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("suffix", "text"),
+    [
+        (".json", '{"angle_unit":"rad","poses":[[1.50,2,3],[1,2.5e-1,3.0],[1,2,3e4]]}'),
+        (".toml", 'angle_unit="rad"\nposes=[[1.50,2,3],[1,2.5e-2,3.0],[1,2,3e4]]'),
+    ],
+)
+def test_resolution_is_seen_in_the_text_of_json_and_toml(
+    read: Read, suffix: str, text: str
+) -> None:
+    length = 0.005 if suffix == ".json" else 0.0005
+    assert read(text, suffix).resolution == pytest.approx((length, 0.05), rel=1e-12)
+
+
+def test_standard_input_is_bytes(monkeypatch: pytest.MonkeyPatch) -> None:
+    def give(data: bytes) -> None:
+        monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(data), encoding="ascii"))
+
+    give(CSV.encode("utf-16"))
+    assert triples(read_task("-")) == in_radians(TRIPLES)
+    give(b"\n  " + JSON.encode())
+    assert triples(read_task("-")) == in_radians(TRIPLES)
+    give(b"x,y,angle_deg\n1,2,nan\n")
+    with pytest.raises(InputError) as caught:
+        read_task("-")
+    assert caught.value.where == "<stdin>:2:5\n   2 | 1,2,nan\n     |     ^^^ angle"
+
+
+CASES = {
+    "ge2012-approximate": (10, (-0.9822, -1.0389, 78.54)),
+    "ge2012-exact": (10, (-0.8253, -1.0329, 91.91)),
+    "motiongen-mixed5": (5, (-7.9264, 1.2469, 11.07)),
+    "motiongen-prpr": (10, (3.4099, -4.2601, -19.18)),
+    "motiongen-rrpr": (10, (-0.2632, 5.2514, 65.14)),
+    "motiongen-rrrp": (10, (4.2333, 0.4588, -74.56)),
+    "motiongen-shoulder": (5, (-3.9696, -2.6338, 37.23)),
+}
+
+
+def test_names_of_the_cases() -> None:
+    assert cases.names() == tuple(CASES)
+
+
+@pytest.mark.parametrize(("name", "count", "first"), [(n, *v) for n, v in CASES.items()])
+def test_every_case_is_read_by_its_name(
+    name: str, count: int, first: tuple[float, float, float]
+) -> None:
+    task = read_task(f"case:{name}")
+    assert task.poses.shape == (count,)
+    assert triples(task)[0] == in_radians([first])[0]
+    case = cases.load(name)
+    assert case["name"] == name
+    assert triples(task) == in_radians(case["poses"])
+
+
+def test_the_corrected_pose_of_the_exact_case_is_used() -> None:
+    assert triples(read_task("case:ge2012-exact"))[5][2] == np.radians(52.87)
+    assert read_task("case:ge2012-exact").resolution == pytest.approx((5e-5, math.radians(0.005)))
+
+
+# What is refused ----------------------------------------------------------------------------
+
+H = "x,y,angle_deg\n"
+OK = "1,2,3\n"
+# suffix, content, code, what `where` ends its first line with, what the whole message holds
+BAD: list[tuple[str, str | bytes, str, str, str]] = [
+    ("", b"", "E102", "poses", "nothing in it"),
+    (".csv", b"\xef\xbb\xbf", "E102", "poses.csv", "nothing in it"),
+    (".json", " \n ", "E102", "poses.json", "nothing in it"),
+    (".csv", "# x\n\n", "E102", "poses.csv", "only comments"),
+    (".csv", H, "E102", "poses.csv", "only a header"),
+    (".csv", H + "\n# 1,2,3\n", "E102", "poses.csv", "only a header"),
+    (
+        ".csv",
+        b"x,y,angle_deg\n1,2,\xe93\n",
+        "E101",
+        "poses.csv",
+        "byte 19, in line 2, is not UTF-8",
+    ),
+    (".csv", b"\xff\xfex", "E101", "poses.csv", "not UTF-16"),
+    (".csv", CSV.encode("utf-16-le"), "E101", "poses.csv", "null characters"),
+    (".csv", CSV.encode("utf-32"), "E101", "poses.csv", "null characters"),
+    (".csv", H + OK + "4,5,nan\n", "E103", "poses.csv:3:5", "4,5,nan"),
+    (".csv", H + OK + "4,inf,5\n", "E103", "poses.csv:3:3", "4,inf,5"),
+    (".csv", H + OK + "-Infinity,4,5\n", "E103", "poses.csv:3:1", "^^^^^^^^^ x"),
+    (".csv", H + "1e400,4,5\n", "E103", "poses.csv:2:1", "1.8e308"),
+    (".csv", H + "4,5,-1e400\n", "E103", "poses.csv:2:5", "^^^^^^ angle"),
+    (".csv", H + "4," + "9" * 400 + ",5\n", "E103", "poses.csv:2:3", "finite"),
+    (".csv", "x,y,angle_deg,weight\n1,2,3,nan\n", "E103", "poses.csv:2:7", "^^^ weight"),
+    (".csv", "x;y;angle_deg\n0,5;2;1,5e999\n", "E103", "poses.csv:2:7", "1,5e999"),
+    (".csv", H + OK + "\n#\n  1,abc,3\n", "E104", "poses.csv:5:5", "^^^ y"),
+    (".csv", H + "1,,3\n", "E104", "poses.csv:2:3", "empty cell"),
+    (".csv", "x,y,angle_deg,weight\n1,2,3,\n", "E104", "poses.csv:2:7", "^ weight"),
+    (".csv", H + "1_000,2,3\n", "E104", "poses.csv:2:1", "'1_000'"),
+    (".csv", H + "1,0x10,3\n", "E104", "poses.csv:2:3", "'0x10'"),
+    (".csv", H + "1,2 000,3\n", "E104", "poses.csv:2:3", "'2 000'"),
+    (".csv", H + "1,2,3°\n", "E104", "poses.csv:2:5", "'3°'"),
+    (".csv", H + "1,2,−3\n", "E104", "poses.csv:2:5", "'−3'"),
+    (".csv", H + "1,٣,3\n", "E104", "poses.csv:2:3", "row 1 has text"),
+    (".csv", H + "1,1e,3\n", "E104", "poses.csv:2:3", "'1e'"),
+    (".csv", H + "1,1-2,3\n", "E104", "poses.csv:2:3", "'1-2'"),
+    (".csv", H + "1,.,3\n", "E104", "poses.csv:2:3", "'.'"),
+    (".csv", H + "1,1.2.3,3\n", "E104", "poses.csv:2:3", "'1.2.3'"),
+    (".csv", H + '"0,435",2,3\n', "E104", "poses.csv:2:1", "'0,435'"),
+    (".csv", H + '"1,234.5",2,3\n', "E104", "poses.csv:2:1", "'1,234.5'"),
+    (".csv", "x;y;angle_deg\n1,234.5;2;3\n", "E104", "poses.csv:2:1", "'1,234.5'"),
+    (".csv", "x;y;angle_deg\n1.234,5;2;3\n", "E104", "poses.csv:2:1", "'1.234,5'"),
+    (".csv", "x;y;angle_deg\n1,234,567;2;3\n", "E104", "poses.csv:2:1", "'1,234,567'"),
+    (".csv", "x;y;angle_deg\n7;1,234;3\n7;1;3\n", "E104", "poses.csv:2:3", "parts thousands"),
+    (".csv", "x;y;angle_deg\n7;1,23;3\n7;1.5;3\n", "E104", "poses.csv:2:3", "two ways"),
+    (".tsv", "x\ty\tangle_deg\n7\t8\t1.5\n7\t1,500\t3\n", "E104", "poses.csv:3:3", "two ways"),
+    (".csv", ROWS, "E105", "poses.csv:1:1", "no header"),
+    (".csv", "# x,y,angle_deg\n" + ROWS, "E105", "poses.csv:2:1", "no header"),
+    (".csv", "x,y\n1,2\n", "E105", "poses.csv:1:1", "no column for angle"),
+    (".csv", "a,b,angle_deg\n" + OK, "E105", "poses.csv:1:1", "no column for x and y"),
+    (".csv", "x y angle_deg\n1 2 3\n", "E105", "poses.csv:1:1", "'x y angle_deg'"),
+    (".csv", "x_furlong,y_furlong,angle_deg\n" + OK, "E105", "poses.csv:1:1", "x_mm and y_mm"),
+    (".csv", H + OK + "1,2\n", "E106", "poses.csv:3:4", "row 2 has 2 cells, the header has 3"),
+    (".csv", H + OK + "1,2,3,4\n", "E106", "poses.csv:3:7", "row 2 has 4 cells"),
+    (".csv", H + "-0,8253,1,0,91,91\n", "E106", "poses.csv:2:11", "decimal mark"),
+    (".csv", H + "1;2;3\n", "E106", "poses.csv:2:6", "row 1 has 1 cell,"),
+    (".csv", 'x,y,angle_deg,name\n1,2,3,"a\nb"\n', "E106", "poses.csv:3:3", "row 2 has 1 cell"),
+    (".csv", "x,y,angle_deg,speed\n1,2,3,4\n", "E107", "poses.csv:1:15", "'speed'"),
+    (".csv", "x,y,angle_deg,\n1,2,3,\n", "E107", "poses.csv:1:15", "column ''"),
+    (".csv", "x,y,x_mm,angle_deg\n1,2,3,4\n", "E108", "poses.csv:1:5", "two columns for x"),
+    (".csv", "x,y,angle_rad,angle_deg\n1,2,3,4\n", "E108", "poses.csv:1:15", "angle_rad and"),
+    (".csv", "x_mm,y_cm,angle_deg\n" + OK, "E108", "poses.csv:1:6", "x is in mm, y in cm"),
+    (".csv", "x,y_in,angle_deg\n" + OK, "E108", "poses.csv:1:3", "x is in no unit, y in in"),
+    (".csv", "x,y,theta\n" + OK, "E110", "poses.csv:1:5", "^^^^^ angle"),
+    (".csv", H + OK + OK, "E120", "poses.csv", "2 poses: too few"),
+    (".csv", "x,y,angle_deg,weight\n" + "1,2,3,0\n" * 3, "E122", "poses.csv", "weights"),
+    (".json", '{"poses": [[1, 2, 3],\n [1, 2,, 3]]}', "E109", "poses.json:2:8", "^"),
+    (".json", "[" * 100_000, "E109", "poses.json", "too many brackets"),
+    (".json", "x,y,angle_deg\n", "E109", "poses.json:1:1", "Expecting value"),
+    ("", '["' + "a" * 500 + '", 2, oops]', "E109", "poses:1:509", "oops"),
+    (".json", '{"poses": [[1, 2, NaN]]}', "E103", "poses.json:1:19", "^^^"),
+    (".json", '{"a": "NaN",\n"b": [-Infinity]}', "E103", "poses.json:2:7", "^^^^^^^^^"),
+    (".json", '{"angle_unit":"deg","poses":[[1,1e400,3]]}', "E103", "poses[0].y", "finite"),
+    (".json", '{"angle_unit":"deg","poses":[[1,1e%s,3]]}' % ("9" * 30), "E103", "poses[0].y", "y"),
+    (".json", "[[1, 2, %s]]" % ("9" * 5000), "E103", "poses[0].angle", "finite"),
+    (".json", '{"poses": [{"x": "1", "y": 2, "angle_deg": 3}]}', "E104", "poses[0].x", "'1'"),
+    (".json", '{"poses": [{"x": true, "y": 2, "angle_deg": 3}]}', "E104", "poses[0].x", "True"),
+    (".json", '{"poses": [[1,2,3], "abc"], "angle_unit":"deg"}', "E104", "poses[1]", "'abc'"),
+    (".json", '{"poses": 5}', "E104", "poses.json: poses", "5"),
+    (".json", "5", "E104", "poses.json", "5"),
+    (".json", '{"poses":[{"x":1,"y":2,"angle_deg":3,"name":4}]}', "E104", "poses[0].name", "4"),
+    (".json", '{"poses":[{"x":1,"y":2,"angle_deg":3,"name":"\\ud800"}]}', "E104", ".name", "name"),
+    (".json", "{}", "E105", "poses.json: poses", "poses is missing"),
+    (".json", '{"task": {"poses": [{"x": 1}]}}', "E105", "task.poses[0].y", "missing"),
+    (".json", '{"poses": [{"x": 1, "y": 2}]}', "E105", "poses[0]", "pose 1 has no angle"),
+    (".json", '{"poses": [[1, 2]]}', "E106", "poses[0]", "2 numbers, not 3"),
+    (".json", '{"poses":[{"x":1,"y":2,"angle_deg":3,"speed":4}]}', "E107", ".speed", "not known"),
+    (".json", '{"poses": [], "poses": []}', "E108", "poses.json", "'poses' stands twice"),
+    (".json", '{"poses":[{"x":1,"y":2,"angle_deg":3,"angle_rad":4}]}', "E108", "poses[0]", "and"),
+    (".json", '{"poses": [], "angle_unit": "grad"}', "E110", "angle_unit", "'grad'"),
+    (".json", '{"poses": [[1, 2, 3]]}', "E110", "poses.json: poses", "both readings"),
+    (
+        ".json",
+        '{"poses":[{"x":1,"y":2,"angle_rad":3}],"angle_unit":"deg"}',
+        "E110",
+        "poses.json: poses",
+        "different units",
+    ),
+    (".json", '{"poses": []}', "E120", "poses.json", "0 poses"),
+    (".toml", "a = 1\nposes = [[1, @, 3]]", "E109", "poses.toml:2:14", "^"),
+    (".toml", "poses = [[1, 2", "E109", "poses.toml", "not TOML"),
+    (".toml", "a = " + "[" * 100_000, "E109", "poses.toml", "too many brackets"),
+    (".toml", 'angle_unit="deg"\nposes=[[1,2,nan]]', "E103", "poses[0].angle", "finite"),
+    (".toml", 'angle_unit="deg"\nposes=[[1,-inf,3]]', "E103", "poses[0].y", "finite"),
+    (".toml", 'angle_unit="deg"\nposes=[[1,"2",3]]', "E104", "poses[0].y", "'2'"),
+    (".toml", 'angle_unit="deg"\nposes=[[1,1979-05-27,3]]', "E104", "poses[0].y", "date"),
+    (".toml", "poses = 0x" + "f" * 5000, "E104", "poses.toml: poses", "a long int"),
+    (".toml", "poses = " + "9" * 5000, "E109", "poses.toml", "digits"),
+    (".toml", "poses=[[1,2,3]]", "E110", "poses.toml: poses", "both readings"),
+]
+
+
+@pytest.mark.parametrize("bad", BAD, ids=lambda bad: f"{bad[2]}-{bad[1][:40]!r}")
+def test_what_cannot_be_read_exactly_is_refused_with_its_place(
+    read: Read, bad: tuple[str, str | bytes, str, str, str]
+) -> None:
+    suffix, content, code, where, holds = bad
+    error = refused(read, content, suffix)
+    assert error.code == code
+    assert error.where is not None
+    place = error.where.splitlines()[0]
+    assert place.endswith(where.replace("poses.csv", f"poses{suffix}"))
+    assert holds in str(error)
+    assert error.exit_code == 2
+
+
+def test_the_message_of_the_catalogue(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("poses.csv").write_text("x,y,angle_deg\n1,2,3\n1,2,3\n1,2,3\n-2.6392,0.2920,inf\n")
+    with pytest.raises(InputError) as caught:
+        read_task("poses.csv")
+    assert str(caught.value) == (
+        "error[E103]: row 4 has a value that is not a finite number\n"
+        "  --> poses.csv:5:16\n"
+        "   5 | -2.6392,0.2920,inf\n"
+        "     |                ^^^ angle\n"
+        "  help: give a number in degrees, such as -12.5 or 3e-4, or delete the row"
+    )
+
+
+def test_the_caret_stands_under_the_cell_behind_tabs_and_control_characters(read: Read) -> None:
+    error = refused(read, "name\tx\ty\tangle_deg\na\x1b[31mb\t 1\t  zwei \t3\n", ".tsv")
+    assert error.where is not None
+    place, shown, caret = error.where.splitlines()
+    assert place.endswith(":2:14")
+    assert "\x1b" not in shown
+    start = caret.index("^")
+    assert shown[start : start + 4] == "zwei"
+    assert caret[start:] == "^^^^ y"
+
+
+def test_a_long_line_is_cut_around_the_fault(read: Read) -> None:
+    error = refused(read, "x,y,angle_deg,name\n1,2,oh," + "n" * 5000 + "\n")
+    assert error.where is not None
+    assert max(map(len, error.where.splitlines()[1:])) < 120
+    error = refused(read, "name,x,y,angle_deg\n" + "n" * 5000 + ",oh,2,3\n")
+    assert error.where is not None
+    place, shown, caret = error.where.splitlines()
+    assert place.endswith(":2:5002")
+    assert shown[caret.index("^") :].startswith("oh,2,3")
+
+
+def test_files_that_cannot_be_opened(tmp_path: Path) -> None:
+    for source in (tmp_path / "none.csv", tmp_path, f"{tmp_path}/nul\0.csv"):
+        with pytest.raises(InputError) as caught:
+            read_task(source)
+        assert caught.value.code == "E101"
+        assert caught.value.where == os.fspath(source)
+        assert caught.value.why
+
+
+@pytest.mark.skipif(os.name == "nt" or os.geteuid() == 0, reason="needs a file it may not read")
+def test_a_file_without_permission(tmp_path: Path) -> None:
+    path = tmp_path / "poses.csv"
+    path.write_text(CSV)
+    path.chmod(0)
+    with pytest.raises(InputError, match="cannot be read"):
+        read_task(path)
+
+
+@pytest.mark.parametrize("name", ["", "nobody", "../cases/ge2012-exact", "ge2012-exact.json"])
+def test_an_unknown_case_lists_the_known_ones(name: str) -> None:
+    for ask in (cases.load, lambda name: read_task(f"case:{name}")):
+        with pytest.raises(InputError) as caught:
+            ask(name)
+        assert caught.value.code == "E101"
+        assert caught.value.help is not None
+        assert all(f"case:{known}" in caught.value.help for known in CASES)
+
+
+def test_no_other_angle_unit_exists(read: Read) -> None:
+    assert refused_unit(read, CSV, "grad").code == "E110"
+
+
+def refused_unit(read: Read, content: str, unit: str) -> InputError:
+    with pytest.raises(InputError) as caught:
+        read(content, angle_unit=unit)
+    return caught.value
+
+
+# The help is followed to the letter -----------------------------------------------------------
+
+TURN = "0.25,1,-0.5\n1,2,0.25\n2,2,0.5\n"
+
+
+def test_e110_states_both_readings_and_every_way_out_works(read: Read) -> None:
+    error = refused(read, "x,y,Angle\n" + TURN)
+    assert error.code == "E110"
+    assert error.message == "the angle unit is not stated and both readings are possible"
+    assert error.why == (
+        "all 3 angles lie within +-6.28. "
+        "As degrees the body turns 1.0 deg in total, as radians 57.3 deg"
+    )
+    assert error.help is not None
+    for edit in re.findall(r"`(\w+)`", error.help):
+        turned = read(f"x,y,{edit}\n" + TURN).poses.angle[0]
+        assert turned == {"angle_deg": np.radians(-0.5), "angle_rad": -0.5}[edit]
+    options = re.findall(r"--angle-unit (\w+)", error.help)
+    assert options == ["deg", "rad"]
+    for unit in options:
+        turned = read("x,y,angle\n" + TURN, angle_unit=unit).poses.angle[0]
+        assert turned == {"deg": np.radians(-0.5), "rad": -0.5}[unit]
+
+
+def test_e110_with_large_angles_does_not_claim_they_are_small(read: Read) -> None:
+    error = refused(read, "x,y,phi\n" + ROWS)
+    assert error.why == (
+        "all 3 angles lie between 49.9 and 91.91. "
+        "As degrees the body turns 42.0 deg in total, as radians 2407.0 deg"
+    )
+
+
+@pytest.mark.parametrize("column", ["angle", "theta", "phi", "rotation", "ANGLE"])
+def test_seven_presets_without_a_unit_are_all_asked_about(read: Read, column: str) -> None:
+    for name in CASES:
+        for convert in (float, math.radians):
+            rows = [f"{x},{y},{convert(a)!r}" for x, y, a in cases.load(name)["poses"]]
+            assert refused(read, "\n".join([f"x,y,{column}", *rows])).code == "E110"
+
+
+@pytest.mark.parametrize("suffix", [".json", ".toml"])
+def test_e110_help_in_json_and_toml(read: Read, suffix: str) -> None:
+    listed = f"[{','.join(f'[{row}]' for row in TURN.split())}]"
+    text = f'{{"poses": {listed}}}' if suffix == ".json" else f"poses = {listed}"
+    error = refused(read, text, suffix)
+    assert error.code == "E110"
+    assert error.help is not None
+    assert '"deg"' in error.help
+    if suffix == ".json":
+        edited = text.replace("{", '{"angle_unit": "deg", ')
+        assert error.help.startswith('write {"angle_unit": "deg", "poses": [[')
+    else:
+        edited = 'angle_unit = "deg"\n' + text
+        assert error.help.startswith('write angle_unit = "deg" above poses')
+    assert read(edited, suffix).poses.angle[0] == np.radians(-0.5)
+    assert read(text, suffix, angle_unit="rad").poses.angle[0] == -0.5
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".json", ".toml", "case"])
+def test_a_contradicted_unit_is_refused_and_leaving_the_option_out_works(
+    read: Read, suffix: str
+) -> None:
+    def attempt(**options: Any) -> Task:
+        if suffix == "case":
+            return read_task("case:ge2012-exact", **options)
+        return read({".csv": CSV, ".json": JSON, ".toml": TOML}[suffix], suffix, **options)
+
+    with pytest.raises(InputError) as caught:
+        attempt(angle_unit="rad")
+    assert caught.value.code == "E110"
+    assert "in degrees, --angle-unit says radians" in caught.value.message
+    assert caught.value.help is not None
+    assert caught.value.help.startswith("leave --angle-unit out")
+    assert triples(attempt()) == triples(attempt(angle_unit="deg"))
+
+
+@pytest.mark.parametrize(
+    "rows",
+    [
+        ROWS,
+        ROWS.replace(",", ";").replace(".", ","),
+        ROWS.replace(",", "\t"),
+        "1,2,3,4\n1,2,3,4\n1,2,3,4\n",
+        "0.5;1;2;7;8\n" * 3,
+    ],
+)
+def test_e105_gives_the_header_to_put_on_top(read: Read, rows: str) -> None:
+    error = refused(read, rows)
+    assert error.code == "E105"
+    assert error.help is not None
+    line = re.findall(r"put this line on top: `([^`]*)`", error.help)[0]
+    assert read(f"{line}\n{rows}").poses.shape == (rows.count("\n"),)
+    in_radians = read(f"{line.replace('angle_deg', 'angle_rad')}\n{rows}")
+    assert in_radians.poses.angle[0] > 1.5
+
+
+def test_e105_for_a_header_in_other_words(read: Read) -> None:
+    error = refused(read, "px py rot\n" + ROWS.replace(",", " "))
+    assert error.help is not None
+    assert "name the columns x, y and angle_deg (or angle_rad), with commas" in error.help
+    assert triples(read("x,y,angle_deg\n" + ROWS)) == in_radians(TRIPLES)
+
+
+@pytest.mark.parametrize("bad", ["nan", "1e400", "", "1_0", "ten"])
+def test_e103_and_e104_either_way_out_works(read: Read, bad: str) -> None:
+    text = CSV.replace("0.292", bad)
+    error = refused(read, text)
+    assert error.help is not None
+    number = re.findall(r"such as (\S+) or (\S+), or delete the row", error.help)[0]
+    for value in number:
+        assert triples(read(CSV.replace("0.292", value)))[2][1] == float(value)
+    deleted = CSV.replace("1e-05,0.292,49.9\n", "") + "1,2,3\n"
+    assert triples(read(deleted))[2] == (1, 2, np.radians(3))
+
+
+def test_e106_help(read: Read) -> None:
+    error = refused(read, CSV + "1,2\n")
+    assert error.help == "give 3 cells (x, y, angle_deg), or delete the row"
+    assert read(CSV + "1,2,3\n").poses.shape == (4,)
+
+
+@pytest.mark.parametrize("place", [0, 3])
+def test_e107_renames_the_column_so_that_it_is_ignored(read: Read, place: int) -> None:
+    rows = [["Part No", "x", "y", "angle_deg"], *(["7", *row.split(",")] for row in ROWS.split())]
+    if place:
+        rows = [[*row[1:], row[0]] for row in rows]
+    text = "\n".join(",".join(row) for row in rows)
+    error = refused(read, text)
+    assert error.code == "E107"
+    assert error.help is not None
+    name = re.findall(r"name it (\S.*\") \(with", error.help)[0]
+    assert triples(read(text.replace("Part No", name))) == in_radians(TRIPLES)
+
+
+def test_e104_for_commas_is_cured_by_points(read: Read) -> None:
+    text = "x;y;angle_deg\n1,234;2;3\n2;2;4\n3;2;5\n"
+    assert (
+        refused(read, text).help == "write every number with a decimal point, and none with a comma"
+    )
+    assert triples(read(text.replace(",", ".")))[0][0] == 1.234
+
+
+def test_one_comma_that_cannot_part_thousands_proves_the_others(read: Read) -> None:
+    task = read("x;y;angle_rad\n1,234;0,5;3\n2;2;4\n3;2;5\n")
+    assert triples(task)[0] == (1.234, 0.5, 3)
+    assert task.resolution == pytest.approx((0.0005, 0.5))
+
+
+def test_commas_and_points_are_refused_wherever_they_meet(
+    read: Read, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(poses, "_BLOCK", 1)
+    for rows in ("1,25;2.5;3", "1,25;2;3\n4;2.5;3", "4;2.5;3\n1,250;2;3"):
+        error = refused(read, "x;y;angle_deg\n0,5;2;3\n" + rows)
+        assert (error.code, error.message) == (
+            "E104",
+            "a comma in a number can be read in two ways",
+        )
+
+
+@pytest.mark.parametrize("suffix", [".json", ".toml"])
+def test_the_example_in_the_help_can_be_read(read: Read, suffix: str) -> None:
+    help = refused(read, '{"a": 1}' if suffix == ".json" else "a = 1", suffix).help
+    assert help is not None
+    example = help.removeprefix("write ").replace("...", "[1, 2, 3], [4, 5, 6]")
+    assert triples(read(example.replace(" above ", "\n"), suffix))[0] == (0.5, 2, np.radians(30))
+
+
+def test_e101_offers_the_case_that_was_meant(tmp_path: Path, monkeypatch: Any) -> None:
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(InputError) as caught:
+        read_task("ge2012-exact")
+    assert caught.value.help == "write case:ge2012-exact"
+    assert len(read_task(caught.value.help.removeprefix("write ")).poses.angle) == 10
+
+
+# Laws ---------------------------------------------------------------------------------------
+
+numbers = st.floats(allow_nan=False, allow_infinity=False)
+tables = st.lists(st.tuples(numbers, numbers, numbers), min_size=3, max_size=20)
+
+
+def as_csv(rows: list[tuple[float, float, float]], separator: str, mark: str) -> str:
+    lines = [separator.join(map(repr, row)).replace(".", mark) for row in rows]
+    return "\n".join([separator.join(["x", "y", "angle_rad"]), *lines])
+
+
+PROOF = (0.5, 0.5, 0.5)  # 0,5 cannot be a thousand, so the other commas are decimal ones too
+WRITERS: dict[str, tuple[str, Callable[[list[tuple[float, float, float]]], str]]] = {
+    "comma": (".csv", lambda rows: as_csv(rows, ",", ".")),
+    "semicolon": (".csv", lambda rows: as_csv(rows, ";", ".")),
+    "tab": (".tsv", lambda rows: as_csv(rows, "\t", ".")),
+    "semicolon, decimal comma": (".csv", lambda rows: as_csv([*rows, PROOF], ";", ",")),
+    "tab, decimal comma": (".csv", lambda rows: as_csv([*rows, PROOF], "\t", ",")),
+    "json": (".json", lambda rows: json.dumps({"angle_unit": "rad", "poses": rows})),
+    "json objects": (
+        "",
+        lambda rows: json.dumps([{"x": x, "y": y, "angle_rad": a} for x, y, a in rows]),
+    ),
+    "toml": (".toml", lambda rows: f'angle_unit = "rad"\nposes = {json.dumps(rows)}'),
+}
+
+
+@pytest.mark.parametrize(("suffix", "write"), WRITERS.values(), ids=WRITERS)
+@given(rows=tables)
+@settings(max_examples=60, deadline=None)
+def test_every_float_comes_back_bit_by_bit(
+    read: Read, suffix: str, write: Any, rows: list[tuple[float, float, float]]
+) -> None:
+    got = np.array(triples(read(write(rows), suffix)))[: len(rows)]
+    assert got.tobytes() == np.array(rows).tobytes()  # also tells -0.0 from 0.0
+
+
+@pytest.mark.parametrize("block", [1, 7, 40, 1 << 20])
+@pytest.mark.parametrize("dialect", ["plain", "commas", "named", "commented"])
+def test_blocks_and_both_paths_give_the_same_task(
+    read: Read, monkeypatch: pytest.MonkeyPatch, block: int, dialect: str
+) -> None:
+    monkeypatch.setattr(poses, "_BLOCK", block)
+    rng = np.random.default_rng(1)
+    scaled = rng.normal(size=(50, 3)) * 10.0 ** rng.integers(-9, 9, size=(50, 1))
+    rows = [(float(x), float(y), float(angle)) for x, y, angle in scaled]
+    text = as_csv(rows, ";", "," if dialect == "commas" else ".")
+    if dialect == "named":
+        lines = text.split("\n")
+        text = "\n".join([lines[0] + ";name", *(f"{ln};n, {i}." for i, ln in enumerate(lines[1:]))])
+    if dialect == "commented":
+        text = text.replace("\n", "\n\n# note;1\n")
+    task = read(text)
+    assert np.array(triples(task)).tobytes() == np.array(rows).tobytes()
+    assert task.names == (tuple(f"n, {i}." for i in range(50)) if dialect == "named" else None)
+    most = max(-int(Decimal(repr(v)).as_tuple().exponent) for row in rows for v in row[:2])
+    assert task.resolution[0] == pytest.approx(0.5 * 10.0**-most)
+
+
+@pytest.mark.parametrize("block", [1, 13, 1 << 20])
+def test_a_fault_behind_many_blocks_has_the_right_line(
+    read: Read, monkeypatch: pytest.MonkeyPatch, block: int
+) -> None:
+    monkeypatch.setattr(poses, "_BLOCK", block)
+    error = refused(read, "# top\n" + CSV + "\n" + ROWS * 30 + "# end\n1,2,x\n")
+    assert error.message == "row 94 has text where a number belongs"
+    assert error.where is not None
+    assert error.where.splitlines()[0].endswith("poses.csv:98:5")
+    mixed = "x;y;angle_deg\n" + "1.5;2;3\n" * 30 + "1;2,5;3\n"
+    error = refused(read, mixed)
+    assert error.where is not None
+    assert error.where.splitlines()[0].endswith("poses.csv:32:3")
+
+
+def test_a_hundred_thousand_rows(read: Read) -> None:
+    rows = np.random.default_rng(0).normal(size=(100_000, 3)).tolist()
+    task = read("x,y,angle_rad\n" + "".join(f"{x!r},{y!r},{a!r}\n" for x, y, a in rows))
+    assert np.array(triples(task)).tobytes() == np.array(rows).tobytes()
+
+
+def task_or_input_error(read: Read, content: bytes, suffix: str) -> None:
+    try:
+        outcome: Task | InputError = read(content, suffix)
+    except InputError as error:
+        outcome = error
+    if isinstance(outcome, InputError):
+        assert re.fullmatch(r"E1\d\d", outcome.code)
+        assert outcome.where
+        assert outcome.help
+        assert str(outcome).encode()  # can be printed
+    else:
+        assert outcome.poses.shape[0] >= 3
+        assert np.isfinite(outcome.poses.translation).all()
+
+
+SUFFIXES = st.sampled_from([".csv", ".tsv", ".json", ".toml", ""])
+ALPHABET = st.sampled_from("xy,;\t\n\r\"'#0123456789.eE+-_ anglerdtinf{}[]:=\\\x00\x85\u2028\ufeff")
+
+
+@given(content=st.binary(max_size=200) | st.text(max_size=200).map(str.encode), suffix=SUFFIXES)
+@settings(max_examples=300, deadline=None)
+def test_random_bytes_give_a_task_or_an_input_error(
+    read: Read, content: bytes, suffix: str
+) -> None:
+    task_or_input_error(read, content, suffix)
+
+
+@given(data=st.data(), base=st.sampled_from([(s, t) for s, t in GOOD.values()]))
+@settings(max_examples=600, deadline=None)
+def test_a_good_file_with_a_wound_gives_a_task_or_an_input_error(
+    read: Read, data: st.DataObject, base: tuple[str, str | bytes]
+) -> None:
+    suffix, content = base
+    content = content if isinstance(content, bytes) else content.encode()
+    start = data.draw(st.integers(0, len(content)))
+    end = data.draw(st.integers(start, min(start + 10, len(content))))
+    patch = data.draw(st.text(ALPHABET, max_size=6).map(str.encode) | st.binary(max_size=3))
+    task_or_input_error(read, content[:start] + patch + content[end:], suffix)
+
+
+trees = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=5),
+    lambda inner: (
+        st.lists(inner, max_size=4)
+        | st.dictionaries(
+            st.sampled_from(["poses", "task", "x", "y", "angle", "angle_deg", "name", "weight"]),
+            inner,
+        )
+    ),
+    max_leaves=12,
+)
+
+
+@given(tree=trees)
+@settings(max_examples=300, deadline=None)
+def test_any_json_gives_a_task_or_an_input_error(read: Read, tree: Any) -> None:
+    task_or_input_error(read, json.dumps(tree).encode(), ".json")
+    task_or_input_error(read, json.dumps({"poses": [tree] * 3}).encode(), ".json")
+
+
+def test_csv_does_not_import_pydantic(tmp_path: Path) -> None:
+    path = tmp_path / "poses.csv"
+    path.write_text(CSV)
+    code = (
+        "import sys; from burmester.io.poses import read_task; read_task(sys.argv[1]);"
+        "print([m for m in ('pydantic', 'scipy', 'matplotlib', 'rich') if m in sys.modules])"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code, str(path)], capture_output=True, text=True, check=True
+    )
+    assert done.stdout.strip() == "[]"

@@ -1,0 +1,140 @@
+"""A second opinion that shares no code with the package: linkages driven joint by joint.
+
+Everything is in complex numbers.  The first dyad puts its moving pivot on its guide (a crank
+angle, or a place along a rail); the body then turns about that pin until the second dyad is
+content, which is one equation a cos(phi) + b sin(phi) = e with two solutions.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.optimize import minimize_scalar
+
+from burmester.dyad import PR, RP, RR
+
+
+def _c(pair):
+    return complex(pair[0], pair[1])
+
+
+def _rail(line, along):
+    return (float(line.offset) + 1j * along) * np.exp(1j * float(line.normal_angle))
+
+
+def places(first, second, drive):
+    """Body places (x + iy, phi), two assemblies each, at driver positions (n,); nan if open."""
+    if isinstance(first, RR):
+        pin, hand = (
+            _c(first.fixed_pivot) + first.radius * np.exp(1j * drive),
+            _c(first.moving_pivot),
+        )
+    elif isinstance(first, PR):
+        pin, hand = _rail(first, drive), _c(first.moving_pivot)
+    else:
+        pin, hand = _c(first.fixed_pivot), _rail(first, drive)
+    if isinstance(second, RR):
+        arm = _c(second.moving_pivot) - hand
+        to = pin - _c(second.fixed_pivot)
+        # |to + arm e^{i phi}|² = r²
+        z = np.conj(to) * arm
+        e = (second.radius**2 - abs(to) ** 2 - abs(arm) ** 2) / 2
+    elif isinstance(second, PR):
+        n = np.exp(1j * float(second.normal_angle))
+        arm = _c(second.moving_pivot) - hand
+        z = np.conj(n) * arm
+        e = second.offset - (np.conj(n) * pin).real
+    else:
+        n = np.exp(1j * float(second.normal_angle))
+        # n . (e^{-i phi} (c - pin) + hand) = h
+        z = np.conj(_c(second.fixed_pivot) - pin) * n
+        e = second.offset - (np.conj(n) * hand).real
+    # Re(z e^{i phi}) = e
+    z, e, pin, hand = np.broadcast_arrays(z, e, pin, hand)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        open_angle = np.arccos(e / abs(z))
+    phi = -np.angle(z) + np.stack([open_angle, -open_angle])
+    return pin - hand * np.exp(1j * phi), phi
+
+
+def misses(linkage, poses, length):
+    """How near (N,) the linkage comes to each pose, driven from either side."""
+    pairs = [(linkage.first, linkage.second), (linkage.second, linkage.first)]
+    # A drive is blind at its own dead points; the other one sees there.
+    return np.min([_driven(*pair, poses, length) for pair in pairs], axis=0)
+
+
+def _driven(first, second, poses, length):
+    """The same for one driver: a sweep, then a refinement."""
+    if isinstance(first, RR):
+        sweep = np.linspace(-np.pi, np.pi, 7201)
+    else:
+        sweep = 50 * length * np.linspace(-1, 1, 20001) ** 3
+    where, phi = places(first, second, sweep)
+    d = poses.translation[:, 0] + 1j * poses.translation[:, 1]
+
+    def gap(where, phi, k):
+        turn = np.exp(1j * (phi - poses.angle[k]))
+        return np.hypot(abs(where - d[k]), length * np.angle(turn))
+
+    # Drive to where the pose itself would have the driver, too: a sweep alone stops at 1e-7.
+    turn = np.exp(1j * poses.angle)
+    if isinstance(first, RR):
+        asked = np.angle(d + _c(first.moving_pivot) * turn - _c(first.fixed_pivot))
+    else:
+        fixed = isinstance(first, PR)
+        on = d + _c(first.moving_pivot) * turn if fixed else (_c(first.fixed_pivot) - d) / turn
+        asked = (on * np.exp(-1j * float(first.normal_angle))).imag
+
+    result = []
+    for k in range(len(d)):
+        best = np.inf
+        for side in (0, 1):
+
+            def along(t, side=side, k=k):
+                w, p = places(first, second, np.array([t]))
+                value = gap(w[side], p[side], k)[0]
+                return value if np.isfinite(value) else 1e9
+
+            best = min(best, along(asked[k]))
+            distance = gap(where[side], phi[side], k)
+            if np.isnan(distance).all():
+                continue
+            at = int(np.nanargmin(distance))
+            bounds = sweep[max(at - 1, 0)], sweep[min(at + 1, len(sweep) - 1)]
+            fine = minimize_scalar(along, bounds=bounds, method="bounded")
+            best = min(best, distance[at], fine.fun)
+        result.append(best)
+    return np.array(result)
+
+
+def random_four_bar(rng, second=RR):
+    """Two dyads that can be assembled often enough; wild proportions welcome."""
+    while True:
+        c, m = rng.normal(size=(2, 2)), rng.normal(size=(2, 2))
+        dyads = [RR(c[i], m[i], rng.uniform(0.2, 2.0)) for i in range(2)]
+        if second is PR:
+            dyads[1] = PR(rng.uniform(-np.pi, np.pi), rng.normal(), m[1])
+        if second is RP:
+            dyads[1] = RP(c[1], rng.uniform(-np.pi, np.pi), rng.normal())
+        where, _ = places(*dyads, np.linspace(-np.pi, np.pi, 73))
+        if np.isfinite(where[0]).mean() > 0.2:
+            return dyads
+
+
+def random_poses(dyads, rng, count, side=None):
+    """`count` poses (x, y, angle) that two dyads pass through, on one assembly (side 0 or 1)."""
+    side = int(rng.integers(2)) if side is None else side
+    rows = []
+    while len(rows) < count:
+        drive = rng.uniform(-np.pi, np.pi, 64)
+        where, phi = places(*dyads, drive)
+        sound = np.isfinite(where[side])
+        rows += list(
+            zip(where[side][sound].real, where[side][sound].imag, phi[side][sound], strict=True)
+        )
+    return np.array(rows[:count])
+
+
+def span(poses):
+    """The diagonal of the box that holds the poses' origins."""
+    return float(np.hypot(*np.ptp(np.asarray(poses)[:, :2], axis=0)))
