@@ -130,6 +130,16 @@ def test_special_motions_are_named_and_nothing_is_invented(name, count):
     assert synthesis.dyads == ()
 
 
+def test_two_different_angles_are_no_dyad():
+    rows = [(-8.2, 8.2, -0.3), (-2.2, 14.5, -0.3), (-12.8, -3.7, 2.8), (-5.3, -0.9, 2.8)]
+    rows.append((-0.5, 5.5, -0.3))
+    synthesis = synthesize(Task(Displacement.from_poses(rows)))
+    assert [warning.code for warning in synthesis.warnings] == ["W206"]
+    assert len(synthesis.dyads) == 2
+    drive_all(synthesis)
+    assert synthesis.linkages[0].error.worst < 1e-9
+
+
 def test_repeated_poses_are_counted():
     rng = np.random.default_rng(1)
     rows = random_poses(random_four_bar(rng), rng, 5)

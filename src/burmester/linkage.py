@@ -19,6 +19,7 @@ __all__ = ["Linkage", "Links", "grashof"]
 
 CHANGE_POINT = 1e-9  # relative excess of link lengths below which Grashof's sum is a tie
 BLOCK = 4096  # poses looked at together by `nearest`
+FAR = 1e3  # lengths; the longest step of that projection
 STEPS = 40  # at most, of the projection in `nearest`; a few are enough near the poses
 
 # Coupler angles tried around that of a pose, in radians: dense where the answer will be.
@@ -103,10 +104,10 @@ class Linkage:
     def nearest(self, poses: Displacement, length: float) -> Displacement:
         """The coupler's place nearest to each pose (N,), on whichever circuit it lies.
 
-        Near means the least |position difference|² + (length x angle difference)².  Started
-        from the best of 50 places of the coupler about the angle of the pose and followed by
-        projection to the local minimum; that no other minimum is nearer is not proved.
-        nan where the linkage reaches no place at all.
+        Near means the least |position difference|² + (length x angle difference)².  Followed by
+        projection to a local minimum from two starts: the best of 50 places of the coupler
+        about the angle of the pose, and the pose itself.  That no other minimum is nearer is
+        not proved.  nan where the linkage reaches no place at all.
         """
         blocks = [poses[at : at + BLOCK] for at in range(0, poses.shape[0], BLOCK)]
         rows = np.concatenate([self._nearest(block, length) for block in blocks])
@@ -116,25 +117,27 @@ class Linkage:
         """Rows (N, 3) of x, y, length x angle; see `nearest`."""
         wanted = _rows(poses, length)
         tries = _rows(self.couplers(poses.angle[:, None] + _AROUND), length)
-        tries = tries.reshape(poses.shape[0], -1, 3)
-        distance = np.nan_to_num(np.linalg.norm(tries - wanted[:, None], axis=-1), nan=np.inf)
-        best = distance.argmin(axis=1)[:, None]
-        start = np.take_along_axis(tries, best[..., None], axis=1)[:, 0]
-        reach = np.take_along_axis(distance, best, axis=1)[:, 0]
+        places = np.full((3, *wanted.shape), np.nan)  # a known one, and two projected ones
+        places[0] = _closest(tries.reshape(poses.shape[0], -1, 3), wanted[:, None])
+        places[1] = self._project(places[0], wanted, length)
+        places[2] = self._project(wanted, wanted, length)
+        return _closest(np.moveaxis(places, 0, 1), wanted[:, None])
 
-        at = np.where(np.isfinite(reach)[:, None], start, wanted)
+    def _project(self, at: FloatArray, wanted: FloatArray, length: float) -> FloatArray:
+        """The places (N, 3) nearest to the wanted rows that are reached from `at`, or nan."""
+        at = np.where(np.isfinite(at), at, wanted)
         for _ in range(STEPS):
             miss, slope = self._tangents(at, length)
             # The point of both tangent planes that is nearest to the wanted pose.
             gap = miss + (slope @ (wanted - at)[..., None])[..., 0]
             step = wanted - at - (np.linalg.pinv(slope) @ gap[..., None])[..., 0]
+            step = np.clip(step, -FAR * length, FAR * length)  # a lost row stays finite
             at = at + step
-            if not np.isfinite(at).all() or np.abs(step).max() < 1e-14 * length:
+            if np.abs(step).max() < 1e-14 * length:
                 break
         miss, _ = self._tangents(at, length)
-        met = (np.abs(miss) < 1e-9 * length).all(axis=-1)
-        closer = ~(np.linalg.norm(at - wanted, axis=-1) > reach)
-        return np.where((met & closer)[:, None], at, start)
+        met = (np.abs(miss) < 1e-9 * length).all(axis=-1, keepdims=True)
+        return np.where(met, at, np.nan)
 
     def _tangents(self, rows: FloatArray, length: float) -> tuple[FloatArray, FloatArray]:
         """Residuals (N, 2) of both dyads and their gradients (N, 2, 3) at rows; see `_nearest`."""
@@ -147,6 +150,12 @@ class Linkage:
 
 def _rows(places: Displacement, length: float) -> FloatArray:
     return np.concatenate([places.translation, length * places.angle[..., None]], axis=-1)
+
+
+def _closest(places: FloatArray, wanted: FloatArray) -> FloatArray:
+    """Of places (N, k, 3), some nan, the one nearest to wanted (N, 1, 3): rows (N, 3)."""
+    distance = np.nan_to_num(np.linalg.norm(places - wanted, axis=-1), nan=np.inf)
+    return np.take_along_axis(places, distance.argmin(axis=1)[:, None, None], axis=1)[:, 0]
 
 
 def grashof(links: Links) -> str:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from itertools import combinations
 from typing import Literal, final
 
 import numpy as np
 
-from burmester.displacement import Displacement, FloatArray
+from burmester.accuracy import PoseError
+from burmester.displacement import FloatArray
 from burmester.dyad import RR, Dyad
 from burmester.errors import InputError
 from burmester.exact import FivePoseDyads, dyads_of_five
@@ -24,7 +25,6 @@ __all__ = [
     "FoundLinkage",
     "Method",
     "Outcome",
-    "PoseError",
     "Synthesis",
     "synthesize",
 ]
@@ -36,6 +36,7 @@ NEARLY_STRAIGHT = 0.05  # a manifold nearer than this to a slider's may be that 
 LONG = 100.0  # a longer link is a slider if that fits half as well, or is called nearly one
 SAME = 1e-6  # dyads with both pivots nearer than this are one
 COARSE = 1e-3  # coarser digits than this count as meant exactly, not as measured
+NULL = 1e-9  # what rounding leaves of a coefficient that is zero
 ROUNDING = 1e-11  # errors below this are rounding of the computation, and all equally good
 
 
@@ -72,31 +73,6 @@ class FoundDyad:
     rms_error: float
     max_error: float
     minimum: bool = True
-
-
-@final
-@dataclass(frozen=True, slots=True, eq=False)
-class PoseError:
-    """How far the coupler stays from the poses at its nearest places (`Linkage.nearest`).
-
-    Position in the task's length unit, angle in radians.
-    """
-
-    places: Displacement
-    position: FloatArray
-    angle: FloatArray
-
-    @classmethod
-    def of(cls, linkage: Linkage, poses: Displacement, length: float) -> PoseError:
-        """The pose error of a linkage; `length` trades angle against position."""
-        places = linkage.nearest(poses, length)
-        gap = places.translation - poses.translation
-        return cls(places, np.hypot(gap[:, 0], gap[:, 1]), np.abs(places.angle - poses.angle))
-
-    @property
-    def worst(self) -> float:
-        """The greatest position error, infinite where some pose has no place near it."""
-        return float(np.nan_to_num(self.position, nan=np.inf).max())
 
 
 @final
@@ -194,11 +170,13 @@ def _pick(fit: Pencil | FivePoseDyads, task: Task) -> list[FoundDyad]:
     seen = fit.frames.see(task.poses)
     known = _known(task, length) * length
     # Noise turns the null space, and so every manifold in it, by about this angle.
-    blur = max(float(fit.noise), _known(task, length) * np.sqrt(len(seen.angle)))
+    blur = max(float(fit.noise), _known(task, length) * np.sqrt(len(seen.angle)), NULL)
     near = min(3 * blur / max(float(fit.gap), 1e-300), NEARLY_STRAIGHT)
     found: list[tuple[Dyad, float, float]] = []
     for k in np.flatnonzero(np.isfinite(fit.coefficients).all(axis=-1)):
         p = fit.coefficients[k]
+        if _two_angles(p):
+            continue
         circle = fit.dyads[k]
         best: tuple[Dyad, float, float]
         best = circle, float(fit.rms_error[k]), float(fit.max_error[k])
@@ -216,6 +194,15 @@ def _pick(fit: Pencil | FivePoseDyads, task: Task) -> list[FoundDyad]:
 
     found.sort(key=order)
     return [FoundDyad(f"D{i}", *item) for i, item in enumerate(found, start=1)]
+
+
+def _two_angles(p: FloatArray) -> bool:
+    """Whether p (8,) says nothing of places, only that the angle is one of two: no dyad.
+
+    Such a quadric, two planes, holds the poses where they have but two different angles.  It
+    is a double root, and so known to half the digits only.
+    """
+    return bool(np.linalg.norm(p[[0, 2, 3, 4, 5]]) < SAME * np.linalg.norm(p))
 
 
 def _known(task: Task, length: float) -> float:
@@ -240,6 +227,14 @@ def _finish(task: Task, method: Method, fit: Pencil | FivePoseDyads) -> Synthesi
         for item in found
         if isinstance(item.dyad, RR) and item.dyad.radius > LONG * length
     ]
+    if any(_two_angles(p) for p in fit.coefficients):
+        warnings.append(
+            Advice(
+                "W206",
+                "the poses have two different angles only, and one solution is just that",
+                "it is no dyad and is left out; give the poses more different angles",
+            )
+        )
     pairs = []
     for first, second in combinations(found, 2):
         if _same(first.dyad, second.dyad, length):
@@ -264,10 +259,10 @@ def _finish(task: Task, method: Method, fit: Pencil | FivePoseDyads) -> Synthesi
 
 
 def _same(a: Dyad, b: Dyad, length: float) -> bool:
-    if not (isinstance(a, RR) and isinstance(b, RR)):
+    if type(a) is not type(b):
         return False
-    gaps = [a.fixed_pivot - b.fixed_pivot, a.moving_pivot - b.moving_pivot]
-    return bool(np.abs(gaps).max() < SAME * length)
+    gaps = [(np.abs(getattr(a, f.name) - getattr(b, f.name)).max(), f.name) for f in fields(a)]
+    return all(gap < (SAME if name.endswith("angle") else SAME * length) for gap, name in gaps)
 
 
 def _special(task: Task, fit: Pencil | FivePoseDyads) -> Outcome | None:
