@@ -29,6 +29,8 @@ ComplexArray = NDArray[np.complex128]
 
 REAL = 1e-7  # imaginary share below which a polished root counts as real
 NEWTON_STEPS = 3
+SHARPER = 1e-5  # of a dyad's size; a longer step is not one of rounding
+STRAIGHT = 1e6  # characteristic lengths; a longer link is a slider up to rounding
 
 # Monomials of degree 2 and 3 in three unknowns, and where a product of them lands.
 _QUADRATIC = list(combinations_with_replacement(range(3), 2))
@@ -119,7 +121,7 @@ def dyads_of_five(poses: Displacement) -> FivePoseDyads:
         residual,
         separation,
         determined,
-        frames.circle_back(circles),
+        _sharpened(frames.circle_back(circles), poses, length),
         rms_error * length,
         max_error * length,
     )
@@ -236,3 +238,40 @@ def _polish(p: ComplexArray, design: FloatArray) -> ComplexArray:
         p = p - np.where(sound[..., None], step, 0.0)
         p = p / np.linalg.norm(p, axis=-1, keepdims=True)
     return p
+
+
+def _sharpened(dyads: RR, poses: Displacement, length: FloatArray) -> RR:
+    """Dyads (*, 4) with the digits that rounding in the fit has cost put right, as far as can be.
+
+    Newton steps on the circle equations of the poses (*, 5) as they were given, with
+    residuals in the machine's longest floating point (80 bits on x86, else 64: no loss).
+    Left as they are: sliders (`length` is (*, 1), see `frames`), and double roots, which have
+    no more digits to gain.
+    """
+    long = np.longdouble
+    d1, d2 = np.moveaxis(poses.translation.astype(long), -1, 0)[..., None, :]
+    cos, sin = (f(poses.angle.astype(long))[..., None, :] for f in (np.cos, np.sin))
+    given = np.concatenate([dyads.fixed_pivot, dyads.moving_pivot], axis=-1)
+    size = np.where(dyads.radius < STRAIGHT * length, np.abs(given).max(axis=-1) + length, 0.0)
+    x = given.astype(long)
+    best, radius, least = given, dyads.radius, np.full(size.shape, np.inf)
+    for _ in range(3):
+        c1, c2, m1, m2 = np.moveaxis(x, -1, 0)[..., None]
+        a1, a2 = cos * m1 - sin * m2 + (d1 - c1), sin * m1 + cos * m2 + (d2 - c2)
+        squared = a1 * a1 + a2 * a2
+        mean = squared.mean(axis=-1)
+        miss = np.asarray(squared - mean[..., None], dtype=np.float64)
+        worst = np.abs(miss).max(axis=-1)
+        better = (worst < least) & (size > 0)
+        best = np.where(better[..., None], np.asarray(x, dtype=np.float64), best)
+        radius = np.where(better, np.asarray(np.sqrt(mean), dtype=np.float64), radius)
+        least = np.where(better, worst, least)
+        columns = [-a1, -a2, cos * a1 + sin * a2, cos * a2 - sin * a1, np.full_like(a1, -0.5)]
+        jacobian = np.asarray(2 * np.stack(columns, axis=-1), dtype=np.float64)
+        try:
+            step = np.linalg.solve(jacobian, miss[..., None])[..., :4, 0]
+        except np.linalg.LinAlgError:
+            break
+        small = np.abs(step).max(axis=-1, keepdims=True) < SHARPER * size[..., None]
+        x = x - np.where(small, step, 0.0)
+    return RR(best[..., :2], best[..., 2:], radius)

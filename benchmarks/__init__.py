@@ -1,0 +1,1 @@
+"""Figures of speed, memory and accuracy, each beside what it replaces; see README.md."""
