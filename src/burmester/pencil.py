@@ -33,7 +33,7 @@ from burmester.frames import CanonicalFrames
 __all__ = ["Pencil", "fit_pencil"]
 
 LEAST_POSES = 6  # below, the quadrics through the poses are more than a pencil
-BLOCK = 16_384  # rows of the design matrix that are reduced at a time
+BLOCK = 1024  # rows reduced at a time; small enough that BLAS starts no threads for them
 
 # With the seventh monomial counted by sqrt(2), a rotation of F or M turns the eight of them
 # by an orthogonal matrix, and the singular values and the pencil do not depend on it.
@@ -138,16 +138,17 @@ def _design(poses: Displacement, weights: FloatArray | None, metric: FloatArray)
 
     Many poses are reduced block by block (QR), so that memory and time stay linear in N.
     """
-    count = poses.shape[-1]
     blocks: list[FloatArray] = []
-    for start in range(0, count, BLOCK):
+    for start in range(0, poses.shape[-1], BLOCK):
         rows = slice(start, start + BLOCK)
         part = Displacement(poses.translation[..., rows, :], poses.angle[..., rows])
         block = manifold.monomials(part.as_image_point()) * metric
         if weights is not None:
             block *= np.sqrt(weights[..., rows, None])
-        blocks.append(block if count <= BLOCK else np.asarray(np.linalg.qr(block, mode="r")))
-    return blocks[0] if len(blocks) == 1 else np.concatenate(blocks, axis=-2)
+        blocks.append(block)
+        if block.shape[-2] == BLOCK:
+            blocks = [np.asarray(np.linalg.qr(np.concatenate(blocks, axis=-2), mode="r"))]
+    return np.concatenate(blocks, axis=-2)
 
 
 def _stationary_points(v1: FloatArray, v2: FloatArray) -> FloatArray:
