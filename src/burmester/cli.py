@@ -43,11 +43,11 @@ def burmester() -> None:
 @click.argument("poses")
 @click.option(
     "--method",
-    type=click.Choice(["auto", "pencil", "exact"]),
+    type=click.Choice(["auto", "pencil", "complete", "exact"]),
     default="auto",
     show_default=True,
-    help="pencil: 6 poses or more, as closely as the paper's method can; "
-    "exact: 5 poses; auto: by the number of poses.",
+    help="pencil: the paper's two dyads for 6 poses or more; complete: every locally best dyad "
+    "for 6 or more; exact: all dyads through 5; auto: exact for 5, pencil for more.",
 )
 @click.option(
     "--raw",
@@ -63,7 +63,7 @@ def burmester() -> None:
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object and nothing else.")
 def synthesize(
     poses: str,
-    method: Literal["auto", "pencil", "exact"],
+    method: Literal["auto", "pencil", "complete", "exact"],
     raw: bool,
     angle_unit: Literal["deg", "rad"] | None,
     as_json: bool,

@@ -19,11 +19,15 @@ __all__ = ["Linkage", "Links", "grashof"]
 
 CHANGE_POINT = 1e-9  # relative excess of link lengths below which Grashof's sum is a tie
 BLOCK = 4096  # poses looked at together by `nearest`
+TINY = 1e-300  # keeps 0 / 0 away from a pivot that meets its centre
 FAR = 1e3  # lengths; the longest step of that projection
-STEPS = 40  # at most, of the projection in `nearest`; a few are enough near the poses
+STEPS = 60  # at most, of the projection in `nearest`; a few are enough near the poses
 
-# Coupler angles tried around that of a pose, in radians: dense where the answer will be.
+# Coupler angles tried around that of a pose, in radians: dense where the answer will be, and
+# every degree and a half where there are not too many poses for that.
 _AROUND = np.concatenate([[0.0], *((-a, a) for a in np.pi * 0.5 ** np.arange(12))])
+_EVERYWHERE = np.concatenate([_AROUND, np.linspace(-np.pi, np.pi, 241)])
+MANY = 1000  # poses
 
 _TYPES = {
     frozenset({RR, PR}): "slider-crank",
@@ -105,9 +109,9 @@ class Linkage:
         """The coupler's place nearest to each pose (N,), on whichever circuit it lies.
 
         Near means the least |position difference|² + (length x angle difference)².  Followed by
-        projection to a local minimum from two starts: the best of 50 places of the coupler
-        about the angle of the pose, and the pose itself.  That no other minimum is nearer is
-        not proved.  nan where the linkage reaches no place at all.
+        projection to a local minimum from two starts: the best of some 500 places of the coupler
+        (50 near the pose where there are more than 1000 poses), and the pose itself.  That no
+        other minimum is nearer is not proved.  nan where the linkage reaches no place at all.
         """
         blocks = [poses[at : at + BLOCK] for at in range(0, poses.shape[0], BLOCK)]
         rows = np.concatenate([self._nearest(block, length) for block in blocks])
@@ -116,40 +120,57 @@ class Linkage:
     def _nearest(self, poses: Displacement, length: float) -> FloatArray:
         """Rows (N, 3) of x, y, length x angle; see `nearest`."""
         wanted = _rows(poses, length)
-        tries = _rows(self.couplers(poses.angle[:, None] + _AROUND), length)
-        places = np.full((3, *wanted.shape), np.nan)  # a known one, and two projected ones
-        places[0] = _closest(tries.reshape(poses.shape[0], -1, 3), wanted[:, None])
-        places[1] = self._project(places[0], wanted, length)
-        places[2] = self._project(wanted, wanted, length)
-        return _closest(np.moveaxis(places, 0, 1), wanted[:, None])
+        around = _EVERYWHERE if poses.shape[0] <= MANY else _AROUND
+        tries = _rows(self.couplers(poses.angle[:, None] + around), length)
+        start = _closest(tries.reshape(len(wanted), -1, 3), wanted[:, None])
+        reached = self._project(
+            np.stack([np.where(np.isfinite(start), start, wanted), wanted], axis=1),
+            wanted[:, None],
+            length,
+        )
+        return _closest(np.concatenate([start[:, None], reached], axis=1), wanted[:, None])
 
     def _project(self, at: FloatArray, wanted: FloatArray, length: float) -> FloatArray:
-        """The places (N, 3) nearest to the wanted rows that are reached from `at`, or nan."""
-        at = np.where(np.isfinite(at), at, wanted)
+        """The places (N, k, 3) nearest to wanted (N, 1, 3) that are reached from `at`, or nan.
+
+        Each step goes back to both dyads' tangent planes and along their intersection towards
+        the wanted pose; less far from then on where it went past the foot of it.
+        """
+        before, share = np.zeros_like(at), np.ones((*at.shape[:-1], 1))
         for _ in range(STEPS):
-            miss, slope = self._tangents(at, length)
-            # The point of both tangent planes that is nearest to the wanted pose.
-            gap = miss + (slope @ (wanted - at)[..., None])[..., 0]
-            step = wanted - at - (np.linalg.pinv(slope) @ gap[..., None])[..., 0]
-            step = np.clip(step, -FAR * length, FAR * length)  # a lost row stays finite
-            at = at + step
-            if np.abs(step).max() < 1e-14 * length:
+            (m1, m2), (s1, s2) = self._tangents(at, length)
+            # Back: the least step with s1 · step = -m1 and s2 · step = -m2.
+            a, b, c = _dot(s1, s1), _dot(s1, s2), _dot(s2, s2)
+            size = np.maximum(a * c - b * b, 1e-20 * a * c) + TINY
+            back = -(s1 * (c * m1 - b * m2) + s2 * (a * m2 - b * m1)) / size
+            line = np.cross(s1, s2)
+            along = line * _dot(line, wanted - at) / size
+            share = np.where(_dot(along, before) < 0, share / 2, share)
+            # A lost row stays finite.
+            step = np.clip(share * along + back, -FAR * length, FAR * length)
+            at, before = at + step, along
+            # An error along the curve changes the distance by its square only.
+            if np.abs(along).max() < 1e-8 * length and np.abs(back).max() < 1e-13 * length:
                 break
         miss, _ = self._tangents(at, length)
-        met = (np.abs(miss) < 1e-9 * length).all(axis=-1, keepdims=True)
+        met = (np.abs(miss) < 1e-9 * length).all(axis=0)
         return np.where(met, at, np.nan)
 
     def _tangents(self, rows: FloatArray, length: float) -> tuple[FloatArray, FloatArray]:
-        """Residuals (N, 2) of both dyads and their gradients (N, 2, 3) at rows; see `_nearest`."""
-        place = Displacement(rows[:, :2], rows[:, 2] / length)
+        """Residuals (2, *, 1) of both dyads and their gradients (2, *, 3) at rows (*, 3)."""
+        place = Displacement(rows[..., :2], rows[..., 2] / length)
         dyads = (self.first, self.second)
-        miss = np.stack([dyad.residual(place) for dyad in dyads], axis=-1)
-        slope = np.stack([dyad.gradient(place) for dyad in dyads], axis=-2)
-        return miss, slope / np.array([1.0, 1.0, length])
+        miss = np.stack([dyad.residual(place) for dyad in dyads])
+        slope = np.stack([dyad.gradient(place) for dyad in dyads])
+        return miss[..., None], slope / np.array([1.0, 1.0, length])
 
 
 def _rows(places: Displacement, length: float) -> FloatArray:
     return np.concatenate([places.translation, length * places.angle[..., None]], axis=-1)
+
+
+def _dot(a: FloatArray, b: FloatArray) -> FloatArray:
+    return np.asarray(np.einsum("...i,...i->...", a, b)[..., None])
 
 
 def _closest(places: FloatArray, wanted: FloatArray) -> FloatArray:

@@ -3,20 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from itertools import combinations
 from typing import Literal, final
 
 import numpy as np
 
 from burmester.accuracy import PoseError
-from burmester.displacement import FloatArray
-from burmester.dyad import RR, Dyad
+from burmester.candidates import (
+    LONG,
+    ROUNDING,
+    Fit,
+    FoundDyad,
+    found_dyads,
+    known,
+    same_dyad,
+    says_two_angles,
+)
+from burmester.dyad import RR
 from burmester.errors import InputError
+from burmester.critical import COUNT
 from burmester.exact import FivePoseDyads, dyads_of_five
 from burmester.linkage import Linkage
+from burmester.optimal import BestDyads, best_dyads
 from burmester.pencil import Pencil, fit_pencil
-from burmester.prismatic import straightened
 from burmester.task import Task
 
 __all__ = [
@@ -29,15 +39,7 @@ __all__ = [
     "synthesize",
 ]
 
-Method = Literal["auto", "pencil", "exact"]
-
-# In characteristic lengths of the task, where they are lengths.
-NEARLY_STRAIGHT = 0.05  # a manifold nearer than this to a slider's may be that slider
-LONG = 100.0  # a longer link is a slider if that fits half as well, or is called nearly one
-SAME = 1e-6  # dyads with both pivots nearer than this are one
-COARSE = 1e-3  # coarser digits than this count as meant exactly, not as measured
-NULL = 1e-9  # what rounding leaves of a coefficient that is zero
-ROUNDING = 1e-11  # errors below this are rounding of the computation, and all equally good
+Method = Literal["auto", "pencil", "exact", "complete"]
 
 
 @final
@@ -57,22 +59,6 @@ class Advice:
     code: str
     message: str
     help: str
-
-
-@final
-@dataclass(frozen=True, slots=True, eq=False)
-class FoundDyad:
-    """A dyad with its distance from the poses, in the task's length unit.
-
-    minimum: whether it is a local minimum of what the method minimises; the exact method's
-    dyads pass through the poses and are minima all.
-    """
-
-    id: str
-    dyad: Dyad
-    rms_error: float
-    max_error: float
-    minimum: bool = True
 
 
 @final
@@ -107,14 +93,15 @@ class Synthesis:
     dyads: tuple[FoundDyad, ...]
     linkages: tuple[FoundLinkage, ...]
     warnings: tuple[Advice, ...]
-    fit: Pencil | FivePoseDyads | None
+    fit: Fit | None
 
 
 def synthesize(task: Task, method: Method = "auto", *, normalise: bool = True) -> Synthesis:
     """The dyads of a task and the linkages made of them.
 
     method: "pencil" is the paper's, for 6 or more poses, met as closely as it can; "exact"
-        solves Burmester's problem for 5; "auto" takes the one that fits the number of poses.
+        solves Burmester's problem for 5; "complete" finds every locally best dyad of 6 or more;
+        "auto" is exact for 5 poses and the pencil for more.
     normalise: False lets the pencil fit the numbers as they come, as the paper does.
     Three or four poses have infinitely many dyads: see `exact` and `curve` for them all.
     Raises InputError E121 where the method does not take that number of poses.
@@ -123,8 +110,9 @@ def synthesize(task: Task, method: Method = "auto", *, normalise: bool = True) -
     if method == "auto":
         method = "pencil" if count >= 6 else "exact"
     if method == "pencil":
-        pencil = fit_pencil(task.poses, task.weights, normalise=normalise)
-        return _finish(task, method, pencil)
+        return _finish(task, method, fit_pencil(task.poses, task.weights, normalise=normalise))
+    if method == "complete":
+        return _finish(task, method, best_dyads(task.poses, task.weights))
     if count > 5:
         raise InputError(
             "E121",
@@ -159,64 +147,12 @@ def synthesize(task: Task, method: Method = "auto", *, normalise: bool = True) -
     return _finish(task, method, dyads_of_five(task.poses))
 
 
-def _pick(fit: Pencil | FivePoseDyads, task: Task) -> list[FoundDyad]:
-    """The dyads of a fit, each as the circle or the slider that it is.
-
-    A long link is a slider where the line it nearly follows fits the poses as well as the
-    circle does, or as well as the poses are known.  For noisy poses that is a heuristic.
-    Sorted by rms error; where errors are mere rounding, by the length of the link.
-    """
-    length = float(fit.frames.length)
-    seen = fit.frames.see(task.poses)
-    known = _known(task, length) * length
-    # Noise turns the null space, and so every manifold in it, by about this angle.
-    blur = max(float(fit.noise), _known(task, length) * np.sqrt(len(seen.angle)), NULL)
-    near = min(3 * blur / max(float(fit.gap), 1e-300), NEARLY_STRAIGHT)
-    found: list[tuple[Dyad, float, float]] = []
-    for k in np.flatnonzero(np.isfinite(fit.coefficients).all(axis=-1)):
-        p = fit.coefficients[k]
-        if _two_angles(p):
-            continue
-        circle = fit.dyads[k]
-        best: tuple[Dyad, float, float]
-        best = circle, float(fit.rms_error[k]), float(fit.max_error[k])
-        if abs(p[0]) < NEARLY_STRAIGHT * np.linalg.norm(p):
-            line, *errors, apart = straightened(p, seen, task.weights)
-            rms, worst = length * errors[0], length * errors[1]
-            allowed = max(best[1] * (1 if circle.radius < LONG * length else 2), known)
-            if apart < near and not rms > allowed:
-                best = fit.frames.line_back(line), rms, worst
-        found.append(best)
-
-    def order(item: tuple[Dyad, float, float]) -> tuple[float, float]:
-        size = float(item[0].radius) if isinstance(item[0], RR) else np.inf
-        return np.round(item[1] / (ROUNDING * length)), size
-
-    found.sort(key=order)
-    return [FoundDyad(f"D{i}", *item) for i, item in enumerate(found, start=1)]
-
-
-def _two_angles(p: FloatArray) -> bool:
-    """Whether p (8,) says nothing of places, only that the angle is one of two: no dyad.
-
-    Such a quadric, two planes, holds the poses where they have but two different angles.  It
-    is a double root, and so known to half the digits only.
-    """
-    return bool(np.linalg.norm(p[[0, 2, 3, 4, 5]]) < SAME * np.linalg.norm(p))
-
-
-def _known(task: Task, length: float) -> float:
-    """How exactly the poses are known, as a share of the characteristic length."""
-    position, angle = task.resolution
-    return max(min(position / length + angle, COARSE), ROUNDING)
-
-
-def _finish(task: Task, method: Method, fit: Pencil | FivePoseDyads) -> Synthesis:
+def _finish(task: Task, method: Method, fit: Fit) -> Synthesis:
     """Join the dyads of a fit to linkages, rank them, and say what came of it."""
     length = float(fit.frames.length)
     if (special := _special(task, fit)) is not None:
         return Synthesis(task, method, special, length, (), (), (), fit)
-    found = _pick(fit, task)
+    found = found_dyads(fit, task)
     warnings = [
         Advice(
             "W204",
@@ -227,7 +163,16 @@ def _finish(task: Task, method: Method, fit: Pencil | FivePoseDyads) -> Synthesi
         for item in found
         if isinstance(item.dyad, RR) and item.dyad.radius > LONG * length
     ]
-    if any(_two_angles(p) for p in fit.coefficients):
+    if isinstance(fit, BestDyads) and fit.critical.found < COUNT:
+        warnings.append(
+            Advice(
+                "W207",
+                f"{fit.critical.found} of {COUNT} critical points were told apart: a locally best "
+                "dyad may be missing",
+                "compare with --method pencil; poses of a special motion are the usual reason",
+            )
+        )
+    if any(says_two_angles(p) for p in fit.coefficients):
         warnings.append(
             Advice(
                 "W206",
@@ -237,7 +182,7 @@ def _finish(task: Task, method: Method, fit: Pencil | FivePoseDyads) -> Synthesi
         )
     pairs = []
     for first, second in combinations(found, 2):
-        if _same(first.dyad, second.dyad, length):
+        if same_dyad(first.dyad, second.dyad, length):
             warnings.append(
                 Advice(
                     "W205",
@@ -258,20 +203,13 @@ def _finish(task: Task, method: Method, fit: Pencil | FivePoseDyads) -> Synthesi
     return Synthesis(task, method, outcome, length, tuple(found), linkages, tuple(warnings), fit)
 
 
-def _same(a: Dyad, b: Dyad, length: float) -> bool:
-    if type(a) is not type(b):
-        return False
-    gaps = [(np.abs(getattr(a, f.name) - getattr(b, f.name)).max(), f.name) for f in fields(a)]
-    return all(gap < (SAME if name.endswith("angle") else SAME * length) for gap, name in gaps)
-
-
-def _special(task: Task, fit: Pencil | FivePoseDyads) -> Outcome | None:
+def _special(task: Task, fit: Fit) -> Outcome | None:
     """The outcome where more quadrics contain the poses than the method can tell apart.
 
     The least singular value that must not vanish is held against what the rounding of the
     poses makes of a zero.  With digits coarser than COARSE that is a heuristic.
     """
-    noise = _known(task, float(fit.frames.length)) * np.sqrt(task.poses.shape[0] / 3)
+    noise = known(task, float(fit.frames.length)) * np.sqrt(task.poses.shape[0] / 3)
     if fit.gap > 3 * noise:
         return None
     poses, nullity = task.poses, 2 if isinstance(fit, Pencil) else 3
@@ -291,14 +229,15 @@ def _special(task: Task, fit: Pencil | FivePoseDyads) -> Outcome | None:
     )
 
 
-def _outcome(
-    fit: Pencil | FivePoseDyads, found: Sequence[FoundDyad], linkages: Sequence[FoundLinkage]
-) -> Outcome:
+def _outcome(fit: Fit, found: Sequence[FoundDyad], linkages: Sequence[FoundLinkage]) -> Outcome:
     def count(number: int, noun: str) -> str:
         return f"{number or 'no'} {noun}{'' if number == 1 else 's'}"
 
     if isinstance(fit, FivePoseDyads):
         dyads = count(len(found), "real dyad") + " (of the 4 that five poses have)"
+    elif isinstance(fit, BestDyads):
+        dyads = count(len(found), "locally best dyad")
+        dyads += f" ({fit.critical.found} of {COUNT} critical points accounted for)"
     else:
         dyads = count(len(found), "dyad")
     if linkages:

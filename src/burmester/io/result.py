@@ -11,10 +11,11 @@ from typing import Any
 
 import numpy as np
 
+from burmester.candidates import FoundDyad
 from burmester.displacement import Displacement
 from burmester.dyad import PP, PR, RP, RR
 from burmester.errors import BurmesterError
-from burmester.synthesis import FoundDyad, FoundLinkage, Synthesis
+from burmester.synthesis import FoundLinkage, Synthesis
 
 __all__ = ["failure", "plain"]
 

@@ -12,10 +12,11 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from burmester.candidates import ROUNDING
 from burmester.comparison import Section, Verdict
 from burmester.dyad import PP, PR, RP, RR, Dyad
 from burmester.errors import BurmesterError
-from burmester.synthesis import ROUNDING, FoundLinkage, Synthesis
+from burmester.synthesis import FoundLinkage, Synthesis
 
 __all__ = ["show_error", "show_reproduction", "show_synthesis"]
 

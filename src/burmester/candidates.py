@@ -1,0 +1,124 @@
+"""The dyads of a fit, each as the circle or the slider that it is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import TypeAlias, final
+
+import numpy as np
+
+from burmester.displacement import FloatArray
+from burmester.dyad import PR, RP, RR, Dyad
+from burmester.exact import FivePoseDyads
+from burmester.optimal import BestDyads
+from burmester.pencil import Pencil
+from burmester.prismatic import fixed_lines, moving_lines, straightened
+from burmester.task import Task
+
+__all__ = [
+    "LONG",
+    "ROUNDING",
+    "Fit",
+    "FoundDyad",
+    "found_dyads",
+    "known",
+    "same_dyad",
+    "says_two_angles",
+]
+
+Fit: TypeAlias = Pencil | FivePoseDyads | BestDyads
+Candidate: TypeAlias = tuple[Dyad, float, float]  # with its rms and greatest error
+
+# In characteristic lengths of the task, where they are lengths.
+NEARLY_STRAIGHT = 0.05  # a manifold nearer than this to a slider's may be that slider
+LONG = 100.0  # a longer link is a slider if that fits half as well, or is called nearly one
+SAME = 1e-6  # dyads with both pivots nearer than this are one
+COARSE = 1e-3  # coarser digits than this count as meant exactly, not as measured
+NULL = 1e-9  # what rounding leaves of a coefficient that is zero
+ROUNDING = 1e-11  # errors below this are rounding of the computation, and all equally good
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class FoundDyad:
+    """A dyad with its distance from the poses, in the task's length unit.
+
+    minimum: whether it is a local minimum of what the method minimises; the exact method's
+    dyads pass through the poses and are minima all.
+    """
+
+    id: str
+    dyad: Dyad
+    rms_error: float
+    max_error: float
+    minimum: bool = True
+
+
+def found_dyads(fit: Fit, task: Task) -> list[FoundDyad]:
+    """The dyads of a fit, each as the circle or the slider that it is, and each once.
+
+    A long link is a slider where the line it nearly follows fits the poses as well as the
+    circle does, or as well as the poses are known.  For noisy poses that is a heuristic.
+    Sorted by rms error; where errors are mere rounding, by the length of the link.
+    """
+    length = float(fit.frames.length)
+    seen = fit.frames.see(task.poses)
+    # Noise turns the null space, and so every manifold in it, by about this angle.
+    blur = max(float(fit.noise), known(task, length) * np.sqrt(len(seen.angle)), NULL)
+    near = min(3 * blur / max(float(fit.gap), 1e-300), NEARLY_STRAIGHT)
+    found: list[Candidate] = []
+
+    def add_slider(line: PR | RP, rms: float, worst: float) -> None:
+        slider = fit.frames.line_back(line)
+        if not any(same_dyad(slider, other, length) for other, *_ in found):
+            found.append((slider, length * rms, length * worst))
+
+    for k in np.flatnonzero(np.isfinite(fit.coefficients).all(axis=-1)):
+        p, circle = fit.coefficients[k], fit.dyads[k]
+        rms, worst = float(fit.rms_error[k]), float(fit.max_error[k])
+        if says_two_angles(p):
+            continue
+        if abs(p[0]) < NEARLY_STRAIGHT * np.linalg.norm(p):
+            line, *errors, apart = straightened(p, seen, task.weights)
+            share = 1 if circle.radius < LONG * length else 2
+            allowed = max(share * rms, known(task, length) * length)
+            if apart < near and not length * errors[0] > allowed:
+                add_slider(line, *errors)
+                continue
+        found.append((circle, rms, worst))
+    if isinstance(fit, BestDyads):
+        for lines, every_rms, every_worst in (
+            fixed_lines(seen, task.weights),
+            moving_lines(seen, task.weights),
+        ):
+            add_slider(lines[0], float(every_rms[0]), float(every_worst[0]))
+
+    def order(item: Candidate) -> tuple[float, float]:
+        size = float(item[0].radius) if isinstance(item[0], RR) else np.inf
+        return np.round(item[1] / (ROUNDING * length)), size
+
+    found.sort(key=order)
+    return [FoundDyad(f"D{i}", *item) for i, item in enumerate(found, start=1)]
+
+
+def says_two_angles(p: FloatArray) -> bool:
+    """Whether p (8,) says nothing of places, only that the angle is one of two: no dyad.
+
+    Such a quadric, two planes, holds the poses where they have but two different angles.  It
+    is a double root, and so known to half the digits only.
+    """
+    return bool(np.linalg.norm(p[[0, 2, 3, 4, 5]]) < SAME * np.linalg.norm(p))
+
+
+def known(task: Task, length: float) -> float:
+    """How exactly the poses are known, as a share of the characteristic length."""
+    position, angle = task.resolution
+    return max(min(position / length + angle, COARSE), ROUNDING)
+
+
+def same_dyad(a: Dyad, b: Dyad, length: float) -> bool:
+    """Whether two dyads are one up to rounding; `length` is the task's."""
+    if type(a) is not type(b):
+        return False
+    gaps = [(np.abs(getattr(a, f.name) - getattr(b, f.name)).max(), f.name) for f in fields(a)]
+    return all(gap < (SAME if name.endswith("angle") else SAME * length) for gap, name in gaps)

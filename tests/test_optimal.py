@@ -1,0 +1,68 @@
+"""The locally best dyads by true distance."""
+
+import json
+from importlib import resources
+
+import numpy as np
+import pytest
+from scipy.optimize import least_squares
+
+from burmester.displacement import Displacement
+from burmester.optimal import best_dyads
+from tests.witness import random_four_bar, random_poses
+
+
+def case_and_poses(name):
+    case = json.loads(resources.files("burmester").joinpath(f"cases/{name}.json").read_text())
+    rows = np.array(case["poses"])
+    return case, Displacement(rows[:, :2], np.radians(rows[:, 2]))
+
+
+@pytest.mark.parametrize("name", ["ge2012-exact", "ge2012-approximate"])
+def test_known_best_dyads_of_the_papers_poses(name):
+    case, poses = case_and_poses(name)
+    best = best_dyads(poses)
+    found = np.column_stack([best.dyads.fixed_pivot, best.dyads.radius, best.dyads.moving_pivot])
+    for wanted, squares in zip(
+        case["best_dyads_true_distance"], case["best_dyads_sum_of_squares"], strict=True
+    ):
+        k = np.abs(found - wanted).max(axis=1).argmin()
+        assert np.allclose(found[k], wanted, rtol=0, atol=5e-8)
+        assert np.isclose(best.rms_error[k] ** 2 * 10, squares, rtol=1e-9)
+
+
+def distance_residual(v, rows):
+    cos, sin = np.cos(rows[:, 2]), np.sin(rows[:, 2])
+    big_x = cos * v[2] - sin * v[3] + rows[:, 0] - v[0]
+    big_y = sin * v[2] + cos * v[3] + rows[:, 1] - v[1]
+    return np.hypot(big_x, big_y) - v[4]
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_another_solver_cannot_improve_them(seed):
+    rng = np.random.default_rng(seed)
+    rows = random_poses(random_four_bar(rng), rng, 10)
+    rows = rows + 0.01 * rng.normal(size=rows.shape)
+    best = best_dyads(Displacement.from_poses(rows))
+    for k in range(len(best.rms_error)):
+        dyad = best.dyads[k]
+        start = np.array([*dyad.fixed_pivot, *dyad.moving_pivot, dyad.radius])
+        if np.abs(start).max() > 100:
+            continue
+        ours = best.rms_error[k]
+        assert np.isclose(np.sqrt((distance_residual(start, rows) ** 2).mean()), ours, rtol=1e-7)
+        fit = least_squares(distance_residual, start, args=(rows,), method="lm", xtol=1e-14)
+        assert ours <= np.sqrt((fit.fun**2).mean()) * (1 + 1e-6)
+
+
+def test_weights_pull_towards_their_poses():
+    rng = np.random.default_rng(3)
+    rows = random_poses(random_four_bar(rng), rng, 10)
+    rows = rows + 0.01 * rng.normal(size=rows.shape)
+    weights = np.ones(10)
+    weights[3] = 1e6
+    plain = best_dyads(Displacement.from_poses(rows))
+    heavy = best_dyads(Displacement.from_poses(rows), weights)
+    pose = Displacement.from_poses(rows[3])
+    assert abs(heavy.dyads[0].residual(pose)) < 1e-6
+    assert abs(plain.dyads[0].residual(pose)) > 1e-4
