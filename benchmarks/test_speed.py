@@ -16,13 +16,14 @@ from tests.test_exact import as_rows, circle_equations
 from tests.witness import span
 
 from benchmarks.many_poses import TABLE_5, design, in_one_task, near_table_5
-from burmester import dyads_of_five, fit_pencil, synthesize
+from burmester import best_dyads, critical_dyads, dyads_of_five, fit_pencil, synthesize
 from burmester.io.poses import read_task
 
 ONE = pytest.mark.benchmark(group="1. one pencil fit with both dyads, 10 poses of Table 5")
 MILLION = pytest.mark.benchmark(group="2. one fit of a million poses")
 FIVE = pytest.mark.benchmark(group="3. five poses, all four dyads, motiongen-shoulder")
 STACK = pytest.mark.benchmark(group="5. tasks of ten poses, 100,000 in one call: time of one task")
+BEST = pytest.mark.benchmark(group="7. every locally best RR dyad, 10 poses of Table 5")
 COLD = pytest.mark.benchmark(group="6. a fresh interpreter")
 
 
@@ -181,3 +182,31 @@ def test_cold(measure, benchmark, tmp_path, what):
         beyond = [call(arguments) - call(["-c", "import numpy"]) for _ in range(21)]
         notes = {**notes, "milliseconds_beyond_NumPy": round(1e3 * float(np.median(beyond)), 1)}
     measure(what, call, arguments, rounds=21, **notes)
+
+
+# 7 ------------------------------------------------------------------------------------------
+
+
+@BEST
+def test_every_critical_point(measure):
+    """Once in every such process, before, 50 ms go into the pattern of the matrix."""
+    found = critical_dyads(TABLE_5.poses)
+    accounted = f"{found.found} of 25"
+    measure("`critical_dyads`", critical_dyads, TABLE_5.poses, accounted_for=accounted)
+
+
+@BEST
+def test_best_by_distance(measure):
+    measure("`best_dyads`: the minima, by true distance", best_dyads, TABLE_5.poses)
+
+
+@BEST
+def test_best_from_random_starts(measure):
+    """A hundred starts of Levenberg and Marquardt, which prove nothing."""
+    rows, rng = rows_of(TABLE_5.poses), np.random.default_rng(0)
+    starts = np.column_stack([rng.normal(scale=3, size=(100, 4)), rng.uniform(1, 20, 100)])
+
+    def fit():
+        return [least_squares(circle_equations, v, args=(rows,), method="lm").x for v in starts]
+
+    measure("SciPy's LM on circles from 100 random starts", fit, rounds=5)

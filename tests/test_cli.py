@@ -1,11 +1,13 @@
 """The command as its users meet it: as a process of its own."""
 
+import doctest
 import json
 import signal
 import subprocess
 import sys
 import time
 from importlib import resources
+from pathlib import Path
 
 import jsonschema
 import numpy as np
@@ -191,6 +193,13 @@ def test_methods_by_number_of_poses(poses):
     assert np.allclose(raw["singular_values"], wanted, rtol=0, atol=6e-5)
 
 
+def test_complete_method_says_what_it_accounted_for(poses):
+    data = valid(run("synthesize", poses, "--method", "complete", "--json").stdout)
+    assert data["critical_points"] == {"found": 25, "expected": 25}
+    assert data["linkages"][0]["position_error"]["max"] < 2e-4
+    assert {dyad["kind"] for dyad in data["dyads"]} == {"RR", "PR", "RP"}
+
+
 def test_cases_are_listed_and_printed():
     listed = run("cases")
     assert listed.returncode == 0
@@ -274,3 +283,15 @@ def test_a_closed_pipe_is_not_an_error(poses):
     )
     assert "Traceback" not in done.stderr
     assert "error" not in done.stderr
+
+
+def test_the_readme_shows_what_happens():
+    """Its Python session is run, and what it says of the command is what the command prints."""
+    root = Path(__file__).parent.parent
+    failed, tried = doctest.testfile(str(root / "README.md"), module_relative=False)
+    assert (failed, tried) == (0, 5)
+    listed = run("--help").stdout
+    for command in ("synthesize", "cases", "reproduce"):
+        assert command in listed
+    example = run("synthesize", root / "examples" / "poses.csv")
+    assert example.stdout == run("synthesize", "case:ge2012-exact").stdout

@@ -9,10 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import least_squares
 
+from burmester.critical import critical_dyads
 from burmester.displacement import Displacement
 from burmester.errors import InputError
 from burmester.exact import dyads_of_five
-from burmester.critical import critical_dyads
 from tests.witness import random_four_bar, random_poses
 
 

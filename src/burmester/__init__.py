@@ -6,6 +6,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from burmester.critical import critical_dyads as critical_dyads
     from burmester.curve import dyad_curve as dyad_curve
     from burmester.displacement import Displacement as Displacement
     from burmester.dyad import PP as PP
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from burmester.exact import dyad_with_moving_pivot as dyad_with_moving_pivot
     from burmester.exact import dyads_of_five as dyads_of_five
     from burmester.linkage import Linkage as Linkage
+    from burmester.optimal import best_dyads as best_dyads
     from burmester.pencil import fit_pencil as fit_pencil
     from burmester.quadric import fit_quadric as fit_quadric
     from burmester.synthesis import Synthesis as Synthesis
@@ -40,6 +42,8 @@ __all__ = [
     "Synthesis",
     "Task",
     "__version__",
+    "best_dyads",
+    "critical_dyads",
     "dyad_curve",
     "dyad_with_fixed_pivot",
     "dyad_with_moving_pivot",
@@ -51,12 +55,14 @@ __all__ = [
 
 # Loaded when first asked for, so that `burmester --help` needs no NumPy.
 _ROOMS = {
+    "critical": ("critical_dyads",),
     "curve": ("dyad_curve",),
     "displacement": ("Displacement",),
     "dyad": ("PP", "PR", "RP", "RR", "Dyad"),
     "errors": ("BurmesterError", "InputError"),
     "exact": ("dyad_with_fixed_pivot", "dyad_with_moving_pivot", "dyads_of_five"),
     "linkage": ("Linkage",),
+    "optimal": ("best_dyads",),
     "pencil": ("fit_pencil",),
     "quadric": ("fit_quadric",),
     "synthesis": ("Synthesis", "synthesize"),

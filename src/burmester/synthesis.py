@@ -20,9 +20,9 @@ from burmester.candidates import (
     same_dyad,
     says_two_angles,
 )
+from burmester.critical import COUNT
 from burmester.dyad import RR
 from burmester.errors import InputError
-from burmester.critical import COUNT
 from burmester.exact import FivePoseDyads, dyads_of_five
 from burmester.linkage import Linkage
 from burmester.optimal import BestDyads, best_dyads

@@ -12,9 +12,11 @@ from typing import Any
 import numpy as np
 
 from burmester.candidates import FoundDyad
+from burmester.critical import COUNT
 from burmester.displacement import Displacement
 from burmester.dyad import PP, PR, RP, RR
 from burmester.errors import BurmesterError
+from burmester.optimal import BestDyads
 from burmester.synthesis import FoundLinkage, Synthesis
 
 __all__ = ["failure", "plain"]
@@ -25,6 +27,9 @@ SCHEMA = "burmester.synthesis/1"
 def plain(synthesis: Synthesis) -> dict[str, Any]:
     """The synthesis as an object ready for JSON."""
     task, fit = synthesis.task, synthesis.fit
+    more: dict[str, Any] = {}
+    if isinstance(fit, BestDyads):
+        more["critical_points"] = {"found": int(fit.critical.found), "expected": COUNT}
     return {
         "schema": SCHEMA,
         "outcome": {"code": synthesis.outcome.code, "message": synthesis.outcome.message},
@@ -38,6 +43,7 @@ def plain(synthesis: Synthesis) -> dict[str, Any]:
         ],
         "characteristic_length": synthesis.length,
         "singular_values": None if fit is None else fit.singular_values.tolist(),
+        **more,
     }
 
 
