@@ -59,11 +59,12 @@ def test_refitted_radius_beats_the_radius_of_table_8():
         assert of_paper > 5 * fit.rms_error[k]
 
 
-@pytest.mark.parametrize("seed", range(25))
-def test_exact_motions_give_back_the_linkage_that_made_them(seed):
+@pytest.mark.parametrize("count", [6, 7, 8, 9, 30])
+@pytest.mark.parametrize("seed", range(8))
+def test_exact_motions_give_back_the_linkage_that_made_them(seed, count):
     rng = np.random.default_rng(seed)
     dyads = random_four_bar(rng)
-    rows = random_poses(dyads, rng, int(rng.integers(8, 40)))
+    rows = random_poses(dyads, rng, count)
     poses = Displacement.from_poses(rows)
     fit = fit_pencil(poses)
     truth = np.array([[*d.fixed_pivot, *d.moving_pivot, d.radius] for d in dyads])

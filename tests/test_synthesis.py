@@ -73,7 +73,7 @@ def test_published_five_pose_tasks_give_every_pair(name, dyads):
 
 @pytest.mark.parametrize("seed", range(12))
 @pytest.mark.parametrize("second", [RR, PR, RP])
-@pytest.mark.parametrize("count", [5, 12])
+@pytest.mark.parametrize("count", [5, 6, 12])
 def test_round_trip_of_random_linkages(second, count, seed):
     rng = np.random.default_rng(seed)
     dyads = random_four_bar(rng, second)
@@ -147,6 +147,7 @@ def test_complete_method_finds_the_linkage_behind_noisy_poses(second, seed):
 
 SPECIAL = {
     "a translation": lambda a: (np.column_stack([np.cos(a), a**2]), 0 * a + 0.4),
+    "a translation without a turn": lambda a: (np.column_stack([np.exp(a), a**3]), 0 * a),
     "a turn about a point": lambda a: (np.full((len(a), 2), 3.5), a),
     "two sliders": lambda a: (np.column_stack([-2 * np.cos(a), 0 * a]), a),
     "a parallelogram": lambda a: (np.column_stack([np.cos(a), np.sin(a)]), 0 * a),
@@ -154,7 +155,7 @@ SPECIAL = {
 }
 
 
-@pytest.mark.parametrize("count", [5, 9])
+@pytest.mark.parametrize("count", [5, 6, 7, 9])
 @pytest.mark.parametrize("name", SPECIAL)
 def test_special_motions_are_named_and_nothing_is_invented(name, count):
     translation, angle = SPECIAL[name](np.linspace(0.1, 2.5, count))

@@ -23,7 +23,6 @@ __all__ = [
     "found_dyads",
     "known",
     "same_dyad",
-    "says_two_angles",
 ]
 
 Fit: TypeAlias = Pencil | FivePoseDyads | BestDyads
@@ -32,6 +31,8 @@ Candidate: TypeAlias = tuple[Dyad, float, float]  # with its rms and greatest er
 # In characteristic lengths of the task, where they are lengths.
 NEARLY_STRAIGHT = 0.05  # a manifold nearer than this to a slider's may be that slider
 LONG = 100.0  # a longer link is a slider if that fits half as well, or is called nearly one
+LOST = 1e-6  # an error of this share is no longer rounding in a dyad that should be exact
+ENDLESS = 1e9  # no link is longer, and no pivot farther away
 SAME = 1e-6  # dyads with both pivots nearer than this are one
 COARSE = 1e-3  # coarser digits than this count as meant exactly, not as measured
 NULL = 1e-9  # what rounding leaves of a coefficient that is zero
@@ -54,8 +55,12 @@ class FoundDyad:
     minimum: bool = True
 
 
-def found_dyads(fit: Fit, task: Task) -> list[FoundDyad]:
+def found_dyads(fit: Fit, task: Task) -> tuple[list[FoundDyad], int]:
     """The dyads of a fit, each as the circle or the slider that it is, and each once.
+
+    With them, how many solutions were left out because they are no dyads: the link would be
+    infinitely long and no slider fits in its place, only the angle is said (`_two_angles`), or
+    a dyad that should pass exactly does not, for rounding has eaten its digits.
 
     A long link is a slider where the line it nearly follows fits the poses as well as the
     circle does, or as well as the poses are known.  For noisy poses that is a heuristic.
@@ -70,21 +75,29 @@ def found_dyads(fit: Fit, task: Task) -> list[FoundDyad]:
 
     def add_slider(line: PR | RP, rms: float, worst: float) -> None:
         slider = fit.frames.line_back(line)
-        if not any(same_dyad(slider, other, length) for other, *_ in found):
+        pivot = line.moving_pivot if isinstance(line, PR) else line.fixed_pivot
+        if np.abs(pivot).max() < ENDLESS and not any(
+            same_dyad(slider, other, length) for other, *_ in found
+        ):
             found.append((slider, length * rms, length * worst))
 
-    for k in np.flatnonzero(np.isfinite(fit.coefficients).all(axis=-1)):
+    solutions = np.flatnonzero(np.isfinite(fit.coefficients).all(axis=-1))
+    left_out = 0
+    for k in solutions:
         p, circle = fit.coefficients[k], fit.dyads[k]
         rms, worst = float(fit.rms_error[k]), float(fit.max_error[k])
-        if says_two_angles(p):
-            continue
         if abs(p[0]) < NEARLY_STRAIGHT * np.linalg.norm(p):
             line, *errors, apart = straightened(p, seen, task.weights)
             share = 1 if circle.radius < LONG * length else 2
             allowed = max(share * rms, known(task, length) * length)
-            if apart < near and not length * errors[0] > allowed:
+            fits = length * errors[0] <= allowed or not np.isfinite(allowed)
+            if apart < near and fits:
                 add_slider(line, *errors)
                 continue
+        lost = isinstance(fit, FivePoseDyads) and rms > LOST * max(length, float(circle.radius))
+        if lost or _two_angles(p) or not circle.radius < ENDLESS * length:
+            left_out += 1
+            continue
         found.append((circle, rms, worst))
     if isinstance(fit, BestDyads):
         for lines, every_rms, every_worst in (
@@ -98,10 +111,10 @@ def found_dyads(fit: Fit, task: Task) -> list[FoundDyad]:
         return np.round(item[1] / (ROUNDING * length)), size
 
     found.sort(key=order)
-    return [FoundDyad(f"D{i}", *item) for i, item in enumerate(found, start=1)]
+    return [FoundDyad(f"D{i}", *item) for i, item in enumerate(found, start=1)], left_out
 
 
-def says_two_angles(p: FloatArray) -> bool:
+def _two_angles(p: FloatArray) -> bool:
     """Whether p (8,) says nothing of places, only that the angle is one of two: no dyad.
 
     Such a quadric, two planes, holds the poses where they have but two different angles.  It

@@ -30,12 +30,9 @@ x,y,angle_deg (or angle_rad; x_mm,y_mm and the like name a unit)."""
 @click.group(context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(__version__, prog_name="burmester")
 def burmester() -> None:
-    r"""Planar four-bar linkages that guide a body through given poses.
+    """Planar four-bar linkages that guide a body through given poses.
 
-    \b
-    burmester synthesize poses.csv     find dyads and linkages
-    burmester cases                    tasks with known answers
-    burmester reproduce                the tables of Ge et al. 2012, recomputed
+    Start with: burmester synthesize poses.csv
     """
 
 
@@ -68,7 +65,7 @@ def synthesize(
     angle_unit: Literal["deg", "rad"] | None,
     as_json: bool,
 ) -> int:
-    """Find the dyads and the four-bars that guide a body through POSES."""
+    """Find four-bars that guide a body through POSES."""
     from burmester.io.poses import read_task
     from burmester.synthesis import synthesize as run
 
@@ -87,7 +84,7 @@ def synthesize(
 @burmester.command()
 @click.argument("name", required=False)
 def cases(name: str | None) -> int:
-    """List the tasks with known answers, or print one as JSON."""
+    """List the tasks with known answers, or print one."""
     from burmester.io.cases import load, names
 
     if name is not None:
@@ -103,7 +100,7 @@ def cases(name: str | None) -> int:
 @burmester.command()
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object and nothing else.")
 def reproduce(as_json: bool) -> int:
-    """Recompute the tables of Ge, Zhao, Purwar and Li 2012 beside what they print."""
+    """Recompute the tables of Ge et al. 2012."""
     from burmester.reproduce import as_json as plain
     from burmester.reproduce import reproduce as run
 

@@ -19,6 +19,7 @@ from burmester.dyad import PR, RP, RR
 
 __all__ = ["CanonicalFrames"]
 
+STILL = 1e-28  # spread of the rotation, squared, below which it is rounding and M only moves
 POLE_ONLY = 1e-10  # below this share of the motion's size the poses share a pole exactly
 
 
@@ -53,7 +54,7 @@ class CanonicalFrames:
         d0, turn0 = d - mean_d, turn - mean_turn
         spread = (share * (turn0.real**2 + turn0.imag**2)).sum(axis=-1, keepdims=True)
         moment = -(share * turn0.conj() * d0).sum(axis=-1, keepdims=True)
-        m = np.divide(moment, spread, out=np.zeros_like(moment), where=spread > 0)
+        m = np.divide(moment, spread, out=np.zeros_like(moment), where=spread > STILL)
         c = mean_d + mean_turn * m
         rest = d0 + turn0 * m
         before = _rms(share, d0)

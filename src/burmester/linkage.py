@@ -176,7 +176,9 @@ def _dot(a: FloatArray, b: FloatArray) -> FloatArray:
 def _closest(places: FloatArray, wanted: FloatArray) -> FloatArray:
     """Of places (N, k, 3), some nan, the one nearest to wanted (N, 1, 3): rows (N, 3)."""
     distance = np.nan_to_num(np.linalg.norm(places - wanted, axis=-1), nan=np.inf)
-    return np.take_along_axis(places, distance.argmin(axis=1)[:, None, None], axis=1)[:, 0]
+    best = distance.argmin(axis=1)[:, None]
+    found = np.take_along_axis(places, best[..., None], axis=1)[:, 0]
+    return np.where(np.isfinite(np.take_along_axis(distance, best, axis=1)), found, np.nan)
 
 
 def grashof(links: Links) -> str:

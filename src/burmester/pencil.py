@@ -148,6 +148,8 @@ def _design(poses: Displacement, weights: FloatArray | None, metric: FloatArray)
         blocks.append(block)
         if block.shape[-2] == BLOCK:
             blocks = [np.asarray(np.linalg.qr(np.concatenate(blocks, axis=-2), mode="r"))]
+    if poses.shape[-1] < 8:  # rows of zeros, so that a thin SVD keeps the null space
+        blocks.append(np.zeros((*poses.shape[:-1], 8 - poses.shape[-1], 8)))
     return np.concatenate(blocks, axis=-2)
 
 

@@ -18,7 +18,6 @@ from burmester.candidates import (
     found_dyads,
     known,
     same_dyad,
-    says_two_angles,
 )
 from burmester.critical import COUNT
 from burmester.dyad import RR
@@ -152,7 +151,7 @@ def _finish(task: Task, method: Method, fit: Fit) -> Synthesis:
     length = float(fit.frames.length)
     if (special := _special(task, fit)) is not None:
         return Synthesis(task, method, special, length, (), (), (), fit)
-    found = found_dyads(fit, task)
+    found, left_out = found_dyads(fit, task)
     warnings = [
         Advice(
             "W204",
@@ -172,12 +171,13 @@ def _finish(task: Task, method: Method, fit: Fit) -> Synthesis:
                 "compare with --method pencil; poses of a special motion are the usual reason",
             )
         )
-    if any(says_two_angles(p) for p in fit.coefficients):
+    if left_out:
         warnings.append(
             Advice(
                 "W206",
-                "the poses have two different angles only, and one solution is just that",
-                "it is no dyad and is left out; give the poses more different angles",
+                f"{_count(left_out, 'solution')} left out as no dyad: an endless link with no slider "
+                "in its place, poses with two different angles only, or all digits lost",
+                "give poses that differ more, above all in their angles",
             )
         )
     pairs = []
@@ -230,16 +230,18 @@ def _special(task: Task, fit: Fit) -> Outcome | None:
 
 
 def _outcome(fit: Fit, found: Sequence[FoundDyad], linkages: Sequence[FoundLinkage]) -> Outcome:
-    def count(number: int, noun: str) -> str:
-        return f"{number or 'no'} {noun}{'' if number == 1 else 's'}"
-
     if isinstance(fit, FivePoseDyads):
-        dyads = count(len(found), "real dyad") + " (of the 4 that five poses have)"
+        dyads = _count(len(found), "real dyad") + " (of the 4 that five poses have)"
     elif isinstance(fit, BestDyads):
-        dyads = count(len(found), "locally best dyad")
+        dyads = _count(len(found), "locally best dyad")
         dyads += f" ({fit.critical.found} of {COUNT} critical points accounted for)"
     else:
-        dyads = count(len(found), "dyad")
+        dyads = _count(len(found), "dyad")
     if linkages:
-        return Outcome("R300", f"{count(len(linkages), 'four-bar')} from {dyads}")
+        return Outcome("R300", f"{_count(len(linkages), 'four-bar')} from {dyads}")
     return Outcome("R302", f"no four-bar: {dyads}, and it takes two different ones")
+
+
+def _count(number: int, noun: str) -> str:
+    """A number of things in words: "no dyads", "1 dyad", "2 dyads"."""
+    return f"{number or 'no'} {noun}{'' if number == 1 else 's'}"

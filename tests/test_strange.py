@@ -1,0 +1,65 @@
+"""Strange poses: always an answer or a clear refusal, never a crash and never invalid JSON."""
+
+import io
+import json
+
+import numpy as np
+import pytest
+from rich.console import Console
+
+from burmester.displacement import Displacement
+from burmester.errors import InputError
+from burmester.io.result import plain
+from burmester.io.terminal import show_synthesis
+from burmester.synthesis import synthesize
+from burmester.task import Task
+
+STRANGE = {
+    "anything": lambda rows, rng: rows,
+    "whole numbers": lambda rows, rng: np.round(rows),
+    "no turn": lambda rows, rng: rows * [1, 1, 0],
+    "no travel": lambda rows, rng: rows * [0, 0, 1],
+    "on a line": lambda rows, rng: rows * [1, 0, 1],
+    "repeated": lambda rows, rng: rows[rng.integers(0, max(2, len(rows) // 2), len(rows))],
+    "tiny": lambda rows, rng: rows * 1e-9,
+    "huge": lambda rows, rng: rows * [1e9, 1e9, 1],
+    "far away": lambda rows, rng: np.add(rows, [1e7, 0, 0]),
+    "half turns": lambda rows, rng: np.column_stack(
+        [rows[:, :2], rng.choice([0, np.pi], len(rows))]
+    ),
+    "two angles": lambda rows, rng: np.column_stack(
+        [rows[:, :2], rng.choice([0.1, 0.7], len(rows))]
+    ),
+    "little turn": lambda rows, rng: rows * [1, 1, 1e-6],
+    "two sliders": lambda rows, rng: np.column_stack(
+        [-2 * np.cos(rows[:, 2]), 0 * rows[:, 2], rows[:, 2]]
+    ),
+    "rolling": lambda rows, rng: np.column_stack(
+        [np.cos(rows[:, 2]), np.sin(rows[:, 2]), rows[:, 2]]
+    ),
+}
+
+
+@pytest.mark.parametrize("method", ["auto", "pencil", "complete"])
+@pytest.mark.parametrize("name", STRANGE)
+def test_strange_poses(name, method):
+    rng = np.random.default_rng(list(STRANGE).index(name))
+    for _ in range(12):
+        rows = rng.normal(size=(int(rng.integers(3, 13)), 3)) * [10, 10, 1]
+        task = Task(Displacement.from_poses(STRANGE[name](rows, rng)))
+        if len(rows) < 6 and method != "auto":
+            with pytest.raises(InputError, match="needed|needs|takes"):
+                synthesize(task, method)
+            continue
+        synthesis = synthesize(task, method)
+        data = json.loads(json.dumps(plain(synthesis), allow_nan=False))
+        assert data["outcome"]["code"] in {"R300", "R302", "R303", "R304"}
+        assert (data["outcome"]["code"] == "R300") == bool(data["linkages"])
+        for dyad in synthesis.dyads:
+            # What is called an error is one: recomputed, it is the same.
+            miss = np.abs(dyad.dyad.residual(task.poses)).max()
+            size = synthesis.length + float(getattr(dyad.dyad, "radius", 0.0))
+            assert abs(miss - dyad.max_error) < 1e-6 * size + 1e-9 * np.abs(rows).max()
+        screen = io.StringIO()
+        show_synthesis(synthesis, Console(file=screen, width=80))
+        assert data["outcome"]["message"].split(";")[0] in " ".join(screen.getvalue().split())
