@@ -13,7 +13,7 @@ from burmester.displacement import Displacement
 from burmester.errors import InputError
 from burmester.exact import dyad_with_fixed_pivot, dyad_with_moving_pivot, dyads_of_five
 from burmester.linkage import Linkage
-from tests.witness import misses, random_four_bar, random_poses, span
+from tests.witness import misses, places, random_four_bar, random_poses, span
 
 
 def as_rows(dyads):
@@ -75,6 +75,24 @@ def test_true_dyads_of_random_four_bars_are_among_the_answers(seed):
             # The poses were rounded to doubles: what counts is the dyad of the rounded ones.
             truth = in_fifty_digits(truth, rows)
         assert np.abs(nearest - truth).max() < 1e-9 * span(rows)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_digits_that_rounding_has_cost_are_put_right(seed):
+    """Five poses close together magnify rounding; the answer keeps what doubles can hold."""
+    rng = np.random.default_rng(seed)
+    dyads = random_four_bar(rng)
+    while True:
+        where, phi = places(*dyads, rng.uniform(-np.pi, np.pi) + rng.uniform(0, 0.2, 5))
+        if np.isfinite(where[0]).all():
+            break
+    rows = np.column_stack([where[0].real, where[0].imag, phi[0]])
+    found = as_rows(dyads_of_five(Displacement.from_poses(rows)).dyads)
+    for dyad in dyads:
+        truth = np.array([*dyad.fixed_pivot, *dyad.moving_pivot, dyad.radius])
+        nearest = found[np.abs(found - truth).max(axis=1).argmin()]
+        exact = in_fifty_digits(nearest, rows)
+        assert np.abs(nearest - exact).max() < 1e-9 * max(1.0, np.abs(truth).max())
 
 
 @pytest.mark.parametrize("seed", range(12))

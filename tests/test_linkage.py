@@ -121,6 +121,36 @@ def test_nearest_place_against_the_driven_linkage(seed):
         assert np.abs(dyad.residual(place)).max() < 1e-9
 
 
+@pytest.mark.parametrize("seed", range(30))
+def test_nearest_place_is_a_foot_however_far_the_pose(seed):
+    """The gap to the pose is square to the coupler's motion, taken from differences."""
+    rng = np.random.default_rng(seed)
+    dyads = random_four_bar(rng, (RR, PR, RP)[seed % 3])
+    rows = random_poses(dyads, rng, 20)
+    poses = Displacement.from_poses(rows + 0.4 * rng.normal(size=rows.shape))
+    place = Linkage(*dyads).nearest(poses, 1.0)
+    at = np.column_stack([place.translation, place.angle])
+    step = 1e-6
+    slopes = [
+        np.stack(
+            [
+                dyad.residual(Displacement.from_poses(at + step * e))
+                - dyad.residual(Displacement.from_poses(at - step * e))
+                for e in np.eye(3)
+            ],
+            axis=-1,
+        )
+        / (2 * step)
+        for dyad in dyads
+    ]
+    along = np.cross(*slopes)
+    sound = np.linalg.norm(along, axis=1) > 1e-2  # elsewhere the motion has no direction
+    along = along[sound] / np.linalg.norm(along[sound], axis=1, keepdims=True)
+    gap = np.column_stack([poses.translation, poses.angle])[sound] - at[sound]
+    assert sound.sum() > 10
+    assert np.abs((along * gap).sum(axis=1)).max() < 1e-5
+
+
 def test_published_linkage_of_table_8_misses_table_5_by_its_known_error():
     case = json.loads(
         resources.files("burmester").joinpath("cases/ge2012-approximate.json").read_text()

@@ -48,7 +48,7 @@ def test_strange_poses(name, method):
         rows = rng.normal(size=(int(rng.integers(3, 13)), 3)) * [10, 10, 1]
         task = Task(Displacement.from_poses(STRANGE[name](rows, rng)))
         if len(rows) < 6 and method != "auto":
-            with pytest.raises(InputError, match="needed|needs|takes"):
+            with pytest.raises(InputError, match=r"needed|needs|takes"):
                 synthesize(task, method)
             continue
         synthesis = synthesize(task, method)

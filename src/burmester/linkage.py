@@ -20,8 +20,8 @@ __all__ = ["Linkage", "Links", "grashof"]
 CHANGE_POINT = 1e-9  # relative excess of link lengths below which Grashof's sum is a tie
 BLOCK = 4096  # poses looked at together by `nearest`
 TINY = 1e-300  # keeps 0 / 0 away from a pivot that meets its centre
-FAR = 1e3  # lengths; the longest step of that projection
-STEPS = 60  # at most, of the projection in `nearest`; a few are enough near the poses
+FAR = 0.5  # lengths; the longest step of that projection
+STEPS = 100  # at most, of the projection in `nearest`; a few are enough near the poses
 
 # Coupler angles tried around that of a pose, in radians: dense where the answer will be, and
 # every degree and a half where there are not too many poses for that.
@@ -85,7 +85,7 @@ class Linkage:
         if abs(q[0]) > abs(p[0]):
             p, q = q, p
         (bp, ep), (bq, eq) = _slice(p, s, c), _slice(q, s, c)
-        with np.errstate(divide="ignore", invalid="ignore"):
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             if p[0] == 0:  # two sliders: two lines
                 cross = bp[0] * bq[1] - bp[1] * bq[0]
                 z1 = (bp[1] * eq - bq[1] * ep) / cross
@@ -134,7 +134,7 @@ class Linkage:
         """The places (N, k, 3) nearest to wanted (N, 1, 3) that are reached from `at`, or nan.
 
         Each step goes back to both dyads' tangent planes and along their intersection towards
-        the wanted pose; less far from then on where it went past the foot of it.
+        the wanted pose; less far along it from then on where a step undoes the one before.
         """
         before, share = np.zeros_like(at), np.ones((*at.shape[:-1], 1))
         for _ in range(STEPS):
@@ -145,10 +145,10 @@ class Linkage:
             back = -(s1 * (c * m1 - b * m2) + s2 * (a * m2 - b * m1)) / size
             line = np.cross(s1, s2)
             along = line * _dot(line, wanted - at) / size
-            share = np.where(_dot(along, before) < 0, share / 2, share)
             # A lost row stays finite.
             step = np.clip(share * along + back, -FAR * length, FAR * length)
-            at, before = at + step, along
+            share = np.where(_dot(step, before) < 0, share / 2, share)
+            at, before = at + step, step
             # An error along the curve changes the distance by its square only.
             if np.abs(along).max() < 1e-8 * length and np.abs(back).max() < 1e-13 * length:
                 break

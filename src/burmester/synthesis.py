@@ -175,8 +175,8 @@ def _finish(task: Task, method: Method, fit: Fit) -> Synthesis:
         warnings.append(
             Advice(
                 "W206",
-                f"{_count(left_out, 'solution')} left out as no dyad: an endless link with no slider "
-                "in its place, poses with two different angles only, or all digits lost",
+                f"{_count(left_out, 'solution')} left out as no dyad: an endless link with no "
+                "slider in its place, poses with two different angles only, or all digits lost",
                 "give poses that differ more, above all in their angles",
             )
         )
