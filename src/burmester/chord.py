@@ -77,7 +77,7 @@ class Chord:
         rows = np.concatenate([ends, np.linalg.svd(ends)[2][2:]])
         conditions = rows @ quadrics @ rows.T
         # D has the frequencies 0, 2 and 4, so five values give it as z⁻² times a polynomial.
-        psi: FloatArray = np.arange(5) * (np.pi / 5)
+        psi = np.arange(5.0) * float(np.pi / 5)
         k0, k1, k2 = np.moveaxis(_quadratics(conditions, psi)[0], -1, 0)
         rest = np.exp(2j * np.outer(np.arange(-2, 3), psi)) @ (k1 * k1 - 4 * k0 * k2) / 5
         alpha = float(np.linalg.norm(conditions[:, 0, 1]))
