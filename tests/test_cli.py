@@ -193,6 +193,13 @@ def test_methods_by_number_of_poses(poses):
     assert np.allclose(raw["singular_values"], wanted, rtol=0, atol=6e-5)
 
 
+def test_raw_is_for_the_pencil_only(poses):
+    refused = run("synthesize", poses, "--method", "complete", "--raw")
+    assert refused.returncode == 2
+    assert "E123" in refused.stderr
+    assert run("synthesize", poses, "--method", "pencil", "--raw").returncode == 0
+
+
 def test_complete_method_says_what_it_accounted_for(poses):
     data = valid(run("synthesize", poses, "--method", "complete", "--json").stdout)
     assert data["critical_points"] == {"found": 25, "expected": 25}

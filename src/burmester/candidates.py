@@ -10,6 +10,7 @@ import numpy as np
 from burmester.displacement import FloatArray
 from burmester.dyad import PR, RP, RR, Dyad
 from burmester.exact import FivePoseDyads
+from burmester.frames import CanonicalFrames
 from burmester.optimal import BestDyads
 from burmester.pencil import Pencil
 from burmester.prismatic import fixed_lines, moving_lines, straightened
@@ -20,6 +21,7 @@ __all__ = [
     "ROUNDING",
     "Fit",
     "FoundDyad",
+    "characteristic_length",
     "found_dyads",
     "known",
     "same_dyad",
@@ -66,7 +68,7 @@ def found_dyads(fit: Fit, task: Task) -> tuple[list[FoundDyad], int]:
     circle does, or as well as the poses are known.  For noisy poses that is a heuristic.
     Sorted by rms error; where errors are mere rounding, by the length of the link.
     """
-    length = float(fit.frames.length)
+    length, unit = characteristic_length(task), float(fit.frames.length)
     seen = fit.frames.see(task.poses)
     # Noise turns the null space, and so every manifold in it, by about this angle.
     blur = max(float(fit.noise), known(task, length) * np.sqrt(len(seen.angle)), NULL)
@@ -79,7 +81,7 @@ def found_dyads(fit: Fit, task: Task) -> tuple[list[FoundDyad], int]:
         if np.abs(pivot).max() < ENDLESS and not any(
             same_dyad(slider, other, length) for other, *_ in found
         ):
-            found.append((slider, length * rms, length * worst))
+            found.append((slider, unit * rms, unit * worst))
 
     solutions = np.flatnonzero(np.isfinite(fit.coefficients).all(axis=-1))
     left_out = 0
@@ -90,7 +92,7 @@ def found_dyads(fit: Fit, task: Task) -> tuple[list[FoundDyad], int]:
             line, *errors, apart = straightened(p, seen, task.weights)
             share = 1 if circle.radius < LONG * length else 2
             allowed = max(share * rms, known(task, length) * length)
-            fits = length * errors[0] <= allowed or not np.isfinite(allowed)
+            fits = unit * errors[0] <= allowed or not np.isfinite(allowed)
             if apart < near and fits:
                 add_slider(line, *errors)
                 continue
@@ -121,6 +123,11 @@ def _two_angles(p: FloatArray) -> bool:
     is a double root, and so known to half the digits only.
     """
     return bool(np.linalg.norm(p[[0, 2, 3, 4, 5]]) < SAME * np.linalg.norm(p))
+
+
+def characteristic_length(task: Task) -> float:
+    """The size of a task in its unit, the same in all frames (see `frames`)."""
+    return float(CanonicalFrames.of(task.poses, task.weights)[0].length)
 
 
 def known(task: Task, length: float) -> float:

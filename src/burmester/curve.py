@@ -307,6 +307,7 @@ def _refuse(seen: Displacement) -> NoReturn:
             turned = unit_rows(poles)
             a, b = np.triu_indices(6, 1)
             same = np.linalg.norm(np.cross(turned[a], turned[b]), axis=-1) < SAME
+            same &= np.abs(turned[a, 2]) > SAME  # at infinity the body moves along, not around
             if same.all():
                 why = "the body only turns about one point"
                 help = "use a single pin there, or move one of the poses off that turn"

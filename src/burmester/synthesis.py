@@ -15,6 +15,7 @@ from burmester.candidates import (
     ROUNDING,
     Fit,
     FoundDyad,
+    characteristic_length,
     found_dyads,
     known,
     same_dyad,
@@ -25,7 +26,7 @@ from burmester.errors import InputError
 from burmester.exact import FivePoseDyads, dyads_of_five
 from burmester.linkage import Linkage
 from burmester.optimal import BestDyads, best_dyads
-from burmester.pencil import Pencil, fit_pencil
+from burmester.pencil import fit_pencil
 from burmester.task import Task
 
 __all__ = [
@@ -103,11 +104,18 @@ def synthesize(task: Task, method: Method = "auto", *, normalise: bool = True) -
         "auto" is exact for 5 poses and the pencil for more.
     normalise: False lets the pencil fit the numbers as they come, as the paper does.
     Three or four poses have infinitely many dyads: see `exact` and `curve` for them all.
-    Raises InputError E121 where the method does not take that number of poses.
+    Raises InputError E121 where the method does not take that number of poses, and E123 where
+    it cannot do without normalising.
     """
     count = task.poses.shape[0]
     if method == "auto":
         method = "pencil" if count >= 6 else "exact"
+    if method != "pencil" and not normalise:
+        raise InputError(
+            "E123",
+            f"only the pencil can be fitted raw, not the {method} method",
+            help="leave --raw out, or use --method pencil",
+        )
     if method == "pencil":
         return _finish(task, method, fit_pencil(task.poses, task.weights, normalise=normalise))
     if method == "complete":
@@ -148,7 +156,7 @@ def synthesize(task: Task, method: Method = "auto", *, normalise: bool = True) -
 
 def _finish(task: Task, method: Method, fit: Fit) -> Synthesis:
     """Join the dyads of a fit to linkages, rank them, and say what came of it."""
-    length = float(fit.frames.length)
+    length = characteristic_length(task)
     if (special := _special(task, fit)) is not None:
         return Synthesis(task, method, special, length, (), (), (), fit)
     found, left_out = found_dyads(fit, task)
@@ -212,7 +220,7 @@ def _special(task: Task, fit: Fit) -> Outcome | None:
     noise = known(task, float(fit.frames.length)) * np.sqrt(task.poses.shape[0] / 3)
     if fit.gap > 3 * noise:
         return None
-    poses, nullity = task.poses, 2 if isinstance(fit, Pencil) else 3
+    poses, nullity = task.poses, 3 if isinstance(fit, FivePoseDyads) else 2
     turns = np.stack([np.cos(poses.angle), np.sin(poses.angle)], axis=-1)
     rows = np.concatenate([poses.translation / fit.frames.length, turns], axis=-1)
     different = len(np.unique(np.round(rows, 12), axis=0))
