@@ -190,6 +190,22 @@ def test_special_poses_with_a_little_noise(name, noise):
         assert (miss < 1e-9 * np.maximum(1, dyads.radius)).all()
 
 
+@pytest.mark.parametrize("turn", [1e-2, 1e-4, 1e-5])
+def test_a_body_that_hardly_turns(turn):
+    rng = np.random.default_rng(4)
+    for _ in range(8):
+        rows = np.column_stack([rng.normal(size=(4, 2)), rng.uniform(-1, 1, 4) * turn])
+        curve = curve_of(rows)
+        for loop in samples_of(curve):
+            assert apart(loop, np.roll(loop, 1, axis=0)).max() < 1.1 * curve.spacing
+        for dyads in curve.components:
+            c, m = dyads.fixed_pivot @ [1, 1j], dyads.moving_pivot @ [1, 1j]
+            at = m[:, None] * np.exp(1j * rows[:, 2]) + rows[:, :2] @ [1, 1j]
+            miss = np.ptp(np.abs(at - c[:, None]), axis=1)
+            # The pivots are 1 / turn away, and so many digits their own numbers lack.
+            assert (miss < 1e-14 * np.maximum(np.abs(c), 1 / turn)).all()
+
+
 @pytest.mark.parametrize("share", [1, 0.03, 1e-3])
 def test_the_number_of_loops_is_that_of_the_cubic(share):
     """Lines through a point of a smooth cubic touch it at 2 real points, or at 0 or 4: two loops.
