@@ -100,12 +100,12 @@ def dyad_curve(poses: Displacement, samples: int = 400) -> DyadCurve:
     basis = v[4:] * balance
     known, quadrics = _known_points(seen, basis)
     traces = _traces(known, quadrics, basis, samples)
-    if not traces or not _covered(unit_rows(known @ basis), traces):
+    if not traces:
         _refuse(seen)
     spacing = float(sum(trace.length[-1] for trace in traces) / samples)
     found = [_polished(trace.sampled(spacing), seen) for trace in traces]
-    gap = max((_distance(x, np.roll(x, 1, axis=0)).max() for x in found), default=np.inf)
-    circles, misses = zip(*(_circles(x, seen) for x in found), strict=True) if found else ((), ())
+    gap = max(_distance(x, np.roll(x, 1, axis=0)).max() for x in found)
+    circles, misses = zip(*(_circles(x, seen) for x in found), strict=True)
     if gap > 2 * spacing or max(misses) > EXACT:
         _refuse(seen)  # nothing but sliders, or lost in rounding
     components = tuple(frames.circle_back(circle) for circle in circles)
