@@ -301,4 +301,5 @@ def test_the_readme_shows_what_happens():
     for command in ("synthesize", "cases", "reproduce"):
         assert command in listed
     example = run("synthesize", root / "examples" / "poses.csv")
-    assert example.stdout == run("synthesize", "case:ge2012-exact").stdout
+    shown = "\n".join(line.rstrip() for line in example.stdout.rstrip().splitlines())
+    assert shown in (root / "README.md").read_text()
