@@ -88,6 +88,17 @@ def test_couplers_stand_on_both_dyads(first, second, angles):
         assert np.array_equal(found.angle[k], [angle, angle])
 
 
+@pytest.mark.parametrize("second", [RR, PR, RP])
+def test_one_coupler_angle_is_as_good_as_many(second):
+    linkage = Linkage(*random_four_bar(np.random.default_rng(1), second))
+    angles = np.linspace(0, 6, 50)
+    many = linkage.couplers(angles)
+    for k, angle in enumerate(angles):
+        one = linkage.couplers(angle)
+        assert np.array_equal(one.translation, many.translation[k], equal_nan=True)
+        assert np.array_equal(one.angle, [angle, angle])
+
+
 @pytest.mark.parametrize("seed", range(20))
 def test_couplers_are_all_the_places_a_driven_linkage_has(seed):
     """Whatever place the driven linkage takes is one of the two at its coupler angle."""

@@ -17,6 +17,7 @@ from burmester.dyad import PR, RP, RR, Dyad
 
 __all__ = ["Linkage", "Links", "grashof"]
 
+PARALLEL = 1e-9  # of two lines, or of the line of two circles: its direction is rounding
 CHANGE_POINT = 1e-9  # relative excess of link lengths below which Grashof's sum is a tie
 BLOCK = 4096  # poses looked at together by `nearest`
 TINY = 1e-300  # keeps 0 / 0 away from a pivot that meets its centre
@@ -88,6 +89,8 @@ class Linkage:
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             if p[0] == 0:  # two sliders: two lines
                 cross = bp[0] * bq[1] - bp[1] * bq[0]
+                least = PARALLEL * np.hypot(*bp) * np.hypot(*bq)
+                cross = np.where(np.abs(cross) < least, np.nan, cross)
                 z1 = (bp[1] * eq - bq[1] * ep) / cross
                 z2 = (bq[0] * ep - bp[0] * eq) / cross
                 z = np.stack([[z1, z2], np.full((2, *angle.shape), np.nan)], axis=-1)
@@ -96,6 +99,7 @@ class Linkage:
                 squared = (centre * centre).sum(axis=0) - ep / p[0]
                 normal = bq - q[0] / p[0] * bp  # of the line through both common points
                 size = np.hypot(*normal)
+                size = np.where(size < PARALLEL * np.hypot(*bq), np.nan, size)
                 normal = normal / size
                 away = (normal * centre).sum(axis=0) + (eq - q[0] / p[0] * ep) / size
                 half = np.sqrt(squared - away * away)
