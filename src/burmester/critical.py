@@ -71,10 +71,11 @@ def critical_dyads(poses: Displacement, weights: FloatArray | None = None) -> Cr
     poses: (*, N), N >= 5; weights: (*, N) or None.  Leading axes are tasks.
     Raises InputError E121 (fewer than 5 poses) and E103 (a number that is not finite).
     """
-    if not poses.shape or poses.shape[-1] < 5:
+    count = poses.shape[-1] if poses.shape else 0
+    if count < 5:
         raise InputError(
             "E121",
-            f"at least 5 poses are needed to look for best dyads, not {poses.shape[-1:] or (0,)}",
+            f"at least 5 poses are needed to look for best dyads, not {count}",
             why="four poses or fewer are met exactly by infinitely many dyads",
             help="give more poses, or see the exact methods for 3 and 4",
         )

@@ -96,10 +96,11 @@ def fit_pencil(
     Leading axes are tasks: 100,000 are one call.
     Raises InputError E121 (fewer than 6 poses) and E103 (a number that is not finite).
     """
-    if not poses.shape or poses.shape[-1] < LEAST_POSES:
+    count = poses.shape[-1] if poses.shape else 0
+    if count < LEAST_POSES:
         raise InputError(
             "E121",
-            f"a pencil needs at least {LEAST_POSES} poses, not {poses.shape[-1:] or (0,)}",
+            f"a pencil needs at least {LEAST_POSES} poses, not {count}",
             why="the quadrics through five poses or fewer are more than a pencil",
             help="use the exact method for 3, 4 or 5 poses, or give more poses",
         )

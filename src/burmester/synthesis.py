@@ -118,14 +118,15 @@ def synthesize(task: Task, method: Method = "auto", *, normalise: bool = True) -
         )
     if method == "pencil":
         return _finish(task, method, fit_pencil(task.poses, task.weights, normalise=normalise))
-    if method == "complete":
+    if method == "complete" and count >= 6:
         return _finish(task, method, best_dyads(task.poses, task.weights))
-    if count > 5:
+    if count > 5 or method == "complete":
+        takes = "6 poses or more" if method == "complete" else "5 poses"
         raise InputError(
             "E121",
-            f"the exact method takes 5 poses, not {count}",
-            why="six poses or more have no dyad that meets them all, but by chance",
-            help="use --method pencil, or give 5 poses",
+            f"the {method} method takes {takes}, not {count}",
+            why="up to five poses are met exactly, six or more only by chance",
+            help="leave --method out, and the number of poses decides",
         )
     if count < 5:
         family = "a two-parameter family" if count == 3 else "a one-parameter family"
