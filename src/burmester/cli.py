@@ -20,7 +20,7 @@ __all__ = ["main"]
 
 # Rooms are imported inside the commands, so that `burmester --help` stays fast.
 
-EXIT_FOUND, EXIT_NOTHING, EXIT_BAD_INPUT, EXIT_BUG, EXIT_INTERRUPT = 0, 1, 2, 3, 130
+EXIT_FOUND, EXIT_NOTHING, EXIT_INTERRUPT = 0, 1, 130  # errors bring their own: 2 and 3
 
 POSES_HELP = """POSES is a CSV, JSON or TOML file, "-" for standard input, or case:NAME for one of
 the cases that burmester carries (see `burmester cases`). A CSV file starts with the line

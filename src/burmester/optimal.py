@@ -11,7 +11,7 @@ from burmester.critical import CriticalDyads, critical_dyads
 from burmester.displacement import Displacement, FloatArray
 from burmester.dyad import RR, refitted_circles
 from burmester.frames import CanonicalFrames
-from burmester.pencil import fit_pencil
+from burmester.pencil import Pencil, fit_pencil
 
 __all__ = ["BestDyads", "best_dyads"]
 
@@ -24,21 +24,38 @@ class BestDyads:
     """The locally best RR dyads of a task, by distance from their circles.
 
     critical: what they come from, with the count that says whether all were found.
-    frames: where they were found; coefficients: (k, 8), their manifolds there.
+    pencil: fitted to the same poses; its singular values say what the motion is.
+    coefficients: (k, 8), the manifolds in `frames`.
     dyads: (k,), in the task's own frames; rms_error, max_error: (k,), the distance of the
         moving pivot from its circle over the poses, in the task's unit.
-    singular_values, noise, gap: those of the pencil fitted to the same poses.
     """
 
     critical: CriticalDyads
-    frames: CanonicalFrames
+    pencil: Pencil
     coefficients: FloatArray
     dyads: RR
     rms_error: FloatArray
     max_error: FloatArray
-    singular_values: FloatArray
-    noise: FloatArray
-    gap: FloatArray
+
+    @property
+    def frames(self) -> CanonicalFrames:
+        """Where they were found."""
+        return self.critical.frames
+
+    @property
+    def singular_values(self) -> FloatArray:
+        """Those of the pencil (8,)."""
+        return self.pencil.singular_values
+
+    @property
+    def noise(self) -> FloatArray:
+        """That of the pencil ()."""
+        return self.pencil.noise
+
+    @property
+    def gap(self) -> FloatArray:
+        """That of the pencil ()."""
+        return self.pencil.gap
 
 
 def best_dyads(poses: Displacement, weights: FloatArray | None = None) -> BestDyads:
@@ -50,7 +67,6 @@ def best_dyads(poses: Displacement, weights: FloatArray | None = None) -> BestDy
     Raises InputError as `critical_dyads` and `fit_pencil` do.
     """
     critical = critical_dyads(poses, weights)
-    pencil = fit_pencil(poses, weights)
     frames = critical.frames
     seen = frames.see(poses)
     pivots = _least_distance(critical.points[critical.minimum].real, seen, weights)
@@ -59,14 +75,11 @@ def best_dyads(poses: Displacement, weights: FloatArray | None = None) -> BestDy
     circles, rms_error, max_error = refitted_circles(p, seen, weights)
     return BestDyads(
         critical,
-        frames,
+        fit_pencil(poses, weights),
         circles.coefficients(),
         frames.circle_back(circles),
         rms_error * frames.length,
         max_error * frames.length,
-        pencil.singular_values,
-        pencil.noise,
-        pencil.gap,
     )
 
 
@@ -75,7 +88,7 @@ def _least_distance(
 ) -> FloatArray:
     """Pivots (k, 4) moved to where the distances from the mean circle are least, locally.
 
-    Gauss-Newton with the step halved until it helps; the radius is the mean distance.
+    Gauss-Newton with the step shortened until it helps; the radius is the mean distance.
     """
     root = np.sqrt(np.ones(poses.shape) if weights is None else weights)
     share = root**2 / (root**2).sum()

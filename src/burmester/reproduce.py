@@ -12,11 +12,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, replace
 from typing import Any, Final
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from burmester import manifold
 from burmester.comparison import (
@@ -30,12 +29,11 @@ from burmester.comparison import (
 from burmester.displacement import Displacement, FloatArray
 from burmester.dyad import RR
 from burmester.io.cases import load
+from burmester.paper_fit import LAST_DIGIT, VECTORS, PaperFit, rounded
 from burmester.pencil import fit_pencil
 
 __all__ = ["Comparison", "Section", "Verdict", "as_json", "compare_cases", "reproduce"]
 
-LAST_DIGIT: Final = np.array([1e-4, 1e-4, 1e-2])  # of x, y and the angle in degrees
-VECTORS: Final = [f"v{i} p{j}" for i in (1, 2) for j in range(1, 9)]
 ENTRIES: Final = ("sigma1", "sigma2", "tau1", "tau2", "c33", "c34", "c44")  # of Eq. (9), at
 PLACES: Final = ([0, 1, 0, 1, 2, 2, 3], [2, 2, 3, 3, 2, 3, 3])
 
@@ -52,8 +50,8 @@ def compare_cases(
     exact: dict[str, Any], approximate: dict[str, Any], samples: int, seed: int
 ) -> tuple[Section, ...]:
     """`reproduce` on the two examples as `burmester.io.cases.load` gives them."""
-    first = _Fit.of(exact, "Table 4", "singular_vectors_table4", samples, seed)
-    second = _Fit.of(approximate, "Table 7", "singular_vectors_table7", samples, seed)
+    first = PaperFit.of(exact, "Table 4", "singular_vectors_table4", samples, seed)
+    second = PaperFit.of(approximate, "Table 7", "singular_vectors_table7", samples, seed)
     return (
         _table2(first, samples, seed),
         _table3(first),
@@ -73,46 +71,9 @@ def as_json(sections: Iterable[Section]) -> dict[str, Any]:
     return {"schema": "burmester.reproduction/1", "sections": [asdict(s) for s in sections]}
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Fit:
-    """The paper's fit to a case and, after it on the first axis, to its rounding samples.
-
-    vectors: (2, 8), the printed v1, v2, known misprints put right; v1 and v2 of `plane`
-    (k, 2, 8) point along them.  p: (k, 2, 8) with p1 = 1, and e = sqrt(E): (k, 2), of the two
-    dyads; the one nearer to the printed C1 comes first.
-    """
-
-    case: dict[str, Any]
-    printed: dict[str, Any]
-    poses: Displacement
-    values: FloatArray
-    vectors: FloatArray
-    plane: FloatArray
-    p: FloatArray
-    e: FloatArray
-
-    @classmethod
-    def of(cls, case: dict[str, Any], where: str, key: str, samples: int, seed: int) -> _Fit:
-        printed, poses = case["printed"], _rounded(case["poses"], samples, seed)
-        fit = fit_pencil(poses, normalise=False)
-        vectors = np.array(printed[key])
-        for index, name in enumerate(VECTORS):
-            wrong, meant, _ = MISPRINTS.get(f"{where}, {name}", (None, 0.0, ""))
-            if vectors.flat[index] == wrong:
-                vectors.flat[index] = meant
-        plane = fit.vectors[:, :2]
-        plane = plane * np.where((plane * vectors).sum(axis=-1) < 0, -1, 1)[..., None]
-        p = fit.at(fit.theta[:, :2])
-        p /= p[..., :1]
-        order = np.argsort(np.abs(p[..., 2] / 2 - printed["C1"][0][2]), axis=1)
-        p = np.take_along_axis(p, order[..., None], axis=1)
-        e = np.take_along_axis(np.sqrt(fit.error[:, :2]), order, axis=1)
-        return cls(case, printed, poses, fit.singular_values, vectors, plane, p, e)
-
-
-def _table2(fit: _Fit, samples: int, seed: int) -> Section:
+def _table2(fit: PaperFit, samples: int, seed: int) -> Section:
     given = fit.case["poses_as_printed"]
-    poses, linkage = _rounded(given, samples, seed), _circles(fit.printed["linkage"])
+    poses, linkage = rounded(given, samples, seed), _circles(fit.printed["linkage"])
     angles = np.degrees(_nearest_on_linkage(poses, linkage).angle)
     names = [f"angle {i}" for i in range(1, len(given) + 1)]
     rows = compare_columns("Table 2", names, [row[2] for row in given], angles, ".2f")
@@ -137,7 +98,7 @@ def _table2(fit: _Fit, samples: int, seed: int) -> Section:
     )
 
 
-def _table3(fit: _Fit) -> Section:
+def _table3(fit: PaperFit) -> Section:
     exact = _nearest_on_linkage(fit.poses[0], _circles(fit.printed["linkage"]))
     moved = np.abs(exact.translation - fit.poses[0].translation).max() / LAST_DIGIT[0]
     turned = np.degrees(np.abs(exact.angle - fit.poses[0].angle).max()) / LAST_DIGIT[2]
@@ -159,7 +120,7 @@ def _table3(fit: _Fit) -> Section:
     )
 
 
-def _table4(fit: _Fit) -> Section:
+def _table4(fit: PaperFit) -> Section:
     v, meant, plane = np.array(fit.printed["singular_vectors_table4"]), fit.vectors, fit.plane
     near = np.einsum("kj,nij,nil->nkl", meant, plane, plane)
     near /= np.linalg.norm(near, axis=-1, keepdims=True)
@@ -193,7 +154,7 @@ def _table4(fit: _Fit) -> Section:
     )
 
 
-def _equations19(fit: _Fit) -> Section:
+def _equations19(fit: PaperFit) -> Section:
     theta = np.array(fit.printed["theta_deg"])
     turned, counted = _angles(fit.p, fit.vectors[None], theta), _angles(fit.p, fit.plane, theta)
     rows = []
@@ -230,7 +191,7 @@ def _equations19(fit: _Fit) -> Section:
     )
 
 
-def _figure4(fit: _Fit) -> Section:
+def _figure4(fit: PaperFit) -> Section:
     centre, _, squared = manifold.circle(fit.p)
     texts = {"Xc1": "X + 22", "Yc1": "Y - 01", "Xc2": "X + 115", "Yc2": "Y - 038"}
     rows = []
@@ -243,12 +204,12 @@ def _figure4(fit: _Fit) -> Section:
     return Section("Fig. 4: the two circles, exact motion", tuple(rows))
 
 
-def _table6(fit: _Fit) -> Section:
+def _table6(fit: PaperFit) -> Section:
     title = "Table 6: singular values of [A], approximate motion"
     return Section(title, tuple(_singular_values(fit, "Table 6")))
 
 
-def _table7(fit: _Fit) -> Section:
+def _table7(fit: PaperFit) -> Section:
     rows = compare_columns("Table 7", VECTORS, fit.vectors.ravel(), fit.plane.reshape(-1, 16))
     prints = fit.printed["singular_vector_errors_table7"]
     rows += compare_columns("Table 7", ("v1 e", "v2 e"), prints, _root_of_e(fit.plane))
@@ -267,7 +228,7 @@ def _table7(fit: _Fit) -> Section:
     )
 
 
-def _equations22(fit: _Fit) -> Section:
+def _equations22(fit: PaperFit) -> Section:
     theta = np.array(fit.printed["theta_deg"])
     rows = compare_columns(
         "Eq. (22)", ("theta1", "theta2"), theta, _angles(fit.p, fit.plane, theta), ".2f"
@@ -285,7 +246,7 @@ def _equations22(fit: _Fit) -> Section:
     )
 
 
-def _table8(fit: _Fit) -> Section:
+def _table8(fit: PaperFit) -> Section:
     fixed, moving, squared = manifold.circle(fit.p)
     radii = np.sqrt(squared)
     values = np.concatenate([fixed, radii.mean(axis=-1, keepdims=True), moving], axis=-1)
@@ -313,7 +274,7 @@ def _table8(fit: _Fit) -> Section:
     )
 
 
-def _beyond(*fits: _Fit) -> Section:
+def _beyond(*fits: PaperFit) -> Section:
     remarks = [
         "Tables 1 and 9 are not compared: they rest on ten poses of Ravani and Roth that the "
         "paper does not print."
@@ -328,7 +289,7 @@ def _beyond(*fits: _Fit) -> Section:
     return Section("Not compared, and beyond the print", (), tuple(remarks))
 
 
-def _singular_values(fit: _Fit, where: str, *, vanishes: bool = False) -> list[Comparison]:
+def _singular_values(fit: PaperFit, where: str, *, vanishes: bool = False) -> list[Comparison]:
     """The eight singular values, and the greatest in the chart Z4 = 1 of Eq. (14).
 
     vanishes: the first two are zero on exact data.
@@ -346,7 +307,7 @@ def _singular_values(fit: _Fit, where: str, *, vanishes: bool = False) -> list[C
     return [*rows, row.noted(f"Eq. (14) sets Z4 = 1; unit image points give {unit[0]:.4f}.")]
 
 
-def _matrix_rows(fit: _Fit, *equations: str) -> list[Comparison]:
+def _matrix_rows(fit: PaperFit, *equations: str) -> list[Comparison]:
     rows: list[Comparison] = []
     for i, equation in enumerate(equations):
         prints = np.array(fit.printed[f"C{i + 1}"])[PLACES]
@@ -377,15 +338,6 @@ def _nearest_on_linkage(poses: Displacement, linkage: RR) -> Displacement:
         across = np.swapaxes(slope, -1, -2)
         step = (across @ np.linalg.solve(slope @ across, gap[..., None]))[..., 0]
     return Displacement.from_poses(start + step * unit)
-
-
-def _rounded(poses: ArrayLike, samples: int, seed: int) -> Displacement:
-    """The poses (N, 3), then copies within the rounding of their last digits: (1 + samples, N)."""
-    rows = np.asarray(poses, dtype=np.float64)
-    noise = np.random.default_rng(seed).uniform(-0.5, 0.5, (1 + samples, *rows.shape))
-    noise[0] = 0
-    rows = rows + noise * LAST_DIGIT
-    return Displacement(rows[..., :2], np.radians(rows[..., 2]))
 
 
 def _circles(dyads: Sequence[dict[str, Any]]) -> RR:
