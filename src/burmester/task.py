@@ -6,13 +6,15 @@ from dataclasses import dataclass
 from typing import final
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from burmester.displacement import Displacement, FloatArray
 from burmester.errors import InputError
+from burmester.limits import Limits
 
-__all__ = ["Task"]
+__all__ = ["CONDITIONS", "Task"]
 
+CONDITIONS = 5  # that a dyad can meet exactly: it has five dimensions
 LEAST_POSES = 3  # two poses are met by every moving pivot with a whole line of fixed pivots
 
 
@@ -28,8 +30,12 @@ class Task:
     length_unit: the unit of x and y as its user writes it ("mm"), or None.
     resolution: how exactly a pose is known, (length in the task's unit, angle in radians);
         half of the last digit that a file gives, 0 for exact numbers.
+    exact: (N,), which poses must be met exactly, or None for none of them.
+    limits: none; one for both dyads of a linkage; or two, one for each.
+    Fewer than 3 poses are enough where a limit puts a pivot at a point or on a line.
     Raises InputError: E103 (a number that is not finite), E120 (too few poses), E122
-    (weights or names that do not fit the poses).
+    (weights, names or marks that do not fit the poses), E133 (more exact conditions than a
+    dyad can meet).
     """
 
     poses: Displacement
@@ -37,12 +43,19 @@ class Task:
     names: tuple[str, ...] | None = None
     length_unit: str | None = None
     resolution: tuple[float, float] = (0.0, 0.0)
+    exact: NDArray[np.bool_] | None = None
+    limits: tuple[Limits, ...] = ()
 
     def __post_init__(self) -> None:
         if len(self.poses.shape) != 1:
             raise ValueError(f"a task takes poses of shape (N,), not {self.poses.shape}")
         count = self.poses.shape[0]
-        if count < LEAST_POSES:
+        if len(self.limits) > 2:
+            raise ValueError(
+                f"a linkage has two dyads, and so at most two limits, not {len(self.limits)}"
+            )
+        conditions = max((limits.conditions for limits in self.limits), default=0)
+        if count < (1 if conditions else LEAST_POSES):
             raise InputError(
                 "E120",
                 f"{count} pose{'' if count == 1 else 's'}: too few for a linkage",
@@ -60,6 +73,28 @@ class Task:
                     help="give every pose a weight above zero; to drop a pose, delete it",
                 )
             object.__setattr__(self, "weights", weights)
+        if self.exact is not None:
+            exact = np.asarray(self.exact, dtype=np.bool_)
+            if exact.shape != (count,):
+                raise InputError(
+                    "E122",
+                    "the marks for exact poses do not fit the poses",
+                    why=f"{count} poses need {count} marks, true or false",
+                    help="mark every pose, or none",
+                )
+            object.__setattr__(self, "exact", exact)
+            if (marked := int(exact.sum())) + conditions > CONDITIONS:
+                raise InputError(
+                    "E133",
+                    f"{marked + conditions} exact conditions, and a dyad can meet {CONDITIONS}",
+                    why=f"{marked} poses are marked exact"
+                    + (
+                        f", and pivots at points or on lines are {conditions} more conditions"
+                        if conditions
+                        else ""
+                    ),
+                    help=f"mark {CONDITIONS - conditions} poses or fewer",
+                )
         if self.names is not None and len(self.names) != count:
             raise InputError(
                 "E122",

@@ -1,0 +1,170 @@
+"""Downhill within limits: from a dyad that is best on one face to one that no way leads down from.
+
+A dyad z moves along the faces on which it lies (`polish`).  Where that would leave a region it
+stops at the edge and goes on along it; where a way into a region leads down it lets go of the edge.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple, TypeAlias, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burmester.displacement import FloatArray
+from burmester.limits import PLANE, Face, Region
+from burmester.polish import Misses, Polished
+
+__all__ = ["Block", "Range", "descend", "inside"]
+
+INSIDE = 1e-9  # lengths outside a region that are rounding
+DOWNHILL = 1e-7  # share of the pull that is rounding
+MOVES = 20  # from face to face
+TRIES = 65  # places looked at on the way out of a region
+HALVINGS = 50
+
+Polish: TypeAlias = Callable[[FloatArray, FloatArray], Polished]
+"""From a dyad z and the directions (columns) in which it may move to the best along them."""
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Range:
+    """A link's length from least to most: a region of one dimension."""
+
+    least: float
+    most: float
+
+    def faces(self) -> list[Face]:
+        """Between the bounds, and at each."""
+        between = Face(np.zeros(1), np.eye(1), np.empty((0, 1)))
+        if self.least == self.most:
+            return [Face(np.array([self.least]), np.empty((1, 0)), np.empty((0, 1)))]
+        ends = ((self.least, 1.0), (self.most, -1.0))
+        return [between] + [
+            Face(np.array([at]), np.empty((1, 0)), np.array([[inward]]))
+            for at, inward in ends
+            if 0 < at < np.inf
+        ]
+
+    def distance(self, points: FloatArray) -> FloatArray:
+        """How far lengths (*, 1) lie outside it, (*,)."""
+        return np.maximum(np.maximum(self.least - points, points - self.most), 0.0)[..., 0]
+
+
+class Block(NamedTuple):
+    """The numbers of a dyad z that one region limits; None where nothing does."""
+
+    at: slice
+    region: Region | Range | None
+
+    def faces(self) -> list[Face]:
+        """Its faces, each with the origin of its line as near to zero as can be."""
+        if self.region is None:
+            return [PLANE]
+        return [
+            face._replace(origin=face.origin - face.basis @ (face.basis.T @ face.origin))
+            for face in self.region.faces()
+        ]
+
+    def outside(self, z: FloatArray) -> NDArray[np.bool_]:
+        """Whether dyads z (*, k) lie outside, rounding apart."""
+        if self.region is None:
+            return np.zeros(z.shape[:-1], dtype=bool)
+        return np.asarray(self.region.distance(z[..., self.at]) > INSIDE)
+
+
+def inside(z: FloatArray, blocks: Sequence[Block]) -> bool:
+    """Whether a dyad z lies within all limits."""
+    return not any(block.outside(z) for block in blocks)
+
+
+def descend(
+    z: FloatArray,
+    misses: Misses,
+    polish: Polish,
+    blocks: Sequence[Block],
+    faces: Sequence[Face],
+) -> Polished | None:
+    """The local minimum within limits to which a dyad z inside them leads, or None.
+
+    faces: one for each block, the faces on which z begins.
+    """
+    on = list(faces)
+    for _ in range(MOVES):
+        polished = polish(z, _directions(len(z), blocks, on))
+        if not np.isfinite(polished.z).all():
+            return None
+        shares = [_share_inside(z, polished.z, block) for block in blocks]
+        first = int(np.argmin(shares))
+        if shares[first] < 1:
+            z = z + shares[first] * (polished.z - z)
+            on[first] = _smallest(z, blocks[first], blocks[first].faces())
+            continue
+        z, slope = polished.z, misses(polished.z).slope
+        ways = [
+            _way_down(slope[:, block.at], polished.pull, face)
+            for block, face in zip(blocks, on, strict=True)
+        ]
+        best = int(np.argmin([steep for steep, _ in ways]))
+        steep, d = ways[best]
+        if steep >= -DOWNHILL:
+            return polished
+        wider = [
+            face
+            for face in blocks[best].faces()
+            if face.basis.shape[1] > on[best].basis.shape[1]
+            and np.abs(d - face.basis @ (face.basis.T @ d)).max() < INSIDE
+        ]
+        on[best] = _smallest(z, blocks[best], wider)
+    return None
+
+
+def _directions(size: int, blocks: Sequence[Block], faces: Sequence[Face]) -> FloatArray:
+    """The directions (size, k) in which a dyad z (size,) may move."""
+    limited = {i for block in blocks for i in range(block.at.start, block.at.stop)}
+    columns = [np.eye(size)[i] for i in range(size) if i not in limited]
+    for block, face in zip(blocks, faces, strict=True):
+        for along in face.basis.T:
+            columns.append(np.zeros(size))
+            columns[-1][block.at] = along
+    return np.array(columns).reshape(-1, size).T
+
+
+def _share_inside(z: FloatArray, to: FloatArray, block: Block) -> float:
+    """How far of the way from z to another dyad its block stays in its region: 1 is all of it."""
+    shares = np.linspace(0, 1, TRIES)
+    outside = block.outside(z + shares[:, None] * (to - z))
+    if not outside.any():
+        return 1.0
+    first = int(outside.argmax())
+    low, high = shares[max(first - 1, 0)], shares[first]
+    for _ in range(HALVINGS):
+        middle = (low + high) / 2
+        low, high = (low, middle) if block.outside(z + middle * (to - z)) else (middle, high)
+    return float(low)
+
+
+def _smallest(z: FloatArray, block: Block, faces: Sequence[Face]) -> Face:
+    """The smallest of some faces of a block on which a dyad z lies."""
+
+    def off(face: Face) -> float:
+        rest = z[block.at] - face.origin
+        return float(np.abs(rest - face.basis @ (face.basis.T @ rest)).max())
+
+    on = [face for face in faces if off(face) < 10 * INSIDE]
+    return min(on, key=lambda face: face.basis.shape[1])
+
+
+def _way_down(slope: FloatArray, pull: FloatArray, face: Face) -> tuple[float, FloatArray]:
+    """The steepest way (d,) into a region from a face of it, and how steep it is.
+
+    That is the objective's derivative as a share of what pulls either way, at most 0.
+    """
+    along = slope @ face.inward.T
+    steep = (pull @ along) / np.maximum(np.abs(pull) @ np.abs(along), 1e-300)
+    if not len(steep) or steep.min() >= 0:
+        return 0.0, np.zeros(slope.shape[1])
+    return float(steep.min()), face.inward[steep.argmin()]

@@ -1,0 +1,385 @@
+"""What a designer allows a dyad to be: where its pivots may lie, how long, of which kind.
+
+A region of the plane is a point, a line, a segment or a polygon.  Its faces are the pieces of
+it without an edge of their own: the inside, the edges, the corners.  The best pivot in a region
+is a stationary point on one of them, from which no way into the region leads down.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+from typing import Final, Literal, NamedTuple, TypeAlias, final
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from burmester.displacement import FloatArray
+from burmester.errors import InputError
+
+__all__ = [
+    "KINDS",
+    "Face",
+    "Kind",
+    "Limits",
+    "Line",
+    "Point",
+    "Polygon",
+    "Region",
+    "Segment",
+    "box",
+]
+
+Kind: TypeAlias = Literal["RR", "PR", "RP", "PP"]
+KINDS: Final[tuple[Kind, ...]] = ("RR", "PR", "RP", "PP")
+
+FLAT = 1e-12  # of a polygon's size squared: no area
+
+
+class Face(NamedTuple):
+    """A piece of a region: origin (2,) + basis (2, dimension) u, for all u.
+
+    inward: (k, 2), unit directions that lead from the face into the region, the outermost of
+        them and one between; none where the region ends with the face's own line or point.
+    """
+
+    origin: FloatArray
+    basis: FloatArray
+    inward: FloatArray
+
+
+PLANE: Final = Face(np.zeros(2), np.eye(2), np.empty((0, 2)))
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Point:
+    """One point, (2,)."""
+
+    at: FloatArray
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "at", _points(self.at, 1, "a point")[0])
+
+    def __str__(self) -> str:
+        return f"at {_shown(self.at)}"
+
+    def equations(self) -> FloatArray:
+        """The linear conditions (k, 3) that it sets: row · (1, X, Y) = 0."""
+        x, y = self.at
+        return np.array([[-x, 1.0, 0.0], [-y, 0.0, 1.0]])
+
+    def faces(self) -> Iterator[Face]:
+        """Its pieces."""
+        yield Face(self.at, np.empty((2, 0)), np.empty((0, 2)))
+
+    def distance(self, points: FloatArray) -> FloatArray:
+        """How far points (*, 2) lie outside it, (*,)."""
+        return np.asarray(np.linalg.norm(points - self.at, axis=-1))
+
+    def corners(self) -> FloatArray:
+        """Points (k, 2) whose convex hull holds the region."""
+        return self.at[None]
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Line:
+    """The endless line through two points, start and end (2,) each."""
+
+    start: FloatArray
+    end: FloatArray
+
+    def __post_init__(self) -> None:
+        _take_two(self, "a line")
+
+    def __str__(self) -> str:
+        return f"on the line through {_shown(self.start)} and {_shown(self.end)}"
+
+    def equations(self) -> FloatArray:
+        """The linear conditions (k, 3) that it sets: row · (1, X, Y) = 0."""
+        return _line_equation(self.start, self.end)
+
+    def faces(self) -> Iterator[Face]:
+        """Its pieces."""
+        yield Face(self.start, _unit(self.end - self.start)[:, None], np.empty((0, 2)))
+
+    def distance(self, points: FloatArray) -> FloatArray:
+        """How far points (*, 2) lie outside it, (*,)."""
+        row = self.equations()[0]
+        return np.asarray(np.abs(points @ row[1:] + row[0]))
+
+    def corners(self) -> None:
+        """None: no points hold it."""
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Segment:
+    """The straight piece from start to end, (2,) each."""
+
+    start: FloatArray
+    end: FloatArray
+
+    def __post_init__(self) -> None:
+        _take_two(self, "a segment")
+
+    def __str__(self) -> str:
+        return f"on the segment from {_shown(self.start)} to {_shown(self.end)}"
+
+    def equations(self) -> FloatArray:
+        """The linear conditions (k, 3) that it sets: row · (1, X, Y) = 0."""
+        return _line_equation(self.start, self.end)
+
+    def faces(self) -> Iterator[Face]:
+        """Its pieces."""
+        along = _unit(self.end - self.start)
+        yield Face(self.start, along[:, None], np.empty((0, 2)))
+        for at, inward in ((self.start, along), (self.end, -along)):
+            yield Face(at, np.empty((2, 0)), inward[None])
+
+    def distance(self, points: FloatArray) -> FloatArray:
+        """How far points (*, 2) lie outside it, (*,)."""
+        return _from_segment(points, self.start, self.end)
+
+    def corners(self) -> FloatArray:
+        """Points (k, 2) whose convex hull holds the region."""
+        return np.stack([self.start, self.end])
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Polygon:
+    """The inside and the edge of a polygon, convex or not: vertices (n, 2), n >= 3."""
+
+    vertices: FloatArray
+
+    def __post_init__(self) -> None:
+        v = _points(self.vertices, None, "a polygon")
+        v = v[np.any(v != np.roll(v, 1, axis=0), axis=1)]
+        edges = np.roll(v, -1, axis=0) - v
+        area = float((v[:, 0] * edges[:, 1] - v[:, 1] * edges[:, 0]).sum() / 2) if len(v) else 0.0
+        if len(v) < 3 or abs(area) <= FLAT * float((edges**2).sum()):
+            raise InputError(
+                "E131",
+                "a polygon has no inside",
+                why=f"its {len(v)} different corners enclose no area",
+                help="give three corners or more that enclose one, or a line or a point instead",
+            )
+        if _crosses_itself(v):
+            raise InputError(
+                "E131",
+                "a polygon crosses itself",
+                help="give its corners in order around it",
+            )
+        object.__setattr__(self, "vertices", v if area > 0 else v[::-1])
+
+    def __str__(self) -> str:
+        low, high = self.vertices.min(axis=0), self.vertices.max(axis=0)
+        on_bounds = ((self.vertices == low) | (self.vertices == high)).all()
+        if on_bounds and len(self.vertices) == 4:
+            return f"in the box from {_shown(low)} to {_shown(high)}"
+        return "in the polygon " + " ".join(map(_shown, self.vertices))
+
+    def equations(self) -> FloatArray:
+        """None: no linear conditions, (0, 3)."""
+        return np.empty((0, 3))
+
+    def faces(self) -> Iterator[Face]:
+        """Its pieces: the inside, the edges, the corners."""
+        yield PLANE
+        v = self.vertices
+        along = _unit(np.roll(v, -1, axis=0) - v)
+        inward = np.stack([-along[:, 1], along[:, 0]], axis=-1)
+        for at, edge, inside in zip(v, along, inward, strict=True):
+            yield Face(at, edge[:, None], inside[None])
+        for k, at in enumerate(v):
+            between = _unit(inward[k] + inward[k - 1])
+            yield Face(at, np.empty((2, 0)), np.stack([along[k], -along[k - 1], between]))
+
+    def distance(self, points: FloatArray) -> FloatArray:
+        """How far points (*, 2) lie outside it, (*,)."""
+        v, p = self.vertices, points[..., None, :]
+        w = np.roll(v, -1, axis=0)
+        above = (v[:, 1] > p[..., 1]) != (w[:, 1] > p[..., 1])
+        rise = np.where(w[:, 1] == v[:, 1], 1.0, w[:, 1] - v[:, 1])
+        crossing = v[:, 0] + (p[..., 1] - v[:, 1]) / rise * (w[:, 0] - v[:, 0])
+        inside = (above & (p[..., 0] < crossing)).sum(axis=-1) % 2 == 1
+        return np.where(inside, 0.0, _from_segment(p, v, w).min(axis=-1))
+
+    def corners(self) -> FloatArray:
+        """Points (k, 2) whose convex hull holds the region."""
+        return self.vertices
+
+
+Region: TypeAlias = Point | Line | Segment | Polygon
+
+
+def box(low: Sequence[float], high: Sequence[float]) -> Polygon:
+    """The box from one corner (2,) to the opposite one, the second above and right of the first.
+
+    Raises InputError E132 where it is not.
+    """
+    ((x0, y0), (x1, y1)) = _points([low, high], 2, "a box")
+    for name, least, most in (("x", x0, x1), ("y", y0, y1)):
+        if not least < most:
+            raise InputError(
+                "E132",
+                f"a box is empty: {name} from {least:g} to {most:g}",
+                why=f"its least {name}, {least:g}, is not below its greatest, {most:g}",
+                help="give the lower left corner first, then the upper right one",
+            )
+    return Polygon(np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)]))
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Limits:
+    """What one dyad is allowed to be.
+
+    fixed_pivot: where in F, moving_pivot: where in M; None anywhere.  A slider's line has no
+        pivot: a dyad whose pivot is limited has that pivot (no PR where the fixed one is, no RP
+        where the moving one is).
+    length: least and greatest length of an RR dyad's link, in the task's unit.
+    kinds: which of RR, PR, RP and PP.
+    Raises InputError E131 (malformed) and E132 (limits that contradict each other).
+    """
+
+    fixed_pivot: Region | None = None
+    moving_pivot: Region | None = None
+    length: tuple[float, float] = (0.0, float("inf"))
+    kinds: frozenset[Kind] = field(default=frozenset(KINDS))
+
+    def __post_init__(self) -> None:
+        least, most = (float(bound) for bound in self.length)
+        if not (least >= 0 and most > 0 and least < float("inf")):
+            raise InputError(
+                "E131",
+                f"a link length from {least:g} to {most:g} is no range",
+                help="give a least length of zero or more and a greatest one above it",
+            )
+        if least > most:
+            raise InputError(
+                "E132",
+                "the limits contradict each other: "
+                f"a link at least {least:g} long and at most {most:g} long",
+                help="exchange the two, or give up one of them",
+            )
+        unknown = set(self.kinds) - set(KINDS)
+        if unknown or not self.kinds:
+            raise InputError(
+                "E131",
+                f"there is no dyad kind {', '.join(sorted(unknown))}"
+                if unknown
+                else "no dyad kind is left",
+                help=f"choose among {', '.join(KINDS)}",
+            )
+        object.__setattr__(self, "length", (least, most))
+        object.__setattr__(self, "kinds", frozenset(self.kinds))
+        if not self.allowed:
+            pivot = "fixed" if self.fixed_pivot is not None else "moving"
+            region = self.fixed_pivot if pivot == "fixed" else self.moving_pivot
+            raise InputError(
+                "E132",
+                "the limits contradict each other: "
+                f"{pivot} pivot {region}, and dyads of kind {', '.join(sorted(self.kinds))} only",
+                why=f"a dyad of that kind has no {pivot} pivot",
+                help="allow RR as well, or leave that pivot free",
+            )
+        if self.has_length and "RR" not in self.kinds:
+            raise InputError(
+                "E132",
+                "the limits contradict each other: a link "
+                f"from {least:g} to {most:g} long, and dyads of kind "
+                f"{', '.join(sorted(self.kinds))} only",
+                why="only an RR dyad has a link with a length",
+                help="allow RR as well, or leave the length free",
+            )
+
+    @property
+    def allowed(self) -> frozenset[Kind]:
+        """The kinds that have the pivots that are limited."""
+        out: set[Kind] = set()
+        if self.fixed_pivot is not None:
+            out |= {"PR", "PP"}
+        if self.moving_pivot is not None:
+            out |= {"RP", "PP"}
+        return self.kinds - out
+
+    @property
+    def has_length(self) -> bool:
+        """Whether the length is limited at all."""
+        return self.length != (0.0, float("inf"))
+
+    @property
+    def conditions(self) -> int:
+        """How many exact conditions they set on a dyad: two for a point, one for a line."""
+        return sum(
+            len(region.equations()) for region in (self.fixed_pivot, self.moving_pivot) if region
+        )
+
+
+def _points(values: ArrayLike, count: int | None, what: str) -> FloatArray:
+    """Points (n, 2), finite, `count` of them."""
+    points = np.array(values, dtype=np.float64)
+    points = points[None] if points.ndim == 1 else points
+    right = points.ndim == 2 and points.shape[1] == 2 and count in (None, len(points))
+    if not right or not np.isfinite(points).all():
+        raise InputError(
+            "E131",
+            f"{what} does not fit",
+            why=f"it takes {'points' if count is None else count} X, Y with finite numbers",
+            help="write every point as X,Y",
+        )
+    return points
+
+
+def _take_two(region: Line | Segment, what: str) -> None:
+    start, end = _points([region.start, region.end], 2, what)
+    if (start == end).all():
+        raise InputError(
+            "E131",
+            f"{what} needs two different points, not {_shown(start)} twice",
+            help="give another second point, or limit the pivot to that point",
+        )
+    object.__setattr__(region, "start", start)
+    object.__setattr__(region, "end", end)
+
+
+def _shown(point: FloatArray) -> str:
+    return f"({point[0]:g}, {point[1]:g})"
+
+
+def _unit(vectors: FloatArray) -> FloatArray:
+    return np.asarray(vectors / np.linalg.norm(vectors, axis=-1, keepdims=True))
+
+
+def _line_equation(start: FloatArray, end: FloatArray) -> FloatArray:
+    along = _unit(end - start)
+    normal = np.array([-along[1], along[0]])
+    return np.array([[-normal @ start, *normal]])
+
+
+def _from_segment(points: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray:
+    """The distance of points (*, 2) from segments (*, 2), broadcast."""
+    along = end - start
+    share = ((points - start) * along).sum(axis=-1) / (along * along).sum(axis=-1)
+    foot = start + np.clip(share, 0, 1)[..., None] * along
+    return np.asarray(np.linalg.norm(points - foot, axis=-1))
+
+
+def _crosses_itself(v: FloatArray) -> bool:
+    """Whether two edges of a polygon that are no neighbours meet."""
+    ring = [*v, v[0]]
+    edges = list(pairwise(ring))
+
+    def side(a: FloatArray, b: FloatArray, p: FloatArray) -> float:
+        return float(np.sign((b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])))
+
+    for i, (a, b) in enumerate(edges):
+        for j in range(i + 2, len(edges) - (i == 0)):
+            c, d = edges[j]
+            if side(a, b, c) * side(a, b, d) <= 0 and side(c, d, a) * side(c, d, b) <= 0:
+                return True
+    return False
