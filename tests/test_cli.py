@@ -62,9 +62,9 @@ def test_main_job_prints_the_published_linkage(poses):
     done = run("synthesize", poses)
     assert done.returncode == 0
     assert done.stderr == ""
-    assert "1 four-bar from 2 dyads" in done.stdout
-    assert "crank-rocker" in done.stdout
-    assert "(-2.19988, 0.10022)" in done.stdout
+    assert "10 four-bars from 5 locally best dyads" in done.stdout
+    assert "Best: L1, a crank-rocker" in done.stdout
+    assert "(-2.20006," in done.stdout
     assert max(map(len, done.stdout.splitlines())) <= 80
 
 
@@ -105,7 +105,9 @@ def test_json_of_one_run_is_the_input_of_the_next(poses):
     assert second.returncode == 0
     one, two = json.loads(first.stdout), json.loads(second.stdout)
     for a, b in zip(one["dyads"], two["dyads"], strict=True):
-        assert np.allclose(a["fixed_pivot"], b["fixed_pivot"], rtol=0, atol=1e-9)
+        for key in ("fixed_pivot", "moving_pivot"):
+            assert (key in a) == (key in b)
+            assert np.allclose(a.get(key, 0), b.get(key, 0), rtol=0, atol=1e-9)
 
 
 BAD = {
@@ -207,6 +209,119 @@ def test_complete_method_says_what_it_accounted_for(poses):
     assert {dyad["kind"] for dyad in data["dyads"]} == {"RR", "PR", "RP"}
 
 
+def circle_misses(dyad, data):
+    """How far a link's pin is from its circle at every pose, in plain complex numbers."""
+    out = []
+    for pose in data["task"]["poses"]:
+        turn = np.exp(1j * np.radians(pose["angle_deg"]))
+        pin = complex(*dyad["moving_pivot"]) * turn + pose["x"] + 1j * pose["y"]
+        out.append(abs(pin - complex(*dyad["fixed_pivot"])) - dyad["radius"])
+    return np.array(out)
+
+
+def linkages(*arguments):
+    done = run("synthesize", *arguments, "--json")
+    assert done.returncode == 0, done.stderr
+    data = valid(done.stdout)
+    assert data["linkages"]
+    return data, [linkage["dyads"] for linkage in data["linkages"]]
+
+
+@pytest.mark.parametrize("arguments", [("--fixed-pivot", "-2,0.5"), ("--fixed-pivot=-2,0.5",)])
+def test_a_point_on_the_command_line_is_the_pivot_of_one_dyad(poses, arguments):
+    _, pairs = linkages(poses, *arguments)
+    for pair in pairs:
+        at = [dyad.get("fixed_pivot") for dyad in pair]
+        assert sum(pivot is not None and np.allclose(pivot, [-2, 0.5]) for pivot in at) == 1
+
+
+def test_limits_for_both_dyads_hold_for_both(poses):
+    limits = ("--fixed-pivot", "box:-3,-1:3,0.3", "--length", "1:6", "--kinds", "RR")
+    data, pairs = linkages(poses, *limits)
+    for dyad in (dyad for pair in pairs for dyad in pair):
+        x, y = dyad["fixed_pivot"]
+        assert -3 <= x <= 3
+        assert -1 <= y <= 0.3 + 1e-9
+        assert 1 - 1e-9 <= dyad["radius"] <= 6 + 1e-9
+        assert np.abs(circle_misses(dyad, data)).max() == pytest.approx(dyad["max_error"])
+
+
+def test_limits_for_each_dyad(poses):
+    _, pairs = linkages(poses, "--kinds", "RR", "--kinds", "PR")
+    assert {tuple(sorted(dyad["kind"] for dyad in pair)) for pair in pairs} == {("PR", "RR")}
+
+
+def test_exact_poses_are_met_and_the_others_come_near(poses):
+    data, pairs = linkages(poses, "--exact", "1,10", "--kinds", "RR")
+    for dyad in (dyad for pair in pairs for dyad in pair):
+        miss = np.abs(circle_misses(dyad, data))
+        assert miss[[0, 9]].max() < 1e-10
+        assert miss[1:9].max() > 1e-6
+
+
+def test_the_smallest_worst_deviation_is_smaller_than_that_of_least_squares(poses):
+    rms, worst = (linkages(poses, "--norm", norm)[0] for norm in ("rms", "worst"))
+    for a, b in zip(rms["dyads"][:2], worst["dyads"][:2], strict=True):
+        assert b["max_error"] < a["max_error"]
+        assert b["rms_error"] > a["rms_error"]
+
+
+def test_limits_in_a_file_are_those_of_the_command_line(tmp_path, poses):
+    file = tmp_path / "poses.toml"
+    rows = ", ".join(f"[{row}]" for row in TABLE_2.splitlines()[1:])
+    file.write_text(
+        f'angle_unit = "deg"\nposes = [{rows}]\n'
+        '[limits]\nfixed_pivot = { line = [[0, 0], [1, 0]] }\nkinds = ["RR"]\n'
+    )
+    by_option = linkages(poses, "--fixed-pivot", "line:0,0:1,0", "--kinds", "RR")[1]
+    assert linkages(file)[1] == by_option
+    again = run("synthesize", file, "--kinds", "PR")
+    assert again.returncode == 2
+    assert again.stderr.startswith("error[E108]")
+
+
+REFUSED = {
+    "region": (["--fixed-pivot", "box:0,0:a,2"], "E131", ["--fixed-pivot:1:9", "'a'", "^"]),
+    "empty": (["--moving-pivot", "box:0,0:0,2"], "E132", ["x from 0 to 0"]),
+    "length": (["--length", "5:2"], "E132", ["at least 5 long", "at most 2 long"]),
+    "kinds": (["--kinds", "PR", "--fixed-pivot", "1,2"], "E132", ["at (1, 2)", "PR only"]),
+    "pose": (["--exact", "11"], "E122", ["no pose '11'", "1 to 10"]),
+    "conditions": (["--exact", "1,2,3,4", "--fixed-pivot", "1,2"], "E133", ["6 exact conditions"]),
+    "one point twice": (["--fixed-pivot", "1,2"] * 2, "E132", ["both dyads", "at (1, 2)"]),
+    "out of reach": (
+        ["--fixed-pivot", "0,0", "--moving-pivot", "box:0,0:0.1,0.1", "--length", ":0.3"],
+        "E132",
+        ["at (0, 0)", "box from (0, 0) to (0.1, 0.1)", "at most 0.3 long"],
+    ),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_limits_that_cannot_be_met_are_refused_before_solving(poses, name):
+    arguments, code, said = REFUSED[name]
+    done = run("synthesize", poses, *arguments)
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert done.stderr.startswith(f"error[{code}]")
+    for words in [*said, "help:"]:
+        assert words in done.stderr
+    as_json = run("synthesize", poses, *arguments, "--json")
+    assert valid(as_json.stdout)["outcome"]["code"] == code
+
+
+def test_help_tells_every_option_in_80_columns():
+    done = run("synthesize", "--help")
+    assert max(map(len, done.stdout.splitlines())) <= 80
+    options = (
+        "--fixed-pivot --moving-pivot --length --kinds --exact --method --norm --certify --raw "
+        "--angle-unit --json --help"
+    )
+    for option in options.split():
+        assert f"{option} " in done.stdout
+    for shape in ("line:", "segment:", "box:", "polygon:", "any"):
+        assert f" {shape}" in done.stdout
+
+
 def test_cases_are_listed_and_printed():
     listed = run("cases")
     assert listed.returncode == 0
@@ -240,8 +355,9 @@ def imported(*arguments):
     return set(done.stderr.split())
 
 
-def test_help_imports_next_to_nothing():
-    loaded = imported("--help")
+@pytest.mark.parametrize("arguments", [("--help",), ("synthesize", "--help")])
+def test_help_imports_next_to_nothing(arguments):
+    loaded = imported(*arguments)
     assert "click" in loaded
     assert not loaded & {"numpy", "rich", "pydantic", "scipy"}
 

@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import copy
+import io
 import json
 from typing import Any
 
 import numpy as np
 import pytest
+from rich.console import Console
 
 from burmester.comparison import compare
+from burmester.dyad import RR
 from burmester.io.cases import load
+from burmester.io.terminal import show_reproduction
+from burmester.methods import Answer
 from burmester.reproduce import (
     Comparison,
     Section,
@@ -19,6 +24,7 @@ from burmester.reproduce import (
     compare_cases,
     reproduce,
 )
+from burmester.side_by_side import SideBySide, side_by_side
 
 Path = tuple[str | int, ...]
 
@@ -308,3 +314,43 @@ def test_plain_data(sections: tuple[Section, ...]) -> None:
     row = next(r for s in data["sections"] for r in s["rows"] if r["item"] == "Table 3, sigma5")
     assert (row["printed"], row["verdict"]) == ("0.2868", "misprint")
     assert row["computed"] == pytest.approx(0.186826, abs=1e-6)
+
+
+def test_the_methods_beside_one_another_as_plain_data() -> None:
+    data = json.loads(json.dumps(as_json((), side_by_side(starts=12, seed=3)), allow_nan=False))
+    names = ["Ravani-Roth", "Larochelle", "algebraic", "pencil", "complete"]
+    for task, case in zip(data["methods"], ("exact", "approximate"), strict=True):
+        assert task["case"] == f"ge2012-{case}"
+        assert [answer["method"] for answer in task["answers"]] == names
+        poses = load(task["case"])["poses"]
+        dyads = [dyad for answer in task["answers"] for dyad in answer["dyads"]]
+        assert len(dyads) >= 8
+        for dyad in dyads:
+            miss = np.abs(circle_misses(poses, dyad))
+            assert dyad["rms_error"] == pytest.approx(np.sqrt((miss**2).mean()), abs=1e-12)
+            assert dyad["max_error"] == pytest.approx(miss.max(), abs=1e-12)
+        assert [answer["starts"] for answer in task["answers"]] == [12, 12, 12, None, None]
+
+
+def test_the_terminal_shows_who_found_what_in_80_columns() -> None:
+    tasks = side_by_side(starts=40)
+    out = io.StringIO()
+    show_reproduction((), tasks, Console(file=out, width=80))
+    shown = out.getvalue()
+    assert "…" not in shown
+    assert "none" in shown
+    for task in tasks:
+        for answer in task.answers:
+            assert any(line.startswith(answer.method) for line in shown.splitlines())
+            for x, y in answer.dyads.fixed_pivot:
+                assert f"({x:.3f}, {y:.3f})" in shown
+
+
+def test_a_method_without_an_answer_is_shown_so() -> None:
+    none = RR(np.empty((0, 2)), np.empty((0, 2)), np.empty(0))
+    answer = Answer("Larochelle", none, np.empty(0), np.empty(0), 0.5, 3, 0, (), np.inf)
+    task = SideBySide("Table 5", "ge2012-approximate", (answer,))
+    out = io.StringIO()
+    show_reproduction((), (task,), Console(file=out, width=80))
+    assert "Larochelle never" in out.getvalue()
+    assert as_json((), (task,))["methods"][0]["answers"][0]["starts_needed"] is None

@@ -6,6 +6,8 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from burmester.certificate import certify as certify
+    from burmester.certificate import certify_five as certify_five
     from burmester.critical import critical_dyads as critical_dyads
     from burmester.curve import dyad_curve as dyad_curve
     from burmester.displacement import Displacement as Displacement
@@ -19,9 +21,20 @@ if TYPE_CHECKING:
     from burmester.exact import dyad_with_fixed_pivot as dyad_with_fixed_pivot
     from burmester.exact import dyad_with_moving_pivot as dyad_with_moving_pivot
     from burmester.exact import dyads_of_five as dyads_of_five
+    from burmester.limits import Limits as Limits
+    from burmester.limits import Line as Line
+    from burmester.limits import Point as Point
+    from burmester.limits import Polygon as Polygon
+    from burmester.limits import Segment as Segment
+    from burmester.limits import box as box
     from burmester.linkage import Linkage as Linkage
+    from burmester.normal_distance import algebraic_fit as algebraic_fit
+    from burmester.normal_distance import larochelle as larochelle
+    from burmester.normal_distance import ravani_roth as ravani_roth
     from burmester.optimal import best_dyads as best_dyads
     from burmester.pencil import fit_pencil as fit_pencil
+    from burmester.pivot_map import fixed_pivot_map as fixed_pivot_map
+    from burmester.pivot_map import moving_pivot_map as moving_pivot_map
     from burmester.quadric import fit_quadric as fit_quadric
     from burmester.synthesis import Synthesis as Synthesis
     from burmester.synthesis import synthesize as synthesize
@@ -38,11 +51,20 @@ __all__ = [
     "Displacement",
     "Dyad",
     "InputError",
+    "Limits",
+    "Line",
     "Linkage",
+    "Point",
+    "Polygon",
+    "Segment",
     "Synthesis",
     "Task",
     "__version__",
+    "algebraic_fit",
     "best_dyads",
+    "box",
+    "certify",
+    "certify_five",
     "critical_dyads",
     "dyad_curve",
     "dyad_with_fixed_pivot",
@@ -50,20 +72,28 @@ __all__ = [
     "dyads_of_five",
     "fit_pencil",
     "fit_quadric",
+    "fixed_pivot_map",
+    "larochelle",
+    "moving_pivot_map",
+    "ravani_roth",
     "synthesize",
 ]
 
 # Loaded when first asked for, so that `burmester --help` needs no NumPy.
 _ROOMS = {
+    "certificate": ("certify", "certify_five"),
     "critical": ("critical_dyads",),
     "curve": ("dyad_curve",),
     "displacement": ("Displacement",),
     "dyad": ("PP", "PR", "RP", "RR", "Dyad"),
     "errors": ("BurmesterError", "InputError"),
     "exact": ("dyad_with_fixed_pivot", "dyad_with_moving_pivot", "dyads_of_five"),
+    "limits": ("Limits", "Line", "Point", "Polygon", "Segment", "box"),
     "linkage": ("Linkage",),
+    "normal_distance": ("algebraic_fit", "larochelle", "ravani_roth"),
     "optimal": ("best_dyads",),
     "pencil": ("fit_pencil",),
+    "pivot_map": ("fixed_pivot_map", "moving_pivot_map"),
     "quadric": ("fit_quadric",),
     "synthesis": ("Synthesis", "synthesize"),
     "task": ("Task",),

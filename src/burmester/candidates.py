@@ -11,9 +11,10 @@ from burmester.displacement import FloatArray
 from burmester.dyad import PR, RP, RR, Dyad
 from burmester.exact import FivePoseDyads
 from burmester.frames import CanonicalFrames
+from burmester.limited import LimitedDyads
 from burmester.optimal import BestDyads
-from burmester.pencil import Pencil
-from burmester.prismatic import fixed_lines, moving_lines, straightened
+from burmester.pencil import LEAST_POSES, Pencil, fit_pencil
+from burmester.prismatic import straightened
 from burmester.task import Task
 
 __all__ = [
@@ -55,6 +56,7 @@ class FoundDyad:
     rms_error: float
     max_error: float
     minimum: bool = True
+    limits: int = 0
 
 
 def found_dyads(fit: Fit, task: Task) -> tuple[list[FoundDyad], int]:
@@ -70,43 +72,47 @@ def found_dyads(fit: Fit, task: Task) -> tuple[list[FoundDyad], int]:
     """
     length, unit = characteristic_length(task), float(fit.frames.length)
     seen = fit.frames.see(task.poses)
-    # Noise turns the null space, and so every manifold in it, by about this angle.
-    blur = max(float(fit.noise), known(task, length) * np.sqrt(len(seen.angle)), NULL)
-    near = min(3 * blur / max(float(fit.gap), 1e-300), NEARLY_STRAIGHT)
+    limited = isinstance(fit, BestDyads) and isinstance(fit.search, LimitedDyads)
+    near = 0.0 if limited else _nearly_straight(fit, task, length)
     found: list[Candidate] = []
 
-    def add_slider(line: PR | RP, rms: float, worst: float) -> None:
+    def add(dyad: Dyad, rms: float, worst: float) -> None:
+        if not any(same_dyad(dyad, other, length) for other, *_ in found):
+            found.append((dyad, rms, worst))
+
+    def add_slider(line: PR | RP) -> None:
         slider = fit.frames.line_back(line)
         pivot = line.moving_pivot if isinstance(line, PR) else line.fixed_pivot
-        if np.abs(pivot).max() < ENDLESS and not any(
-            same_dyad(slider, other, length) for other, *_ in found
-        ):
-            found.append((slider, unit * rms, unit * worst))
+        if np.abs(pivot).max() < ENDLESS:
+            miss = unit * line.residual(seen)
+            add(slider, float(np.sqrt((miss**2).mean())), float(np.abs(miss).max()))
 
     solutions = np.flatnonzero(np.isfinite(fit.coefficients).all(axis=-1))
+    sliders = fit.sliders if isinstance(fit, BestDyads) else ()
     left_out = 0
     for k in solutions:
         p, circle = fit.coefficients[k], fit.dyads[k]
         rms, worst = float(fit.rms_error[k]), float(fit.max_error[k])
-        if abs(p[0]) < NEARLY_STRAIGHT * np.linalg.norm(p):
-            line, *errors, apart = straightened(p, seen, task.weights)
+        if not limited and abs(p[0]) < NEARLY_STRAIGHT * np.linalg.norm(p):
+            line, error, _, apart = straightened(p, seen, task.weights)
             share = 1 if circle.radius < LONG * length else 2
             allowed = max(share * rms, known(task, length) * length)
-            fits = unit * errors[0] <= allowed or not np.isfinite(allowed)
+            fits = unit * error <= allowed or not np.isfinite(allowed)
             if apart < near and fits:
-                add_slider(line, *errors)
+                add_slider(line)
                 continue
+        if limited and circle.radius > LONG * length and sliders:
+            continue  # on its way to one of them
         lost = isinstance(fit, FivePoseDyads) and rms > LOST * max(length, float(circle.radius))
         if lost or _two_angles(p) or not circle.radius < ENDLESS * length:
             left_out += 1
             continue
-        found.append((circle, rms, worst))
-    if isinstance(fit, BestDyads):
-        for lines, every_rms, every_worst in (
-            fixed_lines(seen, task.weights),
-            moving_lines(seen, task.weights),
-        ):
-            add_slider(lines[0], float(every_rms[0]), float(every_worst[0]))
+        if isinstance(fit, BestDyads):
+            add(circle, rms, worst)
+        else:
+            found.append((circle, rms, worst))
+    for slider in sliders:
+        add_slider(slider)
 
     def order(item: Candidate) -> tuple[float, float]:
         size = float(item[0].radius) if isinstance(item[0], RR) else np.inf
@@ -114,6 +120,17 @@ def found_dyads(fit: Fit, task: Task) -> tuple[list[FoundDyad], int]:
 
     found.sort(key=order)
     return [FoundDyad(f"D{i}", *item) for i, item in enumerate(found, start=1)], left_out
+
+
+def _nearly_straight(fit: Fit, task: Task, length: float) -> float:
+    """The sine of the angle by which noise turns a manifold away from the slider that it is."""
+    if isinstance(fit, BestDyads):
+        if task.poses.shape[0] < LEAST_POSES:
+            return NEARLY_STRAIGHT
+        fit = fit_pencil(task.poses, task.weights)
+    # Noise turns the null space, and so every manifold in it, by about this angle.
+    blur = max(float(fit.noise), known(task, length) * np.sqrt(task.poses.shape[0]), NULL)
+    return float(min(3 * blur / max(float(fit.gap), 1e-300), NEARLY_STRAIGHT))
 
 
 def _two_angles(p: FloatArray) -> bool:

@@ -22,9 +22,42 @@ __all__ = ["main"]
 
 EXIT_FOUND, EXIT_NOTHING, EXIT_INTERRUPT = 0, 1, 130  # errors bring their own: 2 and 3
 
-POSES_HELP = """POSES is a CSV, JSON or TOML file, "-" for standard input, or case:NAME for one of
-the cases that burmester carries (see `burmester cases`). A CSV file starts with the line
-x,y,angle_deg (or angle_rad; x_mm,y_mm and the like name a unit)."""
+POSES_HELP = """\b
+POSES   a CSV, JSON or TOML file, "-" for standard input, or case:NAME for
+        one of the tasks that burmester carries (see `burmester cases`). A CSV
+        file starts with the line x,y,angle_deg (or angle_rad; x_mm,y_mm and
+        the like name a unit); the columns weight, name and exact may follow.
+REGION  X,Y                    a point
+        line:X,Y:X,Y           the endless line through two points
+        segment:X,Y:X,Y        the piece between them
+        box:X,Y:X,Y            from lower left to upper right
+        polygon:X,Y:X,Y:X,Y    three corners or more, in order
+        any                    no limit
+
+A limit given once holds for both dyads of a linkage; given twice, the first is
+for one dyad and the second for the other, and `any` leaves one free. A point
+given once is for one dyad and leaves the other free, as two dyads cannot share
+a pivot. Fixed pivots are in the frame of the ground, moving pivots in that of
+the body, lengths in the unit of the poses."""
+
+WANTED, FOUND, OTHER = "What is wanted", "How it is found", "In and out"
+SECTIONS = dict.fromkeys(("fixed_pivot", "moving_pivot", "length", "kinds", "exact"), WANTED)
+SECTIONS |= dict.fromkeys(("method", "norm", "certify", "raw"), FOUND)
+
+
+class Sectioned(click.Command):
+    """A command whose help shows its options under heads."""
+
+    def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the options, section by section."""
+        records: dict[str, list[tuple[str, str]]] = {WANTED: [], FOUND: [], OTHER: []}
+        for option in self.get_params(ctx):
+            record = option.get_help_record(ctx)
+            if record and isinstance(option, click.Option):
+                records[SECTIONS.get(str(option.name), OTHER)].append(record)
+        for head, rows in records.items():
+            with formatter.section(head):
+                formatter.write_dl(rows)
 
 
 @click.group(context_settings={"help_option_names": ["-h", "--help"]})
@@ -36,16 +69,55 @@ def burmester() -> None:
     """
 
 
-@burmester.command(epilog=POSES_HELP)
+@burmester.command(cls=Sectioned, epilog=POSES_HELP)
 @click.argument("poses")
+@click.option(
+    "--fixed-pivot",
+    metavar="REGION",
+    multiple=True,
+    help="Where a fixed pivot may be, on the ground.",
+)
+@click.option(
+    "--moving-pivot",
+    metavar="REGION",
+    multiple=True,
+    help="Where a moving pivot may be, on the body.",
+)
+@click.option(
+    "--length",
+    metavar="MIN:MAX",
+    multiple=True,
+    help="How long an RR dyad's link may be; either side may be empty.",
+)
+@click.option(
+    "--kinds",
+    metavar="RR,PR,RP",
+    multiple=True,
+    help="Which dyads may be used: links RR, sliders PR, slots RP.",
+)
+@click.option(
+    "--exact",
+    metavar="1,5",
+    multiple=True,
+    help="Poses to be met exactly, by number or by name.",
+)
 @click.option(
     "--method",
     type=click.Choice(["auto", "pencil", "complete", "exact"]),
+    metavar="METHOD",
     default="auto",
     show_default=True,
     help="pencil: the paper's two dyads for 6 poses or more; complete: every locally best dyad "
-    "for 6 or more; exact: all dyads through 5; auto: exact for 5, pencil for more.",
+    "for 6 or more; exact: all dyads through 5; auto: complete for 6 or more, exact for 5.",
 )
+@click.option(
+    "--norm",
+    type=click.Choice(["rms", "worst"]),
+    default="rms",
+    show_default=True,
+    help="What is made small: least squares, or the smallest worst deviation.",
+)
+@click.option("--certify", is_flag=True, help="Prove with interval arithmetic what can be proved.")
 @click.option(
     "--raw",
     is_flag=True,
@@ -60,16 +132,27 @@ def burmester() -> None:
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object and nothing else.")
 def synthesize(
     poses: str,
+    *,
+    fixed_pivot: tuple[str, ...],
+    moving_pivot: tuple[str, ...],
+    length: tuple[str, ...],
+    kinds: tuple[str, ...],
+    exact: tuple[str, ...],
     method: Literal["auto", "pencil", "complete", "exact"],
+    norm: Literal["rms", "worst"],
+    certify: bool,
     raw: bool,
     angle_unit: Literal["deg", "rad"] | None,
     as_json: bool,
 ) -> int:
     """Find four-bars that guide a body through POSES."""
+    from burmester.io.limits_text import wanted
     from burmester.io.poses import read_task
     from burmester.synthesis import synthesize as run
 
-    synthesis = run(read_task(poses, angle_unit=angle_unit), method, normalise=not raw)
+    said = wanted(fixed_pivot, moving_pivot, length, kinds)
+    task = read_task(poses, angle_unit=angle_unit, wanted=said, exact=exact)
+    synthesis = run(task, method, normalise=not raw, norm=norm, certify=certify)
     if as_json:
         from burmester.io.result import plain
 
@@ -103,14 +186,15 @@ def reproduce(as_json: bool) -> int:
     """Recompute the tables of Ge et al. 2012."""
     from burmester.reproduce import as_json as plain
     from burmester.reproduce import reproduce as run
+    from burmester.side_by_side import side_by_side
 
-    sections = run()
+    sections, tasks = run(), side_by_side()
     if as_json:
-        _print_json(plain(sections))
+        _print_json(plain(sections, tasks))
     else:
         from burmester.io.terminal import show_reproduction
 
-        show_reproduction(sections, _console())
+        show_reproduction(sections, tasks, _console())
     return EXIT_FOUND
 
 

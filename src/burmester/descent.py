@@ -17,16 +17,15 @@ from burmester.displacement import FloatArray
 from burmester.limits import PLANE, Face, Region
 from burmester.polish import Misses, Polished
 
-__all__ = ["Block", "Range", "descend", "inside"]
+__all__ = ["Block", "Range", "descend", "inside", "lying_on"]
 
 INSIDE = 1e-9  # lengths outside a region that are rounding
 DOWNHILL = 1e-7  # share of the pull that is rounding
-MOVES = 20  # from face to face
-TRIES = 65  # places looked at on the way out of a region
-HALVINGS = 50
+MOVES = 200
+TRIES, FINER = 65, 7  # places looked at on the way out of a region, and how often between two
 
 Polish: TypeAlias = Callable[[FloatArray, FloatArray], Polished]
-"""From a dyad z and the directions (columns) in which it may move to the best along them."""
+"""From a dyad z a step, or the whole way, to the best along given directions (columns)."""
 
 
 @final
@@ -81,6 +80,11 @@ def inside(z: FloatArray, blocks: Sequence[Block]) -> bool:
     return not any(block.outside(z) for block in blocks)
 
 
+def lying_on(z: FloatArray, blocks: Sequence[Block]) -> list[Face]:
+    """The smallest faces on which a dyad z inside all limits lies, one for each block."""
+    return [_smallest(z, block, block.faces()) for block in blocks]
+
+
 def descend(
     z: FloatArray,
     misses: Misses,
@@ -103,7 +107,10 @@ def descend(
             z = z + shares[first] * (polished.z - z)
             on[first] = _smallest(z, blocks[first], blocks[first].faces())
             continue
-        z, slope = polished.z, misses(polished.z).slope
+        z = polished.z
+        if not polished.settled:
+            continue
+        slope = misses(z).slope
         ways = [
             _way_down(slope[:, block.at], polished.pull, face)
             for block, face in zip(blocks, on, strict=True)
@@ -135,15 +142,14 @@ def _directions(size: int, blocks: Sequence[Block], faces: Sequence[Face]) -> Fl
 
 def _share_inside(z: FloatArray, to: FloatArray, block: Block) -> float:
     """How far of the way from z to another dyad its block stays in its region: 1 is all of it."""
-    shares = np.linspace(0, 1, TRIES)
-    outside = block.outside(z + shares[:, None] * (to - z))
-    if not outside.any():
-        return 1.0
-    first = int(outside.argmax())
-    low, high = shares[max(first - 1, 0)], shares[first]
-    for _ in range(HALVINGS):
-        middle = (low + high) / 2
-        low, high = (low, middle) if block.outside(z + middle * (to - z)) else (middle, high)
+    low, high = 0.0, 1.0
+    for _ in range(FINER):
+        shares = np.linspace(low, high, TRIES)
+        outside = block.outside(z + shares[:, None] * (to - z))
+        if not outside.any():
+            return high
+        first = int(outside.argmax())
+        low, high = shares[max(first - 1, 0)], shares[first]
     return float(low)
 
 

@@ -37,7 +37,7 @@ ComplexArray = NDArray[np.complex128]
 Condition: TypeAlias = Literal["none", "soft", "hard"]
 
 LOOSE, TIGHT = 1e-3, 1e-10  # relative: how far a prediction may be off; how well it is corrected
-FAR = 1e7  # a path this far out is on its way to infinity
+FAR, OUT = 1e7, 1e3  # a path this far out is on its way to infinity; or here, if it gets stuck
 SHORT = 1e-10  # a step this short has met a singular point
 STEPS = 2000
 REAL = 1e-7  # relative imaginary part that rounding leaves
@@ -327,8 +327,8 @@ def follow(
         x[went], done[went] = better[good], (s + h)[good]
         step[run] = np.where(good, 1.7 * h, h / 3)
         state[went[done[went] >= 1]] = ARRIVED
-        far = np.abs(x[run]).max(axis=1) > FAR
-        state[run[far]] = AWAY
-        state[run[(step[run] < SHORT) & (state[run] == RUNNING)]] = LOST
+        size, stuck = np.abs(x[run]).max(axis=1), step[run] < SHORT
+        state[run[stuck]] = LOST
+        state[run[(size > FAR) | (stuck & (size > OUT))]] = AWAY
     state[state == RUNNING] = LOST
     return x, state

@@ -17,7 +17,7 @@ from typing import Any, Literal, TypeAlias, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.descent import Block, Range, descend, inside
+from burmester.descent import Block, Range, descend, inside, lying_on
 from burmester.displacement import Displacement, FloatArray
 from burmester.dyad import PR, RP, RR
 from burmester.frames import CanonicalFrames
@@ -50,7 +50,7 @@ class LimitedDyads:
     circles: (k,), sliders: PR and RP dyads, all in `frames`; by rising rms error each.
     systems: how many faces were searched; found: their stationary points, complex ones included;
     lost: paths that ended nowhere: where there are any, a dyad may be missing.
-    unsettled: how many of the dyads still moved when the last step was cut off.
+    unsettled: how many ways down were given up, and did not lead to a dyad.
     """
 
     frames: CanonicalFrames
@@ -146,21 +146,24 @@ class _Search:
         faces: Sequence[Face],
     ) -> None:
         """Add the minimum of the norm to which a dyad z leads, if it is within limits and new."""
-        least = least_worst if self.norm == "worst" and not self.exact.all() else least_squares
 
-        def polish(z: FloatArray, basis: FloatArray) -> Polished:
-            return least(misses, z, basis, self.share, self.exact)
+        def step(z: FloatArray, basis: FloatArray) -> Polished:
+            return least_squares(misses, z, basis, self.share, self.exact, steps=1)
+
+        def least(z: FloatArray, basis: FloatArray) -> Polished:
+            return least_worst(misses, z, basis, self.share, self.exact)._replace(settled=True)
 
         if not inside(z, blocks):
             return
-        best = descend(z, misses, polish, blocks, faces)
+        best = descend(z, misses, step, blocks, faces)
+        if best is not None and self.norm == "worst" and not self.exact.all():
+            best = descend(best.z, misses, least, blocks, lying_on(best.z, blocks))
         if best is None:
             self.unsettled += 1
             return
         size = 1 + np.abs(best.z).max()
         if all(np.abs(best.z - other).max() > SAME * size for other in dyads):
             dyads.append(best.z)
-            self.unsettled += not best.settled
 
 
 def _circles(seen: Displacement, limits: Limits, search: _Search) -> FloatArray:

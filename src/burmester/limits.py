@@ -35,13 +35,15 @@ Kind: TypeAlias = Literal["RR", "PR", "RP", "PP"]
 KINDS: Final[tuple[Kind, ...]] = ("RR", "PR", "RP", "PP")
 
 FLAT = 1e-12  # of a polygon's size squared: no area
+STRAIGHT = 1e-9  # sine of the angle by which a corner that is none may turn
 
 
 class Face(NamedTuple):
     """A piece of a region: origin (2,) + basis (2, dimension) u, for all u.
 
     inward: (k, 2), unit directions that lead from the face into the region, the outermost of
-        them and one between; none where the region ends with the face's own line or point.
+        them (where they are more than half a turn apart, one between as well); none where the
+        region is no wider than the face.
     """
 
     origin: FloatArray
@@ -158,13 +160,13 @@ class Polygon:
     def __post_init__(self) -> None:
         v = _points(self.vertices, None, "a polygon")
         v = v[np.any(v != np.roll(v, 1, axis=0), axis=1)]
-        edges = np.roll(v, -1, axis=0) - v
-        area = float((v[:, 0] * edges[:, 1] - v[:, 1] * edges[:, 0]).sum() / 2) if len(v) else 0.0
+        edges, from_first = np.roll(v, -1, axis=0) - v, v - v[:1]
+        area = float((from_first[:, 0] * edges[:, 1] - from_first[:, 1] * edges[:, 0]).sum() / 2)
         if len(v) < 3 or abs(area) <= FLAT * float((edges**2).sum()):
             raise InputError(
                 "E131",
                 "a polygon has no inside",
-                why=f"its {len(v)} different corners enclose no area",
+                why=f"its {max(len(v), 1)} different corners enclose no area",
                 help="give three corners or more that enclose one, or a line or a point instead",
             )
         if _crosses_itself(v):
@@ -195,8 +197,10 @@ class Polygon:
         for at, edge, inside in zip(v, along, inward, strict=True):
             yield Face(at, edge[:, None], inside[None])
         for k, at in enumerate(v):
-            between = _unit(inward[k] + inward[k - 1])
-            yield Face(at, np.empty((2, 0)), np.stack([along[k], -along[k - 1], between]))
+            ways = [along[k], -along[k - 1]]
+            if along[k] @ inward[k - 1] < STRAIGHT:  # straight, or pointing into the polygon
+                ways.append(_unit(inward[k] + inward[k - 1]))
+            yield Face(at, np.empty((2, 0)), np.stack(ways))
 
     def distance(self, points: FloatArray) -> FloatArray:
         """How far points (*, 2) lie outside it, (*,)."""
@@ -263,7 +267,7 @@ class Limits:
             raise InputError(
                 "E132",
                 "the limits contradict each other: "
-                f"a link at least {least:g} long and at most {most:g} long",
+                f"a link at least {least:.15g} long and at most {most:.15g} long",
                 help="exchange the two, or give up one of them",
             )
         unknown = set(self.kinds) - set(KINDS)
@@ -278,14 +282,15 @@ class Limits:
         object.__setattr__(self, "length", (least, most))
         object.__setattr__(self, "kinds", frozenset(self.kinds))
         if not self.allowed:
-            pivot = "fixed" if self.fixed_pivot is not None else "moving"
-            region = self.fixed_pivot if pivot == "fixed" else self.moving_pivot
+            pivots = {"fixed": self.fixed_pivot, "moving": self.moving_pivot}
+            limited = [f"{name} pivot {at}" for name, at in pivots.items() if at is not None]
+            missing = "both pivots" if len(limited) > 1 else "that pivot"
             raise InputError(
                 "E132",
                 "the limits contradict each other: "
-                f"{pivot} pivot {region}, and dyads of kind {', '.join(sorted(self.kinds))} only",
-                why=f"a dyad of that kind has no {pivot} pivot",
-                help="allow RR as well, or leave that pivot free",
+                f"{', '.join(limited)}, and dyads of kind {', '.join(sorted(self.kinds))} only",
+                why=f"no dyad of that kind has {missing}",
+                help="allow RR as well, or leave a pivot free",
             )
         if self.has_length and "RR" not in self.kinds:
             raise InputError(
@@ -322,8 +327,11 @@ class Limits:
 
 def _points(values: ArrayLike, count: int | None, what: str) -> FloatArray:
     """Points (n, 2), finite, `count` of them."""
-    points = np.array(values, dtype=np.float64)
-    points = points[None] if points.ndim == 1 else points
+    try:
+        points = np.array(values, dtype=np.float64)
+    except (TypeError, ValueError):  # ragged, or no numbers
+        points = np.empty(0)
+    points = points[None] if points.shape == (2,) else points
     right = points.ndim == 2 and points.shape[1] == 2 and count in (None, len(points))
     if not right or not np.isfinite(points).all():
         raise InputError(
@@ -380,6 +388,9 @@ def _crosses_itself(v: FloatArray) -> bool:
     for i, (a, b) in enumerate(edges):
         for j in range(i + 2, len(edges) - (i == 0)):
             c, d = edges[j]
-            if side(a, b, c) * side(a, b, d) <= 0 and side(c, d, a) * side(c, d, b) <= 0:
+            sides = side(a, b, c), side(a, b, d), side(c, d, a), side(c, d, b)
+            apart = np.maximum(a, b) < np.minimum(c, d), np.maximum(c, d) < np.minimum(a, b)
+            meet = sides[0] * sides[1] <= 0 and sides[2] * sides[3] <= 0
+            if meet and not np.any(apart):
                 return True
     return False

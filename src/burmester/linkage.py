@@ -26,9 +26,10 @@ STEPS = 100  # at most, of the projection in `nearest`; a few are enough near th
 
 # Coupler angles tried around that of a pose, in radians: dense where the answer will be, and
 # every degree and a half where there are not too many poses for that.
-_AROUND = np.concatenate([[0.0], *((-a, a) for a in np.pi * 0.5 ** np.arange(12))])
-_EVERYWHERE = np.concatenate([_AROUND, np.linspace(-np.pi, np.pi, 241)])
+_AROUND = np.sort(np.concatenate([[0.0], *((-a, a) for a in np.pi * 0.5 ** np.arange(12))]))
+_EVERYWHERE = np.sort(np.concatenate([_AROUND, np.linspace(-np.pi, np.pi, 241)]))
 MANY = 1000  # poses
+STARTS = 4  # of the projection in `nearest`, beside the pose itself
 
 _TYPES = {
     frozenset({RR, PR}): "slider-crank",
@@ -113,8 +114,9 @@ class Linkage:
         """The coupler's place nearest to each pose (N,), on whichever circuit it lies.
 
         Near means the least |position difference|² + (length x angle difference)².  Followed by
-        projection to a local minimum from two starts: the best of some 500 places of the coupler
-        (50 near the pose where there are more than 1000 poses), and the pose itself.  That no
+        projection to a local minimum from five starts: the best four of the valleys that some 500
+        places of the coupler show (one, of 50 near the pose, where there are more than 1000 poses),
+        and the pose itself.  That no
         other minimum is nearer is not proved.  nan where the linkage reaches no place at all.
         """
         blocks = [poses[at : at + BLOCK] for at in range(0, poses.shape[0], BLOCK)]
@@ -124,15 +126,17 @@ class Linkage:
     def _nearest(self, poses: Displacement, length: float) -> FloatArray:
         """Rows (N, 3) of x, y, length x angle; see `nearest`."""
         wanted = _rows(poses, length)
-        around = _EVERYWHERE if poses.shape[0] <= MANY else _AROUND
-        tries = _rows(self.couplers(poses.angle[:, None] + around), length)
-        start = _closest(tries.reshape(len(wanted), -1, 3), wanted[:, None])
+        few = poses.shape[0] <= MANY
+        tries = self.couplers(poses.angle[:, None] + (_EVERYWHERE if few else _AROUND))
+        start = _valleys(_rows(tries, length), wanted, STARTS if few else 1)
         reached = self._project(
-            np.stack([np.where(np.isfinite(start), start, wanted), wanted], axis=1),
+            np.concatenate(
+                [np.where(np.isfinite(start), start, wanted[:, None]), wanted[:, None]], 1
+            ),
             wanted[:, None],
             length,
         )
-        return _closest(np.concatenate([start[:, None], reached], axis=1), wanted[:, None])
+        return _closest(np.concatenate([start, reached], axis=1), wanted[:, None])
 
     def _project(self, at: FloatArray, wanted: FloatArray, length: float) -> FloatArray:
         """The places (N, k, 3) nearest to wanted (N, 1, 3) that are reached from `at`, or nan.
@@ -175,6 +179,21 @@ def _rows(places: Displacement, length: float) -> FloatArray:
 
 def _dot(a: FloatArray, b: FloatArray) -> FloatArray:
     return np.asarray(np.einsum("...i,...i->...", a, b)[..., None])
+
+
+def _valleys(places: FloatArray, wanted: FloatArray, count: int) -> FloatArray:
+    """Of places (N, k, 2, 3), along k on two branches, the `count` nearest local minima: (N, *, 3).
+
+    By distance from wanted (N, 3).
+    """
+    distance = np.linalg.norm(places - wanted[:, None, None], axis=-1)
+    distance = np.nan_to_num(distance, nan=np.inf)
+    walls = np.pad(distance, ((0, 0), (1, 1), (0, 0)), constant_values=np.inf)
+    valley = (distance <= walls[:, :-2]) & (distance <= walls[:, 2:])
+    depth = np.where(valley, distance, np.inf).reshape(len(wanted), -1)
+    best = np.argpartition(depth, count - 1, axis=1)[:, :count]
+    flat = places.reshape(len(wanted), -1, 3)
+    return np.take_along_axis(flat, best[..., None], axis=1)
 
 
 def _closest(places: FloatArray, wanted: FloatArray) -> FloatArray:

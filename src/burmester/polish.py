@@ -54,7 +54,7 @@ class Polished(NamedTuple):
 
 
 def circle_misses(poses: Displacement) -> Misses:
-    """The distances of the moving pivot from its circle, over poses (N,)."""
+    """The distances of the moving pivot from its circle, over poses (N,); leading axes of z too."""
     cos, sin = np.cos(poses.angle), np.sin(poses.angle)
     count = len(cos)
     arms = np.zeros((count, 2, 5))  # derivatives of the arm R m + d - c
@@ -63,15 +63,15 @@ def circle_misses(poses: Displacement) -> Misses:
     arms[:, 0, 3], arms[:, 1, 2] = -sin, sin
 
     def misses(z: FloatArray) -> Distances:
-        arm = poses.act(z[2:4]) - z[:2]
-        size = np.maximum(np.hypot(arm[:, 0], arm[:, 1]), TINY)
-        along = arm / size[:, None]
-        across = np.stack([-along[:, 1], along[:, 0]], axis=-1)
-        slope = np.einsum("ni,nik->nk", along, arms)
-        swing = np.einsum("ni,nik->nk", across, arms)
-        bend = swing[:, :, None] * swing[:, None, :] / size[:, None, None]
-        slope[:, 4] = -1.0
-        return Distances(size - z[4], slope, bend)
+        arm = poses.act(z[..., None, 2:4]) - z[..., None, :2]
+        size = np.maximum(np.hypot(arm[..., 0], arm[..., 1]), TINY)
+        along = arm / size[..., None]
+        across = np.stack([-along[..., 1], along[..., 0]], axis=-1)
+        slope = np.einsum("...ni,nik->...nk", along, arms)
+        swing = np.einsum("...ni,nik->...nk", across, arms)
+        bend = swing[..., :, None] * swing[..., None, :] / size[..., None, None]
+        slope[..., 4] = -1.0
+        return Distances(size - z[..., 4:], slope, bend)
 
     return misses
 

@@ -31,6 +31,7 @@ from burmester.dyad import RR
 from burmester.io.cases import load
 from burmester.paper_fit import LAST_DIGIT, VECTORS, PaperFit, rounded
 from burmester.pencil import fit_pencil
+from burmester.side_by_side import SideBySide, plain
 
 __all__ = ["Comparison", "Section", "Verdict", "as_json", "compare_cases", "reproduce"]
 
@@ -66,9 +67,13 @@ def compare_cases(
     )
 
 
-def as_json(sections: Iterable[Section]) -> dict[str, Any]:
-    """The sections as plain data."""
-    return {"schema": "burmester.reproduction/1", "sections": [asdict(s) for s in sections]}
+def as_json(sections: Iterable[Section], tasks: Iterable[SideBySide] = ()) -> dict[str, Any]:
+    """The sections, and the methods side by side, as plain data."""
+    return {
+        "schema": "burmester.reproduction/1",
+        "sections": [asdict(s) for s in sections],
+        "methods": [plain(task) for task in tasks],
+    }
 
 
 def _table2(fit: PaperFit, samples: int, seed: int) -> Section:

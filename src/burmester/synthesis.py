@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-from itertools import combinations
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations, product
 from typing import Literal, final
 
 import numpy as np
@@ -17,23 +17,30 @@ from burmester.candidates import (
     FoundDyad,
     characteristic_length,
     found_dyads,
-    known,
     same_dyad,
 )
-from burmester.critical import COUNT
-from burmester.dyad import RR
+from burmester.certificate import Certificate, certify_five
+from burmester.certificate import certify as certify_best
+from burmester.critical import COUNT, CriticalDyads
+from burmester.dyad import PP, RR, Dyad
 from burmester.errors import InputError
 from burmester.exact import FivePoseDyads, dyads_of_five
+from burmester.feasible import require_feasible
+from burmester.fingerprint import Fingerprint, fingerprint
+from burmester.limited import LimitedDyads, Norm
 from burmester.linkage import Linkage
+from burmester.motion_kind import FewPoses, Undetermined
 from burmester.optimal import BestDyads, best_dyads
 from burmester.pencil import fit_pencil
-from burmester.task import Task
+from burmester.task import CONDITIONS, Task
+from burmester.uncertainty import pivot_uncertainty
 
 __all__ = [
     "Advice",
     "FoundDyad",
     "FoundLinkage",
     "Method",
+    "Norm",
     "Outcome",
     "Synthesis",
     "synthesize",
@@ -45,10 +52,15 @@ Method = Literal["auto", "pencil", "exact", "complete"]
 @final
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """What came of a task: a stable code, and a sentence."""
+    """What came of a task: a stable code, a sentence, and what to do where nothing came.
+
+    R300 linkages; R302 too few dyads for one; R303 infinitely many; R304 none within the limits;
+    R305 approximate ones, for want of two real dyads; R310 and above: see `motion_kind`.
+    """
 
     code: str
     message: str
+    help: str | None = None
 
 
 @final
@@ -78,89 +90,308 @@ class FoundLinkage:
 class Synthesis:
     """All that came of a task, nothing thrown away.
 
+    motion: what the poses are, known before any fit; None for one or two of them.
     length: the characteristic length of the task (see `frames`), in its unit; it weighs
         angles against positions in `FoundLinkage.error`.
     dyads: every dyad found, by rising rms error (shorter links first among exact ones).
     linkages: every pair of them, by rising worst position error.  Whether a linkage meets the
         poses in one piece and in order (circuit, branch and order defects) is not judged.
-    fit: what the method learnt (singular values, all roots), or None where it does not apply.
+    fits: what the method learnt (singular values, all roots); two where the task has two limits.
+    certificate: what of it is proved, where that was asked for.
     """
 
     task: Task
     method: Method
     outcome: Outcome
-    length: float | None
-    dyads: tuple[FoundDyad, ...]
-    linkages: tuple[FoundLinkage, ...]
-    warnings: tuple[Advice, ...]
-    fit: Fit | None
+    motion: Fingerprint | None
+    length: float
+    dyads: tuple[FoundDyad, ...] = ()
+    linkages: tuple[FoundLinkage, ...] = ()
+    warnings: tuple[Advice, ...] = ()
+    fits: tuple[Fit, ...] = ()
+    certificate: Certificate | None = None
 
 
-def synthesize(task: Task, method: Method = "auto", *, normalise: bool = True) -> Synthesis:
+def synthesize(
+    task: Task,
+    method: Method = "auto",
+    *,
+    normalise: bool = True,
+    norm: Norm = "rms",
+    certify: bool = False,
+) -> Synthesis:
     """The dyads of a task and the linkages made of them.
 
-    method: "pencil" is the paper's, for 6 or more poses, met as closely as it can; "exact"
-        solves Burmester's problem for 5; "complete" finds every locally best dyad of 6 or more;
-        "auto" is exact for 5 poses and the pencil for more.
+    method: "complete" finds every locally best dyad of 6 poses or more, and of any task with
+        limits; "exact" meets five conditions: five poses, or fewer with pivots at points or on
+        lines; "pencil" is the paper's, for 6 or more poses; "auto" is exact where there are five
+        conditions and complete where there are more.
     normalise: False lets the pencil fit the numbers as they come, as the paper does.
-    Three or four poses have infinitely many dyads: see `exact` and `curve` for them all.
-    Raises InputError E121 where the method does not take that number of poses, and E123 where
-    it cannot do without normalising.
+    norm: what is least, the sum of squared distances, or the worst one.
+    certify: ask for a certificate as well, of a task without limits.
+    Fewer than five conditions have infinitely many dyads: see `exact` and `curve` for them all.
+    Raises InputError E121 where the method does not take that number of poses, E123 where it does
+    not take what was asked, E130 where proofs lack their library, and E132 (limits that no link
+    can meet).
     """
+    both = task.limits * (2 if len(task.limits) == 1 else 1)
+    require_feasible(task.poses, both, task.exact)
+    motion = fingerprint(task) if task.poses.shape[0] > 2 else None
+    whole, length = task, characteristic_length(task)
+    warnings: list[Advice] = []
+    if motion is not None:
+        # Limits may settle what too few or too small motions leave open.
+        open_end = isinstance(motion.motion, FewPoses) or (
+            isinstance(motion.motion, Undetermined) and any(each.conditions for each in task.limits)
+        )
+        if not (motion.determined or open_end):
+            return _special(task, method, motion, length)
+        if motion.distinct < task.poses.shape[0]:
+            task = _merged(task, motion)
+            warnings.append(
+                Advice(
+                    "W208",
+                    f"only {motion.distinct} of the {len(motion.group)} poses are different; each "
+                    "counts once" + ("" if task.weights is None else ", with all its weight"),
+                    "delete the repeats; to let a pose count more give it a weight",
+                )
+            )
+    free = _freedom(task)
+    if free > 0 and method in ("auto", "exact"):
+        return _family(whole, method, motion, length, free)
+    chosen = _method(task, motion, method, normalise, norm, certify, free)
+    fits = _fits(task, motion, chosen, normalise, norm)
+    return _finish(whole, task, chosen, motion, length, fits, warnings, certify)
+
+
+def _merged(task: Task, motion: Fingerprint) -> Task:
+    """The task with every repeated pose once; weights add up."""
+    size, first, exact, weights = motion.distinct, motion.first, task.exact, task.weights
+    if weights is not None:
+        weights = np.bincount(motion.group, weights, size).astype(np.float64)
+    return replace(
+        task,
+        poses=task.poses[first],
+        weights=weights,
+        names=None if task.names is None else tuple(task.names[i] for i in first),
+        exact=None if exact is None else np.bincount(motion.group, exact, size) > 0,
+    )
+
+
+def _freedom(task: Task) -> int:
+    """How many more conditions it takes until a task has finitely many dyads."""
+    fewest = min((limits.conditions for limits in task.limits), default=0)
+    return CONDITIONS - fewest - task.poses.shape[0]
+
+
+def _family(
+    task: Task, method: Method, motion: Fingerprint | None, length: float, free: int
+) -> Synthesis:
+    """Too few conditions: infinitely many dyads."""
+    count = task.poses.shape[0]
+    distinct = count if motion is None else motion.distinct
+    poses = (
+        f"{count} poses" if distinct == count else f"{count} poses, {distinct} of them different,"
+    )
+    parameters = {1: "a one", 2: "a two"}.get(free, f"a {free}")
+    calls = {3: "burmester.dyad_with_moving_pivot", 4: "burmester.dyad_curve"}.get(distinct)
+    family = f", or choose from the family in Python: {calls}" if calls and not task.limits else ""
+    message = (
+        f"{poses} leave infinitely many linkages: {parameters}-parameter family of dyads passes "
+        "through all of them"
+    )
+    more = (
+        f"add {_count(free, 'more pose')}, or as many pivots on lines (a pivot at a point is two)"
+    )
+    return Synthesis(
+        task,
+        method,
+        Outcome("R303", message),
+        motion,
+        length,
+        warnings=(Advice("W203", f"{poses} do not determine a linkage", f"{more}{family}"),),
+    )
+
+
+def _special(task: Task, method: Method, motion: Fingerprint, length: float) -> Synthesis:
+    """A special motion: what is certain of it is the whole answer."""
+    kind = motion.motion
+    found = []
+    for number, dyad in enumerate(kind.dyads, start=1):
+        miss = np.abs(dyad.residual(task.poses))
+        rms = float(np.sqrt((miss**2).mean()))
+        found.append(FoundDyad(f"D{number}", dyad, rms, float(miss.max())))
+    linkages = _linkages(
+        task, combinations([f for f in found if not isinstance(f.dyad, PP)], 2), length
+    )
+    outcome = Outcome(kind.code, kind.message, kind.help)
+    return Synthesis(task, method, outcome, motion, length, tuple(found), linkages)
+
+
+def _method(  # noqa: PLR0917
+    task: Task,
+    motion: Fingerprint | None,
+    method: Method,
+    normalise: bool,
+    norm: Norm,
+    certify: bool,
+    free: int,
+) -> Method:
+    """The method that a task gets, or an error that says why not the one asked for."""
     count = task.poses.shape[0]
     if method == "auto":
-        method = "pencil" if count >= 6 else "exact"
+        all_in_five = motion is not None and motion.five is not None and not task.limits
+        exact = free == 0 if task.limits else count == CONDITIONS or all_in_five
+        method = "exact" if exact else "complete"
+        if task.limits and count >= CONDITIONS:
+            method = "complete"
+    marked = task.exact is not None and bool(task.exact.any())
     if method != "pencil" and not normalise:
         raise InputError(
             "E123",
             f"only the pencil can be fitted raw, not the {method} method",
             help="leave --raw out, or use --method pencil",
         )
-    if method == "pencil":
-        return _finish(task, method, fit_pencil(task.poses, task.weights, normalise=normalise))
-    if method == "complete" and count >= 6:
-        return _finish(task, method, best_dyads(task.poses, task.weights))
-    if count > 5 or method == "complete":
-        takes = "6 poses or more" if method == "complete" else "5 poses"
+    asked = [
+        name
+        for name, given in (
+            ("limits", bool(task.limits)),
+            ("exact poses", marked),
+            ("the least worst distance", norm != "rms"),
+        )
+        if given
+    ]
+    if method == "pencil" and asked:
+        raise InputError(
+            "E123",
+            f"the pencil knows nothing of {asked[0]}",
+            why="it fits one pencil of quadrics to all poses alike",
+            help="use --method complete",
+        )
+    if certify and (asked or method == "pencil"):
+        raise InputError(
+            "E123",
+            "a certificate is for every locally best dyad without limits, or for five poses",
+            why=f"this task has {asked[0]}"
+            if asked
+            else "the pencil's dyads are not the best ones",
+            help="leave --certify out, or the rest",
+        )
+    takes = {"pencil": count >= 6, "complete": count >= 6 or free < 0, "exact": free == 0}
+    if not takes[method] and not (
+        method == "exact" and motion is not None and motion.five is not None
+    ):
+        needs = {"pencil": "6 poses or more", "complete": "6 poses or more", "exact": "5 poses"}
         raise InputError(
             "E121",
-            f"the {method} method takes {takes}, not {count}",
+            f"the {method} method takes {needs[method]}, not {count}",
             why="up to five poses are met exactly, six or more only by chance",
             help="leave --method out, and the number of poses decides",
         )
-    if count < 5:
-        family = "a two-parameter family" if count == 3 else "a one-parameter family"
-        calls = "dyad_with_moving_pivot" if count == 3 else "dyad_curve"
-        return Synthesis(
-            task,
-            method,
-            Outcome(
-                "R303",
-                f"{count} poses leave infinitely many linkages: {family} of dyads passes "
-                "through all of them",
-            ),
-            None,
-            (),
-            (),
-            (
-                Advice(
-                    "W203",
-                    f"{count} poses do not determine a linkage",
-                    f"add {5 - count} more pose{'s' if count == 3 else ''} to get all that pass "
-                    f"exactly, or choose from the family in Python: burmester.{calls}",
-                ),
-            ),
-            None,
+    return method
+
+
+def _fits(
+    task: Task, motion: Fingerprint | None, method: Method, normalise: bool, norm: Norm
+) -> tuple[Fit, ...]:
+    """What the method makes of the poses, once for each of the task's limits."""
+    if method == "pencil":
+        return (fit_pencil(task.poses, task.weights, normalise=normalise),)
+    if method == "complete":
+        limits = task.limits or (None,)
+        return tuple(
+            best_dyads(task.poses, task.weights, task.exact, each, norm) for each in limits
         )
-    return _finish(task, method, dyads_of_five(task.poses))
+    if not task.limits:
+        five = slice(None) if motion is None or motion.five is None else motion.five
+        return (dyads_of_five(task.poses[five]),)
+    every = np.ones(task.poses.shape, dtype=bool)
+    return tuple(best_dyads(task.poses, None, every, each) for each in task.limits)
 
 
-def _finish(task: Task, method: Method, fit: Fit) -> Synthesis:
-    """Join the dyads of a fit to linkages, rank them, and say what came of it."""
-    length = characteristic_length(task)
-    if (special := _special(task, fit)) is not None:
-        return Synthesis(task, method, special, length, (), (), (), fit)
-    found, left_out = found_dyads(fit, task)
+def _finish(  # noqa: PLR0917
+    whole: Task,
+    task: Task,
+    method: Method,
+    motion: Fingerprint | None,
+    length: float,
+    fits: tuple[Fit, ...],
+    warnings: list[Advice],
+    certify: bool,
+) -> Synthesis:
+    """Join the dyads of the fits to linkages, rank them, and say what came of it."""
+    lists, left_out = [], 0
+    for number, fit in enumerate(fits, start=1):
+        found, dropped = found_dyads(fit, task)
+        left_out += dropped
+        lists.append([replace(each, limits=number if len(fits) > 1 else 0) for each in found])
+    real = sum(map(len, lists))
+    if method == "exact" and len(fits) == 1 and real < 2 and not task.limits:
+        nearest, _ = found_dyads(best_dyads(task.poses, task.weights), task)
+        known = [each.dyad for each in lists[0]]
+        lists[0] += [
+            each
+            for each in nearest
+            if not any(same_dyad(each.dyad, other, length) for other in known)
+        ]
+    dyads = [each for found in lists for each in found]
+    dyads = [replace(each, id=f"D{i}") for i, each in enumerate(dyads, start=1)]
+    warnings += _advice(task, fits, dyads, left_out, length)
+    pairs: Iterable[tuple[FoundDyad, FoundDyad]]
+    if len(fits) > 1:
+        one, other = ([each for each in dyads if each.limits == k] for k in (1, 2))
+        pairs = product(one, other)
+    else:
+        pairs = combinations(dyads, 2)
+    different = []
+    for first, second in pairs:
+        if not same_dyad(first.dyad, second.dyad, length):
+            different.append((first, second))
+        else:
+            warnings.append(
+                Advice(
+                    "W205",
+                    f"{first.id} and {second.id} are the same dyad within rounding",
+                    "only one constraint was found; give more poses, or more different ones",
+                )
+            )
+    linkages = _linkages(whole, different, length)
+    outcome = _outcome(task, method, fits, dyads, real, linkages)
+    certificate = _proved(task, fits[0], dyads) if certify else None
+    return Synthesis(
+        whole,
+        method,
+        outcome,
+        motion,
+        length,
+        tuple(dyads),
+        linkages,
+        tuple(warnings),
+        fits,
+        certificate,
+    )
+
+
+def _linkages(
+    task: Task, pairs: Iterable[tuple[FoundDyad, FoundDyad]], length: float
+) -> tuple[FoundLinkage, ...]:
+    """The linkages of pairs of dyads, by rising worst position error."""
+    found = []
+    for pair in pairs:
+        linkage = Linkage(pair[0].dyad, pair[1].dyad)
+        found.append((pair, linkage, PoseError.of(linkage, task.poses, length)))
+    # Stable: where errors are mere rounding the order of the dyads stays.
+    found.sort(key=lambda pair: np.round(pair[2].worst / (ROUNDING * length)))
+    return tuple(
+        FoundLinkage(f"L{rank}", rank, dyads, linkage, error)
+        for rank, (dyads, linkage, error) in enumerate(found, start=1)
+    )
+
+
+def _advice(
+    task: Task, fits: Sequence[Fit], dyads: Sequence[FoundDyad], left_out: int, length: float
+) -> list[Advice]:
+    """What a user should know about the dyads."""
     warnings = [
         Advice(
             "W204",
@@ -168,18 +399,41 @@ def _finish(task: Task, method: Method, fit: Fit) -> Synthesis:
             "nearly a slider",
             "use a slider in its place if a link that long cannot be built",
         )
-        for item in found
+        for item in dyads
         if isinstance(item.dyad, RR) and item.dyad.radius > LONG * length
     ]
-    if isinstance(fit, BestDyads) and fit.critical.found < COUNT:
-        warnings.append(
-            Advice(
-                "W207",
-                f"{fit.critical.found} of {COUNT} critical points were told apart: a locally best "
-                "dyad may be missing",
-                "compare with --method pencil; poses of a special motion are the usual reason",
+    for item in dyads:
+        loose = pivot_uncertainty(item.dyad, task) if isinstance(item.dyad, RR) else None
+        if loose is not None and max(loose) > length:
+            warnings.append(
+                Advice(
+                    "W209",
+                    f"the digits of the poses leave the pivots of {item.id} free by about "
+                    f"{max(loose):.2g}, more than the motion's own size",
+                    "give more digits, or poses with more rotation between them",
+                )
             )
-        )
+    for fit in fits:
+        search = fit.search if isinstance(fit, BestDyads) else None
+        if isinstance(search, CriticalDyads) and search.found < COUNT:
+            warnings.append(
+                Advice(
+                    "W207",
+                    f"{search.found} of {COUNT} critical points were told apart: a locally best "
+                    "dyad may be missing",
+                    "compare with --method pencil; poses of a special motion are the usual reason",
+                )
+            )
+        if isinstance(search, LimitedDyads) and (search.lost or search.unsettled):
+            warnings.append(
+                Advice(
+                    "W207",
+                    f"{_count(search.lost, 'path')} of the search and "
+                    f"{_count(search.unsettled, 'way')} down from it were lost: a locally best "
+                    "dyad may be missing",
+                    "move a limit a little and compare",
+                )
+            )
     if left_out:
         warnings.append(
             Advice(
@@ -189,66 +443,57 @@ def _finish(task: Task, method: Method, fit: Fit) -> Synthesis:
                 "give poses that differ more, above all in their angles",
             )
         )
-    pairs = []
-    for first, second in combinations(found, 2):
-        if same_dyad(first.dyad, second.dyad, length):
-            warnings.append(
-                Advice(
-                    "W205",
-                    f"{first.id} and {second.id} are the same dyad within rounding",
-                    "only one constraint was found; give more poses, or more different ones",
-                )
-            )
-            continue
-        linkage = Linkage(first.dyad, second.dyad)
-        pairs.append(((first, second), linkage, PoseError.of(linkage, task.poses, length)))
-    # Stable: where errors are mere rounding the order of the dyads stays.
-    pairs.sort(key=lambda pair: np.round(pair[2].worst / (ROUNDING * length)))
-    linkages = tuple(
-        FoundLinkage(f"L{rank}", rank, dyads, linkage, error)
-        for rank, (dyads, linkage, error) in enumerate(pairs, start=1)
-    )
-    outcome = _outcome(fit, found, linkages)
-    return Synthesis(task, method, outcome, length, tuple(found), linkages, tuple(warnings), fit)
+    return warnings
 
 
-def _special(task: Task, fit: Fit) -> Outcome | None:
-    """The outcome where more quadrics contain the poses than the method can tell apart.
-
-    The least singular value that must not vanish is held against what the rounding of the
-    poses makes of a zero.  With digits coarser than COARSE that is a heuristic.
-    """
-    noise = known(task, float(fit.frames.length)) * np.sqrt(task.poses.shape[0] / 3)
-    if fit.gap > 3 * noise:
-        return None
-    poses, nullity = task.poses, 3 if isinstance(fit, FivePoseDyads) else 2
-    turns = np.stack([np.cos(poses.angle), np.sin(poses.angle)], axis=-1)
-    rows = np.concatenate([poses.translation / fit.frames.length, turns], axis=-1)
-    different = len(np.unique(np.round(rows, 12), axis=0))
-    reason = (
-        f"only {different} of the {len(rows)} poses are different"
-        if different < len(rows)
-        else "the motion is a special one (a translation, a turn about one point, a parallelogram, "
-        "two sliders) or too small for the digits given"
-    )
-    return Outcome(
-        "R304",
-        f"the poses do not determine the dyads: more than {nullity} independent quadrics contain "
-        f"them; {reason}",
-    )
-
-
-def _outcome(fit: Fit, found: Sequence[FoundDyad], linkages: Sequence[FoundLinkage]) -> Outcome:
-    if isinstance(fit, FivePoseDyads):
-        dyads = _count(len(found), "real dyad") + " (of the 4 that five poses have)"
-    elif isinstance(fit, BestDyads):
+def _outcome(  # noqa: PLR0917
+    task: Task,
+    method: Method,
+    fits: Sequence[Fit],
+    found: Sequence[FoundDyad],
+    real: int,
+    linkages: Sequence[FoundLinkage],
+) -> Outcome:
+    first = fits[0]
+    if isinstance(first, FivePoseDyads):
+        dyads = _count(real, "real dyad") + " (of the 4 that five poses have)"
+        if real < len(found):
+            best = found[real]
+            dyads += f"; the nearest other one misses the poses by {best.rms_error:.2g} rms"
+    elif isinstance(first, BestDyads) and isinstance(first.search, CriticalDyads):
         dyads = _count(len(found), "locally best dyad")
-        dyads += f" ({fit.critical.found} of {COUNT} critical points accounted for)"
+        dyads += f" ({first.search.found} of {COUNT} critical points accounted for)"
+    elif isinstance(first, BestDyads):
+        faces = sum(
+            f.search.systems
+            for f in fits
+            if isinstance(f, BestDyads) and isinstance(f.search, LimitedDyads)
+        )
+        what = "dyad" if method == "exact" else "locally best dyad"
+        dyads = _count(len(found), what)
+        if task.limits:
+            dyads += f" within the limits ({_count(faces, 'face')} of these searched)"
     else:
         dyads = _count(len(found), "dyad")
     if linkages:
-        return Outcome("R300", f"{_count(len(linkages), 'four-bar')} from {dyads}")
-    return Outcome("R302", f"no four-bar: {dyads}, and it takes two different ones")
+        code = "R305" if isinstance(first, FivePoseDyads) and real < 2 else "R300"
+        return Outcome(code, f"{_count(len(linkages), 'four-bar')} from {dyads}")
+    if task.limits and not found:
+        return Outcome(
+            "R304", f"no four-bar: {dyads}", "widen a limit, or allow another kind of dyad"
+        )
+    message = f"no four-bar: {dyads}, and it takes two different ones"
+    return Outcome("R302", message, "change a pose, or drop one")
+
+
+def _proved(task: Task, fit: Fit, dyads: Sequence[FoundDyad]) -> Certificate:
+    """What is proved of the dyads."""
+    plain: list[Dyad] = [each.dyad for each in dyads]
+    if isinstance(fit, FivePoseDyads):
+        return certify_five(task.poses, fit, plain)
+    assert isinstance(fit, BestDyads)
+    assert isinstance(fit.search, CriticalDyads)
+    return certify_best(task.poses, task.weights, fit.search, plain)
 
 
 def _count(number: int, noun: str) -> str:

@@ -23,11 +23,12 @@ __all__ = ["BLOCK", "read_csv"]
 BLOCK = 1 << 20  # characters parsed at a time, so that a million rows need little memory
 
 _COLUMNS: dict[str, tuple[str, str | None]] = {  # name -> role and unit
-    **{name: (name, None) for name in ("x", "y", "weight", "name")},
+    **{name: (name, None) for name in ("x", "y", "weight", "name", "exact")},
     **{f"{axis}_{u}": (axis, u) for axis in "xy" for u in ("um", "mm", "cm", "m", "in", "ft")},
     **dict.fromkeys(("angle", "theta", "phi", "rotation"), ("angle", None)),
     **{f"angle_{unit}": ("angle", unit) for unit in table.UNITS},
 }
+_MARK = f"(?i:{'|'.join(filter(None, table.MARKS))})?"
 _LINE = re.compile(r"(?m)^[^\S\n]*[^\s#].*$")  # neither blank nor a comment
 
 
@@ -97,7 +98,9 @@ def _header(source: Source) -> _Header:
     if unknown:
         name = names[unknown[0]].replace('"', "")
         message = f"the column {table.shown(name)} is not known"
-        why = "known are x, y (or x_mm, y_mm and so on), angle_deg, angle_rad, weight and name"
+        why = (
+            "known are x, y (or x_mm, y_mm and so on), angle_deg, angle_rad, weight, exact and name"
+        )
         help = f'delete the column, or name it "#{name}" (with the quotes) to have it ignored'
         raise InputError("E107", message, where=where(unknown[0]), why=why, help=help)
     if units["x"] != units["y"]:
@@ -130,8 +133,9 @@ def _plain_rows(block: str, header: _Header, marks: dict[str, str]) -> Rows | No
     separator, width = header.separator, len(header.names)
     mark = "," if "," in marks else "."  # a comma once it is proved to be a decimal one
     text, number = rf'[^{separator}\n"#]*+', rf"[-+{mark}0-9eE]*+"
-    places = {place for role, place in header.columns.items() if role in NUMERIC}
-    row = separator.join(number if i in places else text for i in range(width))
+    looks = {"name": text, "exact": _MARK}
+    like = {place: looks.get(role, number) for role, place in header.columns.items()}
+    row = separator.join(like.get(i, text) for i in range(width))
     if not re.fullmatch(rf"(?:{row}\n)*+{row}", block):
         return None
     cells = block.replace("\n", separator).split(separator)
@@ -161,7 +165,10 @@ def _checked_rows(
             raise _wrong_width(line, cells, header, row)
         for role, place in header.columns.items():
             cell = _unquoted(cells[place])
-            if role != "name":
+            if role == "exact" and cell.lower() not in table.MARKS:
+                where = _where_cell(header.source, line.start(), cells, place, role)
+                raise _not_a_mark(cell, row, where)
+            if role in NUMERIC:
                 plain, mark = table.plain_number(cell, header.separator)
                 if mark not in marks:
                     where = _where_cell(header.source, line.start(), cells, place, role)
@@ -172,6 +179,13 @@ def _checked_rows(
             columns[role].append(cell)
         row += 1
     return Rows.read(columns)
+
+
+def _not_a_mark(cell: str, row: int, where: str) -> InputError:
+    """E104, for a cell of the column `exact`."""
+    message = f"row {row} has {table.shown(cell)} where yes or no belongs"
+    help = "write yes or x for a pose to be met exactly, no or nothing for one to come near"
+    return InputError("E104", message, where=where, help=help)
 
 
 def _require_one_mark(marks: dict[str, str]) -> None:

@@ -17,6 +17,7 @@ import numpy as np
 
 from burmester.errors import InputError
 from burmester.io.table import NUMERIC, PoseTable, Rows, Source, shown
+from burmester.io.wanted import LIMIT_KEYS, Wanted
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
@@ -103,6 +104,7 @@ def _model() -> type[BaseModel]:
         angle_rad: Decimal | None = None
         weight: Decimal | None = None
         name: str | None = None
+        exact: bool | None = None
 
         @model_validator(mode="before")
         @classmethod
@@ -131,6 +133,11 @@ def _table(label: str, tree: Any, example: str) -> PoseTable:
     path = f"{label}: "
     if isinstance(tree, dict) and "poses" not in tree and isinstance(tree.get("task"), dict):
         tree, path = tree["task"], f"{label}: task."
+    wanted = Wanted()
+    if isinstance(tree, dict) and not tree.keys().isdisjoint(LIMIT_KEYS):
+        from burmester.io.limits_tree import read
+
+        wanted = read(tree, path)
     try:
         document: Any = _model().model_validate(tree)
     except ValidationError as error:
@@ -143,6 +150,8 @@ def _table(label: str, tree: Any, example: str) -> PoseTable:
         columns["weight"] = ["1" if pose.weight is None else str(pose.weight) for pose in poses]
     if any(pose.name is not None for pose in poses):
         columns["name"] = [pose.name or "" for pose in poses]
+    if any(pose.exact for pose in poses):
+        columns["exact"] = ["x" if pose.exact else "" for pose in poses]
     rows = Rows.read(columns)
     for i, j in np.argwhere(~np.isfinite(rows.values)):  # 1e400 is a finite Decimal
         fault = {"type": "finite_number", "loc": ("poses", int(i), NUMERIC[j])}
@@ -153,6 +162,7 @@ def _table(label: str, tree: Any, example: str) -> PoseTable:
         angle_unit=unit,
         where=f"{path}poses",
         say_unit=f"write {example}",
+        wanted=wanted,
     )
 
 
@@ -181,10 +191,11 @@ def _unfit(path: str, example: str, fault: Any) -> InputError:
     place = "".join(f"[{key}]" if isinstance(key, int) else f".{key}" for key in fault["loc"])
     place, given = place.lstrip("."), fault.get("input")
     value = shown(given)
-    known = "x, y, angle_deg or angle_rad (or angle, with angle_unit), weight and name"
+    known = "x, y, angle_deg or angle_rad (or angle, with angle_unit), weight, exact and name"
     code, message, help = {
         "finite_number": ("E103", "is not a finite number", "give a number, or delete the pose"),
         "is_instance_of": ("E104", f"is {value}, not a number", "write a number without quotes"),
+        "bool_type": ("E104", f"is {value}, neither true nor false", "write true or false"),
         "missing": ("E105", "is missing", f"write {example}"),
         "extra_forbidden": ("E107", "is not known", f"delete it; a pose has {known}"),
         "literal_error": ("E110", f"is {value}, not an angle unit", 'write "deg" or "rad"'),

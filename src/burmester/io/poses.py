@@ -1,4 +1,4 @@
-"""Poses from a file: CSV, JSON and TOML into a `Task`.
+"""A task from a file: poses in CSV, JSON and TOML, and limits in the latter two.
 
 A number is taken as the nearest double or refused, never changed: no thousands separators,
 no underscores, no guessed units, no guessed decimal marks.  An error's `where` holds
@@ -11,6 +11,7 @@ E102 no poses in it                 E107 a column or key that is not known
 E103 a number that is not finite    E108 said twice, or in two ways that contradict
 E104 not a number, or ambiguous     E109 not JSON or TOML at all
 E105 header, column or key missing  E110 angle unit missing or contradicted
+E122 no such pose to be met exactly
 """
 
 from __future__ import annotations
@@ -18,17 +19,21 @@ from __future__ import annotations
 import math
 import os
 import sys
+from collections.abc import Sequence
 from pathlib import PurePath
 from typing import Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from burmester.displacement import Displacement
 from burmester.errors import InputError
 from burmester.io import cases
 from burmester.io.csv_poses import read_csv
 from burmester.io.documents import read_json, read_toml
-from burmester.io.table import UNITS, PoseTable, Source, empty
+from burmester.io.limits_text import exact_marks
+from burmester.io.table import UNITS, PoseTable, Rows, Source, empty
+from burmester.io.wanted import Wanted
 from burmester.task import Task
 
 __all__ = ["read_task"]
@@ -38,15 +43,21 @@ _READERS |= {".json": read_json, ".toml": read_toml}
 
 
 def read_task(
-    source: str | os.PathLike[str], *, angle_unit: Literal["deg", "rad"] | None = None
+    source: str | os.PathLike[str],
+    *,
+    angle_unit: Literal["deg", "rad"] | None = None,
+    wanted: Wanted | None = None,
+    exact: Sequence[str] = (),
 ) -> Task:
     """Read the task in a file, on standard input ("-") or in a carried case ("case:NAME").
 
     .csv, .tsv and .txt are CSV; .json and .toml are what they say; anything else is JSON if
     it begins with a bracket, and CSV if not.  `angle_unit` (--angle-unit) states the unit
-    where the file does not.  The task's resolution is half of the last digit printed, x and y
-    together; where only whole numbers are printed it is 0, as people mean them exactly.
-    Raises InputError E101 to E110 as listed above, and what `Task` raises.
+    where the file does not; `wanted` adds limits to those in the file, and `exact` (--exact) marks
+    poses by their numbers from 1 or by their names.  The task's resolution is half of the last
+    digit printed, x and y together; where only whole numbers are printed it is 0, as people mean
+    them exactly.
+    Raises InputError E101 to E110 as listed above, and what `Limits` and `Task` raise.
     """
     if angle_unit not in (None, *UNITS):
         raise InputError("E110", f"there is no angle unit {angle_unit!r}", help="say deg or rad")
@@ -56,7 +67,7 @@ def read_task(
         text = _decode(_fetch(path))
         by_content = read_json if text.lstrip().startswith(("{", "[")) else read_csv
         read = _READERS.get(PurePath(label).suffix.lower(), by_content)
-        return _task(read(Source(label, text)), angle_unit)
+        return _task(read(Source(label, text)), angle_unit, wanted, exact)
     except InputError as error:
         error.where = error.where or label
         raise
@@ -93,7 +104,9 @@ def _decode(data: bytes) -> str:
     return text.replace("\r\n", "\n").replace("\r", "\n").rstrip("\n")
 
 
-def _task(table: PoseTable, angle_unit: str | None) -> Task:
+def _task(
+    table: PoseTable, angle_unit: str | None, wanted: Wanted | None, exact: Sequence[str]
+) -> Task:
     """The task in a table, once its angle unit is beyond doubt."""
     values, stated = table.rows.values, table.angle_unit
     angles = values[:, 2]
@@ -115,7 +128,20 @@ def _task(table: PoseTable, angle_unit: str | None) -> Task:
         names=tuple(table.rows.names) or None,
         length_unit=table.length_unit,
         resolution=(length, math.radians(angle) if degrees else angle),
+        exact=_marked(table.rows, exact),
+        limits=(table.wanted.joined(wanted) if wanted else table.wanted).limits(),
     )
+
+
+def _marked(rows: Rows, exact: Sequence[str]) -> NDArray[np.bool_] | None:
+    """Which poses must be met exactly, as the file or --exact says."""
+    marks = rows.exact
+    if exact:
+        if any(marks):
+            message = "poses are marked exact in the file and by --exact"
+            raise InputError("E108", message, help="leave --exact out, or the marks in the file")
+        marks = exact_marks(exact, rows.names, len(rows.values))
+    return np.array(marks) if any(marks) else None
 
 
 def _both_readings(least: float, most: float, count: int) -> str:

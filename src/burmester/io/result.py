@@ -11,13 +11,19 @@ from typing import Any
 
 import numpy as np
 
-from burmester.candidates import FoundDyad
-from burmester.critical import COUNT
+from burmester.candidates import Fit, FoundDyad
+from burmester.certificate import Certificate
+from burmester.critical import COUNT, CriticalDyads
 from burmester.displacement import Displacement
 from burmester.dyad import PP, PR, RP, RR
 from burmester.errors import BurmesterError
+from burmester.exact import FivePoseDyads
+from burmester.fingerprint import Fingerprint
+from burmester.limits import KINDS, Limits, Line, Point, Polygon, Segment
 from burmester.optimal import BestDyads
+from burmester.pencil import Pencil
 from burmester.synthesis import FoundLinkage, Synthesis
+from burmester.task import Task
 
 __all__ = ["failure", "plain"]
 
@@ -26,15 +32,13 @@ SCHEMA = "burmester.synthesis/1"
 
 def plain(synthesis: Synthesis) -> dict[str, Any]:
     """The synthesis as an object ready for JSON."""
-    task, fit = synthesis.task, synthesis.fit
-    more: dict[str, Any] = {}
-    if isinstance(fit, BestDyads):
-        more["critical_points"] = {"found": int(fit.critical.found), "expected": COUNT}
+    task, outcome, motion = synthesis.task, synthesis.outcome, synthesis.motion
     return {
         "schema": SCHEMA,
-        "outcome": {"code": synthesis.outcome.code, "message": synthesis.outcome.message},
+        "outcome": {"code": outcome.code, "message": outcome.message, "help": outcome.help},
         "method": synthesis.method,
-        "task": {"poses": _poses(task.poses), "length_unit": task.length_unit},
+        "task": _task(task),
+        "motion": None if motion is None else _motion(motion),
         "dyads": [_dyad(dyad) for dyad in synthesis.dyads],
         "linkages": [_linkage(linkage) for linkage in synthesis.linkages],
         "warnings": [
@@ -42,8 +46,107 @@ def plain(synthesis: Synthesis) -> dict[str, Any]:
             for warning in synthesis.warnings
         ],
         "characteristic_length": synthesis.length,
-        "singular_values": None if fit is None else fit.singular_values.tolist(),
-        **more,
+        "singular_values": _singular_values(synthesis),
+        **_critical_points(synthesis),
+        "search": [_search(fit) for fit in synthesis.fits],
+        "certificate": None
+        if synthesis.certificate is None
+        else _certificate(synthesis.certificate),
+    }
+
+
+def _task(task: Task) -> dict[str, Any]:
+    """The task as a file may hold it."""
+    poses: list[dict[str, Any]] = [dict(pose) for pose in _poses(task.poses)]
+    columns = {"weight": task.weights, "name": task.names, "exact": task.exact}
+    for key, values in columns.items():
+        if values is not None:
+            plain_values = values if isinstance(values, tuple) else values.tolist()
+            for pose, value in zip(poses, plain_values, strict=True):
+                pose[key] = value
+    data: dict[str, Any] = {"poses": poses, "length_unit": task.length_unit}
+    if task.limits:
+        data["limits"] = [_limits(each) for each in task.limits]
+    return data
+
+
+def _limits(limits: Limits) -> dict[str, Any]:
+    data: dict[str, Any] = {}
+    for name, region in (
+        ("fixed_pivot", limits.fixed_pivot),
+        ("moving_pivot", limits.moving_pivot),
+    ):
+        if isinstance(region, Point):
+            data[name] = {"point": region.at.tolist()}
+        elif isinstance(region, Line | Segment):
+            ends = [region.start.tolist(), region.end.tolist()]
+            data[name] = {type(region).__name__.lower(): ends}
+        elif isinstance(region, Polygon):
+            data[name] = {"polygon": region.vertices.tolist()}
+    bounds = {"least": limits.length[0], "most": limits.length[1]}
+    if limits.has_length:
+        data["length"] = {end: value for end, value in bounds.items() if 0 < value < math.inf}
+    data["kinds"] = [kind for kind in KINDS if kind in limits.kinds]
+    return data
+
+
+def _motion(motion: Fingerprint) -> dict[str, Any]:
+    """What the poses are, whatever the method."""
+    return {
+        "code": motion.motion.code,
+        "name": motion.motion.name,
+        "message": motion.motion.message,
+        "distinct_poses": motion.distinct,
+        "rotation_deg": math.degrees(motion.rotation),
+        "nullity": motion.nullity,
+    }
+
+
+def _singular_values(synthesis: Synthesis) -> list[float] | None:
+    """Those of the fit where it has some, else those that told what the motion is."""
+    for fit in synthesis.fits:
+        if not isinstance(fit, BestDyads):
+            return list(fit.singular_values.tolist())
+    return None if synthesis.motion is None else list(synthesis.motion.singular_values.tolist())
+
+
+def _critical_points(synthesis: Synthesis) -> dict[str, Any]:
+    """How many of the critical points of a task without limits were told apart."""
+    for fit in synthesis.fits:
+        if isinstance(fit, BestDyads) and isinstance(fit.search, CriticalDyads):
+            return {"critical_points": {"found": int(fit.search.found), "expected": COUNT}}
+    return {}
+
+
+def _search(fit: Fit) -> dict[str, Any]:
+    """What was searched, and how much of it is accounted for."""
+    if isinstance(fit, Pencil):
+        return {"kind": "pencil"}
+    if isinstance(fit, FivePoseDyads):
+        return {"kind": "five poses", "roots": len(fit.real), "real": int(fit.real.sum())}
+    search = fit.search
+    if isinstance(search, CriticalDyads):
+        found = {"found": int(search.found), "expected": COUNT}
+        return {"kind": "critical points", **found, "health": _number(float(search.health))}
+    names = ("systems", "found", "lost", "unsettled")
+    return {"kind": "faces", **{name: getattr(search, name) for name in names}}
+
+
+def _certificate(certificate: Certificate) -> dict[str, Any]:
+    return {
+        "complete": certificate.complete,
+        "proved": list(certificate.proved),
+        "numerical": list(certificate.numerical),
+        "dyads": [
+            {
+                "id": f"D{dyad.index + 1}",
+                "proved": dyad.proved,
+                "radius": _number(dyad.radius),
+                "angle_radius_deg": _number(math.degrees(dyad.angle_radius)),
+                "minimum": dyad.minimum,
+            }
+            for dyad in certificate.dyads
+        ],
     }
 
 
@@ -79,6 +182,8 @@ def _dyad(found: FoundDyad) -> dict[str, Any]:
         "max_error": _number(found.max_error),
         "minimum": found.minimum,
     }
+    if found.limits:
+        data["limits"] = found.limits
     match dyad:
         case RR():
             data["fixed_pivot"] = dyad.fixed_pivot.tolist()

@@ -11,8 +11,10 @@ import numpy as np
 
 from burmester.displacement import FloatArray
 from burmester.errors import InputError
+from burmester.io.wanted import Wanted
 
 __all__ = [
+    "MARKS",
     "NUMBER_LIKE",
     "NUMERIC",
     "UNITS",
@@ -27,6 +29,8 @@ __all__ = [
 
 UNITS = {"deg": "degrees", "rad": "radians"}
 NUMERIC = ("x", "y", "angle", "weight")
+MARKS = {"yes": True, "true": True, "1": True, "x": True}  # of an exact pose, in small letters
+MARKS |= {"no": False, "false": False, "0": False, "": False}
 
 _NUMBER = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?")
 _NOT_FINITE = re.compile(r"[+-]?(nan|inf|infinity)", re.IGNORECASE)
@@ -40,6 +44,7 @@ class Rows(NamedTuple):
     values: FloatArray  # (N, 3) or (N, 4): x, y, angle in its own unit, and weight if given
     decimals: tuple[float, float]  # the most that a length and an angle are printed with
     names: list[str]  # one a pose, or none at all
+    exact: list[bool]  # the same
 
     @classmethod
     def read(cls, columns: dict[str, list[str]]) -> Rows:
@@ -47,7 +52,8 @@ class Rows(NamedTuple):
         numeric = [columns[role] for role in NUMERIC if role in columns]
         x, y, angle = (max(map(_decimals, column), default=0.0) for column in numeric[:3])
         values = np.array([[float(number) for number in column] for column in numeric]).T
-        return cls(values, (max(x, y), angle), columns.get("name", []))
+        exact = [MARKS[mark.lower()] for mark in columns.get("exact", [])]
+        return cls(values, (max(x, y), angle), columns.get("name", []), exact)
 
     @classmethod
     def joined(cls, parts: list[Rows]) -> Rows:
@@ -55,7 +61,8 @@ class Rows(NamedTuple):
         lengths, angles = zip(*(part.decimals for part in parts), strict=True)
         values = np.concatenate([part.values for part in parts])
         names = [name for part in parts for name in part.names]
-        return cls(values, (max(lengths), max(angles)), names)
+        exact = [mark for part in parts for mark in part.exact]
+        return cls(values, (max(lengths), max(angles)), names, exact)
 
 
 class PoseTable(NamedTuple):
@@ -66,6 +73,7 @@ class PoseTable(NamedTuple):
     angle_unit: str | None
     where: str  # the place where the angle unit is stated, or should be
     say_unit: str  # how to state it there
+    wanted: Wanted = Wanted()
 
 
 class Source(NamedTuple):

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Sequence
+from itertools import zip_longest
+from typing import TYPE_CHECKING
 
 import numpy as np
 from rich import box
@@ -18,6 +20,10 @@ from burmester.dyad import PP, PR, RP, RR, Dyad
 from burmester.errors import BurmesterError
 from burmester.synthesis import FoundLinkage, Synthesis
 
+if TYPE_CHECKING:
+    from burmester.methods import Answer
+    from burmester.side_by_side import SideBySide
+
 __all__ = ["show_error", "show_reproduction", "show_synthesis"]
 
 DIGITS = 1e-4  # of the characteristic length: what pivots are shown to, errors permitting
@@ -29,9 +35,12 @@ def show_synthesis(synthesis: Synthesis, console: Console) -> None:
     if synthesis.linkages:
         best = synthesis.linkages[0]
         console.print(Text(f"{message}.", style="bold"))
-        console.print(f"Best: {best.id}, a {best.linkage.type}, {_meets(synthesis, best)}.")
+        article = "an" if best.linkage.type[0] in "aeiouAEIOU" else "a"
+        console.print(f"Best: {best.id}, {article} {best.linkage.type}, {_meets(synthesis, best)}.")
     else:
         console.print(Text(f"result[{code}]: {message}", style="bold"))
+    if synthesis.outcome.help:
+        console.print(Text(f"  help: {synthesis.outcome.help}"))
     if synthesis.dyads:
         console.print(_dyads(synthesis))
     if synthesis.linkages:
@@ -43,13 +52,23 @@ def show_synthesis(synthesis: Synthesis, console: Console) -> None:
             "in their order.",
             style="dim",
         )
+    if synthesis.certificate is not None:
+        for head, sentences in (
+            ("Proved, for the poses as given", synthesis.certificate.proved),
+            ("Computed, not proved", synthesis.certificate.numerical),
+        ):
+            if sentences:
+                console.print(Text(f"\n{head}:", style="bold"))
+                console.print(_bullets(sentences))
     for warning in synthesis.warnings:
         console.print(Text(f"warning[{warning.code}]: {warning.message}", style="yellow"))
         console.print(Text(f"  help: {warning.help}"))
 
 
-def show_reproduction(sections: Sequence[Section], console: Console) -> None:
-    """The paper's numbers beside the computed ones, and a count of the verdicts."""
+def show_reproduction(
+    sections: Sequence[Section], tasks: Sequence[SideBySide], console: Console
+) -> None:
+    """The paper's numbers beside the computed ones, its tasks by five methods, and a count."""
     for section in sections:
         console.print(Text(f"\n{section.title}", style="bold"))
         if section.rows:
@@ -58,6 +77,17 @@ def show_reproduction(sections: Sequence[Section], console: Console) -> None:
             if row.note:
                 console.print(Text(f"{row.item}: {row.note}", style="dim"))
         for remark in section.remarks:
+            console.print(Text(remark))
+    if tasks:
+        console.print(Text("\nThe same tasks by other methods", style="bold"))
+        console.print(
+            "rms and worst: the misses of the circle. starts: how many random ones lead to the "
+            "dyad, the same for all; pencil (normalised) and complete method need none."
+        )
+    for task in tasks:
+        console.print(Text(f"\n{task.title} by five methods", style="bold"))
+        console.print(_methods(task))
+        for remark in _of_starts(task.answers):
             console.print(Text(remark))
     counts = Counter(row.verdict for section in sections for row in section.rows)
     said = ", ".join(f"{counts[verdict]} {verdict}" for verdict in Verdict)
@@ -68,6 +98,45 @@ def show_error(error: BurmesterError, console: Console) -> None:
     """An error as it stands, its code in colour where there is colour."""
     head, _, rest = str(error).partition(": ")
     console.print(Text(head, style="bold red") + Text(": " + rest), soft_wrap=True)
+
+
+def _methods(task: SideBySide) -> Table:
+    starts = max(answer.starts or 0 for answer in task.answers)
+    table = _table()
+    table.add_column("", no_wrap=True)
+    for name in ("fixed pivot", "moving pivot", "length", "rms", "worst", f"starts\nof {starts}"):
+        table.add_column(name, justify="right", no_wrap=True)
+    for answer in task.answers:
+        counts = ["none"] if answer.reached is None else [str(n) for n in answer.reached]
+        if answer.reached and len(answer.rms_error) > len(counts):
+            counts.append("both")  # found at once
+        rows = [_circle(answer, k) for k in range(len(answer.rms_error))] or [["-"] * 5]
+        for name, row, count in zip_longest([answer.method], rows, counts, fillvalue=""):
+            table.add_row(name, *row, count)
+    return table
+
+
+def _circle(answer: Answer, k: int) -> list[str]:
+    dyad = answer.dyads[k]
+    pivots = [f"({x:.3f}, {y:.3f})" for x, y in (dyad.fixed_pivot, dyad.moving_pivot)]
+    errors = [f"{error[k]:.1e}" for error in (answer.rms_error, answer.max_error)]
+    return [*pivots, f"{dyad.radius:.3f}", *errors]
+
+
+def _of_starts(answers: Sequence[Answer]) -> list[str]:
+    needed = [f"{a.method} {_short(a.needed)}" for a in answers if a.needed is not None]
+    settled = [f"{a.method} {a.settled} of {a.starts}" for a in answers if a.starts is not None]
+    seconds = [
+        f"{a.method} {_short(a.seconds)} s"
+        if a.seconds >= 0.1
+        else f"{a.method} {_short(1e3 * a.seconds)} ms"
+        for a in answers
+    ]
+    return [
+        f"Random starts until both dyads are found, on average: {', '.join(needed)}.",
+        f"Starts that come to rest in a minimum at all: {', '.join(settled)}.",
+        f"Time on this machine, all starts together: {', '.join(seconds)}.",
+    ]
 
 
 _STYLE = {Verdict.MISPRINT: "yellow", Verdict.DIFFERS: "bold red", Verdict.AGREES: "green"}
@@ -125,6 +194,13 @@ def _linkages(synthesis: Synthesis) -> Table:
             "exact" if angle < ROUNDING else f"{_short(math.degrees(angle))}°",
         )
     return table
+
+
+def _bullets(sentences: Sequence[str]) -> Table:
+    grid = Table.grid(padding=(0, 1))
+    for sentence in sentences:
+        grid.add_row("-", Text(sentence))
+    return grid
 
 
 def _table(title: str | None = None) -> Table:

@@ -1,0 +1,149 @@
+"""Limits and exact poses as the command line says them.
+
+A region is X,Y (a point) or line:X,Y:X,Y, segment:X,Y:X,Y, box:X,Y:X,Y or
+polygon:X,Y:X,Y:X,Y with any more corners; a length is MIN:MAX, either side may be empty; kinds
+are RR,PR.  `any` is no limit.  Numbers have a decimal point; what does not fit is E131, with a
+caret below the text.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TypeVar
+
+import numpy as np
+
+from burmester.errors import InputError
+from burmester.io.table import Source, plain_number, shown
+from burmester.io.wanted import SHAPES, Length, Wanted, WantedKinds, WantedRegion
+from burmester.limits import KINDS, Kind
+
+__all__ = ["exact_marks", "wanted"]
+
+ANY = "any"
+REGION = "write X,Y for a point, or line:X,Y:X,Y, segment:, box: or polygon: likewise, or any"
+LENGTH = "write 10:200, 10: for at least 10, :200 for at most 200, or any"
+
+T = TypeVar("T")
+
+
+def wanted(
+    fixed_pivot: Sequence[str] = (),
+    moving_pivot: Sequence[str] = (),
+    length: Sequence[str] = (),
+    kinds: Sequence[str] = (),
+) -> Wanted:
+    """What the options of these names say; raises E131, and E132 for an empty box."""
+    return Wanted(
+        _each(fixed_pivot, "--fixed-pivot", _region),
+        _each(moving_pivot, "--moving-pivot", _region),
+        _each(length, "--length", _length),
+        _each(kinds, "--kinds", _kinds),
+        "the command line",
+    )
+
+
+def exact_marks(texts: Sequence[str], names: Sequence[str], count: int) -> list[bool]:
+    """Which of `count` poses `--exact` names, by numbers from 1 or by names; raises E122."""
+    marks = [False] * count
+    for text in texts:
+        source, at = Source("--exact", text), 0
+        for item in [text] if text in names else text.split(","):
+            word = item.strip()
+            where = source.where(at + len(item) - len(item.lstrip()), len(word))
+            marks[_pose(word, names, count, where)] = True
+            at += len(item) + 1
+    return marks
+
+
+def _pose(word: str, names: Sequence[str], count: int, where: str) -> int:
+    """The pose that a number or a name stands for, counted from 0."""
+    found = {k for k, name in enumerate(names) if word and name == word}
+    if word.isascii() and word.isdigit() and len(word) < 10 and 1 <= int(word) <= count:
+        found.add(int(word) - 1)
+    if len(found) == 1:
+        return found.pop()
+    message, known = f"there is no pose {shown(word)}", " or by their names" if names else ""
+    if found:
+        which = " and ".join(str(k + 1) for k in sorted(found))
+        message = f"{shown(word)} may be pose {which}"
+    help = f"name poses by their numbers, 1 to {count}{known}, as in --exact 1,{count}"
+    raise InputError("E122", message, where=where, help=help)
+
+
+def _each(texts: Sequence[str], option: str, read: Callable[[Source], T]) -> tuple[T | None, ...]:
+    if len(texts) > 2:
+        raise InputError(
+            "E131",
+            f"{option} is given {len(texts)} times, and a linkage has two dyads",
+            where="the command line",
+            help=f"give {option} once for both dyads, or twice, once for each",
+        )
+    return tuple(None if text.strip() == ANY else read(Source(option, text)) for text in texts)
+
+
+def _region(source: Source) -> WantedRegion:
+    head, colon, rest = source.text.partition(":")
+    shape = head.strip() if colon else "point"
+    if shape not in SHAPES:
+        raise _fault(source, f"there is no region {shown(shape)}", REGION, 0, len(head))
+    at = len(head) + 1 if colon else 0
+    parts = (rest if colon else source.text).split(":")
+    points, (count, make) = [], SHAPES[shape]
+    for part in parts:
+        cells = part.split(",")
+        if len(cells) != 2:
+            message = f"{shown(part)} is not a point X,Y"
+            raise _fault(source, message, REGION, at, len(part))
+        points.append(
+            [_number(source, cells[0], at), _number(source, cells[1], at + len(cells[0]) + 1)]
+        )
+        at += len(part) + 1
+    if count not in (None, len(points)):
+        message = f"a {shape} takes {count} point{'' if count == 1 else 's'}, not {len(points)}"
+        raise _fault(source, message, REGION)
+    try:
+        return make(np.array(points))
+    except InputError as error:
+        error.where = source.where(0, len(source.text))
+        raise
+
+
+def _length(source: Source) -> Length:
+    parts = source.text.split(":")
+    if len(parts) != 2:
+        raise _fault(source, f"{shown(source.text)} is not a range MIN:MAX", LENGTH)
+    low, high = parts
+    least = _number(source, low, 0) if low.strip() else 0.0
+    most = _number(source, high, len(low) + 1) if high.strip() else float("inf")
+    return least, most
+
+
+def _kinds(source: Source) -> WantedKinds:
+    kinds: set[Kind] = set()
+    at = 0
+    for item in source.text.split(","):
+        known: list[Kind] = [kind for kind in KINDS if kind == item.strip().upper()]
+        if not known:
+            help = f"choose among {', '.join(KINDS)}, with commas between them"
+            raise _fault(source, f"there is no dyad kind {shown(item)}", help, at, len(item))
+        kinds.update(known)
+        at += len(item) + 1
+    return frozenset(kinds)
+
+
+def _number(source: Source, cell: str, at: int) -> float:
+    plain, mark = plain_number(cell.strip(), ",")
+    if mark is None:
+        at += len(cell) - len(cell.lstrip())
+        help = "write digits with at most a decimal point and an exponent, such as -12.5 or 3e-4"
+        message = f"{shown(cell.strip())} is not a finite number"
+        raise _fault(source, message, help, at, len(cell.strip()))
+    return float(plain)
+
+
+def _fault(
+    source: Source, message: str, help: str, at: int = 0, width: int | None = None
+) -> InputError:
+    where = source.where(at, len(source.text) if width is None else width)
+    return InputError("E131", f"{source.label}: {message}", where=where, help=help)

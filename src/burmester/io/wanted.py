@@ -1,0 +1,87 @@
+"""A designer's limits as they are said, in a file or on the command line, and what they come to.
+
+Each of the four (where the fixed pivot may be, where the moving one, how long the link, which
+kinds) is said not at all, once for both dyads of a linkage, or twice, once for each.  A point
+said once is for the first dyad alone: two dyads that share a pivot only turn about it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple, TypeAlias
+
+from burmester.displacement import FloatArray
+from burmester.errors import InputError
+from burmester.limits import Kind, Limits, Line, Point, Polygon, Region, Segment, box
+
+__all__ = ["LIMIT_KEYS", "SHAPES", "Length", "Wanted", "WantedKinds", "WantedRegion"]
+
+Length: TypeAlias = tuple[float, float]
+WantedRegion: TypeAlias = Region | None  # None leaves a dyad free
+WantedKinds: TypeAlias = frozenset[Kind] | None
+
+# `limits`, and what may be met beside the poses by mistake, where it would limit nothing
+LIMIT_KEYS = ("limits", "limit", "exact", "fixed_pivot", "moving_pivot", "length", "kinds")
+
+# The word for a region, how many points it takes (None: any number), and what it makes of them.
+SHAPES: Mapping[str, tuple[int | None, Callable[[FloatArray], Region]]] = {
+    "point": (1, lambda points: Point(points[0])),
+    "line": (2, lambda points: Line(*points)),
+    "segment": (2, lambda points: Segment(*points)),
+    "box": (2, lambda points: box(*points)),
+    "polygon": (None, Polygon),
+}
+
+
+class Wanted(NamedTuple):
+    """Limits as said, at most two of each; where: the file, or the command line."""
+
+    fixed_pivot: tuple[WantedRegion, ...] = ()
+    moving_pivot: tuple[WantedRegion, ...] = ()
+    length: tuple[Length | None, ...] = ()
+    kinds: tuple[WantedKinds, ...] = ()
+    where: str = ""
+
+    def joined(self, other: Wanted) -> Wanted:
+        """What both say; raises E108 where they speak of the same thing."""
+        for name in ("fixed_pivot", "moving_pivot", "length", "kinds"):
+            if getattr(self, name) and getattr(other, name):
+                what = name.replace("_", " ")
+                raise InputError(
+                    "E108",
+                    f"the {what} is limited twice" if name != "kinds" else "kinds are said twice",
+                    where=f"{self.where}, and {other.where}",
+                    help="leave one of the two out",
+                )
+        return Wanted(
+            self.fixed_pivot + other.fixed_pivot,
+            self.moving_pivot + other.moving_pivot,
+            self.length + other.length,
+            self.kinds + other.kinds,
+            ", and ".join(filter(None, (self.where, other.where))),
+        )
+
+    def limits(self) -> tuple[Limits, ...]:
+        """None; one for both dyads; or one for each.  Raises E131 and E132 as `Limits` does."""
+        first, second = self._of(0), self._of(1)
+        if not first and not second:
+            return ()
+        # Compared as objects: the same region said twice is two regions.
+        same = first.keys() == second.keys() and all(first[k] is second[k] for k in first)
+        try:
+            return tuple(Limits(**said) for said in ([first] if same else [first, second]))
+        except InputError as error:
+            error.where = error.where or self.where
+            raise
+
+    def _of(self, dyad: int) -> dict[str, Any]:
+        """What is said of the first dyad (0) or of the second (1)."""
+        said: dict[str, Sequence[Any]] = self._asdict()
+        del said["where"]
+        out = {}
+        for name, values in said.items():
+            value = values[min(dyad, len(values) - 1)] if values else None
+            shared = len(values) == 1 and dyad == 1
+            if value is not None and not (shared and isinstance(value, Point)):
+                out[name] = value
+        return out
