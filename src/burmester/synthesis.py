@@ -239,12 +239,10 @@ def _method(  # noqa: PLR0917
 ) -> Method:
     """The method that a task gets, or an error that says why not the one asked for."""
     count = task.poses.shape[0]
+    all_in_five = motion is not None and motion.five is not None and not task.limits
+    exact = all_in_five or (free == 0 and not (task.limits and count == CONDITIONS))
     if method == "auto":
-        all_in_five = motion is not None and motion.five is not None and not task.limits
-        exact = free == 0 if task.limits else count == CONDITIONS or all_in_five
-        method = "exact" if exact else "complete"
-        if task.limits and count >= CONDITIONS:
-            method = "complete"
+        method = "exact" if exact else "complete" if normalise else "pencil"
     marked = task.exact is not None and bool(task.exact.any())
     if method != "pencil" and not normalise:
         raise InputError(
@@ -277,10 +275,8 @@ def _method(  # noqa: PLR0917
             else "the pencil's dyads are not the best ones",
             help="leave --certify out, or the rest",
         )
-    takes = {"pencil": count >= 6, "complete": count >= 6 or free < 0, "exact": free == 0}
-    if not takes[method] and not (
-        method == "exact" and motion is not None and motion.five is not None
-    ):
+    takes = {"pencil": count >= 6, "complete": count >= 6 or not exact, "exact": exact}
+    if not takes[method]:
         needs = {"pencil": "6 poses or more", "complete": "6 poses or more", "exact": "5 poses"}
         raise InputError(
             "E121",
