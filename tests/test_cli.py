@@ -2,6 +2,7 @@
 
 import doctest
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -29,7 +30,7 @@ TABLE_2 = """x,y,angle_deg
 """
 
 
-def run(*arguments, stdin=None):
+def run(*arguments, stdin=None, env=None):
     return subprocess.run(
         [sys.executable, "-m", "burmester", *map(str, arguments)],
         input=stdin,
@@ -37,6 +38,7 @@ def run(*arguments, stdin=None):
         text=True,
         check=False,
         timeout=60,
+        env={**os.environ, **(env or {})},
     )
 
 
@@ -207,6 +209,67 @@ def test_complete_method_says_what_it_accounted_for(poses):
     assert data["critical_points"] == {"found": 25, "expected": 25}
     assert data["linkages"][0]["position_error"]["max"] < 2e-4
     assert {dyad["kind"] for dyad in data["dyads"]} == {"RR", "PR", "RP"}
+
+
+def test_a_certificate_says_what_is_proved(poses):
+    pytest.importorskip("flint")
+    done = run("synthesize", poses, "--certify")
+    proved, computed = done.stdout.split("Proved, for the poses as given:")[1].split(
+        "Computed, not"
+    )
+    assert "there are no others" in proved
+    assert "may have minima other than those reported" in " ".join(computed.split())
+    data = valid(run("synthesize", poses, "--certify", "--json").stdout)
+    assert data["certificate"]["complete"]
+    assert [dyad["id"] for dyad in data["certificate"]["dyads"]] == [d["id"] for d in data["dyads"]]
+    for dyad in data["certificate"]["dyads"]:
+        assert dyad["proved"]
+        assert dyad["radius"] < 1e-9
+    for wrong in (("--method", "pencil"), ("--norm", "worst"), ("--kinds", "RR")):
+        refused = run("synthesize", poses, "--certify", *wrong)
+        assert refused.returncode == 2
+        assert "E123" in refused.stderr
+
+
+def test_a_missing_library_for_certificates_is_said(poses, tmp_path):
+    (tmp_path / "flint.py").write_text("raise ImportError")
+    done = run("synthesize", poses, "--certify", env={"PYTHONPATH": str(tmp_path)})
+    assert done.returncode == 2
+    assert "E130" in done.stderr
+    assert "burmester[certify]" in done.stderr
+
+
+def test_a_special_motion_is_told_with_a_way_on(tmp_path):
+    file = tmp_path / "turn.csv"
+    file.write_text("x,y,angle_deg\n" + "".join(f"2,3,{angle}\n" for angle in (0, 20, 45, 80, 100)))
+    done = run("synthesize", file)
+    assert done.returncode == 1
+    assert "result[R315]" in done.stdout
+    assert "pin the body at its point (0, 0) to the ground at (2, 3)" in " ".join(
+        done.stdout.split()
+    )
+    data = valid(run("synthesize", file, "--json").stdout)
+    assert data["motion"]["code"] == data["outcome"]["code"] == "R315"
+    assert data["linkages"] == []
+
+
+def test_poses_and_pivots_make_five_conditions(tmp_path):
+    file = tmp_path / "three.csv"
+    file.write_text("x,y,angle_deg\n0,0,0\n3,1,40\n4,3,70\n")
+    done = run("synthesize", file, "--fixed-pivot=1,-2", "--fixed-pivot=4,-1", "--json")
+    data = valid(done.stdout)
+    assert data["method"] == "exact"
+    (linkage,) = data["linkages"]
+    assert {tuple(dyad["fixed_pivot"]) for dyad in linkage["dyads"]} == {(1, -2), (4, -1)}
+    for dyad in linkage["dyads"]:
+        assert np.abs(circle_misses(dyad, data)).max() < 1e-9
+    # What --json prints can be read again, limits and all.
+    again = tmp_path / "again.json"
+    again.write_text(done.stdout)
+    assert valid(run("synthesize", again, "--json").stdout)["linkages"] == data["linkages"]
+    one = run("synthesize", file, "--fixed-pivot=1,-2")
+    assert one.returncode == 1
+    assert "the other dyad: a two-parameter family" in " ".join(one.stdout.split())
 
 
 def circle_misses(dyad, data):

@@ -27,8 +27,9 @@ def test_known_best_dyads_of_the_papers_poses(name):
         case["best_dyads_true_distance"], case["best_dyads_sum_of_squares"], strict=True
     ):
         k = np.abs(found - wanted).max(axis=1).argmin()
+        # The listed digits are good to 4e-8; a certificate proves ours to 1e-13.
         assert np.allclose(found[k], wanted, rtol=0, atol=5e-8)
-        assert np.isclose(best.rms_error[k] ** 2 * 10, squares, rtol=1e-9)
+        assert np.isclose(best.rms_error[k] ** 2 * 10, squares, rtol=3e-8)
 
 
 def distance_residual(v, rows):

@@ -156,9 +156,9 @@ def synthesize(
                     "delete the repeats; to let a pose count more give it a weight",
                 )
             )
-    free = _freedom(task)
+    free = max(_freedom(task))
     if free > 0 and method in ("auto", "exact"):
-        return _family(whole, method, motion, length, free)
+        return _family(whole, task, method, motion, length)
     chosen = _method(task, motion, method, normalise, norm, certify, free)
     fits = _fits(task, motion, chosen, normalise, norm)
     return _finish(whole, task, chosen, motion, length, fits, warnings, certify)
@@ -178,38 +178,58 @@ def _merged(task: Task, motion: Fingerprint) -> Task:
     )
 
 
-def _freedom(task: Task) -> int:
-    """How many more conditions it takes until a task has finitely many dyads."""
-    fewest = min((limits.conditions for limits in task.limits), default=0)
-    return CONDITIONS - fewest - task.poses.shape[0]
+def _freedom(task: Task) -> list[int]:
+    """How many more conditions it takes until there are finitely many dyads, for each limit."""
+    conditions = [limits.conditions for limits in task.limits] or [0]
+    return [CONDITIONS - each - task.poses.shape[0] for each in conditions]
 
 
 def _family(
-    task: Task, method: Method, motion: Fingerprint | None, length: float, free: int
+    whole: Task,
+    task: Task,
+    method: Method,
+    motion: Fingerprint | None,
+    length: float,
 ) -> Synthesis:
-    """Too few conditions: infinitely many dyads."""
-    count = task.poses.shape[0]
-    distinct = count if motion is None else motion.distinct
-    poses = (
-        f"{count} poses" if distinct == count else f"{count} poses, {distinct} of them different,"
-    )
-    parameters = {1: "a one", 2: "a two"}.get(free, f"a {free}")
-    calls = {3: "burmester.dyad_with_moving_pivot", 4: "burmester.dyad_curve"}.get(distinct)
-    family = f", or choose from the family in Python: {calls}" if calls and not task.limits else ""
-    message = (
-        f"{poses} leave infinitely many linkages: {parameters}-parameter family of dyads passes "
-        "through all of them"
-    )
+    """Too few conditions: infinitely many dyads, if not of both limits then of one."""
+    count, distinct = whole.poses.shape[0], task.poses.shape[0]
+    poses = _count(count, "pose") + (f", {distinct} of them different," if distinct < count else "")
+    freedom = _freedom(task)
+    free, dyads = max(freedom), []
+    for number, (each, left) in enumerate(zip(task.limits, freedom, strict=False), start=1):
+        if left <= 0:
+            every = np.full(task.poses.shape, left == 0)
+            found, _ = found_dyads(best_dyads(task.poses, None, every, each), task)
+            dyads += [replace(one, limits=number) for one in found]
+    dyads = [replace(each, id=f"D{i}") for i, each in enumerate(dyads, start=1)]
+    limited = CONDITIONS - free - distinct
+    given = f" and {_count(limited, 'condition')} on a pivot" if limited else ""
+    which = "the other dyad: " if free > min(freedom) <= 0 else ""
+    parameter = {1: "one", 2: "two", 3: "three"}.get(free, str(free))
+    calls = {3: "dyad_with_moving_pivot", 4: "dyad_curve"}.get(distinct)
+    family = f", or choose from the family in Python: burmester.{calls}"
     more = (
-        f"add {_count(free, 'more pose')}, or as many pivots on lines (a pivot at a point is two)"
+        f"add {_count(free, 'more pose')} to get all that pass exactly, or put pivots on lines "
+        "(one condition each) or at points (two)"
     )
     return Synthesis(
-        task,
+        whole,
         method,
-        Outcome("R303", message),
+        Outcome(
+            "R303",
+            f"{poses}{given} leave infinitely many linkages: {which}a {parameter}-parameter family "
+            "of dyads passes through all of them",
+        ),
         motion,
         length,
-        warnings=(Advice("W203", f"{poses} do not determine a linkage", f"{more}{family}"),),
+        tuple(dyads),
+        warnings=(
+            Advice(
+                "W203",
+                f"{poses}{given} do not determine a linkage",
+                more + (family if calls and not task.limits else ""),
+            ),
+        ),
     )
 
 
