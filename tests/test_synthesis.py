@@ -221,6 +221,18 @@ def test_repeated_poses_count_once(count):
     assert twice.linkages[0].error.position.shape == (count + 2,)
 
 
+@pytest.mark.parametrize("different", [1, 2, 3, 4])
+def test_too_few_different_poses_are_no_dyads(different):
+    rows = np.random.default_rng(3).normal(size=(different, 3))
+    synthesis = synthesize(Task(Displacement.from_poses(np.vstack([rows] * 6))))
+    assert synthesis.outcome.code == {1: "R310", 2: "R311"}.get(different, "R303")
+    assert synthesis.dyads == ()
+    if different == 2:
+        assert "only 2 of the 12 poses are different" in synthesis.outcome.message
+    if different > 2:
+        assert f"{6 * different} poses, {different} of them different" in synthesis.outcome.message
+
+
 def test_weights_of_repeated_poses_add_up():
     rng = np.random.default_rng(2)
     rows = random_poses(random_four_bar(rng), rng, 9) + 0.01 * rng.normal(size=(9, 3))
@@ -246,7 +258,7 @@ def test_no_real_dyad_is_said_and_the_nearest_is_shown():
         synthesis = synthesize(Task(Displacement.from_poses(rng.normal(size=(5, 3)))))
         real = int(synthesis.fits[0].real.sum())
         seen.add(real)
-        assert synthesis.outcome.code == ("R305" if real < 2 else "R300")
+        assert synthesis.outcome.code == ("R307" if real < 2 else "R300")
         exact = [found for found in synthesis.dyads if found.max_error < 1e-6 * synthesis.length]
         assert len(exact) == real
         if real < 2:

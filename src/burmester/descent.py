@@ -19,7 +19,7 @@ from burmester.polish import Misses, Polished
 
 __all__ = ["Block", "Range", "descend", "inside", "lying_on"]
 
-INSIDE = 1e-9  # lengths outside a region that are rounding
+INSIDE = 1e-9  # lengths (or shares of greater ones) outside a region that are rounding
 DOWNHILL = 1e-7  # share of the pull that is rounding
 MOVES = 200
 TRIES, FINER = 65, 7  # places looked at on the way out of a region, and how often between two
@@ -72,7 +72,12 @@ class Block(NamedTuple):
         """Whether dyads z (*, k) lie outside, rounding apart."""
         if self.region is None:
             return np.zeros(z.shape[:-1], dtype=bool)
-        return np.asarray(self.region.distance(z[..., self.at]) > INSIDE)
+        return np.asarray(self.region.distance(z[..., self.at]) > _rounding(z[..., self.at]))
+
+
+def _rounding(points: FloatArray) -> FloatArray:
+    """How far outside (*,) a region points (*, d) are by rounding alone, far away ones more."""
+    return np.asarray(INSIDE * np.maximum(1.0, np.abs(points).max(axis=-1)))
 
 
 def inside(z: FloatArray, blocks: Sequence[Block]) -> bool:
@@ -160,7 +165,7 @@ def _smallest(z: FloatArray, block: Block, faces: Sequence[Face]) -> Face:
         rest = z[block.at] - face.origin
         return float(np.abs(rest - face.basis @ (face.basis.T @ rest)).max())
 
-    on = [face for face in faces if off(face) < 10 * INSIDE]
+    on = [face for face in faces if off(face) < 10 * _rounding(z[block.at])]
     return min(on, key=lambda face: face.basis.shape[1])
 
 

@@ -38,10 +38,12 @@ Condition: TypeAlias = Literal["none", "soft", "hard"]
 
 LOOSE, TIGHT = 1e-3, 1e-10  # relative: how far a prediction may be off; how well it is corrected
 FAR, OUT = 1e7, 1e3  # a path this far out is on its way to infinity; or here, if it gets stuck
+LATE = 0.999  # of the way: what is far out before is lost, only the end has points at infinity
 SHORT = 1e-10  # a step this short has met a singular point
 STEPS = 2000
 REAL = 1e-7  # relative imaginary part that rounding leaves
 SAME = 1e-6
+DETOURS = 2  # other ways tried where paths were lost
 RUNNING, LOST, ARRIVED, AWAY = -1, 0, 1, 2  # states of a path
 
 
@@ -162,6 +164,32 @@ def _shape(  # noqa: PLR0917
 def stationary(shape: Shape, target: Parameters) -> list[Stationary]:
     """The real stationary points of systems of one shape, parameters with one leading axis (T,)."""
     start, points = _start(shape.name)
+    ends, state = _carried(shape, points, start, target)
+    rng = np.random.default_rng(0)
+    for _ in range(DETOURS):
+        again = np.flatnonzero((state == LOST).any(axis=1))
+        if not len(again):
+            break
+        # A path that came too near to infinity goes elsewhere if it begins elsewhere.
+        turns = np.exp(2j * np.pi * rng.random(len(start)))
+        turned = Parameters(*(a * turn for a, turn in zip(start, turns, strict=True)))
+        begin, came = _carried(shape, points, start, Parameters(*(a[None] for a in turned)))
+        if (came != ARRIVED).any():
+            continue
+        some = Parameters(*(a[again] for a in target))
+        other_ends, other_state = _carried(shape, begin[0], turned, some)
+        fewer = (other_state == LOST).sum(axis=1) < (state[again] == LOST).sum(axis=1)
+        ends[again[fewer]], state[again[fewer]] = other_ends[fewer], other_state[fewer]
+    return [
+        _sorted_out(shape, ends[k], state[k], Parameters(*(a[k] for a in target)))
+        for k in range(len(state))
+    ]
+
+
+def _carried(
+    shape: Shape, points: ComplexArray, start: Parameters, target: Parameters
+) -> tuple[ComplexArray, NDArray[np.int_]]:
+    """The points (k, size), carried over to each of the targets (T,), and their state (T, k)."""
     tasks = len(target.square)
     ends, state = follow(
         shape,
@@ -169,20 +197,14 @@ def stationary(shape: Shape, target: Parameters) -> list[Stationary]:
         Parameters(*(a[None] for a in start)),
         Parameters(*(np.repeat(a, len(points), axis=0) for a in target)),
     )
-    shaped = ends.reshape(tasks, len(points), -1)
-    states = state.reshape(tasks, len(points))
-    return [
-        _sorted_out(shape, shaped[k], states[k], Parameters(*(a[k] for a in target)))
-        for k in range(tasks)
-    ]
+    return ends.reshape(tasks, len(points), -1), state.reshape(tasks, len(points))
 
 
 def _sorted_out(
     shape: Shape, ends: ComplexArray, state: NDArray[np.int_], p: Parameters
 ) -> Stationary:
     arrived = distinct(ends[state == ARRIVED])
-    size = 1 + np.abs(arrived).max(axis=1, initial=0)
-    real = np.abs(arrived.imag).max(axis=1, initial=0) < REAL * size
+    real = (np.abs(arrived.imag) < REAL * _sizes(shape, arrived)).all(axis=1)
     x = arrived[real].real
     for _ in range(2):
         x = x - _newton(shape, x, p)
@@ -319,16 +341,25 @@ def follow(
             for _ in range(3):
                 last = _newton(shape, better, p)
                 better = better - last
-            size = 1 + np.abs(better).max(axis=1)
-            good = (np.abs(last).max(axis=1) < TIGHT * size) & (
-                np.abs(better - guess).max(axis=1) < LOOSE * size
+            size = _sizes(shape, better)
+            good = ((np.abs(last) < TIGHT * size) & (np.abs(better - guess) < LOOSE * size)).all(
+                axis=1
             )
         went = run[good]
         x[went], done[went] = better[good], (s + h)[good]
         step[run] = np.where(good, 1.7 * h, h / 3)
         state[went[done[went] >= 1]] = ARRIVED
-        size, stuck = np.abs(x[run]).max(axis=1), step[run] < SHORT
-        state[run[stuck]] = LOST
-        state[run[(size > FAR) | (stuck & (size > OUT))]] = AWAY
+        size, stuck = _sizes(shape, x[run]), step[run] < SHORT
+        far = (size[:, 0] > FAR) | (stuck & (size.max(axis=1) > OUT))
+        state[run[stuck | far]] = LOST
+        state[run[far & (done[run] > LATE)]] = AWAY
     state[state == RUNNING] = LOST
     return x, state
+
+
+def _sizes(shape: Shape, x: NDArray[Any]) -> FloatArray:
+    """How great each of x (*, size) may be said to be: multipliers have a size of their own."""
+    size = np.empty(x.shape)
+    for group in (slice(0, shape.unknowns), slice(shape.unknowns, None)):
+        size[..., group] = 1 + np.abs(x[..., group]).max(axis=-1, keepdims=True, initial=0)
+    return size

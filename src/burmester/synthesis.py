@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations, product
-from typing import Literal, final
+from typing import final
 
 import numpy as np
 
 from burmester.accuracy import PoseError
 from burmester.candidates import (
-    LONG,
     ROUNDING,
     Fit,
     FoundDyad,
@@ -21,19 +20,18 @@ from burmester.candidates import (
 )
 from burmester.certificate import Certificate, certify_five
 from burmester.certificate import certify as certify_best
-from burmester.critical import COUNT, CriticalDyads
-from burmester.dyad import PP, RR, Dyad
-from burmester.errors import InputError
+from burmester.critical import CriticalDyads
+from burmester.dyad import PP, Dyad
 from burmester.exact import FivePoseDyads, dyads_of_five
 from burmester.feasible import require_feasible
 from burmester.fingerprint import Fingerprint, fingerprint
-from burmester.limited import LimitedDyads, Norm
+from burmester.limited import Norm
 from burmester.linkage import Linkage
 from burmester.motion_kind import FewPoses, Undetermined
 from burmester.optimal import BestDyads, best_dyads
+from burmester.outcome import Advice, Method, Outcome, advice, chosen_method, family, outcome
 from burmester.pencil import fit_pencil
 from burmester.task import CONDITIONS, Task
-from burmester.uncertainty import pivot_uncertainty
 
 __all__ = [
     "Advice",
@@ -45,32 +43,6 @@ __all__ = [
     "Synthesis",
     "synthesize",
 ]
-
-Method = Literal["auto", "pencil", "exact", "complete"]
-
-
-@final
-@dataclass(frozen=True, slots=True)
-class Outcome:
-    """What came of a task: a stable code, a sentence, and what to do where nothing came.
-
-    R300 linkages; R302 too few dyads for one; R303 infinitely many; R304 none within the limits;
-    R305 approximate ones, for want of two real dyads; R310 and above: see `motion_kind`.
-    """
-
-    code: str
-    message: str
-    help: str | None = None
-
-
-@final
-@dataclass(frozen=True, slots=True)
-class Advice:
-    """A warning with what to do about it."""
-
-    code: str
-    message: str
-    help: str
 
 
 @final
@@ -140,11 +112,11 @@ def synthesize(
     whole, length = task, characteristic_length(task)
     warnings: list[Advice] = []
     if motion is not None:
-        # Limits may settle what too few or too small motions leave open.
-        open_end = isinstance(motion.motion, FewPoses) or (
-            isinstance(motion.motion, Undetermined) and any(each.conditions for each in task.limits)
-        )
-        if not (motion.determined or open_end):
+        # Pivots at points or on lines may settle what too few or too small motions leave open.
+        kind, settled = motion.motion, any(each.conditions for each in task.limits)
+        few = isinstance(kind, FewPoses) and (settled or (kind.repeats and motion.distinct > 2))
+        small = isinstance(kind, Undetermined) and settled
+        if not (motion.determined or few or small):
             return _special(task, method, motion, length)
         if motion.distinct < task.poses.shape[0]:
             task = _merged(task, motion)
@@ -159,7 +131,7 @@ def synthesize(
     free = max(_freedom(task))
     if free > 0 and method in ("auto", "exact"):
         return _family(whole, task, method, motion, length)
-    chosen = _method(task, motion, method, normalise, norm, certify, free)
+    chosen = chosen_method(task, motion, method, normalise, norm, certify, free)
     fits = _fits(task, motion, chosen, normalise, norm)
     return _finish(whole, task, chosen, motion, length, fits, warnings, certify)
 
@@ -185,52 +157,18 @@ def _freedom(task: Task) -> list[int]:
 
 
 def _family(
-    whole: Task,
-    task: Task,
-    method: Method,
-    motion: Fingerprint | None,
-    length: float,
+    whole: Task, task: Task, method: Method, motion: Fingerprint | None, length: float
 ) -> Synthesis:
     """Too few conditions: infinitely many dyads, if not of both limits then of one."""
-    count, distinct = whole.poses.shape[0], task.poses.shape[0]
-    poses = _count(count, "pose") + (f", {distinct} of them different," if distinct < count else "")
-    freedom = _freedom(task)
-    free, dyads = max(freedom), []
+    freedom, dyads = _freedom(task), []
     for number, (each, left) in enumerate(zip(task.limits, freedom, strict=False), start=1):
         if left <= 0:
             every = np.full(task.poses.shape, left == 0)
             found, _ = found_dyads(best_dyads(task.poses, None, every, each), task)
             dyads += [replace(one, limits=number) for one in found]
-    dyads = [replace(each, id=f"D{i}") for i, each in enumerate(dyads, start=1)]
-    limited = CONDITIONS - free - distinct
-    given = f" and {_count(limited, 'condition')} on a pivot" if limited else ""
-    which = "the other dyad: " if free > min(freedom) <= 0 else ""
-    parameter = {1: "one", 2: "two", 3: "three"}.get(free, str(free))
-    calls = {3: "dyad_with_moving_pivot", 4: "dyad_curve"}.get(distinct)
-    family = f", or choose from the family in Python: burmester.{calls}"
-    more = (
-        f"add {_count(free, 'more pose')} to get all that pass exactly, or put pivots on lines "
-        "(one condition each) or at points (two)"
-    )
-    return Synthesis(
-        whole,
-        method,
-        Outcome(
-            "R303",
-            f"{poses}{given} leave infinitely many linkages: {which}a {parameter}-parameter family "
-            "of dyads passes through all of them",
-        ),
-        motion,
-        length,
-        tuple(dyads),
-        warnings=(
-            Advice(
-                "W203",
-                f"{poses}{given} do not determine a linkage",
-                more + (family if calls and not task.limits else ""),
-            ),
-        ),
-    )
+    said, warning = family(task, whole.poses.shape[0], freedom)
+    numbered = tuple(replace(each, id=f"D{i}") for i, each in enumerate(dyads, start=1))
+    return Synthesis(whole, method, said, motion, length, numbered, warnings=(warning,))
 
 
 def _special(task: Task, method: Method, motion: Fingerprint, length: float) -> Synthesis:
@@ -244,67 +182,8 @@ def _special(task: Task, method: Method, motion: Fingerprint, length: float) -> 
     linkages = _linkages(
         task, combinations([f for f in found if not isinstance(f.dyad, PP)], 2), length
     )
-    outcome = Outcome(kind.code, kind.message, kind.help)
-    return Synthesis(task, method, outcome, motion, length, tuple(found), linkages)
-
-
-def _method(  # noqa: PLR0917
-    task: Task,
-    motion: Fingerprint | None,
-    method: Method,
-    normalise: bool,
-    norm: Norm,
-    certify: bool,
-    free: int,
-) -> Method:
-    """The method that a task gets, or an error that says why not the one asked for."""
-    count = task.poses.shape[0]
-    all_in_five = motion is not None and motion.five is not None and not task.limits
-    exact = all_in_five or (free == 0 and not (task.limits and count == CONDITIONS))
-    if method == "auto":
-        method = "exact" if exact else "complete" if normalise else "pencil"
-    marked = task.exact is not None and bool(task.exact.any())
-    if method != "pencil" and not normalise:
-        raise InputError(
-            "E123",
-            f"only the pencil can be fitted raw, not the {method} method",
-            help="leave --raw out, or use --method pencil",
-        )
-    asked = [
-        name
-        for name, given in (
-            ("limits", bool(task.limits)),
-            ("exact poses", marked),
-            ("the least worst distance", norm != "rms"),
-        )
-        if given
-    ]
-    if method == "pencil" and asked:
-        raise InputError(
-            "E123",
-            f"the pencil knows nothing of {asked[0]}",
-            why="it fits one pencil of quadrics to all poses alike",
-            help="use --method complete",
-        )
-    if certify and (asked or method == "pencil"):
-        raise InputError(
-            "E123",
-            "a certificate is for every locally best dyad without limits, or for five poses",
-            why=f"this task has {asked[0]}"
-            if asked
-            else "the pencil's dyads are not the best ones",
-            help="leave --certify out, or the rest",
-        )
-    takes = {"pencil": count >= 6, "complete": count >= 6 or not exact, "exact": exact}
-    if not takes[method]:
-        needs = {"pencil": "6 poses or more", "complete": "6 poses or more", "exact": "5 poses"}
-        raise InputError(
-            "E121",
-            f"the {method} method takes {needs[method]}, not {count}",
-            why="up to five poses are met exactly, six or more only by chance",
-            help="leave --method out, and the number of poses decides",
-        )
-    return method
+    said = Outcome(kind.code, kind.message, kind.help)
+    return Synthesis(task, method, said, motion, length, tuple(found), linkages)
 
 
 def _fits(
@@ -352,7 +231,7 @@ def _finish(  # noqa: PLR0917
         ]
     dyads = [each for found in lists for each in found]
     dyads = [replace(each, id=f"D{i}") for i, each in enumerate(dyads, start=1)]
-    warnings += _advice(task, fits, dyads, left_out, length)
+    warnings += advice(task, fits, dyads, left_out, length)
     pairs: Iterable[tuple[FoundDyad, FoundDyad]]
     if len(fits) > 1:
         one, other = ([each for each in dyads if each.limits == k] for k in (1, 2))
@@ -372,12 +251,12 @@ def _finish(  # noqa: PLR0917
                 )
             )
     linkages = _linkages(whole, different, length)
-    outcome = _outcome(task, method, fits, dyads, real, linkages)
+    said = outcome(task, method, fits, dyads, real, len(linkages))
     certificate = _proved(task, fits[0], dyads) if certify else None
     return Synthesis(
         whole,
         method,
-        outcome,
+        said,
         motion,
         length,
         tuple(dyads),
@@ -404,104 +283,6 @@ def _linkages(
     )
 
 
-def _advice(
-    task: Task, fits: Sequence[Fit], dyads: Sequence[FoundDyad], left_out: int, length: float
-) -> list[Advice]:
-    """What a user should know about the dyads."""
-    warnings = [
-        Advice(
-            "W204",
-            f"{item.id} has a link of {item.dyad.radius / length:.0f} times the motion's size: "
-            "nearly a slider",
-            "use a slider in its place if a link that long cannot be built",
-        )
-        for item in dyads
-        if isinstance(item.dyad, RR) and item.dyad.radius > LONG * length
-    ]
-    for item in dyads:
-        loose = pivot_uncertainty(item.dyad, task) if isinstance(item.dyad, RR) else None
-        if loose is not None and max(loose) > length:
-            warnings.append(
-                Advice(
-                    "W209",
-                    f"the digits of the poses leave the pivots of {item.id} free by about "
-                    f"{max(loose):.2g}, more than the motion's own size",
-                    "give more digits, or poses with more rotation between them",
-                )
-            )
-    for fit in fits:
-        search = fit.search if isinstance(fit, BestDyads) else None
-        if isinstance(search, CriticalDyads) and search.found < COUNT:
-            warnings.append(
-                Advice(
-                    "W207",
-                    f"{search.found} of {COUNT} critical points were told apart: a locally best "
-                    "dyad may be missing",
-                    "compare with --method pencil; poses of a special motion are the usual reason",
-                )
-            )
-        if isinstance(search, LimitedDyads) and (search.lost or search.unsettled):
-            warnings.append(
-                Advice(
-                    "W207",
-                    f"{_count(search.lost, 'path')} of the search and "
-                    f"{_count(search.unsettled, 'way')} down from it were lost: a locally best "
-                    "dyad may be missing",
-                    "move a limit a little and compare",
-                )
-            )
-    if left_out:
-        warnings.append(
-            Advice(
-                "W206",
-                f"{_count(left_out, 'solution')} left out as no dyad: an endless link with no "
-                "slider in its place, poses with two different angles only, or all digits lost",
-                "give poses that differ more, above all in their angles",
-            )
-        )
-    return warnings
-
-
-def _outcome(  # noqa: PLR0917
-    task: Task,
-    method: Method,
-    fits: Sequence[Fit],
-    found: Sequence[FoundDyad],
-    real: int,
-    linkages: Sequence[FoundLinkage],
-) -> Outcome:
-    first = fits[0]
-    if isinstance(first, FivePoseDyads):
-        dyads = _count(real, "real dyad") + " (of the 4 that five poses have)"
-        if real < len(found):
-            best = found[real]
-            dyads += f"; the nearest other one misses the poses by {best.rms_error:.2g} rms"
-    elif isinstance(first, BestDyads) and isinstance(first.search, CriticalDyads):
-        dyads = _count(len(found), "locally best dyad")
-        dyads += f" ({first.search.found} of {COUNT} critical points accounted for)"
-    elif isinstance(first, BestDyads):
-        faces = sum(
-            f.search.systems
-            for f in fits
-            if isinstance(f, BestDyads) and isinstance(f.search, LimitedDyads)
-        )
-        what = "dyad" if method == "exact" else "locally best dyad"
-        dyads = _count(len(found), what)
-        if task.limits:
-            dyads += f" within the limits ({_count(faces, 'face')} of these searched)"
-    else:
-        dyads = _count(len(found), "dyad")
-    if linkages:
-        code = "R305" if isinstance(first, FivePoseDyads) and real < 2 else "R300"
-        return Outcome(code, f"{_count(len(linkages), 'four-bar')} from {dyads}")
-    if task.limits and not found:
-        return Outcome(
-            "R304", f"no four-bar: {dyads}", "widen a limit, or allow another kind of dyad"
-        )
-    message = f"no four-bar: {dyads}, and it takes two different ones"
-    return Outcome("R302", message, "change a pose, or drop one")
-
-
 def _proved(task: Task, fit: Fit, dyads: Sequence[FoundDyad]) -> Certificate:
     """What is proved of the dyads."""
     plain: list[Dyad] = [each.dyad for each in dyads]
@@ -510,8 +291,3 @@ def _proved(task: Task, fit: Fit, dyads: Sequence[FoundDyad]) -> Certificate:
     assert isinstance(fit, BestDyads)
     assert isinstance(fit.search, CriticalDyads)
     return certify_best(task.poses, task.weights, fit.search, plain)
-
-
-def _count(number: int, noun: str) -> str:
-    """A number of things in words: "no dyads", "1 dyad", "2 dyads"."""
-    return f"{number or 'no'} {noun}{'' if number == 1 else 's'}"
