@@ -17,13 +17,18 @@ from tests.witness import span
 
 from benchmarks.many_poses import TABLE_5, design, in_one_task, near_table_5
 from burmester import best_dyads, critical_dyads, dyads_of_five, fit_pencil, synthesize
+from burmester.accuracy import PoseError
+from burmester.dyad import RR
 from burmester.io.poses import read_task
+from burmester.linkage import Linkage
+from burmester.prismatic import fixed_lines, moving_lines
 
 ONE = pytest.mark.benchmark(group="1. one pencil fit with both dyads, 10 poses of Table 5")
 MILLION = pytest.mark.benchmark(group="2. one fit of a million poses")
 FIVE = pytest.mark.benchmark(group="3. five poses, all four dyads, motiongen-shoulder")
 STACK = pytest.mark.benchmark(group="5. tasks of ten poses, 100,000 in one call: time of one task")
 BEST = pytest.mark.benchmark(group="7. every locally best RR dyad, 10 poses of Table 5")
+PEERS = pytest.mark.benchmark(group="9. all RR, PR and RP dyads, 10 poses of Table 5, and peers")
 COLD = pytest.mark.benchmark(group="6. a fresh interpreter")
 
 
@@ -210,3 +215,73 @@ def test_best_from_random_starts(measure):
         return [least_squares(circle_equations, v, args=(rows,), method="lm").x for v in starts]
 
     measure("SciPy's LM on circles from 100 random starts", fit, rounds=5)
+
+
+# 9 ------------------------------------------------------------------------------------------
+
+
+def peer(name):
+    """Another package, or a skip that says how to have it."""
+    return pytest.importorskip(name, reason=f"{name} is not installed: see benchmarks/README.md")
+
+
+def nearest(pairs, poses):
+    """The least worst position error, in the task's unit, among linkages of pairs of dyads."""
+    errors = [PoseError.of(Linkage(*pair), poses, 1.0).worst for pair in pairs]
+    return {"linkages": len(errors), "worst_position_error": f"{min(errors, default=np.inf):.2g}"}
+
+
+@PEERS
+def test_all_dyads(measure):
+    poses = TABLE_5.poses
+
+    def all_dyads():
+        return best_dyads(poses), fixed_lines(poses), moving_lines(poses)
+
+    fit = best_dyads(poses)
+    pairs = itertools.combinations([fit.dyads[k] for k in range(len(fit.rms_error))], 2)
+    what = "`best_dyads`, `fixed_lines`, `moving_lines`"
+    measure(what, all_dyads, goal="10 ms", **nearest(pairs, poses))
+
+
+@PEERS
+def test_all_dyads_of_the_pencil(measure):
+    poses, fit = TABLE_5.poses, fit_pencil(TABLE_5.poses)
+    pair = [fit.dyads[k] for k in np.flatnonzero(np.isfinite(fit.rms_error))]
+    pairs = itertools.combinations(pair, 2)
+    measure("`fit_pencil`, its dyads", fit_pencil, poses, **nearest(pairs, poses))
+
+
+@PEERS
+@pytest.mark.parametrize("count", [5, 10])
+def test_pylinkage(measure, count):
+    """It takes 3 to 5 poses, and the first 5 of more."""
+    synthesis, poses = peer("pylinkage.synthesis"), TABLE_5.poses[:count]
+    rows = [synthesis.Pose(*map(float, row)) for row in rows_of(poses)]
+    first, pairs = poses[0].inverse(), []
+    for four_bar in synthesis.motion_generation(rows).raw_solutions:
+        ends = [
+            (four_bar.ground_pivot_a, four_bar.crank_pivot_b),
+            (four_bar.ground_pivot_d, four_bar.coupler_pivot_c),
+        ]
+        pairs.append([RR(a, first.act(b), np.hypot(*np.subtract(a, b))) for a, b in ends])
+    what = f"pylinkage's `motion_generation`, {count} poses"
+    measure(what, synthesis.motion_generation, rows, rounds=7, **nearest(pairs, poses))
+
+
+@PEERS
+def test_fourbarhinge(measure):
+    """Two tracks of points of the body, and bounds of the lengths, which it asks for."""
+    package, poses = peer("fourbarhinge"), TABLE_5.poses
+    tracks = [poses.act([0.0, 0.0]), poses.act([1.0, 0.0])]
+
+    def solve():
+        bounds = package.LinkBounds(min_length=0.1, max_length=20)
+        return package.CouplerMotionSynthesis(*tracks, bounds).solve()
+
+    result = solve()
+    # By its own account of where the two points go.
+    gaps = [result.achieved_points - tracks[0], result.achieved_points_q - tracks[1]]
+    worst = max(np.hypot(*gap.T).max() for gap in gaps)
+    what = "fourbarhinge's `CouplerMotionSynthesis`, one linkage"
+    measure(what, solve, rounds=3, linkages=1, worst_position_error=f"{worst:.2g}")

@@ -145,5 +145,5 @@ def judged(rng, method):
     for dyad in filter(is_near, here):
         shake = max(moved(dyad, others) for others in shaken) / 1e3
         lost = moved(dyad, given)
-        result.append((moved(dyad, there), lost, max(LIMIT, shake, lost)))
+        result.append((moved(dyad, there), lost, max(LIMIT, shake, 10 * lost)))
     return np.array(result).reshape(-1, 3), sum(map(is_near, here)) != sum(map(is_near, there))

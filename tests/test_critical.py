@@ -11,8 +11,12 @@ from scipy.optimize import least_squares
 
 from burmester.critical import critical_dyads
 from burmester.displacement import Displacement
+from burmester.dyad import PR, RP
 from burmester.errors import InputError
 from burmester.exact import dyads_of_five
+from tests.elsewhere import judged
+from tests.homotopy import critical_points
+from tests.random_starts import local_fits, squared
 from tests.witness import random_four_bar, random_poses
 
 
@@ -130,6 +134,102 @@ def test_dyads_go_along_with_frames_and_units(seed, turn, unit):
         ]
     )
     assert np.abs(gaps).max(axis=1).min() < 1e-6 * (1 + float(best.radius) ** 2)
+
+
+def against_the_paths(rows):
+    """How many points were found, how far the paths' ends are from them, and if the same are real.
+
+    The gap is relative, and infinite where two paths end nearest to one point.
+    """
+    ends, real = critical_points(rows)
+    found = critical_dyads(Displacement.from_poses(rows))
+    length, frames = found.frames.length, found.frames
+    origin = np.concatenate([frames.fixed_origin, frames.moving_origin])
+    c1, c2, m1, m2 = (found.points[: found.found] * length + origin).T
+    points = np.column_stack([c1 + 1j * c2, c1 - 1j * c2, m1 + 1j * m2, m1 - 1j * m2])
+    distance = np.linalg.norm(ends[:, None] - points, axis=2)
+    middle = origin[[0, 0, 2, 2]] + 1j * origin[[1, 1, 3, 3]] * [1, -1, 1, -1]
+    size = np.maximum(length, np.linalg.norm(ends - middle, axis=1))
+    nearest = distance.argmin(axis=1)
+    gap = np.max(distance.min(axis=1) / size)
+    each_once = len(set(nearest)) == len(points)
+    same = bool((found.real[nearest] == real).all())
+    return int(found.found), float(gap) if each_once else np.inf, same
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_paths_of_another_witness_end_at_the_same_points(seed):
+    found, gap, same_real = against_the_paths(random_task(np.random.default_rng(seed)))
+    assert found == 25
+    assert gap < 1e-7
+    assert same_real
+
+
+def test_three_hundred_starts_end_nowhere_else_and_miss_some():
+    missed = 0
+    for seed in (*range(12), 69):
+        rng = np.random.default_rng(seed)
+        rows = random_task(rng)
+        found = critical_dyads(Displacement.from_poses(rows))
+        listed = np.column_stack([found.dyads.fixed_pivot, found.dyads.moving_pivot])[found.minimum]
+        d, t = rows[:, 0] + 1j * rows[:, 1], np.exp(1j * rows[:, 2])
+        ends, rms = local_fits(squared, rng.normal(scale=3, size=(300, 4)), d, t)
+        near = np.abs(listed - ends[:, None]).max(axis=2) < 1e-3 * (1 + np.abs(ends).max())
+        assert len(ends) > 0  # the others are still in some narrow valley
+        assert near.any(axis=1).all()
+        assert found.residual[0] <= rms.min() * (1 + 1e-6) + 1e-12
+        missed += not near.any(axis=0).all()
+    assert missed > 0
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_little_rotation_loses_no_point(seed):
+    """The pivots are far away then, and a unit of the motion's size would be a poor one."""
+    rng = np.random.default_rng(seed)
+    rows = rng.normal(size=(rng.integers(5, 12), 3)) * [1, 1, 10 ** rng.uniform(-1.7, -1)]
+    found = critical_dyads(Displacement.from_poses(rows))
+    assert found.found == 25
+    assert found.charts == 1
+
+
+@pytest.mark.parametrize("second", [PR, RP])
+@pytest.mark.parametrize("count", [5, 9])
+def test_a_slider_that_fits_exactly_is_three_points_at_infinity(second, count):
+    rng = np.random.default_rng(count)
+    poses = Displacement.from_poses(random_poses(random_four_bar(rng, second), rng, count))
+    found = critical_dyads(poses)
+    assert (found.found, found.at_infinity) == (22, 3)
+
+
+def test_dyads_that_nearly_coincide_are_told_apart_from_the_saddle_between_them():
+    rows = np.array(
+        [
+            [-0.5632523537275452, -0.042587620533181894, 1.309351468174179],
+            [-0.5625110827656609, -0.04380093334172886, 1.2430866017328281],
+            [-0.5621588906523353, -0.04401270973087243, 1.2541457717808495],
+            [-0.5632410750760467, -0.04251116116940519, 1.3181105789913086],
+            [-0.5618678761390565, -0.04415832020076089, 1.267766625412754],
+        ]
+    )
+    found = critical_dyads(Displacement.from_poses(rows))
+    assert found.found == 25
+    assert (found.residual[found.minimum] < 1e-12).sum() == 4
+
+
+def test_a_curve_of_dyads_is_not_counted_as_points():
+    rows = np.random.default_rng(0).normal(size=(5, 3))
+    rows[1] = rows[0]  # four different poses: Burmester's curve
+    found = critical_dyads(Displacement.from_poses(rows))
+    assert found.found + found.at_infinity < 25
+    assert not (found.residual < 1e-9).any()
+
+
+@pytest.mark.parametrize("method", ["exact", "pencil", "critical", "complete"])
+def test_dyads_stay_where_they_are_when_the_task_is_put_elsewhere(method):
+    for seed in range(4 if method == "complete" else 10):
+        loss, other_number = judged(np.random.default_rng([7, seed]), method)
+        assert not other_number
+        assert (loss[:, 0] <= loss[:, 2]).all()
 
 
 def test_weights_count_as_repetition_and_stacks_are_their_members():

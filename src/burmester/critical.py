@@ -5,10 +5,9 @@ With the squared distance of the moving pivot from the fixed one as a function o
     f_i = |R_i m + d_i - c|² = |m|² + |c|² + |d_i|² - 2 c · d_i + 2 d_i · R_i m - 2 c · R_i m,
 
 the circle residual is f_i minus its mean: the best r² for given pivots.  It is linear in the
-seven numbers (1, c, m, c · m, c x m), so the sum of its squares is F = vᵀ G v with a 7 x 7
-matrix G, and the critical points of F are the common zeros of its four derivatives, which have
-degrees (1, 2), (1, 2), (2, 1), (2, 1) in (c, m).  For generic poses there are 25 of them, and
-8 more at infinity.
+seven numbers v = (1, c, m, c · m, c x m), so the sum of its squares is F = |T v|² with a
+triangle T, 7 x 7, and the critical points of F are the common zeros of its four derivatives.  For
+generic poses there are 25 of them.
 
 All of them come from one eigenproblem (`macaulay`), with no start value; Newton's method on F
 takes off the rounding.
@@ -32,7 +31,12 @@ from burmester.macaulay import CHARTS, ComplexArray, eigen_points
 __all__ = ["COUNT", "CriticalDyads", "critical_dyads"]
 
 COUNT = 25  # finite critical points of generic poses (a Groebner basis over a finite field)
-NEWTON_STEPS = 10
+NEWTON_STEPS = 40  # more than 5 only towards points that lie close together
+BALANCE = 0.4  # of pivots against products of them; tried, and not delicate
+FAR = 1e3  # characteristic lengths; a point beyond that Newton's method cannot hold is at infinity
+SINGULAR = 1e-14  # share of the Hessian's greatest singular value that rounding may be
+NOTHING = 1e-28  # the square of what rounding leaves of a residual, as a share of its terms
+SETTLED = 1e-8  # relative steps of Newton's method below this are rounding once they stop shrinking
 SAME = 1e-6  # relative distance below which two critical points are one
 
 
@@ -43,20 +47,25 @@ class CriticalDyads:
 
     frames: where they were found, (*,).
     points: (*, 25, 4), complex c1, c2, m1, m2 in those frames, real minima first, by rising
-        residual, then the other real ones, then the rest; nan beyond `found`.
-    found: (*,), how many finite ones were found, each once; 25 accounts for all of them.
-        Fewer: some are multiple, at infinity or lost (the poses are special, or nearly so).
+        residual, then the other real ones, then the rest; nan beyond `found`.  Of residuals that
+        are rounding alone, the nearer points come first.
+    found: (*,), how many were found that are finite and simple, each once; 25 are all.
+    at_infinity: (*,), how many more have a pivot at infinity, or beyond telling: three for a
+        slider that meets the poses exactly.  What is then missing of 25 is multiple, on a curve of
+        critical points, or lost; the poses are special, or within rounding of such ones.
     charts: (*,), how many charts it took: 1 but for hard tasks.
-    health: (*,), the least relative pivot of the 192 rows; rounding is magnified by its inverse.
+    health: (*,), the least relative pivot of the eigenproblem's 125 rows; rounding is magnified
+        by its inverse, and below some 1e-12 points are lost.
     real, minimum: (*, 25), which are real, and which of those are local minima.
-    dyads: (*, 25), as RR dyads in the task's own frames, r² the mean of the squared distances;
-        nan where not real.
+    dyads: (*, 25), as RR dyads in the task's own frames; nan where not real.  r² is the mean of
+        the squared distances, the best for these pivots and never negative.
     residual: (*, 25), rms of the circle residual |R m + d - c|² - r², in the task's unit squared.
     """
 
     frames: CanonicalFrames
     points: ComplexArray
     found: NDArray[np.int_]
+    at_infinity: NDArray[np.int_]
     charts: NDArray[np.int_]
     health: FloatArray
     real: NDArray[np.bool_]
@@ -84,7 +93,7 @@ def critical_dyads(poses: Displacement, weights: FloatArray | None = None) -> Cr
     lead = poses.shape[:-1]
     triangle = _triangle(seen, weights)
     points = np.full((*lead, COUNT, 4), np.nan + 0j)
-    found, charts = np.zeros(lead, dtype=int), np.zeros(lead, dtype=int)
+    found, far, charts = (np.zeros(lead, dtype=int) for _ in range(3))
     health, real = np.zeros(lead), np.zeros((*lead, COUNT), dtype=bool)
     minimum = np.zeros((*lead, COUNT), dtype=bool)
     # Matrices this small are slower with several BLAS threads, much so on a busy machine.
@@ -93,6 +102,7 @@ def critical_dyads(poses: Displacement, weights: FloatArray | None = None) -> Cr
     for task, result in results.items():
         n = len(result.points)
         points[task][:n], found[task], charts[task] = result.points, n, result.charts
+        far[task] = result.at_infinity
         health[task], real[task][:n], minimum[task][:n] = result.health, result.real, result.minimum
     x = np.where(real[..., None], points.real, np.nan)
     squared = (_features(x) @ np.swapaxes(triangle, -1, -2)) ** 2
@@ -102,7 +112,7 @@ def critical_dyads(poses: Displacement, weights: FloatArray | None = None) -> Cr
         distance = centred.residual(seen[..., None, :])
     radius = np.sqrt(_mean(distance**2, weights))
     dyads = frames.circle_back(RR(x[..., :2], x[..., 2:], radius))
-    return CriticalDyads(frames, points, found, charts, health, real, minimum, dyads, residual)
+    return CriticalDyads(frames, points, found, far, charts, health, real, minimum, dyads, residual)
 
 
 @cache
@@ -159,64 +169,106 @@ for _at, _i, _j, _sign in ((5, 0, 2, 1), (5, 1, 3, 1), (6, 1, 2, 1), (6, 0, 3, -
     _CURVATURE[_at, _i, _j] = _CURVATURE[_at, _j, _i] = _sign
 
 
-def _gradient(x: NDArray[Any], gram: FloatArray) -> NDArray[Any]:
-    """Half the gradient (*, 4) of F = vᵀ G v."""
-    return np.asarray((_feature_gradients(x) @ (_features(x) @ gram)[..., None])[..., 0])
+def _derivatives(x: NDArray[Any], triangle: FloatArray) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Half the gradient (*, 4) and half the Hessian (*, 4, 4) of F = |T v|².
 
-
-def _hessian(x: NDArray[Any], gram: FloatArray) -> NDArray[Any]:
-    """Half the Hessian (*, 4, 4) of F."""
-    slope = _feature_gradients(x)
-    bend = np.tensordot(_features(x) @ gram, _CURVATURE, axes=1)
-    return np.asarray(slope @ gram @ np.swapaxes(slope, -1, -2) + bend)
+    By way of T v, which is small where the dyad is good; G = TᵀT would lose half the digits.
+    """
+    miss = _features(x) @ triangle.T
+    slope = _feature_gradients(x) @ triangle.T
+    bend = np.tensordot(miss @ triangle, _CURVATURE, axes=1)
+    gradient = (slope @ miss[..., None])[..., 0]
+    return gradient, np.asarray(slope @ np.swapaxes(slope, -1, -2) + bend)
 
 
 class _Points(NamedTuple):
     points: ComplexArray
     real: NDArray[np.bool_]
     minimum: NDArray[np.bool_]
+    at_infinity: int
     charts: int
     health: float
 
 
 def _all_points(triangle: FloatArray) -> _Points:
     """All finite critical points (k, 4), k <= 25, in the order of `CriticalDyads`."""
-    gram = triangle.T @ triangle
-    size = np.trace(gram)
-    gram = gram / size if size > 0 else gram
+    unit = _unit(triangle)
+    scaled = triangle * [1.0, *[unit] * 4, unit**2, unit**2]
+    size = np.linalg.norm(scaled)
+    scaled = scaled / size if size > 0 else scaled
+    gram = scaled.T @ scaled
     points = np.empty((0, 4), dtype=complex)
-    health, charts = 0.0, 0
-    while len(points) < COUNT and charts < CHARTS:
-        more, health = eigen_points(gram, charts)
-        points = _distinct(np.concatenate([points, _polish(more, gram)]))
+    health, charts, far = 0.0, 0, 0
+    while len(points) + far < COUNT and charts < CHARTS:
+        start, health = eigen_points(gram, charts)
+        end, sound = _polish(start, scaled)
+        points = _distinct(np.concatenate([points, end[sound]]))
+        held = sound & (np.linalg.norm(end - start, axis=1) < 0.1 * np.linalg.norm(start, axis=1))
+        far = int((~held & (unit * np.linalg.norm(start, axis=1) > FAR)).sum())
         charts += 1
-    size = np.linalg.norm(points, axis=1)
-    real = np.linalg.norm(points.imag, axis=1) < 1e-8 * (1 + size)
+        if len(points) + far < COUNT:
+            end, sound = _polish(_company(points), scaled)
+            points = _distinct(np.concatenate([points, end[sound]]))
+    far = max(0, min(far, COUNT - len(points)))
+    size = 1 + np.linalg.norm(points, axis=1)
+    real = np.linalg.norm(points.imag, axis=1) < 1e-8 * size
     points[real] = points[real].real
-    bend = np.linalg.eigvalsh(_hessian(points.real, gram))[:, 0] if len(points) else np.empty(0)
+    bend = np.linalg.eigvalsh(_derivatives(points.real, scaled)[1])[:, 0]
     minimum = real & (bend > 0)
-    cost = (np.abs(_features(points) @ triangle.T) ** 2).sum(axis=1)
-    order = np.lexsort((cost, ~real, ~minimum))[:COUNT]
-    return _Points(points[order], real[order], minimum[order], charts, health)
+    cost = (np.abs(_features(points) @ scaled.T) ** 2).sum(axis=1)
+    cost[cost < NOTHING * size**4] = 0.0
+    order = np.lexsort((size, cost, ~real, ~minimum))[:COUNT]
+    found: ComplexArray = points[order] * complex(unit)
+    return _Points(found, real[order], minimum[order], far, charts, health)
 
 
-def _polish(points: ComplexArray, gram: FloatArray) -> ComplexArray:
-    """Newton's method from each point (k, 4); those that run away are dropped."""
-    x = points
+def _unit(triangle: FloatArray) -> float:
+    """The length in which the pivots weigh as much in the residual as their products do.
+
+    Where the body turns little that is long, as the pivots are then far away.
+    """
+    alone, products = np.linalg.norm(triangle[:, 1:5]), np.linalg.norm(triangle[:, 5:])
+    return float(BALANCE * alone / products) if alone > 0 and products > 0 else 1.0
+
+
+def _polish(points: ComplexArray, triangle: FloatArray) -> tuple[ComplexArray, NDArray[np.bool_]]:
+    """Newton's method from each point (k, 4), and whether it came to rest at a simple point."""
+    x, last = points.copy(), np.full(len(points), np.inf)
+    hessian = np.zeros((len(x), 4, 4), dtype=complex)
+    moving = np.arange(len(x))
     for _ in range(NEWTON_STEPS):
-        hessian, gradient = _hessian(x, gram), _gradient(x, gram)
+        here, before = x[moving], last[moving]
+        gradient, hessian[moving] = _derivatives(here, triangle)
         try:
-            step = np.linalg.solve(hessian, gradient[..., None])[..., 0]
+            step = np.linalg.solve(hessian[moving], gradient[..., None])[..., 0]
         except np.linalg.LinAlgError:  # an exactly multiple point: the least step that helps
-            step = (np.linalg.pinv(hessian) @ gradient[..., None])[..., 0]
-        x = x - step
-        size = 1 + np.linalg.norm(x, axis=1)
-        last = np.linalg.norm(step, axis=1) / size
-        gone = ~(np.linalg.norm(x - points, axis=1) < 0.1 * size)
-        if ((last < 1e-13) | gone).all():
+            step = (np.linalg.pinv(hessian[moving]) @ gradient[..., None])[..., 0]
+        size = np.linalg.norm(step, axis=1) / (1 + np.linalg.norm(here, axis=1))
+        astray = ~(size < 1 / SAME)
+        x[moving] = here - np.where(astray[:, None], 0.0, step)
+        last[moving] = np.where(astray, np.inf, size)
+        settled = (size < 1e-13) | (size < SETTLED) & (size >= before)
+        moving = moving[~(settled | astray)]
+        if not len(moving):
             break
-    found: ComplexArray = x[(last < 1e-8) & ~gone]
-    return found
+    # On a curve of critical points Newton's method comes to rest, too, wherever it likes: there
+    # the Hessian is singular, as far as the rounding of the products in it lets it be told.
+    terms = np.linalg.norm(_feature_gradients(x) @ triangle.T, axis=-1)
+    terms = np.maximum(terms, np.finfo(float).tiny)
+    spread = np.linalg.svd(hessian / terms[:, :, None] / terms[:, None], compute_uv=False)
+    return x, (last < SETTLED) & (spread[:, -1] > SINGULAR * spread[:, 0])
+
+
+def _company(points: ComplexArray) -> ComplexArray:
+    """Where a point may hide among close ones: between neighbours, and beyond.
+
+    Two exact dyads that nearly coincide have a third critical point in between.
+    """
+    if len(points) < 2:
+        return points
+    apart = np.linalg.norm(points[:, None] - points, axis=-1) + np.diag([np.inf] * len(points))
+    other = points[apart.argmin(axis=1)]
+    return np.concatenate([(points + other) / 2, 2 * points - other])
 
 
 def _distinct(points: ComplexArray) -> ComplexArray:

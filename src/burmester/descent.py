@@ -20,6 +20,7 @@ from burmester.polish import Misses, Polished
 __all__ = ["Block", "Range", "descend", "inside", "lying_on"]
 
 INSIDE = 1e-9  # lengths (or shares of greater ones) outside a region that are rounding
+STEP = 100  # times what is rounding, to look across an edge
 DOWNHILL = 1e-7  # share of the pull that is rounding
 MOVES = 200
 TRIES, FINER = 65, 7  # places looked at on the way out of a region, and how often between two
@@ -95,13 +96,9 @@ def descend(
     misses: Misses,
     polish: Polish,
     blocks: Sequence[Block],
-    faces: Sequence[Face],
 ) -> Polished | None:
-    """The local minimum within limits to which a dyad z inside them leads, or None.
-
-    faces: one for each block, the faces on which z begins.
-    """
-    on = list(faces)
+    """The local minimum within limits to which a dyad z inside them leads, or None."""
+    on = lying_on(z, blocks)
     for _ in range(MOVES):
         polished = polish(z, _directions(len(z), blocks, on))
         if not np.isfinite(polished.z).all():
@@ -111,6 +108,7 @@ def descend(
         if shares[first] < 1:
             z = z + shares[first] * (polished.z - z)
             on[first] = _smallest(z, blocks[first], blocks[first].faces())
+            z[blocks[first].at] = _onto(on[first], z[blocks[first].at])
             continue
         z = polished.z
         if not polished.settled:
@@ -124,13 +122,15 @@ def descend(
         steep, d = ways[best]
         if steep >= -DOWNHILL:
             return polished
+        at = z[blocks[best].at]
         wider = [
             face
             for face in blocks[best].faces()
-            if face.basis.shape[1] > on[best].basis.shape[1]
+            if _dimension(face) > _dimension(on[best])
+            and _off(face, at) < 10 * _rounding(at)
             and np.abs(d - face.basis @ (face.basis.T @ d)).max() < INSIDE
         ]
-        on[best] = _smallest(z, blocks[best], wider)
+        on[best] = min(wider, key=_dimension)
     return None
 
 
@@ -159,14 +159,37 @@ def _share_inside(z: FloatArray, to: FloatArray, block: Block) -> float:
 
 
 def _smallest(z: FloatArray, block: Block, faces: Sequence[Face]) -> Face:
-    """The smallest of some faces of a block on which a dyad z lies."""
+    """The smallest of some faces of a block on which a dyad z lies.
 
-    def off(face: Face) -> float:
-        rest = z[block.at] - face.origin
-        return float(np.abs(rest - face.basis @ (face.basis.T @ rest)).max())
+    The line of an edge may go on through a polygon that is not convex, or meet another edge.
+    There a step across it does not lead out, and z is not on that edge.
+    """
+    at = z[block.at]
+    near = 10 * float(_rounding(at))
 
-    on = [face for face in faces if off(face) < 10 * _rounding(z[block.at])]
-    return min(on, key=lambda face: face.basis.shape[1])
+    def on(face: Face) -> bool:
+        if _off(face, at) >= near:
+            return False
+        if face.basis.shape[1] != 1 or len(face.inward) != 1 or block.region is None:
+            return True
+        across = block.region.distance(at - STEP * near * face.inward[0])
+        return bool(across > near)
+
+    return min(filter(on, faces), key=_dimension)
+
+
+def _dimension(face: Face) -> int:
+    return int(face.basis.shape[1])
+
+
+def _off(face: Face, at: FloatArray) -> float:
+    """How far a point (d,) is off a face."""
+    return float(np.abs(at - _onto(face, at)).max())
+
+
+def _onto(face: Face, at: FloatArray) -> FloatArray:
+    """The point (d,) of a face that is nearest to another."""
+    return np.asarray(face.origin + face.basis @ (face.basis.T @ (at - face.origin)))
 
 
 def _way_down(slope: FloatArray, pull: FloatArray, face: Face) -> tuple[float, FloatArray]:

@@ -20,6 +20,7 @@ from burmester.dyad import PR, RP, RR
 __all__ = ["CanonicalFrames"]
 
 STILL = 1e-28  # spread of the rotation, squared, below which it is rounding and M only moves
+FAR = 30.0  # sizes of the motion; an origin of M farther off costs digits worth saving
 POLE_ONLY = 1e-10  # below this share of the motion's size the poses share a pole exactly
 
 
@@ -58,6 +59,8 @@ class CanonicalFrames:
         c = mean_d + mean_turn * m
         rest = d0 + turn0 * m
         before = _rms(share, d0)
+        if (np.abs(m[..., 0]) > FAR * _rms(share, rest)).any():
+            rest = _less_rounding(poses, c, m)
         length = _rms(share, rest)
         # Poses with a common pole leave nothing to measure by but the motion itself.
         length = np.where(length > POLE_ONLY * before, length, before)
@@ -89,6 +92,18 @@ class CanonicalFrames:
         offset = line.offset * self.length + normal @ self.moving_origin
         pivot = line.fixed_pivot * self.length + self.fixed_origin
         return RP(pivot, line.normal_angle, offset)
+
+
+def _less_rounding(poses: Displacement, c: np.ndarray, m: np.ndarray) -> np.ndarray:
+    """R m + d - c over poses (*, N), in the machine's longest floating point up to the last step.
+
+    The terms are as large as the origins are far, and the difference is not.
+    """
+    d = poses.translation.astype(np.longdouble)
+    angle = poses.angle.astype(np.longdouble)
+    turn = np.cos(angle) + 1j * np.sin(angle)
+    rest: np.ndarray = (turn * m + (d[..., 0] + 1j * d[..., 1]) - c).astype(np.complex128)
+    return rest
 
 
 def _rms(share: FloatArray, values: np.ndarray) -> FloatArray:

@@ -37,8 +37,8 @@ ComplexArray = NDArray[np.complex128]
 Condition: TypeAlias = Literal["none", "soft", "hard"]
 
 LOOSE, TIGHT = 1e-3, 1e-10  # relative: how far a prediction may be off; how well it is corrected
-FAR, OUT = 1e7, 1e3  # a path this far out is on its way to infinity; or here, if it gets stuck
-LATE = 0.999  # of the way: what is far out before is lost, only the end has points at infinity
+FAR = 1e7  # where a path is given up
+SLOW, FAST = 0.1, 5.0  # how fast one grows, as a power of the way left, that ends at infinity
 SHORT = 1e-10  # a step this short has met a singular point
 STEPS = 2000
 REAL = 1e-7  # relative imaginary part that rounding leaves
@@ -348,11 +348,12 @@ def follow(
         went = run[good]
         x[went], done[went] = better[good], (s + h)[good]
         step[run] = np.where(good, 1.7 * h, h / 3)
+        # A point at infinity of the end comes as a power of the way left, so at a steady rate; one
+        # that is passed on the way comes much faster, and a singular point stands still.
+        rate = (np.abs(k1) * (1 - s)[:, None] / _sizes(shape, y)).max(axis=1)
+        stop = (step[run] < SHORT) | (_sizes(shape, x[run])[:, 0] > FAR)
+        state[run[stop]] = np.where((rate > SLOW) & (rate < FAST), AWAY, LOST)[stop]
         state[went[done[went] >= 1]] = ARRIVED
-        size, stuck = _sizes(shape, x[run]), step[run] < SHORT
-        far = (size[:, 0] > FAR) | (stuck & (size.max(axis=1) > OUT))
-        state[run[stuck | far]] = LOST
-        state[run[far & (done[run] > LATE)]] = AWAY
     state[state == RUNNING] = LOST
     return x, state
 

@@ -17,7 +17,7 @@ from typing import Any, Literal, TypeAlias, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.descent import Block, Range, descend, inside, lying_on
+from burmester.descent import Block, Range, descend, inside
 from burmester.displacement import Displacement, FloatArray
 from burmester.dyad import PR, RP, RR
 from burmester.frames import CanonicalFrames
@@ -143,7 +143,6 @@ class _Search:
         z: FloatArray,
         misses: Misses,
         blocks: Sequence[Block],
-        faces: Sequence[Face],
     ) -> None:
         """Add the minimum of the norm to which a dyad z leads, if it is within limits and new."""
 
@@ -155,9 +154,9 @@ class _Search:
 
         if not inside(z, blocks):
             return
-        best = descend(z, misses, step, blocks, faces)
+        best = descend(z, misses, step, blocks)
         if best is not None and self.norm == "worst" and not self.exact.all():
-            best = descend(best.z, misses, least, blocks, lying_on(best.z, blocks))
+            best = descend(best.z, misses, least, blocks)
         if best is None:
             self.unsettled += 1
             return
@@ -189,7 +188,7 @@ def _circles(seen: Displacement, limits: Limits, search: _Search) -> FloatArray:
             distance, held = misses(z).miss, search.exact
             mean = distance[held].mean() if held.any() else search.share @ distance
             z[4:] = [mean] if length.basis.shape[1] else length.origin
-            search.follow_up(dyads, z, misses, blocks, faces)
+            search.follow_up(dyads, z, misses, blocks)
 
     systems: dict[str, tuple[Shape, list[tuple[tuple[Face, ...], Parameters]]]] = {}
     for faces in product(*(block.faces() for block in blocks)):
@@ -254,7 +253,7 @@ def _lines(
             n, pivot = x[:2], face.origin + face.basis @ x[2:]
             offset = base @ _LINE.features(np.concatenate([n, pivot]))
             z = np.array([np.arctan2(n[1], n[0]), offset, *pivot])
-            search.follow_up(dyads, z, misses, (block,), (face,))
+            search.follow_up(dyads, z, misses, (block,))
     dyads.sort(key=lambda z: _cost(misses, z))
     return [_upper(z) for z in dyads]
 

@@ -1,112 +1,164 @@
-"""The common zeros of two polynomials of degree (1, 2) and two of degree (2, 1), for `optimal`.
+"""All common zeros of the four derivatives of F = vᵀ G v, for `critical`, by linear algebra.
 
-The derivatives of F = vᵀ G v have these degrees in (c, m).  Times all monomials up to degree
-(4, 4) they are the rows of a 240 x 225 matrix (Macaulay's) of rank 192: its null space is spanned
-by the monomials of the 33 zeros, those at infinity included, and the quotient of two linear forms
-in c acts on it as a 33 x 33 matrix whose eigenvectors the zeros are.
+In the isotropic coordinates z = (c, c*, m, m*), with c = c1 + i c2 and c* = c1 - i c2 taken for
+independent unknowns, the seven numbers of `critical` become (up to a change of basis) the
+monomials V = (1, c, c*, m, m*, c* m, c m*), and the derivatives are sums of a few monomials only.
+Multiplied by further monomials, as long as all stays within the 150 products of three of V and
+one of its first five, they give 148 polynomials, of which 125 are independent (for a generic
+G; counted).  Their coefficients are the rows of a 125 x 150 matrix (Macaulay's).  Its null
+space has dimension 25 and is spanned by the monomials of the zeros; the quotient of two linear
+forms in (1, c1, c2) acts on it as a 25 x 25 matrix whose eigenvectors the zeros are.
+
+The matrix is kept real: monomials that are each other's conjugates are replaced by their real and
+imaginary parts, so complex zeros come in conjugate pairs.
 """
 
 from __future__ import annotations
 
 from functools import cache
 from itertools import product
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from burmester.displacement import FloatArray
 
-__all__ = ["CHARTS", "ComplexArray", "eigen_points"]
+__all__ = ["CHARTS", "ZEROS", "ComplexArray", "eigen_points"]
 
 ComplexArray = NDArray[np.complex128]
-Exponents = tuple[int, ...]  # of c1, c2, m1, m2
+Exponents = tuple[int, int, int, int]  # of c, c*, m, m*
 
-RANK, DEGREE = 192, 4
+ZEROS = 25
 CHARTS = 4  # pairs of linear forms to choose from
 
+_ONE, _C, _CC, _M, _MM = ((0, 0, 0, 0), (1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1))
+_V: list[Exponents] = [_ONE, _C, _CC, _M, _MM, (0, 1, 1, 0), (1, 0, 0, 1)]
 
-def _monomials(degree_c: int, degree_m: int) -> list[Exponents]:
-    """All exponents of degree up to degree_c in c and up to degree_m in m."""
-    in_c = [(i, j) for i in range(degree_c + 1) for j in range(degree_c + 1 - i)]
-    in_m = [(i, j) for i in range(degree_m + 1) for j in range(degree_m + 1 - i)]
-    return [(*c, *m) for c, m in product(in_c, in_m)]
+# Two generic linear forms in (1, c1, c2), one pair for each chart.
+_FORMS = np.random.default_rng(11).normal(size=(CHARTS, 2, 3))
 
 
 class _Template(NamedTuple):
-    """Where the entries of G go in the Macaulay matrix; built once."""
+    """Where the entries of G go in the Macaulay matrix, and what its columns mean; built once."""
 
-    entry: NDArray[np.int_]  # place in the flattened 192 x 225 matrix
+    entry: NDArray[np.int_]  # place in the flattened 125 x 150 matrix
     source: NDArray[np.int_]  # place in the flattened 7 x 7 matrix
     factor: FloatArray
-    columns: int
-    times: NDArray[np.int_]  # (3, 150): monomials of degree (3, 4) times 1, c1, c2
-    grid: NDArray[np.int_]  # (15, 15): columns by their part in c and their part in m
-    triples: NDArray[np.int_]  # (10, 3): rows (or columns) of the grid that are e, e c1, e c2
+    shape: tuple[int, int]
+    real: NDArray[np.int_]  # (150,): the columns with the real and imaginary parts of a monomial
+    imaginary: NDArray[np.int_]
+    weights: ComplexArray  # (2, 150, 1): by which they are counted
+    times: list[NDArray[np.int_]]  # (2, k): monomials, and those times c, c*, m, m*
+    shifts: NDArray[np.int_]  # (3, k): monomials, and those times c and c*
+
+
+def eigen_points(gram: FloatArray, chart: int) -> tuple[ComplexArray, float]:
+    """The 25 zeros (25, 4), (c1, c2, m1, m2), of the derivatives of vᵀ G v, and the health.
+
+    gram: G (7, 7).  The health is the least relative pivot of the 125 rows; rounding is magnified
+    by its inverse, and multiple zeros come out apart by a root of it.
+    """
+    t = _template()
+    values = t.factor * gram.ravel()[t.source]
+    matrix = np.bincount(t.entry, values, t.shape[0] * t.shape[1]).reshape(t.shape)
+    size = np.linalg.norm(matrix, axis=1, keepdims=True)
+    unit = np.divide(matrix, size, out=np.zeros_like(matrix), where=size > 0)
+    q, r = np.linalg.qr(unit.T, mode="complete")
+    null = q[:, t.shape[0] :]
+    monomials = t.weights[0] * null[t.real] + t.weights[1] * null[t.imaginary]
+    one, c, cc = monomials[t.shifts]
+    first, second = (
+        a * one + (b - 1j * d) / 2 * c + (b + 1j * d) / 2 * cc for a, b, d in _FORMS[chart]
+    )
+    u, upper = np.linalg.qr(np.concatenate([first.real, first.imag]))
+    right = u.T @ np.concatenate([second.real, second.imag])
+    _, vectors = np.linalg.eig(np.linalg.lstsq(upper, right, rcond=None)[0])
+    values_at = monomials @ vectors
+    c, cc, m, mm = (_ratio(values_at[low], values_at[high]) for low, high in t.times)
+    zeros = np.stack([(c + cc) / 2, (c - cc) / 2j, (m + mm) / 2, (m - mm) / 2j], axis=-1)
+    return zeros, float(np.abs(np.diag(r)).min())
+
+
+def _ratio(low: ComplexArray, high: ComplexArray) -> ComplexArray:
+    """The factor (25,) that takes columns of `low` to those of `high`, by least squares."""
+    size = np.maximum((np.abs(low) ** 2).sum(axis=0), np.finfo(float).tiny)
+    return np.asarray((low.conj() * high).sum(axis=0) / size)
+
+
+def _add(e: Exponents, f: Exponents) -> Exponents:
+    return (e[0] + f[0], e[1] + f[1], e[2] + f[2], e[3] + f[3])
 
 
 @cache
 def _template() -> _Template:
-    """The sparsity pattern of the Macaulay matrix, with 192 independent rows picked."""
-    columns = _monomials(DEGREE, DEGREE)
+    """The sparsity pattern of the Macaulay matrix, with 125 independent rows picked."""
+    columns = sorted({_add(_add(a, b), _add(c, d)) for a, b, c, d in product(_V, _V, _V, _V[:5])})
     at = {e: k for k, e in enumerate(columns)}
+    n = len(columns)
+    conjugate = np.array([at[b, a, d, c] for a, b, c, d in columns])
 
-    def add(e: Exponents, f: Exponents) -> Exponents:
-        return tuple(a + b for a, b in zip(e, f, strict=True))
+    # A monomial is a column for its real part and one for its imaginary part; of two that are
+    # conjugates both use the same columns.
+    real, imaginary = np.minimum(np.arange(n), conjugate), np.maximum(np.arange(n), conjugate)
+    side = np.sign(conjugate - np.arange(n))
+    weights = np.array([np.where(side == 0, 1, np.sqrt(0.5)), 1j * np.sqrt(0.5) * side])
 
-    # v and its derivatives as polynomials {exponents: coefficient}.
-    zero, unit = (0, 0, 0, 0), [tuple(int(i == k) for i in range(4)) for k in range(4)]
-    v: list[dict[Exponents, int]] = [{zero: 1}, *({u: 1} for u in unit)]
-    v.append({add(unit[0], unit[2]): 1, add(unit[1], unit[3]): 1})
-    v.append({add(unit[1], unit[2]): 1, add(unit[0], unit[3]): -1})
-
-    def derivative(poly: dict[Exponents, int], k: int) -> dict[Exponents, int]:
-        return {
-            tuple(n - (i == k) for i, n in enumerate(e)): f * e[k] for e, f in poly.items() if e[k]
-        }
-
-    entries: list[tuple[int, int, int, int]] = []
-    row = 0
-    for k in range(4):
+    # The derivatives by c and by m times each monomial that keeps them within the columns; the
+    # other two are their conjugates, so real and imaginary parts stand for both.
+    basis = np.zeros((7, 7), dtype=complex)  # v of `critical` in the monomials V
+    basis[0, 0] = 1
+    for k in (1, 3):
+        basis[k, [k, k + 1]], basis[k + 1, [k, k + 1]] = [0.5, 0.5], [-0.5j, 0.5j]
+    basis[5, 5:], basis[6, 5:] = [0.5, 0.5], [0.5j, -0.5j]
+    pattern = []
+    for k in (0, 2):
         terms = [
-            (add(e, g), 7 * i + j, f * h)
+            (_add(_lowered(_V[i], k), _V[j]), np.outer(basis[:, i], basis[:, j]).ravel())
             for i, j in product(range(7), range(7))
-            for e, f in derivative(v[i], k).items()
-            for g, h in v[j].items()
+            if _V[i][k]
         ]
-        for shift in _monomials(3, 2) if k < 2 else _monomials(2, 3):
-            entries += [(row, at[add(e, shift)], source, f) for e, source, f in terms]
-            row += 1
-    rows, cols, source, factor = np.array(entries).T
-    size = len(columns)
+        low = min(e for e, _ in terms)
+        for e in columns:
+            shift = (e[0] - low[0], e[1] - low[1], e[2] - low[2], e[3] - low[3])
+            if min(shift) < 0 or not all(_add(shift, f) in at for f, _ in terms):
+                continue
+            row = np.zeros((n, 49), dtype=complex)  # coefficients, linear in G
+            for f, entries in terms:
+                place = at[_add(shift, f)]
+                row[real[place]] += weights[0, place] * entries
+                row[imaginary[place]] += weights[1, place] * entries
+            pattern += [row.real, row.imag]
+    whole = np.array(pattern)
 
-    # The rows obey 48 relations (Koszul's), the same for all G: drop what a generic G drops.
     a = np.random.default_rng(7).normal(size=(7, 7))
-    values = factor * (a @ a.T).ravel()[source]
-    matrix = np.bincount(rows * size + cols, weights=values, minlength=row * size).reshape(
-        row, size
-    )
-    kept = _independent_rows(matrix, RANK)
-    number = np.full(row, -1)
-    number[kept] = np.arange(RANK)
-    chosen = number[rows] >= 0
-    steps = [zero, unit[0], unit[1]]
-    pairs = [(i, j) for i in range(DEGREE + 1) for j in range(DEGREE + 1 - i)]
-    place = {pair: k for k, pair in enumerate(pairs)}
+    kept = _independent_rows(whole @ (a @ a.T).ravel(), n - ZEROS)
+    chosen = whole[kept].reshape(-1, 49)
+    entry, source = np.nonzero(np.abs(chosen) > 1e-12)
+
+    def shifted(*steps: Exponents) -> NDArray[np.int_]:
+        fit = [e for e in columns if all(_add(e, step) in at for step in steps)]
+        return np.array([[at[_add(e, step)] for e in fit] for step in (_ONE, *steps)])
+
     return _Template(
-        entry=(number[rows] * size + cols)[chosen],
-        source=source[chosen],
-        factor=factor[chosen].astype(float),
-        columns=size,
-        times=np.array([[at[add(e, step)] for e in _monomials(3, DEGREE)] for step in steps]),
-        grid=np.array([[at[(*c, *m)] for m in pairs] for c in pairs]),
-        triples=np.array(
-            [[place[(i + p, j + q)] for p, q, *_ in steps] for i, j in pairs if i + j < DEGREE]
-        ),
+        entry,
+        source,
+        chosen[entry, source],
+        (n - ZEROS, n),
+        real,
+        imaginary,
+        weights[..., None],
+        [shifted(step) for step in (_C, _CC, _M, _MM)],
+        shifted(_C, _CC),
     )
 
 
-def _independent_rows(matrix: NDArray[Any], rank: int) -> NDArray[np.int_]:
+def _lowered(e: Exponents, k: int) -> Exponents:
+    """The exponents of the derivative by unknown k of a monomial linear in it."""
+    return (e[0] - (k == 0), e[1] - (k == 1), e[2] - (k == 2), e[3] - (k == 3))
+
+
+def _independent_rows(matrix: FloatArray, rank: int) -> NDArray[np.int_]:
     """The rows that Gram-Schmidt with pivoting takes first."""
     rest = matrix / np.linalg.norm(matrix, axis=1, keepdims=True)
     kept = []
@@ -115,45 +167,3 @@ def _independent_rows(matrix: NDArray[Any], rank: int) -> NDArray[np.int_]:
         axis = rest[kept[-1]] / np.linalg.norm(rest[kept[-1]])
         rest = rest - np.outer(rest @ axis, axis)
     return np.sort(np.array(kept))
-
-
-# Two generic linear forms in (1, c1, c2); one pair for each chart.
-_FORMS = np.random.default_rng(11).normal(size=(CHARTS, 2, 3))
-
-
-def eigen_points(gram: FloatArray, chart: int) -> tuple[ComplexArray, float]:
-    """The zeros (k, 4), k <= 33, of the derivatives of vᵀ G v, and the health of the matrix.
-
-    gram: G (7, 7).  Rounding is magnified by the inverse of the health, the least relative pivot.
-
-    Those at infinity are left out as far as rounding lets them be told.
-    """
-    t = _template()
-    values = t.factor * gram.ravel()[t.source]
-    m: NDArray[Any] = np.bincount(t.entry, values, RANK * t.columns).reshape(RANK, t.columns)
-    unit = m / np.linalg.norm(m, axis=1, keepdims=True)
-    q, r = np.linalg.qr(unit.T, mode="complete")
-    null = q[:, RANK:]
-    times = null[t.times]
-    first, second = np.tensordot(_FORMS[chart], times, axes=1)
-    u, upper = np.linalg.qr(first)
-    _, vectors = np.linalg.eig(np.linalg.lstsq(upper, u.T @ second, rcond=None)[0])
-    # The monomials of a point, as a product of those in c and those in m.
-    outer = (null @ vectors).T[:, t.grid]
-    c = _ratios(outer)
-    moving = _ratios(np.swapaxes(outer, -1, -2))
-    finite = (np.abs(c[:, 0]) > 1e-9) & (np.abs(moving[:, 0]) > 1e-9)
-    points = np.concatenate(
-        [c[finite, 1:] / c[finite, :1], moving[finite, 1:] / moving[finite, :1]], 1
-    )
-    return points, float(np.abs(np.diag(r)).min())
-
-
-def _ratios(outer: ComplexArray) -> ComplexArray:
-    """(1, x, y) up to a factor, of unit norm, from monomials (k, 15, 15) with rows in x, y."""
-    triples = outer[:, _template().triples, :]  # (k, 10, 3, 15)
-    size = np.abs(triples).sum(axis=2)
-    best = size.reshape(len(outer), -1).argmax(axis=1)
-    row, column = np.unravel_index(best, size.shape[1:])
-    ratio = triples[np.arange(len(outer)), row, :, column]
-    return np.asarray(ratio / np.linalg.norm(ratio, axis=1, keepdims=True))

@@ -14,12 +14,15 @@ from burmester.dyad import PR, RP, RR
 from burmester.frames import CanonicalFrames
 from burmester.limited import LimitedDyads, Norm, limited_dyads
 from burmester.limits import Limits
-from burmester.polish import circle_misses
+from burmester.polish import circle_terms
 from burmester.prismatic import fixed_lines, moving_lines
 
 __all__ = ["BestDyads", "best_dyads"]
 
-STEPS, SHORTER = 40, 20
+STEPS, SHORTER = 60, 20
+SETTLED, SAME = 1e-9, 1e-7  # relative: a step that is rounding; two circles that are one
+ONE_OF_TWO = np.sqrt([2.0, 3.0, 5.0, 7.0])  # tells a complex point from its conjugate
+LONG_LINK, ENDLESS = 20.0, 1e3  # characteristic lengths: of a start along a line; of no circle
 FLAT = 1e-14  # relative curvature below which a direction is as good as flat
 
 
@@ -63,10 +66,11 @@ def best_dyads(
 ) -> BestDyads:
     """The locally best dyads of poses (N,), by distance from their circles and lines.
 
-    Without limits, exact poses and `norm`, N >= 5: every minimum of the squared circle residual,
-    followed to a minimum of the distance |R m + d - c| - r by Newton's method, and the best
-    slider of each kind; else as `limited_dyads` says.  That the distance has no minimum elsewhere
-    is not proved; its minima go over into those of the residual as the errors become small.
+    Without limits, exact poses and `norm`, N >= 5: the minima of the distance |R m + d - c| - r to
+    which Newton's method leads from every critical point of the squared residual (from the real
+    part of a complex one) and from long links along the best lines; and the best slider of each
+    kind; else as `limited_dyads` says.  That the distance has no minimum elsewhere is not proved;
+    its minima go over into those of the residual as the errors become small.
     Raises InputError as `critical_dyads` does.
     """
     if limits is not None or norm != "rms" or (exact is not None and exact.any()):
@@ -75,10 +79,14 @@ def best_dyads(
         return _told(search, search.circles, search.sliders, miss)
     critical = critical_dyads(poses, weights)
     seen = critical.frames.see(poses)
-    z = _least_distance(critical.points[critical.minimum].real, seen, weights)
+    share = np.ones(poses.shape) if weights is None else weights
+    lines = [lines(seen, weights)[0][0] for lines in (fixed_lines, moving_lines)]
+    points = critical.points[: int(critical.found)]
+    pivots = points[points.imag @ ONE_OF_TWO >= 0].real
+    starts = [_circles_about(pivots, seen, share), *(_nearly(line, seen, share) for line in lines)]
+    z = _least_distance(np.concatenate(starts), seen, share / share.sum())
     circles = RR(z[:, :2], z[:, 2:4], z[:, 4])
-    sliders = tuple(lines(seen, weights)[0][0] for lines in (fixed_lines, moving_lines))
-    return _told(critical, circles, sliders, circles[:, None].residual(seen))
+    return _told(critical, circles, tuple(lines), circles[:, None].residual(seen))
 
 
 def _told(
@@ -92,39 +100,74 @@ def _told(
     return BestDyads(search, frames, circles, sliders, rms * unit, worst * unit)
 
 
-def _least_distance(
-    pivots: FloatArray, poses: Displacement, weights: FloatArray | None
-) -> FloatArray:
-    """Circles (k, 5), c, m, r, with pivots (k, 4) moved to a local minimum of the sum of squares.
+def _circles_about(pivots: FloatArray, poses: Displacement, share: FloatArray) -> FloatArray:
+    """Circles (k, 5), c, m, r, with pivots (k, 4) and the best radius."""
+    centred = RR(pivots[:, :2], pivots[:, 2:], np.zeros(len(pivots)))
+    radius = centred[:, None].residual(poses) @ share / share.sum()
+    return np.concatenate([pivots, radius[:, None]], axis=-1)
 
-    Newton's method; where the sum is not convex, Gauss and Newton's step; shortened until it helps.
+
+def _nearly(line: PR | RP, poses: Displacement, share: FloatArray) -> FloatArray:
+    """Circles (k, 5) with long links, on either side of a line and nearly the same."""
+    n = np.stack([np.cos(line.normal_angle), np.sin(line.normal_angle)])
+    if isinstance(line, RP):
+        swapped = PR(line.normal_angle, line.offset, line.fixed_pivot)
+        return _nearly(swapped, poses.inverse(), share)[:, [2, 3, 0, 1, 4]]
+    foot = poses.act(line.moving_pivot).mean(axis=0)
+    foot = foot - (foot @ n - line.offset) * n
+    centres = foot + np.outer([-LONG_LINK, LONG_LINK], n)
+    pivots = np.concatenate([centres, np.tile(line.moving_pivot, (2, 1))], axis=-1)
+    return _circles_about(pivots, poses, share)
+
+
+def _least_distance(z: FloatArray, poses: Displacement, share: FloatArray) -> FloatArray:
+    """The local minima (k, 5) of the sum of squares that circles (*, 5) lead to, each once.
+
+    Newton's method; where the sum is not convex, Gauss and Newton's step; shortened until it
+    helps.  Left out is what comes to no rest, or to rest so far out that it is a slider.
     """
-    share = np.ones(poses.shape) if weights is None else weights
-    share = share / share.sum()
-    misses = circle_misses(poses)
-    z = np.concatenate([pivots, np.zeros((len(pivots), 1))], axis=-1)
-    z[:, 4] = misses(z).miss @ share
-    here = misses(z)
-    for _ in range(STEPS if len(z) else 0):
-        pull = share * here.miss
-        gradient = np.einsum("kn,kni->ki", pull, here.slope)
-        flat = np.einsum("n,kni,knj->kij", share, here.slope, here.slope)
-        curved = flat + np.einsum("kn,knij->kij", pull, here.bend)
-        convex = np.linalg.eigvalsh(curved)[:, 0] > 0
-        values, axes = np.linalg.eigh(np.where(convex[:, None, None], curved, flat))
-        values = np.maximum(values, FLAT * values[:, -1:])
-        along = np.einsum("kij,ki->kj", axes, gradient) / values
-        step = -np.einsum("kij,kj->ki", axes, along)
-        before, factor = here.miss**2 @ share, np.ones(len(z))
+    terms = circle_terms(poses)
+    ends = []
+    here = terms(z)
+    for _ in range(STEPS):
+        step, convex = _newton_step(here, share)
+        before, factor = here[0] ** 2 @ share, np.ones(len(z))
         for _ in range(SHORTER):
-            there = misses(z + factor[:, None] * step)
-            worse = there.miss**2 @ share > before * (1 + 1e-13)
+            to = z + factor[:, None] * step
+            there = terms(to)
+            worse = there[0] ** 2 @ share > before * (1 + 1e-13)
             if not worse.any():
                 break
             factor = np.where(worse, factor / 4, factor)
-        factor = np.where(worse, 0.0, factor)
-        z = z + factor[:, None] * step
-        if (np.abs(factor[:, None] * step).max(axis=-1) < 1e-13 * (1 + np.abs(z).max(-1))).all():
+        to = np.where(worse[:, None], z, to)
+        size = 1 + np.abs(to).max(axis=-1)
+        settled = convex & (np.abs(to - z).max(axis=-1) < SETTLED * size)
+        ends.append(to[settled])
+        run = ~(settled | (worse & ~convex) | (size > ENDLESS))
+        if not run.any():
             break
-        here = misses(z)
-    return z
+        z, here = to[run], tuple(part[run] for part in (terms(to) if worse.any() else there))
+    found = np.concatenate(ends)
+    cost = terms(found)[0] ** 2 @ share
+    found = found[np.argsort(cost, kind="stable")]
+    apart = np.abs(found[:, None] - found[None]).max(axis=-1)
+    same = apart < SAME * (1 + np.abs(found).max(axis=-1))
+    return np.asarray(found[~np.tril(same, -1).any(axis=1)])
+
+
+def _newton_step(
+    terms: tuple[FloatArray, ...], share: FloatArray
+) -> tuple[FloatArray, NDArray[np.bool_]]:
+    """The step (k, 5) of Newton's method, and where the sum of squares is convex (k,)."""
+    miss, slope, swing, size = terms
+    pull = share * miss
+    gradient = (pull[:, None] @ slope)[:, 0]
+    flat = np.swapaxes(share[:, None] * slope, -1, -2) @ slope
+    curved = flat + np.swapaxes((pull / size)[..., None] * swing, -1, -2) @ swing
+    values, axes = np.linalg.eigh(curved)
+    convex = values[:, 0] > 0
+    if not convex.all():
+        values[~convex], axes[~convex] = np.linalg.eigh(flat[~convex])
+    values = np.maximum(values, FLAT * values[:, -1:])
+    along = (gradient[:, None] @ axes)[:, 0] / values
+    return -(axes @ along[..., None])[..., 0], convex

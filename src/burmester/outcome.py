@@ -145,11 +145,11 @@ def advice(
             )
     for fit in fits:
         search = fit.search if isinstance(fit, BestDyads) else None
-        if isinstance(search, CriticalDyads) and search.found < COUNT:
+        if isinstance(search, CriticalDyads) and (told := _accounted(search)) < COUNT:
             warnings.append(
                 Advice(
                     "W207",
-                    f"{search.found} of {COUNT} critical points were told apart: a locally best "
+                    f"{told} of {COUNT} critical points were told apart: a locally best "
                     "dyad may be missing",
                     "compare with --method pencil; poses of a special motion are the usual reason",
                 )
@@ -221,7 +221,7 @@ def outcome(  # noqa: PLR0917
             dyads += f"; the nearest other one misses the poses by {best.rms_error:.2g} rms"
     elif isinstance(first, BestDyads) and isinstance(first.search, CriticalDyads):
         dyads = count(len(found), "locally best dyad")
-        dyads += f" ({first.search.found} of {COUNT} critical points accounted for)"
+        dyads += f" ({_accounted(first.search)} of {COUNT} critical points accounted for)"
     elif isinstance(first, BestDyads):
         faces = sum(
             f.search.systems
@@ -243,6 +243,11 @@ def outcome(  # noqa: PLR0917
         )
     message = f"no four-bar: {dyads}, and it takes two different ones"
     return Outcome("R302", message, "change a pose, or drop one")
+
+
+def _accounted(search: CriticalDyads) -> int:
+    """How many critical points were found, those at infinity included."""
+    return int(search.found + search.at_infinity)
 
 
 def count(number: int, noun: str) -> str:

@@ -54,26 +54,36 @@ class Polished(NamedTuple):
 
 
 def circle_misses(poses: Displacement) -> Misses:
-    """The distances of the moving pivot from its circle, over poses (N,); leading axes of z too."""
-    cos, sin = np.cos(poses.angle), np.sin(poses.angle)
-    count = len(cos)
-    arms = np.zeros((count, 2, 5))  # derivatives of the arm R m + d - c
-    arms[:, 0, 0] = arms[:, 1, 1] = -1.0
-    arms[:, 0, 2] = arms[:, 1, 3] = cos
-    arms[:, 0, 3], arms[:, 1, 2] = -sin, sin
+    """The distances of the moving pivot from its circle, over poses (N,)."""
+    terms = circle_terms(poses)
 
     def misses(z: FloatArray) -> Distances:
-        arm = poses.act(z[..., None, 2:4]) - z[..., None, :2]
-        size = np.maximum(np.hypot(arm[..., 0], arm[..., 1]), TINY)
-        along = arm / size[..., None]
-        across = np.stack([-along[..., 1], along[..., 0]], axis=-1)
-        slope = np.einsum("...ni,nik->...nk", along, arms)
-        swing = np.einsum("...ni,nik->...nk", across, arms)
-        bend = swing[..., :, None] * swing[..., None, :] / size[..., None, None]
-        slope[..., 4] = -1.0
-        return Distances(size - z[..., 4:], slope, bend)
+        miss, slope, swing, size = terms(z)
+        return Distances(miss, slope, swing[:, :, None] * swing[:, None, :] / size[:, None, None])
 
     return misses
+
+
+def circle_terms(poses: Displacement) -> Callable[[FloatArray], tuple[FloatArray, ...]]:
+    """What the distances of circles z (*, 5) over poses (N,) consist of.
+
+    Distances (*, N), their derivatives (*, N, 5), and the vectors (*, N, 5) and sizes (*, N) of
+    which the second derivatives are made: swing swingᵀ / size.
+    """
+    cos, sin = np.cos(poses.angle), np.sin(poses.angle)
+    zero, one = np.zeros_like(cos), np.ones_like(cos)
+    # Derivatives of the arm R m + d - c, whose length is the distance.
+    arm1 = np.stack([-one, zero, cos, -sin, zero], axis=-1)
+    arm2 = np.stack([zero, -one, sin, cos, zero], axis=-1)
+    radius = np.array([0.0, 0.0, 0.0, 0.0, 1.0])
+
+    def terms(z: FloatArray) -> tuple[FloatArray, ...]:
+        arm = poses.act(z[..., None, 2:4]) - z[..., None, :2]
+        size = np.maximum(np.hypot(arm[..., 0], arm[..., 1]), TINY)
+        u1, u2 = np.moveaxis(arm / size[..., None], -1, 0)[..., None]
+        return size - z[..., 4:], u1 * arm1 + u2 * arm2 - radius, u1 * arm2 - u2 * arm1, size
+
+    return terms
 
 
 def line_misses(poses: Displacement) -> Misses:

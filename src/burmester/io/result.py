@@ -126,8 +126,9 @@ def _search(fit: Fit) -> dict[str, Any]:
         return {"kind": "five poses", "roots": len(fit.real), "real": int(fit.real.sum())}
     search = fit.search
     if isinstance(search, CriticalDyads):
-        found = {"found": int(search.found), "expected": COUNT}
-        return {"kind": "critical points", **found, "health": _number(float(search.health))}
+        found = {"found": int(search.found), "at_infinity": int(search.at_infinity)}
+        health = {"expected": COUNT, "health": _number(float(search.health))}
+        return {"kind": "critical points", **found, **health}
     names = ("systems", "found", "lost", "unsettled")
     return {"kind": "faces", **{name: getattr(search, name) for name in names}}
 
