@@ -7,6 +7,7 @@ from typing import TypeAlias, final
 
 import numpy as np
 
+from burmester import manifold
 from burmester.displacement import FloatArray
 from burmester.dyad import PR, RP, RR, Dyad
 from burmester.exact import FivePoseDyads
@@ -93,7 +94,7 @@ def found_dyads(fit: Fit, task: Task) -> tuple[list[FoundDyad], int]:
     for k in solutions:
         p, circle = fit.coefficients[k], fit.dyads[k]
         rms, worst = float(fit.rms_error[k]), float(fit.max_error[k])
-        if not limited and abs(p[0]) < NEARLY_STRAIGHT * np.linalg.norm(p):
+        if not limited and abs(p[0]) < NEARLY_STRAIGHT * manifold.size(p):
             line, error, _, apart = straightened(p, seen, task.weights)
             share = 1 if circle.radius < LONG * length else 2
             allowed = max(share * rms, known(task, length) * length)
@@ -139,7 +140,7 @@ def _two_angles(p: FloatArray) -> bool:
     Such a quadric, two planes, holds the poses where they have but two different angles.  It
     is a double root, and so known to half the digits only.
     """
-    return bool(np.linalg.norm(p[[0, 2, 3, 4, 5]]) < SAME * np.linalg.norm(p))
+    return bool(np.linalg.norm(p[[0, 2, 3, 4, 5]]) < SAME * manifold.size(p))
 
 
 def characteristic_length(task: Task) -> float:

@@ -50,7 +50,6 @@ SLACK = 2.0  # a least-squares fit may miss by more than the errors that it fits
 TELLING = 100.0  # errors; a model is claimed only where one more term would show by as much
 LARGE = 0.1  # radians, rms; a turn that shows whether it is about one point
 ENOUGH = 6  # poses told apart; how many more there are says nothing
-_INVARIANT = np.array([1, 1, 1, 1, 1, 1, np.sqrt(2), 1])  # as in `pencil`
 
 
 @final
@@ -96,7 +95,7 @@ def fingerprint(task: Task) -> Fingerprint:
     first, group = different(task.poses)
     motion = _Motion.of(task.poses[first], task.resolution)
     seen = Displacement(_pair(motion.rest / (motion.length or 1.0)), np.angle(motion.turn))
-    design = manifold.monomials(seen.as_image_point()) * _INVARIANT
+    design = manifold.monomials(seen.as_image_point()) * manifold.INVARIANT
     padding = np.zeros((max(0, 8 - len(first)), 8))
     values = np.linalg.svd(np.concatenate([design, padding]), compute_uv=False)[::-1]
     tolerance = _tolerance(motion)

@@ -15,7 +15,7 @@ straight line (a prismatic dyad).
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,6 +23,7 @@ from numpy.typing import ArrayLike, NDArray
 from burmester.displacement import FloatArray
 
 __all__ = [
+    "INVARIANT",
     "circle",
     "coefficients_of_circle",
     "coefficients_of_fixed_line",
@@ -33,7 +34,12 @@ __all__ = [
     "matrix",
     "monomials",
     "prismatic_parts",
+    "size",
 ]
+
+# With the seventh monomial counted by sqrt(2), a rotation of F or M turns the eight of them by an
+# orthogonal matrix; coefficients divided by the same numbers go along with it.
+INVARIANT: Final = np.array([1, 1, 1, 1, 1, 1, np.sqrt(2), 1])
 
 
 def monomials(points: ArrayLike) -> FloatArray:
@@ -188,3 +194,8 @@ def prismatic_parts(coefficients: ArrayLike) -> tuple[FloatArray, FloatArray]:
     fixed = np.stack([p3 + p6, p4 - p5], axis=-1) / 4
     moving = np.stack([p3 - p6, p4 + p5], axis=-1) / 4
     return fixed, moving
+
+
+def size(coefficients: ArrayLike) -> FloatArray:
+    """The norm (*,) of p (*, 8) that rotations of F and M leave as it is."""
+    return np.asarray(np.linalg.norm(np.asarray(coefficients) / INVARIANT, axis=-1))

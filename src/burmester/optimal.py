@@ -20,7 +20,8 @@ from burmester.prismatic import fixed_lines, moving_lines
 __all__ = ["BestDyads", "best_dyads"]
 
 STEPS, SHORTER = 60, 20
-SETTLED, SAME = 1e-9, 1e-7  # relative: a step that is rounding; two circles that are one
+SETTLED, SAME = 1e-9, 1e-6  # relative: a step that is rounding; two circles that are one
+SURE = 1e-10  # share of the sum of squares; Newton's last steps gain less
 ONE_OF_TWO = np.sqrt([2.0, 3.0, 5.0, 7.0])  # tells a complex point from its conjugate
 LONG_LINK, ENDLESS = 20.0, 1e3  # characteristic lengths: of a start along a line; of no circle
 FLAT = 1e-14  # relative curvature below which a direction is as good as flat
@@ -83,6 +84,7 @@ def best_dyads(
     lines = [lines(seen, weights)[0][0] for lines in (fixed_lines, moving_lines)]
     points = critical.points[: int(critical.found)]
     pivots = points[points.imag @ ONE_OF_TWO >= 0].real
+    pivots = np.concatenate([pivots, np.zeros((1, 4))])  # where the frames' origins stay close
     starts = [_circles_about(pivots, seen, share), *(_nearly(line, seen, share) for line in lines)]
     z = _least_distance(np.concatenate(starts), seen, share / share.sum())
     circles = RR(z[:, :2], z[:, 2:4], z[:, 4])
@@ -130,12 +132,13 @@ def _least_distance(z: FloatArray, poses: Displacement, share: FloatArray) -> Fl
     ends = []
     here = terms(z)
     for _ in range(STEPS):
-        step, convex = _newton_step(here, share)
+        step, convex, gain = _newton_step(here, share)
         before, factor = here[0] ** 2 @ share, np.ones(len(z))
+        sure = convex & (gain < SURE * before)  # the sum itself would tell by its rounding only
         for _ in range(SHORTER):
             to = z + factor[:, None] * step
             there = terms(to)
-            worse = there[0] ** 2 @ share > before * (1 + 1e-13)
+            worse = ~sure & (there[0] ** 2 @ share > before)
             if not worse.any():
                 break
             factor = np.where(worse, factor / 4, factor)
@@ -157,8 +160,8 @@ def _least_distance(z: FloatArray, poses: Displacement, share: FloatArray) -> Fl
 
 def _newton_step(
     terms: tuple[FloatArray, ...], share: FloatArray
-) -> tuple[FloatArray, NDArray[np.bool_]]:
-    """The step (k, 5) of Newton's method, and where the sum of squares is convex (k,)."""
+) -> tuple[FloatArray, NDArray[np.bool_], FloatArray]:
+    """Newton's step (k, 5), where the sum of squares is convex (k,), and what the step gains."""
     miss, slope, swing, size = terms
     pull = share * miss
     gradient = (pull[:, None] @ slope)[:, 0]
@@ -170,4 +173,5 @@ def _newton_step(
         values[~convex], axes[~convex] = np.linalg.eigh(flat[~convex])
     values = np.maximum(values, FLAT * values[:, -1:])
     along = (gradient[:, None] @ axes)[:, 0] / values
-    return -(axes @ along[..., None])[..., 0], convex
+    step = -(axes @ along[..., None])[..., 0]
+    return step, convex, -(gradient * step).sum(axis=-1)

@@ -67,8 +67,10 @@ def chosen_method(  # noqa: PLR0917
     """The method that a task gets, or an error that says why not the one asked for."""
     number = task.poses.shape[0]
     all_in_five = motion is not None and motion.five is not None and not task.limits
-    exact = all_in_five or (free == 0 and not (task.limits and number == CONDITIONS))
+    # Five poses may miss within a box, and then come as near as the box allows.
+    box = bool(task.limits and number == CONDITIONS)
     if method == "auto":
+        exact = all_in_five or (free == 0 and not box)
         method = "exact" if exact else "complete" if normalise else "pencil"
     marked = task.exact is not None and bool(task.exact.any())
     if method != "pencil" and not normalise:
@@ -104,8 +106,8 @@ def chosen_method(  # noqa: PLR0917
         )
     takes = {
         "pencil": number >= 6,
-        "complete": number >= 6 or free < 0 or (free == 0 and not exact),
-        "exact": exact,
+        "complete": free < 0 or box,
+        "exact": free == 0 or all_in_five,
     }
     if not takes[method]:
         needs = {"pencil": "6 poses or more", "complete": "6 poses or more", "exact": "5 poses"}

@@ -35,10 +35,6 @@ __all__ = ["Pencil", "fit_pencil"]
 LEAST_POSES = 6  # below, the quadrics through the poses are more than a pencil
 BLOCK = 1024  # rows reduced at a time; small enough that BLAS starts no threads for them
 
-# With the seventh monomial counted by sqrt(2), a rotation of F or M turns the eight of them
-# by an orthogonal matrix, and the singular values and the pencil do not depend on it.
-_INVARIANT = np.array([1, 1, 1, 1, 1, 1, np.sqrt(2), 1])
-
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
@@ -107,7 +103,7 @@ def fit_pencil(
     poses.require_finite()
     if normalise:
         frames, seen = CanonicalFrames.of(poses, weights)
-        metric = _INVARIANT
+        metric = manifold.INVARIANT
     else:
         frames, seen = CanonicalFrames.as_given(poses.shape[:-1]), poses
         metric = np.ones(8)

@@ -72,7 +72,6 @@ def straightened(
     along = np.cos(lines.normal_angle) * part[0] + np.sin(lines.normal_angle) * part[1]
     nearest = int(np.abs(along).argmax())
     line = lines[nearest]
-    p, q = coefficients, line.coefficients()
-    p, q = p / np.linalg.norm(p), q / np.linalg.norm(q)
+    p, q = (v / manifold.INVARIANT / manifold.size(v) for v in (coefficients, line.coefficients()))
     apart = np.linalg.norm(p - (p @ q) * q)  # not from the cosine, which cannot tell below 1e-8
     return line, float(rms[nearest]), float(worst[nearest]), float(apart)
