@@ -97,7 +97,8 @@ def found_dyads(fit: Fit, task: Task) -> tuple[list[FoundDyad], int]:
         if not limited and abs(p[0]) < NEARLY_STRAIGHT * manifold.size(p):
             line, error, _, apart = straightened(p, seen, task.weights)
             share = 1 if circle.radius < LONG * length else 2
-            allowed = max(share * rms, known(task, length) * length)
+            rounding = np.finfo(float).eps * float(circle.radius)  # of a distance so great
+            allowed = max(share * rms, known(task, length) * length, rounding)
             fits = unit * error <= allowed or not np.isfinite(allowed)
             if apart < near and fits:
                 add_slider(line)
