@@ -21,7 +21,6 @@ from burmester.accuracy import PoseError
 from burmester.dyad import RR
 from burmester.io.poses import read_task
 from burmester.linkage import Linkage
-from burmester.prismatic import fixed_lines, moving_lines
 
 ONE = pytest.mark.benchmark(group="1. one pencil fit with both dyads, 10 poses of Table 5")
 MILLION = pytest.mark.benchmark(group="2. one fit of a million poses")

@@ -1,0 +1,159 @@
+"""Courses: how a circuit runs between dead points, and a parameter along it.
+
+On each course both e^(i psi) (or psi, of slides) and the root q (see `drive`) are written in the
+sine and cosine of one parameter, so that the root changes its sign where a dead point is passed
+and nothing jumps.
+"""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from typing import NamedTuple, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burmester.dead_points import ComplexArray
+from burmester.displacement import FloatArray
+from burmester.drive import Drive
+from burmester.dyad import PR, RP
+
+__all__ = ["ONE_SIDED", "Course", "Parameter", "along", "courses", "parameter_of"]
+
+CHANGE_POINT = 1e-9  # of `Drive.margin`, below which the circuits are not told apart
+
+
+class Course(IntEnum):
+    """How f runs along a circuit."""
+
+    NONE = 0  # there is no such circuit
+    WHOLE = 1  # over all of its range, in the way to close that `sign` is the sign of
+    BELOW = 2  # from its least value to the dead point `high`, both ways
+    ABOVE = 3  # from the dead point `low` to its greatest value, both ways
+    BETWEEN = 4  # between both dead points, both ways, psi having the sign `sign`
+    BEYOND = 5  # from `low` on without end, both ways, psi having the sign `sign`
+    HALF = 6  # half a turn with psi of the sign `sign`, from infinity to infinity
+
+
+ONE_SIDED = (Course.BETWEEN, Course.BEYOND, Course.HALF)
+
+
+class Parameter(NamedTuple):
+    """A parameter s (*,), its sine and cosine, and 1 - cos s and 1 + cos s without cancellation."""
+
+    s: FloatArray
+    sin: FloatArray
+    cos: FloatArray
+    up: FloatArray
+    down: FloatArray
+
+    @classmethod
+    def of(cls, s: FloatArray) -> Self:
+        half_sin, half_cos = np.sin(s / 2), np.cos(s / 2)
+        up, down = 2 * half_sin * half_sin, 2 * half_cos * half_cos
+        return cls(s, 2 * half_sin * half_cos, np.where(up < down, 1 - up, down - 1), up, down)
+
+
+def courses(drive: Drive) -> tuple[NDArray[np.int8], FloatArray]:
+    """Course and sign (*, 2) of the circuits of linkages (*,)."""
+    high, low = drive.high, drive.low
+    none = ~((drive.margin > CHANGE_POINT) & (high.down > 0) & (low.up > 0))
+    # A slide has no greatest f but the one it is held below.
+    ends_above = high.up > 0 if drive.turns else high.scale > 0
+    ends_below = low.down > 0
+    course = np.select(
+        [none, ends_above & ends_below, ends_above, ends_below],
+        [
+            Course.NONE,
+            Course.BETWEEN,
+            Course.BELOW,
+            Course.ABOVE if drive.turns else Course.BEYOND,
+        ],
+        Course.HALF
+        if isinstance(drive.first, RP) and isinstance(drive.second, PR)
+        else Course.WHOLE,
+    )
+    alone = (course == Course.BELOW) | (course == Course.ABOVE)
+    if drive.ways == 1:
+        alone = alone | (course == Course.WHOLE)
+    both = np.stack([course, np.where(alone, Course.NONE, course)], axis=-1).astype(np.int8)
+    return both, np.broadcast_to(np.array([1.0, -1.0]), both.shape)
+
+
+def along(
+    drive: Drive, course: Course, sign: FloatArray, at: Parameter
+) -> tuple[FloatArray | ComplexArray, FloatArray]:
+    """e^(i psi), or psi of slides, and q at parameters of circuits (*,) of one course."""
+    return (_turning if drive.turns else _sliding)(drive, course, sign, at)
+
+
+def _turning(
+    drive: Drive, course: Course, sign: FloatArray, at: Parameter
+) -> tuple[ComplexArray, FloatArray]:
+    high, low = drive.high, drive.low
+    if course == Course.HALF:
+        return at.cos + 1j * (sign * at.sin), np.ones_like(at.s)
+    if course == Course.WHOLE:
+        q = np.sqrt((high.scale * at.up - high.up) * (low.scale * at.down - low.down))
+        return at.cos + 1j * at.sin, sign * q
+    if course == Course.BETWEEN:
+        least, greatest = low.down / low.scale, high.down / high.scale
+        half = (greatest - least) / 2
+        down, up = least + half * at.down, high.up / high.scale + half * at.up
+        q = np.sqrt(high.scale * low.scale) * half * at.sin
+        return (down - up) / 2 + 1j * (sign * np.sqrt(up * down)), q
+    if course == Course.ABOVE:
+        size = low.up / low.scale
+        up = size * at.cos**2
+        q = np.sqrt(low.up * (high.scale * up - high.up)) * at.sin
+        return 1 - up - 1j * (np.sqrt(size * (2 - up)) * at.cos), q
+    size = high.down / high.scale
+    down = size * at.cos**2
+    q = np.sqrt(high.down * (low.scale * down - low.down)) * at.sin
+    return down - 1 + 1j * (np.sqrt(size * (2 - down)) * at.cos), q
+
+
+def _sliding(
+    drive: Drive, course: Course, sign: FloatArray, at: Parameter
+) -> tuple[FloatArray, FloatArray]:
+    high, low = drive.high, drive.low
+    if course == Course.WHOLE:
+        down = at.s * at.s
+        q = np.sqrt((high.down - high.scale * down) * (low.scale * down - low.down))
+        return at.s, sign * q
+    if course == Course.BEYOND:
+        return sign * np.sqrt(low.down / low.scale + at.s**2), np.sqrt(high.down * low.scale) * at.s
+    size = high.down / high.scale
+    if course == Course.BETWEEN:
+        least = low.down / low.scale
+        half = (size - least) / 2
+        q = np.sqrt(high.scale * low.scale) * half * at.sin
+        return sign * np.sqrt(least + half * at.down), q
+    q = np.sqrt(high.down * (low.scale * size * at.cos**2 - low.down)) * at.sin
+    return -np.sqrt(size) * at.cos, q
+
+
+def parameter_of(
+    drive: Drive, course: Course, sign: FloatArray, w: FloatArray | ComplexArray, q: FloatArray
+) -> FloatArray:
+    """What `along` undoes: the parameter, of circuits of one course."""
+    high, low = drive.high, drive.low
+    if course == Course.HALF:
+        return sign * np.angle(w)
+    if course == Course.BEYOND:
+        return q / np.sqrt(high.down * low.scale)
+    if course == Course.WHOLE:
+        return np.angle(w) % (2 * np.pi) if drive.turns else w.real
+    down, up = (1 + w.real, 1 - w.real) if drive.turns else (w.real**2, w.real)
+    if course == Course.BETWEEN:
+        least, greatest = low.down / low.scale, high.down / high.scale
+        half = (greatest - least) / 2
+        sine, cosine = q / np.sqrt(high.scale * low.scale), down - least - half
+    elif course == Course.ABOVE:
+        sine = q / np.sqrt(low.up * np.maximum(high.scale * up - high.up, 0))
+        cosine = -w.imag / np.sqrt(low.up / low.scale * down)
+    else:
+        size = high.down / high.scale
+        sine = q / np.sqrt(high.down * np.maximum(low.scale * down - low.down, 0))
+        cosine = w.imag / np.sqrt(size * up) if drive.turns else -w.real / np.sqrt(size)
+    return np.arctan2(sine, cosine) % (2 * np.pi)
