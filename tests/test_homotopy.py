@@ -31,9 +31,8 @@ SHAPES = [
     for j in range(3)
     for kind, most in (("none", i + j + 1), ("soft", 1), ("hard", i + j))
     for k in range(most)
-    if i + j and not (i + j == 4 and k > 4)
+    if i + j
 ]
-SHAPES += [circle_shape(2, 2, 4, "none")] if circle_shape(2, 2, 4, "none") not in SHAPES else []
 SHAPES += [line_shape(j, k) for j in range(3) for k in range(j + 2)]
 
 
@@ -104,8 +103,15 @@ def one(p):
 
 
 def followed(shape, p):
+    """All solutions (k, size) of a system; where one is lost on the way, another way."""
     start, points = _start(shape.name)
-    return follow(shape, points, one(start), one(p))
+    ends, state = follow(shape, points, one(start), one(p))
+    if (state != 1).any():
+        middle = draw(shape, np.random.default_rng(0), real=False)
+        ends, _ = follow(shape, points, one(start), one(middle))
+        ends, state = follow(shape, ends, one(middle), one(p))
+    assert (state == 1).all()
+    return ends
 
 
 # What is known without following a path.  A function on a curve of genus g that has d poles, with
@@ -188,11 +194,10 @@ def test_start_points_solve_their_system_and_differ(shape):
 
 @pytest.mark.parametrize("shape", SHAPES, ids=lambda shape: shape.name)
 def test_newton_from_anywhere_finds_no_other_solution(shape):
-    """Complex solutions of a task's real system; many starts find few that paths do not."""
+    """Complex solutions of a task's real system, from 200 starts."""
     rng = np.random.default_rng(2)
     p = draw(shape, rng)
-    ends, state = followed(shape, p)
-    assert (state == 1).all()
+    ends = followed(shape, p)
     x = rng.normal(size=(200, shape.size)) + 1j * rng.normal(size=(200, shape.size))
     for _ in range(40):
         with np.errstate(all="ignore"):
@@ -214,7 +219,7 @@ def test_newton_from_anywhere_finds_no_other_solution(shape):
 @pytest.mark.parametrize("shape", SHAPES, ids=lambda shape: shape.name)
 def test_random_parameters_lose_no_path(shape):
     rng = np.random.default_rng(3)
-    systems = [draw(shape, rng) for _ in range(8)]
+    systems = [draw(shape, rng) for _ in range(5)]
     stacked = Parameters(*(np.stack(part) for part in zip(*systems, strict=True)))
     count = len(_start(shape.name)[1])
     for found in stationary(shape, stacked):
@@ -253,9 +258,7 @@ def test_real_points_are_the_roots_of_one_polynomial(fixed, moving):
             constant[1 + a, at, 0] = 1.0
             constant[1 + a, 1 + fixed + moving + a, 1] = 1.0
         forms = np.einsum("aip,ij,bjq->abpq", constant, p.gram, constant)
-        entry = [
-            [Polynomial([f[0, 0], f[0, 1] + f[1, 0], f[1, 1]]) for f in row] for row in forms
-        ]
+        entry = [[Polynomial([f[0, 0], f[0, 1] + f[1, 0], f[1, 1]]) for f in row] for row in forms]
         top, bottom = determinant(entry), determinant([row[1:] for row in entry[1:]])
         wanted = top.deriv() * bottom - top * bottom.deriv()
         roots = real_roots(wanted.trim(1e-12 * np.abs(wanted.coef).max()))
@@ -289,7 +292,7 @@ def test_minima_are_those_of_the_lagrangian_where_the_conditions_hold(shape):
     for _ in range(4):
         p = draw(shape, rng)
         found = stationary(shape, one(p))[0]
-        ends, _ = followed(shape, p)
+        ends = followed(shape, p)
         for x, minimum in zip(found.points, found.minimum, strict=True):
             full = ends[np.abs(ends[:, :n] - x).max(axis=1).argmin()].real
             assert np.abs(gradient(shape, full, p)).max() < 1e-6 * (1 + np.abs(full).max()) ** 3
@@ -304,7 +307,7 @@ def test_minima_are_those_of_the_lagrangian_where_the_conditions_hold(shape):
             assert minimum == (curvature > 0).all()
 
 
-@pytest.mark.parametrize("count", [6, 10])
+@pytest.mark.parametrize("count", [6, 8, 10])
 def test_a_slider_that_fits_exactly_is_three_paths_to_infinity(count):
     """As `critical` counts them, which follows no paths."""
     rng = np.random.default_rng(count)
@@ -319,3 +322,14 @@ def test_a_slider_that_fits_exactly_is_three_paths_to_infinity(count):
     p = Parameters(residual.T @ residual, np.empty((0, 7)), np.zeros(7), np.zeros(()))
     found = stationary(circle_shape(2, 2, 0, "none"), one(p))[0]
     assert (found.found, found.away, found.lost) == (22, 3, 0)
+
+
+def test_paths_that_pass_too_near_to_infinity_go_another_way():
+    shape, rng = circle_shape(2, 2, 0, "soft"), np.random.default_rng(0)
+    systems = [draw(shape, rng) for _ in range(32)][-2:]
+    start, points = _start(shape.name)
+    for p in systems:
+        _, state = follow(shape, points, one(start), one(p))
+        assert (state == 0).sum() == 1  # lost on the straight way
+        found = stationary(shape, one(p))[0]
+        assert (found.found, found.away, found.lost) == (33, 0, 0)

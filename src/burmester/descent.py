@@ -96,13 +96,13 @@ def descend(
     misses: Misses,
     polish: Polish,
     blocks: Sequence[Block],
-) -> Polished | None:
-    """The local minimum within limits to which a dyad z inside them leads, or None."""
+) -> Polished:
+    """The local minimum within limits to which a dyad z inside them leads; not settled: none."""
     on = lying_on(z, blocks)
     for _ in range(MOVES):
         polished = polish(z, _directions(len(z), blocks, on))
         if not np.isfinite(polished.z).all():
-            return None
+            break
         shares = [_share_inside(z, polished.z, block) for block in blocks]
         first = int(np.argmin(shares))
         if shares[first] < 1:
@@ -131,7 +131,7 @@ def descend(
             and np.abs(d - face.basis @ (face.basis.T @ d)).max() < INSIDE
         ]
         on[best] = min(wider, key=_dimension)
-    return None
+    return polished._replace(settled=False)
 
 
 def _directions(size: int, blocks: Sequence[Block], faces: Sequence[Face]) -> FloatArray:

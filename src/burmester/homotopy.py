@@ -314,6 +314,9 @@ def follow(
         Parameters(*(np.broadcast_to(a, (count, *a.shape[1:])) for a in p)) for p in (start, end)
     )
     change = Parameters(*(b - a for a, b in zip(start, end, strict=True)))
+    # Multipliers grow at a singular point of the conditions; where these leave no freedom, that
+    # means nothing but two solutions close together.
+    watched = shape.unknowns if shape.size == 2 * shape.unknowns else shape.size
     done, step, state = np.zeros(count), np.full(count, 0.05), np.full(count, RUNNING)
     for _ in range(STEPS):
         run = np.flatnonzero(state == RUNNING)
@@ -350,7 +353,7 @@ def follow(
         step[run] = np.where(good, 1.7 * h, h / 3)
         # A point at infinity of the end comes as a power of the way left, so at a steady rate; one
         # that is passed on the way comes much faster, and a singular point stands still.
-        rate = (np.abs(k1) * (1 - s)[:, None] / _sizes(shape, y)).max(axis=1)
+        rate = (np.abs(k1) * (1 - s)[:, None] / _sizes(shape, y))[:, :watched].max(axis=1)
         stop = (step[run] < SHORT) | (_sizes(shape, x[run])[:, 0] > FAR)
         state[run[stop]] = np.where((rate > SLOW) & (rate < FAST), AWAY, LOST)[stop]
         state[went[done[went] >= 1]] = ARRIVED

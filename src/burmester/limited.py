@@ -37,6 +37,8 @@ __all__ = ["LimitedDyads", "Norm", "limited_dyads"]
 Norm: TypeAlias = Literal["rms", "worst"]
 
 SAME = 1e-7
+MET = 1e-9  # relative: an exact pose missed by less is met
+ENDLESS = 1e3  # in canonical lengths: a link this long whose worst distance still falls
 
 _CIRCLE = circle_shape(2, 2, 0, "none")
 _LINE = line_shape(2, 0)
@@ -150,17 +152,23 @@ class _Search:
             return least_squares(misses, z, basis, self.share, self.exact, steps=1)
 
         def least(z: FloatArray, basis: FloatArray) -> Polished:
-            return least_worst(misses, z, basis, self.share, self.exact)._replace(settled=True)
+            best = least_worst(misses, z, basis, self.share, self.exact)
+            if not best.settled and np.abs(best.z).max() > ENDLESS:
+                return best._replace(z=np.full_like(z, np.nan))  # on its way to a slider
+            return best._replace(settled=True)
 
         if not inside(z, blocks):
             return
         best = descend(z, misses, step, blocks)
-        if best is not None and self.norm == "worst" and not self.exact.all():
+        if best.settled and self.norm == "worst" and not self.exact.all():
             best = descend(best.z, misses, least, blocks)
-        if best is None:
+        size = 1 + np.abs(best.z).max()
+        if not best.settled and not size < ENDLESS:
+            return  # on its way to a slider
+        # On an edge or at a corner there may be too little freedom to meet the exact poses.
+        if not best.settled or np.abs(misses(best.z).miss[self.exact]).max(initial=0) > MET * size:
             self.unsettled += 1
             return
-        size = 1 + np.abs(best.z).max()
         if all(np.abs(best.z - other).max() > SAME * size for other in dyads):
             dyads.append(best.z)
 

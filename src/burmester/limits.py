@@ -162,7 +162,8 @@ class Polygon:
         v = v[np.any(v != np.roll(v, 1, axis=0), axis=1)]
         edges, from_first = np.roll(v, -1, axis=0) - v, v - v[:1]
         area = float((from_first[:, 0] * edges[:, 1] - from_first[:, 1] * edges[:, 0]).sum() / 2)
-        if len(v) < 3 or abs(area) <= FLAT * float((edges**2).sum()):
+        rounding = np.finfo(float).eps * np.abs(v).max(initial=0) * np.abs(edges).sum()
+        if len(v) < 3 or abs(area) <= FLAT * float((edges**2).sum()) + rounding:
             raise InputError(
                 "E131",
                 "a polygon has no inside",

@@ -69,7 +69,7 @@ def fixed_pivot_map(
     for start in range(0, len(flat), size := max(1, BLOCK // poses.shape[0])):
         parts.append(_partners(seen, flat[start : start + size], root))
     moving, radius, residual, rms, worst = (
-        np.concatenate(part).reshape(*at.shape[:-1], *part[0].shape[1:])
+        np.concatenate(part).reshape(at.shape[:-1] + part[0].shape[1:])
         for part in zip(*parts, strict=True)
     )
     unit = frames.length
@@ -110,7 +110,7 @@ def _partners(
         rest_square = (rest * rest).sum(axis=-1)
         second = (rest * right).sum(axis=-1) / rest_square
         first = (x * right).sum(axis=-1) / square - along * second
-        second = np.where(rest_square > ALIKE**2 * square, second, np.nan)
+        second = np.where(rest_square > ALIKE**2 * np.maximum(square, 1.0), second, np.nan)
         first = np.where(np.isnan(second), np.nan, first)
     moving = np.stack([first, second], axis=-1)
     moving = np.where(swap, moving[:, ::-1], moving)

@@ -37,8 +37,10 @@ Misses: TypeAlias = Callable[[FloatArray], Distances]
 
 TINY = 1e-300  # keeps 0 / 0 away from a pivot that meets its centre
 STEPS, SHORTER, SETTLED = 40, 20, 1e-13
-ROUNDS, EVERY = 400, 20  # of Lawson's weights; after so many, an attempt to finish
-LEVEL = 1e-10  # relative: worst deviations this near to each other are equal
+SURE = 1e-10  # share of the sum of squares
+PLAIN, HIGHEST = 32, 4096  # powers: from where it may be plain which are the worst; the last
+FEW = 1e-3  # share of the pull on the worst, below which a pose is none of the worst
+LEVEL = 1e-9  # relative: worst distances this near to each other are equal
 
 
 class Polished(NamedTuple):
@@ -59,7 +61,8 @@ def circle_misses(poses: Displacement) -> Misses:
 
     def misses(z: FloatArray) -> Distances:
         miss, slope, swing, size = terms(z)
-        return Distances(miss, slope, swing[:, :, None] * swing[:, None, :] / size[:, None, None])
+        bend = swing[..., :, None] * swing[..., None, :] / size[..., None, None]
+        return Distances(miss, slope, bend)
 
     return misses
 
@@ -119,48 +122,76 @@ def least_squares(  # noqa: PLR0917
     Where the sum is not convex, Gauss and Newton's step is taken.  After every step the exact
     poses are met again; a step is shortened until it helps.
     """
-    weight = np.where(exact, 0.0, share)
+    return _least_powers(misses, z, basis, np.where(exact, 0.0, share), exact, 2, steps)
+
+
+def _least_powers(  # noqa: PLR0917
+    misses: Misses,
+    z: FloatArray,
+    basis: FloatArray,
+    weight: FloatArray,
+    exact: NDArray[np.bool_],
+    power: int,
+    steps: int,
+) -> Polished:
+    """The same for the sum of weight (N,) times some even power of the distance."""
     z, settled = _restored(misses, z, basis, exact), False
     here = misses(z)
     for _ in range(steps):
         slope = here.slope @ basis
         free = _null_space(slope[exact])
+        if not free.shape[1]:  # the exact poses leave no way to go
+            settled = True
+            break
         directions = basis @ free
-        pull = weight * here.miss
+        top = float(np.abs(here.miss[weight > 0]).max(initial=TINY))
+        lean = weight * np.minimum(np.abs(here.miss) / top, 1.0) ** (power - 2)
+        pull = lean * here.miss
         pull = pull + _multipliers(slope, pull, exact)
         downhill, reduced = directions.T @ (here.slope.T @ pull), here.slope @ directions
-        flat = (weight[:, None] * reduced).T @ reduced
+        flat = ((power - 1) * lean[:, None] * reduced).T @ reduced
         curved = flat + directions.T @ np.tensordot(pull, here.bend, axes=1) @ directions
-        step = -directions @ _downhill(curved, flat, downhill)
-        before, factor = float(weight @ here.miss**2), 1.0
+        along, convex = _downhill(curved, flat, downhill)
+        step = -directions @ along
+        before, factor = _sum(weight, here.miss / top, power), 1.0
+        # Newton's last steps gain so little that the sum would tell by its rounding only.
+        sure = convex and power == 2 and along @ downhill < SURE * before * top**2
         for _ in range(SHORTER):
             to = _restored(misses, z + factor * step, basis, exact)
             there = misses(to)
-            if float(weight @ there.miss**2) <= before * (1 + 1e-13):
+            if sure or _sum(weight, there.miss / top, power) <= before * (1 + 1e-13):
                 break
             factor /= 4
         else:
             settled = True
             break
-        moved = np.abs(to - z).max(initial=0)
+        moved = np.abs(to - z).max()
         z, here = to, there
         if moved < SETTLED * (1 + np.abs(z).max()):
             settled = True
             break
-    pull = weight * here.miss
+    top = float(np.abs(here.miss[weight > 0]).max(initial=TINY))
+    pull = weight * np.minimum(np.abs(here.miss) / top, 1.0) ** (power - 2) * here.miss
     return Polished(z, pull + _multipliers(here.slope @ basis, pull, exact), settled)
 
 
-def _downhill(curved: FloatArray, flat: FloatArray, gradient: FloatArray) -> FloatArray:
-    """The inverse of the Hessian times the gradient, or of its positive part."""
+def _sum(weight: FloatArray, miss: FloatArray, power: int) -> float:
+    with np.errstate(over="ignore"):
+        return float(weight[weight > 0] @ miss[weight > 0] ** power)
+
+
+def _downhill(
+    curved: FloatArray, flat: FloatArray, gradient: FloatArray
+) -> tuple[FloatArray, bool]:
+    """The inverse of the Hessian times the gradient, if that is convex, or of its positive part."""
     if not len(gradient):
-        return gradient
-    for matrix in (curved, flat):
-        values, vectors = np.linalg.eigh(matrix)
-        if values[0] > 1e-9 * values[-1] or matrix is flat:
-            break
+        return gradient, True
+    values, vectors = np.linalg.eigh(curved)
+    convex = bool(values[0] > 1e-12 * values[-1])
+    if not convex:
+        values, vectors = np.linalg.eigh(flat)
     known = values > 1e-14 * max(values[-1], TINY)
-    return np.asarray(vectors[:, known] @ ((gradient @ vectors[:, known]) / values[known]))
+    return np.asarray(vectors[:, known] @ ((gradient @ vectors[:, known]) / values[known])), convex
 
 
 def least_worst(
@@ -172,70 +203,73 @@ def least_worst(
 ) -> Polished:
     """A local minimum of the worst distance, counted by the root of share / mean share.
 
-    Lawson's way: least squares with weights that grow where the distance is great; and once it is
-    plain which poses are the worst, Newton's method on their distances being equal.
+    Sums of ever higher powers of the distances; and once it is plain which poses are the worst,
+    Newton's method on their distances being equal.
     """
-    root = np.where(exact, 0.0, np.sqrt(share / share[~exact].mean()))
-    weight = np.where(exact, 0.0, 1.0 / (~exact).sum())
-    best, settled = least_squares(misses, z, basis, share, exact), False
-    z = best.z
-    for turn in range(ROUNDS):
-        size = np.abs(root * misses(z).miss)
-        if size.max() <= np.sqrt((weight * size**2).sum()) * (1 + LEVEL):
-            settled = True
+    root = np.where(exact, 1.0, np.sqrt(share / share[~exact].mean()))
+    loose = np.where(exact, 0.0, 1.0)
+
+    def counted(z: FloatArray) -> Distances:
+        miss, slope, bend = misses(z)
+        return Distances(root * miss, root[:, None] * slope, root[:, None, None] * bend)
+
+    power, best = 2, least_squares(misses, z, basis, share, exact)
+    if np.abs(loose * counted(best.z).miss).max() < SETTLED:
+        return best
+    while power < HIGHEST:
+        power *= 2
+        best = _least_powers(counted, best.z, basis, loose, exact, power, STEPS)
+        level = _levelled(counted, best, basis, exact) if power >= PLAIN else None
+        if level is not None:
+            best = level
             break
-        if turn % EVERY == EVERY - 1:
-            level = _levelled(misses, z, basis, root, weight, exact)
-            if level is not None:
-                return level
-        weight = weight * size
-        weight = weight / weight.sum()
-        z = least_squares(misses, z, basis, weight * root**2, exact, steps=4).z
-    miss, slope, _ = misses(z)
-    pull = weight * root**2 * miss
-    return Polished(z, pull + _multipliers(slope @ basis, pull, exact), settled)
+    return Polished(best.z, root * best.pull, level is not None)
 
 
-def _levelled(  # noqa: PLR0917
-    misses: Misses,
-    z: FloatArray,
-    basis: FloatArray,
-    root: FloatArray,
-    weight: FloatArray,
-    exact: NDArray[np.bool_],
+def _levelled(
+    misses: Misses, near: Polished, basis: FloatArray, exact: NDArray[np.bool_]
 ) -> Polished | None:
-    """Where as many worst distances as there are unknowns are equal, if that is a minimum."""
-    count = basis.shape[1] - int(exact.sum()) + 1
-    worst = np.argsort(-weight, kind="stable")[:count]
-    held = np.flatnonzero(exact)
-    if count < 1 or not (weight[worst] > 0).all():
-        return None
-    sign = np.sign(misses(z).miss[worst])
-    level = float((root * np.abs(misses(z).miss)).max())
-    for _ in range(12):
-        miss, slope, _ = misses(z)
-        slope = slope @ basis
-        top = np.column_stack([(sign * root[worst])[:, None] * slope[worst], -np.ones(count)])
-        below = np.column_stack([slope[held], np.zeros(len(held))])
-        gap = np.concatenate([sign * root[worst] * miss[worst] - level, miss[held]])
+    """Where the worst distances are equal and the exact poses met, if that is a minimum.
+
+    Newton's method on z, the level, and the shares of these poses in holding it.
+    """
+    miss, slope, bend = misses(near.z)
+    held, size = np.flatnonzero(exact), np.where(exact, 0.0, np.abs(miss))
+    shares = np.where(exact, 0.0, np.abs(near.pull))
+    worst = np.argsort(-shares, kind="stable")[: max(basis.shape[1] - len(held) + 1, 0)]
+    worst = worst[shares[worst] > FEW * shares.max()]
+    sign, before = np.sign(miss[worst]), float(size.max())
+    z, level, count, free = near.z, before, len(worst), basis.shape[1]
+    holds = np.zeros(0)
+    for _ in range(20):
+        top = np.column_stack([sign[:, None] * (slope[worst] @ basis), -np.ones(count)])
+        below = np.column_stack([slope[held] @ basis, np.zeros(len(held))])
         matrix = np.concatenate([top, below])
-        step = -(np.linalg.pinv(matrix) @ gap)
-        z, level = z + basis @ step[:-1], level + step[-1]
-        if not np.isfinite(z).all() or np.abs(step).max() > 10:
+        gap = np.concatenate([sign * miss[worst] - level, miss[held]])
+        right = np.append(np.zeros(free), 1.0)
+        if not len(holds):
+            holds = np.linalg.lstsq(matrix.T, -right, rcond=None)[0]
+        pull = np.zeros(len(miss))
+        pull[worst], pull[held] = holds[:count] * sign, holds[count:]
+        curved = np.zeros((free + 1, free + 1))
+        curved[:free, :free] = basis.T @ np.tensordot(pull, bend, axes=1) @ basis
+        whole = np.block([[curved, matrix.T], [matrix, np.zeros((len(gap), len(gap)))]])
+        uneven = np.concatenate([right + matrix.T @ holds, gap])
+        step = -np.linalg.lstsq(whole, uneven, rcond=None)[0]
+        z, level, holds = z + basis @ step[:free], level + step[free], holds + step[free + 1 :]
+        if not np.isfinite(z).all() or np.abs(step[:free]).max(initial=0) > 10:
             return None
-    miss, slope, _ = misses(z)
-    # The share of each in the gradient: together they pull in no direction.
-    shares = np.linalg.svd(matrix.T)[2][-1] if len(held) + count > 1 else np.ones(1)
-    right = np.zeros(matrix.shape[1])
-    right[-1] = -1.0
-    shares = np.linalg.lstsq(matrix.T, right, rcond=None)[0]
-    met = np.abs(matrix.T @ shares - right).max() < 1e-8
-    top_is_worst = (root * np.abs(miss)).max() <= level * (1 + 1e-9)
-    if not (met and top_is_worst and (shares[:count] > -1e-9).all()):
-        return None
+        miss, slope, bend = misses(z)
+        if np.abs(step[: free + 1]).max() < SETTLED * (1 + np.abs(z).max()):
+            break
     pull = np.zeros(len(miss))
-    pull[worst] = shares[:count] * sign * root[worst]
-    pull[held] = shares[count:]
+    pull[worst], pull[held] = holds[:count] * sign, holds[count:]
+    balanced = np.abs(pull @ slope @ basis).max(initial=0) < 1e-8 * (1 + np.abs(pull).max())
+    highest = np.abs(miss[~exact]).max()
+    sound = highest <= level * (1 + LEVEL) and highest <= before * (1 + LEVEL)
+    met = np.abs(miss[held]).max(initial=0) < 1e-11 * (1 + np.abs(z).max())
+    if not (balanced and sound and met and (holds[:count] > -1e-9).all()):
+        return None
     return Polished(z, pull, True)
 
 
