@@ -306,7 +306,8 @@ def follow(
     """Solutions (P, size) of the systems `start`, carried over to those of `end` (P or 1 each).
 
     A straight way in the parameters; Runge and Kutta's prediction, Newton's correction, steps that
-    adapt.  With the ends their state (P,): ARRIVED, AWAY (to infinity) or LOST.
+    adapt.  With the ends their state (P,): ARRIVED, AWAY (to infinity) or LOST; which of the
+    last two is told by how fast a path runs when it is given up, a heuristic.
     """
     x = points.copy()
     count = len(x)
