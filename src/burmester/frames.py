@@ -58,10 +58,10 @@ class CanonicalFrames:
         m = np.divide(moment, spread, out=np.zeros_like(moment), where=spread > STILL)
         c = mean_d + mean_turn * m
         rest = d0 + turn0 * m
-        before = _rms(share, d0)
-        if (np.abs(m[..., 0]) > FAR * _rms(share, rest)).any():
-            rest = _less_rounding(poses, c, m)
-        length = _rms(share, rest)
+        before, length = _rms(share, d0), np.array(_rms(share, rest))
+        if (far := np.abs(m[..., 0]) > FAR * length).any():
+            rest[far] = _less_rounding(poses[far], c[far], m[far])
+            length[far] = _rms(share[far], rest[far])
         # Poses with a common pole leave nothing to measure by but the motion itself.
         length = np.where(length > POLE_ONLY * before, length, before)
         length = np.where(length > 0, length, 1.0)

@@ -36,6 +36,7 @@ class Distances(NamedTuple):
 Misses: TypeAlias = Callable[[FloatArray], Distances]
 
 TINY = 1e-300  # keeps 0 / 0 away from a pivot that meets its centre
+NOTHING = 1e-100  # distances below this are none
 STEPS, SHORTER, SETTLED = 40, 20, 1e-13
 SURE = 1e-10  # share of the sum of squares
 PLAIN, HIGHEST = 32, 4096  # powers: from where it may be plain which are the worst; the last
@@ -144,7 +145,7 @@ def _least_powers(  # noqa: PLR0917
             settled = True
             break
         directions = basis @ free
-        top = float(np.abs(here.miss[weight > 0]).max(initial=TINY))
+        top = float(np.abs(here.miss[weight > 0]).max(initial=NOTHING))
         lean = weight * np.minimum(np.abs(here.miss) / top, 1.0) ** (power - 2)
         pull = lean * here.miss
         pull = pull + _multipliers(slope, pull, exact)
@@ -170,7 +171,7 @@ def _least_powers(  # noqa: PLR0917
         if moved < SETTLED * (1 + np.abs(z).max()):
             settled = True
             break
-    top = float(np.abs(here.miss[weight > 0]).max(initial=TINY))
+    top = float(np.abs(here.miss[weight > 0]).max(initial=NOTHING))
     pull = weight * np.minimum(np.abs(here.miss) / top, 1.0) ** (power - 2) * here.miss
     return Polished(z, pull + _multipliers(here.slope @ basis, pull, exact), settled)
 
