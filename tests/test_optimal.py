@@ -9,6 +9,8 @@ from scipy.optimize import least_squares
 
 from burmester.displacement import Displacement
 from burmester.optimal import best_dyads
+from tests.elsewhere import judged
+from tests.random_starts import distance, local_fits
 from tests.witness import random_four_bar, random_poses
 
 
@@ -67,3 +69,24 @@ def test_weights_pull_towards_their_poses():
     pose = Displacement.from_poses(rows[3])
     assert abs(heavy.dyads[0].residual(pose)) < 1e-6
     assert abs(plain.dyads[0].residual(pose)) > 1e-4
+
+
+@pytest.mark.parametrize("case", [124, 219, 269])
+def test_minima_in_flat_valleys_settle_to_the_last_digits(case):
+    """Where the sum of squares itself tells no more, the way down goes on by its derivatives."""
+    loss, other_number = judged(np.random.default_rng([0, case]), "best_dyads")
+    assert not other_number
+    assert (loss[:, 0] <= loss[:, 2]).all()
+
+
+@pytest.mark.parametrize("turn", [0.3, 1.0, 3.0])
+def test_no_random_start_finds_a_nearer_circle(turn):
+    """Wild poses: their true distance has minima that the squared residual lacks."""
+    for seed in range(12):
+        rng = np.random.default_rng(seed)
+        rows = rng.normal(size=(int(rng.integers(6, 16)), 3)) * [1, 1, turn]
+        best = best_dyads(Displacement.from_poses(rows))
+        d, t = rows[:, 0] + 1j * rows[:, 1], np.exp(1j * rows[:, 2])
+        starts = rng.normal(scale=3, size=(100, 4))
+        _, rms = local_fits(distance, starts, d, t)
+        assert best.rms_error.min() <= rms.min() * (1 + 1e-6)

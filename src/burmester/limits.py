@@ -34,7 +34,7 @@ __all__ = [
 Kind: TypeAlias = Literal["RR", "PR", "RP", "PP"]
 KINDS: Final[tuple[Kind, ...]] = ("RR", "PR", "RP", "PP")
 
-FLAT = 1e-12  # of a polygon's size squared: no area
+FLAT = 1e-12  # of a polygon's length: no width
 STRAIGHT = 1e-9  # sine of the angle by which a corner that is none may turn
 
 
@@ -160,14 +160,13 @@ class Polygon:
     def __post_init__(self) -> None:
         v = _points(self.vertices, None, "a polygon")
         v = v[np.any(v != np.roll(v, 1, axis=0), axis=1)]
-        edges, from_first = np.roll(v, -1, axis=0) - v, v - v[:1]
-        area = float((from_first[:, 0] * edges[:, 1] - from_first[:, 1] * edges[:, 0]).sum() / 2)
-        rounding = np.finfo(float).eps * np.abs(v).max(initial=0) * np.abs(edges).sum()
-        if len(v) < 3 or abs(area) <= FLAT * float((edges**2).sum()) + rounding:
+        rounding = np.finfo(float).eps * len(v) * np.abs(v).max(initial=0)
+        values = np.linalg.svd(v - v[:1], compute_uv=False) if len(v) > 2 else np.zeros(2)
+        if values[1] <= FLAT * values[0] + rounding:
             raise InputError(
                 "E131",
                 "a polygon has no inside",
-                why=f"its {max(len(v), 1)} different corners enclose no area",
+                why=f"its {max(len(v), 1)} different corners lie on one line",
                 help="give three corners or more that enclose one, or a line or a point instead",
             )
         if _crosses_itself(v):
@@ -176,6 +175,8 @@ class Polygon:
                 "a polygon crosses itself",
                 help="give its corners in order around it",
             )
+        x, y = (v - v[0]).T
+        area = (x * np.roll(y, -1) - y * np.roll(x, -1)).sum()
         object.__setattr__(self, "vertices", v if area > 0 else v[::-1])
 
     def __str__(self) -> str:

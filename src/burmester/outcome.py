@@ -239,12 +239,11 @@ def outcome(  # noqa: PLR0917
     if linkages:
         code = "R307" if isinstance(first, FivePoseDyads) and real < 2 else "R300"
         return Outcome(code, f"{count(linkages, 'four-bar')} from {dyads}")
+    wider = "widen a limit, or allow another kind of dyad"
     if task.limits and not found:
-        return Outcome(
-            "R306", f"no four-bar: {dyads}", "widen a limit, or allow another kind of dyad"
-        )
+        return Outcome("R306", f"no four-bar: {dyads}", wider)
     message = f"no four-bar: {dyads}, and it takes two different ones"
-    return Outcome("R302", message, "change a pose, or drop one")
+    return Outcome("R302", message, wider if task.limits else "change a pose, or drop one")
 
 
 def _accounted(search: CriticalDyads) -> int:
