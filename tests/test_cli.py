@@ -253,10 +253,13 @@ def test_a_special_motion_is_told_with_a_way_on(tmp_path):
     assert data["linkages"] == []
 
 
+FIXED = ("--fixed-pivot=1,-2", "--fixed-pivot=4,-1")
+
+
 def test_poses_and_pivots_make_five_conditions(tmp_path):
     file = tmp_path / "three.csv"
     file.write_text("x,y,angle_deg\n0,0,0\n3,1,40\n4,3,70\n")
-    done = run("synthesize", file, "--fixed-pivot=1,-2", "--fixed-pivot=4,-1", "--json")
+    done = run("synthesize", file, *FIXED, "--length", "1:20", "--json")
     data = valid(done.stdout)
     assert data["method"] == "exact"
     (linkage,) = data["linkages"]
@@ -266,7 +269,10 @@ def test_poses_and_pivots_make_five_conditions(tmp_path):
     # What --json prints can be read again, limits and all.
     again = tmp_path / "again.json"
     again.write_text(done.stdout)
-    assert valid(run("synthesize", again, "--json").stdout)["linkages"] == data["linkages"]
+    read = valid(run("synthesize", again, "--json").stdout)
+    assert read["linkages"] == data["linkages"]
+    assert read["task"] == data["task"]
+    assert read["task"]["limits"][0]["length"] == {"least": 1, "most": 20}
     one = run("synthesize", file, "--fixed-pivot=1,-2")
     assert one.returncode == 1
     assert "the other dyad: a two-parameter family" in " ".join(one.stdout.split())

@@ -294,3 +294,14 @@ def test_weights_that_do_not_fit_are_refused(weights):
     with pytest.raises(InputError) as caught:
         Task(Displacement.from_poses(np.eye(3)), np.array(weights))
     assert caught.value.code == "E122"
+
+
+def test_a_repeated_pose_is_exact_where_one_of_them_is_marked():
+    rng = np.random.default_rng(6)
+    rows = random_poses(random_four_bar(rng), rng, 8) + 0.01 * rng.normal(size=(8, 3))
+    marked = np.arange(9) == 8
+    synthesis = synthesize(Task(Displacement.from_poses(np.vstack([rows, rows[4]])), exact=marked))
+    pose = Displacement.from_poses(rows[4])
+    assert synthesis.dyads
+    for found in synthesis.dyads:
+        assert abs(found.dyad.residual(pose)) < 1e-9 * synthesis.length

@@ -22,7 +22,8 @@ CHANGE_POINT = 1e-9  # relative excess of link lengths below which Grashof's sum
 BLOCK = 4096  # poses looked at together by `nearest`
 TINY = 1e-300  # keeps 0 / 0 away from a pivot that meets its centre
 FAR = 0.5  # lengths; the longest step of that projection
-STEPS = 100  # at most, of the projection in `nearest`; a few are enough near the poses
+STEPS, FEWER_STEPS = 100, 20  # at most, of the projection in `nearest`, for few and many poses;
+LAST = 5  # a few are enough near the poses; the last of them end on the linkage
 
 # Coupler angles tried around that of a pose, in radians: dense where the answer will be, and
 # every degree and a half where there are not too many poses for that.
@@ -144,25 +145,36 @@ class Linkage:
         Each step goes back to both dyads' tangent planes and along their intersection towards
         the wanted pose; less far along it from then on where a step undoes the one before.
         """
-        before, share = np.zeros_like(at), np.ones((*at.shape[:-1], 1))
-        for _ in range(STEPS):
-            (m1, m2), (s1, s2) = self._tangents(at, length)
+        shape = at.shape
+        ends = at.reshape(-1, 3).copy()
+        target = np.broadcast_to(wanted, shape).reshape(-1, 3)
+        run = np.arange(len(ends))
+        before, share = np.zeros_like(ends), np.ones((len(ends), 1))
+        steps = STEPS if len(ends) <= MANY * (1 + STARTS) else FEWER_STEPS
+        for turn in range(steps):
+            here = ends[run]
+            (m1, m2), (s1, s2) = self._tangents(here, length)
             # Back: the least step with s1 · step = -m1 and s2 · step = -m2.
             a, b, c = _dot(s1, s1), _dot(s1, s2), _dot(s2, s2)
             size = np.maximum(a * c - b * b, 1e-20 * a * c) + TINY
             back = -(s1 * (c * m1 - b * m2) + s2 * (a * m2 - b * m1)) / size
             line = np.cross(s1, s2)
-            along = line * _dot(line, wanted - at) / size
+            along = line * _dot(line, target[run] - here) / size
             # A lost row stays finite.
+            if turn >= steps - LAST:  # no more than back
+                share = np.zeros_like(share)
             step = np.clip(share * along + back, -FAR * length, FAR * length)
             share = np.where(_dot(step, before) < 0, share / 2, share)
-            at, before = at + step, step
+            ends[run] = here + step
             # An error along the curve changes the distance by its square only.
-            if np.abs(along).max() < 1e-8 * length and np.abs(back).max() < 1e-13 * length:
+            moving = (np.abs(along) > 1e-8 * length) | (np.abs(back) > 1e-13 * length)
+            still = moving.any(axis=-1)
+            run, before, share = run[still], step[still], share[still]
+            if not len(run):
                 break
-        miss, _ = self._tangents(at, length)
+        miss, _ = self._tangents(ends, length)
         met = (np.abs(miss) < 1e-9 * length).all(axis=0)
-        return np.where(met, at, np.nan)
+        return np.where(met, ends, np.nan).reshape(shape)
 
     def _tangents(self, rows: FloatArray, length: float) -> tuple[FloatArray, FloatArray]:
         """Residuals (2, *, 1) of both dyads and their gradients (2, *, 3) at rows (*, 3)."""
