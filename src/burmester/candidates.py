@@ -50,6 +50,7 @@ class FoundDyad:
 
     minimum: whether it is a local minimum of what the method minimises; the exact method's
     dyads pass through the poses and are minima all.
+    limits: which of the two limits of a task it obeys, 1 or 2; 0 where both dyads have the same.
     """
 
     id: str

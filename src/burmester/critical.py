@@ -28,7 +28,7 @@ from burmester.errors import InputError
 from burmester.frames import CanonicalFrames
 from burmester.macaulay import CHARTS, ComplexArray, eigen_points
 
-__all__ = ["COUNT", "CriticalDyads", "critical_dyads"]
+__all__ = ["COUNT", "CriticalDyads", "critical_dyads", "residual_rows"]
 
 COUNT = 25  # finite critical points of generic poses (a Groebner basis over a finite field)
 NEWTON_STEPS = 40  # more than 5 only towards points that lie close together
@@ -129,12 +129,17 @@ def _mean(values: FloatArray, weights: FloatArray | None) -> FloatArray:
     return np.asarray((values * share).sum(axis=-1) / np.broadcast_to(share, values.shape).sum(-1))
 
 
-def _triangle(poses: Displacement, weights: FloatArray | None) -> FloatArray:
-    """T (*, 7, 7) with |T v|² the weighted mean of the squared circle residuals."""
+def residual_rows(poses: Displacement) -> FloatArray:
+    """The rows a (*, N, 7) with |R m + d - c|² - |m|² - |c|² = a · v."""
     d1, d2 = poses.translation[..., 0], poses.translation[..., 1]
     c, s = np.cos(poses.angle), np.sin(poses.angle)
     rows = [d1 * d1 + d2 * d2, -2 * d1, -2 * d2, 2 * (c * d1 + s * d2), 2 * (c * d2 - s * d1)]
-    a = np.stack([*rows, -2 * c, -2 * s], axis=-1)
+    return np.stack([*rows, -2 * c, -2 * s], axis=-1)
+
+
+def _triangle(poses: Displacement, weights: FloatArray | None) -> FloatArray:
+    """T (*, 7, 7) with |T v|² the weighted mean of the squared circle residuals."""
+    a = residual_rows(poses)
     share = np.ones(poses.shape) if weights is None else np.broadcast_to(weights, poses.shape)
     share = share / share.sum(axis=-1, keepdims=True)
     a = a - (share[..., None] * a).sum(axis=-2, keepdims=True)

@@ -17,6 +17,7 @@ from typing import Any, Literal, TypeAlias, final
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.critical import residual_rows
 from burmester.descent import Block, Range, descend, inside
 from burmester.displacement import Displacement, FloatArray
 from burmester.dyad import PR, RP, RR
@@ -175,10 +176,7 @@ class _Search:
 
 def _circles(seen: Displacement, limits: Limits, search: _Search) -> FloatArray:
     """The RR dyads (k, 5): c, m, r."""
-    d1, d2 = seen.translation[:, 0], seen.translation[:, 1]
-    c, s = np.cos(seen.angle), np.sin(seen.angle)
-    rows = [d1 * d1 + d2 * d2, -2 * d1, -2 * d2, 2 * (c * d1 + s * d2), 2 * (c * d2 - s * d1)]
-    base, gram, conditions = search.centre(np.stack([*rows, -2 * c, -2 * s], axis=-1))
+    base, gram, conditions = search.centre(residual_rows(seen))
     misses = circle_misses(seen)
     blocks = (
         Block(slice(0, 2), limits.fixed_pivot),
@@ -229,9 +227,9 @@ def _circle_map(fixed: Face, moving: Face) -> tuple[FloatArray, FloatArray]:
     at = np.concatenate([fixed.origin, moving.origin])
     steps = np.zeros((i + j, 4))
     steps[:i, :2], steps[i:, 2:] = fixed.basis.T, moving.basis.T
-    zero, one = _CIRCLE.features(at), _CIRCLE.features(at + steps)
     if i == j == 2:
         return at, np.eye(7)
+    zero, one = _CIRCLE.features(at), _CIRCLE.features(at + steps)
     columns = [zero, *(one - zero)]
     for u, v in product(range(i), range(i, i + j)):
         columns.append(_CIRCLE.features(at + steps[u] + steps[v]) - one[u] - one[v] + zero)

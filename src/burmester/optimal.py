@@ -14,14 +14,13 @@ from burmester.dyad import PR, RP, RR
 from burmester.frames import CanonicalFrames
 from burmester.limited import LimitedDyads, Norm, limited_dyads
 from burmester.limits import Limits
-from burmester.polish import circle_terms
+from burmester.polish import SURE, circle_terms
 from burmester.prismatic import fixed_lines, moving_lines
 
 __all__ = ["BestDyads", "best_dyads"]
 
 STEPS, SHORTER = 60, 20
 SETTLED, SAME = 1e-9, 1e-6  # relative: a step that is rounding; two circles that are one
-SURE = 1e-10  # share of the sum of squares; Newton's last steps gain less
 ONE_OF_TWO = np.sqrt([2.0, 3.0, 5.0, 7.0])  # tells a complex point from its conjugate
 LONG_LINK, ENDLESS = 20.0, 1e3  # characteristic lengths: of a start along a line; of no circle
 FLAT = 1e-14  # relative curvature below which a direction is as good as flat
@@ -33,19 +32,22 @@ class BestDyads:
     """The locally best dyads of a task, by distance from their circles and lines.
 
     search: what they come from, with the count that says whether all were found.
-    frames: where they were found.
-    circles: (k,) in those frames, dyads: the same in the task's own.
+    circles: (k,) in `frames`, dyads: the same in the task's own.
     sliders: PR and RP dyads in `frames`.
     rms_error, max_error: (k,), the distance of the moving pivot from its circle over the poses, in
         the task's unit.
     """
 
     search: CriticalDyads | LimitedDyads
-    frames: CanonicalFrames
     circles: RR
     sliders: tuple[PR | RP, ...]
     rms_error: FloatArray
     max_error: FloatArray
+
+    @property
+    def frames(self) -> CanonicalFrames:
+        """Where they were found."""
+        return self.search.frames
 
     @property
     def dyads(self) -> RR:
@@ -97,9 +99,9 @@ def _told(
     sliders: tuple[PR | RP, ...],
     miss: FloatArray,
 ) -> BestDyads:
-    unit, frames = search.frames.length, search.frames
+    unit = search.frames.length
     rms, worst = np.sqrt((miss**2).mean(axis=-1)), np.abs(miss).max(axis=-1)
-    return BestDyads(search, frames, circles, sliders, rms * unit, worst * unit)
+    return BestDyads(search, circles, sliders, rms * unit, worst * unit)
 
 
 def _circles_about(pivots: FloatArray, poses: Displacement, share: FloatArray) -> FloatArray:

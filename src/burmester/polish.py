@@ -15,10 +15,12 @@ from numpy.typing import NDArray
 from burmester.displacement import Displacement, FloatArray
 
 __all__ = [
+    "SURE",
     "Distances",
     "Misses",
     "Polished",
     "circle_misses",
+    "circle_terms",
     "least_squares",
     "least_worst",
     "line_misses",
@@ -38,7 +40,7 @@ Misses: TypeAlias = Callable[[FloatArray], Distances]
 TINY = 1e-300  # keeps 0 / 0 away from a pivot that meets its centre
 NOTHING = 1e-100  # distances below this are none
 STEPS, SHORTER, SETTLED = 40, 20, 1e-13
-SURE = 1e-10  # share of the sum of squares
+SURE = 1e-10  # share of the sum of squares; Newton's last steps gain less
 PLAIN, HIGHEST = 32, 4096  # powers: from where it may be plain which are the worst; the last
 FEW = 1e-3  # share of the pull on the worst, below which a pose is none of the worst
 LEVEL = 1e-9  # relative: worst distances this near to each other are equal

@@ -168,8 +168,7 @@ def _dyads(synthesis: Synthesis) -> Table:
     for found in synthesis.dyads:
         ground, body, length = _sides(found.dyad, _decimals(synthesis, found.rms_error))
         errors = _error(synthesis, found.rms_error), _error(synthesis, found.max_error)
-        kind = type(found.dyad).__name__ + (" slider" if length == "-" else "")
-        table.add_row(found.id, kind, ground, body, length, *errors)
+        table.add_row(found.id, type(found.dyad).__name__, ground, body, length, *errors)
     return table
 
 
@@ -226,7 +225,7 @@ def _meets(synthesis: Synthesis, best: FoundLinkage) -> str:
 
 
 def _sides(dyad: Dyad, digits: int) -> tuple[str, str, str]:
-    """A dyad's pivots or lines on the ground and on the body, and its link's length."""
+    """A dyad's pivots or lines on the ground and on the body, and its link's length or "slider"."""
 
     def point(pivot: np.ndarray) -> str:
         return f"({pivot[0]:.{digits}f}, {pivot[1]:.{digits}f})"
@@ -239,11 +238,11 @@ def _sides(dyad: Dyad, digits: int) -> tuple[str, str, str]:
         case RR():
             return point(dyad.fixed_pivot), point(dyad.moving_pivot), f"{dyad.radius:.{digits}f}"
         case PR():
-            return line(dyad), point(dyad.moving_pivot), "-"
+            return line(dyad), point(dyad.moving_pivot), "slider"
         case RP():
-            return point(dyad.fixed_pivot), line(dyad), "-"
+            return point(dyad.fixed_pivot), line(dyad), "slider"
         case PP():
-            return f"angle {math.degrees(dyad.angle):.2f}°", "-", "-"
+            return f"angle {math.degrees(dyad.angle):.2f}°", "-", "slider"
 
 
 def _links(synthesis: Synthesis, found: FoundLinkage) -> list[str]:
