@@ -35,8 +35,9 @@ def show_synthesis(synthesis: Synthesis, console: Console) -> None:
     if synthesis.linkages:
         best = synthesis.linkages[0]
         console.print(Text(f"{message}.", style="bold"))
-        article = "an" if best.linkage.type[0] in "aeiouAEIOU" else "a"
-        console.print(f"Best: {best.id}, {article} {best.linkage.type}, {_meets(synthesis, best)}.")
+        kind = best.linkage.type.replace("change-point", "change-point linkage")
+        article = "an" if kind[0] in "aeiouAEIOU" else "a"
+        console.print(f"Best: {best.id}, {article} {kind}, {_meets(synthesis, best)}.")
     else:
         console.print(Text(f"result[{code}]: {message}", style="bold"))
     if synthesis.outcome.help:
