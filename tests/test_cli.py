@@ -382,7 +382,9 @@ def test_help_tells_every_option_in_80_columns():
     done = run("synthesize", "--help")
     assert max(map(len, done.stdout.splitlines())) <= 80
     options = (
-        "--fixed-pivot --moving-pivot --length --kinds --exact --method --norm --certify --raw "
+        "--fixed-pivot --moving-pivot --length --kinds --exact --min-transmission --type --driver "
+        "--footprint --link-ratio --within --any-order --method --norm --pose-sigma "
+        "--angle-weight --certify --raw --tolerance --round --stock --accept-uncertain "
         "--angle-unit --json --help"
     )
     for option in options.split():

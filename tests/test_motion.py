@@ -397,6 +397,49 @@ def test_a_change_point_is_said_and_nothing_guessed(name):
         assert (circuit_of(either, place).circuit == -1).all()
 
 
+NOTHING_AS_GIVEN = ("rails parallel by rounding", "Oldham with parallel slots")
+
+
+@pytest.mark.parametrize("name", CHANGE)
+def test_a_change_point_as_given_has_places_with_no_gaps(name):
+    linkage = CHANGE[name]
+    for either in (linkage, Linkage(linkage.second, linkage.first)):
+        every = Circuits.of(either, as_given=True)
+        assert every.undecided.all()
+        assert every.exists[0] == (name not in NOTHING_AS_GIVEN)
+        for number in np.flatnonzero(every.exists):
+            circuit = every[number]
+            s = np.concatenate([np.arange(1, 3) * np.pi / 2, np.linspace(0.1, 3.1, 9)])
+            if circuit.closed:
+                s = np.concatenate([s, s + np.pi, [0.0]])
+            place = circuit.couplers(s)
+            rows = rows_of(place)
+            for dyad in (either.first, either.second):
+                size = 1 + np.abs(rows[:, :2]).max(axis=1)
+                assert (np.abs(constraint(dyad, rows)[0]) < 1e-14 * size).all()
+            curve = circuit.curve([1.0, 2.0], s)
+            assert np.abs(curve - place.act(np.array([1.0, 2.0]))).max() < 1e-14 * np.max(size)
+            found = circuit_of(either, place, as_given=True)
+            assert np.isfinite(found.parameter).all()
+            away = transmission_angle(either, place) > 1e-3
+            assert (found.circuit == number)[away].all()
+            miss = (found.parameter - s)[away]
+            miss = np.angle(np.exp(1j * miss)) if circuit.closed else miss
+            assert np.abs(miss).max(initial=0) < 1e-9
+
+
+def test_elsewhere_as_given_is_the_same():
+    for index, pair in enumerate(PAIRS):
+        linkage = random_linkages(pair, np.random.default_rng([16, index]), 40)
+        one, other = Circuits.of(linkage), Circuits.of(linkage, as_given=True)
+        assert np.array_equal(one.course, other.course)
+        s = np.linspace(0.1, 3, 5)
+        assert np.array_equal(rows_of(one.couplers(s)), rows_of(other.couplers(s)), equal_nan=True)
+        place = one[:, 0].couplers(s)
+        for a, b in zip(circuit_of(linkage, place), circuit_of(linkage, place, True), strict=True):
+            assert np.array_equal(a, b, equal_nan=True)
+
+
 @pytest.mark.parametrize("seed", range(20))
 def test_a_tie_does_not_flip_by_the_last_digit(seed):
     rng = np.random.default_rng(seed)

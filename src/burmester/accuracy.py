@@ -1,22 +1,51 @@
-"""How near an assembled linkage comes to the poses: the error that a user will see."""
+"""How near an assembled linkage comes to the poses: the error that a user will see.
+
+For each pose the nearest place of the coupler is looked for on each circuit of the linkage: near
+means the least |position difference|² + (length x angle difference)².
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import final
+from typing import NamedTuple, final
 
 import numpy as np
 
+from burmester.circuit import Circuits
+from burmester.dead_points import complex_of
 from burmester.displacement import Displacement, FloatArray
+from burmester.frames import CanonicalFrames
 from burmester.linkage import Linkage
+from burmester.stack import LinkageStack, Surfaces
 
-__all__ = ["PoseError"]
+__all__ = [
+    "Normal",
+    "PoseError",
+    "error_frames",
+    "nearest",
+    "newton_step",
+    "normal",
+    "on_circuits",
+    "rows_of",
+    "settled",
+    "wrapped",
+    "wrapped_angle",
+]
+
+SAMPLES, FEWER = 128, 48  # places looked at on a circuit, for up to MANY poses and for more
+MANY, BLOCK = 1000, 256  # poses; those looked at together
+VALLEYS, FEW = 3, 1  # of these places, the local minima followed, for few poses and many
+REACH = 2.0  # of the samples on an endless circuit: half of them lie within it
+STEPS, FAR = 30, 0.3  # at most, of the way to the nearest place; the longest of them
+SETTLED = 1e-14  # a step that is rounding
+FLAT = 0.2  # the least curvature that a step along the circuit counts with
+PARALLEL = 1e-20  # squared sine between two forces that are taken for parallel
 
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
 class PoseError:
-    """How far the coupler stays from the poses at its nearest places (`Linkage.nearest`).
+    """How far the coupler stays from the poses, at places (N,) of one linkage.
 
     Position in the task's length unit, angle in radians.
     """
@@ -26,13 +55,217 @@ class PoseError:
     angle: FloatArray
 
     @classmethod
-    def of(cls, linkage: Linkage, poses: Displacement, length: float) -> PoseError:
-        """The pose error of a linkage; `length` trades angle against position."""
-        places = linkage.nearest(poses, length)
+    def at(cls, places: Displacement, poses: Displacement) -> PoseError:
+        """The error of the places where the coupler is for the poses, whole turns apart."""
         gap = places.translation - poses.translation
-        return cls(places, np.hypot(gap[:, 0], gap[:, 1]), np.abs(places.angle - poses.angle))
+        turn = wrapped_angle(places.angle - poses.angle)
+        near = Displacement(places.translation, poses.angle + turn)
+        return cls(near, np.hypot(gap[..., 0], gap[..., 1]), np.abs(turn))
+
+    @classmethod
+    def of(cls, linkage: Linkage, poses: Displacement, length: float) -> PoseError:
+        """The error of the nearest places of a linkage (`nearest`), whatever their circuits."""
+        frames = error_frames(poses, length)
+        seen, unit = frames.see(poses), length / float(frames.length)
+        stack = LinkageStack.of([linkage]).seen(frames)
+        found = nearest(on_circuits(stack, seen, unit), seen, unit)
+        return cls.at(frames.unseen(found)[0], poses)
 
     @property
     def worst(self) -> float:
         """The greatest position error, infinite where some pose has no place near it."""
         return float(np.nan_to_num(self.position, nan=np.inf).max())
+
+    @property
+    def rms(self) -> float:
+        """The root mean square of the position errors, infinite where there is none."""
+        return float(np.sqrt((np.nan_to_num(self.position, nan=np.inf) ** 2).mean()))
+
+
+class Normal(NamedTuple):
+    """What both dyads' equations do in the space of (x, y, length x angle), at places (*,).
+
+    miss: (*, 2), force: (*, 2, 3); gram: (*, 3), the products 11, 12, 22 of the forces, and
+    det: (*,), their determinant, kept from zero.
+    """
+
+    miss: FloatArray
+    force: FloatArray
+    gram: FloatArray
+    det: FloatArray
+
+    def solve(self, right: FloatArray) -> FloatArray:
+        """The forces' shares (*, 2) whose products with both forces are right (*, 2)."""
+        a, b, c = np.moveaxis(self.gram, -1, 0)
+        first, second = right[..., 0], right[..., 1]
+        shares = np.stack([c * first - b * second, a * second - b * first], axis=-1)
+        return np.asarray(shares / self.det[..., None])
+
+    @property
+    def along(self) -> FloatArray:
+        """The unit direction (*, 3) in which the coupler can move."""
+        cross = np.cross(self.force[..., 0, :], self.force[..., 1, :])
+        return np.asarray(cross / np.sqrt(self.det)[..., None])
+
+
+def normal(miss: FloatArray, force: FloatArray, length: float) -> Normal:
+    """The same from the equations (k, 2, *) and forces (k, 2, *, 3) of `LinkageStack.bearing`."""
+    force = np.moveaxis(force, 1, -2) / np.array([1.0, 1.0, length])
+    one, two = force[..., 0, :], force[..., 1, :]
+    a, b, c = (np.einsum("...i,...i->...", *pair) for pair in ((one, one), (one, two), (two, two)))
+    det = np.maximum(a * c - b * b, PARALLEL * a * c) + np.finfo(float).tiny
+    return Normal(np.moveaxis(miss, 1, -1), force, np.stack([a, b, c], axis=-1), det)
+
+
+def error_frames(poses: Displacement, length: float) -> CanonicalFrames:
+    """Where errors are looked at: M as it is, for position errors are those of its origin.
+
+    F has its origin amid the poses, and lengths are measured in the motion's size (at least
+    `length`).
+    """
+    middle = poses.translation.mean(axis=-2)
+    spread = np.sqrt(((poses.translation - middle) ** 2).sum(axis=-1).mean())
+    return CanonicalFrames(middle, np.zeros(2), np.maximum(spread, length))
+
+
+def rows_of(places: Displacement, length: float) -> FloatArray:
+    """Places (*,) as rows (*, 3) of x, y, length x angle."""
+    return np.concatenate([places.translation, length * places.angle[..., None]], axis=-1)
+
+
+def wrapped(gap: FloatArray, length: float) -> FloatArray:
+    """Differences (*, 3) of such rows, their angles within half a turn."""
+    gap = gap.copy()
+    gap[..., 2] = length * wrapped_angle(gap[..., 2] / length)
+    return gap
+
+
+def wrapped_angle(angle: FloatArray) -> FloatArray:
+    """Angles (*,) within half a turn, [-pi, pi]."""
+    return np.asarray(angle - 2 * np.pi * np.round(angle / (2 * np.pi)))
+
+
+def on_circuits(stack: LinkageStack, poses: Displacement, length: float) -> Displacement:
+    """The nearest places (k, 2, N) to poses (N,) on both circuits of linkages (k,).
+
+    In frames where lengths are about 1 (`error_frames`).  nan where there is no such circuit.
+    Followed by Newton's method from the nearest of some hundred places of the circuit; that no
+    other minimum is nearer is not proved.  Angles come within half a turn of the poses'.
+    """
+    count, number = len(stack), poses.shape[0]
+    few = number <= MANY
+    samples, valleys = (SAMPLES, VALLEYS) if few else (FEWER, FEW)
+    sampled = np.full((count, 2, samples, 3), np.nan)
+    for index, linkage in stack.alike():
+        circuits = Circuits.of(linkage, as_given=True)
+        sampled[index] = rows_of(circuits.couplers(_spread(circuits, samples)), length)
+    out = np.full((count, 2, number, 3), np.nan)
+    wanted = rows_of(poses, length)
+    row, side = np.nonzero(np.isfinite(sampled).all(axis=-1).any(axis=-1))
+    for at in range(0, number, BLOCK):
+        block = wanted[at : at + BLOCK]
+        start = _valleys(sampled[row, side], block, length, valleys)
+        ends = settled(
+            stack[row], start.reshape(len(row), -1, 3), np.repeat(block, valleys, axis=0), length
+        ).reshape(start.shape)
+        tries = np.concatenate([ends, start], axis=2)
+        away = ((tries - block[:, None]) ** 2).sum(axis=-1)
+        best = np.nan_to_num(away, nan=np.inf).argmin(axis=-1)[..., None, None]
+        out[row, side, at : at + BLOCK] = np.take_along_axis(tries, best, axis=2)[:, :, 0]
+    return Displacement(out[..., :2], out[..., 2] / length)
+
+
+def nearest(places: Displacement, poses: Displacement, length: float) -> Displacement:
+    """The nearer (k, N) of the places (k, 2, N) on two circuits; nan where there is none."""
+    away = ((rows_of(places, length) - rows_of(poses, length)) ** 2).sum(axis=-1)
+    other = np.nan_to_num(away, nan=np.inf).argmin(axis=1)
+    row, pose = np.indices(other.shape)
+    return places[row, other, pose]
+
+
+def _spread(circuits: Circuits, samples: int) -> FloatArray:
+    """Parameters (*, samples) that spread over circuits (*,)."""
+    share = (np.arange(samples) + 0.5) / samples
+    closed = circuits.closed[..., None]
+    if circuits.drive.turns:
+        return np.where(closed, 2 * np.pi * share, np.pi * share)
+    return np.where(closed, 2 * np.pi * share, REACH * np.tan(np.pi * (share - 0.5)))
+
+
+def _valleys(sampled: FloatArray, wanted: FloatArray, length: float, count: int) -> FloatArray:
+    """Of places (k, s, 3) along circuits the nearest local minima to wanted (N, 3): (k, N, *, 3).
+
+    With angles within half a turn of the wanted ones.
+    """
+    gap = wrapped(sampled[:, None] - wanted[:, None], length)
+    away = np.nan_to_num((gap * gap).sum(axis=-1), nan=np.inf)
+    valley = (away <= np.roll(away, 1, axis=-1)) & (away <= np.roll(away, -1, axis=-1))
+    valley[..., [0, -1]] = True  # an open circuit ends there
+    depth = np.where(valley, away, np.inf)
+    best = np.argpartition(depth, count - 1, axis=-1)[..., :count]
+    return np.asarray(wanted[:, None] + np.take_along_axis(gap, best[..., None], axis=2))
+
+
+def settled(
+    stack: LinkageStack, start: FloatArray, wanted: FloatArray, length: float
+) -> FloatArray:
+    """The places (k, n, 3) of linkages (k,) nearest to wanted (n, 3) that starts (k, n, 3) lead to.
+
+    nan where Newton's method (`newton_step`) does not come to rest on the linkage.
+    """
+    shape = start.shape
+    which = np.repeat(np.arange(len(stack)), shape[1])
+    ends, target = start.reshape(-1, 3).copy(), np.broadcast_to(wanted, shape).reshape(-1, 3)
+    run = np.flatnonzero(np.isfinite(ends).all(axis=-1))
+    met = np.zeros(len(ends), dtype=bool)
+    every = stack.surfaces()
+    for _ in range(STEPS):
+        surfaces = every.some(which[run])
+        step, moved = newton_step(surfaces, ends[run, None], target[run, None], length)
+        ends[run] += step[:, 0]
+        still = moved[:, 0] > SETTLED * (1 + np.abs(ends[run]).max(axis=-1))
+        met[run[~still]] = True
+        run = run[still]
+        if not len(run):
+            break
+    if len(run):  # slow ones are kept where they are on the linkage
+        d, turn = complex_of(ends[run, None]), np.exp(1j * ends[run, None, 2] / length)
+        miss, _, _ = every.some(which[run]).at(d[:, None], turn[:, None])
+        met[run] = (np.abs(miss) < 1e-9).all(axis=(1, 2))
+    ends[~met] = np.nan
+    return ends.reshape(shape)
+
+
+def newton_step(
+    surfaces: Surfaces, here: FloatArray, target: FloatArray, length: float
+) -> tuple[FloatArray, FloatArray]:
+    """The step (k, n, 3) from rows (k, n, 3) towards the feet of normals, and its size (k, n).
+
+    Back onto both manifolds, and along their intersection to where target (k, n, 3) is nearest.
+    """
+    d, turn = complex_of(here)[:, None], np.exp(1j * here[:, None, :, 2] / length)
+    miss, push, swing = surfaces.at(d, turn)
+    moment = -swing.imag / length
+    f1, f2, push1, push2 = miss[:, 0], miss[:, 1], push[:, 0], push[:, 1]
+    moment1, moment2 = moment[:, 0], moment[:, 1]
+    to = target - here
+    to_d, to_a = complex_of(to), to[..., 2]
+    a = push1.real**2 + push1.imag**2 + moment1**2
+    c = push2.real**2 + push2.imag**2 + moment2**2
+    mixed = push1.conj() * push2
+    b = mixed.real + moment1 * moment2
+    det = np.maximum(a * c - b * b, PARALLEL * a * c) + np.finfo(float).tiny
+    # What the poses pull with, as shares of both forces, and how the manifolds bend under it.
+    pull1 = (push1.conj() * to_d).real + moment1 * to_a
+    pull2 = (push2.conj() * to_d).real + moment2 * to_a
+    along, omega = -1j * (push1 * moment2 - push2 * moment1), mixed.imag
+    bend = surfaces.bend(turn, swing, along[:, None], omega[:, None] / length)
+    share1, share2 = c * pull1 - b * pull2, a * pull2 - b * pull1
+    curved = 1 + (share1 * bend[:, 0] + share2 * bend[:, 1]) / det**2
+    share = ((along.conj() * to_d).real + omega * to_a) / det / np.maximum(curved, FLAT)
+    back1, back2 = (c * f1 - b * f2) / det, (a * f2 - b * f1) / det
+    step_d = share * along - back1 * push1 - back2 * push2
+    step_a = share * omega - back1 * moment1 - back2 * moment2
+    step = np.stack([step_d.real, step_d.imag, step_a], axis=-1)
+    size = np.abs(step).max(axis=-1)
+    return step * np.minimum(1.0, FAR / np.maximum(size, FAR))[..., None], size

@@ -17,22 +17,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.course import (
-    CHANGE_POINT,
     ONE_SIDED,
     Course,
     Parameter,
     along,
     courses,
     parameter_of,
+    settled,
+    tied,
 )
 from burmester.dead_points import ComplexArray, complex_of
 from burmester.displacement import Displacement, FloatArray
 from burmester.drive import NOWHERE, Drive, displacement_of, facing
+from burmester.dyad import RP
 from burmester.linkage import Linkage
 
-__all__ = ["Circuits", "Location", "circuit_of"]
+__all__ = ["Circuits", "Location", "circuit_of", "locate"]
 
 BLOCK = 8192  # places computed together: what they need stays in the cache
+BESIDE = 1e-8  # along a circuit, from where it is at a change point and its place is lost
 
 
 @final
@@ -52,15 +55,24 @@ class Circuits:
     sign: FloatArray
 
     @classmethod
-    def of(cls, linkage: Linkage) -> Self:
+    def of(cls, linkage: Linkage, as_given: bool = False) -> Self:
         """The circuits (*, 2) of linkages (*,), those that there are first.
 
         At a change point, and where a link is so short that nothing can be told, both are
         NONE (and `undecided`).  Their numbers depend on which dyad is first.
+
+        as_given: such a linkage is taken as its numbers have it, with the signs that rounding
+        left: a change point is passed, or turned back at, as if it were told from one.  There is
+        nothing even so for two rails or two slots that are parallel but for rounding (rails
+        parallel to 1e-14 are parallel), for a crank of length 0, and for a coupler whose moving
+        pivots are one point.
+
         Raises InputError E401 where the first dyad cannot drive.
         """
         drive = Drive.of(linkage)
-        return cls(drive[..., None][..., [0, 0]], *courses(drive))
+        if as_given:
+            drive = settled(drive)
+        return cls(drive[..., None][..., [0, 0]], *courses(drive, as_given))
 
     def __getitem__(self, index: Any) -> Circuits:
         """Pick along the leading axes (indices, slices, masks, new axes)."""
@@ -84,7 +96,7 @@ class Circuits:
     @property
     def undecided(self) -> NDArray[np.bool_]:
         """Whether the linkage is within 1e-9 of a change point, (*,)."""
-        return ~(self.drive.margin > CHANGE_POINT)
+        return tied(self.drive)
 
     @property
     def branches(self) -> NDArray[np.int8]:
@@ -132,15 +144,48 @@ class Circuits:
 
     def couplers(self, parameter: FloatArray) -> Displacement:
         """Coupler places (*, n) at parameters (n,) or (*, n); nan where there is no circuit."""
+        d, turn = self._places(parameter)
+        change = self.undecided & self.exists
+        if change.any():
+            self._restore(change, parameter, d, turn)
+        shape = (*self.shape, d.shape[-1])
+        return displacement_of(d.reshape(shape), turn.reshape(shape))
+
+    def _places(self, parameter: FloatArray) -> tuple[ComplexArray, ComplexArray]:
+        """Places d and e^(i angle), (m, n), of all circuits in one row; see `couplers`."""
         d = np.full((self.course.size, np.shape(parameter)[-1]), NOWHERE)
         turn = d.copy()
         for drive, rows, span, (w, q) in self._blocks(parameter):
             d[rows, span], turn[rows, span] = drive.place(w, q)
-        shape = (*self.shape, d.shape[-1])
-        return displacement_of(d.reshape(shape), turn.reshape(shape))
+        return d, turn
+
+    def _restore(
+        self, change: NDArray[np.bool_], parameter: FloatArray, d: ComplexArray, turn: ComplexArray
+    ) -> None:
+        """Mend d and e^(i angle) (m, n) of circuits at change points, a mask (*,).
+
+        Where the driving pin meets the other fixed pivot, the coupler's angle there is the one
+        just after.
+        """
+        some = self[change]
+        rows = np.flatnonzero(change)
+        parameter = np.asarray(parameter, dtype=np.float64)
+        if parameter.ndim > 1:
+            parameter = np.broadcast_to(parameter, (*self.shape, parameter.shape[-1]))[change]
+        lost = np.isnan(turn[rows])
+        if lost.any():
+            for room, found in zip((d, turn), some._places(parameter + BESIDE), strict=True):
+                room[rows] = np.where(lost, found, room[rows])
+        if not isinstance(some.drive.first, RP):
+            hand = complex_of(some.drive.first.moving_pivot)[:, None]
+            unit = turn[rows] / np.abs(turn[rows])
+            d[rows] += hand * (turn[rows] - unit)
+            turn[rows] = unit
 
     def curve(self, point: FloatArray, parameter: FloatArray) -> FloatArray:
         """Coupler curves (*, n, 2) of points (2,) or (*, 2) of M, at parameters as above."""
+        if (self.undecided & self.exists).any():
+            return self.couplers(parameter).act(np.asarray(point, dtype=np.float64)[..., None, :])
         x = np.full((self.course.size, np.shape(parameter)[-1]), NOWHERE)
         point = np.asarray(point, dtype=np.float64)
         points = np.broadcast_to(complex_of(point), self.shape).reshape(-1, 1)
@@ -195,18 +240,25 @@ class Location(NamedTuple):
     branch_margin: FloatArray
 
 
-def circuit_of(linkage: Linkage, places: Displacement) -> Location:
+def circuit_of(linkage: Linkage, places: Displacement, as_given: bool = False) -> Location:
     """On which circuit, and on which branch of the first dyad's drive, coupler places (*, ...) are.
 
     The linkages' axes (*,) are the places' first ones.  Decided by two signs, of q and of psi
     (see `drive`), and by the exact limits; a place off the linkage, as a pose is that the
     linkage misses, is judged by the drive and the coupler angle that it has: a call whose margins
-    are not well above its error is open.  Raises InputError E401 as `Circuits.of` does.
+    are not well above its error is open.  As given: see `Circuits.of`; at a change point itself
+    two circuits or branches meet, and rounding takes one.  Raises InputError E401 as
+    `Circuits.of` does.
     """
-    drive = Drive.of(linkage)
-    own = facing(drive, len(places.shape))
-    number = np.broadcast_to(np.arange(drive.margin.size).reshape(own.shape), places.shape)
-    circuits = Circuits.of(linkage)[..., 0].flattened()
+    return locate(Circuits.of(linkage, as_given), places)
+
+
+def locate(circuits: Circuits, places: Displacement) -> Location:
+    """As `circuit_of`, on circuits (*, 2) that `Circuits.of` gave."""
+    first = circuits[..., 0]
+    own = facing(first.drive, len(places.shape))
+    number = np.broadcast_to(np.arange(first.course.size).reshape(own.shape), places.shape)
+    circuits = first.flattened()
     found = [np.full(places.shape, fill) for fill in (-1, 0, np.nan, np.nan, np.nan)]
     with np.errstate(invalid="ignore", divide="ignore"):
         w, closing = own.reading(places)
@@ -226,7 +278,8 @@ def _located(
     """The fields of `Location` of places (n,) on circuits (n,) of one course or their twins."""
     drive, course = circuits.drive, circuits.course[0]
     q, always = closing.imag, np.ones(closing.shape)
-    sine = q / np.abs(closing)
+    size = np.abs(closing)
+    sine = np.where(size == 0, 0.0, q / size)
     if course in ONE_SIDED:
         side = w.imag if drive.turns else w / np.hypot(w, np.sqrt(drive.low.down / drive.low.scale))
     else:

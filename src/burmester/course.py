@@ -7,6 +7,7 @@ and nothing jumps.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from enum import IntEnum
 from typing import NamedTuple, Self
 
@@ -16,11 +17,22 @@ from numpy.typing import NDArray
 from burmester.dead_points import ComplexArray
 from burmester.displacement import FloatArray
 from burmester.drive import Drive
-from burmester.dyad import PR, RP
+from burmester.dyad import PP, PR, RP, RR
 
-__all__ = ["ONE_SIDED", "Course", "Parameter", "along", "courses", "parameter_of"]
+__all__ = [
+    "CHANGE_POINT",
+    "ONE_SIDED",
+    "Course",
+    "Parameter",
+    "along",
+    "courses",
+    "parameter_of",
+    "settled",
+    "tied",
+]
 
 CHANGE_POINT = 1e-9  # of `Drive.margin`, below which the circuits are not told apart
+A_POINT = 1e-7  # of a bound's scale: what an impossible bound may be off by at a change point
 
 
 class Course(IntEnum):
@@ -54,10 +66,43 @@ class Parameter(NamedTuple):
         return cls(s, 2 * half_sin * half_cos, np.where(up < down, 1 - up, down - 1), up, down)
 
 
-def courses(drive: Drive) -> tuple[NDArray[np.int8], FloatArray]:
-    """Course and sign (*, 2) of the circuits of linkages (*,)."""
+def tied(drive: Drive) -> NDArray[np.bool_]:
+    """Whether linkages (*,) are within 1e-9 of a change point."""
+    return ~(drive.margin > CHANGE_POINT)
+
+
+def settled(drive: Drive) -> Drive:
+    """With room for one place, at least, where rounding at a change point has left none."""
+
+    def settle(room: FloatArray, scale: FloatArray) -> FloatArray:
+        near = (-room <= A_POINT * scale) if drive.turns else True
+        return np.where(tied(drive) & (room < 0) & near, 0.0, room)
+
     high, low = drive.high, drive.low
-    none = ~((drive.margin > CHANGE_POINT) & (high.down > 0) & (low.up > 0))
+    high = high._replace(down=settle(high.down, high.scale))
+    return replace(drive, high=high, low=low._replace(up=settle(low.up, low.scale)))
+
+
+def _lost(drive: Drive) -> NDArray[np.bool_]:
+    """Where nothing can be told, even as given; see `Circuits.of`."""
+    first, second, change = drive.first, drive.second, tied(drive)
+    if isinstance(first, RP):
+        return change if isinstance(second, RP) else np.zeros_like(change)
+    a_point = first.radius == 0 if isinstance(first, RR) else np.zeros_like(change)
+    if not isinstance(second, RP | PP):
+        a_point = a_point | (second.moving_pivot == first.moving_pivot).all(axis=-1)
+    if isinstance(first, PR) and isinstance(second, PR):
+        a_point = a_point | (drive.high.scale > 0)
+    return np.asarray(change & a_point)
+
+
+def courses(drive: Drive, as_given: bool = False) -> tuple[NDArray[np.int8], FloatArray]:
+    """Course and sign (*, 2) of the circuits of linkages (*,); as given, of settled drives."""
+    high, low = drive.high, drive.low
+    if as_given:
+        none = ~((high.down >= 0) & (low.up >= 0)) | _lost(drive)
+    else:
+        none = tied(drive) | ~((high.down > 0) & (low.up > 0))
     # A slide has no greatest f but the one it is held below.
     ends_above = high.up > 0 if drive.turns else high.scale > 0
     ends_below = low.down > 0
@@ -139,7 +184,7 @@ def parameter_of(
     """What `along` undoes: the parameter, of circuits of one course."""
     high, low = drive.high, drive.low
     if course == Course.HALF:
-        return sign * np.angle(w)
+        return np.abs(np.angle(w))
     if course == Course.BEYOND:
         return q / np.sqrt(high.down * low.scale)
     if course == Course.WHOLE:
@@ -156,4 +201,9 @@ def parameter_of(
         size = high.down / high.scale
         sine = q / np.sqrt(high.down * np.maximum(low.scale * down - low.down, 0))
         cosine = w.imag / np.sqrt(size * up) if drive.turns else -w.real / np.sqrt(size)
+    if course != Course.BETWEEN and (change := tied(drive)).any():
+        # Half way between dead points the root may be lost in rounding, or the circuit a point.
+        cosine = np.where(change & np.isnan(cosine), 0.0, cosine)
+        middle = change & ~(np.abs(cosine) > 0.5)
+        sine = np.where(middle, np.copysign(np.sqrt(1 - np.minimum(cosine**2, 1)), q), sine)
     return np.arctan2(sine, cosine) % (2 * np.pi)

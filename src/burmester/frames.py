@@ -73,6 +73,11 @@ class CanonicalFrames:
         moved = poses.act(self.moving_origin) - self.fixed_origin
         return Displacement(moved / self.length, poses.angle)
 
+    def unseen(self, places: Displacement) -> Displacement:
+        """Places (*,) found in these frames, of one task, as its own see them."""
+        own = self.length * places.translation + self.fixed_origin
+        return Displacement(own - places.rotate(self.moving_origin), places.angle)
+
     def circle_back(self, circle: RR) -> RR:
         """RR dyads (*, k) found in these frames (*,), as the task's own frames see them."""
         length = self.length[..., None]

@@ -206,13 +206,18 @@ class Polygon:
 
     def distance(self, points: FloatArray) -> FloatArray:
         """How far points (*, 2) lie outside it, (*,)."""
+        return np.maximum(self.signed_distance(points), 0.0)
+
+    def signed_distance(self, points: FloatArray) -> FloatArray:
+        """How far points (*, 2) lie outside it, (*,), or inside where negative."""
         v, p = self.vertices, points[..., None, :]
         w = np.roll(v, -1, axis=0)
         above = (v[:, 1] > p[..., 1]) != (w[:, 1] > p[..., 1])
         rise = np.where(w[:, 1] == v[:, 1], 1.0, w[:, 1] - v[:, 1])
         crossing = v[:, 0] + (p[..., 1] - v[:, 1]) / rise * (w[:, 0] - v[:, 0])
         inside = (above & (p[..., 0] < crossing)).sum(axis=-1) % 2 == 1
-        return np.where(inside, 0.0, _from_segment(p, v, w).min(axis=-1))
+        from_edge = _from_segment(p, v, w).min(axis=-1)
+        return np.asarray(np.where(inside, -from_edge, from_edge))
 
     def corners(self) -> FloatArray:
         """Points (k, 2) whose convex hull holds the region."""

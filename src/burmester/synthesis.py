@@ -11,7 +11,6 @@ import numpy as np
 
 from burmester.accuracy import PoseError
 from burmester.candidates import (
-    ROUNDING,
     Fit,
     FoundDyad,
     characteristic_length,
@@ -21,12 +20,12 @@ from burmester.candidates import (
 from burmester.certificate import Certificate, certify_five
 from burmester.certificate import certify as certify_best
 from burmester.critical import CriticalDyads
-from burmester.dyad import PP, Dyad
+from burmester.dyad import Dyad
 from burmester.exact import FivePoseDyads, dyads_of_five
 from burmester.feasible import require_feasible
 from burmester.fingerprint import Fingerprint, fingerprint
+from burmester.joined import FoundLinkage, Pair, Wish, joined
 from burmester.limited import Norm
-from burmester.linkage import Linkage
 from burmester.motion_kind import FewPoses, Undetermined
 from burmester.optimal import BestDyads, best_dyads
 from burmester.outcome import Advice, Method, Outcome, advice, chosen_method, family, outcome
@@ -47,18 +46,6 @@ __all__ = [
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class FoundLinkage:
-    """A linkage made of two of the dyads found, and how well it meets the poses."""
-
-    id: str
-    rank: int
-    dyads: tuple[FoundDyad, FoundDyad]
-    linkage: Linkage
-    error: PoseError
-
-
-@final
-@dataclass(frozen=True, slots=True, eq=False)
 class Synthesis:
     """All that came of a task, nothing thrown away.
 
@@ -66,8 +53,9 @@ class Synthesis:
     length: the characteristic length of the task (see `frames`), in its unit; it weighs
         angles against positions in `FoundLinkage.error`.
     dyads: every dyad found, by rising rms error (shorter links first among exact ones).
-    linkages: every pair of them, by rising worst position error.  Whether a linkage meets the
-        poses in one piece and in order (circuit, branch and order defects) is not judged.
+    linkages: every pair of them, refined as a whole; those that work first, then by rising worst
+        position error.  Where the closest one does not work, linkages looked for under the
+        conditions that they do.
     fits: what the method learnt (singular values, all roots); two where the task has two limits.
     certificate: what of it is proved, where that was asked for.
     """
@@ -83,6 +71,16 @@ class Synthesis:
     fits: tuple[Fit, ...] = ()
     certificate: Certificate | None = None
 
+    @property
+    def usable(self) -> tuple[FoundLinkage, ...]:
+        """The linkages that work."""
+        return tuple(each for each in self.linkages if each.usable)
+
+    @property
+    def determined(self) -> bool:
+        """Whether a linkage works whose pivots the poses determine."""
+        return any(each.determined for each in self.usable)
+
 
 def synthesize(
     task: Task,
@@ -91,6 +89,10 @@ def synthesize(
     normalise: bool = True,
     norm: Norm = "rms",
     certify: bool = False,
+    length: float | None = None,
+    tolerance: float | None = None,
+    step: float | None = None,
+    stock: Sequence[float] = (),
 ) -> Synthesis:
     """The dyads of a task and the linkages made of them.
 
@@ -101,6 +103,12 @@ def synthesize(
     normalise: False lets the pencil fit the numbers as they come, as the paper does.
     norm: what is least, the sum of squared distances, or the worst one.
     certify: ask for a certificate as well, of a task without limits.
+    length: what a radian of angle error counts as, in the task's unit; the characteristic length
+        of the task if None.
+    tolerance: to which links and pivots are built, in the task's unit: the spread of the errors is
+        told.
+    step, stock: to which lengths and pivots are rounded, and which lengths links come in.
+    Linkages are refined as a whole, but those of the pencil are the paper's.
     Fewer than five conditions have infinitely many dyads: see `exact` and `curve` for them all.
     Raises InputError E121 where the method does not take that number of poses, E123 where it does
     not take what was asked, E130 where proofs lack their library, and E132 (limits that no link
@@ -109,7 +117,15 @@ def synthesize(
     both = task.limits * (2 if len(task.limits) == 1 else 1)
     require_feasible(task.poses, both, task.exact)
     motion = fingerprint(task) if task.poses.shape[0] > 2 else None
-    whole, length = task, characteristic_length(task)
+    whole, size = task, characteristic_length(task)
+    wish = Wish(
+        size if length is None else length,
+        refine=normalise and method != "pencil",
+        worst=norm == "worst",
+        tolerance=tolerance,
+        step=step,
+        stock=tuple(stock),
+    )
     warnings: list[Advice] = []
     if motion is not None:
         # Pivots at points or on lines may settle what too few or too small motions leave open.
@@ -117,7 +133,7 @@ def synthesize(
         few = isinstance(kind, FewPoses) and (settled or (kind.repeats and motion.distinct > 2))
         small = isinstance(kind, Undetermined) and settled
         if not (motion.determined or few or small):
-            return _special(task, method, motion, length)
+            return _special(task, method, motion, size, wish)
         if motion.distinct < task.poses.shape[0]:
             task = _merged(task, motion)
             warnings.append(
@@ -130,10 +146,10 @@ def synthesize(
             )
     free = max(_freedom(task))
     if free > 0 and method in ("auto", "exact"):
-        return _family(whole, task, method, motion, length)
+        return _family(whole, task, method, motion, size)
     chosen = chosen_method(task, motion, method, normalise, norm, certify, free)
     fits = _fits(task, motion, chosen, normalise, norm)
-    return _finish(whole, task, chosen, motion, length, fits, warnings, certify)
+    return _finish(whole, task, chosen, motion, size, fits, warnings, certify, wish)
 
 
 def _merged(task: Task, motion: Fingerprint) -> Task:
@@ -171,19 +187,20 @@ def _family(
     return Synthesis(whole, method, said, motion, length, numbered, warnings=(warning,))
 
 
-def _special(task: Task, method: Method, motion: Fingerprint, length: float) -> Synthesis:
+def _special(
+    task: Task, method: Method, motion: Fingerprint, length: float, wish: Wish
+) -> Synthesis:
     """A special motion: what is certain of it is the whole answer."""
-    kind = motion.motion
+    kind, whole, task = motion.motion, task, _merged(task, motion)
     found = []
     for number, dyad in enumerate(kind.dyads, start=1):
         miss = np.abs(dyad.residual(task.poses))
         rms = float(np.sqrt((miss**2).mean()))
         found.append(FoundDyad(f"D{number}", dyad, rms, float(miss.max())))
-    linkages = _linkages(
-        task, combinations([f for f in found if not isinstance(f.dyad, PP)], 2), length
-    )
+    pairs = list(combinations(found, 2))
+    linkages = _joined(whole, task, pairs, replace(wish, refine=False), motion)
     said = Outcome(kind.code, kind.message, kind.help)
-    return Synthesis(task, method, said, motion, length, tuple(found), linkages)
+    return Synthesis(whole, method, said, motion, length, tuple(found), linkages)
 
 
 def _fits(
@@ -213,6 +230,7 @@ def _finish(  # noqa: PLR0917
     fits: tuple[Fit, ...],
     warnings: list[Advice],
     certify: bool,
+    wish: Wish,
 ) -> Synthesis:
     """Join the dyads of the fits to linkages, rank them, and say what came of it."""
     lists, left_out = [], 0
@@ -250,7 +268,7 @@ def _finish(  # noqa: PLR0917
                     "only one constraint was found; give more poses, or more different ones",
                 )
             )
-    linkages = _linkages(whole, different, length)
+    linkages = _joined(whole, task, different, wish, motion)
     said = outcome(task, method, fits, dyads, real, len(linkages))
     certificate = _proved(task, fits[0], dyads) if certify else None
     return Synthesis(
@@ -267,19 +285,16 @@ def _finish(  # noqa: PLR0917
     )
 
 
-def _linkages(
-    task: Task, pairs: Iterable[tuple[FoundDyad, FoundDyad]], length: float
+def _joined(
+    whole: Task, task: Task, pairs: Sequence[Pair], wish: Wish, motion: Fingerprint | None
 ) -> tuple[FoundLinkage, ...]:
-    """The linkages of pairs of dyads, by rising worst position error."""
-    found = []
-    for pair in pairs:
-        linkage = Linkage(pair[0].dyad, pair[1].dyad)
-        found.append((pair, linkage, PoseError.of(linkage, task.poses, length)))
-    # Stable: where errors are mere rounding the order of the dyads stays.
-    found.sort(key=lambda pair: np.round(pair[2].worst / (ROUNDING * length)))
+    """The linkages of pairs of dyads, with their errors at all poses, repeated ones too."""
+    if motion is None or motion.distinct == whole.poses.shape[0]:
+        return joined(task, pairs, wish)
+    found = joined(task, pairs, wish, [int(i) for i in motion.first])
+    group = motion.group
     return tuple(
-        FoundLinkage(f"L{rank}", rank, dyads, linkage, error)
-        for rank, (dyads, linkage, error) in enumerate(found, start=1)
+        replace(each, error=PoseError.at(each.error.places[group], whole.poses)) for each in found
     )
 
 

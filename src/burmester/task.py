@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import final
 
 import numpy as np
@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from burmester.displacement import Displacement, FloatArray
 from burmester.errors import InputError
 from burmester.limits import Limits
+from burmester.requirements import Requirements, require_possible
 
 __all__ = ["CONDITIONS", "Task"]
 
@@ -28,14 +29,18 @@ class Task:
         given twice.
     names: one name a pose, or None.
     length_unit: the unit of x and y as its user writes it ("mm"), or None.
-    resolution: how exactly a pose is known, (length in the task's unit, angle in radians);
-        half of the last digit that a file gives, 0 for exact numbers.
+    resolution: how exactly a pose is known, (length in the task's unit, angle in radians); the
+        errors of poses are taken to be spread evenly up to it.  Half of the last digit that a
+        file gives; sqrt(3) times the standard deviation where that is given instead
+        (--pose-sigma), which is as wide a spread; 0 for exact numbers.
     exact: (N,), which poses must be met exactly, or None for none of them.
     limits: none; one for both dyads of a linkage; or two, one for each.
+    requirements: what is asked of the whole linkage, nothing by default.
     Fewer than 3 poses are enough where a limit puts a pivot at a point or on a line.
     Raises InputError: E103 (a number that is not finite), E120 (too few poses), E122
-    (weights, names or marks that do not fit the poses), E133 (more exact conditions than a
-    dyad can meet).
+    (weights, names or marks that do not fit the poses), E132 (requirements that the limits
+    contradict), E133 (more exact conditions than a dyad can meet), E134 (a driver named by limits
+    that are not two).
     """
 
     poses: Displacement
@@ -45,6 +50,7 @@ class Task:
     resolution: tuple[float, float] = (0.0, 0.0)
     exact: NDArray[np.bool_] | None = None
     limits: tuple[Limits, ...] = ()
+    requirements: Requirements = field(default=Requirements())
 
     def __post_init__(self) -> None:
         if len(self.poses.shape) != 1:
@@ -101,6 +107,7 @@ class Task:
                 f"{len(self.names)} names for {count} poses",
                 help="give one name a pose, or none",
             )
+        require_possible(self.requirements, self.limits)
 
     @classmethod
     def from_degrees(cls, poses: ArrayLike, length_unit: str | None = None) -> Task:

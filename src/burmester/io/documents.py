@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from burmester.errors import InputError
+from burmester.io.asked import REQUIREMENT_KEYS
 from burmester.io.table import NUMERIC, PoseTable, Rows, Source, shown
 from burmester.io.wanted import LIMIT_KEYS, Wanted
 
@@ -138,6 +139,10 @@ def _table(label: str, tree: Any, example: str) -> PoseTable:
         from burmester.io.limits_tree import read
 
         wanted = read(tree, path)
+    if isinstance(tree, dict) and not tree.keys().isdisjoint(REQUIREMENT_KEYS):
+        from burmester.io.requirements_tree import read as read_requirements
+
+        wanted = wanted._replace(asked=read_requirements(tree, path))
     try:
         document: Any = _model().model_validate(tree)
     except ValidationError as error:

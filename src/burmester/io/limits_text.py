@@ -15,10 +15,10 @@ import numpy as np
 
 from burmester.errors import InputError
 from burmester.io.table import Source, plain_number, shown
-from burmester.io.wanted import SHAPES, Length, Wanted, WantedKinds, WantedRegion
-from burmester.limits import KINDS, Kind
+from burmester.io.wanted import SHAPES, Length, Wanted, WantedKinds
+from burmester.limits import KINDS, Kind, Region
 
-__all__ = ["exact_marks", "wanted"]
+__all__ = ["ANY", "exact_marks", "fault", "number", "region", "wanted"]
 
 ANY = "any"
 REGION = "write X,Y for a point, or line:X,Y:X,Y, segment:, box: or polygon: likewise, or any"
@@ -35,8 +35,8 @@ def wanted(
 ) -> Wanted:
     """What the options of these names say; raises E131, and E132 for an empty box."""
     return Wanted(
-        _each(fixed_pivot, "--fixed-pivot", _region),
-        _each(moving_pivot, "--moving-pivot", _region),
+        _each(fixed_pivot, "--fixed-pivot", region),
+        _each(moving_pivot, "--moving-pivot", region),
         _each(length, "--length", _length),
         _each(kinds, "--kinds", _kinds),
         "the command line",
@@ -82,11 +82,12 @@ def _each(texts: Sequence[str], option: str, read: Callable[[Source], T]) -> tup
     return tuple(None if text.strip() == ANY else read(Source(option, text)) for text in texts)
 
 
-def _region(source: Source) -> WantedRegion:
+def region(source: Source, help: str = REGION) -> Region:
+    """The region in a text; raises E131, or E132 for an empty box, with a caret."""
     head, colon, rest = source.text.partition(":")
     shape = head.strip() if colon else "point"
     if shape not in SHAPES:
-        raise _fault(source, f"there is no region {shown(shape)}", REGION, 0, len(head))
+        raise fault(source, f"there is no region {shown(shape)}", help, 0, len(head))
     at = len(head) + 1 if colon else 0
     parts = (rest if colon else source.text).split(":")
     points, (count, make) = [], SHAPES[shape]
@@ -94,14 +95,14 @@ def _region(source: Source) -> WantedRegion:
         cells = part.split(",")
         if len(cells) != 2:
             message = f"{shown(part)} is not a point X,Y"
-            raise _fault(source, message, REGION, at, len(part))
+            raise fault(source, message, help, at, len(part))
         points.append(
-            [_number(source, cells[0], at), _number(source, cells[1], at + len(cells[0]) + 1)]
+            [number(source, cells[0], at), number(source, cells[1], at + len(cells[0]) + 1)]
         )
         at += len(part) + 1
     if count not in (None, len(points)):
         message = f"a {shape} takes {count} point{'' if count == 1 else 's'}, not {len(points)}"
-        raise _fault(source, message, REGION)
+        raise fault(source, message, help)
     try:
         return make(np.array(points))
     except InputError as error:
@@ -112,10 +113,10 @@ def _region(source: Source) -> WantedRegion:
 def _length(source: Source) -> Length:
     parts = source.text.split(":")
     if len(parts) != 2:
-        raise _fault(source, f"{shown(source.text)} is not a range MIN:MAX", LENGTH)
+        raise fault(source, f"{shown(source.text)} is not a range MIN:MAX", LENGTH)
     low, high = parts
-    least = _number(source, low, 0) if low.strip() else 0.0
-    most = _number(source, high, len(low) + 1) if high.strip() else float("inf")
+    least = number(source, low, 0) if low.strip() else 0.0
+    most = number(source, high, len(low) + 1) if high.strip() else float("inf")
     return least, most
 
 
@@ -126,24 +127,35 @@ def _kinds(source: Source) -> WantedKinds:
         known: list[Kind] = [kind for kind in KINDS if kind == item.strip().upper()]
         if not known:
             help = f"choose among {', '.join(KINDS)}, with commas between them"
-            raise _fault(source, f"there is no dyad kind {shown(item)}", help, at, len(item))
+            raise fault(source, f"there is no dyad kind {shown(item)}", help, at, len(item))
         kinds.update(known)
         at += len(item) + 1
     return frozenset(kinds)
 
 
-def _number(source: Source, cell: str, at: int) -> float:
+def number(source: Source, cell: str, at: int, code: str = "E131") -> float:
+    """The finite number in a cell that begins `at` this place of a text, or an error.
+
+    E131 for a coordinate or a bound; E134 for one that has to be positive.
+    """
     plain, mark = plain_number(cell.strip(), ",")
     if mark is None:
         at += len(cell) - len(cell.lstrip())
-        help = "write digits with at most a decimal point and an exponent, such as -12.5 or 3e-4"
+        such = "-12.5 or 3e-4" if code == "E131" else "12.5 or 3e-4"
+        help = f"write digits with at most a decimal point and an exponent, such as {such}"
         message = f"{shown(cell.strip())} is not a finite number"
-        raise _fault(source, message, help, at, len(cell.strip()))
+        raise fault(source, message, help, at, len(cell.strip()), code)
     return float(plain)
 
 
-def _fault(
-    source: Source, message: str, help: str, at: int = 0, width: int | None = None
+def fault(  # noqa: PLR0917
+    source: Source,
+    message: str,
+    help: str,
+    at: int = 0,
+    width: int | None = None,
+    code: str = "E131",
 ) -> InputError:
+    """An error with carets below the text at fault."""
     where = source.where(at, len(source.text) if width is None else width)
-    return InputError("E131", f"{source.label}: {message}", where=where, help=help)
+    return InputError(code, f"{source.label}: {message}", where=where, help=help)

@@ -22,11 +22,12 @@ from pydantic import (
 from pydantic_core import PydanticCustomError
 
 from burmester.errors import InputError
+from burmester.io.asked import FILE_KEYS
 from burmester.io.table import shown
 from burmester.io.wanted import LIMIT_KEYS, SHAPES, Length, Wanted, WantedRegion
 from burmester.limits import Limits
 
-__all__ = ["read"]
+__all__ = ["Model", "Number", "Pair", "Two", "read", "unfit"]
 
 
 def _number(value: Any) -> float:
@@ -44,11 +45,13 @@ Pair = Annotated[list[Number], Field(min_length=2, max_length=2)]
 Two = Annotated[list[Pair], Field(min_length=2, max_length=2)]
 
 
-class _Model(BaseModel):
+class Model(BaseModel):
+    """A table that has no other keys."""
+
     model_config = ConfigDict(strict=True, str_strip_whitespace=True, extra="forbid")
 
 
-class _Region(_Model):
+class _Region(Model):
     point: Pair | None = None
     line: Two | None = None
     segment: Two | None = None
@@ -56,12 +59,12 @@ class _Region(_Model):
     polygon: Annotated[list[Pair], Field(min_length=3)] | None = None
 
 
-class _Length(_Model):
+class _Length(Model):
     least: Number | None = None
     most: Number | None = None
 
 
-class _Limits(_Model):
+class _Limits(Model):
     fixed_pivot: _Region | None = None
     moving_pivot: _Region | None = None
     length: _Length | None = None
@@ -155,19 +158,32 @@ def _length(tree: _Length | None) -> Length | None:
 
 
 def _unfit(places: list[str], fault: Any) -> InputError:
-    """A fault that pydantic found, in this house's words."""
+    """A fault that pydantic found in one of the tables."""
     k, *keys = fault["loc"]
-    place = places[k] + "".join(f"[{key}]" if isinstance(key, int) else f".{key}" for key in keys)
-    value, context = shown(fault.get("input")), fault.get("ctx", {})
     help = _HELP.get(str(keys[0]), _TABLE) if keys else _TABLE
+    if fault["type"] == "extra_forbidden" and keys[-1] in FILE_KEYS:
+        help = f"write {keys[-1]} under requirements, which speak of the whole linkage"
+    return unfit(places[k], keys, fault, "limits", "a kind", help)
+
+
+def unfit(  # noqa: PLR0917
+    place: str, keys: list[int | str], fault: Any, head: str, item: str, help: str
+) -> InputError:
+    """A fault that pydantic found below the head of a table, in this house's words.
+
+    place: the path of the table; keys: the way on from there; item: what stands in quotes.
+    """
+    place += "".join(f"[{key}]" if isinstance(key, int) else f".{key}" for key in keys)
+    value, context = shown(fault.get("input")), fault.get("ctx", {})
     code, message = {
         "finite_number": ("E103", "is not a finite number"),
         "no_number": ("E104", f"is {value}, not a number"),
-        "string_type": ("E104", f"is {value}, not a kind in quotes"),
+        "string_type": ("E104", f"is {value}, not {item} in quotes"),
+        "bool_type": ("E104", f"is {value}, neither true nor false"),
         "too_short": ("E106", f"has {context.get('actual_length')} of {context.get('min_length')}"),
         "too_long": ("E106", f"has more than {context.get('max_length')}"),
         "extra_forbidden": ("E107", "is not known"),
     }.get(fault["type"], ("E104", f"does not fit: {value}"))
     if fault["type"] == "extra_forbidden" and keys[-1] in ("poses", "angle_unit", "length_unit"):
-        help = f"write {keys[-1]} above the head of limits: what stands below it belongs to limits"
+        help = f"write {keys[-1]} above the head of {head}: what stands below it belongs to {head}"
     return InputError(code, f"{place.rpartition(': ')[2]} {message}", where=place, help=help)

@@ -1,4 +1,4 @@
-"""A task from a file: poses in CSV, JSON and TOML, and limits in the latter two.
+"""A task from a file: poses in CSV, JSON and TOML, limits and requirements in the latter two.
 
 A number is taken as the nearest double or refused, never changed: no thousands separators,
 no underscores, no guessed units, no guessed decimal marks.  An error's `where` holds
@@ -29,6 +29,7 @@ from numpy.typing import NDArray
 from burmester.displacement import Displacement
 from burmester.errors import InputError
 from burmester.io import cases
+from burmester.io.asked import requirements
 from burmester.io.csv_poses import read_csv
 from burmester.io.documents import read_json, read_toml
 from burmester.io.limits_text import exact_marks
@@ -48,16 +49,19 @@ def read_task(
     angle_unit: Literal["deg", "rad"] | None = None,
     wanted: Wanted | None = None,
     exact: Sequence[str] = (),
+    sigma: tuple[float, float] | None = None,
 ) -> Task:
     """Read the task in a file, on standard input ("-") or in a carried case ("case:NAME").
 
     .csv, .tsv and .txt are CSV; .json and .toml are what they say; anything else is JSON if
     it begins with a bracket, and CSV if not.  `angle_unit` (--angle-unit) states the unit
-    where the file does not; `wanted` adds limits to those in the file, and `exact` (--exact) marks
-    poses by their numbers from 1 or by their names.  The task's resolution is half of the last
-    digit printed, x and y together; where only whole numbers are printed it is 0, as people mean
-    them exactly.
-    Raises InputError E101 to E110 as listed above, and what `Limits` and `Task` raise.
+    where the file does not; `wanted` adds limits and requirements to those in the file, and `exact`
+    (--exact) marks poses by their numbers from 1 or by their names.  The task's resolution is half
+    of the last digit printed, x and y together; where only whole numbers are printed it is 0, as
+    people mean them exactly.  `sigma` (--pose-sigma), the standard deviations of the poses'
+    positions and angles in radians, sets it instead, to sqrt(3) times as much.
+    Raises InputError E101 to E110 as listed above, and what `Limits`, `Requirements` and `Task`
+    raise.
     """
     if angle_unit not in (None, *UNITS):
         raise InputError("E110", f"there is no angle unit {angle_unit!r}", help="say deg or rad")
@@ -67,7 +71,7 @@ def read_task(
         text = _decode(_fetch(path))
         by_content = read_json if text.lstrip().startswith(("{", "[")) else read_csv
         read = _READERS.get(PurePath(label).suffix.lower(), by_content)
-        return _task(read(Source(label, text)), angle_unit, wanted, exact)
+        return _task(read(Source(label, text)), angle_unit, wanted, exact, sigma)
     except InputError as error:
         error.where = error.where or label
         raise
@@ -105,7 +109,11 @@ def _decode(data: bytes) -> str:
 
 
 def _task(
-    table: PoseTable, angle_unit: str | None, wanted: Wanted | None, exact: Sequence[str]
+    table: PoseTable,
+    angle_unit: str | None,
+    wanted: Wanted | None,
+    exact: Sequence[str],
+    sigma: tuple[float, float] | None,
 ) -> Task:
     """The task in a table, once its angle unit is beyond doubt."""
     values, stated = table.rows.values, table.angle_unit
@@ -122,15 +130,25 @@ def _task(
         raise InputError("E110", message, where=table.where, why=why, help=help)
     length, angle = (0.5 * 10.0**-printed if printed else 0.0 for printed in table.rows.decimals)
     degrees = unit == "deg"
-    return Task(
-        Displacement(values[:, :2], np.radians(angles) if degrees else angles),
-        weights=values[:, 3] if values.shape[1] > 3 else None,
-        names=tuple(table.rows.names) or None,
-        length_unit=table.length_unit,
-        resolution=(length, math.radians(angle) if degrees else angle),
-        exact=_marked(table.rows, exact),
-        limits=(table.wanted.joined(wanted) if wanted else table.wanted).limits(),
-    )
+    resolution = (length, math.radians(angle) if degrees else angle)
+    if sigma is not None:
+        resolution = (math.sqrt(3) * sigma[0], math.sqrt(3) * sigma[1])
+    said = table.wanted.joined(wanted) if wanted else table.wanted
+    try:
+        return Task(
+            Displacement(values[:, :2], np.radians(angles) if degrees else angles),
+            weights=values[:, 3] if values.shape[1] > 3 else None,
+            names=tuple(table.rows.names) or None,
+            length_unit=table.length_unit,
+            resolution=resolution,
+            exact=_marked(table.rows, exact),
+            limits=said.limits(),
+            requirements=requirements(said.asked),
+        )
+    except InputError as error:
+        if error.code in ("E132", "E134"):  # limits and requirements, not the poses
+            error.where = error.where or said.places
+        raise
 
 
 def _marked(rows: Rows, exact: Sequence[str]) -> NDArray[np.bool_] | None:

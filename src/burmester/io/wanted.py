@@ -1,8 +1,8 @@
-"""A designer's limits as they are said, in a file or on the command line, and what they come to.
+"""What a designer wants as it is said, in a file or on the command line, and what it comes to.
 
-Each of the four (where the fixed pivot may be, where the moving one, how long the link, which
-kinds) is said not at all, once for both dyads of a linkage, or twice, once for each.  A point
-said once is for the first dyad alone: two dyads that share a pivot only turn about it.
+Each of the four limits (where the fixed pivot may be, where the moving one, how long the link,
+which kinds) is said not at all, once for both dyads of a linkage, or twice, once for each.  A
+point said once is for the first dyad alone: two dyads that share a pivot only turn about it.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from typing import Any, NamedTuple, TypeAlias
 
 from burmester.displacement import FloatArray
 from burmester.errors import InputError
+from burmester.io.asked import Asked
 from burmester.limits import Kind, Limits, Line, Point, Polygon, Region, Segment, box
 
 __all__ = ["LIMIT_KEYS", "SHAPES", "Length", "Wanted", "WantedKinds", "WantedRegion"]
@@ -22,6 +23,8 @@ WantedKinds: TypeAlias = frozenset[Kind] | None
 
 # `limits`, and what may be met beside the poses by mistake, where it would limit nothing
 LIMIT_KEYS = ("limits", "limit", "exact", "fixed_pivot", "moving_pivot", "length", "kinds")
+
+_FIELDS = ("fixed_pivot", "moving_pivot", "length", "kinds")
 
 # The word for a region, how many points it takes (None: any number), and what it makes of them.
 SHAPES: Mapping[str, tuple[int | None, Callable[[FloatArray], Region]]] = {
@@ -34,17 +37,21 @@ SHAPES: Mapping[str, tuple[int | None, Callable[[FloatArray], Region]]] = {
 
 
 class Wanted(NamedTuple):
-    """Limits as said, at most two of each; where: the file, or the command line."""
+    """Limits as said, at most two of each, and what is asked of the whole linkage.
+
+    where: the file, or the command line, for the limits; a requirement has its own.
+    """
 
     fixed_pivot: tuple[WantedRegion, ...] = ()
     moving_pivot: tuple[WantedRegion, ...] = ()
     length: tuple[Length | None, ...] = ()
     kinds: tuple[WantedKinds, ...] = ()
     where: str = ""
+    asked: tuple[Asked, ...] = ()
 
     def joined(self, other: Wanted) -> Wanted:
-        """What both say; raises E108 where they speak of the same thing."""
-        for name in ("fixed_pivot", "moving_pivot", "length", "kinds"):
+        """What both say; raises E108 where they limit the same thing."""
+        for name in _FIELDS:
             if getattr(self, name) and getattr(other, name):
                 what = name.replace("_", " ")
                 raise InputError(
@@ -59,6 +66,7 @@ class Wanted(NamedTuple):
             self.length + other.length,
             self.kinds + other.kinds,
             ", and ".join(filter(None, (self.where, other.where))),
+            self.asked + other.asked,
         )
 
     def limits(self) -> tuple[Limits, ...]:
@@ -74,12 +82,21 @@ class Wanted(NamedTuple):
             error.where = error.where or self.where
             raise
 
+    @property
+    def places(self) -> str:
+        """Where the limits are said, and the requirements that they may contradict."""
+        limited = any(getattr(self, name) for name in _FIELDS)
+        places = [self.where] if limited else []
+        asked = [
+            each.where for each in self.asked if each.field in ("types", "driver", "footprint")
+        ]
+        return ", and ".join(filter(None, [*places, *asked]))
+
     def _of(self, dyad: int) -> dict[str, Any]:
         """What is said of the first dyad (0) or of the second (1)."""
-        said: dict[str, Sequence[Any]] = self._asdict()
-        del said["where"]
         out = {}
-        for name, values in said.items():
+        for name in _FIELDS:
+            values: Sequence[Any] = getattr(self, name)
             value = values[min(dyad, len(values) - 1)] if values else None
             shared = len(values) == 1 and dyad == 1
             if value is not None and not (shared and isinstance(value, Point)):

@@ -1,0 +1,108 @@
+"""Requirements in JSON and TOML: what may stand under `requirements`, and what it comes to.
+
+Imported on first use, as pydantic is slow to import.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Any
+
+import numpy as np
+from pydantic import Field, ValidationError
+
+from burmester.errors import InputError
+from burmester.io.asked import FILE_KEYS, REQUIREMENT_KEYS, Asked, ask
+from burmester.io.limits_tree import Model, Number, Pair, Two, unfit
+from burmester.io.wanted import LIMIT_KEYS, SHAPES
+from burmester.limits import Region
+from burmester.requirements import DRIVERS
+
+__all__ = ["read"]
+
+
+class _Footprint(Model):
+    box: Two | None = None
+    polygon: Annotated[list[Pair], Field(min_length=3)] | None = None
+
+
+class _Requirements(Model):
+    transmission_deg: Number | None = None
+    types: list[str] | None = None
+    driver: str | None = None
+    footprint: _Footprint | None = None
+    link_ratio: Number | None = None
+    within: Number | None = None
+    any_order: bool | None = None
+
+
+_KEYS = tuple(FILE_KEYS)
+_FOOTPRINT = (
+    "a footprint has one key: box with two points [[X, Y], [X, Y]], or polygon with three or more"
+)
+_HELP = {
+    "transmission_deg": "transmission_deg is one number, in degrees, such as 40",
+    "types": 'types is a list of names, such as ["crank-rocker", "double-crank"]',
+    "driver": "driver is one of " + ", ".join(f'"{name}"' for name in DRIVERS),
+    "footprint": _FOOTPRINT,
+    "link_ratio": "link_ratio is one number, such as 5",
+    "within": "within is one length in the unit of the poses, such as 0.5",
+    "any_order": "write true or false",
+}
+_TABLE = f"a table of requirements has {', '.join(_KEYS[:-1])} and {_KEYS[-1]}, or some of them"
+
+
+def read(tree: dict[str, Any], path: str) -> tuple[Asked, ...]:
+    """What the tree of a task, at `path`, asks of the whole linkage.
+
+    Raises E103 to E107 as for limits, E108 (a footprint of two shapes), E131, E132 and E134.
+    """
+    for key in REQUIREMENT_KEYS[1:]:
+        if key in tree:
+            message = f"{key} stands beside the poses, where it asks for nothing"
+            help = "write it under requirements, or delete it"
+            raise InputError("E107", message, where=f"{path}{key}", help=help)
+    given, path = tree.get("requirements"), f"{path}requirements"
+    if given is None:
+        return ()
+    try:
+        table = _Requirements.model_validate(given)
+    except ValidationError as error:
+        raise _unfit(path, error.errors(include_url=False)[0]) from None
+    out = []
+    for key, field in FILE_KEYS.items():
+        value, place = getattr(table, key), f"{path}.{key}"
+        if value is None:
+            continue
+        if key == "transmission_deg":
+            value = math.radians(value)
+        elif key == "types" and value:
+            names = [ask(field, [name], place, f"{place}[{i}]") for i, name in enumerate(value)]
+            value = frozenset(name for each in names for name in each.value)
+        elif key == "footprint":
+            value = _footprint(value, place)
+        out.append(ask(field, value, place))
+    return tuple(out)
+
+
+def _footprint(tree: _Footprint, place: str) -> Region:
+    given = tree.model_dump(exclude_none=True)
+    if len(given) != 1:
+        code, what = ("E108", " and ".join(given)) if given else ("E105", "no shape")
+        raise InputError(code, f"footprint has {what}", where=place, help=_FOOTPRINT)
+    ((shape, points),) = given.items()
+    try:
+        return SHAPES[shape][1](np.array(points))
+    except InputError as error:
+        error.where = f"{place}.{shape}"
+        raise
+
+
+def _unfit(path: str, fault: Any) -> InputError:
+    """A fault that pydantic found."""
+    keys = list(fault["loc"])
+    help = _HELP.get(str(keys[0]), _TABLE) if keys else _TABLE
+    if fault["type"] == "extra_forbidden" and keys[-1] in LIMIT_KEYS:
+        help = f"write {keys[-1]} under limits, which speak of single dyads"
+    item = "a name of a type" if keys[:1] == ["types"] else "one of its names"
+    return unfit(path, keys, fault, "requirements", item, help)

@@ -1,0 +1,450 @@
+"""The last step to a linkage: all its dimensions at once, for the least error at the poses.
+
+Two dyads that are best one by one do not make the best linkage.  Here the places of the coupler
+nearest to the poses, on the circuits where they are, are brought nearer by Gauss and Newton's
+method in all ten dimensions of both dyads (four of each slider), by exact derivatives: at a place
+x nearest to a pose only what is normal to the motion counts, and there J dx = -F dz, with J the
+forces of both dyads and F the derivatives of their equations by the dimensions z.
+
+Exact poses and conditions (limits, a branch to be kept) are held by multipliers (Powell and
+Hestenes), and at the end met by Newton's method.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burmester.accuracy import Normal, newton_step, normal, rows_of
+from burmester.conditions import Conditions
+from burmester.displacement import Displacement, FloatArray
+from burmester.stack import DIMENSIONS, LinkageStack
+
+__all__ = ["Refined", "refine"]
+
+SIZE = 2 * DIMENSIONS
+NEARER, CLOSE = 6, 1e-6  # Newton's steps to the nearest place; a step whose next is rounding
+OFF = 1e-6  # a place farther off its linkage is lost
+FAR = 0.25  # lengths that a place may move in a step
+STEPS = 60  # of Gauss and Newton, at most
+ROUNDS, INNER = 14, 8  # of multipliers, and steps in each
+DAMPING, LEAST, MOST = 1e-4, 1e-14, 1e8  # relative, of Levenberg and Marquardt
+SETTLED = 1e-13  # a relative step that is rounding
+CURVED = 4  # good steps, before those take the residuals' curvature into account
+GAIN = 1e-14  # relative; less of it ends the steps
+STIFF = 10.0  # the first penalty, in shares of the cost's own curvature
+MET = 1e-9  # a condition missed by less is met
+STRIDE = 1e-7  # of the difference quotients of conditions
+FARTHEST = 1e4  # lengths; a dimension beyond it is on its way to nowhere
+POWERS = (2.0, 8.0, 32.0, 128.0, 512.0)  # sums of ever higher powers lead to the least worst
+PLACES = 4096  # poses whose derivatives are held in memory together
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Refined:
+    """Linkages (k,) as they came out, in the frames they were given in.
+
+    rows: (k, N, 3), the coupler's places as x, y, length x angle; nan where a linkage was lost.
+    cost: (k,), half the weighted sum of squared distances (or the greatest distance).
+    settled: (k,), whether the steps came to an end; met: whether all conditions hold.
+    held: (k, m, 10), derivatives by the dimensions of what is held exactly; zero rows beside.
+    """
+
+    stack: LinkageStack
+    rows: FloatArray
+    cost: FloatArray
+    settled: NDArray[np.bool_]
+    met: NDArray[np.bool_]
+    held: FloatArray
+
+
+class _State(NamedTuple):
+    """Linkages (k,) with their places: misses u (k, N, 2) normal to the motion, and derivatives."""
+
+    z: FloatArray
+    rows: FloatArray
+    miss: FloatArray
+    slope: FloatArray
+    moved: FloatArray
+
+    def some(self, index: NDArray[Any]) -> _State:
+        """Those at the indices, or where a mask says so."""
+        return _State(*(part[index] for part in self))
+
+    def but(self, where: NDArray[np.bool_], other: _State) -> _State:
+        """The same, but where a mask (k,) says so the other."""
+
+        def merged(old: FloatArray, new: FloatArray) -> FloatArray:
+            return np.where(where.reshape(-1, *[1] * (new.ndim - 1)), new, old)
+
+        return _State(*(merged(old, new) for old, new in zip(self, other, strict=True)))
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class _Problem:
+    kinds: NDArray[np.int8]
+    wanted: FloatArray
+    length: float
+    share: FloatArray  # (N,), roots of the weights, 0 for exact poses
+    exact: NDArray[np.bool_]
+    conditions: Conditions | None
+    free: NDArray[np.bool_]
+
+    def stack(self, which: NDArray[np.intp], z: FloatArray) -> LinkageStack:
+        return LinkageStack(self.kinds[which], z.reshape(-1, 2, DIMENSIONS))
+
+    def state(self, which: NDArray[np.intp], z: FloatArray, rows: FloatArray) -> _State:
+        """The linkages z (k, 10) with the places nearest to the poses that rows lead to."""
+        stack = self.stack(which, z)
+        with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+            surfaces = stack.surfaces()
+            for _ in range(NEARER):
+                step, size = newton_step(surfaces, rows, self.wanted, self.length)
+                rows = rows + step
+                if not (size > CLOSE).any():
+                    break
+            places = Displacement(rows[..., :2], rows[..., 2] / self.length)
+            miss, force, partial = stack.bearing(places)
+            off = ~(np.abs(miss) < OFF).all(axis=(1, 2))
+            rows[off] = np.nan
+            at = normal(miss, force, self.length)
+            return _State(z, rows, *_normal_part(at, rows - self.wanted, partial))
+
+    def limits(
+        self, which: NDArray[np.intp], state: _State
+    ) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]]:
+        """The conditions (k, m), and their derivatives (k, m, 10), places moving along."""
+        if self.conditions is None:
+            none = np.empty((len(which), 0, SIZE))
+            return none[..., 0], none, np.empty(0, dtype=bool)
+        z = np.concatenate([state.z[None], state.z + STRIDE * np.eye(SIZE)[:, None]])
+        steps = STRIDE * np.moveaxis(state.moved, -1, 0)
+        rows = np.concatenate([state.rows[None], state.rows + steps])
+        count, number = len(which), state.rows.shape[1]
+        every = np.tile(which, SIZE + 1)
+        value, equal = self.conditions(
+            self.stack(every, z.reshape(-1, SIZE)), rows.reshape(-1, number, 3), every
+        )
+        value = value.reshape(SIZE + 1, count, -1)
+        slope = np.moveaxis((value[1:] - value[0]) / STRIDE, 0, -1)
+        return value[0], np.where(self.free[which][:, None], slope, 0.0), equal
+
+    def rooted(self, state: _State, power: float) -> tuple[FloatArray, FloatArray]:
+        """Residuals (k, n) and their derivatives (k, n, 10) whose squares are to be least."""
+        count = len(state.z)
+        miss = self.share[:, None] * state.miss
+        slope = self.share[:, None, None] * state.slope
+        if power == 2.0:
+            return miss.reshape(count, -1), slope.reshape(count, -1, SIZE)
+        size = np.sqrt((miss * miss).sum(axis=-1)) + np.finfo(float).tiny
+        top = size.max(axis=-1, keepdims=True)
+        toward = (miss[..., None] * slope).sum(axis=-2) / size[..., None]
+        root = (size / top) ** (power / 2)
+        return top * root, (power / 2 * root / size * top)[..., None] * toward
+
+
+def refine(
+    stack: LinkageStack,
+    places: Displacement,
+    poses: Displacement,
+    length: float,
+    *,
+    weights: FloatArray | None = None,
+    exact: NDArray[np.bool_] | None = None,
+    conditions: Conditions | None = None,
+    free: NDArray[np.bool_] | None = None,
+    worst: bool = False,
+    steps: int = STEPS,
+    rounds: int = ROUNDS,
+) -> Refined:
+    """Linkages (k,) with the least error at poses (N,), from those given and their places (k, N).
+
+    In frames where lengths are about 1 (`accuracy.error_frames`).  The places go along
+    continuously, so they stay on their circuits.  free: (k, 10), which dimensions may change.
+    worst: the greatest distance is to be least, not the sum of squares; by sums of ever higher
+    powers of the distances, so to about half a percent.  steps, and rounds of
+    multipliers where something is held: at most.
+    All minima are local ones.
+    """
+    count, number = len(stack), poses.shape[0]
+    exact = np.zeros(number, dtype=bool) if exact is None else exact
+    weights = np.ones(number) if weights is None else weights / weights.mean()
+    share = np.where(exact, 0.0, np.sqrt(weights))
+    slots = np.ones((count, 2, DIMENSIONS), dtype=bool)
+    slots[..., -1] = stack.kinds == 0
+    used = slots.reshape(count, SIZE) & (True if free is None else free)
+    problem = _Problem(stack.kinds, rows_of(poses, length), length, share, exact, conditions, used)
+    state = problem.state(
+        np.arange(count), stack.dimensions.reshape(count, SIZE), rows_of(places, length)
+    )
+    held = bool(exact.any()) or conditions is not None
+    for power in POWERS if worst else POWERS[:1]:
+        if held:
+            state, done, met, rows = _held(problem, state, power, rounds)
+        else:
+            state, done = _free(problem, state, power, steps)
+            met, rows = np.ones(count, dtype=bool), np.empty((count, 0, SIZE))
+    size = np.sqrt(((share[:, None] * state.miss) ** 2).sum(axis=-1))
+    cost = size.max(axis=-1) if worst else (size * size).sum(axis=-1) / 2
+    lost = ~np.isfinite(cost)
+    return Refined(
+        problem.stack(np.arange(count), state.z), state.rows, cost, done & ~lost, met & ~lost, rows
+    )
+
+
+def _normal_part(
+    at: Normal, gap: FloatArray, partial: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Of gaps (k, N, 3) what is normal to the motion, (k, N, 2), in an orthonormal basis.
+
+    With its derivatives (k, N, 2, 10) by the dimensions, and those of the places (k, N, 3, 10).
+    """
+    a, b, _ = np.moveaxis(at.gram, -1, 0)
+    first, height = np.sqrt(a), np.sqrt(at.det / a)
+    basis = np.empty_like(at.force)
+    basis[..., 0, :] = at.force[..., 0, :] / first[..., None]
+    basis[..., 1, :] = (at.force[..., 1, :] - (b / a)[..., None] * at.force[..., 0, :]) / height[
+        ..., None
+    ]
+    slope = np.zeros((*gap.shape[:-1], 2, SIZE))
+    slope[..., 0, :DIMENSIONS] = -partial[:, 0] / first[..., None]
+    slope[..., 1, :DIMENSIONS] = (b / a / height)[..., None] * partial[:, 0]
+    slope[..., 1, DIMENSIONS:] = -partial[:, 1] / height[..., None]
+    moved = np.swapaxes(basis, -1, -2) @ slope
+    return (basis @ gap[..., None])[..., 0], slope, moved
+
+
+def _free(
+    problem: _Problem, state: _State, power: float, steps: int
+) -> tuple[_State, NDArray[np.bool_]]:
+    """Levenberg and Marquardt's method without conditions."""
+    none = np.zeros((len(state.z), 0))
+    return _descend(problem, state, power, none, np.ones(len(state.z)), steps)
+
+
+def _descend(  # noqa: PLR0917
+    problem: _Problem,
+    state: _State,
+    power: float,
+    multiplier: FloatArray,
+    stiffness: FloatArray,
+    steps: int,
+) -> tuple[_State, NDArray[np.bool_]]:
+    """The least sum of squares with penalties on the conditions, shifted by their multipliers."""
+    z, rows = state.z.copy(), state.rows.copy()
+    parts = [np.array(part) for part in (state.miss, state.slope, state.moved)]
+    count = len(z)
+    run = np.flatnonzero(np.isfinite(rows).all(axis=(1, 2)))
+    bent, trust = np.zeros((count, SIZE, SIZE)), np.zeros(count, dtype=int)
+    done, damping = np.zeros(count, dtype=bool), np.full(count, DAMPING)
+    here = _State(z, rows, *parts).some(run)
+    residual, slope = _penalised(problem, run, here, power, multiplier, stiffness)
+    for _ in range(steps):
+        if not len(run):
+            break
+        cost = (residual * residual).sum(axis=-1)
+        step = _step(residual, slope, damping[run], problem.free[run])
+        curved = trust[run] >= CURVED
+        if curved.any():
+            step[curved] = _curved_step(
+                residual[curved], slope[curved], bent[run[curved]], damping[run[curved]]
+            )
+        shift = (here.moved @ step[:, None, :, None])[..., 0]
+        part = np.minimum(1.0, FAR / np.maximum(np.abs(shift).max(axis=(1, 2)), FAR))
+        step, shift = part[:, None] * step, part[:, None, None] * shift
+        to, start = here.z + step, here.rows + shift
+        there = problem.state(run, to, start)
+        next_residual, next_slope = _penalised(problem, run, there, power, multiplier, stiffness)
+        with np.errstate(invalid="ignore", over="ignore"):
+            after = (next_residual * next_residual).sum(axis=-1)
+        if power != 2.0:  # measured in the top distance of before
+            after = after * _rescaled(problem, here, there, power)
+        radius = to.reshape(-1, 2, DIMENSIONS)[..., -1]
+        sound = ((radius > 0) | (problem.kinds[run] > 0)).all(axis=-1)
+        sound &= np.abs(to).max(axis=-1) < FARTHEST
+        better = sound & (after <= cost * (1 + GAIN))
+        small = np.abs(step).max(axis=-1) < SETTLED * (1 + np.abs(here.z).max(axis=-1))
+        idle = better & (cost - after < GAIN * cost)
+        trust[run] = np.where(better, trust[run] + 1, np.where(curved, 0, trust[run]))
+        go = np.flatnonzero(better)
+        bent[run[go]] = _secant(
+            bent[run[go]], step[go], residual[go], slope[go], next_residual[go], next_slope[go]
+        )
+        here = here.but(better, there)
+        residual = np.where(better[:, None], next_residual, residual)
+        slope = np.where(better[:, None, None], next_slope, slope)
+        damping[run] = np.clip(np.where(better, damping[run] / 10, damping[run] * 10), LEAST, None)
+        for whole, part in zip((z, rows, *parts), here, strict=True):
+            whole[run] = part
+        end = small | idle | (damping[run] > MOST)
+        done[run[end]] = True
+        here, residual, slope, run = here.some(~end), residual[~end], slope[~end], run[~end]
+    return _State(z, rows, *parts), done
+
+
+def _rescaled(problem: _Problem, here: _State, there: _State, power: float) -> FloatArray:
+    """What the sum of powers at `there` is multiplied by, to be compared with that at `here`."""
+    top = [
+        np.sqrt(((problem.share[:, None] * each.miss) ** 2).sum(axis=-1)).max(axis=-1)
+        for each in (here, there)
+    ]
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+        return np.asarray((top[1] / top[0]) ** (power - 2))
+
+
+def _penalised(  # noqa: PLR0917
+    problem: _Problem,
+    which: NDArray[np.intp],
+    state: _State,
+    power: float,
+    multiplier: FloatArray,
+    stiffness: FloatArray,
+) -> tuple[FloatArray, FloatArray]:
+    """Residuals (k, n) and derivatives (k, n, 10), conditions and exact poses after the misses."""
+    residual, slope = problem.rooted(state, power)
+    slope = np.where(problem.free[which][:, None], slope, 0.0)
+    if not multiplier.shape[1]:
+        return residual, slope
+    value, turn, equal = _all_conditions(problem, which, state)
+    root = np.sqrt(stiffness[which])[:, None]
+    shifted = value + multiplier[which] / stiffness[which][:, None]
+    on = equal | (shifted > 0)
+    return (
+        np.concatenate([residual, np.where(on, root * shifted, 0.0)], axis=1),
+        np.concatenate([slope, np.where(on[..., None], root[..., None] * turn, 0.0)], axis=1),
+    )
+
+
+def _all_conditions(
+    problem: _Problem, which: NDArray[np.intp], state: _State
+) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]]:
+    """Exact poses (equalities) and conditions: values (k, m), derivatives, which are to be 0."""
+    count = len(which)
+    value, slope, equalities = problem.limits(which, state)
+    exact = state.miss[:, problem.exact].reshape(count, -1)
+    turn = state.slope[:, problem.exact].reshape(count, -1, SIZE)
+    turn = np.where(problem.free[which][:, None], turn, 0.0)
+    equal = np.concatenate([np.ones(exact.shape[1], dtype=bool), equalities])
+    return np.concatenate([exact, value], axis=1), np.concatenate([turn, slope], axis=1), equal
+
+
+def _step(
+    residual: FloatArray, slope: FloatArray, damping: FloatArray, free: NDArray[np.bool_]
+) -> FloatArray:
+    """Levenberg and Marquardt's step (k, 10)."""
+    size = np.sqrt((slope * slope).sum(axis=1))
+    top = size.max(axis=-1, keepdims=True) + np.finfo(float).tiny
+    size = np.where(free, np.maximum(size, 1e-12 * top), top)
+    whole = np.concatenate([slope / size[:, None], residual[..., None]], axis=-1)
+    low = np.zeros((len(residual), SIZE, SIZE + 1))
+    low[:, range(SIZE), range(SIZE)] = np.sqrt(damping)[:, None]
+    upper = np.asarray(np.linalg.qr(np.concatenate([whole, low], axis=1), mode="r"))
+    return np.asarray(
+        -np.linalg.solve(upper[:, :SIZE, :SIZE], upper[:, :SIZE, SIZE:])[..., 0] / size
+    )
+
+
+def _curved_step(
+    residual: FloatArray, slope: FloatArray, bent: FloatArray, damping: FloatArray
+) -> FloatArray:
+    """Newton's step (k, 10), with what is known of the curvature of the residuals."""
+    flat = np.swapaxes(slope, -1, -2) @ slope
+    size = np.sqrt(np.maximum(np.einsum("kii->ki", flat), np.finfo(float).tiny))
+    size = np.maximum(size, 1e-12 * size.max(axis=-1, keepdims=True))
+    downhill = (np.swapaxes(slope, -1, -2) @ residual[..., None])[..., 0] / size
+    values, axes = np.linalg.eigh((flat + bent) / (size[:, None] * size[..., None]))
+    values = np.maximum(np.abs(values), 1e-8) + damping[:, None]
+    along = (np.swapaxes(axes, -1, -2) @ downhill[..., None])[..., 0] / values
+    return np.asarray(-(axes @ along[..., None])[..., 0] / size)
+
+
+def _secant(  # noqa: PLR0917
+    bent: FloatArray,
+    step: FloatArray,
+    residual: FloatArray,
+    slope: FloatArray,
+    next_residual: FloatArray,
+    next_slope: FloatArray,
+) -> FloatArray:
+    """The residuals' own curvature (k, 10, 10), learnt from a step.
+
+    Dennis, Gay and Welsch, An adaptive nonlinear least-squares algorithm, ACM TOMS 7, 1981.
+    """
+
+    def against(rows: FloatArray, values: FloatArray) -> FloatArray:
+        return np.asarray((np.swapaxes(rows, -1, -2) @ values[..., None])[..., 0])
+
+    ahead = against(next_slope, next_residual)
+    own, gained = ahead - against(slope, next_residual), ahead - against(slope, residual)
+    curve = (gained * step).sum(axis=-1)
+    guess = (bent @ step[..., None])[..., 0]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        shrink = np.minimum(np.abs((step * own).sum(-1) / (step * guess).sum(-1)), 1.0)
+        shrink = np.where(np.isfinite(shrink), shrink, 1.0)[:, None]
+        rest = (own - shrink * guess) / curve[:, None]
+        lean = (step * rest).sum(axis=-1) / curve
+        mixed = rest[..., None] * gained[:, None]
+        new = shrink[..., None] * bent + mixed + np.swapaxes(mixed, -1, -2)
+        new = new - lean[:, None, None] * gained[..., None] * gained[:, None]
+    sound = (curve > 0) & np.isfinite(new).all(axis=(1, 2))
+    return np.where(sound[:, None, None], new, bent)
+
+
+def _held(
+    problem: _Problem, state: _State, power: float, rounds: int
+) -> tuple[_State, NDArray[np.bool_], NDArray[np.bool_], FloatArray]:
+    """The same with conditions and exact poses, by the method of multipliers."""
+    count = len(state.z)
+    every = np.arange(count)
+    value, _, equal = _all_conditions(problem, every, state)
+    multiplier = np.zeros_like(value)
+    start = problem.rooted(state, power)[0]
+    with np.errstate(invalid="ignore"):
+        stiffness = np.full(count, STIFF) + 0 * (start * start).sum(axis=-1)
+    before = np.full(count, np.inf)
+    for _ in range(rounds):
+        state, done = _descend(problem, state, power, multiplier, stiffness, INNER)
+        value, _, _ = _all_conditions(problem, every, state)
+        shifted = multiplier + stiffness[:, None] * value
+        # What a condition is off by: missed, or pressed though it is not touched.
+        off = np.where(equal, np.abs(value), np.maximum(value, -multiplier / stiffness[:, None]))
+        worst = np.abs(off).max(axis=-1, initial=0)
+        multiplier = np.where(equal, shifted, np.maximum(shifted, 0.0))
+        stiffness = np.where(worst > before / 4, 5 * stiffness, stiffness)
+        before = worst
+        if not (worst > MET).any():
+            break
+    return _closed(problem, state, multiplier, done)
+
+
+def _closed(
+    problem: _Problem, state: _State, multiplier: FloatArray, done: NDArray[np.bool_]
+) -> tuple[_State, NDArray[np.bool_], NDArray[np.bool_], FloatArray]:
+    """What is held met to rounding: Newton's method, by the shortest step."""
+    every = np.arange(len(state.z))
+    value, slope, equal = _all_conditions(problem, every, state)
+    active = equal | (multiplier > 0)
+    for _ in range(6):
+        active = active | (value > 0)
+        gap = np.where(active, value, 0.0)
+        if not (np.abs(gap) > SETTLED).any():
+            break
+        rows = np.where(active[..., None], slope, 0.0)
+        with np.errstate(invalid="ignore"):
+            sound = np.isfinite(rows).all(axis=(1, 2)) & np.isfinite(gap).all(axis=1)
+        step = np.zeros_like(state.z)
+        step[sound] = -(np.linalg.pinv(rows[sound], rcond=1e-10) @ gap[sound, :, None])[..., 0]
+        small = np.abs(step).max(axis=-1) < 0.1
+        step = np.where(small[:, None], step, 0.0)
+        start = state.rows + (state.moved @ step[:, None, :, None])[..., 0]
+        state = problem.state(every, state.z + step, start)
+        value, slope, _ = _all_conditions(problem, every, state)
+    with np.errstate(invalid="ignore"):
+        off = np.where(equal, np.abs(value), value).max(axis=-1, initial=0)
+        met = off < MET
+    return state, done, met, np.where(active[..., None], slope, 0.0)
