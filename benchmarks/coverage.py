@@ -1,12 +1,14 @@
 """Does the 95 % region of a pivot hold the true pivot?  Random four-bars, poses with known noise.
 
-    python -m benchmarks.coverage --draws 1000 --seed 0 [--second PR] [--fit scipy]
+    python -m benchmarks.coverage --draws 1000 --seed 0 [--second PR] [--fit refine]
 
 Each draw is another linkage, met on one assembly by 8 to 20 poses; their coordinates err by a
 normal distribution of 1e-5, 1e-4 and 1e-3 of their span, their angles by as many radians.
-`synthesize` gets the noisy poses and nothing else; of its linkages, each refined, the one nearest
-to the truth counts (`--fit scipy`: SciPy's fit from the truth instead, with a driver's position for
-each pose among the unknowns).  The regions come from the fitted linkage, never from the true one.
+`synthesize` gets the noisy poses and how exactly they are known; of its linkages the one nearest
+to the truth counts, with the regions that it has there.  `--fit refine` only refines all pairs of
+dyads, without verdicts and ranks (far quicker); `--fit scipy` is SciPy's fit from the truth, with a
+driver's position for each pose among the unknowns.  The regions come from the fitted linkage,
+never from the true one.
 A draw is "not determined" where a region reaches farther than 5 % of the span: so far the first
 order need not hold, and the package gives no tick there.  Those are counted apart.
 The goal is 90 to 99 % of the others.
@@ -15,16 +17,18 @@ The goal is 90 to 99 % of the others.
 import argparse
 import sys
 import time
+from itertools import combinations
 
 import numpy as np
 from scipy.optimize import least_squares
 from tests.witness import places, random_four_bar, random_poses, span
 
 from burmester.accuracy import error_frames, nearest, on_circuits
-from burmester.candidates import characteristic_length
+from burmester.candidates import characteristic_length, found_dyads
 from burmester.displacement import Displacement
 from burmester.dyad import PR, RP, RR
 from burmester.linkage import Linkage
+from burmester.optimal import best_dyads
 from burmester.refinement import refine
 from burmester.stack import LinkageStack
 from burmester.synthesis import synthesize
@@ -92,40 +96,67 @@ def hits(true, found, told):
         yield "link length", bool(abs(true.radius - found.radius) < told.length)
 
 
-def by_package(dyads, rows, length):
-    """The same of the linkage nearest to the truth among those that the package finds, or None."""
+def by_refining(dyads, rows, length):
+    """The linkage nearest to the truth of all pairs of dyads, refined, or None."""
     poses = Displacement.from_poses(rows)
-    kinds = {type(d) for d in dyads}
-    linkages = [each.linkage for each in synthesize(Task(poses)).linkages]
-    linkages = [
-        Linkage(*((a, b) if isinstance(a, type(dyads[0])) else (b, a)))
-        for a, b in ((each.first, each.second) for each in linkages)
-        if {type(a), type(b)} == kinds
-    ]
+    found, _ = found_dyads(best_dyads(poses), Task(poses))
+    linkages = [Linkage(*pair) for pair in combinations([each.dyad for each in found], 2)]
     if not linkages:
         return None
     frames = error_frames(poses, length)
     seen, unit = frames.see(poses), length / float(frames.length)
     stack = LinkageStack.of(linkages).seen(frames)
     refined = refine(stack, nearest(on_circuits(stack, seen, unit), seen, unit), seen, unit)
-    fitted = refined.stack.back(frames)
-    best, least = None, np.inf
-    for k in np.flatnonzero(refined.settled):
-        linkage, rows = fitted.linkage(k), refined.rows[k]
-        here = frames.unseen(Displacement(rows[:, :2], rows[:, 2] / unit))
+    fitted, best, least = refined.stack.back(frames), None, np.inf
+    for k in np.flatnonzero(np.isfinite(refined.cost)):
+        linkage, there = fitted.linkage(k), refined.rows[k]
+        here = frames.unseen(Displacement(there[:, :2], there[:, 2] / unit))
         for pair in ((linkage.first, linkage.second), (linkage.second, linkage.first)):
-            if [type(d) for d in pair] != [type(d) for d in dyads]:
-                continue
-            away = max(distance(a, b) for a, b in zip(pair, dyads, strict=True))
-            if away < least:
+            if (away := apart(pair, dyads)) < least:
                 best, least = (list(pair), np.column_stack([here.translation, here.angle])), away
     return best
+
+
+def by_package(dyads, rows, sigma):
+    """The same of what `synthesize` finds: the dyads and their regions, or None."""
+    # A digit that is rounded errs evenly within the resolution.
+    task = Task(Displacement.from_poses(rows), resolution=(sigma[0] * 3**0.5, sigma[1] * 3**0.5))
+    best, least = None, np.inf
+    for each in synthesize(task).linkages:
+        if each.uncertainty is None:
+            continue
+        for way in (1, -1):
+            pair = [each.linkage.first, each.linkage.second][::way]
+            if (away := apart(pair, dyads)) < least:
+                best, least = (pair, each.uncertainty[::way]), away
+    return best
+
+
+def apart(pair, true):
+    """How far two dyads are from the true ones, infinite if they are of other kinds."""
+    if [type(d) for d in pair] != [type(d) for d in true]:
+        return np.inf
+    return max(distance(a, b) for a, b in zip(pair, true, strict=True))
 
 
 def distance(dyad, true):
     """Between the pivots of two dyads of a kind, the greatest."""
     names = [name for name in dyad.__slots__ if name.endswith("pivot")]
     return max(np.hypot(*(getattr(dyad, name) - getattr(true, name))) for name in names)
+
+
+def fitted(how, dyads, true, side, rows, sigma):  # noqa: PLR0917
+    """The dyads of the fitted linkage and their regions, or None."""
+    if how == "package":
+        return by_package(dyads, rows, sigma)
+    length = characteristic_length(Task(Displacement.from_poses(rows)))
+    if how == "scipy":
+        found = by_scipy(dyads, true, side, rows, length)
+    else:
+        found = by_refining(dyads, rows, length)
+    if found is None or not np.isfinite(found[1]).all():
+        return None
+    return found[0], judged(*found, rows, sigma, length)
 
 
 def judged(found, at, rows, sigma, length):
@@ -144,7 +175,7 @@ def main():
     parser.add_argument("--draws", type=int, default=1000)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--second", choices=["RR", "PR", "RP"], default="RR")
-    parser.add_argument("--fit", choices=["package", "scipy"], default="package")
+    parser.add_argument("--fit", choices=["package", "refine", "scipy"], default="package")
     given = parser.parse_args()
     second, bad = {"RR": RR, "PR": PR, "RP": RP}[given.second], False
     for number, level in enumerate(LEVELS):
@@ -155,19 +186,13 @@ def main():
             dyads, true, side = problem(rng, second)
             size = span(true)
             rows = true + rng.normal(size=true.shape) * [level * size, level * size, level]
-            length = characteristic_length(Task(Displacement.from_poses(rows)))
-            if given.fit == "scipy":
-                found = by_scipy(dyads, true, side, rows, length)
-            else:
-                found = by_package(dyads, rows, length)
-            if found is None or not np.isfinite(found[1]).all():
+            sigma = level * size, level
+            if (answer := fitted(given.fit, dyads, true, side, rows, sigma)) is None:
                 missing += 1
                 continue
-            told = judged(*found, rows, (level * size, level), length)
+            found, told = answer
             half = max(each.half_width for each in told)
-            every = [
-                hit for parts in zip(dyads, found[0], told, strict=True) for hit in hits(*parts)
-            ]
+            every = [hit for parts in zip(dyads, found, told, strict=True) for hit in hits(*parts)]
             if not half <= OPEN * size:
                 undetermined += 1
                 open_hits += [hit for name, hit in every if name.endswith("pivot")]

@@ -713,10 +713,44 @@ def test_passing_a_change_point_is_a_defect_but_not_a_certain_one(name):
             assert {d.kind for d in every} <= {"branch", "circuit", "order"}
             assert verdict.defects or verdict.first.defects
             assert not any(d.certain for d in every)
+            assert all(d.message.endswith(": too close to call") for d in every)
             passing = [d for d in verdict.first.defects if d.kind == "branch"]
             if s[1] != tie[name] and passing and not verdict.defects:
                 assert "passes a change point between poses" in passing[0].message
                 assert 2 in passing[0].poses
+
+
+def test_a_pose_on_a_change_point_is_on_no_other_assembly():
+    linkage, rng = CHANGE["parallelogram"], np.random.default_rng(7)
+    poses = rows_of(Circuits.of(linkage, as_given=True)[0].couplers(np.array([0.0, 0.4, 0.9])))
+    for verdict in verdicts_on(nudged(linkage, rng, 24), poses, 24):
+        assert not verdict.defects
+        for driver in (verdict.first, verdict.second):
+            text = "is at a change point at pose 1: too close to call"
+            assert ("branch", text, False) in said(driver.defects)
+
+
+@pytest.mark.parametrize("unit", [1e-6, 1e6])
+@all_pairs
+def test_the_unit_of_length_changes_no_verdict(pair, unit):
+    circuits, linkage, s, _ = circuits_of(pair, 34, 30)
+    rows = rows_of(circuits.couplers(s[:, :5]))
+    rows[:, 3] = rows_of(circuits.couplers(s[:, 2:3] - 1e-3 * rng_signs(len(s))))[:, 0]
+    scaled = []
+    for dyad in (linkage.first, linkage.second):
+        lengths = ("fixed_pivot", "moving_pivot", "radius", "offset")
+        values = ((name, getattr(dyad, name)) for name in type(dyad).__slots__)
+        scaled.append(type(dyad)(*(v * unit if name in lengths else v for name, v in values)))
+    found = []
+    for each, size in ((linkage, 1.0), (Linkage(*scaled), unit)):
+        places = Displacement.from_poses(rows * [size, size, 1])
+        verdicts = judge(each, places, missed=np.zeros(places.shape), reach=1e-6)
+        found.append([said(kinds_of(verdict)) for verdict in verdicts])
+    assert found[0] == found[1]
+
+
+def rng_signs(count):
+    return np.random.default_rng(8).choice([-1.0, 1.0], (count, 1))
 
 
 @pytest.mark.parametrize("name", ["rails parallel by rounding", "Oldham with parallel slots"])

@@ -400,10 +400,24 @@ def test_a_change_point_is_said_and_nothing_guessed(name):
 NOTHING_AS_GIVEN = ("rails parallel by rounding", "Oldham with parallel slots")
 
 
+def in_another_frame(dyad, shift):
+    """A dyad, with the origin of M elsewhere."""
+    if isinstance(dyad, RR):
+        return RR(dyad.fixed_pivot, dyad.moving_pivot + shift, dyad.radius)
+    if isinstance(dyad, PR):
+        return PR(dyad.normal_angle, dyad.offset, dyad.moving_pivot + shift)
+    normal = np.array([np.cos(dyad.normal_angle), np.sin(dyad.normal_angle)])
+    return RP(dyad.fixed_pivot, dyad.normal_angle, dyad.offset + normal @ shift)
+
+
 @pytest.mark.parametrize("name", CHANGE)
 def test_a_change_point_as_given_has_places_with_no_gaps(name):
-    linkage = CHANGE[name]
-    for either in (linkage, Linkage(linkage.second, linkage.first)):
+    first, second = (
+        in_another_frame(d, np.array([0.5, -2.0]))
+        for d in (CHANGE[name].first, CHANGE[name].second)
+    )
+    linkage = Linkage(first, second)
+    for either in (CHANGE[name], linkage, Linkage(linkage.second, linkage.first)):
         every = Circuits.of(either, as_given=True)
         assert every.undecided.all()
         assert every.exists[0] == (name not in NOTHING_AS_GIVEN)
@@ -416,9 +430,9 @@ def test_a_change_point_as_given_has_places_with_no_gaps(name):
             rows = rows_of(place)
             for dyad in (either.first, either.second):
                 size = 1 + np.abs(rows[:, :2]).max(axis=1)
-                assert (np.abs(constraint(dyad, rows)[0]) < 1e-14 * size).all()
+                assert (np.abs(constraint(dyad, rows)[0]) < 1e-13 * size).all()
             curve = circuit.curve([1.0, 2.0], s)
-            assert np.abs(curve - place.act(np.array([1.0, 2.0]))).max() < 1e-14 * np.max(size)
+            assert np.abs(curve - place.act(np.array([1.0, 2.0]))).max() < 1e-13 * np.max(size)
             found = circuit_of(either, place, as_given=True)
             assert np.isfinite(found.parameter).all()
             away = transmission_angle(either, place) > 1e-3
@@ -426,6 +440,24 @@ def test_a_change_point_as_given_has_places_with_no_gaps(name):
             miss = (found.parameter - s)[away]
             miss = np.angle(np.exp(1j * miss)) if circuit.closed else miss
             assert np.abs(miss).max(initial=0) < 1e-9
+
+
+def test_as_given_a_place_is_found_whatever_the_last_digit():
+    for k in (-1e-15, -3e-16, 0.0, 3e-16, 1e-15):  # one place only, or none by rounding
+        for linkage in (four_bar(4.0 + k, 1.0, 2.0, 1.0), four_bar(4.0 + k, 2.0, 1.0, 1.0)):
+            place = Circuits.of(linkage, as_given=True)[0].couplers(np.array([0.0, 1.0]))
+            assert np.isfinite(place.angle).all()
+            assert np.isfinite(circuit_of(linkage, place, as_given=True).parameter).all()
+    # A slot through the pin, which is driven past the slot's pivot.
+    slot = Linkage(PR(0.3, 0.0, [0, 0]), RP([0, 0], 0.5, 0.0))
+    assert np.isfinite(Circuits.of(slot, as_given=True)[0].couplers(np.zeros(1)).angle).all()
+    found = circuit_of(slot, Displacement.from_poses([[0.0, 0, 1]]), as_given=True)
+    assert np.isfinite(found.branch_margin).all()
+    # Half a turn on, from either side.
+    rapson = CHANGE["Rapson slide"]
+    for turn in (np.pi, -np.pi):
+        found = circuit_of(rapson, Displacement.from_poses([[1.0, 0, turn]]), as_given=True)
+        assert np.isclose(found.parameter[0], np.pi)
 
 
 def test_elsewhere_as_given_is_the_same():

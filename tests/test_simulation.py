@@ -23,6 +23,7 @@ LEAST = np.radians(15)  # transmission angle, all the way
 TORN = 1e-4  # spans, of the simulated loop on its way
 OVERRUN = 0.02  # of the circuit's parameter
 STALLED = 2e-4  # from a dead point; all of the motor's force tears at the loop there
+TRIES = 500  # at most, until a random linkage suits
 MISSED = 1e-2  # by more than that, poses on another branch or circuit
 LOCKED = ("rocker-crank", "double-rocker", "triple-rocker", "slider-crank", "rocker-slider",
           "slider-rocker")  # fmt: skip
@@ -42,12 +43,13 @@ def stays_well_driven(linkage, s, number):
 
 def driven_case(kind, rng):
     """A linkage of a kind and 6 to 10 poses in order on a branch, none of them near its ends."""
-    while True:
+    for _ in range(TRIES):
         linkage = random_linkage(rng, kind)
         poses = poses_of(linkage, "sound", rng, int(rng.integers(6, 11)))
         where = circuit_of(linkage, poses)
         if stays_well_driven(linkage, where.parameter, int(where.circuit[0])):
             return linkage, poses, where
+    pytest.fail(f"no {kind} is driven well")
 
 
 @pytest.mark.parametrize("seed", range(len(KINDS)), ids=[f"{k}-{n}" for n, k in enumerate(KINDS)])
@@ -94,13 +96,15 @@ def test_the_motor_stalls_at_the_dead_points(kind):
 def test_poses_beyond_a_dead_point_are_not_met(kind):
     """A motor cannot push the linkage through; those on the branch where it began are met."""
     rng = np.random.default_rng([6, LOCKED.index(kind)])
-    while True:
+    for _ in range(TRIES):
         case = random_case(rng, "branch", kind)
         where = circuit_of(case.linkage, case.poses)
         far = where.branch_margin > np.sin(LEAST)  # or its momentum takes it through
         both = [np.flatnonzero(far & (where.branch == k))[:5] for k in where.branch[[0, -1]]]
         if where.branch[0] != where.branch[-1] and min(map(len, both)) >= 2:
             break
+    else:
+        pytest.fail(f"no {kind} with poses on both branches")
     chosen = np.concatenate(both)
     rows, branch = rows_of(case.poses)[chosen], where.branch[chosen]
     assert not driven_either_way(case.linkage, rows).meets
@@ -121,13 +125,15 @@ def test_poses_on_the_other_circuit_are_not_met(kind):
     """However the crank turns; those on the circuit where it began are met."""
     rng = np.random.default_rng([7, KINDS.index(kind)])
     turn = np.linspace(0, 2 * np.pi, 9)[:-1]
-    while True:
+    for _ in range(TRIES):
         case = random_case(rng, "circuit", kind)
         where = circuit_of(case.linkage, case.poses)
         if len(set(where.circuit[:6])) == 2 and stays_well_driven(
             case.linkage, turn, int(where.circuit[0])
         ):
             break
+    else:
+        pytest.fail(f"no {kind} with poses on both circuits")
     rows, same = rows_of(case.poses)[:6], (where.circuit == where.circuit[0])[:6]
     run = driven_either_way(case.linkage, rows)
     assert not run.meets

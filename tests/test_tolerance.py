@@ -177,6 +177,12 @@ def test_a_linkage_that_meets_its_poses_has_only_the_spread():
     assert told.rms[0] < told.greatest_95[0] < told.bound[0]
 
 
+def tenth(dyad):
+    if isinstance(dyad, RR):
+        return RR(dyad.fixed_pivot / 10, dyad.moving_pivot / 10, dyad.radius / 10)
+    return PR(dyad.normal_angle, dyad.offset / 10, dyad.moving_pivot / 10)
+
+
 def test_several_linkages_of_several_kinds_at_once():
     one, rows, _, found = problem(6, RR)
     stack = LinkageStack.of([Linkage(*one), Linkage(one[1], one[0])])
@@ -190,6 +196,18 @@ def test_several_linkages_of_several_kinds_at_once():
     together = spread(mixed, Displacement.from_poses(more), at, LENGTH, 0.01)
     assert np.isclose(together.rms[1], alone.rms[0])
     assert np.isclose(together.greatest_95[1], alone.greatest_95[0])
+    # Ten times smaller a unit, and ten times the numbers.
+    tenfold = LinkageStack.of([Linkage(*(tenth(d) for d in other))])
+    small = spread(
+        tenfold,
+        Displacement(more[:, :2] / 10, more[:, 2]),
+        Displacement(there[None, :, :2] / 10, there[None, :, 2]),
+        LENGTH / 10,
+        0.001,
+    ).one(0, 10.0)
+    assert np.allclose(small.worst, together.worst[1])
+    assert np.isclose(small.bound, together.bound[1])
+    assert np.isclose(small.rms, together.rms[1])
 
 
 def test_a_linkage_that_cannot_be_built_so_is_lost():

@@ -144,10 +144,13 @@ class Circuits:
 
     def couplers(self, parameter: FloatArray) -> Displacement:
         """Coupler places (*, n) at parameters (n,) or (*, n); nan where there is no circuit."""
-        d, turn = self._places(parameter)
         change = self.undecided & self.exists
         if change.any():
+            with np.errstate(invalid="ignore", divide="ignore"):
+                d, turn = self._places(parameter)
             self._restore(change, parameter, d, turn)
+        else:
+            d, turn = self._places(parameter)
         shape = (*self.shape, d.shape[-1])
         return displacement_of(d.reshape(shape), turn.reshape(shape))
 

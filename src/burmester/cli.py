@@ -274,8 +274,6 @@ def synthesize(
         further["step"] = text.above_zero("--round", step)
     if stock:
         further["stock"] = text.lengths("--stock", stock)
-    if accept_uncertain:
-        further["accept_uncertain"] = True
     task = read_task(
         poses,
         angle_unit=angle_unit,
@@ -296,8 +294,9 @@ def synthesize(
 
 
 def _exit_code(synthesis: Synthesis, accept_uncertain: bool) -> int:
-    """Whether anything was found that can be built."""
-    return EXIT_FOUND if synthesis.linkages else EXIT_NOTHING
+    """Whether a linkage was found that can be built: it works, and its pivots are determined."""
+    found = synthesis.determined or (accept_uncertain and bool(synthesis.usable))
+    return EXIT_FOUND if found else EXIT_NOTHING
 
 
 @burmester.command()
@@ -335,7 +334,7 @@ def reproduce(as_json: bool) -> int:
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Run the command and exit: 0 found, 1 nothing found, 2 bad input or usage, 3 a bug."""
+    """Run the command and exit: 0 a usable linkage found, 1 none, 2 bad input or usage, 3 a bug."""
     given = list(sys.argv[1:] if arguments is None else arguments)
     try:
         code = burmester.main(given, prog_name="burmester", standalone_mode=False)

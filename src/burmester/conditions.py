@@ -139,14 +139,13 @@ class Journey:
     ) -> Journey:
         """The journey that is nearest to what places rows (k, N, 3) are.
 
-        middle: (k,), the drive amid its dead points; nan where the drive turns fully.
+        middle: (k,), the drive amid its dead points; nan where it turns fully, or slides.
         """
         clear = float(np.sin(max(CLEAR, requirements.transmission)))
         drive, turns = drive_of(stack, rows, length, driver)
         round_ = turns & np.isnan(middle)
-        between = np.where(
-            (turns & ~round_)[:, None], wrapped_angle(drive - middle[:, None]), drive
-        )
+        between = drive - np.nan_to_num(middle)[:, None]
+        between = np.where((turns & ~round_)[:, None], wrapped_angle(between), between)
         step = np.diff(between, axis=1)
         step = np.where(round_[:, None], wrapped_angle(step), step)
         forward = (step > 0).mean(axis=1) >= 0.5

@@ -234,6 +234,7 @@ class _Journey(NamedTuple):
     told: those that are on it; clear: and not beside a dead point.  key: circuit and branch;
     crossing: (k,), whether there is more than one.  circuit: (k,), its number or -1.
     round: (k,), whether it is judged all round, not along a branch.
+    size: (k,), what steps along it are measured by.
     doubtful: (k,), whether the order is uncertain for a change point.
     """
 
@@ -245,6 +246,7 @@ class _Journey(NamedTuple):
     circuits: Circuits
     round: BoolArray
     order: _Order
+    size: FloatArray
     doubtful: BoolArray
 
 
@@ -320,18 +322,21 @@ def _journey(linkage: Linkage, seen: _Seen, on: BoolArray, any_order: bool) -> _
     middle = QUARTER + np.pi * (own % 2)
     one_branch = circuits.closed & ~all_round
     s = np.where(one_branch[:, None], middle + _within_half_a_turn(s - middle), s)
+    size = _size(linkage, circuits, seen.places, told, s)
     doubtful = np.zeros(len(s), dtype=bool)
     if any_order:
         order = _Order(np.where(all_round[:, None], _smallest_arc(s), s), np.zeros(len(s)))
     else:
-        straight = _straight(s, _size(linkage, circuits, seen.places, told))
+        straight = _straight(s, size)
         turned = _turned(s)
         order = _Order(
             np.where(all_round[:, None], turned.along, straight.along),
             np.where(all_round, turned.back, straight.back),
         )
-        doubtful = circuits.undecided & circuits.closed & (turned.back <= STEP_BACK)
-    return _Journey(told, clear, key, crossing, circuit, circuits, all_round, order, doubtful)
+        elsewhere = (np.isfinite(seen.places.angle) & ~on).any(axis=1)
+        doubtful = elsewhere | (circuits.closed & (turned.back <= STEP_BACK))
+        doubtful = doubtful & circuits.undecided
+    return _Journey(told, clear, key, crossing, circuit, circuits, all_round, order, size, doubtful)
 
 
 def _range(journey: _Journey, seen: _Seen) -> _Range:
@@ -436,7 +441,7 @@ def _smallest_arc(s: FloatArray) -> FloatArray:
 
 
 def _size(
-    linkage: Linkage, circuits: Circuits, places: Displacement, told: BoolArray
+    linkage: Linkage, circuits: Circuits, places: Displacement, told: BoolArray, s: FloatArray
 ) -> FloatArray:
     """What steps back along intervals are measured by, (k,): a length where they are lengths."""
     one = np.ones(len(told))
@@ -450,10 +455,8 @@ def _size(
     else:
         assert isinstance(second, RP)
         other = complex_of(second.fixed_pivot)
-    x = (pin * np.exp(-1j * first.normal_angle)).imag
-    low, high = np.where(told, x, np.inf).min(axis=1), np.where(told, x, -np.inf).max(axis=1)
     arm = np.where(told, np.abs(pin - other), 0.0).max(axis=1)
-    return np.where(circuits.closed | ~told.any(axis=1), 1.0, arm + high - low)
+    return np.where(circuits.closed | ~told.any(axis=1), 1.0, arm + np.ptp(s, axis=1))
 
 
 # The range ----------------------------------------------------------------------------------------
@@ -481,8 +484,8 @@ def _drives(
         w = drive.reading(places)[0]
     if not drive.turns:
         return np.asarray(drive.centre + w.real)
-    course, half = circuits.course[:, None], QUARTER * circuits.sign[:, None]
-    middle = np.where(course == Course.BELOW, np.pi, np.where(course == Course.ABOVE, 0.0, half))
+    course = circuits.course[:, None]
+    middle = np.where(course == Course.BELOW, np.pi, 0.0)  # others keep psi within half a turn
     swung = middle + _within_half_a_turn(np.angle(w) - middle)
     return np.asarray(drive.centre + np.where(course == Course.WHOLE, along, swung))
 
@@ -599,7 +602,7 @@ def _order(journey: _Journey, ranged: _Range, k: int, called: _Names) -> Defect:
     passed = journey.circuits.undecided[k] and ranged.least[k] < TOO_CLOSE
     certain = journey.order.back[k] > STEP_BACK and not journey.doubtful[k] and not passed
     poses = np.flatnonzero(told)
-    steps = np.round(journey.order.along[k][told] / REPEATED)
+    steps = np.round(journey.order.along[k][told] / (REPEATED * journey.size[k]))
     # Of both senses, the one with the lower number first.
     ways = []
     for sense in (1, -1):

@@ -52,13 +52,14 @@ FEW = 5  # linkages found under conditions are kept, at most
 class FoundLinkage:
     """A linkage made of two of the dyads found, refined as a whole, and what is to be said of it.
 
-    dyads: with their dimensions in this linkage, the driver first where it works; ids say from
-        which of the dyads found they come.
+    dyads: with their dimensions in this linkage, the better driver first unless the task has two
+        limits, whose order they keep; ids say from which of the dyads found they come.
     error: at the places where the coupler is for the poses, all on one circuit unless there is
         a circuit defect.
     verdict: circuit, branch and order for either driver.
-    driver: which dyad drives, None where neither leads through the poses.
-    unmet: what is asked of it and not so.
+    better: which dyad is the better driver, or the only one allowed.
+    usable: whether it leads through all poses, driven by that dyad, and is as asked.
+    unmet: what is asked of it and not so, driven by that dyad.
     sought: whether it was looked for under conditions, the closest ones not being usable.
     uncertainty: what errors of the poses leave open of both dyads.
     spread: of the error, where links and pivots are built within a tolerance.
@@ -71,7 +72,8 @@ class FoundLinkage:
     linkage: Linkage
     error: PoseError
     verdict: Verdict
-    driver: Side | None
+    better: Side
+    usable: bool
     unmet: tuple[Unmet, ...] = ()
     sought: bool = False
     uncertainty: tuple[DyadUncertainty, DyadUncertainty] | None = None
@@ -80,19 +82,24 @@ class FoundLinkage:
     exact_error: PoseError | None = None
 
     @property
-    def usable(self) -> bool:
-        """Whether it leads through all poses, and is as asked."""
-        return self.driver is not None
+    def driver(self) -> Side | None:
+        """Which dyad drives; None where the linkage is not usable."""
+        return self.better if self.usable else None
 
     @property
     def driven(self) -> Driven:
-        """How it does with the driver that it has, or the better one."""
-        return self.verdict.first
+        """How it does with the better driver."""
+        return self.verdict.first if self.better == "first" else self.verdict.second
 
     @property
     def defects(self) -> tuple[Defect, ...]:
         """Why it is not usable: of the linkage, and of its better driver."""
-        return self.verdict.defects + self.verdict.first.defects
+        return self.verdict.defects + self.driven.defects
+
+    @property
+    def led(self) -> Linkage:
+        """The linkage with the better driver first."""
+        return _led(self.linkage, self.better)
 
 
 @final
@@ -288,17 +295,15 @@ class _Judging:
         verdicts = self._verdicts(own, places, errors)
         order = np.tile(np.arange(2), (len(own), 1))
         out = []
-        for k, found in enumerate(verdicts):
-            side, missing, works = self._driver(own.linkage(k), found)
-            if side == "second":
-                order[k] = order[k, ::-1]
-            sides = order[k]
-            linkage, verdict = _led(own.linkage(k), sides[0]), _led_verdict(found, sides[0])
-            first, second = (made.pairs[k][side] for side in sides)
-            dyads = self.dyad(first, linkage.first), self.dyad(second, linkage.second)
-            driver: Side | None = "first" if works else None
-            said = FoundLinkage("", 0, dyads, linkage, errors[k], verdict, driver, missing)
-            out.append(replace(said, sought=made.sought))
+        for k, verdict in enumerate(verdicts):
+            linkage, pair = own.linkage(k), made.pairs[k]
+            better, missing, works = self._driver(linkage, verdict)
+            if better == "second" and len(self.task.limits) < 2:
+                order[k], pair, linkage = order[k, ::-1], pair[::-1], _led(linkage, better)
+                verdict, better = Verdict(verdict.defects, verdict.second, verdict.first), "first"  # noqa: PLW2901
+            dyads = self.dyad(pair[0], linkage.first), self.dyad(pair[1], linkage.second)
+            said = (dyads, linkage, errors[k], verdict, better, works, missing, made.sought)
+            out.append(FoundLinkage("", 0, *said))
         rows = np.arange(len(own))[:, None]
         led = LinkageStack(made.stack.kinds[rows, order], made.stack.dimensions[rows, order])
         return self.ranked(self._measured(out, led, made.rows))
@@ -373,8 +378,7 @@ class _Judging:
 
         def judged(side: Side) -> tuple[tuple[float, ...], tuple[Unmet, ...]]:
             driven = verdict.first if side == "first" else verdict.second
-            turned = linkage if side == "first" else Linkage(linkage.second, linkage.first)
-            missing = unmet(turned, driven, asked, self.task.length_unit)
+            missing = unmet(_led(linkage, side), driven, asked, self.task.length_unit)
             wrong = len(driven.defects), len(missing)
             weak = -float(np.nan_to_num(driven.least_over_range))
             return (*map(float, wrong), 0.0 if driven.turns_fully else 1.0, weak), missing
@@ -416,13 +420,9 @@ class _Judging:
         return out
 
 
-def _led(linkage: Linkage, driver: int) -> Linkage:
+def _led(linkage: Linkage, driver: Side) -> Linkage:
     """With the dyad that drives first."""
-    return Linkage(linkage.second, linkage.first) if driver else linkage
-
-
-def _led_verdict(verdict: Verdict, driver: int) -> Verdict:
-    return Verdict(verdict.defects, verdict.second, verdict.first) if driver else verdict
+    return Linkage(linkage.second, linkage.first) if driver == "second" else linkage
 
 
 def _sizable(stack: LinkageStack) -> NDArray[np.bool_]:

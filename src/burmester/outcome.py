@@ -2,20 +2,33 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, TypeAlias, final
 
-from burmester.candidates import LONG, Fit, FoundDyad
+from burmester.candidates import LONG, Fit, FoundDyad, characteristic_length
 from burmester.critical import COUNT, CriticalDyads
+from burmester.distinct import rotation_range
 from burmester.dyad import RR
 from burmester.errors import InputError
 from burmester.exact import FivePoseDyads
 from burmester.fingerprint import Fingerprint
+from burmester.joined import FoundLinkage
 from burmester.limited import LimitedDyads, Norm
+from burmester.limits import Point
 from burmester.optimal import BestDyads
+from burmester.reasons import (
+    by_nearness,
+    figure,
+    in_short,
+    least_angle,
+    length_of,
+    met,
+    span,
+    way_on,
+)
 from burmester.task import CONDITIONS, Task
-from burmester.uncertainty import pivot_uncertainty
 
 __all__ = [
     "Advice",
@@ -25,8 +38,14 @@ __all__ = [
     "chosen_method",
     "count",
     "family",
+    "linkage_advice",
     "outcome",
+    "told",
 ]
+
+BETTER = 1.2  # times the transmission angle, for another linkage to be named
+LITTLE = math.radians(30)  # of rotation
+GOOD_TRANSMISSION = math.radians(40)  # least angle over the range; below it friction may lock
 
 Method: TypeAlias = Literal["auto", "pencil", "exact", "complete"]
 
@@ -36,13 +55,15 @@ Method: TypeAlias = Literal["auto", "pencil", "exact", "complete"]
 class Outcome:
     """What came of a task: a stable code, a sentence, and what to do where nothing came.
 
-    R300 linkages; R302 too few dyads for one; R303 infinitely many; R306 none within the limits;
-    R307 approximate ones, for want of two real dyads; R310 and above: see `motion_kind`.
+    R300 usable linkages; R301 none of them usable; R302 too few dyads for one; R303 infinitely
+    many; R305 usable ones, but no pivots determined; R306 none within the limits; R307 approximate
+    ones, for want of two real dyads; R310 and above: see `motion_kind`.  why: with numbers.
     """
 
     code: str
     message: str
     help: str | None = None
+    why: str | None = None
 
 
 @final
@@ -134,24 +155,13 @@ def advice(
         for item in dyads
         if isinstance(item.dyad, RR) and item.dyad.radius > LONG * length
     ]
-    for item in dyads:
-        loose = pivot_uncertainty(item.dyad, task) if isinstance(item.dyad, RR) else None
-        if loose is not None and max(loose) > length:
-            warnings.append(
-                Advice(
-                    "W209",
-                    f"the digits of the poses leave the pivots of {item.id} free by about "
-                    f"{max(loose):.2g}, more than the motion's own size",
-                    "give more digits, or poses with more rotation between them",
-                )
-            )
     for fit in fits:
         search = fit.search if isinstance(fit, BestDyads) else None
-        if isinstance(search, CriticalDyads) and (told := _accounted(search)) < COUNT:
+        if isinstance(search, CriticalDyads) and (known := _accounted(search)) < COUNT:
             warnings.append(
                 Advice(
                     "W207",
-                    f"{told} of {COUNT} critical points were told apart: a locally best "
+                    f"{known} of {COUNT} critical points were told apart: a locally best "
                     "dyad may be missing",
                     "compare with --method pencil; poses of a special motion are the usual reason",
                 )
@@ -216,34 +226,164 @@ def outcome(  # noqa: PLR0917
 ) -> Outcome:
     """What came of a task, in one sentence; `real`: how many dyads are no mere neighbours."""
     first = fits[0]
+    dyads, aside = _dyads(task, method, fits, found, real)
+    if linkages:
+        code = "R307" if isinstance(first, FivePoseDyads) and real < 2 else "R300"
+        return Outcome(code, f"{count(linkages, 'four-bar')} from {dyads}{aside}")
+    return _none(task, found, dyads + aside)
+
+
+def told(  # noqa: PLR0917
+    task: Task,
+    method: Method,
+    fits: Sequence[Fit],
+    found: Sequence[FoundDyad],
+    real: int,
+    linkages: Sequence[FoundLinkage],
+) -> Outcome:
+    """What came of a task, in one sentence; `real`: how many dyads are no mere neighbours.
+
+    task: with all its poses, repeated ones too, as the linkages have them.
+    """
+    dyads, aside = _dyads(task, method, fits, found, real)
+    if not linkages:
+        return _none(task, found, dyads + aside)
+    size = characteristic_length(task)
+    usable = [each for each in linkages if each.usable]
+    all_of_them = f"{count(len(linkages), 'four-bar')} from {dyads}"
+    if not usable:
+        return _none_usable(task, linkages, all_of_them, aside, size)
+    if not any(each.determined for each in usable):
+        return _undetermined(task, usable)
+    if len(usable) < len(linkages):
+        share = f"{len(usable)} of them usable"
+    else:
+        share = "usable" if len(usable) == 1 else "all of them usable"
+    code = "R307" if isinstance(fits[0], FivePoseDyads) and real < 2 else "R300"
+    return Outcome(code, f"{all_of_them}, {share}{aside}")
+
+
+def _dyads(
+    task: Task, method: Method, fits: Sequence[Fit], found: Sequence[FoundDyad], real: int
+) -> tuple[str, str]:
+    """The dyads found and how they were looked for, in words; and what is to be said aside."""
+    first = fits[0]
     if isinstance(first, FivePoseDyads):
-        dyads = count(real, "real dyad") + " (of the 4 that five poses have)"
+        aside = ""
         if real < len(found):
-            best = found[real]
-            dyads += f"; the nearest other one misses the poses by {best.rms_error:.2g} rms"
-    elif isinstance(first, BestDyads) and isinstance(first.search, CriticalDyads):
-        dyads = count(len(found), "locally best dyad")
-        dyads += f" ({_accounted(first.search)} of {COUNT} critical points accounted for)"
-    elif isinstance(first, BestDyads):
+            miss = length_of(found[real].rms_error, task)
+            aside = f"; the nearest other one misses the poses by {miss} rms"
+        return count(real, "real dyad") + " (of the 4 that five poses have)", aside
+    if isinstance(first, BestDyads) and isinstance(first.search, CriticalDyads):
+        known = f"({_accounted(first.search)} of {COUNT} critical points accounted for)"
+        return f"{count(len(found), 'locally best dyad')} {known}", ""
+    if isinstance(first, BestDyads):
         faces = sum(
             f.search.systems
             for f in fits
             if isinstance(f, BestDyads) and isinstance(f.search, LimitedDyads)
         )
-        what = "dyad" if method == "exact" else "locally best dyad"
-        dyads = count(len(found), what)
+        dyads = count(len(found), "dyad" if method == "exact" else "locally best dyad")
         if task.limits:
             dyads += f" within the limits ({count(faces, 'face')} of these searched)"
-    else:
-        dyads = count(len(found), "dyad")
-    if linkages:
-        code = "R307" if isinstance(first, FivePoseDyads) and real < 2 else "R300"
-        return Outcome(code, f"{count(linkages, 'four-bar')} from {dyads}")
+        return dyads, ""
+    return count(len(found), "dyad"), ""
+
+
+def _none(task: Task, found: Sequence[FoundDyad], dyads: str) -> Outcome:
+    """No linkage at all."""
     wider = "widen a limit, or allow another kind of dyad"
     if task.limits and not found:
         return Outcome("R306", f"no four-bar: {dyads}", wider)
     message = f"no four-bar: {dyads}, and it takes two different ones"
     return Outcome("R302", message, wider if task.limits else "change a pose, or drop one")
+
+
+def _none_usable(
+    task: Task, linkages: Sequence[FoundLinkage], all_of_them: str, aside: str, size: float
+) -> Outcome:
+    """Linkages, and none that works."""
+    nearest = by_nearness(linkages, size)[0]
+    works = "works as asked" if task.requirements.asked else "works"
+    if len(linkages) == 1:
+        none = f"which does not {works.replace('works', 'work')}"
+        why = "it"
+    else:
+        none = f"none of which {works}"
+        why = f"the closest one, {nearest.id},"
+    return Outcome(
+        "R301",
+        f"no usable linkage: {all_of_them}, {none}{aside}",
+        way_on(linkages, task, size),
+        f"{why} {in_short(nearest, task, size)}",
+    )
+
+
+def _undetermined(task: Task, usable: Sequence[FoundLinkage]) -> Outcome:
+    """Linkages that work, and pivots that could be elsewhere as well."""
+    rotation = rotation_range(task.poses.angle)
+    only = "only " if rotation < LITTLE else ""
+    best = usable[0]
+    which = "the usable one" if len(usable) == 1 else "the best usable one"
+    help = "add poses with more rotation, or give the poses more exactly"
+    if not any(isinstance(limits.fixed_pivot, Point) for limits in task.limits):
+        help += "; or fix one pivot with --fixed-pivot X,Y"
+    return Outcome(
+        "R305",
+        "this motion does not determine pivots",
+        f"{help}; or accept it with --accept-uncertain",
+        f"the body turns {only}{figure(math.degrees(rotation))}°, and the pivots of {best.id}, "
+        f"{which}, are uncertain by {_uncertain(best, task)}",
+    )
+
+
+def _uncertain(found: FoundLinkage, task: Task) -> str:
+    """How uncertain its pivots are."""
+    assert found.uncertainty is not None
+    widest = max(each.half_width for each in found.uncertainty)
+    extent = f"the poses span {length_of(span(task), task)}"
+    if widest > 100 * max(span(task), characteristic_length(task)):
+        return f"far more than the motion's own size ({extent})"
+    return f"±{length_of(widest, task)} ({extent})"
+
+
+def linkage_advice(task: Task, linkages: Sequence[FoundLinkage], code: str) -> list[Advice]:
+    """What a user should know about the linkages that are usable; code: of the outcome."""
+    usable = [each for each in linkages if each.usable]
+    loose = [each for each in usable if not each.determined]
+    warnings = []
+    if loose and code != "R305":
+        ids = [each.id for each in loose]
+        listed = ids[0] if len(ids) == 1 else f"{', '.join(ids[:-1])} and {ids[-1]}"
+        warnings.append(
+            Advice(
+                "W209",
+                f"the poses hardly determine the pivots of {listed}, uncertain by "
+                f"{_uncertain(loose[0], task)}"
+                + ("" if len(ids) == 1 else f" in the case of {ids[0]}"),
+                "give more digits, or poses with more rotation between them",
+            )
+        )
+    if usable and not task.requirements.transmission:
+        best = usable[0]
+        least = best.driven.least_over_range
+        if least < GOOD_TRANSMISSION:
+            limit = math.degrees(GOOD_TRANSMISSION)
+            help = f"ask for more with --min-transmission {limit:.0f}"
+            other = max(usable, key=lambda each: each.driven.least_over_range)
+            if other.driven.least_over_range > BETTER * least:
+                angle = least_angle(other.driven.least_over_range)
+                near = met(other, task, characteristic_length(task))
+                help = f"take {other.id}, which has {angle} or more and {near}; or {help}"
+            warnings.append(
+                Advice(
+                    "W210",
+                    f"{best.id} transmits badly: its transmission angle falls to "
+                    f"{least_angle(least)} between the poses, and {limit:.0f}° is a usual limit",
+                    help,
+                )
+            )
+    return warnings
 
 
 def _accounted(search: CriticalDyads) -> int:

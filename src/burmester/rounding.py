@@ -1,10 +1,11 @@
 """Lengths and pivots as they can be bought and drilled: rounded, the rest fitted again.
 
-All dimensions rounded at once miss the poses by more than need be.  Here some are rounded after
-the others, links first, either way to their neighbours; what is not yet rounded is fitted again
-each time (`refinement.refine`), and the best few go on.  Then single dimensions, and pairs of
-them, are moved by a step each as long as that helps, judged by the places where the coupler is.
-That no other rounding is better is not proved.
+All dimensions rounded at once miss the poses by more than need be.  Here links from stock come
+first, either neighbour, all else fitted again (`refinement.refine`).  Which whole numbers of steps
+are nearest to least squares is then asked of the linear estimate (`_Rounding._near`), and a few
+hundred of the best are judged by the places where the coupler is.  From the best of these, single
+dimensions and pairs are moved by a step as long as that helps.  That no other rounding is better
+is not proved.
 
 A limit, the branch and the order of the poses, and what is asked of the links hold after rounding
 where some rounding tried keeps them; a pivot on a line or at a point comes within half a step of
@@ -23,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.accuracy import on_circuits, rows_of, settled
-from burmester.circuit import circuit_of
+from burmester.circuit import Circuits, circuit_of
 from burmester.conditions import (
     SHORTEST,
     Conditions,
@@ -33,18 +34,24 @@ from burmester.conditions import (
     Together,
     lever_sine,
 )
+from burmester.course import Course
 from burmester.displacement import Displacement, FloatArray
 from burmester.search import Aim
 from burmester.stack import DIMENSIONS, LinkageStack
 
-__all__ = ["multiple", "rounded"]
+__all__ = ["closest_numbers", "multiple", "rounded"]
 
 SIZE = 2 * DIMENSIONS
-FEW = 4  # roundings of some dimensions that go on
-ROUNDS = 4  # of multipliers, while the rest is fitted again
+NUDGE = 1e-4  # steps, of difference quotients
+NEAR = 0.01  # of a dimension's usual effect, what a step away from the start counts as
+MOST, LEAST = 256, 16  # roundings that go on from number to number
+PLACES = 25600  # of their couplers, that are looked at
+BESIDE, REACH = 1.5, 0.5  # steps, or sizes (radians), that a rounding may be off
+BEST = 3  # roundings from which single dimensions are moved
 MOVES = 100  # at most, of single dimensions and pairs
 MANY = 100  # poses; for more only single dimensions are moved
 EXACT = 100.0  # weights; what an exact pose counts as
+OFF = 1e-9  # lengths; a place farther off its linkage is lost
 KEPT = 1e-9  # lengths; what is left by less is kept
 TOUCHED = 2.0  # steps; limits nearer than this are minded while the rest is fitted again
 CLEAR = 0.01  # of dead points, the sine of the transmission angle
@@ -52,7 +59,7 @@ ALIKE = 1e-12  # lengths; distances that differ by less are the same
 WHOLE = 2.0**53  # from here on not every whole number is a double
 
 
-def rounded(
+def rounded(  # noqa: PLR0917
     stack: LinkageStack,
     rows: FloatArray,
     aim: Aim,
@@ -105,6 +112,7 @@ class _Grid:
 
     step: float | None
     turn: float | None
+    size: float
     stock: FloatArray
     links: NDArray[np.bool_]
     lines: NDArray[np.bool_]
@@ -125,26 +133,13 @@ class _Grid:
             turn = min(10.0, 10.0 ** np.floor(np.log10(np.degrees(step / size))))
             turn = float(f"{turn:.0e}")  # 10 ** -3.0 is not always 0.001
         parts = (each.reshape(SIZE) for each in (links, lines, lengths))
-        return cls(step, turn, np.array(stock, dtype=float), *parts)
+        return cls(step, turn, size, np.array(stock, dtype=float), *parts)
 
     @property
     def rounded(self) -> NDArray[np.bool_]:
         """Which dimensions are rounded at all."""
         links = self.links & (len(self.stock) > 0 or self.step is not None)
         return np.asarray(links | ((self.lines | self.lengths) & (self.step is not None)))
-
-    def groups(self) -> list[list[int]]:
-        """The dimensions in the order in which they are rounded, some at a time.
-
-        Links and lines first: offsets count from lines whose angles stay.
-        """
-        first = np.flatnonzero((self.links | self.lines) & self.rounded)
-        out = [first.tolist()]
-        for half in (slice(0, 2), slice(2, 4)):
-            for side in (0, DIMENSIONS):
-                slots = np.arange(side, side + DIMENSIONS)[half]
-                out.append([int(j) for j in slots if self.lengths[j] and self.rounded[j]])
-        return [group for group in out if group]
 
     def number(self, dimensions: FloatArray) -> FloatArray:
         """Where dimensions (*, 10) are among the values: whole numbers, and what is between."""
@@ -157,11 +152,22 @@ class _Grid:
             out[..., self.links] = at
         return out
 
-    def possible(self, number: FloatArray) -> NDArray[np.bool_]:
-        """Whether there are links of these lengths, of numbers (*, 10)."""
+    def possible(self, number: FloatArray, start: FloatArray) -> NDArray[np.bool_]:
+        """Whether there are links of these lengths, of numbers (*, 10), and all near a start (10,).
+
+        A coarse step leads to giants otherwise.
+        """
         least, most = (0, len(self.stock) - 1) if len(self.stock) else (1, np.inf)
         links = number[..., self.links]
-        return np.asarray(((links >= least) & (links <= most)).all(axis=-1))
+        near = np.abs(number - start) <= self.reach() + ALIKE
+        return np.asarray(((links >= least) & (links <= most)).all(axis=-1) & near.all(axis=-1))
+
+    def reach(self) -> FloatArray:
+        """How many whole numbers away values may be, (10,)."""
+        stride = self.stride()
+        size = np.where(self.lines, 1.0, self.size)
+        with np.errstate(divide="ignore"):
+            return np.where(stride > 0, np.maximum(BESIDE, REACH * size / stride), np.inf)
 
     def nearest(self, number: FloatArray) -> FloatArray:
         """The whole numbers nearest to numbers (*, 10), of links that are possible."""
@@ -171,27 +177,31 @@ class _Grid:
         out[..., self.links] = np.maximum(out[..., self.links], 1.0)
         return out
 
-    def beside(self, number: FloatArray, group: list[int]) -> list[tuple[float, ...]]:
-        """Whole numbers on either side of those (10,) in a group, the nearest ones first."""
-        sides = []
-        for j in group:
-            low, high = np.floor(number[j]), np.ceil(number[j])
-            if self.links[j] and not len(self.stock):
-                low, high = max(low, 1.0), max(high, 1.0)
-            sides.append([float(low)] if low == high else [float(low), float(high)])
-        at = number[group]
+    def beside(self, number: FloatArray) -> list[tuple[float, ...]]:
+        """Both neighbours of the links' numbers among (10,), the nearest ones first."""
+        at = number[self.links]
+        sides = [sorted({float(np.floor(each)), float(np.ceil(each))}) for each in at]
         return sorted(product(*sides), key=lambda each: float(((np.array(each) - at) ** 2).sum()))
+
+    def stride(self) -> FloatArray:
+        """How far apart the values are, (10,); 0 of stock and of what is not rounded."""
+        out = np.zeros(SIZE)
+        if self.step is not None and self.turn is not None:
+            out[self.lengths] = self.step
+            out[self.lines] = np.radians(self.turn)
+            out[self.links] = 0.0 if len(self.stock) else self.step
+        return out
 
     def values(self, number: FloatArray, dimensions: FloatArray) -> FloatArray:
         """Dimensions (*, 10) with those that are rounded at their whole numbers."""
-        out = np.array(dimensions)
+        out = np.array(np.broadcast_to(dimensions, number.shape))
         if self.step is not None and self.turn is not None:
             some = self.lengths | self.links
             out[..., some] = multiple(number[..., some], self.step)
             out[..., self.lines] = np.radians(multiple(number[..., self.lines], self.turn))
         if len(self.stock):
             out[..., self.links] = self.stock[number[..., self.links].astype(int)]
-        return out
+        return out + 0.0  # no minus zeros
 
 
 @final
@@ -210,28 +220,49 @@ class _AsBefore:
 class _Tried(NamedTuple):
     """Roundings (n,) of one linkage: dimensions (n, 10) in the task's frames, places, and merit.
 
-    broken: whether something is not kept; worst: the greatest distance, infinite where lost.
+    broken: by how much something is not kept, in lengths.  worst: the greatest distance, infinite
+        where lost.
     """
 
     own: FloatArray
     rows: FloatArray
-    broken: NDArray[np.bool_]
+    broken: FloatArray
     worst: FloatArray
 
-    def some(self, index: NDArray[np.intp]) -> _Tried:
+    def some(self, index: NDArray[np.intp] | slice) -> _Tried:
         """Those at the indices."""
-        return _Tried(*(part[index] for part in self))
+        return _Tried(self.own[index], self.rows[index], self.broken[index], self.worst[index])
+
+    def and_(self, *others: _Tried) -> _Tried:
+        """Those of others after its own."""
+        every = (self, *others)
+        return _Tried(
+            np.concatenate([each.own for each in every]),
+            np.concatenate([each.rows for each in every]),
+            np.concatenate([each.broken for each in every]),
+            np.concatenate([each.worst for each in every]),
+        )
+
+    def often(self, count: int) -> _Tried:
+        """As many as that, the first one repeated where there are fewer."""
+        index = np.arange(count)
+        return self.some(np.where(index < len(self.worst), index, 0))
 
     def order(self) -> NDArray[np.intp]:
         """The best first; of equals that which was tried first."""
-        merit = np.round(self.worst / ALIKE)
-        return np.lexsort([merit, self.broken | ~np.isfinite(self.worst)])
+        merit = np.round((self.worst + self.broken) / ALIKE)
+        return np.lexsort([merit, (self.broken > 0) | ~np.isfinite(self.worst)])
 
     def beats(self, other: _Tried) -> bool:
         """Whether its first is better than the other's by more than rounding."""
-        if self.broken[0] != other.broken[0] and np.isfinite(self.worst[0]):
-            return bool(other.broken[0])
-        return bool(self.worst[0] < other.worst[0] - ALIKE)
+        if not np.isfinite(self.worst[0]):
+            return False
+        if not np.isfinite(other.worst[0]):
+            return True
+        if (self.broken[0] > 0) != (other.broken[0] > 0):
+            return bool(other.broken[0] > 0)
+        gain = other.worst[0] + other.broken[0] - self.worst[0] - self.broken[0]
+        return bool(gain > ALIKE)
 
 
 @final
@@ -245,7 +276,7 @@ class _Rounding:
     grid: _Grid
     keep: _AsBefore
     touched: bool
-    equal: FloatArray
+    slack: FloatArray
 
     @classmethod
     def of(  # noqa: PLR0917
@@ -266,7 +297,8 @@ class _Rounding:
             aim = replace(aim, weights=weights, exact=None)
         lead, here = np.array([driver]), rows[None]
         sine = _sign(stack, here, aim.length, lead)
-        journey = Journey.of(stack, here, aim.length, lead, sine, aim.requirements)
+        middle = _middle(stack, rows, aim.length, driver)
+        journey = Journey.of(stack, here, aim.length, lead, sine, middle, aim.requirements)
         clear = max(CLEAR, float(np.sin(aim.requirements.transmission)))
         journey = replace(journey, clear=clear)
         types = np.array([_type_kept(stack, driver, aim)])
@@ -290,13 +322,18 @@ class _Rounding:
             return own, self.rows
         if not np.isfinite(self.rows).all():
             return self._somewhere(naive)
-        found = self._one_by_one(own)
+        starts = self._with_links(own)
         if self.grid.step is None:
-            ends = [found, naive]
+            ends = starts
         else:
-            ends = [self._moved(start) for start in (found, naive) if np.isfinite(start.worst[0])]
-        pool = _Tried(*(np.concatenate(parts) for parts in zip(naive, *ends, strict=True)))
-        pool = pool._replace(broken=pool.broken | ~self._on_circuits(pool))
+            near = [self._near(start) for start in starts]
+            every = near[0].and_(*near[1:])
+            ends = [
+                self._moved(every.some(slice(k, k + 1)), self.grid.number(starts[k // BEST].own[0]))
+                for k in every.order()[:BEST]
+            ]
+        pool = naive.and_(*ends)
+        pool = pool._replace(broken=pool.broken + ~self._on_circuits(pool))
         first = pool.some(pool.order()[:1])
         if not np.isfinite(first.worst[0]):
             return self._somewhere(naive)
@@ -313,41 +350,69 @@ class _Rounding:
         stack, wanted = self._stack(own), rows_of(self.aim.poses, self.aim.length)
         with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
             rows = settled(stack, start, wanted, self.aim.length)
+            # Two equal dyads leave no direction to go back to the linkage: off is lost.
+            at = Displacement(rows[..., :2], rows[..., 2] / self.aim.length)
+            rows[~(np.abs(stack.bearing(at).miss) < OFF).all(axis=(1, 2))] = np.nan
             away = np.sqrt(((rows - wanted) ** 2).sum(axis=-1))
             if self.aim.weights is not None:
                 away = away * np.sqrt(self.aim.weights / self.aim.weights.mean())
             value, equal = self.keep(stack, rows, np.arange(len(own)))
-            kept = np.where(equal, np.abs(value), value) <= self.equal
+            off = np.where(equal, np.abs(value), value) - self.slack
+            broken = np.where(off > 0, off, 0.0).max(axis=1, initial=0.0)
         worst = np.nan_to_num(away.max(axis=-1), nan=np.inf)
-        return _Tried(own, rows, ~kept.all(axis=1), worst)
+        return _Tried(own, rows, broken, worst)
 
-    def _one_by_one(self, own: FloatArray) -> _Tried:
-        """Some dimensions rounded after the others, the rest fitted again."""
-        held = ~self.grid.rounded & False
-        best = self._tried(own[None])
-        for group in self.grid.groups():
-            held = held.copy()
-            held[group] = True
-            made, rows = [], []
-            for each, places in zip(best.own, best.rows, strict=True):
-                number = self.grid.number(each)
-                for choice in self.grid.beside(number, group):
-                    new = np.rint(number)
-                    new[group] = choice
-                    made.append(np.where(held, self.grid.values(new, each), each))
-                    rows.append(places)
-            best = self._fitted(np.array(made), np.array(rows), held)
-            best = best.some(best.order()[:FEW])
-        return best.some(best.order()[:1])
+    def _with_links(self, own: FloatArray) -> list[_Tried]:
+        """The linkage (1,), or one for each choice of links from stock, the rest fitted again."""
+        if not (len(self.grid.stock) and self.grid.links.any()):
+            return [self._tried(own[None])]
+        number, links = self.grid.number(own), self.grid.links
+        made = np.tile(own, (4, 1))
+        for k, choice in enumerate(choices := self.grid.beside(number)):
+            made[k, links] = self.grid.stock[np.array(choice, dtype=int)]
+        fitted = self._fitted(made[: len(choices)], links)
+        return [fitted.some(slice(k, k + 1)) for k in range(len(fitted.worst))]
 
-    def _fitted(self, own: FloatArray, rows: FloatArray, held: NDArray[np.bool_]) -> _Tried:
+    def _near(self, start: _Tried) -> _Tried:
+        """The best roundings of a linkage (1,), in place order: those near by a linear estimate.
+
+        Among whole numbers n the least |r + J n|² is looked for breadth first: with J = Q R, one
+        number after the other, the last columns first, the best few going on each time.  J is
+        taken by differences of the nearest places.
+        """
+        own, rows, grid = start.own[0], start.rows[0], self.grid
+        stride = grid.stride()
+        some = np.flatnonzero(stride)
+        if not (np.isfinite(rows).all() and len(some)):
+            return self._tried(grid.values(grid.nearest(grid.number(own)), own)[None]).often(BEST)
+        nudge = NUDGE * np.eye(SIZE)[some] * stride[some, None]
+        ends = self._tried(np.concatenate([own + nudge, own - nudge]), rows).rows
+        share = np.ones(len(rows)) if self.aim.weights is None else self.aim.weights
+        root = np.sqrt(share)[:, None]
+        slope = root * (ends[: len(some)] - ends[len(some) :]) / (2 * NUDGE)
+        slope = np.nan_to_num(slope.reshape(len(some), -1).T)
+        gap = (root * (rows - rows_of(self.aim.poses, self.aim.length))).ravel()
+        # Far from where the estimate was made it is worth less: what is loose stays near.
+        short = NEAR * np.sqrt((slope**2).sum(axis=0).mean()) + np.finfo(float).tiny
+        slope = np.concatenate([slope, short * np.eye(len(some))])
+        gap = np.concatenate([gap, np.zeros(len(some))])
+        order = _firmest_last(slope)
+        some, number = some[order], grid.number(own)
+        width = min(MOST, max(LEAST, PLACES // len(rows)))
+        whole = closest_numbers(slope[:, order], gap, number[some], grid.links[some], width)
+        number = np.tile(np.rint(number), (len(whole), 1))
+        number[:, some] = whole
+        number = number[grid.possible(number, grid.number(own))]
+        nearest = grid.nearest(grid.number(own))[None]
+        tried = self._tried(grid.values(np.concatenate([number, nearest]), own), rows)
+        return tried.some(tried.order()).often(BEST)
+
+    def _fitted(self, own: FloatArray, held: NDArray[np.bool_]) -> _Tried:
         """Dimensions (n, 10) with the free ones fitted again, (10,) being held."""
-        before = self._tried(own, rows)
+        before = self._tried(own)
         slots = np.ones((2, DIMENSIONS), dtype=bool)
         slots[:, -1] = self.kinds[0] == 0
         free = slots.reshape(SIZE) & ~held
-        if not free.any():
-            return before
         sound = np.flatnonzero(np.isfinite(before.worst))
         if not len(sound):
             return before
@@ -357,22 +422,25 @@ class _Rounding:
             before.rows[sound],
             free=np.broadcast_to(free, (len(sound), SIZE)),
             conditions=self.keep if self.touched else None,
-            rounds=ROUNDS,
+            worst=self.aim.worst,
         )
         new = refined.stack.back(self.aim.frames).dimensions.reshape(-1, SIZE)
         new = np.where(held, own[sound], new)
         after = self._tried(new, refined.rows)
-        # Fitting is for squares, and may lose its way: what was there before is kept beside.
-        return _Tried(*(np.concatenate(parts) for parts in zip(after, before, strict=True)))
+        # Fitting may lose its way; then what was there before is kept.
+        fitted = np.flatnonzero(np.isfinite(after.worst))
+        others = np.setdiff1d(np.arange(len(own)), sound[fitted])
+        return after.some(fitted).and_(before.some(others))
 
-    def _moved(self, here: _Tried) -> _Tried:
+    def _moved(self, here: _Tried, middle: FloatArray) -> _Tried:
         """One rounding (1,) improved by moves of single dimensions and pairs, a step each."""
         moves = _moves(self.grid.rounded, pairs=len(self.rows) <= MANY)
         for _ in range(MOVES):
             number = np.rint(self.grid.number(here.own[0])) + moves
-            number = number[self.grid.possible(number)]
+            number = number[self.grid.possible(number, middle)]
             own = self.grid.values(number, here.own[0])
-            there = self._tried(own, here.rows[0])
+            lost = np.isnan(here.rows[0]).any()
+            there = self._tried(own, self.rows if lost else here.rows[0])
             there = there.some(there.order()[:1])
             if not there.beats(here):
                 break
@@ -398,9 +466,14 @@ class _Rounding:
 
     def _somewhere(self, tried: _Tried) -> tuple[FloatArray, FloatArray]:
         """A rounding whose places were lost, with those on its nearer circuit; nan if none."""
-        aim = self.aim
-        found = on_circuits(self._stack(tried.own), aim.poses, aim.length)
+        aim, stack = self.aim, self._stack(tried.own)
+        ((_, linkage),) = stack.alike()
+        if (Circuits.of(linkage, as_given=True).course == Course.NONE).all():
+            return tried.own[0], np.full_like(self.rows, np.nan)
+        found = on_circuits(stack, aim.poses, aim.length)
         rows = rows_of(found, aim.length)[0]
+        miss = stack.bearing(found).miss[0]
+        rows[~(np.abs(miss) < OFF).all(axis=(0, 2))] = np.nan
         away = ((rows - rows_of(aim.poses, aim.length)) ** 2).sum(axis=-1).max(axis=-1)
         return tried.own[0], rows[int(np.nan_to_num(away, nan=np.inf).argmin())]
 
@@ -421,6 +494,17 @@ def _sign(
     return np.where(positive >= 0.5, 1.0, -1.0)
 
 
+def _middle(stack: LinkageStack, rows: FloatArray, length: float, driver: int) -> FloatArray:
+    """The drive (1,) amid the dead points of the circuit of the first place; nan without."""
+    ((_, linkage),) = (stack.exchanged() if driver else stack).alike()
+    place = Displacement(rows[None, 0, :2], rows[None, 0, 2] / length)
+    circuits = Circuits.of(linkage, as_given=True)
+    own = int(circuit_of(linkage, place, as_given=True).circuit[0])
+    if own < 0 or circuits.branches[0, own] != 2:
+        return np.full(1, np.nan)
+    return np.asarray(circuits.limits[:, own].mean(axis=-1))
+
+
 def _type_kept(stack: LinkageStack, driver: int, aim: Aim) -> str:
     """The type of a 4R linkage if something is asked of types, else ""."""
     asked = aim.requirements
@@ -429,3 +513,37 @@ def _type_kept(stack: LinkageStack, driver: int, aim: Aim) -> str:
     led = stack.exchanged() if driver else stack
     name = led.linkage(0).type
     return name if name in SHORTEST or name == "triple-rocker" else ""
+
+
+def _firmest_last(slope: FloatArray) -> NDArray[np.intp]:
+    """Columns (m, n) in the order in which the last are fixed best when all others are free."""
+    left = list(range(slope.shape[1]))
+    order: list[int] = []
+    while left:
+        rows = np.linalg.pinv(slope[:, left])
+        firm = 1 / np.linalg.norm(rows, axis=1)
+        order.insert(0, left.pop(int(firm.argmax())))
+    return np.array(order)
+
+
+def closest_numbers(
+    slope: FloatArray, gap: FloatArray, at: FloatArray, positive: NDArray[np.bool_], width: int
+) -> FloatArray:
+    """Whole numbers (w, n) with about the least |gap + slope (numbers - at)|², the least first.
+
+    positive: (n,), which are at least 1.  width: how many go on from number to number.
+    """
+    basis, upper = np.linalg.qr(slope)
+    right, last = -(basis.T @ gap), len(at)
+    x, cost = np.zeros((1, last)), np.zeros(1)
+    for j in range(last - 1, -1, -1):
+        centre = (right[j] - x[:, j + 1 :] @ upper[j, j + 1 :]) / upper[j, j]
+        whole = np.floor(at[j] + centre)[:, None] + np.arange(-1.0, 3.0)
+        if positive[j]:
+            whole = np.maximum(whole[:, :1], 1.0) + np.arange(4.0)
+        step = whole - at[j]
+        total = cost[:, None] + (upper[j, j] * (step - centre[:, None])) ** 2
+        best = np.argsort(total, axis=None, kind="stable")[:width]
+        x = x[best // 4]
+        x[:, j], cost = step.ravel()[best], total.ravel()[best]
+    return np.rint(x + at)

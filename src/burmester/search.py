@@ -86,7 +86,7 @@ class Aim:
 class _Starts(NamedTuple):
     """Starts (k,): pair, dimensions, rows (k, N, 3) of places, who drives, the branch's sign.
 
-    middle: (k,), the drive amid its dead points, nan where there are none.
+    middle: (k,), the drive amid its dead points, nan where there are none or it slides.
     """
 
     pair: NDArray[np.intp]
@@ -175,12 +175,14 @@ def _starts(stack: LinkageStack, aim: Aim) -> _Starts:
 def _middle(stack: LinkageStack, places: Displacement, side: int) -> FloatArray:
     """The drive (k,) amid the dead points of the circuits on which places (k,) are.
 
-    nan where there are none.
+    nan where there are none, and for drives that slide.
     """
     out = np.full(len(stack), np.nan)
     for index, linkage in (stack.exchanged() if side else stack).alike():
         circuits = Circuits.of(linkage, as_given=True)
         own = circuit_of(linkage, places[index], as_given=True).circuit
+        if not circuits.drive.turns:
+            continue
         middle = np.where(circuits.branches == 2, circuits.limits.mean(axis=-1), np.nan)
         out[index] = np.where(own < 0, np.nan, middle[np.arange(len(index)), np.maximum(own, 0)])
     return out

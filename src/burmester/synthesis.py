@@ -191,16 +191,19 @@ def _special(
     task: Task, method: Method, motion: Fingerprint, length: float, wish: Wish
 ) -> Synthesis:
     """A special motion: what is certain of it is the whole answer."""
-    kind, whole, task = motion.motion, task, _merged(task, motion)
+    kind = motion.motion
     found = []
     for number, dyad in enumerate(kind.dyads, start=1):
         miss = np.abs(dyad.residual(task.poses))
         rms = float(np.sqrt((miss**2).mean()))
         found.append(FoundDyad(f"D{number}", dyad, rms, float(miss.max())))
     pairs = list(combinations(found, 2))
-    linkages = _joined(whole, task, pairs, replace(wish, refine=False), motion)
+    linkages: tuple[FoundLinkage, ...] = ()
+    if pairs:
+        once = replace(wish, refine=False)
+        linkages = _joined(task, _merged(task, motion), pairs, once, motion)
     said = Outcome(kind.code, kind.message, kind.help)
-    return Synthesis(whole, method, said, motion, length, tuple(found), linkages)
+    return Synthesis(task, method, said, motion, length, tuple(found), linkages)
 
 
 def _fits(

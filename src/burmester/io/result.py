@@ -9,20 +9,18 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import numpy as np
-
-from burmester.candidates import Fit, FoundDyad
+from burmester.candidates import Fit
 from burmester.certificate import Certificate
 from burmester.critical import COUNT, CriticalDyads
-from burmester.displacement import Displacement
-from burmester.dyad import PP, PR, RP, RR
 from burmester.errors import BurmesterError
 from burmester.exact import FivePoseDyads
 from burmester.fingerprint import Fingerprint
+from burmester.io.asked import plain as requirements_data
+from burmester.io.linkage_data import dyad_data, linkage_data, number, poses_data
 from burmester.limits import KINDS, Limits, Line, Point, Polygon, Segment
 from burmester.optimal import BestDyads
 from burmester.pencil import Pencil
-from burmester.synthesis import FoundLinkage, Synthesis
+from burmester.synthesis import Synthesis
 from burmester.task import Task
 
 __all__ = ["failure", "plain"]
@@ -33,14 +31,20 @@ SCHEMA = "burmester.synthesis/1"
 def plain(synthesis: Synthesis) -> dict[str, Any]:
     """The synthesis as an object ready for JSON."""
     task, outcome, motion = synthesis.task, synthesis.outcome, synthesis.motion
+    tolerance = getattr(getattr(synthesis, "wish", None), "tolerance", None)
     return {
         "schema": SCHEMA,
-        "outcome": {"code": outcome.code, "message": outcome.message, "help": outcome.help},
+        "outcome": {
+            "code": outcome.code,
+            "message": outcome.message,
+            "why": outcome.why,
+            "help": outcome.help,
+        },
         "method": synthesis.method,
         "task": _task(task),
         "motion": None if motion is None else _motion(motion),
-        "dyads": [_dyad(dyad) for dyad in synthesis.dyads],
-        "linkages": [_linkage(linkage) for linkage in synthesis.linkages],
+        "dyads": [dyad_data(dyad) for dyad in synthesis.dyads],
+        "linkages": [linkage_data(each, tolerance) for each in synthesis.linkages],
         "warnings": [
             {"code": warning.code, "message": warning.message, "help": warning.help}
             for warning in synthesis.warnings
@@ -57,7 +61,7 @@ def plain(synthesis: Synthesis) -> dict[str, Any]:
 
 def _task(task: Task) -> dict[str, Any]:
     """The task as a file may hold it."""
-    poses: list[dict[str, Any]] = [dict(pose) for pose in _poses(task.poses)]
+    poses: list[dict[str, Any]] = [dict(pose) for pose in poses_data(task.poses)]
     columns = {"weight": task.weights, "name": task.names, "exact": task.exact}
     for key, values in columns.items():
         if values is not None:
@@ -67,6 +71,10 @@ def _task(task: Task) -> dict[str, Any]:
     data: dict[str, Any] = {"poses": poses, "length_unit": task.length_unit}
     if task.limits:
         data["limits"] = [_limits(each) for each in task.limits]
+    if task.requirements.asked:
+        data["requirements"] = requirements_data(task.requirements)
+    position, angle = (given / math.sqrt(3) for given in task.resolution)
+    data["pose_sigma"] = {"position": position, "angle_deg": math.degrees(angle)}
     return data
 
 
@@ -127,7 +135,7 @@ def _search(fit: Fit) -> dict[str, Any]:
     search = fit.search
     if isinstance(search, CriticalDyads):
         found = {"found": int(search.found), "at_infinity": int(search.at_infinity)}
-        health = {"expected": COUNT, "health": _number(float(search.health))}
+        health = {"expected": COUNT, "health": number(float(search.health))}
         return {"kind": "critical points", **found, **health}
     names = ("systems", "found", "lost", "unsettled")
     return {"kind": "faces", **{name: getattr(search, name) for name in names}}
@@ -142,8 +150,8 @@ def _certificate(certificate: Certificate) -> dict[str, Any]:
             {
                 "id": f"D{dyad.index + 1}",
                 "proved": dyad.proved,
-                "radius": _number(dyad.radius),
-                "angle_radius_deg": _number(math.degrees(dyad.angle_radius)),
+                "radius": number(dyad.radius),
+                "angle_radius_deg": number(math.degrees(dyad.angle_radius)),
                 "minimum": dyad.minimum,
             }
             for dyad in certificate.dyads
@@ -167,63 +175,3 @@ def failure(error: BurmesterError) -> dict[str, Any]:
         "linkages": [],
         "warnings": [],
     }
-
-
-def _poses(poses: Displacement) -> list[dict[str, float]]:
-    rows = zip(poses.translation.tolist(), np.degrees(poses.angle).tolist(), strict=True)
-    return [{"x": x, "y": y, "angle_deg": angle} for (x, y), angle in rows]
-
-
-def _dyad(found: FoundDyad) -> dict[str, Any]:
-    dyad = found.dyad
-    data: dict[str, Any] = {
-        "id": found.id,
-        "kind": type(dyad).__name__,
-        "rms_error": _number(found.rms_error),
-        "max_error": _number(found.max_error),
-        "minimum": found.minimum,
-    }
-    if found.limits:
-        data["limits"] = found.limits
-    match dyad:
-        case RR():
-            data["fixed_pivot"] = dyad.fixed_pivot.tolist()
-            data["moving_pivot"] = dyad.moving_pivot.tolist()
-            data["radius"] = float(dyad.radius)
-        case PR():
-            data["line"] = _line(dyad)
-            data["moving_pivot"] = dyad.moving_pivot.tolist()
-        case RP():
-            data["fixed_pivot"] = dyad.fixed_pivot.tolist()
-            data["line"] = _line(dyad)
-        case PP():
-            data["angle_deg"] = math.degrees(dyad.angle)
-    return data
-
-
-def _line(dyad: PR | RP) -> dict[str, float]:
-    return {"normal_deg": math.degrees(dyad.normal_angle), "offset": float(dyad.offset)}
-
-
-def _linkage(found: FoundLinkage) -> dict[str, Any]:
-    data: dict[str, Any] = {
-        "id": found.id,
-        "rank": found.rank,
-        "dyads": [_dyad(dyad) for dyad in found.dyads],
-        "type": found.linkage.type,
-        "position_error": _errors(found.error.position),
-        "angle_error_deg": _errors(np.degrees(found.error.angle)),
-    }
-    if (links := found.linkage.links) is not None:
-        data["links"] = {name: float(length) for name, length in links._asdict().items()}
-    if np.isfinite(found.error.angle).all():
-        data["coupler"] = _poses(found.error.places)
-    return data
-
-
-def _errors(values: np.ndarray) -> dict[str, float | None]:
-    return {"rms": _number(np.sqrt((values**2).mean())), "max": _number(values.max())}
-
-
-def _number(value: float) -> float | None:
-    return float(value) if math.isfinite(value) else None

@@ -9,7 +9,6 @@ from itertools import zip_longest
 from typing import TYPE_CHECKING
 
 import numpy as np
-from rich import box
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
@@ -18,6 +17,8 @@ from burmester.candidates import ROUNDING
 from burmester.comparison import Section, Verdict
 from burmester.dyad import PP, PR, RP, RR, Dyad
 from burmester.errors import BurmesterError
+from burmester.io import linkage_table
+from burmester.io.linkage_table import decimals, new_table
 from burmester.synthesis import FoundLinkage, Synthesis
 
 if TYPE_CHECKING:
@@ -26,33 +27,16 @@ if TYPE_CHECKING:
 
 __all__ = ["show_error", "show_reproduction", "show_synthesis"]
 
-DIGITS = 1e-4  # of the characteristic length: what pivots are shown to, errors permitting
+FOUND = ("R300", "R307")  # outcomes that are told by what was found
 
 
 def show_synthesis(synthesis: Synthesis, console: Console) -> None:
     """What was found, first in a sentence, then as tables of dyads and linkages."""
-    code, message = synthesis.outcome.code, synthesis.outcome.message
-    if synthesis.linkages:
-        best = synthesis.linkages[0]
-        console.print(Text(f"{message}.", style="bold"))
-        kind = best.linkage.type.replace("change-point", "change-point linkage")
-        article = "an" if kind[0] in "aeiouAEIOU" else "a"
-        console.print(f"Best: {best.id}, {article} {kind}, {_meets(synthesis, best)}.")
-    else:
-        console.print(Text(f"result[{code}]: {message}", style="bold"))
-    if synthesis.outcome.help:
-        console.print(Text(f"  help: {synthesis.outcome.help}"))
+    three = linkage_table.closest_three(synthesis)
+    _outcome(synthesis, three, console)
     if synthesis.dyads:
-        console.print(_dyads(synthesis))
-    if synthesis.linkages:
-        console.print(_linkages(synthesis))
-        unit = synthesis.task.length_unit
-        console.print(
-            f"\nLengths in {unit or 'the unit of the poses'}; F is the ground, M the body. Not "
-            "judged yet: whether a linkage meets the poses in one assembly, without locking and "
-            "in their order.",
-            style="dim",
-        )
+        console.print(_dyads(synthesis, console.width))
+    _linkages(synthesis, three, console)
     if synthesis.certificate is not None:
         for head, sentences in (
             ("Proved, for the poses as given", synthesis.certificate.proved),
@@ -64,6 +48,39 @@ def show_synthesis(synthesis: Synthesis, console: Console) -> None:
     for warning in synthesis.warnings:
         console.print(Text(f"warning[{warning.code}]: {warning.message}", style="yellow"))
         console.print(Text(f"  help: {warning.help}"))
+
+
+def _outcome(synthesis: Synthesis, three: Sequence[FoundLinkage], console: Console) -> None:
+    """What came of it, in sentences; the nearest three linkages where none of them works."""
+    said = synthesis.outcome
+    told = synthesis.usable and said.code in FOUND
+    head = f"{said.message}." if told else f"result[{said.code}]: {said.message}"
+    console.print(Text(head, style="bold"))
+    if three:
+        console.print(linkage_table.unusable(synthesis, three))
+    elif said.why:
+        console.print(Text(f"  why: {said.why}"))
+    if said.help:
+        console.print(Text(f"  help: {said.help}"))
+    if synthesis.usable:
+        for sentence in linkage_table.best_sentences(synthesis):
+            console.print(sentence)
+
+
+def _linkages(synthesis: Synthesis, three: Sequence[FoundLinkage], console: Console) -> None:
+    """The linkages that work, those that do not, and the best one in full."""
+    if synthesis.usable:
+        console.print(linkage_table.usable_table(synthesis, console))
+    rest = [each for each in synthesis.linkages if not each.usable and each not in three]
+    if rest:
+        title = "Not usable either" if three else "Not usable, and why"
+        console.print(Text(f"\n{title}", style="bold"))
+        console.print(linkage_table.unusable(synthesis, rest))
+    if synthesis.usable:
+        for part in linkage_table.dimensions(synthesis):
+            console.print(part)
+    if synthesis.dyads:
+        console.print(Text(f"\n{linkage_table.footnotes(synthesis)}", style="dim"))
 
 
 def show_reproduction(
@@ -103,7 +120,7 @@ def show_error(error: BurmesterError, console: Console) -> None:
 
 def _methods(task: SideBySide) -> Table:
     starts = max(answer.starts or 0 for answer in task.answers)
-    table = _table()
+    table = new_table()
     table.add_column("", no_wrap=True)
     for name in ("fixed pivot", "moving pivot", "length", "rms", "worst", f"starts\nof {starts}"):
         table.add_column(name, justify="right", no_wrap=True)
@@ -145,7 +162,7 @@ _STYLE = {Verdict.MISPRINT: "yellow", Verdict.DIFFERS: "bold red", Verdict.AGREE
 
 def _comparisons(section: Section) -> Table:
     places = {row.item.partition(", ")[0] for row in section.rows}
-    table = _table()
+    table = new_table()
     table.add_column("", no_wrap=True)
     for name in ("print", "computed", "spread by rounding"):
         table.add_column(name, justify="right", no_wrap=True)
@@ -157,42 +174,21 @@ def _comparisons(section: Section) -> Table:
     return table
 
 
-def _dyads(synthesis: Synthesis) -> Table:
-    table = _table("Dyads")
+def _dyads(synthesis: Synthesis, width: int) -> Table:
+    table = new_table("Dyads", gap=1 if width >= 80 else 0)
     table.add_column("", no_wrap=True)
     table.add_column("kind", no_wrap=True)
     table.add_column("on the ground (F)")
     table.add_column("on the body (M)")
     table.add_column("length", justify="right", no_wrap=True)
     table.add_column("rms miss", justify="right", no_wrap=True)
-    table.add_column("worst", justify="right", no_wrap=True)
+    if width >= 80:
+        table.add_column("worst", justify="right", no_wrap=True)
     for found in synthesis.dyads:
-        ground, body, length = _sides(found.dyad, _decimals(synthesis, found.rms_error))
+        ground, body, length = _sides(found.dyad, decimals(synthesis, found.rms_error))
         errors = _error(synthesis, found.rms_error), _error(synthesis, found.max_error)
-        table.add_row(found.id, type(found.dyad).__name__, ground, body, length, *errors)
-    return table
-
-
-def _linkages(synthesis: Synthesis) -> Table:
-    table = _table("Linkages, by worst miss")
-    table.add_column("", no_wrap=True)
-    table.add_column("type")
-    table.add_column("dyads", no_wrap=True)
-    all_pins = any(found.linkage.links is not None for found in synthesis.linkages)
-    for link in ("ground", "driver", "coupler", "follower") if all_pins else ():
-        table.add_column(link, justify="right", no_wrap=True)
-    table.add_column("worst", justify="right", no_wrap=True)
-    table.add_column("angle", justify="right", no_wrap=True)
-    for found in synthesis.linkages:
-        angle = float(found.error.angle.max())
-        table.add_row(
-            found.id,
-            found.linkage.type,
-            " ".join(dyad.id for dyad in found.dyads),
-            *(_links(synthesis, found) if all_pins else ()),
-            _error(synthesis, float(found.error.position.max())),
-            "exact" if angle < ROUNDING else f"{_short(math.degrees(angle))}°",
-        )
+        row = found.id, type(found.dyad).__name__, ground, body, length, *errors
+        table.add_row(*row[: len(table.columns)])
     return table
 
 
@@ -201,28 +197,6 @@ def _bullets(sentences: Sequence[str]) -> Table:
     for sentence in sentences:
         grid.add_row("-", Text(sentence))
     return grid
-
-
-def _table(title: str | None = None) -> Table:
-    return Table(
-        title=title and f"\n{title}",
-        title_justify="left",
-        title_style="bold",
-        box=box.SIMPLE_HEAD,
-        padding=(0, 1, 0, 0),
-        pad_edge=False,
-        show_edge=False,
-    )
-
-
-def _meets(synthesis: Synthesis, best: FoundLinkage) -> str:
-    if not math.isfinite(best.error.worst):
-        return "cannot be assembled near all of the poses"
-    if best.error.worst < ROUNDING * (synthesis.length or 1.0):
-        return "passes every pose exactly, up to rounding"
-    angle = math.degrees(float(best.error.angle.max()))
-    unit = f" {synthesis.task.length_unit}" if synthesis.task.length_unit else ""
-    return f"passes every pose within {_short(best.error.worst)}{unit} and {_short(angle)}°"
 
 
 def _sides(dyad: Dyad, digits: int) -> tuple[str, str, str]:
@@ -244,18 +218,6 @@ def _sides(dyad: Dyad, digits: int) -> tuple[str, str, str]:
             return point(dyad.fixed_pivot), line(dyad), "slider"
         case PP():
             return f"angle {math.degrees(dyad.angle):.2f}°", "-", "slider"
-
-
-def _links(synthesis: Synthesis, found: FoundLinkage) -> list[str]:
-    digits = _decimals(synthesis, max(dyad.rms_error for dyad in found.dyads))
-    links = found.linkage.links
-    return ["-"] * 4 if links is None else [f"{length:.{digits}f}" for length in links]
-
-
-def _decimals(synthesis: Synthesis, error: float) -> int:
-    """Decimals down to a dyad's error; the poses can tell no more, and JSON keeps them all."""
-    size = max(error if math.isfinite(error) else 0.0, DIGITS * (synthesis.length or 1.0))
-    return int(np.clip(-math.floor(math.log10(size)), 0, 12))
 
 
 def _error(synthesis: Synthesis, value: float) -> str:

@@ -1,0 +1,190 @@
+"""A dyad and a linkage as plain data, for `result`: numbers with all their digits.
+
+A number that does not exist (the error of a linkage that reaches no pose) is null.  Poses are
+numbered from 1.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from burmester.candidates import FoundDyad
+from burmester.defects import Defect, Driven
+from burmester.displacement import Displacement
+from burmester.dyad import PP, PR, RP, RR, Dyad
+from burmester.joined import FoundLinkage
+from burmester.tolerance import Spread
+from burmester.uncertainty import DyadUncertainty, PivotRegion
+
+__all__ = ["dyad_data", "linkage_data", "number", "poses_data"]
+
+CONFIDENCE = 0.95
+
+
+def number(value: float) -> float | None:
+    """The number, or None where there is none."""
+    return float(value) if math.isfinite(value) else None
+
+
+def poses_data(poses: Displacement) -> list[dict[str, float]]:
+    """Poses (N,) as rows of a file."""
+    rows = zip(poses.translation.tolist(), np.degrees(poses.angle).tolist(), strict=True)
+    return [{"x": x, "y": y, "angle_deg": angle} for (x, y), angle in rows]
+
+
+def dyad_data(found: FoundDyad) -> dict[str, Any]:
+    """A dyad by its kind's own dimensions."""
+    dyad = found.dyad
+    data: dict[str, Any] = {
+        "id": found.id,
+        "kind": type(dyad).__name__,
+        "rms_error": number(found.rms_error),
+        "max_error": number(found.max_error),
+        "minimum": found.minimum,
+    }
+    if found.limits:
+        data["limits"] = found.limits
+    match dyad:
+        case RR():
+            data["fixed_pivot"] = dyad.fixed_pivot.tolist()
+            data["moving_pivot"] = dyad.moving_pivot.tolist()
+            data["radius"] = float(dyad.radius)
+        case PR():
+            data["line"] = _line(dyad)
+            data["moving_pivot"] = dyad.moving_pivot.tolist()
+        case RP():
+            data["fixed_pivot"] = dyad.fixed_pivot.tolist()
+            data["line"] = _line(dyad)
+        case PP():
+            data["angle_deg"] = math.degrees(dyad.angle)
+    return data
+
+
+def _line(dyad: PR | RP) -> dict[str, float]:
+    return {"normal_deg": math.degrees(dyad.normal_angle), "offset": float(dyad.offset)}
+
+
+def linkage_data(found: FoundLinkage, tolerance: float | None = None) -> dict[str, Any]:
+    """A linkage with all that is said of it; tolerance: to which it is built, if that was asked."""
+    verdict = found.verdict
+    data: dict[str, Any] = {
+        "id": found.id,
+        "rank": found.rank,
+        "usable": found.usable,
+        "driver": found.driver,
+        "type": found.linkage.type,
+        "dyads": [dyad_data(dyad) for dyad in found.dyads],
+        "position_error": _errors(found.error.position),
+        "angle_error_deg": _errors(np.degrees(found.error.angle)),
+        "defects": [_defect(each) for each in found.defects],
+        "unmet": [{"kind": each.kind, "message": each.message} for each in found.unmet],
+        "sought": found.sought,
+        "min_transmission_angle_deg": _transmission(found.driven),
+        "drives": {
+            "first": _drive(found.dyads[0].dyad, verdict.first),
+            "second": _drive(found.dyads[1].dyad, verdict.second),
+        },
+        "pivot_uncertainty": _uncertainty(found),
+    }
+    if (links := found.linkage.links) is not None:
+        data["links"] = {name: float(length) for name, length in links._asdict().items()}
+    if np.isfinite(found.error.angle).all():
+        data["coupler"] = poses_data(found.error.places)
+    if found.spread is not None:
+        data["tolerance"] = _spread(found.spread, tolerance)
+    if (before := found.exact_error) is not None:
+        data["rounded"] = {
+            "position_error_before": _errors(before.position),
+            "angle_error_before_deg": _errors(np.degrees(before.angle)),
+        }
+    return data
+
+
+def _errors(values: np.ndarray) -> dict[str, float | None]:
+    return {"rms": number(np.sqrt((values**2).mean())), "max": number(values.max())}
+
+
+def _defect(defect: Defect) -> dict[str, Any]:
+    return {
+        "kind": defect.kind,
+        "message": defect.message,
+        "poses": [pose + 1 for pose in defect.poses],
+        "certain": defect.certain,
+    }
+
+
+def _transmission(driven: Driven) -> dict[str, float | None]:
+    return {
+        "poses": number(math.degrees(driven.least_at_poses)),
+        "range": number(math.degrees(driven.least_over_range)),
+    }
+
+
+def _drive(dyad: Dyad, driven: Driven) -> dict[str, Any]:
+    """What comes of it when this dyad drives; travel: the range of its drive between the poses."""
+    slides = isinstance(dyad, PR)
+    travel = driven.travel if slides else np.degrees(driven.travel)
+    return {
+        "defects": [_defect(each) for each in driven.defects],
+        "turns_fully": driven.turns_fully,
+        "min_transmission_angle_deg": _transmission(driven),
+        "circuit": driven.circuit if driven.circuit >= 0 else None,
+        "travel" if slides else "travel_deg": [number(end) for end in travel],
+    }
+
+
+def _uncertainty(found: FoundLinkage) -> dict[str, Any] | None:
+    """The 95 % regions of both dyads, if the errors of the poses say any."""
+    if found.uncertainty is None:
+        return None
+    return {
+        "confidence": CONFIDENCE,
+        "determined": found.determined,
+        "dyads": [
+            _regions(dyad.id, each)
+            for dyad, each in zip(found.dyads, found.uncertainty, strict=True)
+        ],
+    }
+
+
+def _regions(name: str, regions: DyadUncertainty) -> dict[str, Any]:
+    line = regions.line
+    return {
+        "dyad": name,
+        "fixed_pivot": _region(regions.fixed),
+        "moving_pivot": _region(regions.moving),
+        "line": None
+        if line is None
+        else {
+            "normal_deg": number(math.degrees(line.angle)),
+            "offset_at_mid_travel": number(line.offset),
+        },
+        "length": None if regions.length is None else number(regions.length),
+    }
+
+
+def _region(region: PivotRegion | None) -> dict[str, float | None] | None:
+    """An ellipse around the pivot, its direction in the pivot's own frame."""
+    if region is None:
+        return None
+    return {
+        "half_width": number(region.half_width),
+        "major": number(region.major),
+        "minor": number(region.minor),
+        "direction_deg": number(math.degrees(region.direction)),
+    }
+
+
+def _spread(spread: Spread, tolerance: float | None) -> dict[str, Any]:
+    """Position errors of linkages that are built within the tolerance."""
+    return {
+        "tolerance": tolerance,
+        "rms": number(float(spread.rms)),
+        "max_95": number(float(spread.greatest_95)),
+        "bound": number(float(spread.bound)),
+        "deviation_at_poses": [number(value) for value in spread.deviation],
+        "bound_at_poses": [number(value) for value in spread.worst],
+    }

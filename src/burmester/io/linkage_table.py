@@ -1,0 +1,292 @@
+"""The linkages of a synthesis as a terminal shows them: the best in a sentence, all in tables."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+from rich import box
+from rich.console import Console, Group
+from rich.padding import Padding
+from rich.table import Table
+from rich.text import Text
+
+from burmester import reasons as said
+from burmester.candidates import ROUNDING
+from burmester.dyad import PR, RP, RR
+from burmester.joined import FoundLinkage
+from burmester.synthesis import Synthesis
+from burmester.uncertainty import DyadUncertainty, PivotRegion, pose_sigma
+
+__all__ = [
+    "best_sentences",
+    "closest_three",
+    "decimals",
+    "dimensions",
+    "footnotes",
+    "new_table",
+    "unusable",
+    "usable_table",
+]
+
+DIGITS = 1e-4  # of the characteristic length: what pivots are shown to, errors permitting
+SHOWN = 8  # linkages that are not usable; the rest are counted
+THREE = 3
+INDENT = 5
+
+
+def new_table(title: str | None = None, gap: int = 1) -> Table:
+    """A table with one line under its heads, and `gap` more spaces than one between columns."""
+    return Table(
+        title=title and f"\n{title}",
+        title_justify="left",
+        title_style="bold",
+        box=box.SIMPLE_HEAD,
+        padding=(0, gap, 0, 0),
+        pad_edge=False,
+        show_edge=False,
+    )
+
+
+def decimals(synthesis: Synthesis, error: float) -> int:
+    """Decimals down to a dyad's error; the poses can tell no more, and JSON keeps them all."""
+    size = max(error if math.isfinite(error) else 0.0, DIGITS * (synthesis.length or 1.0))
+    return int(np.clip(-math.floor(math.log10(size)), 0, 12))
+
+
+def best_sentences(synthesis: Synthesis) -> Iterator[Text]:
+    """What the best usable linkage does, and why it is not another one."""
+    best, task, size = synthesis.usable[0], synthesis.task, synthesis.length
+    kind = best.linkage.type.replace("change-point", "change-point linkage")
+    article = "an" if kind[0] in "aeiouAEIOU" else "a"
+    least = said.least_angle(best.driven.least_over_range)
+    yield Text(
+        f"Best: {best.id}, {article} {kind} driven by {best.dyads[0].id}, "
+        f"{_meets(synthesis, best)}, transmission angle {least} or more."
+    )
+    nearest = said.by_nearness(synthesis.linkages, size)[0]
+    if nearest.usable is False and _nearer(nearest, best, size):
+        yield Text(
+            f"This one works and {said.met(best, task, size)}; the closest one, {nearest.id}, "
+            f"{said.in_short(nearest, task, size)}."
+        )
+    if not best.determined:
+        better = next((each for each in synthesis.usable if each.determined), None)
+        if better is not None:
+            yield Text(
+                f"Its pivots are uncertain; those of {better.id} are not, and it "
+                f"{said.met(better, task, size)}."
+            )
+
+
+def closest_three(synthesis: Synthesis) -> list[FoundLinkage]:
+    """The nearest ones, where none is usable."""
+    if synthesis.usable:
+        return []
+    return said.by_nearness(synthesis.linkages, synthesis.length)[:THREE]
+
+
+def usable_table(synthesis: Synthesis, console: Console) -> Table:
+    """Those that work, with as many columns as there is room for."""
+    usable = synthesis.usable
+    all_pins = any(found.linkage.links is not None for found in usable)
+    unlimited = console.options.update(max_width=10 * console.width)
+    for links, gap in ((all_pins, 1), (all_pins, 0)):
+        table = _usable(synthesis, usable, links, gap)
+        if console.measure(table, options=unlimited).maximum <= console.width:
+            return table
+    return _usable(synthesis, usable, False, 1)
+
+
+def _usable(synthesis: Synthesis, usable: Sequence[FoundLinkage], links: bool, gap: int) -> Table:
+    table = new_table("Usable, by worst miss", gap)
+    table.add_column("", no_wrap=True)
+    table.add_column("type")
+    table.add_column("dyads", no_wrap=True)
+    for name in ("ground", "driver", "coupler", "follower") if links else ():
+        table.add_column(name, justify="right", no_wrap=True)
+    for name in ("worst", "angle", "transm."):
+        table.add_column(name, justify="right", no_wrap=True)
+    for found in usable:
+        # Of the longest name, the second word stands under the first.
+        kind = found.linkage.type.replace("inverted ", "inverted\n")
+        table.add_row(
+            found.id,
+            kind,
+            " ".join(dyad.id for dyad in found.dyads),
+            *(_links(synthesis, found) if links else ()),
+            *_errors(synthesis, found),
+            said.least_angle(found.driven.least_over_range),
+        )
+    return table
+
+
+def unusable(synthesis: Synthesis, found: Sequence[FoundLinkage]) -> Group:
+    """Linkages that do not work, each with its reasons under it."""
+    rows: list[Text | Padding] = []
+    for each in found[:SHOWN]:
+        dyads = " ".join(dyad.id for dyad in each.dyads)
+        how = said.met(each, synthesis.task, synthesis.length)
+        angle = float(each.error.angle.max())
+        if math.isfinite(angle) and not said.exact(each, synthesis.length):
+            how += f" and {_degrees(angle)}"
+        if each.exact_error is not None:
+            how += f" (before rounding {said.length_of(each.exact_error.worst, synthesis.task)})"
+        head = Text(f"{each.id:<{INDENT - 1}} {each.linkage.type}, {dyads}: {how}")
+        reasons = "; ".join(said.reasons(each, synthesis.task))
+        rows += [head, Padding(Text(reasons), (0, 0, 0, INDENT))]
+    if len(found) > SHOWN:
+        rows.append(Text(f"and {len(found) - SHOWN} more, see --json"))
+    return Group(*rows)
+
+
+def dimensions(synthesis: Synthesis) -> Iterator[Text | Table]:
+    """The best usable linkage in full: its dimensions, and how certain they are."""
+    best, task = synthesis.usable[0], synthesis.task
+    unit = f", in {task.length_unit}" if task.length_unit else ""
+    yield Text(f"\n{best.id} in full{unit}", style="bold")
+    table = Table.grid(padding=(0, 2, 0, 0))
+    certain = not any(task.resolution)
+    regions: Sequence[DyadUncertainty | None] = best.uncertainty or (None, None)
+    for dyad, region in zip(best.dyads, regions, strict=True):
+        name = dyad.id
+        for what, value, give in _parts(synthesis, best, dyad.dyad, region):
+            table.add_row(name, what, value, *(() if certain else (give,)))
+            name = ""
+    yield table
+    if not certain:
+        position, angle = pose_sigma(task)
+        yield Text(
+            "±: 95 % regions, of a pivot in its worst direction, if the poses err by "
+            f"{said.length_of(position, task)} and {said.figure(math.degrees(angle))}° "
+            "(standard deviations: from their digits, or --pose-sigma).",
+            style="dim",
+        )
+    if best.spread is not None:
+        wish = getattr(synthesis, "wish", None)
+        within = f"to ±{said.length_of(wish.tolerance, task)}" if wish else "within the tolerance"
+        yield Text(
+            f"Built {within}: position errors of up to "
+            f"{said.length_of(float(best.spread.greatest_95), task)} (95 % of linkages), at most "
+            f"{said.length_of(float(best.spread.bound), task)}."
+        )
+    if best.exact_error is not None:
+        yield Text(_rounded(synthesis, best))
+
+
+def _rounded(synthesis: Synthesis, best: FoundLinkage) -> str:
+    """What rounding does to the error."""
+    assert best.exact_error is not None
+    task, wish = synthesis.task, getattr(synthesis, "wish", None)
+    how = []
+    if wish and wish.step is not None:
+        how.append(f"rounded to {said.length_of(wish.step, task)}")
+    if wish and wish.stock:
+        how.append("with links from stock")
+    text = " and ".join(how) or "rounded"
+    before, after = (
+        "by nothing but rounding errors"
+        if each.worst < ROUNDING * synthesis.length
+        else f"by {said.length_of(each.worst, task)}"
+        for each in (best.exact_error, best.error)
+    )
+    return f"{text[0].upper()}{text[1:]}: {best.id} misses {after}, instead of {before}."
+
+
+def footnotes(synthesis: Synthesis) -> str:
+    """What the tables' columns are, and their order."""
+    unit = synthesis.task.length_unit or "the unit of the poses"
+    notes = f"Lengths in {unit}; F is the ground, M the body."
+    if synthesis.linkages:
+        notes += " Usable linkages come first, then those that miss least."
+    if any(dyad.id[0] == "M" for found in synthesis.linkages for dyad in found.dyads):
+        notes += " Dyads M come from the pivot map."
+    if synthesis.usable:
+        notes += (
+            " The first of two dyads drives; worst and angle: the greatest misses at a pose; "
+            "transm.: the least transmission angle between the poses."
+        )
+    return notes
+
+
+def _parts(
+    synthesis: Synthesis, found: FoundLinkage, dyad: object, region: DyadUncertainty | None
+) -> Iterator[tuple[str, str, str]]:
+    """Of a dyad, each dimension: what it is, its value and how certain it is."""
+    error = found.error.worst
+    turn = math.degrees(float(found.error.angle.max()))
+
+    def known(give: float, unit: str = "") -> tuple[int, str]:
+        digits = _digits(synthesis, max(error, give))
+        return digits, _give(give, digits, unit)
+
+    def point(pivot: np.ndarray, region: PivotRegion | None) -> tuple[str, str]:
+        digits, give = known(region.half_width if region else 0.0)
+        return f"({pivot[0]:.{digits}f}, {pivot[1]:.{digits}f})", give
+
+    if isinstance(dyad, RR | RP):
+        yield "fixed pivot", *point(dyad.fixed_pivot, region.fixed if region else None)
+    if isinstance(dyad, RR | PR):
+        yield "moving pivot", *point(dyad.moving_pivot, region.moving if region else None)
+    if isinstance(dyad, RR):
+        digits, give = known(region.length or 0.0 if region else 0.0)
+        yield "length", f"{dyad.radius:.{digits}f}", give
+    if isinstance(dyad, PR | RP):
+        line = region.line if region else None
+        swing = math.degrees(line.angle) if line else 0.0
+        digits, angle = _places(max(turn, swing)), math.degrees(dyad.normal_angle)
+        frame = "line in F" if isinstance(dyad, PR) else "line in M"
+        yield f"{frame}, normal", f"{angle:.{digits}f}°", _give(swing, digits, "°")
+        digits, give = known(line.offset if line else 0.0, " at mid-travel")
+        yield "offset", f"{dyad.offset:.{digits}f}", give
+
+
+def _give(value: float, digits: int, what: str = "") -> str:
+    """A half-width, for a number with so many decimals."""
+    if not math.isfinite(value):
+        return "-"
+    if value < 0.5 * 10.0**-digits:
+        return f"± under {10.0**-digits:.{digits}f}{what}"
+    shown = f"{value:.{min(digits, _places(value))}f}" if value < 1e6 else f"{value:.1e}"
+    return f"± {shown}{what}"
+
+
+def _digits(synthesis: Synthesis, size: float) -> int:
+    return _places(max(size if math.isfinite(size) else 0.0, 1e-12 * synthesis.length))
+
+
+def _places(size: float) -> int:
+    """Decimals that show a size with one digit, or two where the first is 1 or 2; 12 at most."""
+    if not size > 0:
+        return 12
+    return int(np.clip(math.ceil(-math.log10(size / 3)), 0, 12))
+
+
+def _meets(synthesis: Synthesis, best: FoundLinkage) -> str:
+    if said.exact(best, synthesis.length):
+        return "passes every pose exactly, up to rounding"
+    worst = said.length_of(best.error.worst, synthesis.task)
+    return f"passes every pose within {worst} and {_degrees(float(best.error.angle.max()))}"
+
+
+def _nearer(one: FoundLinkage, other: FoundLinkage, size: float) -> bool:
+    return one.error.worst < other.error.worst - ROUNDING * size
+
+
+def _errors(synthesis: Synthesis, found: FoundLinkage) -> tuple[str, str]:
+    angle, worst = float(found.error.angle.max()), found.error.worst
+    return (
+        "exact" if worst < ROUNDING * (synthesis.length or 1.0) else said.figure(worst),
+        "exact" if angle < ROUNDING else _degrees(angle),
+    )
+
+
+def _degrees(angle: float) -> str:
+    return f"{said.figure(math.degrees(angle))}°"
+
+
+def _links(synthesis: Synthesis, found: FoundLinkage) -> list[str]:
+    digits = decimals(synthesis, max(dyad.rms_error for dyad in found.dyads))
+    links = found.linkage.links
+    return ["-"] * 4 if links is None else [f"{length:.{digits}f}" for length in links]
