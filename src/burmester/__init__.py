@@ -6,6 +6,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from burmester.accuracy import PoseError as PoseError
     from burmester.certificate import certify as certify
     from burmester.certificate import certify_five as certify_five
     from burmester.critical import critical_dyads as critical_dyads
@@ -36,6 +37,8 @@ if TYPE_CHECKING:
     from burmester.pivot_map import fixed_pivot_map as fixed_pivot_map
     from burmester.pivot_map import moving_pivot_map as moving_pivot_map
     from burmester.quadric import fit_quadric as fit_quadric
+    from burmester.requirements import Requirements as Requirements
+    from burmester.synthesis import FoundLinkage as FoundLinkage
     from burmester.synthesis import Synthesis as Synthesis
     from burmester.synthesis import synthesize as synthesize
     from burmester.task import Task as Task
@@ -50,12 +53,15 @@ __all__ = [
     "BurmesterError",
     "Displacement",
     "Dyad",
+    "FoundLinkage",
     "InputError",
     "Limits",
     "Line",
     "Linkage",
     "Point",
     "Polygon",
+    "PoseError",
+    "Requirements",
     "Segment",
     "Synthesis",
     "Task",
@@ -81,6 +87,7 @@ __all__ = [
 
 # Loaded when first asked for, so that `burmester --help` needs no NumPy.
 _ROOMS = {
+    "accuracy": ("PoseError",),
     "certificate": ("certify", "certify_five"),
     "critical": ("critical_dyads",),
     "curve": ("dyad_curve",),
@@ -95,7 +102,8 @@ _ROOMS = {
     "pencil": ("fit_pencil",),
     "pivot_map": ("fixed_pivot_map", "moving_pivot_map"),
     "quadric": ("fit_quadric",),
-    "synthesis": ("Synthesis", "synthesize"),
+    "requirements": ("Requirements",),
+    "synthesis": ("FoundLinkage", "Synthesis", "synthesize"),
     "task": ("Task",),
 }
 

@@ -166,7 +166,7 @@ def on_circuits(stack: LinkageStack, poses: Displacement, length: float) -> Disp
         block = wanted[at : at + BLOCK]
         start = _valleys(sampled[row, side], block, length, valleys)
         ends = settled(
-            stack[row], start.reshape(len(row), -1, 3), np.repeat(block, valleys, axis=0), length
+            stack[row], start.reshape(len(row), valleys * len(block), 3), np.repeat(block, valleys, axis=0), length
         ).reshape(start.shape)
         tries = np.concatenate([ends, start], axis=2)
         away = ((tries - block[:, None]) ** 2).sum(axis=-1)

@@ -47,6 +47,7 @@ TOO_CLOSE: Final = 1e-3  # radians (0.06°): of a transmission angle, below whic
 STEP_BACK: Final = 1e-5  # along the circuit, in radians or shares of the linkage: the same of order
 REPEATED: Final = 1e-7  # along the circuit, below which poses are the same twice
 STRAY: Final = 1e-5  # radians and shares of the places; at a change point, twice 1e-8 is rounding
+MOST: Final = 12  # poses, or ways between them, that a message lists
 QUARTER: Final = np.pi / 2
 TURN: Final = 2 * np.pi
 QUARTERS: Final = 5  # multiples of a quarter turn inside a turn, at most
@@ -124,6 +125,7 @@ def judge(
     *,
     missed: FloatArray,
     reach: float,
+    length: float | None = None,
     names: Sequence[str] | None = None,
     any_order: bool = False,
 ) -> list[Verdict]:
@@ -133,6 +135,8 @@ def judge(
         none: such poses are left out of the other verdicts.
     missed: (k, N), how far each pose is from its place; by more than `reach` is an assembly
         defect.  Both in the unit in which distances between poses are taken.
+    length: what a radian counts as in `missed`; None takes the poses as met, whatever they are
+        missed by.
     names: what messages call the poses, instead of their numbers from 1.
     any_order: whether the poses may be met in any order.
 
@@ -141,8 +145,10 @@ def judge(
     a linkage is taken as given (see `Circuits.of`); its poses on one piece between change points
     make no defect.  Order is judged along the branch or, where a drive turns fully, in either
     sense within one turn; with a branch defect, along the circuit, as it would be with help over
-    the dead point.  Poses that lie less than REPEATED apart have no order; a step back of less
-    than STEP_BACK is an order defect that is not certain.
+    the dead point.  Poses that lie less than REPEATED apart have no order, nor do those that lie
+    nearer to each other along the circuit than twice the greatest miss: met half way between, each
+    would be missed along the circuit by no more than some pose is across it.  A step back of less than STEP_BACK is an order defect that is not
+    certain.
     """
     sides = (linkage, Linkage(linkage.second, linkage.first))
     seen = [_Seen.of(side, places) for side in sides]
@@ -167,8 +173,12 @@ def judge(
         defect = _circuit(clear[k], labels[k], change[k], any_order, called)
         lesser = _numbers(clear[k] & (labels[k] != main[k]))
         common[k].append(Defect("circuit", defect, lesser, not change[k]))
+    loose = np.zeros(len(found))
+    if length is not None:
+        loose = 2 * np.where(found, np.minimum(missed, reach), 0.0).max(axis=1)
     first, second = (
-        _driven(side, each, on, any_order, called) for side, each in zip(sides, seen, strict=True)
+        _driven(side, each, on, (loose, length or 0.0), any_order, called)
+        for side, each in zip(sides, seen, strict=True)
     )
     return [
         Verdict(tuple(defects), a, b) for defects, a, b in zip(common, first, second, strict=True)
@@ -221,11 +231,13 @@ class _Order(NamedTuple):
     """How poses (k, N) are met.
 
     along: their parameters, unwrapped.  back: (k,) by how much the journey steps back on its way,
-    in radians or shares of the linkage, at the most.
+    in radians or shares of the linkage, at the most.  slack: (k,), the same for steps that are
+    within what the poses are missed by.
     """
 
     along: FloatArray
     back: FloatArray
+    slack: FloatArray
 
 
 class _Journey(NamedTuple):
@@ -264,11 +276,19 @@ class _Range(NamedTuple):
     worst: NDArray[np.intp]
 
 
-def _driven(
-    linkage: Linkage, seen: _Seen, on: BoolArray, any_order: bool, called: _Names
+def _driven(  # noqa: PLR0917
+    linkage: Linkage,
+    seen: _Seen,
+    on: BoolArray,
+    loose: tuple[FloatArray, float],
+    any_order: bool,
+    called: _Names,
 ) -> list[Driven]:
-    """The verdicts on linkages (k,) with one driver, from the poses (k, N) on their circuit."""
-    journey = _journey(linkage, seen, on, any_order)
+    """The verdicts on linkages (k,) with one driver, from the poses (k, N) on their circuit.
+
+    loose: the distances (k,) within which poses have no order, and what a radian counts as there.
+    """
+    journey = _journey(linkage, seen, on, loose, any_order)
     journey, ranged = _detour(journey, _range(journey, seen), seen, any_order)
     told, along, circuits = journey.told, journey.order.along, journey.circuits
     parameter = np.where(told, along, np.nan)
@@ -283,7 +303,9 @@ def _driven(
             defects[k].append(_branch(journey, k, any_order, called))
         else:
             defects[k].append(_close(journey, ranged, k, called))
-    for k in np.flatnonzero(some & (journey.order.back > REPEATED)).tolist():
+    for k in np.flatnonzero(
+        some & (journey.order.back > np.maximum(REPEATED, journey.order.slack))
+    ).tolist():
         defects[k].append(_order(journey, ranged, k, called))
     for k in np.flatnonzero(on.any(axis=1) & ~some).tolist():
         defects[k].append(_untold(on[k]))
@@ -303,7 +325,13 @@ def _driven(
     ]
 
 
-def _journey(linkage: Linkage, seen: _Seen, on: BoolArray, any_order: bool) -> _Journey:
+def _journey(
+    linkage: Linkage,
+    seen: _Seen,
+    on: BoolArray,
+    loose: tuple[FloatArray, float],
+    any_order: bool,
+) -> _Journey:
     location = seen.location
     told = on & (location.circuit >= 0) & np.isfinite(location.parameter)
     clear = told & (seen.transmission >= TOO_CLOSE)
@@ -325,13 +353,16 @@ def _journey(linkage: Linkage, seen: _Seen, on: BoolArray, any_order: bool) -> _
     size = _size(linkage, circuits, seen.places, told, s)
     doubtful = np.zeros(len(s), dtype=bool)
     if any_order:
-        order = _Order(np.where(all_round[:, None], _smallest_arc(s), s), np.zeros(len(s)))
+        none = np.zeros(len(s))
+        order = _Order(np.where(all_round[:, None], _smallest_arc(s), s), none, none)
     else:
-        straight = _straight(s, size)
-        turned = _turned(s)
+        slack = _slack(seen.places, told, s, *loose)
+        straight, turned = _straight(s, size, slack), _turned(s, slack)
         order = _Order(
-            np.where(all_round[:, None], turned.along, straight.along),
-            np.where(all_round, turned.back, straight.back),
+            *(
+                np.where(all_round.reshape(-1, *[1] * (one.ndim - 1)), one, other)
+                for one, other in zip(turned, straight, strict=True)
+            )
         )
         elsewhere = (np.isfinite(seen.places.angle) & ~on).any(axis=1)
         doubtful = elsewhere | (circuits.closed & (turned.back <= STEP_BACK))
@@ -369,19 +400,21 @@ def _detour(
     if not close.any():
         return journey, ranged
     away = np.take_along_axis(ranged.along, ranged.worst[:, None], axis=1)
-    along, back = journey.order
+    along, back, slack = journey.order
     other = away + np.mod(along - away, TURN)
-    steps = _straight(other, np.ones(len(other))).back
-    allowed = close if any_order else close & (steps <= np.maximum(back, REPEATED))
+    steps = np.minimum(_back(other), _back(-other))
+    allowed = (
+        close if any_order else close & (steps <= np.maximum(np.maximum(back, slack), REPEATED))
+    )
     other = np.where(allowed[:, None], other, along)
-    there = _range(journey._replace(order=_Order(other, back)), seen)
+    there = _range(journey._replace(order=_Order(other, back, slack)), seen)
     better = ~(there.least < TOO_CLOSE) & allowed
     along = np.where(better[:, None], other, along)
     merged = (
         np.where(better.reshape(-1, *[1] * (new.ndim - 1)), new, old)
         for new, old in zip(there, ranged, strict=True)
     )
-    return journey._replace(order=_Order(along, back)), _Range(*merged)
+    return journey._replace(order=_Order(along, back, slack)), _Range(*merged)
 
 
 def _transmission(seen: _Seen, places: Displacement) -> FloatArray:
@@ -406,29 +439,48 @@ def _back(x: FloatArray) -> FloatArray:
     return np.asarray((np.maximum.accumulate(x, axis=1) - x).max(axis=1))
 
 
-def _straight(s: FloatArray, size: FloatArray) -> _Order:
+def _slack(
+    places: Displacement, told: BoolArray, s: FloatArray, loose: FloatArray, length: float
+) -> FloatArray:
+    """The steps (k,) along circuits, parameters s (k, N), that take the coupler as far as `loose`.
+
+    By the mean speed between neighbours.
+    """
+    if not loose.any():
+        return np.zeros(len(s))
+    rows = np.concatenate([places.translation, length * places.angle[..., None]], axis=-1)
+    order = np.argsort(s, axis=1)
+    rows, s = np.take_along_axis(rows, order[..., None], axis=1), np.take_along_axis(s, order, 1)
+    gap = np.diff(rows, axis=1)
+    gap[..., 2] = length * _within_half_a_turn(gap[..., 2] / length)
+    far = np.where(np.take_along_axis(told, order, 1)[:, 1:], np.linalg.norm(gap, axis=-1), 0.0)
+    way, steps = np.nansum(far, axis=1), np.ptp(s, axis=1)
+    return np.asarray(np.where(way > 0, loose * steps / np.where(way > 0, way, 1.0), 0.0))
+
+
+def _straight(s: FloatArray, size: FloatArray, slack: FloatArray) -> _Order:
     """Poses along an interval, in either sense."""
-    return _Order(s, np.minimum(_back(s), _back(-s)) / size)
+    return _Order(s, np.minimum(_back(s), _back(-s)) / size, slack / size)
 
 
-def _turned(s: FloatArray) -> _Order:
+def _turned(s: FloatArray, slack: FloatArray) -> _Order:
     """Poses round a closed circuit: in the sense that meets them in order within one turn.
 
     If both do, in the one that turns less; if neither, along the smallest arc.
     """
-    tries = []
+    tries, least = [], np.maximum(STEP_BACK, slack)
     for sense in (1.0, -1.0):
         step = np.mod(sense * np.diff(s, axis=1), TURN)
-        step = np.where(step > TURN - STEP_BACK, step - TURN, step)
+        step = np.where(step > TURN - least[:, None], step - TURN, step)
         x = np.concatenate([np.zeros_like(s[:, :1]), np.cumsum(step, axis=1)], axis=1)
         extent = np.ptp(x, axis=1)
         tries.append((s[:, :1] + sense * x, np.maximum(_back(x), extent - TURN), extent))
     (up, back_up, wide_up), (down, back_down, wide_down) = tries
-    good_up, good_down = back_up <= STEP_BACK, back_down <= STEP_BACK
+    good_up, good_down = back_up <= least, back_down <= least
     use_up = good_up & ~(good_down & (wide_down < wide_up))
     along = np.where(use_up[:, None], up, down)
     along = np.where((good_up | good_down)[:, None], along, _smallest_arc(s))
-    return _Order(along, np.where(use_up, back_up, back_down))
+    return _Order(along, np.where(use_up, back_up, back_down), slack)
 
 
 def _smallest_arc(s: FloatArray) -> FloatArray:
@@ -502,13 +554,20 @@ class _Names(NamedTuple):
         return str(pose + 1) if self.given is None else self.given[pose]
 
     def listed(self, poses: Sequence[int]) -> str:
-        return _listed([self.one(pose) for pose in poses])
+        return _listed(_some([self.one(pose) for pose in poses]))
 
     def __call__(self, poses: Sequence[int]) -> str:
         return ("pose " if len(poses) == 1 else "poses ") + self.listed(poses)
 
     def between(self, pairs: Sequence[tuple[int, int]]) -> str:
-        return _listed([f"between {self(pair)}" for pair in pairs])
+        return _listed(_some([f"between {self(pair)}" for pair in pairs], "times"))
+
+
+def _some(words: list[str], more: str = "others") -> list[str]:
+    """The first of them, and how many more there are."""
+    if len(words) <= MOST:
+        return words
+    return [*words[: MOST - 2], f"{len(words) - MOST + 2} {more}"]
 
 
 def _listed(words: Sequence[str]) -> str:
@@ -529,8 +588,11 @@ def _assembly(far: BoolArray, found: BoolArray, missed: FloatArray, called: _Nam
         text = f"it cannot be assembled near {called(nowhere)}"
         defects.append(Defect("assembly", text, nowhere))
     if near:
-        gaps = _listed([f"{missed[pose]:.2g}" for pose in near])
-        text = f"the coupler comes no nearer to {called(near)} than {gaps}"
+        worst = max(near, key=lambda pose: missed[pose])
+        text = f"the coupler comes no nearer to pose {called.one(worst)} than {missed[worst]:.2g}"
+        others = [pose for pose in near if pose != worst]
+        if others:
+            text += f", and misses {called(others)} by {min(missed[others]):.2g} or more"
         defects.append(Defect("assembly", text, near))
     return defects
 
@@ -611,7 +673,8 @@ def _order(journey: _Journey, ranged: _Range, k: int, called: _Names) -> Defect:
         ways.append(way[start:] + way[:start])
     met = min(ways)
     moved = tuple(a for a, b in zip(poses.tolist(), met, strict=True) if a != b)
-    text = f"meets the poses in the order {'-'.join(called.one(pose) for pose in met)}"
+    shown = [called.one(pose) for pose in met[:MOST]] + ["..."] * (len(met) > MOST)
+    text = f"meets the poses in the order {'-'.join(shown)}"
     return Defect("order", text + UNSURE * (not certain), moved, bool(certain))
 
 

@@ -41,7 +41,8 @@ ROUGH, FINE = 12, 48  # steps of refining, for all linkages and for those that c
 GOOD, NEAR = 4, 100.0  # those: so many, and all whose sum of squares is no more times the least
 SHORTEST = 1e-6  # sizes; a ground link or a coupler shorter than this is none
 DETERMINED = 0.05  # spans; pivots known worse than this are not determined
-EXACT = 1e12  # weights: what an exact pose counts as, to say what its errors do
+MANY, ENOUGH = 1000, 60  # poses; of more so many are refined for, or looked for linkages with
+EXACT = 1e8  # weights: what an exact pose counts as, to say what its errors do
 STRIDE, TOUCHING = 1e-7, 1e-9  # of difference quotients; of a limit that is touched
 FIXED, MOVING = slice(0, 2), slice(2, 4)
 FEW = 5  # linkages found under conditions are kept, at most
@@ -185,8 +186,7 @@ def _of_pairs(start: LinkageStack, pairs: list[Pair], aim: Aim, wish: Wish) -> _
     """The pairs with their places, on one circuit where that is nearly as near as any."""
     every = np.arange(len(start))
     rows = rows_of(on_circuits(start, aim.poses, aim.length), aim.length)
-    cost = np.nan_to_num(aim.cost(rows), nan=np.inf)
-    one = rows[every, cost.argmin(axis=1)]
+    one = rows[every, np.nan_to_num(aim.cost(rows), nan=np.inf).argmin(axis=1)]
     places = nearest(Displacement(rows[..., :2], rows[..., 2] / aim.length), aim.poses, aim.length)
     best = rows_of(places, aim.length)
     wanted = rows_of(aim.poses, aim.length)
@@ -211,6 +211,9 @@ def _refined(made: _Candidates, aim: Aim) -> _Candidates:
     some = np.flatnonzero(cost > ROUNDING**2 * made.rows.shape[1])
     if not len(some):
         return made
+    if (thin := aim.thinned(MANY)) is not aim:
+        stack = _refined(made._replace(rows=thin.places(made.stack)), thin).stack
+        return made._replace(stack=stack, rows=aim.places(stack))
     kept = Together(aim.kept) if aim.kept else None
     dimensions, rows = made.stack.dimensions.copy(), made.rows.copy()
     for steps in (ROUGH, FINE):
@@ -235,17 +238,16 @@ def _sought(
     """Linkages that work and come nearer to the poses than the plain ones that do."""
     found: list[FoundLinkage] = []
     best = min((each.error.worst for each in plain if each.usable), default=np.inf)
+    aim = judging.aim.thinned(ENOUGH)
     for stack, origin in _more(start, pairs, judging, best):
-        more = linkages_that_work(stack, judging.aim)
+        more = linkages_that_work(stack, aim)
         if more is not None:
             index = np.flatnonzero(more.refined.met)
-            made = _Candidates(
-                more.refined.stack[index],
-                more.refined.rows[index],
-                [origin[k] for k in more.pair[index]],
-                sought=True,
-            )
-            told = judging.told(made)
+            found_stack, rows = more.refined.stack[index], more.refined.rows[index]
+            if aim is not judging.aim:
+                rows = judging.aim.places(found_stack)
+            came = [origin[k] for k in more.pair[index]]
+            told = judging.told(_Candidates(found_stack, rows, came, sought=True))
             found += [each for each in told if each.usable and each.error.worst < best][:FEW]
         if found:
             break
@@ -362,6 +364,7 @@ class _Judging:
                 places[index],
                 missed=missed[index],
                 reach=reach,
+                length=self.wish.length,
                 names=names,
                 any_order=asked.any_order,
             )

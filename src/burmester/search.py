@@ -8,7 +8,7 @@ linkage is not proved.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple, final
 
 import numpy as np
@@ -76,6 +76,25 @@ class Aim:
             exact=self.exact,
             **how,
         )
+
+    def thinned(self, most: int) -> Aim:
+        """The same with so many poses at most, evenly chosen; exact ones all stay."""
+        count = self.poses.shape[0]
+        if count <= most:
+            return self
+        index = np.linspace(0, count - 1, most).round().astype(np.intp)
+        if self.exact is not None:
+            index = np.union1d(index, np.flatnonzero(self.exact))
+        weights, exact = (
+            each if each is None else each[index] for each in (self.weights, self.exact)
+        )
+        return replace(self, poses=self.poses[index], weights=weights, exact=exact)
+
+    def places(self, stack: LinkageStack) -> FloatArray:
+        """Rows (k, N, 3) of the places nearest to the poses on the circuit that is nearest to all."""
+        rows = rows_of(on_circuits(stack, self.poses, self.length), self.length)
+        cost = np.nan_to_num(self.cost(rows), nan=np.inf)
+        return np.asarray(rows[np.arange(len(stack)), cost.argmin(axis=1)])
 
     def cost(self, rows: FloatArray) -> FloatArray:
         """The weighted sum of squared distances (*,) of rows (*, N, 3) from the poses."""

@@ -31,6 +31,7 @@ __all__ = [
 ]
 
 DIGITS = 1e-4  # of the characteristic length: what pivots are shown to, errors permitting
+FINEST = 1e-6  # the same for the best linkage, however exact the poses are
 SHOWN = 8  # linkages that are not usable; the rest are counted
 THREE = 3
 INDENT = 5
@@ -253,7 +254,7 @@ def _give(value: float, digits: int, what: str = "") -> str:
 
 
 def _digits(synthesis: Synthesis, size: float) -> int:
-    return _places(max(size if math.isfinite(size) else 0.0, 1e-12 * synthesis.length))
+    return _places(max(size if math.isfinite(size) else 0.0, FINEST * synthesis.length))
 
 
 def _places(size: float) -> int:
