@@ -6,12 +6,14 @@ means the least |position difference|² + (length x angle difference)².
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import NamedTuple, final
 
 import numpy as np
+from numpy.typing import NDArray
 
-from burmester.circuit import Circuits
+from burmester.circuit import Circuits, locate
 from burmester.dead_points import complex_of
 from burmester.displacement import Displacement, FloatArray
 from burmester.frames import CanonicalFrames
@@ -38,6 +40,9 @@ VALLEYS, FEW = 3, 1  # of these places, the local minima followed, for few poses
 REACH = 2.0  # of the samples on an endless circuit: half of them lie within it
 STEPS, FAR = 30, 0.3  # at most, of the way to the nearest place; the longest of them
 SETTLED = 1e-14  # a step that is rounding
+ROUNDS, LOOKS = 7, 17  # where it does not do: times looked closer, and places each time
+EDGE = 1e-6  # of an endless circuit, left out
+MEETING = 1e-9  # a circuit's margin at which it meets the other
 FLAT = 0.2  # the least curvature that a step along the circuit counts with
 PARALLEL = 1e-20  # squared sine between two forces that are taken for parallel
 
@@ -153,25 +158,13 @@ def on_circuits(stack: LinkageStack, poses: Displacement, length: float) -> Disp
     other minimum is nearer is not proved.  Angles come within half a turn of the poses'.
     """
     count, number = len(stack), poses.shape[0]
-    few = number <= MANY
-    samples, valleys = (SAMPLES, VALLEYS) if few else (FEWER, FEW)
-    sampled = np.full((count, 2, samples, 3), np.nan)
-    for index, linkage in stack.alike():
-        circuits = Circuits.of(linkage, as_given=True)
-        sampled[index] = rows_of(circuits.couplers(_spread(circuits, samples)), length)
     out = np.full((count, 2, number, 3), np.nan)
     wanted = rows_of(poses, length)
-    row, side = np.nonzero(np.isfinite(sampled).all(axis=-1).any(axis=-1))
-    for at in range(0, number, BLOCK):
-        block = wanted[at : at + BLOCK]
-        start = _valleys(sampled[row, side], block, length, valleys)
-        ends = settled(
-            stack[row], start.reshape(len(row), valleys * len(block), 3), np.repeat(block, valleys, axis=0), length
-        ).reshape(start.shape)
-        tries = np.concatenate([ends, start], axis=2)
-        away = ((tries - block[:, None]) ** 2).sum(axis=-1)
-        best = np.nan_to_num(away, nan=np.inf).argmin(axis=-1)[..., None, None]
-        out[row, side, at : at + BLOCK] = np.take_along_axis(tries, best, axis=2)[:, :, 0]
+    for index, linkage in stack.alike():
+        circuits = Circuits.of(linkage, as_given=True)
+        some = _On(stack[index], circuits, length, number <= MANY)
+        for at in range(0, number, BLOCK):
+            out[index, :, at : at + BLOCK] = some.nearest(wanted[at : at + BLOCK])
     return Displacement(out[..., :2], out[..., 2] / length)
 
 
@@ -183,19 +176,102 @@ def nearest(places: Displacement, poses: Displacement, length: float) -> Displac
     return places[row, other, pose]
 
 
-def _spread(circuits: Circuits, samples: int) -> FloatArray:
-    """Parameters (*, samples) that spread over circuits (*,)."""
-    share = (np.arange(samples) + 0.5) / samples
-    closed = circuits.closed[..., None]
-    if circuits.drive.turns:
-        return np.where(closed, 2 * np.pi * share, np.pi * share)
-    return np.where(closed, 2 * np.pi * share, REACH * np.tan(np.pi * (share - 0.5)))
+class _On:
+    """Circuits (k, 2) of linkages (k,) of the same kinds, on which places are looked for."""
+
+    def __init__(self, stack: LinkageStack, circuits: Circuits, length: float, few: bool) -> None:
+        self.stack, self.circuits, self.length = stack, circuits, length
+        self.samples, self.valleys = (SAMPLES, VALLEYS) if few else (FEWER, FEW)
+        self.share = (np.arange(self.samples) + 0.5) / self.samples
+        sampled = self._at(circuits, self.share)
+        self.row, self.side = np.nonzero(np.isfinite(sampled).all(axis=-1).any(axis=-1))
+        self.sampled = sampled[self.row, self.side]
+
+    def nearest(self, wanted: FloatArray) -> FloatArray:
+        """The places (k, 2, N, 3) nearest to wanted (N, 3)."""
+        out = np.full((len(self.stack), 2, len(wanted), 3), np.nan)
+        if not len(self.row):
+            return out
+        start, sample = _valleys(self.sampled, wanted, self.length, self.valleys)
+        shape = start.shape
+        target = np.broadcast_to(wanted[:, None], shape)
+        ends = self._settled(self.row, start, target)
+        # Newton's method may leap to the other circuit, or past the valley.
+        astray = np.nan_to_num(_away(ends, target), nan=np.inf) > _away(start, target) + SETTLED
+        astray |= self._strayed(self.row, self.side, ends)
+        astray &= np.isfinite(start).all(axis=-1)
+        if astray.any():
+            which = np.nonzero(astray)
+            ends[which] = self._closed_in(
+                self.row[which[0]], self.side[which[0]], sample[which], target[which]
+            )
+        best = np.nan_to_num(_away(ends, target), nan=np.inf).argmin(axis=-1)[..., None, None]
+        out[self.row, self.side] = np.take_along_axis(ends, best, axis=2)[:, :, 0]
+        return out
+
+    def _settled(self, row: NDArray[np.intp], start: FloatArray, target: FloatArray) -> FloatArray:
+        """Places (n, *, 3) of linkages (n,) in the stack that Newton's method leads to."""
+        flat = (len(row), math.prod(start.shape[1:-1]), 3)
+        ends = settled(self.stack[row], start.reshape(flat), target.reshape(flat), self.length)
+        return ends.reshape(start.shape)
+
+    def _at(self, circuits: Circuits, share: FloatArray) -> FloatArray:
+        """Places (*, s, 3) where shares (s,) or (*, s) of circuits (*,) are passed."""
+        closed = circuits.closed[..., None]
+        if circuits.drive.turns:
+            at = np.where(closed, 2 * np.pi * (share % 1), np.pi * np.clip(share, 0, 1))
+        else:
+            inside = np.clip(share, EDGE, 1 - EDGE)
+            at = np.where(closed, 2 * np.pi * (share % 1), REACH * np.tan(np.pi * (inside - 0.5)))
+        return rows_of(circuits.couplers(at), self.length)
+
+    def _strayed(
+        self, row: NDArray[np.intp], side: NDArray[np.intp], ends: FloatArray
+    ) -> NDArray[np.bool_]:
+        """Whether places (n, *, 3) are on the other circuit than (n,) of linkages (n,)."""
+        out = np.zeros(ends.shape[:-1], dtype=bool)
+        two = np.flatnonzero(self.circuits.exists.all(axis=-1)[row])
+        if len(two):
+            places = Displacement(ends[two, ..., :2], ends[two, ..., 2] / self.length)
+            found = locate(self.circuits[row[two]], places)
+            own = side[two].reshape(-1, *[1] * (ends.ndim - 2))
+            # Where circuits meet, a place is on both.
+            out[two] = (found.circuit != own) & (found.circuit_margin > MEETING)
+        return out
+
+    def _closed_in(
+        self,
+        row: NDArray[np.intp],
+        side: NDArray[np.intp],
+        sample: NDArray[np.intp],
+        wanted: FloatArray,
+    ) -> FloatArray:
+        """The places (n, 3) nearest to wanted (n, 3) beside samples (n,), kept to the circuit."""
+        circuits, share = self.circuits[row, side], self.share[sample]
+        every, width = np.arange(len(row)), 1.0 / self.samples
+        for _ in range(ROUNDS):
+            tries = share[:, None] + width * np.linspace(-1, 1, LOOKS)
+            gap = wrapped(self._at(circuits, tries) - wanted[:, None], self.length)
+            best = np.nan_to_num((gap * gap).sum(axis=-1), nan=np.inf).argmin(axis=-1)
+            share, near = tries[every, best], wanted + gap[every, best]
+            width *= 2.0 / (LOOKS - 1)
+        ends = self._settled(row, near[:, None], wanted[:, None])[:, 0]
+        worse = np.nan_to_num(_away(ends, wanted), nan=np.inf) > _away(near, wanted) + SETTLED
+        worse |= self._strayed(row, side, ends)
+        return np.where(worse[..., None], near, ends)
 
 
-def _valleys(sampled: FloatArray, wanted: FloatArray, length: float, count: int) -> FloatArray:
+def _away(rows: FloatArray, wanted: FloatArray) -> FloatArray:
+    """The squared distances (*,) of rows (*, 3)."""
+    return np.asarray(((rows - wanted) ** 2).sum(axis=-1))
+
+
+def _valleys(
+    sampled: FloatArray, wanted: FloatArray, length: float, count: int
+) -> tuple[FloatArray, NDArray[np.intp]]:
     """Of places (k, s, 3) along circuits the nearest local minima to wanted (N, 3): (k, N, *, 3).
 
-    With angles within half a turn of the wanted ones.
+    With angles within half a turn of the wanted ones; and their numbers (k, N, *).
     """
     gap = wrapped(sampled[:, None] - wanted[:, None], length)
     away = np.nan_to_num((gap * gap).sum(axis=-1), nan=np.inf)
@@ -203,7 +279,9 @@ def _valleys(sampled: FloatArray, wanted: FloatArray, length: float, count: int)
     valley[..., [0, -1]] = True  # an open circuit ends there
     depth = np.where(valley, away, np.inf)
     best = np.argpartition(depth, count - 1, axis=-1)[..., :count]
-    return np.asarray(wanted[:, None] + np.take_along_axis(gap, best[..., None], axis=2))
+    start = wanted[:, None] + np.take_along_axis(gap, best[..., None], axis=2)
+    dead = np.isinf(np.take_along_axis(depth, best, axis=-1))  # no valley, but what was left
+    return np.where(dead[..., None], np.nan, start), best
 
 
 def settled(

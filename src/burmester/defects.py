@@ -147,8 +147,8 @@ def judge(
     sense within one turn; with a branch defect, along the circuit, as it would be with help over
     the dead point.  Poses that lie less than REPEATED apart have no order, nor do those that lie
     nearer to each other along the circuit than twice the greatest miss: met half way between, each
-    would be missed along the circuit by no more than some pose is across it.  A step back of less than STEP_BACK is an order defect that is not
-    certain.
+    would be missed along the circuit by no more than some pose is across it.  A step back of less
+    than STEP_BACK is an order defect that is not certain.
     """
     sides = (linkage, Linkage(linkage.second, linkage.first))
     seen = [_Seen.of(side, places) for side in sides]

@@ -46,6 +46,7 @@ EXACT = 1e8  # weights: what an exact pose counts as, to say what its errors do
 STRIDE, TOUCHING = 1e-7, 1e-9  # of difference quotients; of a limit that is touched
 FIXED, MOVING = slice(0, 2), slice(2, 4)
 FEW = 5  # linkages found under conditions are kept, at most
+ROUNDED = 5  # linkages are rounded where that is asked, at most
 
 
 @final
@@ -64,7 +65,7 @@ class FoundLinkage:
     sought: whether it was looked for under conditions, the closest ones not being usable.
     uncertainty: what errors of the poses leave open of both dyads.
     spread: of the error, where links and pivots are built within a tolerance.
-    exact_error: that of the linkage before its dimensions were rounded.
+    exact_error: that of the linkage before its dimensions were rounded, where that was asked.
     """
 
     id: str
@@ -123,17 +124,22 @@ class Wish:
 
 
 class _Candidates(NamedTuple):
-    """Linkages (k,) with the rows (k, N, 3) of their places, and the pairs that they come from."""
+    """Linkages (k,) with the rows (k, N, 3) of their places, and the pairs that they come from.
+
+    own: the same in the task's own frames, where not a digit is to be lost.
+    """
 
     stack: LinkageStack
     rows: FloatArray
     pairs: list[Pair]
     sought: bool = False
+    own: LinkageStack | None = None
 
     def some(self, index: NDArray[np.intp]) -> _Candidates:
         """Those at the indices."""
         pairs = [self.pairs[k] for k in index]
-        return _Candidates(self.stack[index], self.rows[index], pairs, self.sought)
+        own = None if self.own is None else self.own[index]
+        return _Candidates(self.stack[index], self.rows[index], pairs, self.sought, own)
 
 
 def joined(
@@ -291,7 +297,7 @@ class _Judging:
     def told(self, made: _Candidates) -> list[FoundLinkage]:
         """The linkages with all that is to be said of them, ranked."""
         made = made.some(np.flatnonzero(_sizable(made.stack)))
-        own = made.stack.back(self.aim.frames)
+        own = made.stack.back(self.aim.frames) if made.own is None else made.own
         places = self.aim.frames.unseen(self._places(made.rows))
         errors = [PoseError.at(places[k], self.task.poses) for k in range(len(own))]
         verdicts = self._verdicts(own, places, errors)
@@ -325,13 +331,18 @@ class _Judging:
         return out
 
     def rounded(self, found: list[FoundLinkage]) -> list[FoundLinkage]:
-        """The same with lengths and pivots rounded, judged again."""
+        """The best of them with lengths and pivots rounded, judged again."""
         out: list[FoundLinkage] = []
-        for each in found:
-            stack = LinkageStack.of([each.linkage]).seen(self.aim.frames)
-            rows = rows_of(self.aim.frames.see(each.error.places), self.aim.length)[None]
-            made, rows = rounded(stack, rows, self.aim, self.wish.step, self.wish.stock)
-            new = self.told(_Candidates(made, rows, [each.dyads], each.sought))
+        frames, wish = self.aim.frames, self.wish
+        for each in found[:ROUNDED]:
+            stack = LinkageStack.of([each.linkage]).seen(frames)
+            rows = rows_of(frames.see(each.error.places), self.aim.length)[None]
+            driver = np.array([int(each.better == "second")])
+            own, rows = rounded(stack, rows, self.aim, wish.step, wish.stock, driver)
+            new = self.told(_Candidates(own.seen(frames), rows, [each.dyads], each.sought, own))
+            if not new:
+                lost = Unmet("rounding", "rounded so coarsely its pivots would fall together")
+                new = [replace(each, usable=False, unmet=(*each.unmet, lost))]
             out += [replace(one, exact_error=each.error) for one in new]
         return self.ranked(out)
 

@@ -85,13 +85,15 @@ class Aim:
         index = np.linspace(0, count - 1, most).round().astype(np.intp)
         if self.exact is not None:
             index = np.union1d(index, np.flatnonzero(self.exact))
-        weights, exact = (
-            each if each is None else each[index] for each in (self.weights, self.exact)
+        return replace(
+            self,
+            poses=self.poses[index],
+            weights=None if self.weights is None else self.weights[index],
+            exact=None if self.exact is None else self.exact[index],
         )
-        return replace(self, poses=self.poses[index], weights=weights, exact=exact)
 
     def places(self, stack: LinkageStack) -> FloatArray:
-        """Rows (k, N, 3) of the places nearest to the poses on the circuit that is nearest to all."""
+        """Rows (k, N, 3) of the places nearest to the poses, on the circuit nearest to all."""
         rows = rows_of(on_circuits(stack, self.poses, self.length), self.length)
         cost = np.nan_to_num(self.cost(rows), nan=np.inf)
         return np.asarray(rows[np.arange(len(stack)), cost.argmin(axis=1)])

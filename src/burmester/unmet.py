@@ -18,7 +18,9 @@ from burmester.requirements import Requirements
 
 __all__ = ["Unmet", "UnmetKind", "unmet"]
 
-UnmetKind: TypeAlias = Literal["transmission", "type", "driver", "footprint", "link ratio"]
+UnmetKind: TypeAlias = Literal[
+    "transmission", "type", "driver", "footprint", "link ratio", "rounding"
+]
 
 ROUNDING = 1e-9  # relative, of what is asked
 PLACES = 181  # looked at on the way between the poses, for the footprint
