@@ -38,7 +38,8 @@ SAMPLES, FEWER = 128, 48  # places looked at on a circuit, for up to MANY poses 
 MANY, BLOCK = 1000, 256  # poses; those looked at together
 VALLEYS, FEW = 3, 1  # of these places, the local minima followed, for few poses and many
 REACH = 2.0  # of the samples on an endless circuit: half of them lie within it
-STEPS, FAR = 30, 0.3  # at most, of the way to the nearest place; the longest of them
+STEPS, QUICK = 30, 12  # at most, of the way to the nearest place; where it can be closed in on
+FAR = 0.3  # the longest of them
 SETTLED = 1e-14  # a step that is rounding
 ROUNDS, LOOKS = 7, 17  # where it does not do: times looked closer, and places each time
 EDGE = 1e-6  # of an endless circuit, left out
@@ -186,6 +187,8 @@ class _On:
         sampled = self._at(circuits, self.share)
         self.row, self.side = np.nonzero(np.isfinite(sampled).all(axis=-1).any(axis=-1))
         self.sampled = sampled[self.row, self.side]
+        hop = _away(wrapped(self.sampled - np.roll(self.sampled, 1, axis=1), length), 0.0)
+        self.hop = np.nan_to_num(np.sqrt(np.maximum(hop, np.roll(hop, -1, axis=1))), nan=np.inf)
 
     def nearest(self, wanted: FloatArray) -> FloatArray:
         """The places (k, 2, N, 3) nearest to wanted (N, 3)."""
@@ -199,7 +202,13 @@ class _On:
         # Newton's method may leap to the other circuit, or past the valley.
         astray = np.nan_to_num(_away(ends, target), nan=np.inf) > _away(start, target) + SETTLED
         astray |= self._strayed(self.row, self.side, ends)
-        astray &= np.isfinite(start).all(axis=-1)
+        sound = np.where(astray, np.inf, np.sqrt(_away(ends, target)))
+        ends[astray] = np.nan
+        # Beside a sample no place is nearer than this.
+        nearer = (
+            np.sqrt(_away(start, target)) - self.hop[np.arange(len(sample))[:, None, None], sample]
+        )
+        astray &= nearer <= sound.min(axis=-1, keepdims=True)
         if astray.any():
             which = np.nonzero(astray)
             ends[which] = self._closed_in(
@@ -212,7 +221,8 @@ class _On:
     def _settled(self, row: NDArray[np.intp], start: FloatArray, target: FloatArray) -> FloatArray:
         """Places (n, *, 3) of linkages (n,) in the stack that Newton's method leads to."""
         flat = (len(row), math.prod(start.shape[1:-1]), 3)
-        ends = settled(self.stack[row], start.reshape(flat), target.reshape(flat), self.length)
+        args = start.reshape(flat), target.reshape(flat), self.length
+        ends = settled(self.stack[row], *args, steps=QUICK)
         return ends.reshape(start.shape)
 
     def _at(self, circuits: Circuits, share: FloatArray) -> FloatArray:
@@ -261,7 +271,7 @@ class _On:
         return np.where(worse[..., None], near, ends)
 
 
-def _away(rows: FloatArray, wanted: FloatArray) -> FloatArray:
+def _away(rows: FloatArray, wanted: FloatArray | float) -> FloatArray:
     """The squared distances (*,) of rows (*, 3)."""
     return np.asarray(((rows - wanted) ** 2).sum(axis=-1))
 
@@ -285,7 +295,7 @@ def _valleys(
 
 
 def settled(
-    stack: LinkageStack, start: FloatArray, wanted: FloatArray, length: float
+    stack: LinkageStack, start: FloatArray, wanted: FloatArray, length: float, steps: int = STEPS
 ) -> FloatArray:
     """The places (k, n, 3) of linkages (k,) nearest to wanted (n, 3) that starts (k, n, 3) lead to.
 
@@ -297,7 +307,7 @@ def settled(
     run = np.flatnonzero(np.isfinite(ends).all(axis=-1))
     met = np.zeros(len(ends), dtype=bool)
     every = stack.surfaces()
-    for _ in range(STEPS):
+    for _ in range(steps):
         surfaces = every.some(which[run])
         step, moved = newton_step(surfaces, ends[run, None], target[run, None], length)
         ends[run] += step[:, 0]

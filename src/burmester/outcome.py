@@ -14,7 +14,7 @@ from burmester.dyad import RR
 from burmester.errors import InputError
 from burmester.exact import FivePoseDyads
 from burmester.fingerprint import Fingerprint
-from burmester.joined import FoundLinkage
+from burmester.found import FoundLinkage
 from burmester.limited import LimitedDyads, Norm
 from burmester.limits import Point
 from burmester.optimal import BestDyads
@@ -352,7 +352,8 @@ def linkage_advice(task: Task, linkages: Sequence[FoundLinkage], code: str) -> l
     usable = [each for each in linkages if each.usable]
     loose = [each for each in usable if not each.determined]
     warnings = []
-    if loose and code != "R305":
+    # Of special motions the outcome itself says how free the pivots are.
+    if loose and code != "R305" and not code.startswith("R31"):
         ids = [each.id for each in loose]
         listed = ids[0] if len(ids) == 1 else f"{', '.join(ids[:-1])} and {ids[-1]}"
         warnings.append(

@@ -9,7 +9,7 @@ import numpy as np
 
 from burmester.candidates import ROUNDING
 from burmester.defects import Defect
-from burmester.joined import FoundLinkage
+from burmester.found import FoundLinkage
 from burmester.task import CONDITIONS, Task
 
 __all__ = [
@@ -137,7 +137,8 @@ def way_on(linkages: Sequence[FoundLinkage], task: Task, size: float) -> str:
         said.insert(0, "round less")
     stuck = next((each for each in near[0].defects if each.kind in ("circuit", "branch")), None)
     if stuck is not None and stuck.poses and len(said) < HINTS:
-        text = f"move {called(task, stuck.poses, 'or')}"
+        few = len(stuck.poses) <= FEW + 1
+        text = f"move {called(task, stuck.poses, 'or')}" if few else "move a pose"
         if task.poses.shape[0] > CONDITIONS and not task.limits:
             text += ", or leave one out"
         said.append(text)

@@ -24,7 +24,9 @@ from burmester.dyad import Dyad
 from burmester.exact import FivePoseDyads, dyads_of_five
 from burmester.feasible import require_feasible
 from burmester.fingerprint import Fingerprint, fingerprint
-from burmester.joined import FoundLinkage, Pair, Wish, joined
+from burmester.found import FoundLinkage, Pair
+from burmester.joined import joined
+from burmester.judging import Wish
 from burmester.limited import Norm
 from burmester.motion_kind import FewPoses, Undetermined
 from burmester.optimal import BestDyads, best_dyads

@@ -15,7 +15,7 @@ from burmester.candidates import FoundDyad
 from burmester.defects import Defect, Driven
 from burmester.displacement import Displacement
 from burmester.dyad import PP, PR, RP, RR, Dyad
-from burmester.joined import FoundLinkage
+from burmester.found import FoundLinkage
 from burmester.tolerance import Spread
 from burmester.uncertainty import DyadUncertainty, PivotRegion
 

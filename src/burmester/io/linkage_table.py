@@ -15,7 +15,7 @@ from rich.text import Text
 from burmester import reasons as said
 from burmester.candidates import ROUNDING
 from burmester.dyad import PR, RP, RR
-from burmester.joined import FoundLinkage
+from burmester.found import FoundLinkage
 from burmester.synthesis import Synthesis
 from burmester.uncertainty import DyadUncertainty, PivotRegion, pose_sigma
 
@@ -152,7 +152,7 @@ def dimensions(synthesis: Synthesis) -> Iterator[Text | Table]:
     regions: Sequence[DyadUncertainty | None] = best.uncertainty or (None, None)
     for dyad, region in zip(best.dyads, regions, strict=True):
         name = dyad.id
-        for what, value, give in _parts(synthesis, best, dyad.dyad, region):
+        for what, value, give in _parts(synthesis, best, dyad.dyad, None if certain else region):
             table.add_row(name, what, value, *(() if certain else (give,)))
             name = ""
     yield table
@@ -224,7 +224,7 @@ def _parts(
 
     def point(pivot: np.ndarray, region: PivotRegion | None) -> tuple[str, str]:
         digits, give = known(region.half_width if region else 0.0)
-        return f"({pivot[0]:.{digits}f}, {pivot[1]:.{digits}f})", give
+        return f"({_fixed(pivot[0], digits)}, {_fixed(pivot[1], digits)})", give
 
     if isinstance(dyad, RR | RP):
         yield "fixed pivot", *point(dyad.fixed_pivot, region.fixed if region else None)
@@ -238,9 +238,15 @@ def _parts(
         swing = math.degrees(line.angle) if line else 0.0
         digits, angle = _places(max(turn, swing)), math.degrees(dyad.normal_angle)
         frame = "line in F" if isinstance(dyad, PR) else "line in M"
-        yield f"{frame}, normal", f"{angle:.{digits}f}°", _give(swing, digits, "°")
+        yield f"{frame}, normal", f"{_fixed(angle, digits)}°", _give(swing, digits, "°")
         digits, give = known(line.offset if line else 0.0, " at mid-travel")
-        yield "offset", f"{dyad.offset:.{digits}f}", give
+        yield "offset", _fixed(float(dyad.offset), digits), give
+
+
+def _fixed(value: float, digits: int) -> str:
+    """A number with so many decimals, and no sign where it is zero."""
+    text = f"{value:.{digits}f}"
+    return text.lstrip("-") if float(text) == 0 else text
 
 
 def _give(value: float, digits: int, what: str = "") -> str:
