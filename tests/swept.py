@@ -63,8 +63,10 @@ def circuits(first, second):
     if not isinstance(first, RR) and isinstance(second, RR):
         first, second = second, first
     dyads, turns = (first, second), isinstance(first, RR)
-    sweep = np.linspace(-np.pi, np.pi, SWEEP + 1) if turns else (
-        FAR * np.linspace(-1, 1, SWEEP + 1) ** 3
+    sweep = (
+        np.linspace(-np.pi, np.pi, SWEEP + 1)
+        if turns
+        else (FAR * np.linspace(-1, 1, SWEEP + 1) ** 3)
     )
 
     def there(drive):
@@ -76,8 +78,11 @@ def circuits(first, second):
     out = []
     if sound.all():
         for side in (0, 1):
-            out.append(Circuit(dyads, lambda t: t, lambda t, s=side: np.full(t.shape, s),
-                               sweep[0], sweep[-1]))
+            out.append(
+                Circuit(
+                    dyads, lambda t: t, lambda t, s=side: np.full(t.shape, s), sweep[0], sweep[-1]
+                )
+            )
         runs = [(sweep[0], sweep[-1], [0, 1])]
     else:
         runs = []

@@ -18,10 +18,11 @@ import pytest
 from scipy.optimize import minimize_scalar
 
 from burmester.circuit import Circuits, circuit_of
-from burmester.defects import REPEATED, STEP_BACK, TOO_CLOSE, judge
+from burmester.defects import judge
 from burmester.displacement import Displacement
 from burmester.dyad import PR, RP, RR
 from burmester.linkage import Linkage
+from burmester.passage import REPEATED, STEP_BACK, TOO_CLOSE
 from tests.test_motion import (
     CHANGE,
     NAMES,

@@ -512,3 +512,31 @@ def test_names_of_poses_are_used_in_what_is_said():
     assert "locks between poses c and d" in screen()
     closest = min(data["linkages"], key=lambda each: each["position_error"]["max"])
     assert closest["defects"][0]["poses"] == [3, 4]
+
+
+ASKED_IN_VAIN = Requirements(transmission=math.radians(80))
+
+
+@pytest.mark.parametrize("width", [60, 80, 200])
+def test_failures_and_units_fit_the_screen_as_well(width, tmp_path):
+    file = tmp_path / "small.csv"
+    file.write_text(small_turn())
+    base = read_task("case:ge2012-exact")
+    for task in (
+        read_task(str(file)),
+        replace(base, length_unit="mm", requirements=ASKED_IN_VAIN),
+        Task(Displacement(np.random.default_rng(1).normal(size=(8, 2)) * 1e10, np.arange(8.0))),
+    ):
+        _, data, screen = synthesized(task)
+        text = screen(width)
+        assert text.startswith(f"result[{data['outcome']['code']}]: ")
+        assert max(map(len, text.splitlines())) <= width
+        assert "…" not in text
+        assert " ".join(data["outcome"]["help"].split()) in " ".join(text.split())
+        unusable = [each for each in data["linkages"] if not each["usable"]]
+        if not any(each["usable"] for each in data["linkages"]):
+            # The nearest three stand above the tables, with their reasons.
+            nearest = sorted(unusable, key=lambda each: each["position_error"]["max"])[:3]
+            above = text.split("\nDyads")[0]
+            for each in nearest:
+                assert re.search(rf"^{each['id']} +{each['type']}", above, re.MULTILINE)

@@ -42,6 +42,7 @@ STEPS, QUICK = 30, 12  # at most, of the way to the nearest place; where it can 
 FAR = 0.3  # the longest of them
 SETTLED = 1e-14  # a step that is rounding
 ROUNDS, LOOKS = 7, 17  # where it does not do: times looked closer, and places each time
+TWICE = 2.0  # the way to the next sample: no place beside a sample is farther from it
 EDGE = 1e-6  # of an endless circuit, left out
 MEETING = 1e-9  # a circuit's margin at which it meets the other
 FLAT = 0.2  # the least curvature that a step along the circuit counts with
@@ -163,7 +164,7 @@ def on_circuits(stack: LinkageStack, poses: Displacement, length: float) -> Disp
     wanted = rows_of(poses, length)
     for index, linkage in stack.alike():
         circuits = Circuits.of(linkage, as_given=True)
-        some = _On(stack[index], circuits, length, number <= MANY)
+        some = _Search(stack[index], circuits, length, number <= MANY)
         for at in range(0, number, BLOCK):
             out[index, :, at : at + BLOCK] = some.nearest(wanted[at : at + BLOCK])
     return Displacement(out[..., :2], out[..., 2] / length)
@@ -177,7 +178,7 @@ def nearest(places: Displacement, poses: Displacement, length: float) -> Displac
     return places[row, other, pose]
 
 
-class _On:
+class _Search:
     """Circuits (k, 2) of linkages (k,) of the same kinds, on which places are looked for."""
 
     def __init__(self, stack: LinkageStack, circuits: Circuits, length: float, few: bool) -> None:
@@ -205,9 +206,8 @@ class _On:
         sound = np.where(astray, np.inf, np.sqrt(_away(ends, target)))
         ends[astray] = np.nan
         # Beside a sample no place is nearer than this.
-        nearer = (
-            np.sqrt(_away(start, target)) - self.hop[np.arange(len(sample))[:, None, None], sample]
-        )
+        hop = self.hop[np.arange(len(sample))[:, None, None], sample]
+        nearer = np.sqrt(_away(start, target)) - TWICE * hop
         astray &= nearer <= sound.min(axis=-1, keepdims=True)
         if astray.any():
             which = np.nonzero(astray)
