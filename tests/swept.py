@@ -14,7 +14,7 @@ SWEEP, LOOKS, ZOOMS = 8000, 1500, 9  # drives tried; places of a circuit; times 
 FAR = 60.0  # a rail's end
 
 
-class TooFine(Exception):
+class TooFineError(Exception):
     """The sweep does not tell the circuits apart."""
 
 
@@ -31,7 +31,7 @@ class Circuit:
         return np.stack([where.real, where.imag, phi], axis=-1)
 
     def gaps(self, rows, poses, length):
-        """rows (N, n, 3) beside poses (N, 3): distances (N, n)."""
+        """Rows (N, n, 3) beside poses (N, 3): distances (N, n)."""
         gap = rows - poses[:, None]
         turn = np.angle(np.exp(1j * gap[..., 2]))
         out = np.sqrt(gap[..., 0] ** 2 + gap[..., 1] ** 2 + (length * turn) ** 2)
@@ -88,7 +88,7 @@ def circuits(first, second):
         runs = []
         edge = np.flatnonzero(sound[1:] != sound[:-1])
         if len(edge) > 1 and np.diff(edge).min() < 4:
-            raise TooFine
+            raise TooFineError
         ends = [_end(there, sweep[e], sweep[e + 1], sound[e]) for e in edge]
         opens = [e for e, k in zip(ends, edge, strict=True) if not sound[k]]
         shuts = [e for e, k in zip(ends, edge, strict=True) if sound[k]]

@@ -201,14 +201,14 @@ class _Search:
         target = np.broadcast_to(wanted[:, None], shape)
         ends = self._settled(self.row, start, target)
         # Newton's method may leap to the other circuit, or past the valley.
-        astray = np.nan_to_num(_away(ends, target), nan=np.inf) > _away(start, target) + SETTLED
+        astray = ~(_away(ends, target) <= _away(start, target) + SETTLED)
         astray |= self._strayed(self.row, self.side, ends)
-        sound = np.where(astray, np.inf, np.sqrt(_away(ends, target)))
         ends[astray] = np.nan
+        sound = np.where(astray, np.inf, np.sqrt(_away(ends, target)))
         # Beside a sample no place is nearer than this.
         hop = self.hop[np.arange(len(sample))[:, None, None], sample]
-        nearer = np.sqrt(_away(start, target)) - TWICE * hop
-        astray &= nearer <= sound.min(axis=-1, keepdims=True)
+        nearest = np.sqrt(_away(start, target)) - TWICE * hop
+        astray &= nearest <= sound.min(axis=-1, keepdims=True)
         if astray.any():
             which = np.nonzero(astray)
             ends[which] = self._closed_in(

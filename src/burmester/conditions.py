@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Final, Protocol, TypeAlias, final
+from typing import ClassVar, Final, Protocol, TypeAlias, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,7 +47,7 @@ class Conditions(Protocol):
     """Numbers (k, m) of linkages and rows (k, N, 3) of places, to be at most 0.
 
     With them, which of the m are to be 0, (m,).  The indices (k,) say which of the linkages that
-    are refined they are.
+    are refined they are.  Those that do not look at the places say so by `placed = False`.
     """
 
     def __call__(self, stack: LinkageStack, rows: FloatArray, which: NDArray[np.intp]) -> Held: ...
@@ -59,6 +59,11 @@ class Together:
     """Some conditions, one after the other."""
 
     parts: tuple[Conditions, ...]
+
+    @property
+    def placed(self) -> bool:
+        """Whether one of them looks at the places."""
+        return any(getattr(part, "placed", True) for part in self.parts)
 
     def __call__(self, stack: LinkageStack, rows: FloatArray, which: NDArray[np.intp]) -> Held:
         values, equal = zip(*(part(stack, rows, which) for part in self.parts), strict=True)
@@ -73,6 +78,7 @@ class Kept:
     side: int
     limits: Limits
     frames: CanonicalFrames
+    placed: ClassVar[bool] = False
 
     def __call__(self, stack: LinkageStack, rows: FloatArray, which: NDArray[np.intp]) -> Held:
         own = stack.back(self.frames)
@@ -125,6 +131,7 @@ class Journey:
     clear: float
     sense: FloatArray
     ways: FloatArray
+    placed: ClassVar[bool] = True
 
     @classmethod
     def of(  # noqa: PLR0917
@@ -187,6 +194,7 @@ class Proportions:
     requirements: Requirements
     driver: NDArray[np.intp]
     types: NDArray[np.str_]
+    placed: ClassVar[bool] = True
 
     def __call__(self, stack: LinkageStack, rows: FloatArray, which: NDArray[np.intp]) -> Held:
         out = [np.full((len(stack), 1), -1.0)]

@@ -17,7 +17,7 @@ close in one way only.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 from typing import Any, Self, TypeAlias, TypeVar, cast, final
 
 import numpy as np
@@ -88,14 +88,15 @@ class Drive:
 
     def __getitem__(self, index: Any) -> Drive:
         """Pick along the leading axes (indices, slices, masks, new axes)."""
-        return replace(
-            self,
-            first=self.first[index],
-            second=self.second[index],
-            centre=self.centre[index],
-            high=Bound(*(room[index] for room in self.high)),
-            low=Bound(*(room[index] for room in self.low)),
-            margin=self.margin[index],
+        return Drive(
+            self.first[index],
+            self.second[index],
+            self.turns,
+            self.ways,
+            self.centre[index],
+            Bound(*(room[index] for room in self.high)),
+            Bound(*(room[index] for room in self.low)),
+            self.margin[index],
         )
 
     def assembled(self, drive: FloatArray) -> Displacement:

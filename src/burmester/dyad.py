@@ -31,15 +31,14 @@ class _Dimensions:
 
     def __getitem__(self, index: Any) -> Self:
         """Pick along the leading axes (indices, slices, masks, new axes)."""
-        values = []
-        for field in fields(self):  # type: ignore[arg-type]
-            value = getattr(self, field.name)
-            if field.name.endswith("pivot"):
-                value = np.stack([value[..., 0][index], value[..., 1][index]], axis=-1)
-            else:
-                value = value[index]
-            values.append(value)
-        return type(self)(*values)
+        points = index
+        if isinstance(index, tuple) and any(part is Ellipsis for part in index):
+            points = (*index, slice(None))
+        picked = object.__new__(type(self))  # what is picked needs no conversion
+        for name in self.__match_args__:  # type: ignore[attr-defined]
+            part = getattr(self, name)[points if name.endswith("pivot") else index]
+            object.__setattr__(picked, name, part)
+        return picked
 
 
 @final

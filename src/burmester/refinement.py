@@ -6,8 +6,10 @@ method in all ten dimensions of both dyads (four of each slider), by exact deriv
 x nearest to a pose only what is normal to the motion counts, and there J dx = -F dz, with J the
 forces of both dyads and F the derivatives of their equations by the dimensions z.
 
-Exact poses and conditions (limits, a branch to be kept) are held by multipliers (Powell and
-Hestenes), and at the end met by Newton's method.
+Under conditions (limits, a branch to be kept, exact poses) each step is the best one for the
+equations as they are here (`soft_program`), by the sum of squares and of all that is not kept
+(Fletcher, Practical methods of optimization, 1987).  Where conditions look at the places, these
+need not be the nearest ones: they are unknowns too, one each, the way along the motion.
 """
 
 from __future__ import annotations
@@ -21,6 +23,7 @@ from numpy.typing import NDArray
 from burmester.accuracy import Normal, newton_step, normal, rows_of
 from burmester.conditions import Conditions
 from burmester.displacement import Displacement, FloatArray
+from burmester.soft_program import soft_step
 from burmester.stack import DIMENSIONS, LinkageStack
 
 __all__ = ["Refined", "refine"]
@@ -30,13 +33,16 @@ NEARER, CLOSE = 6, 1e-6  # Newton's steps to the nearest place; a step whose nex
 OFF = 1e-6  # a place farther off its linkage is lost
 FAR = 0.25  # lengths that a place may move in a step
 STEPS = 60  # of Gauss and Newton, at most
-ROUNDS, INNER = 14, 8  # of multipliers, and steps in each
+HELD = 112  # steps under conditions, at most
 DAMPING, LEAST, MOST = 1e-4, 1e-14, 1e8  # relative, of Levenberg and Marquardt
 SETTLED = 1e-13  # a relative step that is rounding
 CURVED = 4  # good steps, before those take the residuals' curvature into account
 GAIN = 1e-14  # relative; less of it ends the steps
-STIFF = 10.0  # the first penalty, in shares of the cost's own curvature
+STIFF, STIFFER, STIFFEST = 1.0, 4.0, 1e5  # what a condition's miss counts as: at first, at most
+OVER = 3.0  # times the greatest multiplier, that it counts as once all are met
+COARSE = 1e-3  # of the greatest slope; a dimension that tells less is damped as if it told so much
 MET = 1e-9  # a condition missed by less is met
+FEW = 64  # places that may be unknowns
 STRIDE = 1e-7  # of the difference quotients of conditions
 FARTHEST = 1e4  # lengths; a dimension beyond it is on its way to nowhere
 POWERS = (2.0, 8.0, 32.0, 128.0, 512.0)  # sums of ever higher powers lead to the least worst
@@ -51,7 +57,6 @@ class Refined:
     rows: (k, N, 3), the coupler's places as x, y, length x angle; nan where a linkage was lost.
     cost: (k,), half the weighted sum of squared distances (or the greatest distance).
     settled: (k,), whether the steps came to an end; met: whether all conditions hold.
-    held: (k, m, 10), derivatives by the dimensions of what is held exactly; zero rows beside.
     """
 
     stack: LinkageStack
@@ -59,7 +64,6 @@ class Refined:
     cost: FloatArray
     settled: NDArray[np.bool_]
     met: NDArray[np.bool_]
-    held: FloatArray
 
 
 class _State(NamedTuple):
@@ -115,32 +119,71 @@ class _Problem:
             at = normal(miss, force, self.length)
             return _State(z, rows, *_normal_part(at, rows - self.wanted, partial))
 
+    @property
+    def loose(self) -> bool:
+        """Whether places are unknowns."""
+        looked_at = self.conditions is not None and getattr(self.conditions, "placed", True)
+        return looked_at and len(self.wanted) <= FEW
+
+    def placed(self, which: NDArray[np.intp], z: FloatArray, rows: FloatArray) -> _State:
+        """The linkages z (k, 10) with the places (k, N) that are straight ahead of rows.
+
+        Misses are whole gaps (k, N, 3), and the ways along the motion are unknowns N + 10.
+        """
+        if not self.loose:
+            return self.state(which, z, rows)
+        stack, number = self.stack(which, z), rows.shape[1]
+        with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+            surfaces = stack.surfaces()
+            for _ in range(NEARER):
+                step, size = newton_step(surfaces, rows, rows, self.length)
+                rows = rows + step
+                if not (size > CLOSE).any():
+                    break
+            places = Displacement(rows[..., :2], rows[..., 2] / self.length)
+            miss, force, partial = stack.bearing(places)
+            off = ~(np.abs(miss) < OFF).all(axis=(1, 2))
+            rows[off] = np.nan
+            at, gap = normal(miss, force, self.length), rows - self.wanted
+            every = np.arange(number)
+            moved = np.zeros((*gap.shape, SIZE + number))
+            moved[..., :SIZE] = _normal_part(at, gap, partial)[2]
+            moved[:, every, :, SIZE + every] = np.moveaxis(at.along, 1, 0)
+            return _State(z, rows, gap, moved, moved)
+
     def limits(
         self, which: NDArray[np.intp], state: _State
     ) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]]:
-        """The conditions (k, m), and their derivatives (k, m, 10), places moving along."""
+        """The conditions (k, m), and their derivatives (k, m, n), places moving along."""
+        unknowns = state.moved.shape[-1]
         if self.conditions is None:
-            none = np.empty((len(which), 0, SIZE))
+            none = np.empty((len(which), 0, unknowns))
             return none[..., 0], none, np.empty(0, dtype=bool)
-        z = np.concatenate([state.z[None], state.z + STRIDE * np.eye(SIZE)[:, None]])
+        nudge = STRIDE * np.eye(unknowns)[:, None, :SIZE]
+        z = np.concatenate([state.z[None], state.z + nudge])
         steps = STRIDE * np.moveaxis(state.moved, -1, 0)
         rows = np.concatenate([state.rows[None], state.rows + steps])
         count, number = len(which), state.rows.shape[1]
-        every = np.tile(which, SIZE + 1)
+        every = np.tile(which, unknowns + 1)
         value, equal = self.conditions(
             self.stack(every, z.reshape(-1, SIZE)), rows.reshape(-1, number, 3), every
         )
-        value = value.reshape(SIZE + 1, count, -1)
+        value = value.reshape(unknowns + 1, count, -1)
         slope = np.moveaxis((value[1:] - value[0]) / STRIDE, 0, -1)
-        return value[0], np.where(self.free[which][:, None], slope, 0.0), equal
+        return value[0], np.where(self.may(which)[:, None], slope, 0.0), equal
+
+    def may(self, which: NDArray[np.intp]) -> NDArray[np.bool_]:
+        """Which unknowns (k, n) may change."""
+        ways = np.ones((len(which), len(self.wanted) if self.loose else 0), dtype=bool)
+        return np.concatenate([self.free[which], ways], axis=1)
 
     def rooted(self, state: _State, power: float) -> tuple[FloatArray, FloatArray]:
-        """Residuals (k, n) and their derivatives (k, n, 10) whose squares are to be least."""
-        count = len(state.z)
+        """Residuals (k, *) and their derivatives (k, *, n) whose squares are to be least."""
+        count, unknowns = state.slope.shape[0], state.slope.shape[-1]
         miss = self.share[:, None] * state.miss
         slope = self.share[:, None, None] * state.slope
         if power == 2.0:
-            return miss.reshape(count, -1), slope.reshape(count, -1, SIZE)
+            return miss.reshape(count, -1), slope.reshape(count, -1, unknowns)
         size = np.sqrt((miss * miss).sum(axis=-1)) + np.finfo(float).tiny
         top = size.max(axis=-1, keepdims=True)
         toward = (miss[..., None] * slope).sum(axis=-2) / size[..., None]
@@ -160,15 +203,15 @@ def refine(
     free: NDArray[np.bool_] | None = None,
     worst: bool = False,
     steps: int = STEPS,
-    rounds: int = ROUNDS,
+    held_steps: int = HELD,
 ) -> Refined:
     """Linkages (k,) with the least error at poses (N,), from those given and their places (k, N).
 
     In frames where lengths are about 1 (`accuracy.error_frames`).  The places go along
     continuously, so they stay on their circuits.  free: (k, 10), which dimensions may change.
     worst: the greatest distance is to be least, not the sum of squares; by sums of ever higher
-    powers of the distances, so to about half a percent.  steps, and rounds of
-    multipliers where something is held: at most.
+    powers of the distances, so to about half a percent.  steps, and held_steps where something
+    is held: at most.
     All minima are local ones.
     """
     count, number = len(stack), poses.shape[0]
@@ -183,18 +226,18 @@ def refine(
         np.arange(count), stack.dimensions.reshape(count, SIZE), rows_of(places, length)
     )
     held = bool(exact.any()) or conditions is not None
+    rows, met = state.rows, np.ones(count, dtype=bool)
     for power in POWERS if worst else POWERS[:1]:
         if held:
-            state, done, met, rows = _held(problem, state, power, rounds)
+            z, rows, done, met = _held(problem, state.z, rows, power, held_steps)
+            state = state._replace(z=z)
         else:
-            state, done = _free(problem, state, power, steps)
-            met, rows = np.ones(count, dtype=bool), np.empty((count, 0, SIZE))
-    size = np.sqrt(((share[:, None] * state.miss) ** 2).sum(axis=-1))
+            state, done = _descend(problem, state, power, steps)
+            rows = state.rows
+    size = share * np.sqrt(((rows - problem.wanted) ** 2).sum(axis=-1))
     cost = size.max(axis=-1) if worst else (size * size).sum(axis=-1) / 2
     lost = ~np.isfinite(cost)
-    return Refined(
-        problem.stack(np.arange(count), state.z), state.rows, cost, done & ~lost, met & ~lost, rows
-    )
+    return Refined(problem.stack(np.arange(count), state.z), rows, cost, done & ~lost, met & ~lost)
 
 
 def _normal_part(
@@ -219,23 +262,10 @@ def _normal_part(
     return (basis @ gap[..., None])[..., 0], slope, moved
 
 
-def _free(
+def _descend(
     problem: _Problem, state: _State, power: float, steps: int
 ) -> tuple[_State, NDArray[np.bool_]]:
     """Levenberg and Marquardt's method without conditions."""
-    none = np.zeros((len(state.z), 0))
-    return _descend(problem, state, power, none, np.ones(len(state.z)), steps)
-
-
-def _descend(  # noqa: PLR0917
-    problem: _Problem,
-    state: _State,
-    power: float,
-    multiplier: FloatArray,
-    stiffness: FloatArray,
-    steps: int,
-) -> tuple[_State, NDArray[np.bool_]]:
-    """The least sum of squares with penalties on the conditions, shifted by their multipliers."""
     z, rows = state.z.copy(), state.rows.copy()
     parts = [np.array(part) for part in (state.miss, state.slope, state.moved)]
     count = len(z)
@@ -243,7 +273,7 @@ def _descend(  # noqa: PLR0917
     bent, trust = np.zeros((count, SIZE, SIZE)), np.zeros(count, dtype=int)
     done, damping = np.zeros(count, dtype=bool), np.full(count, DAMPING)
     here = _State(z, rows, *parts).some(run)
-    residual, slope = _penalised(problem, run, here, power, multiplier, stiffness)
+    residual, slope = _free_part(problem, run, here, power)
     for _ in range(steps):
         if not len(run):
             break
@@ -259,7 +289,7 @@ def _descend(  # noqa: PLR0917
         step, shift = part[:, None] * step, part[:, None, None] * shift
         to, start = here.z + step, here.rows + shift
         there = problem.state(run, to, start)
-        next_residual, next_slope = _penalised(problem, run, there, power, multiplier, stiffness)
+        next_residual, next_slope = _free_part(problem, run, there, power)
         with np.errstate(invalid="ignore", over="ignore"):
             after = (next_residual * next_residual).sum(axis=-1)
         if power != 2.0:  # measured in the top distance of before
@@ -297,27 +327,12 @@ def _rescaled(problem: _Problem, here: _State, there: _State, power: float) -> F
         return np.asarray((top[1] / top[0]) ** (power - 2))
 
 
-def _penalised(  # noqa: PLR0917
-    problem: _Problem,
-    which: NDArray[np.intp],
-    state: _State,
-    power: float,
-    multiplier: FloatArray,
-    stiffness: FloatArray,
+def _free_part(
+    problem: _Problem, which: NDArray[np.intp], state: _State, power: float
 ) -> tuple[FloatArray, FloatArray]:
-    """Residuals (k, n) and derivatives (k, n, 10), conditions and exact poses after the misses."""
+    """Residuals (k, *) and derivatives (k, *, n) by what may change."""
     residual, slope = problem.rooted(state, power)
-    slope = np.where(problem.free[which][:, None], slope, 0.0)
-    if not multiplier.shape[1]:
-        return residual, slope
-    value, turn, equal = _all_conditions(problem, which, state)
-    root = np.sqrt(stiffness[which])[:, None]
-    shifted = value + multiplier[which] / stiffness[which][:, None]
-    on = equal | (shifted > 0)
-    return (
-        np.concatenate([residual, np.where(on, root * shifted, 0.0)], axis=1),
-        np.concatenate([slope, np.where(on[..., None], root[..., None] * turn, 0.0)], axis=1),
-    )
+    return residual, np.where(problem.may(which)[:, None], slope, 0.0)
 
 
 def _all_conditions(
@@ -327,8 +342,8 @@ def _all_conditions(
     count = len(which)
     value, slope, equalities = problem.limits(which, state)
     exact = state.miss[:, problem.exact].reshape(count, -1)
-    turn = state.slope[:, problem.exact].reshape(count, -1, SIZE)
-    turn = np.where(problem.free[which][:, None], turn, 0.0)
+    turn = state.slope[:, problem.exact].reshape(count, -1, state.slope.shape[-1])
+    turn = np.where(problem.may(which)[:, None], turn, 0.0)
     equal = np.concatenate([np.ones(exact.shape[1], dtype=bool), equalities])
     return np.concatenate([exact, value], axis=1), np.concatenate([turn, slope], axis=1), equal
 
@@ -395,40 +410,173 @@ def _secant(  # noqa: PLR0917
     return np.where(sound[:, None, None], new, bent)
 
 
+class _Seen(NamedTuple):
+    """Linkages (k,) with residuals (k, *) and conditions (k, m), and derivatives by unknowns."""
+
+    state: _State
+    residual: FloatArray
+    slope: FloatArray
+    value: FloatArray
+    turn: FloatArray
+
+    @classmethod
+    def of(cls, problem: _Problem, which: NDArray[np.intp], state: _State, power: float) -> _Seen:
+        with np.errstate(all="ignore"):
+            value, turn, _ = _all_conditions(problem, which, state)
+            return cls(state, *_free_part(problem, which, state, power), value, turn)
+
+    def some(self, index: NDArray[Any]) -> _Seen:
+        """Those at the indices, or where a mask says so."""
+        return _Seen(self.state.some(index), *(part[index] for part in self[1:]))
+
+    def put(self, index: NDArray[np.intp], other: _Seen) -> None:
+        """Write others in their place."""
+        for whole, part in zip((*self.state, *self[1:]), (*other.state, *other[1:]), strict=True):
+            whole[index] = part
+
+    @property
+    def sound(self) -> NDArray[np.bool_]:
+        parts = (self.state.z, self.state.rows, *self[1:])
+        return np.all([np.isfinite(part).reshape(len(part), -1).all(axis=1) for part in parts], 0)
+
+
 def _held(
-    problem: _Problem, state: _State, power: float, rounds: int
-) -> tuple[_State, NDArray[np.bool_], NDArray[np.bool_], FloatArray]:
-    """The same with conditions and exact poses, by the method of multipliers."""
-    count = len(state.z)
-    every = np.arange(count)
-    value, _, equal = _all_conditions(problem, every, state)
-    multiplier = np.zeros_like(value)
-    start = problem.rooted(state, power)[0]
-    with np.errstate(invalid="ignore"):
-        stiffness = np.full(count, STIFF) + 0 * (start * start).sum(axis=-1)
-    before = np.full(count, np.inf)
-    for _ in range(rounds):
-        state, done = _descend(problem, state, power, multiplier, stiffness, INNER)
-        value, _, _ = _all_conditions(problem, every, state)
-        shifted = multiplier + stiffness[:, None] * value
-        # What a condition is off by: missed, or pressed though it is not touched.
-        off = np.where(equal, np.abs(value), np.maximum(value, -multiplier / stiffness[:, None]))
-        worst = np.abs(off).max(axis=-1, initial=0)
-        multiplier = np.where(equal, shifted, np.maximum(shifted, 0.0))
-        stiffness = np.where(worst > before / 4, 5 * stiffness, stiffness)
-        before = worst
-        if not (worst > MET).any():
+    problem: _Problem, z: FloatArray, rows: FloatArray, power: float, steps: int
+) -> tuple[FloatArray, FloatArray, NDArray[np.bool_], NDArray[np.bool_]]:
+    """The same with conditions and exact poses: z, rows, whether it came to an end, and if all hold.
+
+    By the sum of half the squares and of `stiff` times what is not kept.  A step that bends away
+    from the conditions is taken again from how much (Fletcher's second-order correction).
+    """
+    count, every = len(z), np.arange(len(z))
+    whole = _Seen.of(problem, every, problem.placed(every, z.copy(), rows), power)
+    equal = _equalities(problem, whole)
+    unknowns = whole.slope.shape[-1]
+    stiff, damping = np.full(count, STIFF), np.full(count, 10 * DAMPING)
+    bent, trust = np.zeros((count, unknowns, unknowns)), np.zeros(count, dtype=int)
+    done, pressed = np.zeros(count, dtype=bool), np.zeros(whole.value.shape)
+    run = np.flatnonzero(whole.sound)
+
+    def left(value: FloatArray) -> FloatArray:
+        return np.asarray(np.where(equal, np.abs(value), np.maximum(value, 0.0)).sum(axis=1))
+
+    for _ in range(steps):
+        if not len(run):
             break
-    return _closed(problem, state, multiplier, done)
+        here, weight = whole.some(run), stiff[run]
+        curved = trust[run] >= CURVED
+        bowl, size = _bowl(here.slope, np.where(curved[:, None, None], bent[run], 0.0))
+        bowl = bowl + damping[run][:, None, None] * np.eye(unknowns)
+        pull = (here.residual[:, None] @ here.slope)[:, 0] / size
+        turn = here.turn / size[:, None]
+        high = np.broadcast_to(weight[:, None], here.value.shape)
+        program = bowl, pull, here.value, turn, np.where(equal, -high, 0.0), high
+        step, press = soft_step(*program)
+        step = step / size
+        before = left(here.value)
+        cost = (here.residual**2).sum(axis=1) / 2 + weight * before
+        ahead = left(here.value + (here.turn @ step[..., None])[..., 0])
+        model = ((here.residual + (here.slope @ step[..., None])[..., 0]) ** 2).sum(axis=1) / 2
+
+        def taken(
+            step: FloatArray, at: NDArray[np.intp], here: _Seen = here, run: NDArray[np.intp] = run
+        ) -> tuple[FloatArray, _Seen, FloatArray]:
+            some = here.some(at)
+            shift = (some.state.moved @ step[:, None, :, None])[..., 0]
+            part = np.minimum(1.0, FAR / np.maximum(np.abs(shift).max(axis=(1, 2)), FAR))[:, None]
+            to, start = some.state.z + (part * step)[:, :SIZE], some.state.rows
+            place = problem.placed(run[at], to, start + part[..., None] * shift)
+            there = _Seen.of(problem, run[at], place, power)
+            with np.errstate(all="ignore"):
+                after = (there.residual**2).sum(axis=1) / 2
+                if power != 2.0:  # measured in the top distance of before
+                    after = after * _rescaled(problem, some.state, place, power)
+                after = after + stiff[run[at]] * left(there.value)
+            radius = to.reshape(-1, 2, DIMENSIONS)[..., -1]
+            sound = ((radius > 0) | (problem.kinds[run[at]] > 0)).all(axis=-1) & there.sound
+            sound &= np.abs(to).max(axis=-1) < FARTHEST
+            return part * step, there, np.where(sound, after, np.inf)
+
+        step, there, after = taken(step, np.arange(len(run)))
+        with np.errstate(invalid="ignore"):
+            again = np.flatnonzero(~(after <= cost * (1 + GAIN)) & (left(there.value) > SETTLED))
+        if len(again):
+            some = [part[again] for part in program]
+            some[2] = there.value[again] - (here.turn[again] @ step[again, :, None])[..., 0]
+            second, own = soft_step(*some)
+            second, other, later = taken(second / size[again], again)
+            won = later <= cost[again] * (1 + GAIN)
+            at = again[won]
+            step[at], press[at], after[at] = second[won], own[won], later[won]
+            there.put(at, other.some(won))
+        better = after <= cost * (1 + GAIN)
+        with np.errstate(all="ignore"):
+            gain = (cost - after) / np.maximum(cost - model - weight * ahead, np.finfo(float).tiny)
+        factor = np.select([~better, gain > 0.75, gain > 0.25], [10.0, 0.1, 0.5], 3.0)
+        damping[run] = np.maximum(damping[run] * factor, LEAST)
+        trust[run] = np.where(better, trust[run] + 1, np.where(curved, 0, trust[run]))
+        go = np.flatnonzero(better)
+        bent[run[go]] = _secant(
+            bent[run[go]],
+            step[go],
+            np.concatenate([here.residual[go], press[go]], axis=1),
+            np.concatenate([here.slope[go], here.turn[go]], axis=1),
+            np.concatenate([there.residual[go], press[go]], axis=1),
+            np.concatenate([there.slope[go], there.turn[go]], axis=1),
+        )
+        pressed[run[go]] = press[go]
+        whole.put(run[go], there.some(go))
+        miss = left(whole.value[run])
+        stuck = (miss > MET) & (ahead > before / 2) & (weight < STIFFEST)
+        most = np.maximum(OVER * np.abs(press).max(axis=1, initial=0), MET)
+        stiff[run] = np.where(
+            stuck, STIFFER * weight, np.where(miss > MET, weight, np.minimum(weight, most))
+        )
+        small = np.abs(step).max(axis=-1) < SETTLED * (1 + np.abs(here.state.z).max(axis=-1))
+        idle = better & (cost - after < GAIN * cost)
+        end = (small | idle | (damping[run] > MOST)) & ~stuck
+        done[run[end]] = True
+        run = run[~end]
+    active = equal | (np.abs(pressed) > 1e-6 * stiff[:, None])
+    state, met = _closed(problem, whole.state, active, equal)
+    if problem.loose:  # the nearest places, where they do as well
+        near = problem.state(every, state.z, state.rows)
+        also = problem.placed(every, state.z, near.rows)
+        value, _, _ = _all_conditions(problem, every, also)
+        good = met & (_most(value, equal) < MET)
+        state = state.but(good, also)
+    return state.z, state.rows, done, met
+
+
+def _equalities(problem: _Problem, seen: _Seen) -> NDArray[np.bool_]:
+    """Which conditions (m,) are equations."""
+    one = np.arange(min(1, len(seen.value)))
+    equal: NDArray[np.bool_] = _all_conditions(problem, one, seen.state.some(one))[2]
+    return equal
+
+
+def _most(value: FloatArray, equal: NDArray[np.bool_]) -> FloatArray:
+    """By how much conditions (k, m) are missed at the most, (k,); infinite where there is none."""
+    off = np.where(equal, np.abs(value), value)
+    return np.asarray(np.nan_to_num(off, nan=np.inf).max(axis=-1, initial=0))
+
+
+def _bowl(slope: FloatArray, bent: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """The curvature (k, n, n) of half the squares, scaled by size (k, n); not negative."""
+    flat = np.swapaxes(slope, -1, -2) @ slope
+    size = np.sqrt(np.einsum("kii->ki", flat))
+    size = np.maximum(size, COARSE * size.max(axis=1, keepdims=True)) + np.finfo(float).tiny
+    values, axes = np.linalg.eigh((flat + bent) / (size[:, None] * size[..., None]))
+    values = np.maximum(np.abs(values), 1e-10)
+    return (axes * values[:, None]) @ np.swapaxes(axes, -1, -2), size
 
 
 def _closed(
-    problem: _Problem, state: _State, multiplier: FloatArray, done: NDArray[np.bool_]
-) -> tuple[_State, NDArray[np.bool_], NDArray[np.bool_], FloatArray]:
+    problem: _Problem, state: _State, active: NDArray[np.bool_], equal: NDArray[np.bool_]
+) -> tuple[_State, NDArray[np.bool_]]:
     """What is held met to rounding: Newton's method, by the shortest step."""
     every = np.arange(len(state.z))
-    value, slope, equal = _all_conditions(problem, every, state)
-    active = equal | (multiplier > 0)
+    value, slope, _ = _all_conditions(problem, every, state)
     for _ in range(6):
         active = active | (value > 0)
         gap = np.where(active, value, 0.0)
@@ -437,14 +585,11 @@ def _closed(
         rows = np.where(active[..., None], slope, 0.0)
         with np.errstate(invalid="ignore"):
             sound = np.isfinite(rows).all(axis=(1, 2)) & np.isfinite(gap).all(axis=1)
-        step = np.zeros_like(state.z)
+        step = np.zeros((len(every), slope.shape[-1]))
         step[sound] = -(np.linalg.pinv(rows[sound], rcond=1e-10) @ gap[sound, :, None])[..., 0]
-        small = np.abs(step).max(axis=-1) < 0.1
-        step = np.where(small[:, None], step, 0.0)
+        step = np.where((np.abs(step).max(axis=-1) < 0.1)[:, None], step, 0.0)
         start = state.rows + (state.moved @ step[:, None, :, None])[..., 0]
-        state = problem.state(every, state.z + step, start)
+        new = problem.placed(every, state.z + step[:, :SIZE], start)
+        state = state.but(np.isfinite(new.rows).all(axis=(1, 2)), new)
         value, slope, _ = _all_conditions(problem, every, state)
-    with np.errstate(invalid="ignore"):
-        off = np.where(equal, np.abs(value), value).max(axis=-1, initial=0)
-        met = off < MET
-    return state, done, met, np.where(active[..., None], slope, 0.0)
+    return state, _most(value, equal) < MET

@@ -35,7 +35,7 @@ from burmester.stack import LinkageStack
 
 __all__ = ["Aim", "Found", "linkages_that_work", "links_of_map"]
 
-FIRST = 3  # rounds of multipliers for all starts; the best go on
+FIRST = 24  # steps for all starts; the best go on
 STARTS, BEST = 96, 16  # at most, of the first and of the second
 WRONG = 0.1  # lengths squared, that a pose on the wrong branch counts as, to choose starts by
 MAP, WIDE, LINKS = 17, 3.0, 8  # fixed pivots each way, how far out, and links kept of a map
@@ -140,7 +140,9 @@ def linkages_that_work(stack: LinkageStack, aim: Aim) -> Found | None:
     starts = starts.some(np.argsort(aim.cost(starts.rows) + WRONG * wrong, kind="stable")[:STARTS])
     if not len(starts.pair):
         return None
-    first = aim.refine(starts.stack, starts.rows, conditions=_conditions(starts, aim), rounds=FIRST)
+    first = aim.refine(
+        starts.stack, starts.rows, conditions=_conditions(starts, aim), held_steps=FIRST
+    )
     order = np.argsort(np.where(first.met, 0.5, 1.0) * np.nan_to_num(first.cost, nan=np.inf))
     order = order[np.isfinite(first.cost[order])][:BEST]
     starts = starts.some(order)._replace(stack=first.stack[order], rows=first.rows[order])
