@@ -22,6 +22,7 @@ from burmester.requirements import Requirements
 from burmester.stack import LinkageStack
 
 __all__ = [
+    "CLEAR",
     "SHORTEST",
     "Conditions",
     "Journey",

@@ -14,17 +14,20 @@ from typing import Any, NamedTuple, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.accuracy import on_circuits, rows_of
+from burmester.accuracy import newton_step, on_circuits, rows_of, wrapped_angle
 from burmester.circuit import Circuits, circuit_of
 from burmester.conditions import (
+    CLEAR,
     SHORTEST,
     Conditions,
     Journey,
     Proportions,
     Together,
+    drive_of,
     lever_sine,
     type_excess,
 )
+from burmester.dead_points import complex_of
 from burmester.displacement import Displacement, FloatArray
 from burmester.dyad import RR
 from burmester.frames import CanonicalFrames
@@ -38,7 +41,13 @@ __all__ = ["Aim", "Found", "linkages_that_work", "links_of_map"]
 FIRST = 24  # steps for all starts; the best go on
 STARTS, BEST = 96, 16  # at most, of the first and of the second
 WRONG = 0.1  # lengths squared, that a pose on the wrong branch counts as, to choose starts by
-MAP, WIDE, LINKS = 17, 3.0, 8  # fixed pivots each way, how far out, and links kept of a map
+ASTRAY = 0.1, 1.0  # the same of a sine and of a way back; half of the starts by each
+UNMET = 10.0  # the same of conditions that are not met
+FEW = 64  # pairs, up to which each circuit is a start
+SAME = 1e-3  # lengths; nearer places are the same
+AHEAD, ON = 12, 1e-9  # steps from poses onto a linkage, and what is on it
+MAP, WIDE, LINKS = 17, 3.0, 80  # pivots each way, how far out, and links kept of both maps
+SHORT, LONG = 0.01, 10.0  # lengths of such links
 
 
 class Found(NamedTuple):
@@ -69,7 +78,7 @@ class Aim:
         """Linkages (k,) from where they are to the least error."""
         return refine(
             stack,
-            Displacement(rows[..., :2], rows[..., 2] / self.length),
+            self.places_of(rows),
             self.poses,
             self.length,
             weights=self.weights,
@@ -97,6 +106,10 @@ class Aim:
         rows = rows_of(on_circuits(stack, self.poses, self.length), self.length)
         cost = np.nan_to_num(self.cost(rows), nan=np.inf)
         return np.asarray(rows[np.arange(len(stack)), cost.argmin(axis=1)])
+
+    def places_of(self, rows: FloatArray) -> Displacement:
+        """Rows (*, 3) as displacements."""
+        return Displacement(rows[..., :2], rows[..., 2] / self.length)
 
     def cost(self, rows: FloatArray) -> FloatArray:
         """The weighted sum of squared distances (*,) of rows (*, N, 3) from the poses."""
@@ -134,17 +147,14 @@ def linkages_that_work(stack: LinkageStack, aim: Aim) -> Found | None:
 
     None where there is nothing to start from.
     """
-    starts = _starts(stack, aim)
-    sine = lever_sine(starts.stack, starts.rows, aim.length, starts.driver)
-    wrong = (starts.sign[:, None] * sine < 0).sum(axis=1)
-    starts = starts.some(np.argsort(aim.cost(starts.rows) + WRONG * wrong, kind="stable")[:STARTS])
+    starts = _likely(stack, aim)
     if not len(starts.pair):
         return None
     first = aim.refine(
         starts.stack, starts.rows, conditions=_conditions(starts, aim), held_steps=FIRST
     )
-    order = np.argsort(np.where(first.met, 0.5, 1.0) * np.nan_to_num(first.cost, nan=np.inf))
-    order = order[np.isfinite(first.cost[order])][:BEST]
+    order = np.argsort(np.where(first.met, 0.0, UNMET) + np.nan_to_num(first.cost, nan=np.inf))
+    order = _apart(first.rows, order[np.isfinite(first.cost[order])])[:BEST]
     starts = starts.some(order)._replace(stack=first.stack[order], rows=first.rows[order])
     refined = aim.refine(
         starts.stack, starts.rows, conditions=_conditions(starts, aim), worst=aim.worst
@@ -153,32 +163,127 @@ def linkages_that_work(stack: LinkageStack, aim: Aim) -> Found | None:
 
 
 def links_of_map(poses: Displacement, weights: FloatArray | None = None) -> list[RR]:
-    """More links to start from: the low places of the map of fixed pivots.
+    """More links to start from: those that come nearest on maps of fixed and of moving pivots.
 
     Poses in the frames of `accuracy.error_frames`.
     """
-    frames, _ = CanonicalFrames.of(poses, weights)
-    reach = WIDE * float(frames.length)
-    at = grid(frames.fixed_origin - reach, frames.fixed_origin + reach, MAP, MAP)
-    found = fixed_pivot_map(poses, at, weights)
-    error = np.nan_to_num(found.rms_error, nan=np.inf)
-    walls = np.pad(error, 1, constant_values=np.inf)
-    around = [
-        walls[1 + i : 1 + i + MAP, 1 + j : 1 + j + MAP] for i in (-1, 0, 1) for j in (-1, 0, 1)
-    ]
-    low = (error <= np.min(around, axis=0)) & (found.dyads.radius > 1e-3 * reach)
-    row, column = np.nonzero(low & np.isfinite(error))
-    best = np.argsort(error[row, column], kind="stable")[:LINKS]
-    return [found.dyads[row[k], column[k]] for k in best]
+    found = []
+    for inverse in (False, True):
+        seen = poses.inverse() if inverse else poses
+        frames, _ = CanonicalFrames.of(seen, weights)
+        reach = WIDE * float(frames.length)
+        at = grid(frames.fixed_origin - reach, frames.fixed_origin + reach, MAP, MAP)
+        map_ = fixed_pivot_map(seen, at, weights)
+        error = np.nan_to_num(map_.rms_error, nan=np.inf).ravel()
+        fixed, moving = (
+            getattr(map_.dyads, name).reshape(-1, 2) for name in ("fixed_pivot", "moving_pivot")
+        )
+        radius = map_.dyads.radius.ravel()
+        sound = np.isfinite(error) & (radius > SHORT) & (radius < LONG)
+        sound &= np.abs(moving).max(axis=-1) < LONG
+        ends = (moving, fixed) if inverse else (fixed, moving)
+        found += [(error[k], RR(ends[0][k], ends[1][k], radius[k])) for k in np.flatnonzero(sound)]
+    found.sort(key=lambda each: each[0])
+    return [link for _, link in found[:LINKS]]
+
+
+def _likely(stack: LinkageStack, aim: Aim) -> _Starts:
+    """Of pairs (k,) of dyads the likeliest starts.
+
+    Few pairs also from where they come nearest to the poses, on each of their circuits.
+    """
+    starts, score = _at_poses(stack, aim)
+    if len(stack) <= FEW:
+        there = _starts(stack, aim)
+        sine = lever_sine(there.stack, there.rows, aim.length, there.driver)
+        wrong = (there.sign[:, None] * sine < 0).sum(axis=1)
+        score = np.concatenate([score, aim.cost(there.rows) + WRONG * wrong])
+        starts = _Starts(
+            np.concatenate([starts.pair, there.pair]),
+            starts.stack.and_(there.stack),
+            *(np.concatenate(both) for both in zip(starts[2:], there[2:], strict=True)),
+        )
+    return starts.some(np.argsort(score, kind="stable")[:STARTS])
+
+
+def _at_poses(stack: LinkageStack, aim: Aim) -> tuple[_Starts, FloatArray]:
+    """Starts from pairs (k,) as near to the poses as can be, and how unlikely they are, (k,).
+
+    Judged at the poses themselves, as if the pairs met them: by how far they miss them, on which
+    branch they are there, and in which order.
+    """
+    count, number = len(stack), aim.poses.shape[0]
+    wanted = rows_of(aim.poses, aim.length)
+    rows = np.broadcast_to(wanted, (count, number, 3))
+    share = np.ones(number) if aim.weights is None else aim.weights / aim.weights.mean()
+    d, turn = complex_of(wanted), np.exp(1j * aim.poses.angle)
+    miss = (stack.surfaces().at(d[None, None], turn[None, None])[0] ** 2 @ share).sum(axis=1)
+    found = []
+    for side in _sides(aim.requirements):
+        lead = np.full(count, side)
+        sine = lever_sine(stack, rows, aim.length, lead)
+        drive, turns = drive_of(stack, rows, aim.length, lead)
+        step = np.diff(drive, axis=1)
+        step = np.where(turns[:, None], wrapped_angle(step), step)
+        back = np.min([np.maximum(way * step, 0.0).sum(axis=1) for way in (1, -1)], axis=0)
+        round_ = np.min([(way * step % (2 * np.pi)).sum(axis=1) for way in (1, -1)], axis=0)
+        back = np.where(turns, np.minimum(back, np.maximum(round_ - 2 * np.pi, 0.0)), back)
+        for sign in (1.0, -1.0):
+            wrong = np.maximum(np.sin(CLEAR) - sign * sine, 0.0).sum(axis=1)
+            wrong += 0.0 if aim.requirements.any_order else back
+            found.append(np.stack([np.arange(count), lead, np.full(count, sign), wrong]))
+    pair, lead, sign, wrong = np.concatenate(found, axis=1)
+    pair = pair.astype(np.intp)
+    with np.errstate(invalid="ignore"):
+        scores = miss[pair] + np.array(ASTRAY)[:, None] * wrong
+    best = np.argsort(np.nan_to_num(scores, nan=np.inf), axis=1, kind="stable")
+    best = np.unique(best[:, : STARTS // len(ASTRAY)])
+    pair, driver = pair[best], lead[best].astype(np.intp)
+    rows, sound = _projected(stack[pair], rows[pair], aim.length)
+    pair, driver, best, rows = pair[sound], driver[sound], best[sound], rows[sound]
+    middle, places = np.full(len(pair), np.nan), aim.places_of(rows[:, 0])
+    for side in (0, 1):
+        some = driver == side
+        if some.any():
+            middle[some] = _middle(stack[pair[some]], places[some], side)
+    starts = _Starts(pair, stack[pair], rows, driver, sign[best], middle)
+    return starts, scores[0, best]
+
+
+def _projected(
+    stack: LinkageStack, rows: FloatArray, length: float
+) -> tuple[FloatArray, NDArray[np.bool_]]:
+    """Places of linkages (k,) straight ahead of rows (k, N, 3), and where there are any, (k,)."""
+    surfaces = stack.surfaces()
+    with np.errstate(all="ignore"):
+        for _ in range(AHEAD):
+            rows = rows + newton_step(surfaces, rows, rows, length)[0]
+        places = Displacement(rows[..., :2], rows[..., 2] / length)
+        return rows, (np.abs(stack.bearing(places).miss) < ON).all(axis=(1, 2))
+
+
+def _apart(rows: FloatArray, order: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Of places (k, N, 3), in an order (n,), those that are not the same as others before."""
+    kept: list[int] = []
+    for k in order.tolist():
+        if all(np.abs(rows[k] - rows[other]).max() > SAME for other in kept):
+            kept.append(k)
+        if len(kept) == BEST:
+            break
+    return np.array(kept, dtype=np.intp)
+
+
+def _sides(asked: Requirements) -> tuple[int, ...]:
+    """The sides that may drive."""
+    return {"first": (0,), "second": (1,)}.get(asked.driver, (0, 1))
 
 
 def _starts(stack: LinkageStack, aim: Aim) -> _Starts:
     """Each pair on each circuit, with each driver, on each branch on which a pose is."""
     places = on_circuits(stack, aim.poses, aim.length)
     rows = rows_of(places, aim.length)
-    sides = {"first": (0,), "second": (1,)}.get(aim.requirements.driver, (0, 1))
     found = []
-    for side in sides:
+    for side in _sides(aim.requirements):
         for circuit in (0, 1):
             some = np.flatnonzero(np.isfinite(rows[:, circuit]).all(axis=(1, 2)))
             leads = np.full(len(some), side)

@@ -82,6 +82,13 @@ class LinkageStack:
         """One of them."""
         return Linkage(*(self._dyads(side, index) for side in (0, 1)))
 
+    def and_(self, other: LinkageStack) -> LinkageStack:
+        """These linkages, and then others."""
+        return LinkageStack(
+            np.concatenate([self.kinds, other.kinds]),
+            np.concatenate([self.dimensions, other.dimensions]),
+        )
+
     def exchanged(self) -> LinkageStack:
         """The same with the two dyads exchanged."""
         return LinkageStack(self.kinds[:, ::-1], self.dimensions[:, ::-1])
