@@ -104,7 +104,7 @@ def circuits(first, second):
             out.append(_between(dyads, low, high))
 
     def which(rows):
-        drive = _driven(first, rows)
+        drive = drive_at(first, rows)
         if turns:
             drive = np.mod(drive + np.pi, 2 * np.pi) - np.pi
         where, phi = places(*dyads, drive)
@@ -122,7 +122,7 @@ def circuits(first, second):
     return out, which
 
 
-def _driven(dyad, rows):
+def drive_at(dyad, rows):
     """What drives a dyad: an angle, or a length along the rail or the slot."""
     if not isinstance(dyad, RP):
         return driven(dyad, rows)

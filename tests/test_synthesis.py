@@ -12,22 +12,71 @@ from burmester.errors import InputError
 from burmester.io.poses import read_task
 from burmester.synthesis import synthesize
 from burmester.task import Task
-from tests.witness import misses, random_four_bar, random_poses, span
+from tests.swept import circuits, drive_at
+from tests.witness import places, random_four_bar, random_poses, span
 
 
 def drive_all(synthesis, slack=0.0):
     """Every linkage is driven by the witness and comes as near as the synthesis says.
 
-    Far from the poses the nearest place is a heuristic, and may be short of it by `slack`.
+    On the circuit where it says that the coupler is; and those called usable lead through the
+    poses.  Far from the poses the nearest place is a heuristic, and may be short of it by `slack`.
     """
     poses, length = synthesis.task.poses, synthesis.length
+    rows = np.column_stack([poses.translation, poses.angle])
     assert synthesis.linkages
     for found in synthesis.linkages:
         ours = np.hypot(found.error.position, length * found.error.angle)
-        witness = misses(found.linkage, poses, length)
-        assert (ours <= witness * (1 + slack) + 1e-6 * length).all()
-        for dyad in found.dyads:  # and its places are places of both dyads
-            assert np.abs(dyad.dyad.residual(found.error.places)).max() < 1e-8 * length
+        at = np.column_stack([found.error.places.translation, found.error.places.angle])
+        for dyad in found.dyads:  # its places are places of both dyads
+            size = max(length, float(getattr(dyad.dyad, "radius", 0.0)))
+            assert np.abs(dyad.dyad.residual(found.error.places)).max() < 1e-8 * size
+        swept, which = circuits(found.linkage.first, found.linkage.second)
+        witness = np.array([circuit.nearest(rows, length) for circuit in swept])
+        numbers = set(which(at))
+        together = len(numbers) == 1
+        assert together or any(each.kind == "circuit" for each in found.defects)
+        witness = witness[min(numbers)] if together else witness.min(axis=0)
+        assert (ours >= witness - 1e-6 * length).all()
+        if found.usable:
+            assert leads_through(found, at, not synthesis.task.requirements.any_order)
+        else:  # nor does its error say more than it must
+            assert (ours <= witness * (1 + slack) + 1e-6 * length).all()
+
+
+def leads_through(found, at, in_order):
+    """Whether the driver brings the coupler to rows `at` on one assembly, with no dead point."""
+    dyads, turns = (found.led.first, found.led.second), isinstance(found.led.first, RR)
+    drive = drive_at(dyads[0], at)
+    way = np.unwrap(drive) if turns else drive
+    where, phi = places(*dyads, drive)
+    gap = np.abs(where - at[:, :2] @ [1, 1j]) + np.abs(np.exp(1j * phi) - np.exp(1j * at[:, 2]))
+    side = gap.argmin(axis=0)
+    if gap.min(axis=0).max() > 1e-5 * max(1.0, np.abs(at).max()) or len(set(side)) > 1:
+        return False
+    ways = [way]
+    if turns:  # in either sense, once round at most
+        steps = np.diff(drive)
+        ways = [drive[0] + np.cumsum([0, *((steps + 1e-5) % (2 * np.pi) - 1e-5)])]
+        ways += [drive[0] - np.cumsum([0, *((1e-5 - steps) % (2 * np.pi) - 1e-5)])]
+    if in_order:
+        ways = [w for w in ways if np.ptp(w) < 2 * np.pi + 1e-4] if turns else ways
+        rises = [np.diff(w) for w in ways]
+        ways = [
+            w
+            for w, rise in zip(ways, rises, strict=True)
+            if (rise > -1e-4).all() or (rise < 1e-4).all()
+        ]
+    elif turns:
+        around = np.sort(np.mod(drive, 2 * np.pi))
+        gaps = np.diff([*around, around[0] + 2 * np.pi])
+        begin = (gaps.argmax() + 1) % len(around)
+        ways = [around[begin] + np.mod(around - around[begin], 2 * np.pi)]
+    # All the way from the first to the last there is a place.
+    return any(
+        np.isfinite(places(*dyads, np.linspace(w.min() + 1e-9, w.max() - 1e-9, 2000))[1]).all()
+        for w in ways
+    )
 
 
 @pytest.mark.parametrize("name", ["ge2012-exact", "ge2012-approximate"])
@@ -40,7 +89,7 @@ def test_the_papers_ten_poses_by_the_papers_method(name):
 
 def test_auto_is_exact_for_five_poses_and_complete_for_more():
     rng = np.random.default_rng(4)
-    rows = random_poses(random_four_bar(rng), rng, 7)
+    rows = random_poses(random_four_bar(rng), rng, 7, ordered=True)
     assert synthesize(Task(Displacement.from_poses(rows[:5]))).method == "exact"
     seven = synthesize(Task(Displacement.from_poses(rows)))
     assert seven.method == "complete"
@@ -101,7 +150,7 @@ def test_published_five_pose_tasks_give_every_pair(name, dyads):
 def test_round_trip_of_random_linkages(second, count, seed):
     rng = np.random.default_rng(seed)
     dyads = random_four_bar(rng, second)
-    rows = random_poses(dyads, rng, count)
+    rows = random_poses(dyads, rng, count, ordered=True)
     synthesis = synthesize(Task(Displacement.from_poses(rows)))
     drive_all(synthesis, slack=0.05)
     true_kinds = sorted(type(d).__name__ for d in dyads)
@@ -129,13 +178,15 @@ def test_round_trip_of_random_linkages(second, count, seed):
 
 def test_ranking_is_by_worst_error_and_does_not_depend_on_pose_order():
     rng = np.random.default_rng(5)
-    rows = random_poses(random_four_bar(rng), rng, 5)
+    rows = random_poses(random_four_bar(rng), rng, 5, ordered=True)
     first = synthesize(Task(Displacement.from_poses(rows)))
     again = synthesize(Task(Displacement.from_poses(rows[::-1])))
     assert [f.linkage.type for f in first.linkages] == [f.linkage.type for f in again.linkages]
     for one, other in zip(first.dyads, again.dyads, strict=True):
         assert np.allclose(one.dyad.fixed_pivot, other.dyad.fixed_pivot, atol=1e-7)
-    noisy = rng.normal(scale=0.02, size=(20, 3)) + random_poses(random_four_bar(rng), rng, 20)
+    noisy = rng.normal(scale=0.02, size=(20, 3)) + random_poses(
+        random_four_bar(rng), rng, 20, ordered=True
+    )
     ranked = synthesize(Task(Displacement.from_poses(noisy))).linkages
     worst = [found.error.worst for found in ranked]
     assert worst == sorted(worst)
@@ -159,7 +210,7 @@ def test_complete_method_on_the_papers_poses(name, worst, rms):
 @pytest.mark.parametrize("seed", range(6))
 def test_complete_method_finds_the_linkage_behind_noisy_poses(second, seed):
     rng = np.random.default_rng(seed)
-    rows = random_poses(random_four_bar(rng, second), rng, 12)
+    rows = random_poses(random_four_bar(rng, second), rng, 12, ordered=True)
     noise = 1e-4 * span(rows)
     noisy = rows + noise * rng.normal(size=rows.shape)
     synthesis = synthesize(Task(Displacement.from_poses(noisy)), "complete")
@@ -207,7 +258,7 @@ def test_two_different_angles_are_no_dyad():
 @pytest.mark.parametrize("count", [5, 8])
 def test_repeated_poses_count_once(count):
     rng = np.random.default_rng(1)
-    rows = random_poses(random_four_bar(rng), rng, count)
+    rows = random_poses(random_four_bar(rng), rng, count, ordered=True)
     rows[:, :2] += 0.01 * rng.normal(size=(count, 2))
     again = rows[[0, 3]] + [0, 0, 2 * np.pi]
     once = synthesize(Task(Displacement.from_poses(rows)))
@@ -235,7 +286,7 @@ def test_too_few_different_poses_are_no_dyads(different):
 
 def test_weights_of_repeated_poses_add_up():
     rng = np.random.default_rng(2)
-    rows = random_poses(random_four_bar(rng), rng, 9) + 0.01 * rng.normal(size=(9, 3))
+    rows = random_poses(random_four_bar(rng), rng, 9, ordered=True) + 0.01 * rng.normal(size=(9, 3))
     doubled = np.vstack([rows, rows[4]])
     one = synthesize(Task(Displacement.from_poses(rows), np.array([1, 1, 1, 1, 3, 1, 1, 1, 1.0])))
     two = synthesize(Task(Displacement.from_poses(doubled), np.append(np.ones(9), 2.0)))
@@ -298,7 +349,7 @@ def test_weights_that_do_not_fit_are_refused(weights):
 
 def test_a_repeated_pose_is_exact_where_one_of_them_is_marked():
     rng = np.random.default_rng(6)
-    rows = random_poses(random_four_bar(rng), rng, 8) + 0.01 * rng.normal(size=(8, 3))
+    rows = random_poses(random_four_bar(rng), rng, 8, ordered=True) + 0.01 * rng.normal(size=(8, 3))
     marked = np.arange(9) == 8
     synthesis = synthesize(Task(Displacement.from_poses(np.vstack([rows, rows[4]])), exact=marked))
     pose = Displacement.from_poses(rows[4])

@@ -121,9 +121,15 @@ def random_four_bar(rng, second=RR):
             return dyads
 
 
-def random_poses(dyads, rng, count, side=None):
-    """`count` poses (x, y, angle) that two dyads pass through, on one assembly (side 0 or 1)."""
+def random_poses(dyads, rng, count, side=None, ordered=False):
+    """`count` poses (x, y, angle) that two dyads pass through, on one assembly (side 0 or 1).
+
+    ordered: as the first dyad meets them on its way between two dead points, or once round.
+    """
     side = int(rng.integers(2)) if side is None else side
+    if ordered:
+        where, phi = places(*dyads, np.sort(_on_the_way(dyads, rng, count)))
+        return np.column_stack([where[side].real, where[side].imag, phi[side]])
     rows = []
     while len(rows) < count:
         drive = rng.uniform(-np.pi, np.pi, 64)
@@ -133,6 +139,18 @@ def random_poses(dyads, rng, count, side=None):
             zip(where[side][sound].real, where[side][sound].imag, phi[side][sound], strict=True)
         )
     return np.array(rows[:count])
+
+
+def _on_the_way(dyads, rng, count):
+    """Crank angles (count,) at random in the longest stretch without a dead point."""
+    sweep = np.linspace(0, 4 * np.pi, 1441)
+    sound = np.isfinite(places(*dyads, sweep)[1][0])
+    if sound.all():
+        return rng.uniform(-np.pi, np.pi) + rng.uniform(0, 2 * np.pi, count)
+    edge = np.flatnonzero(np.diff(sound.astype(int)))
+    runs = [(a + 1, b) for a, b in zip(edge[:-1], edge[1:], strict=True) if sound[a + 1]]
+    first, last = max(runs, key=lambda run: run[1] - run[0])
+    return rng.uniform(sweep[first], sweep[last], count)
 
 
 def span(poses):

@@ -20,6 +20,7 @@ from burmester.displacement import Displacement
 from burmester.dyad import PP
 from burmester.found import FoundLinkage, Pair
 from burmester.judging import Candidates, Judging, Wish
+from burmester.linkage import Linkage
 from burmester.search import Aim, linkages_that_work, links_of_map
 from burmester.stack import STACKED, LinkageStack
 from burmester.task import Task
@@ -96,7 +97,13 @@ def _of_pairs(start: LinkageStack, pairs: list[Pair], aim: Aim, wish: Wish) -> C
     index = np.concatenate([every, np.flatnonzero(both)])
     rows = np.concatenate([np.where(apart[:, None, None], best, one), one[both]])
     made = Candidates(start[index], rows, [pairs[k] for k in index])
-    return _refined(made, aim) if wish.refine else made
+    if wish.refine:
+        made = _refined(made, aim)
+    # What was not touched keeps its digits.
+    own = LinkageStack.of([Linkage(a.dyad, b.dyad) for a, b in made.pairs]).dimensions
+    touched = (made.stack.dimensions != start.dimensions[index]).any(axis=(1, 2), keepdims=True)
+    own = np.where(touched, made.stack.back(aim.frames).dimensions, own)
+    return made._replace(own=LinkageStack(made.stack.kinds, own))
 
 
 def _refined(made: Candidates, aim: Aim) -> Candidates:

@@ -39,7 +39,6 @@ __all__ = [
     "count",
     "family",
     "linkage_advice",
-    "outcome",
     "told",
 ]
 
@@ -214,23 +213,6 @@ def family(task: Task, whole: int, freedom: Sequence[int]) -> tuple[Outcome, Adv
         ),
         Advice("W203", f"{given} do not determine a linkage", help),
     )
-
-
-def outcome(  # noqa: PLR0917
-    task: Task,
-    method: Method,
-    fits: Sequence[Fit],
-    found: Sequence[FoundDyad],
-    real: int,
-    linkages: int,
-) -> Outcome:
-    """What came of a task, in one sentence; `real`: how many dyads are no mere neighbours."""
-    first = fits[0]
-    dyads, aside = _dyads(task, method, fits, found, real)
-    if linkages:
-        code = "R307" if isinstance(first, FivePoseDyads) and real < 2 else "R300"
-        return Outcome(code, f"{count(linkages, 'four-bar')} from {dyads}{aside}")
-    return _none(task, found, dyads + aside)
 
 
 def told(  # noqa: PLR0917

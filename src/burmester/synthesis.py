@@ -30,7 +30,16 @@ from burmester.judging import Wish
 from burmester.limited import Norm
 from burmester.motion_kind import FewPoses, Undetermined
 from burmester.optimal import BestDyads, best_dyads
-from burmester.outcome import Advice, Method, Outcome, advice, chosen_method, family, outcome
+from burmester.outcome import (
+    Advice,
+    Method,
+    Outcome,
+    advice,
+    chosen_method,
+    family,
+    linkage_advice,
+    told,
+)
 from burmester.pencil import fit_pencil
 from burmester.task import CONDITIONS, Task
 
@@ -72,6 +81,7 @@ class Synthesis:
     warnings: tuple[Advice, ...] = ()
     fits: tuple[Fit, ...] = ()
     certificate: Certificate | None = None
+    wish: Wish | None = None
 
     @property
     def usable(self) -> tuple[FoundLinkage, ...]:
@@ -205,7 +215,8 @@ def _special(
         once = replace(wish, refine=False)
         linkages = _joined(task, _merged(task, motion), pairs, once, motion)
     said = Outcome(kind.code, kind.message, kind.help)
-    return Synthesis(task, method, said, motion, length, tuple(found), linkages)
+    advised = tuple(linkage_advice(task, linkages, said.code))
+    return Synthesis(task, method, said, motion, length, tuple(found), linkages, advised, wish=wish)
 
 
 def _fits(
@@ -274,7 +285,8 @@ def _finish(  # noqa: PLR0917
                 )
             )
     linkages = _joined(whole, task, different, wish, motion)
-    said = outcome(task, method, fits, dyads, real, len(linkages))
+    said = told(whole, method, fits, dyads, real, linkages)
+    warnings += linkage_advice(whole, linkages, said.code)
     certificate = _proved(task, fits[0], dyads) if certify else None
     return Synthesis(
         whole,
@@ -287,6 +299,7 @@ def _finish(  # noqa: PLR0917
         tuple(warnings),
         fits,
         certificate,
+        wish,
     )
 
 

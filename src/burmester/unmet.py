@@ -23,6 +23,7 @@ UnmetKind: TypeAlias = Literal[
 ]
 
 ROUNDING = 1e-9  # relative, of what is asked
+FLAT = 1e-6  # degrees; less is none
 PLACES = 181  # looked at on the way between the poses, for the footprint
 
 
@@ -77,7 +78,8 @@ def unmet(
 
 
 def _degrees(angle: float) -> str:
-    return f"{math.degrees(angle):.3g}°" if math.isfinite(angle) else "nothing"
+    degrees = math.degrees(angle)
+    return f"{degrees if degrees > FLAT else 0:.3g}°" if math.isfinite(angle) else "nothing"
 
 
 def _outside(linkage: Linkage, driven: Driven, footprint: Polygon) -> tuple[float, str]:

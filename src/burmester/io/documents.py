@@ -7,11 +7,12 @@ from __future__ import annotations
 
 import functools
 import json
+import math
 import re
 import tomllib
 from collections.abc import Callable
 from decimal import Decimal, InvalidOperation
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 
@@ -94,7 +95,7 @@ def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 @functools.cache
 def _model() -> type[BaseModel]:
     """What may stand in a tree; made on first use, as pydantic is slow to import."""
-    from pydantic import BaseModel, ConfigDict, model_validator
+    from pydantic import BaseModel, ConfigDict, Field, model_validator
 
     class Pose(BaseModel):
         model_config = ConfigDict(strict=True, str_strip_whitespace=True, extra="forbid")
@@ -117,9 +118,15 @@ def _model() -> type[BaseModel]:
                 return pose
             return {k: Decimal(v) if type(v) is int else v for k, v in pose.items()}
 
+    class PoseSigma(BaseModel):
+        model_config = ConfigDict(extra="forbid")
+        position: Annotated[float, Field(ge=0, allow_inf_nan=False)]
+        angle_deg: Annotated[float, Field(ge=0, allow_inf_nan=False)]
+
     class Document(BaseModel):
         model_config = ConfigDict(strict=True, str_strip_whitespace=True)
         poses: list[Pose]
+        pose_sigma: PoseSigma | None = None
         angle_unit: Literal["deg", "rad"] | None = None
         length_unit: str | None = None
 
@@ -161,6 +168,7 @@ def _table(label: str, tree: Any, example: str) -> PoseTable:
     for i, j in np.argwhere(~np.isfinite(rows.values)):  # 1e400 is a finite Decimal
         fault = {"type": "finite_number", "loc": ("poses", int(i), NUMERIC[j])}
         raise _unfit(path, example, fault)
+    given = document.pose_sigma
     return PoseTable(
         rows,
         length_unit=document.length_unit or None,
@@ -168,6 +176,7 @@ def _table(label: str, tree: Any, example: str) -> PoseTable:
         where=f"{path}poses",
         say_unit=f"write {example}",
         wanted=wanted,
+        sigma=given and (given.position, math.radians(given.angle_deg)),
     )
 
 

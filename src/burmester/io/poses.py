@@ -131,6 +131,7 @@ def _task(
     length, angle = (0.5 * 10.0**-printed if printed else 0.0 for printed in table.rows.decimals)
     degrees = unit == "deg"
     resolution = (length, math.radians(angle) if degrees else angle)
+    sigma = table.sigma if sigma is None else sigma
     if sigma is not None:
         resolution = (math.sqrt(3) * sigma[0], math.sqrt(3) * sigma[1])
     said = table.wanted.joined(wanted) if wanted else table.wanted

@@ -74,6 +74,7 @@ class PoseTable(NamedTuple):
     where: str  # the place where the angle unit is stated, or should be
     say_unit: str  # how to state it there
     wanted: Wanted = Wanted()
+    sigma: tuple[float, float] | None = None  # standard deviations of the poses, if stated
 
 
 class Source(NamedTuple):
