@@ -588,7 +588,7 @@ def run(monkeypatch, tmp_path):
 
     def synthesize(*positional, **options):
         calls.append((positional, options))
-        return SimpleNamespace(linkages=(1,), found=True)
+        return run.found
 
     monkeypatch.setattr("burmester.synthesis.synthesize", synthesize)
     monkeypatch.setattr("burmester.io.terminal.show_synthesis", lambda *_: None)
@@ -605,6 +605,7 @@ def run(monkeypatch, tmp_path):
         assert method == "auto"
         return SimpleNamespace(code=stop.value.code, task=task, options=options)
 
+    run.found = SimpleNamespace(usable=(1,), determined=True)
     return run
 
 
@@ -656,7 +657,7 @@ def test_all_of_them_at_once(run):
         (("--round", "1e-1"), {"step": 0.1}),
         (("--stock", "30, 10,20.5"), {"stock": (30, 10, 20.5)}),
         (("--stock", "30", "--stock", "10,5"), {"stock": (30, 10, 5)}),
-        (("--accept-uncertain",), {"accept_uncertain": True}),
+        (("--accept-uncertain",), {}),
         (
             ("--round", "2", "--stock", "4", "--tolerance", ".5"),
             {"step": 2, "stock": (4,), "tolerance": 0.5},
@@ -831,7 +832,10 @@ def test_limits_and_requirements_of_file_and_command_line_add_up(run):
     assert wanted(length=["1:2"]).asked == ()
 
 
-def test_nothing_found_is_exit_code_1(run, monkeypatch):
-    nothing = SimpleNamespace(linkages=(), found=False)
-    monkeypatch.setattr("burmester.synthesis.synthesize", lambda *_, **__: nothing)
-    assert run().code == 1
+@pytest.mark.parametrize(
+    ("usable", "determined", "codes"),
+    [((), False, (1, 1)), ((1,), False, (1, 0)), ((1,), True, (0, 0))],
+)
+def test_exit_code_0_means_a_usable_linkage_that_is_known(run, usable, determined, codes):
+    run.found = SimpleNamespace(usable=usable, determined=determined)
+    assert (run().code, run("--accept-uncertain").code) == codes

@@ -12,8 +12,9 @@ from burmester.errors import InputError
 from burmester.io.poses import read_task
 from burmester.synthesis import synthesize
 from burmester.task import Task
-from tests.swept import circuits, drive_at
-from tests.witness import places, random_four_bar, random_poses, span
+from tests.swept import TooFineError, circuits
+from tests.tracer import driven
+from tests.witness import misses, places, random_four_bar, random_poses, span, turned
 
 
 def drive_all(synthesis, slack=0.0):
@@ -31,12 +32,16 @@ def drive_all(synthesis, slack=0.0):
         for dyad in found.dyads:  # its places are places of both dyads
             size = max(length, float(getattr(dyad.dyad, "radius", 0.0)))
             assert np.abs(dyad.dyad.residual(found.error.places)).max() < 1e-8 * size
-        swept, which = circuits(found.linkage.first, found.linkage.second)
-        witness = np.array([circuit.nearest(rows, length) for circuit in swept])
-        numbers = set(which(at))
-        together = len(numbers) == 1
-        assert together or any(each.kind == "circuit" for each in found.defects)
-        witness = witness[min(numbers)] if together else witness.min(axis=0)
+        try:
+            swept, which = circuits(found.linkage.first, found.linkage.second)
+        except TooFineError:  # beside a change point
+            witness = misses(found.linkage, poses, length)
+        else:
+            witness = np.array([circuit.nearest(rows, length) for circuit in swept])
+            numbers = set(which(at))
+            together = len(numbers) == 1
+            assert together or any(each.kind == "circuit" for each in found.defects)
+            witness = witness[min(numbers)] if together else witness.min(axis=0)
         assert (ours >= witness - 1e-6 * length).all()
         if found.usable:
             assert leads_through(found, at, not synthesis.task.requirements.any_order)
@@ -45,38 +50,50 @@ def drive_all(synthesis, slack=0.0):
 
 
 def leads_through(found, at, in_order):
-    """Whether the driver brings the coupler to rows `at` on one assembly, with no dead point."""
-    dyads, turns = (found.led.first, found.led.second), isinstance(found.led.first, RR)
-    drive = drive_at(dyads[0], at)
-    way = np.unwrap(drive) if turns else drive
-    where, phi = places(*dyads, drive)
+    """Whether the driver brings the coupler to rows `at` on one assembly, with no dead point.
+
+    All joints' drives are turned by brute force: 2,000 places on every way that there may be.
+    """
+    first, second = found.led.first, found.led.second
+    turns = not isinstance(first, PR)
+
+    def bodies(drive):
+        if isinstance(first, RP):
+            return turned(first, second, drive), np.stack([drive, drive])
+        return places(first, second, drive)
+
+    drive = at[:, 2] if isinstance(first, RP) else driven(first, at)
+    where, phi = bodies(drive)
     gap = np.abs(where - at[:, :2] @ [1, 1j]) + np.abs(np.exp(1j * phi) - np.exp(1j * at[:, 2]))
-    side = gap.argmin(axis=0)
-    if gap.min(axis=0).max() > 1e-5 * max(1.0, np.abs(at).max()) or len(set(side)) > 1:
+    size = max(1.0, np.abs(at).max())
+    apart = np.abs(where[0] - where[1]) + np.abs(np.exp(1j * phi[0]) - np.exp(1j * phi[1]))
+    side = np.where(apart < 1e-5 * size, -1, gap.argmin(axis=0))  # -1: beside a dead point
+    if gap.min(axis=0).max() > 1e-5 * size or len({*side} - {-1}) > 1:
         return False
-    ways = [way]
-    if turns:  # in either sense, once round at most
+    for way in ways_through(drive, turns, in_order):
+        low, high = way.min(), way.max()
+        inside = (high - low) * np.linspace(1e-6, 1 - 1e-6, 2000) + low
+        if np.isfinite(bodies(inside)[0][0]).all():
+            return True
+    return False
+
+
+def ways_through(drive, turns, in_order):
+    """Drives (n,) that pass given ones with no step back, in either sense, once round at most."""
+    if not turns:
         steps = np.diff(drive)
-        ways = [drive[0] + np.cumsum([0, *((steps + 1e-5) % (2 * np.pi) - 1e-5)])]
-        ways += [drive[0] - np.cumsum([0, *((1e-5 - steps) % (2 * np.pi) - 1e-5)])]
+        straight = (steps > -1e-4).all() or (steps < 1e-4).all()
+        return [drive] if straight or not in_order else []
     if in_order:
-        ways = [w for w in ways if np.ptp(w) < 2 * np.pi + 1e-4] if turns else ways
-        rises = [np.diff(w) for w in ways]
-        ways = [
-            w
-            for w, rise in zip(ways, rises, strict=True)
-            if (rise > -1e-4).all() or (rise < 1e-4).all()
-        ]
-    elif turns:
-        around = np.sort(np.mod(drive, 2 * np.pi))
-        gaps = np.diff([*around, around[0] + 2 * np.pi])
-        begin = (gaps.argmax() + 1) % len(around)
-        ways = [around[begin] + np.mod(around - around[begin], 2 * np.pi)]
-    # All the way from the first to the last there is a place.
-    return any(
-        np.isfinite(places(*dyads, np.linspace(w.min() + 1e-9, w.max() - 1e-9, 2000))[1]).all()
-        for w in ways
-    )
+        ways = []
+        for sense in (1, -1):
+            steps = np.mod(sense * np.diff(drive) + 1e-4, 2 * np.pi) - 1e-4
+            if steps.sum() < 2 * np.pi + 1e-3:
+                ways.append(drive[0] + sense * np.cumsum([0, *steps]))
+        return ways
+    # Any order: all round but for one of the gaps.
+    around = np.sort(np.mod(drive, 2 * np.pi))
+    return [np.append(around[k:], around[:k] + 2 * np.pi) for k in range(len(around))]
 
 
 @pytest.mark.parametrize("name", ["ge2012-exact", "ge2012-approximate"])
@@ -108,16 +125,22 @@ def test_auto_is_exact_for_five_poses_and_complete_for_more():
 def test_published_sliders_are_called_sliders(name, kinds, method):
     case = json.loads(resources.files("burmester").joinpath(f"cases/{name}.json").read_text())
     synthesis = synthesize(read_task(f"case:{name}"), method)
-    best = synthesis.linkages[0]
+    best = min(synthesis.linkages, key=lambda found: found.error.worst)
     assert {type(found.dyad) for found in best.dyads} == set(kinds)
     drive_all(synthesis, slack=0.05)
     assert best.error.worst < 5e-4 * span(case["poses"])
     length = synthesis.length
     for found in synthesis.dyads:
         assert not isinstance(found.dyad, RR) or found.dyad.radius < 100 * length
-    # The data have four decimals; published values are rounded to three.
+    # The data have four decimals; published values are rounded to three.  The dyads are held to
+    # that as they were found; refined as a whole, the linkage is free to leave them by as much.
+    by_id = {found.id: found for found in synthesis.dyads}
     for found in best.dyads:
-        dyad = found.dyad
+        dyad = by_id[found.id].dyad
+        for field in ("fixed_pivot", "moving_pivot", "offset", "radius"):
+            if hasattr(dyad, field):
+                gap = np.abs(getattr(found.dyad, field) - getattr(dyad, field)).max()
+                assert gap < 5e-3
         if isinstance(dyad, RR):
             (xc, yc, r, x, y), *_ = case["expected"]["RR"]
             assert np.allclose(dyad.fixed_pivot, [xc, yc], atol=2e-3)
@@ -138,9 +161,12 @@ def test_published_sliders_are_called_sliders(name, kinds, method):
 def test_published_five_pose_tasks_give_every_pair(name, dyads):
     synthesis = synthesize(read_task(f"case:{name}"))
     assert synthesis.method == "exact"
-    assert len(synthesis.linkages) == dyads * (dyads - 1) // 2
-    pairs = {frozenset(d.id for d in found.dyads) for found in synthesis.linkages}
-    assert len(pairs) == len(synthesis.linkages)
+    # Every pair meets all poses, if not on one circuit; other linkages are there for that.
+    exact = [found for found in synthesis.linkages if found.error.worst < 1e-9 * synthesis.length]
+    assert len(exact) == dyads * (dyads - 1) // 2
+    pairs = {frozenset(d.id for d in found.dyads) for found in exact}
+    assert len(pairs) == len(exact)
+    assert not any(found.sought for found in exact)
     drive_all(synthesis)
 
 
@@ -188,7 +214,7 @@ def test_ranking_is_by_worst_error_and_does_not_depend_on_pose_order():
         random_four_bar(rng), rng, 20, ordered=True
     )
     ranked = synthesize(Task(Displacement.from_poses(noisy))).linkages
-    worst = [found.error.worst for found in ranked]
+    worst = [(not found.usable, found.error.worst) for found in ranked]
     assert worst == sorted(worst)
 
 
@@ -200,7 +226,7 @@ def test_complete_method_on_the_papers_poses(name, worst, rms):
     complete = synthesize(task, "complete")
     assert "25 of 25 critical points accounted for" in complete.outcome.message
     drive_all(complete)
-    best = complete.linkages[0].error
+    best = min((found.error for found in complete.linkages), key=lambda error: error.worst)
     assert best.worst < worst
     assert np.sqrt((best.position**2).mean()) < rms
     assert best.worst <= synthesize(task, "pencil").linkages[0].error.worst * 1.2
@@ -216,7 +242,7 @@ def test_complete_method_finds_the_linkage_behind_noisy_poses(second, seed):
     synthesis = synthesize(Task(Displacement.from_poses(noisy)), "complete")
     drive_all(synthesis, slack=0.05)
     # The linkage behind them misses by the noise; the best one found does hardly worse.
-    assert synthesis.linkages[0].error.worst < 20 * noise
+    assert min(found.error.worst for found in synthesis.linkages) < 20 * noise
     assert len({found.id for found in synthesis.dyads}) == len(synthesis.dyads)
 
 
@@ -304,20 +330,25 @@ def test_three_and_four_poses_have_a_family(count):
 
 def test_no_real_dyad_is_said_and_the_nearest_is_shown():
     rng = np.random.default_rng(0)
-    seen = set()
+    seen, told = set(), 0
     for _ in range(200):
         synthesis = synthesize(Task(Displacement.from_poses(rng.normal(size=(5, 3)))))
         real = int(synthesis.fits[0].real.sum())
         seen.add(real)
-        assert synthesis.outcome.code == ("R307" if real < 2 else "R300")
+        code = "R307" if real < 2 else "R300"
+        if not synthesis.determined:
+            code = "R305" if synthesis.usable else "R301"
+        assert synthesis.outcome.code == code
         exact = [found for found in synthesis.dyads if found.max_error < 1e-6 * synthesis.length]
         assert len(exact) == real
         if real < 2:
             nearest = synthesis.dyads[real]
             assert nearest.rms_error > 1e-4 * synthesis.length
-            assert f"{real or 'no'} real dyad" in synthesis.outcome.message
-            assert f"misses the poses by {nearest.rms_error:.2g}" in synthesis.outcome.message
-        if seen == {0, 2, 4}:
+            if code != "R305":
+                assert f"{real or 'no'} real dyad" in synthesis.outcome.message
+                assert f"misses the poses by {nearest.rms_error:.2g}" in synthesis.outcome.message
+                told += 1
+        if seen == {0, 2, 4} and told:
             return
     raise AssertionError(f"200 random tasks, and only {seen} real dyads")
 

@@ -7,6 +7,8 @@ content, which is one equation a cos(phi) + b sin(phi) = e with two solutions.
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 from scipy.optimize import minimize_scalar
 
@@ -54,6 +56,31 @@ def places(first, second, drive):
         open_angle = np.arccos(e / abs(z))
     phi = -np.angle(z) + np.stack([open_angle, -open_angle])
     return pin - hand * np.exp(1j * phi), phi
+
+
+def turned(slot, second, phi):
+    """Body places (x + iy), two assemblies each, where an RP dyad, `slot`, drives to phi (n,)."""
+    turn = np.exp(1j * phi)
+    normal = turn * np.exp(1j * float(slot.normal_angle))
+    # conj(normal) (c - d) = h + i s with s the place along the slot
+    foot, way = _c(slot.fixed_pivot) - normal * float(slot.offset), -1j * normal
+    if isinstance(second, RR):
+        to = foot + turn * _c(second.moving_pivot) - _c(second.fixed_pivot)
+        half = (np.conj(way) * to).real
+        with np.errstate(invalid="ignore"):
+            root = np.sqrt(half**2 - abs(to) ** 2 + second.radius**2)
+        along = np.stack([-half - root, -half + root])
+    else:
+        n = np.exp(1j * float(second.normal_angle))
+        if isinstance(second, PR):
+            miss = second.offset - (np.conj(n) * (foot + turn * _c(second.moving_pivot))).real
+            share = (np.conj(n) * way).real
+        else:
+            body = np.conj(turn * n)
+            miss = second.offset - (body * (_c(second.fixed_pivot) - foot)).real
+            share = -(body * way).real
+        along = np.stack([miss / share] * 2)
+    return foot + along * way
 
 
 def misses(linkage, poses, length):
@@ -148,7 +175,7 @@ def _on_the_way(dyads, rng, count):
     if sound.all():
         return rng.uniform(-np.pi, np.pi) + rng.uniform(0, 2 * np.pi, count)
     edge = np.flatnonzero(np.diff(sound.astype(int)))
-    runs = [(a + 1, b) for a, b in zip(edge[:-1], edge[1:], strict=True) if sound[a + 1]]
+    runs = [(a + 1, b) for a, b in pairwise(edge) if sound[a + 1]]
     first, last = max(runs, key=lambda run: run[1] - run[0])
     return rng.uniform(sweep[first], sweep[last], count)
 

@@ -30,11 +30,13 @@ __all__ = [
     "Proportions",
     "Together",
     "drive_of",
+    "least_between",
     "lever_sine",
     "type_excess",
 ]
 
 CLEAR: Final = np.radians(5.0)  # from dead points, of a linkage that is looked for
+BEYOND: Final = 1e-7  # radians, of a transmission angle that is asked for
 IN_ORDER: Final = 2e-3  # radians or lengths; the least way from pose to pose
 # The shortest of ground, driver, coupler and follower of Grashof's types.
 SHORTEST: Final = {"double-crank": 0, "crank-rocker": 1, "double-rocker": 2, "rocker-crank": 3}
@@ -123,7 +125,7 @@ class Journey:
     length: what a radian counts as in rows.  driver: (k,), the side that drives.
     sign: (k,), of `lever_sine` on the branch; clear: its least size.
     sense: (k,), +1 or -1, how the drive goes; ways: (k, N - 1), from pose to pose in that sense, to
-    know whole turns by; no ways where nothing is asked of the order.
+    know whole turns by.  ordered: whether it goes that way from each pose to the next.
     """
 
     length: float
@@ -132,6 +134,7 @@ class Journey:
     clear: float
     sense: FloatArray
     ways: FloatArray
+    ordered: bool
     placed: ClassVar[bool] = True
 
     @classmethod
@@ -149,7 +152,7 @@ class Journey:
 
         middle: (k,), the drive amid its dead points; nan where it turns fully, or slides.
         """
-        clear = float(np.sin(max(CLEAR, requirements.transmission)))
+        clear = float(np.sin(max(CLEAR, requirements.transmission + BEYOND)))
         drive, turns = drive_of(stack, rows, length, driver)
         round_ = turns & np.isnan(middle)
         between = drive - np.nan_to_num(middle)[:, None]
@@ -165,20 +168,26 @@ class Journey:
         sense = np.where(forward, 1.0, -1.0)
         around = np.where(forward[:, None], turn[0], turn[1])
         ways = np.where(once[:, None], around, sense[:, None] * step)
-        if requirements.any_order:
-            ways = ways[:, :0]
-        return cls(length, driver, sign, clear, sense, ways)
+        return cls(length, driver, sign, clear, sense, ways, not requirements.any_order)
 
     def __call__(self, stack: LinkageStack, rows: FloatArray, which: NDArray[np.intp]) -> Held:
         driver, sense, ways = self.driver[which], self.sense[which, None], self.ways[which]
         sine = self.sign[which, None] * lever_sine(stack, rows, self.length, driver)
         out = [self.clear - sine]
-        if ways.shape[1]:
-            drive, turns = drive_of(stack, rows, self.length, driver)
-            more = sense * np.diff(drive, axis=1) - ways
-            step = ways + np.where(turns[:, None], wrapped_angle(more), more)
-            whole = step.sum(axis=1) - 2 * np.pi + IN_ORDER
-            out += [IN_ORDER - step, np.where(turns, whole, -1.0)[:, None]]
+        drive, turns = drive_of(stack, rows, self.length, driver)
+        more = sense * np.diff(drive, axis=1) - ways
+        step = ways + np.where(turns[:, None], wrapped_angle(more), more)
+        along = np.concatenate([np.zeros((len(drive), 1)), np.cumsum(step, axis=1)], axis=1)
+        if self.ordered:
+            whole = along[:, -1:] - 2 * np.pi + IN_ORDER
+            out += [IN_ORDER - step, np.where(turns[:, None], whole, -1.0)]
+        # Between the poses, too, it stays clear.
+        at, cosine = least_between(stack, driver)
+        start = along.min(axis=1, keepdims=True)
+        ahead = sense * (at - drive[:, :1]) - start
+        ahead = np.where(turns[:, None], ahead % (2 * np.pi), ahead)
+        passed = (ahead > 0) & (ahead < along.max(axis=1, keepdims=True) - start)
+        out.append(np.where(passed, np.abs(cosine) - np.sqrt(1 - self.clear**2), -1.0))
         return _at_most(out)
 
 
@@ -261,6 +270,40 @@ def lever_sine(
     with np.errstate(invalid="ignore", divide="ignore"):
         sine = np.where(slot, across, det / far)
     return np.where(slot & slot2, 1.0, sine)
+
+
+def least_between(stack: LinkageStack, driver: NDArray[np.intp]) -> tuple[FloatArray, FloatArray]:
+    """Drives (k, 2) where a transmission angle may be least between two places, and its cosine.
+
+    Where the drive's f turns back, see `drive`; beyond 1 where the linkage does not close there.
+    nan for pairs whose transmission angle is nowhere least there.
+    """
+    every = np.arange(len(stack))
+    z, z2 = stack.dimensions[every, driver].T, stack.dimensions[every, 1 - driver].T
+    kind, kind2 = stack.kinds[every, driver], stack.kinds[every, 1 - driver]
+    c, m, c2, m2 = (complex_of(part[at : at + 2].T) for part in (z, z2) for at in (0, 2))
+    both = np.array([[1.0], [-1.0]])
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+        ground, arm = c2 - c, np.abs(m2 - m)
+        n, n2, slot2 = np.exp(1j * z[0]), np.exp(1j * z2[0]), np.exp(1j * z2[2])
+        rail = np.abs((n.conj() * c2).real - z[1])
+        far = np.where(kind == 0, np.abs(np.abs(ground) - both * z[4]), rail)
+        pins = (arm**2 + z2[4] ** 2 - far**2) / (2 * arm * z2[4])
+        line = (z2[1] - (n2.conj() * c).real - both * z[4]) / arm
+        slot = (z2[3] - (slot2.conj() * m).real) / far
+        across = (both * np.abs(ground) + (np.exp(-1j * z[2]) * m2).real - z[3]) / z2[4]
+    crank, of_slot = np.angle(ground), np.angle(-ground)
+    pair = kind * 3 + kind2
+    cosine = np.select(
+        [pair == 0, pair == 1, pair == 2, pair == 3, pair == 5, pair == 6],
+        [pins, line, slot, pins, slot, across],
+        np.nan,
+    )
+    start = np.select(
+        [pair == 1, kind == 0, kind == 1], [z2[0], crank, (n.conj() * c2).imag], of_slot
+    )
+    at = np.stack([start, np.where(kind == 1, np.nan, start + np.pi)], axis=1)
+    return at, cosine.T
 
 
 def drive_of(
