@@ -532,6 +532,51 @@ def test_dead_points_of_a_triple_rocker_by_the_cosine_law():
     assert np.isclose(high - low, 2 * angle)
 
 
+@all_pairs
+def test_dragged_at_random_it_never_flips(pair):
+    """Any jump of the drive: the loop stays closed, on the same circuit and branch."""
+    circuits, linkage, _, number = circuits_of(pair, 21)
+    rng = np.random.default_rng(21)
+    low, high = (np.nan_to_num(circuits.limits[:, k], neginf=-5, posinf=5) for k in (0, 1))
+    width = (high - low)[:, None]
+    drive = rng.uniform(low[:, None] - width / 2, high[:, None] + width / 2, (len(low), 60))
+    for branch in (0, 1):
+        place = circuits.held(drive, branch)
+        rows = rows_of(place)
+        for k in range(len(rows)):
+            one = Linkage(linkage.first[k], linkage.second[k])
+            size = 1 + np.abs(rows[k]).max()
+            for dyad in (one.first, one.second):
+                assert np.abs(constraint(dyad, rows[k])[0]).max() < 1e-9 * size
+            # It goes to where it is asked to, or stops at a limit.
+            reached = driven(one.first, rows[k])
+            off = reached - drive[k]
+            if circuits.drive.turns:
+                off = (off + np.pi) % (2 * np.pi) - np.pi
+            stopped = np.minimum(
+                *(
+                    np.abs((reached - end + np.pi) % (2 * np.pi) - np.pi)
+                    for end in (low[k], high[k])
+                )
+            )
+            assert (
+                (np.abs(off) < 1e-6)
+                | (stopped < 1e-6)
+                | (np.abs(reached - low[k]) < 1e-6)
+                | (np.abs(reached - high[k]) < 1e-6)
+            ).all()
+        found = circuit_of(linkage, place)
+        # The limits themselves are on both sides (and of a slide across a slot infinitely far).
+        sound = (found.branch_margin > 1e-6) & (found.circuit_margin > 1e-9)
+        assert sound.mean() > 0.3
+        assert (found.circuit == number[:, None])[sound].all()
+        if branch:
+            wanted = circuits.branches == 2
+            assert (found.branch == wanted[:, None])[sound].all()
+        else:
+            assert (found.branch == 0)[sound].all()
+
+
 # Velocities ---------------------------------------------------------------------------------------
 
 

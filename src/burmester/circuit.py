@@ -185,6 +185,21 @@ class Circuits:
             d[rows] += hand * (turn[rows] - unit)
             turn[rows] = unit
 
+    def held(self, drive: FloatArray, branch: int = 0) -> Displacement:
+        """Coupler places (*, n) at values (*, n) of the first dyad's drive, on one branch.
+
+        Whatever the drive jumps to, the linkage stays assembled as it is: beyond a dead point it
+        is held there.  nan where there is no circuit.
+        """
+        low, high = (self.limits[..., None, end] for end in (0, 1))
+        if self.drive.turns:
+            with np.errstate(invalid="ignore"):
+                middle = (low + high) / 2
+                drive = middle + (drive - middle + np.pi) % (2 * np.pi) - np.pi
+        both = self.drive.assembled(np.clip(drive, low, high))
+        second = np.where(self.branches == 2, branch == 1, (self.sign < 0) & (self.drive.ways == 2))
+        return _picked(both, second[..., None])
+
     def curve(self, point: FloatArray, parameter: FloatArray) -> FloatArray:
         """Coupler curves (*, n, 2) of points (2,) or (*, 2) of M, at parameters as above."""
         if (self.undecided & self.exists).any():
@@ -216,6 +231,13 @@ class Circuits:
                     at = common or Parameter.of(parameter[rows, span])
                     some = flat[rows][:, None]
                     yield some.drive, rows, span, along(some.drive, course, some.sign, at)
+
+
+def _picked(both: Displacement, which: NDArray[np.bool_]) -> Displacement:
+    """Of two places (*, n, 2) the ones that are meant, (*, n)."""
+    angle = np.where(which, both.angle[..., 1], both.angle[..., 0])
+    points = both.translation
+    return Displacement(np.where(which[..., None], points[..., 1, :], points[..., 0, :]), angle)
 
 
 _Block: TypeAlias = tuple[

@@ -33,7 +33,7 @@ NEARER, CLOSE = 6, 1e-6  # Newton's steps to the nearest place; a step whose nex
 OFF = 1e-6  # a place farther off its linkage is lost
 FAR = 0.25  # lengths that a place may move in a step
 STEPS = 60  # of Gauss and Newton, at most
-HELD = 112  # steps under conditions, at most
+HELD = 80  # steps under conditions, at most
 DAMPING, LEAST, MOST = 1e-4, 1e-14, 1e8  # relative, of Levenberg and Marquardt
 SETTLED = 1e-13  # a relative step that is rounding
 CURVED = 4  # good steps, before those take the residuals' curvature into account
@@ -42,6 +42,7 @@ STIFF, STIFFER, STIFFEST = 1.0, 4.0, 1e5  # what a condition's miss counts as: a
 OVER = 3.0  # times the greatest multiplier, that it counts as once all are met
 COARSE = 1e-3  # of the greatest slope; a dimension that tells less is damped as if it told so much
 MET = 1e-9  # a condition missed by less is met
+TOUCHED = 1e-6  # of `stiff`; what presses less on a condition does not touch it
 FEW = 64  # places that may be unknowns
 STRIDE = 1e-7  # of the difference quotients of conditions
 FARTHEST = 1e4  # lengths; a dimension beyond it is on its way to nowhere
@@ -436,123 +437,190 @@ class _Seen(NamedTuple):
 
     @property
     def sound(self) -> NDArray[np.bool_]:
-        parts = (self.state.z, self.state.rows, *self[1:])
-        return np.all([np.isfinite(part).reshape(len(part), -1).all(axis=1) for part in parts], 0)
+        """Which are finite, (k,)."""
+        out = np.ones(len(self.value), dtype=bool)
+        for part in (self.state.z, self.state.rows, *self[1:]):
+            out &= np.isfinite(part).reshape(len(out), -1).all(axis=1)
+        return out
+
+
+class _Program(NamedTuple):
+    """What `soft_step` takes for linkages (k,), in unknowns scaled by size (k, n)."""
+
+    bowl: FloatArray
+    pull: FloatArray
+    value: FloatArray
+    turn: FloatArray
+    low: FloatArray
+    high: FloatArray
+    size: FloatArray
+
+    def solved(self) -> tuple[FloatArray, FloatArray]:
+        """The steps (k, n) of the unknowns, and what presses against the conditions (k, m)."""
+        step, press = soft_step(*self[:-1])
+        return step / self.size, press
+
+    def bent(self, index: NDArray[np.intp], value: FloatArray) -> _Program:
+        """Some of them with other values of the conditions."""
+        return _Program(*(part[index] for part in self))._replace(value=value)
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class _Way:
+    """Linkages (k,) on their way down, under conditions; the arrays are written to.
+
+    By the sum of half the squares and of `stiff` times what is not kept.
+    """
+
+    problem: _Problem
+    power: float
+    seen: _Seen
+    equal: NDArray[np.bool_]
+    stiff: FloatArray
+    damping: FloatArray
+    curved: FloatArray
+    trust: NDArray[np.intp]
+    pressed: FloatArray
+    done: NDArray[np.bool_]
+
+    @classmethod
+    def of(cls, problem: _Problem, z: FloatArray, rows: FloatArray, power: float) -> _Way:
+        count, every = len(z), np.arange(len(z))
+        seen = _Seen.of(problem, every, problem.placed(every, z.copy(), rows), power)
+        one = every[:1]
+        equal = _all_conditions(problem, one, seen.state.some(one))[2]
+        unknowns = seen.slope.shape[-1]
+        return cls(
+            problem,
+            power,
+            seen,
+            equal,
+            np.full(count, STIFF),
+            np.full(count, 10 * DAMPING),
+            np.zeros((count, unknowns, unknowns)),
+            np.zeros(count, dtype=np.intp),
+            np.zeros(seen.value.shape),
+            np.zeros(count, dtype=bool),
+        )
+
+    def left(self, value: FloatArray) -> FloatArray:
+        """How much of conditions (k, m) is not kept, (k,)."""
+        off = np.where(self.equal, np.abs(value), np.maximum(value, 0.0))
+        return np.asarray(off.sum(axis=1))
+
+    def program(self, run: NDArray[np.intp], here: _Seen) -> _Program:
+        """The equations as they are here."""
+        trusted = (self.trust[run] >= CURVED)[:, None, None]
+        bowl, size = _bowl(here.slope, np.where(trusted, self.curved[run], 0.0))
+        bowl = bowl + self.damping[run][:, None, None] * np.eye(bowl.shape[-1])
+        pull = (here.residual[:, None] @ here.slope)[:, 0] / size
+        high = np.broadcast_to(self.stiff[run][:, None], here.value.shape)
+        low = np.where(self.equal, -high, 0.0)
+        return _Program(bowl, pull, here.value, here.turn / size[:, None], low, high, size)
+
+    def tried(
+        self, run: NDArray[np.intp], here: _Seen, step: FloatArray
+    ) -> tuple[FloatArray, _Seen, FloatArray]:
+        """The steps (k, n), no longer than places may go, where they lead, and what it costs."""
+        problem = self.problem
+        shift = (here.state.moved @ step[:, None, :, None])[..., 0]
+        part = np.minimum(1.0, FAR / np.maximum(np.abs(shift).max(axis=(1, 2)), FAR))[:, None]
+        to = here.state.z + (part * step)[:, :SIZE]
+        place = problem.placed(run, to, here.state.rows + part[..., None] * shift)
+        there = _Seen.of(problem, run, place, self.power)
+        with np.errstate(all="ignore"):
+            after = (there.residual**2).sum(axis=1) / 2
+            if self.power != 2.0:  # measured in the top distance of before
+                after = after * _rescaled(problem, here.state, place, self.power)
+            after = after + self.stiff[run] * self.left(there.value)
+        radius = to.reshape(-1, 2, DIMENSIONS)[..., -1]
+        sound = ((radius > 0) | (problem.kinds[run] > 0)).all(axis=-1) & there.sound
+        sound &= np.abs(to).max(axis=-1) < FARTHEST
+        return part * step, there, np.where(sound, after, np.inf)
+
+    def advanced(self, run: NDArray[np.intp]) -> NDArray[np.intp]:
+        """A step of the linkages run (n,); those that have not come to an end."""
+        here, weight = self.seen.some(run), self.stiff[run]
+        program = self.program(run, here)
+        step, press = program.solved()
+        before = self.left(here.value)
+        cost = (here.residual**2).sum(axis=1) / 2 + weight * before
+        ahead = self.left(here.value + (here.turn @ step[..., None])[..., 0])
+        model = ((here.residual + (here.slope @ step[..., None])[..., 0]) ** 2).sum(axis=1) / 2
+        step, there, after = self.tried(run, here, step)
+        enough = cost * (1 + GAIN)
+        with np.errstate(invalid="ignore"):
+            again = np.flatnonzero(~(after <= enough) & (self.left(there.value) > SETTLED))
+        if len(again):  # from how much it bends away from the conditions
+            some = here.some(again)
+            off = there.value[again] - (some.turn @ step[again, :, None])[..., 0]
+            second, own = program.bent(again, off).solved()
+            second, other, later = self.tried(run[again], some, second)
+            won = later <= enough[again]
+            at = again[won]
+            step[at], press[at], after[at] = second[won], own[won], later[won]
+            there.put(at, other.some(won))
+        better = after <= enough
+        with np.errstate(all="ignore"):
+            gain = (cost - after) / np.maximum(cost - model - weight * ahead, np.finfo(float).tiny)
+        factor = np.select([~better, gain > 0.75, gain > 0.25], [10.0, 0.1, 0.5], 3.0)
+        self.damping[run] = np.maximum(self.damping[run] * factor, LEAST)
+        trust = self.trust[run]
+        self.trust[run] = np.where(better, trust + 1, np.where(trust >= CURVED, 0, trust))
+        go = np.flatnonzero(better)
+        self._learn(run[go], step[go], here.some(go), there.some(go), press[go])
+        miss = self.left(self.seen.value[run])
+        stuck = (miss > MET) & (ahead > before / 2) & (weight < STIFFEST)
+        least = np.maximum(OVER * np.abs(press).max(axis=1, initial=0), MET)
+        self.stiff[run] = np.select(
+            [stuck, miss <= MET], [STIFFER * weight, np.minimum(weight, least)], weight
+        )
+        small = np.abs(step).max(axis=-1) < SETTLED * (1 + np.abs(here.state.z).max(axis=-1))
+        idle = better & (cost - after < GAIN * cost)
+        end = (small | idle | (self.damping[run] > MOST)) & ~stuck
+        self.done[run[end]] = True
+        return np.asarray(run[~end])
+
+    def _learn(
+        self, go: NDArray[np.intp], step: FloatArray, here: _Seen, there: _Seen, press: FloatArray
+    ) -> None:
+        """Linkages go (n,) are there now; how the equations bent on the way."""
+        slope, ahead = (np.concatenate([each.slope, each.turn], axis=1) for each in (here, there))
+        self.curved[go] = _secant(
+            self.curved[go],
+            step,
+            np.concatenate([here.residual, press], axis=1),
+            slope,
+            np.concatenate([there.residual, press], axis=1),
+            ahead,
+        )
+        self.pressed[go] = press
+        self.seen.put(go, there)
 
 
 def _held(
     problem: _Problem, z: FloatArray, rows: FloatArray, power: float, steps: int
 ) -> tuple[FloatArray, FloatArray, NDArray[np.bool_], NDArray[np.bool_]]:
-    """The same with conditions and exact poses: z, rows, whether it came to an end, and if all hold.
+    """The same with conditions and exact poses: z, rows, whether they came to an end, if all hold.
 
-    By the sum of half the squares and of `stiff` times what is not kept.  A step that bends away
-    from the conditions is taken again from how much (Fletcher's second-order correction).
+    A step that bends away from the conditions is taken again (Fletcher's second-order correction).
     """
-    count, every = len(z), np.arange(len(z))
-    whole = _Seen.of(problem, every, problem.placed(every, z.copy(), rows), power)
-    equal = _equalities(problem, whole)
-    unknowns = whole.slope.shape[-1]
-    stiff, damping = np.full(count, STIFF), np.full(count, 10 * DAMPING)
-    bent, trust = np.zeros((count, unknowns, unknowns)), np.zeros(count, dtype=int)
-    done, pressed = np.zeros(count, dtype=bool), np.zeros(whole.value.shape)
-    run = np.flatnonzero(whole.sound)
-
-    def left(value: FloatArray) -> FloatArray:
-        return np.asarray(np.where(equal, np.abs(value), np.maximum(value, 0.0)).sum(axis=1))
-
+    way = _Way.of(problem, z, rows, power)
+    every, run = np.arange(len(z)), np.flatnonzero(way.seen.sound)
     for _ in range(steps):
         if not len(run):
             break
-        here, weight = whole.some(run), stiff[run]
-        curved = trust[run] >= CURVED
-        bowl, size = _bowl(here.slope, np.where(curved[:, None, None], bent[run], 0.0))
-        bowl = bowl + damping[run][:, None, None] * np.eye(unknowns)
-        pull = (here.residual[:, None] @ here.slope)[:, 0] / size
-        turn = here.turn / size[:, None]
-        high = np.broadcast_to(weight[:, None], here.value.shape)
-        program = bowl, pull, here.value, turn, np.where(equal, -high, 0.0), high
-        step, press = soft_step(*program)
-        step = step / size
-        before = left(here.value)
-        cost = (here.residual**2).sum(axis=1) / 2 + weight * before
-        ahead = left(here.value + (here.turn @ step[..., None])[..., 0])
-        model = ((here.residual + (here.slope @ step[..., None])[..., 0]) ** 2).sum(axis=1) / 2
-
-        def taken(
-            step: FloatArray, at: NDArray[np.intp], here: _Seen = here, run: NDArray[np.intp] = run
-        ) -> tuple[FloatArray, _Seen, FloatArray]:
-            some = here.some(at)
-            shift = (some.state.moved @ step[:, None, :, None])[..., 0]
-            part = np.minimum(1.0, FAR / np.maximum(np.abs(shift).max(axis=(1, 2)), FAR))[:, None]
-            to, start = some.state.z + (part * step)[:, :SIZE], some.state.rows
-            place = problem.placed(run[at], to, start + part[..., None] * shift)
-            there = _Seen.of(problem, run[at], place, power)
-            with np.errstate(all="ignore"):
-                after = (there.residual**2).sum(axis=1) / 2
-                if power != 2.0:  # measured in the top distance of before
-                    after = after * _rescaled(problem, some.state, place, power)
-                after = after + stiff[run[at]] * left(there.value)
-            radius = to.reshape(-1, 2, DIMENSIONS)[..., -1]
-            sound = ((radius > 0) | (problem.kinds[run[at]] > 0)).all(axis=-1) & there.sound
-            sound &= np.abs(to).max(axis=-1) < FARTHEST
-            return part * step, there, np.where(sound, after, np.inf)
-
-        step, there, after = taken(step, np.arange(len(run)))
-        with np.errstate(invalid="ignore"):
-            again = np.flatnonzero(~(after <= cost * (1 + GAIN)) & (left(there.value) > SETTLED))
-        if len(again):
-            some = [part[again] for part in program]
-            some[2] = there.value[again] - (here.turn[again] @ step[again, :, None])[..., 0]
-            second, own = soft_step(*some)
-            second, other, later = taken(second / size[again], again)
-            won = later <= cost[again] * (1 + GAIN)
-            at = again[won]
-            step[at], press[at], after[at] = second[won], own[won], later[won]
-            there.put(at, other.some(won))
-        better = after <= cost * (1 + GAIN)
-        with np.errstate(all="ignore"):
-            gain = (cost - after) / np.maximum(cost - model - weight * ahead, np.finfo(float).tiny)
-        factor = np.select([~better, gain > 0.75, gain > 0.25], [10.0, 0.1, 0.5], 3.0)
-        damping[run] = np.maximum(damping[run] * factor, LEAST)
-        trust[run] = np.where(better, trust[run] + 1, np.where(curved, 0, trust[run]))
-        go = np.flatnonzero(better)
-        bent[run[go]] = _secant(
-            bent[run[go]],
-            step[go],
-            np.concatenate([here.residual[go], press[go]], axis=1),
-            np.concatenate([here.slope[go], here.turn[go]], axis=1),
-            np.concatenate([there.residual[go], press[go]], axis=1),
-            np.concatenate([there.slope[go], there.turn[go]], axis=1),
-        )
-        pressed[run[go]] = press[go]
-        whole.put(run[go], there.some(go))
-        miss = left(whole.value[run])
-        stuck = (miss > MET) & (ahead > before / 2) & (weight < STIFFEST)
-        most = np.maximum(OVER * np.abs(press).max(axis=1, initial=0), MET)
-        stiff[run] = np.where(
-            stuck, STIFFER * weight, np.where(miss > MET, weight, np.minimum(weight, most))
-        )
-        small = np.abs(step).max(axis=-1) < SETTLED * (1 + np.abs(here.state.z).max(axis=-1))
-        idle = better & (cost - after < GAIN * cost)
-        end = (small | idle | (damping[run] > MOST)) & ~stuck
-        done[run[end]] = True
-        run = run[~end]
-    active = equal | (np.abs(pressed) > 1e-6 * stiff[:, None])
-    state, met = _closed(problem, whole.state, active, equal)
+        run = way.advanced(run)
+    active = way.equal | (np.abs(way.pressed) > TOUCHED * way.stiff[:, None])
+    state, met = _closed(problem, way.seen.state, active, way.equal)
     if problem.loose:  # the nearest places, where they do as well
         near = problem.state(every, state.z, state.rows)
         also = problem.placed(every, state.z, near.rows)
         value, _, _ = _all_conditions(problem, every, also)
-        good = met & (_most(value, equal) < MET)
+        good: NDArray[np.bool_] = np.logical_and(met, _most(value, way.equal) < MET)
         state = state.but(good, also)
-    return state.z, state.rows, done, met
-
-
-def _equalities(problem: _Problem, seen: _Seen) -> NDArray[np.bool_]:
-    """Which conditions (m,) are equations."""
-    one = np.arange(min(1, len(seen.value)))
-    equal: NDArray[np.bool_] = _all_conditions(problem, one, seen.state.some(one))[2]
-    return equal
+    return state.z, state.rows, way.done, met
 
 
 def _most(value: FloatArray, equal: NDArray[np.bool_]) -> FloatArray:
@@ -592,4 +660,4 @@ def _closed(
         new = problem.placed(every, state.z + step[:, :SIZE], start)
         state = state.but(np.isfinite(new.rows).all(axis=(1, 2)), new)
         value, slope, _ = _all_conditions(problem, every, state)
-    return state, _most(value, equal) < MET
+    return state, np.asarray(_most(value, equal) < MET)

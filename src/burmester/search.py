@@ -259,7 +259,8 @@ def _projected(
         for _ in range(AHEAD):
             rows = rows + newton_step(surfaces, rows, rows, length)[0]
         places = Displacement(rows[..., :2], rows[..., 2] / length)
-        return rows, (np.abs(stack.bearing(places).miss) < ON).all(axis=(1, 2))
+        on = np.abs(stack.bearing(places).miss) < ON
+        return rows, np.asarray(on.all(axis=(1, 2)))
 
 
 def _apart(rows: FloatArray, order: NDArray[np.intp]) -> NDArray[np.intp]:
