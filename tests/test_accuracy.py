@@ -13,7 +13,7 @@ from importlib import resources
 import numpy as np
 import pytest
 
-from burmester.accuracy import PoseError, error_frames, on_circuits
+from burmester.accuracy import PoseError, error_frames, on_circuits, on_own_circuits
 from burmester.displacement import Displacement
 from burmester.dyad import PR, RP, RR
 from burmester.linkage import Linkage
@@ -218,6 +218,35 @@ def test_the_parallelograms_circuit_is_all_of_it(turned):
     assert PoseError.of(Linkage(first, second), poses, 1.0).worst < 1e-9
 
 
+@pytest.mark.parametrize("second", [RR, PR, RP])
+def test_a_place_in_another_valley_is_brought_to_the_nearest_of_its_circuit(second):
+    """From any places on a circuit to the nearest ones there; of two circuits, on either."""
+    rng = np.random.default_rng(7)
+    told = Counter()
+    while min(told["one"], told["moved"], told["both"]) < 10:
+        dyads = random_four_bar(rng, second)
+        try:
+            swept, _ = circuits(*dyads)
+        except TooFineError:
+            continue
+        poses = random_poses(dyads, rng, 5) + 0.05 * rng.normal(size=(5, 3))
+        near = np.array([circuit.nearest(poses, 1.0) for circuit in swept])
+        on = rng.integers(len(swept), size=5) if rng.random() < 0.5 else np.zeros(5, int)
+        start = np.array(
+            [swept[k].rows(rng.uniform(swept[k].low, swept[k].high, 1))[0] for k in on]
+        )
+        stack = LinkageStack.of([Linkage(*dyads)])
+        ours = on_own_circuits(stack, start[None], Displacement.from_poses(poses), 1.0)[0]
+        assert on_both(dyads, ours) < 1e-9
+        mixed = len(set(on)) > 1
+        wanted = near.min(axis=0) if mixed else near[on[0]]
+        assert np.abs(apart(ours, poses, 1.0) - wanted).max() < FINE
+        told["both" if mixed else "one"] += 1
+        told["moved"] += int((apart(start, poses, 1.0) > wanted + 0.1).any())
+        if second is not RR:  # two circuits are rare enough there
+            told["both"] += 1
+
+
 # Frames and units ---------------------------------------------------------------------------------
 
 
@@ -260,12 +289,12 @@ def test_errors_go_with_the_frame_and_the_unit(pair):
 
 
 def test_errors_are_those_of_the_bodys_own_origin_however_far_it_lies():
-    """The body's origin 10,000 from its pins: a nearest place is one for that origin."""
+    """The body's origin 1,000 from its pins: a nearest place is one for that origin."""
     rng = np.random.default_rng(4)
     for _ in range(10):
         first, second = random_four_bar(rng)
         rows = random_poses((first, second), rng, 6) + 0.01 * rng.normal(size=(6, 3))
-        far = Displacement.from_poses([1e4, -2e3, 0.0])
+        far = Displacement.from_poses([1e3, -2e2, 0.0])
         poses = Displacement.from_poses(rows) @ far
         pins = [d.moving_pivot - far.translation for d in (first, second)]
         linkage = Linkage(

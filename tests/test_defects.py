@@ -17,6 +17,7 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize_scalar
 
+from burmester.accuracy import PoseError
 from burmester.circuit import Circuits, circuit_of
 from burmester.defects import judge
 from burmester.displacement import Displacement
@@ -565,7 +566,7 @@ def test_lengths_that_cannot_close_are_never_called_usable():
         poses = circuits[0].couplers(np.sort(rng.uniform(0.2, 2.9, 5)))
         lengths[rng.integers(1, 4)] *= rng.choice([0.7, 0.9, 1.2])
         changed = four_bar(*lengths)
-        places = changed.nearest(poses, 1.0)
+        places = PoseError.of(changed, poses, 1.0).places
         missed = np.linalg.norm(gap(rows_of(places), rows_of(poses)), axis=-1)
         linkage = Linkage(changed.first[None], changed.second[None])
         verdict = judge(linkage, places[None], missed=missed[None], reach=1e-3)[0]

@@ -1,17 +1,13 @@
-"""Linkages: links and types, the coupler's places, and the nearest place to a pose."""
-
-import json
-from importlib import resources
+"""Linkages: links and types, and the coupler's places."""
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from burmester.displacement import Displacement
 from burmester.dyad import PR, RP, RR
 from burmester.linkage import Linkage, Links, grashof
-from tests.witness import misses, places, random_four_bar, random_poses
+from tests.witness import places, random_four_bar
 
 
 def turns_fully(dyads):
@@ -111,80 +107,6 @@ def test_couplers_are_all_the_places_a_driven_linkage_has(seed):
     gap = np.abs(found.translation @ [1, 1j] - where[sound][:, None])
     # Where both places meet, rounding opens a gap of its square root.
     assert np.nanmin(gap, axis=1).max() < 1e-6
-
-
-@pytest.mark.parametrize("seed", range(30))
-def test_nearest_place_against_the_driven_linkage(seed):
-    rng = np.random.default_rng(seed)
-    dyads = random_four_bar(rng, (RR, PR, RP)[seed % 3])
-    rows = random_poses(dyads, rng, 8)
-    linkage = Linkage(*dyads)
-    on = Displacement.from_poses(rows)
-    assert np.abs(linkage.nearest(on, 1.0).translation - on.translation).max() < 1e-6
-    near = Displacement.from_poses(rows + 0.02 * rng.normal(size=rows.shape))
-    place = linkage.nearest(near, 1.0)
-    gap = place.translation - near.translation
-    ours = np.hypot(np.hypot(gap[:, 0], gap[:, 1]), place.angle - near.angle)
-    witness = misses(linkage, near, 1.0)
-    assert (ours < witness + 1e-6).all()
-    assert (ours > witness - 1e-6).all()
-    for dyad in dyads:
-        assert np.abs(dyad.residual(place)).max() < 1e-9
-
-
-@pytest.mark.parametrize("seed", range(30))
-def test_nearest_place_is_a_foot_however_far_the_pose(seed):
-    """The gap to the pose is square to the coupler's motion, taken from differences."""
-    rng = np.random.default_rng(seed)
-    dyads = random_four_bar(rng, (RR, PR, RP)[seed % 3])
-    rows = random_poses(dyads, rng, 20)
-    poses = Displacement.from_poses(rows + 0.4 * rng.normal(size=rows.shape))
-    place = Linkage(*dyads).nearest(poses, 1.0)
-    at = np.column_stack([place.translation, place.angle])
-    step = 1e-6
-    slopes = [
-        np.stack(
-            [
-                dyad.residual(Displacement.from_poses(at + step * e))
-                - dyad.residual(Displacement.from_poses(at - step * e))
-                for e in np.eye(3)
-            ],
-            axis=-1,
-        )
-        / (2 * step)
-        for dyad in dyads
-    ]
-    along = np.cross(*slopes)
-    sound = np.linalg.norm(along, axis=1) > 1e-2  # elsewhere the motion has no direction
-    along = along[sound] / np.linalg.norm(along[sound], axis=1, keepdims=True)
-    gap = np.column_stack([poses.translation, poses.angle])[sound] - at[sound]
-    assert sound.sum() > 10
-    assert np.abs((along * gap).sum(axis=1)).max() < 1e-5
-
-
-def test_published_linkage_of_table_8_misses_table_5_by_its_known_error():
-    case = json.loads(
-        resources.files("burmester").joinpath("cases/ge2012-approximate.json").read_text()
-    )
-    rows = np.array(case["poses"])
-    poses = Displacement(rows[:, :2], np.radians(rows[:, 2]))
-    dyads = [
-        RR(d["fixed_pivot"], d["moving_pivot"], d["radius"])
-        for d in case["printed"]["linkage_table8"]
-    ]
-    linkage = Linkage(*dyads)
-    place = linkage.nearest(poses, 1.0)
-    position = np.linalg.norm(place.translation - poses.translation, axis=1)
-    angle = np.degrees(place.angle - poses.angle)
-    assert np.isclose(np.sqrt((position**2).mean()), 0.114, atol=5e-4)
-    assert np.isclose(position.max(), 0.216, atol=5e-4)
-    assert np.isclose(np.sqrt((angle**2).mean()), 2.65, atol=5e-3)
-
-
-def test_a_linkage_that_cannot_be_assembled_is_nowhere():
-    linkage = Linkage(RR([0, 0], [0, 0], 1.0), RR([10, 0], [1, 0], 1.0))
-    place = linkage.nearest(Displacement.from_poses(np.zeros((3, 3))), 1.0)
-    assert np.isnan(place.translation).all()
 
 
 def test_the_names_of_slider_linkages():

@@ -63,8 +63,14 @@ def test_strange_poses(name, method):
         data = json.loads(json.dumps(plain(synthesis), allow_nan=False))
         code = data["outcome"]["code"]
         told = code in {"R302", "R303"} or "R310" <= code <= "R319"
-        assert told or code in {"R300", "R307"}
-        assert bool(data["linkages"]) == (code in {"R300", "R307", "R313", "R316"})
+        made = {"R300", "R301", "R305", "R307"}
+        assert told or code in made
+        assert bool(data["linkages"]) == (code in made | {"R313", "R316"})
+        if code in made:
+            works = any(found.usable for found in synthesis.linkages)
+            assert works == (code != "R301")
+            settled = any(found.usable and found.determined for found in synthesis.linkages)
+            assert settled == (code in {"R300", "R307"})
         for dyad in synthesis.dyads:
             # What is called an error is one: recomputed, it is the same.
             miss = np.abs(dyad.dyad.residual(task.poses)).max()

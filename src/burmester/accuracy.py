@@ -13,7 +13,7 @@ from typing import NamedTuple, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.circuit import Circuits, locate
+from burmester.circuit import Circuits, circuit_of, locate
 from burmester.dead_points import complex_of
 from burmester.displacement import Displacement, FloatArray
 from burmester.frames import CanonicalFrames
@@ -28,6 +28,7 @@ __all__ = [
     "newton_step",
     "normal",
     "on_circuits",
+    "on_own_circuits",
     "rows_of",
     "settled",
     "wrapped",
@@ -35,6 +36,7 @@ __all__ = [
 ]
 
 SAMPLES, FEWER = 128, 48  # places looked at on a circuit, for up to MANY poses and for more
+SPLITS, HALVED = 4, 16  # times that more are put between, and how many of the widest gaps
 MANY, BLOCK = 1000, 256  # poses; those looked at together
 VALLEYS, FEW = 3, 1  # of these places, the local minima followed, for few poses and many
 REACH = 2.0  # of the samples on an endless circuit: half of them lie within it
@@ -44,6 +46,7 @@ SETTLED = 1e-14  # a step that is rounding
 ROUNDS, LOOKS = 7, 17  # where it does not do: times looked closer, and places each time
 TWICE = 2.0  # the way to the next sample: no place beside a sample is farther from it
 EDGE = 1e-6  # of an endless circuit, left out
+ON, SAME = 1e-10, 1e-9  # a place that far from a linkage is on it; as near as another
 MEETING = 1e-9  # a circuit's margin at which it meets the other
 FLAT = 0.2  # the least curvature that a step along the circuit counts with
 PARALLEL = 1e-20  # squared sine between two forces that are taken for parallel
@@ -170,6 +173,33 @@ def on_circuits(stack: LinkageStack, poses: Displacement, length: float) -> Disp
     return Displacement(out[..., :2], out[..., 2] / length)
 
 
+def on_own_circuits(
+    stack: LinkageStack, rows: FloatArray, poses: Displacement, length: float
+) -> FloatArray:
+    """The nearest places (k, N, 3) to poses (N,), on the circuits where places rows (k, N, 3) are.
+
+    Of linkages whose places are on both circuits, the nearest ones on either.  What a search that
+    went down a valley left behind: another valley of the same circuit may be nearer.  Places that
+    are on no circuit, and those on the linkage that are nearer than what is found, stay.
+    """
+    both = rows_of(on_circuits(stack, poses, length), length)
+    wanted, found = rows_of(poses, length), rows.copy()
+    every = np.arange(poses.shape[0])
+    for index, linkage in stack.alike():
+        places = Displacement(rows[index, ..., :2], rows[index, ..., 2] / length)
+        circuit = circuit_of(linkage, places, as_given=True).circuit
+        mixed = (circuit != circuit[:, :1]).any(axis=1)
+        nearer = np.nan_to_num(_away(both[index], wanted), nan=np.inf).argmin(axis=1)
+        side = np.where(mixed[:, None], nearer, np.maximum(circuit, 0))
+        own = both[index[:, None], side, every]
+        found[index] = np.where((circuit >= 0)[..., None], own, rows[index])
+    places = Displacement(rows[..., :2], rows[..., 2] / length)
+    off = np.abs(stack.bearing(places).miss).max(axis=1) > ON
+    better = off | (_away(found, wanted) <= _away(rows, wanted) * (1 + SAME))
+    better &= np.isfinite(found).all(axis=-1)
+    return np.where(better[..., None], found, rows)
+
+
 def nearest(places: Displacement, poses: Displacement, length: float) -> Displacement:
     """The nearer (k, N) of the places (k, 2, N) on two circuits; nan where there is none."""
     away = ((rows_of(places, length) - rows_of(poses, length)) ** 2).sum(axis=-1)
@@ -183,13 +213,37 @@ class _Search:
 
     def __init__(self, stack: LinkageStack, circuits: Circuits, length: float, few: bool) -> None:
         self.stack, self.circuits, self.length = stack, circuits, length
-        self.samples, self.valleys = (SAMPLES, VALLEYS) if few else (FEWER, FEW)
-        self.share = (np.arange(self.samples) + 0.5) / self.samples
-        sampled = self._at(circuits, self.share)
-        self.row, self.side = np.nonzero(np.isfinite(sampled).all(axis=-1).any(axis=-1))
-        self.sampled = sampled[self.row, self.side]
-        hop = _away(wrapped(self.sampled - np.roll(self.sampled, 1, axis=1), length), 0.0)
-        self.hop = np.nan_to_num(np.sqrt(np.maximum(hop, np.roll(hop, -1, axis=1))), nan=np.inf)
+        samples, self.valleys = (SAMPLES, VALLEYS) if few else (FEWER, FEW)
+        self.row, self.side = np.nonzero(circuits.exists)
+        own = circuits[self.row, self.side]
+        self.share = np.tile((np.arange(samples) + 0.5) / samples, (len(self.row), 1))
+        self.sampled = self._at(own, self.share)
+        for _ in range(SPLITS if len(self.row) else 0):
+            self._split(own)
+        after = self._after(self.sampled)
+        self.hop = np.maximum(after, np.roll(after, 1, axis=-1))
+        gap = np.roll(self.share, -1, axis=-1) - self.share
+        gap[:, -1:] += 1
+        self.gap = np.maximum(gap, np.roll(gap, 1, axis=-1))
+
+    def _after(self, sampled: FloatArray) -> FloatArray:
+        """How far (n, s) the next of places (n, s, 3) is; behind the last one comes the first."""
+        hop = wrapped(np.roll(sampled, -1, axis=1) - sampled, self.length)
+        return np.nan_to_num(np.sqrt(_away(hop, 0.0)), nan=np.inf)
+
+    def _split(self, own: Circuits) -> None:
+        """Put more samples where the widest gaps are: near change points a place runs fast."""
+        hop = self._after(self.sampled)[:, :-1]
+        far = np.sqrt(_away(self.sampled[:, :-1], 0.0))
+        wide = np.nan_to_num(hop / (1 + far), nan=0.0, posinf=0.0)
+        at = np.argpartition(-wide, HALVED, axis=-1)[:, :HALVED]
+        middle = (self.share[:, :-1] + self.share[:, 1:]) / 2
+        share = np.take_along_axis(middle, at, axis=-1)
+        places = np.concatenate([self.sampled, self._at(own, share)], axis=1)
+        share = np.concatenate([self.share, share], axis=1)
+        order = np.argsort(share, axis=-1)
+        self.share = np.take_along_axis(share, order, axis=-1)
+        self.sampled = np.take_along_axis(places, order[..., None], axis=1)
 
     def nearest(self, wanted: FloatArray) -> FloatArray:
         """The places (k, 2, N, 3) nearest to wanted (N, 3)."""
@@ -211,9 +265,7 @@ class _Search:
         astray &= nearest <= sound.min(axis=-1, keepdims=True)
         if astray.any():
             which = np.nonzero(astray)
-            ends[which] = self._closed_in(
-                self.row[which[0]], self.side[which[0]], sample[which], target[which]
-            )
+            ends[which] = self._closed_in(which[0], sample[which], target[which])
         best = np.nan_to_num(_away(ends, target), nan=np.inf).argmin(axis=-1)[..., None, None]
         out[self.row, self.side] = np.take_along_axis(ends, best, axis=2)[:, :, 0]
         return out
@@ -240,31 +292,31 @@ class _Search:
     ) -> NDArray[np.bool_]:
         """Whether places (n, *, 3) are on the other circuit than (n,) of linkages (n,)."""
         out = np.zeros(ends.shape[:-1], dtype=bool)
-        two = np.flatnonzero(self.circuits.exists.all(axis=-1)[row])
+        two = np.flatnonzero(np.asarray(self.circuits.exists.all(axis=-1))[row])
         if len(two):
             places = Displacement(ends[two, ..., :2], ends[two, ..., 2] / self.length)
             found = locate(self.circuits[row[two]], places)
             own = side[two].reshape(-1, *[1] * (ends.ndim - 2))
             # Where circuits meet, a place is on both.
-            out[two] = (found.circuit != own) & (found.circuit_margin > MEETING)
+            out[two] = np.not_equal(found.circuit, own) & np.greater(found.circuit_margin, MEETING)
         return out
 
     def _closed_in(
         self,
-        row: NDArray[np.intp],
-        side: NDArray[np.intp],
+        which: NDArray[np.intp],
         sample: NDArray[np.intp],
         wanted: FloatArray,
     ) -> FloatArray:
         """The places (n, 3) nearest to wanted (n, 3) beside samples (n,), kept to the circuit."""
-        circuits, share = self.circuits[row, side], self.share[sample]
-        every, width = np.arange(len(row)), 1.0 / self.samples
+        circuits, every = self.circuits[self.row[which], self.side[which]], np.arange(len(which))
+        share, width = self.share[which, sample], self.gap[which, sample]
         for _ in range(ROUNDS):
-            tries = share[:, None] + width * np.linspace(-1, 1, LOOKS)
+            tries = share[:, None] + width[:, None] * np.linspace(-1, 1, LOOKS)
             gap = wrapped(self._at(circuits, tries) - wanted[:, None], self.length)
             best = np.nan_to_num((gap * gap).sum(axis=-1), nan=np.inf).argmin(axis=-1)
             share, near = tries[every, best], wanted + gap[every, best]
-            width *= 2.0 / (LOOKS - 1)
+            width = width * 2.0 / (LOOKS - 1)
+        row, side = self.row[which], self.side[which]
         ends = self._settled(row, near[:, None], wanted[:, None])[:, 0]
         worse = np.nan_to_num(_away(ends, wanted), nan=np.inf) > _away(near, wanted) + SETTLED
         worse |= self._strayed(row, side, ends)

@@ -114,7 +114,10 @@ class Judging:
         return self.ranked(self._measured(out, stack, made.rows))
 
     def ranked(self, found: list[FoundLinkage]) -> list[FoundLinkage]:
-        """Those that work first, then by worst error; the same linkage once."""
+        """Those that work first, then by worst error; the same linkage once.
+
+        Of one pair of dyads that does not work, whatever is made of it, the closest is told.
+        """
 
         def order(each: FoundLinkage) -> tuple[bool, float]:
             worst = np.round(each.error.worst / (ROUNDING * self.wish.length))
@@ -122,9 +125,15 @@ class Judging:
 
         size = float(self.aim.frames.length)
         out: list[FoundLinkage] = []
+        failed = set()
         for each in sorted(found, key=order):  # stable: the order of the dyads stays
-            if not any(_same(each.linkage, other.linkage, size) for other in out):
+            pair = frozenset(dyad.id for dyad in each.dyads)
+            if any(_same(each.linkage, other.linkage, size) for other in out):
+                continue
+            if each.usable or pair not in failed:
                 out.append(each)
+            if not each.usable:
+                failed.add(pair)
         return out
 
     def rounded(self, found: list[FoundLinkage]) -> list[FoundLinkage]:

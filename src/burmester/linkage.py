@@ -19,18 +19,6 @@ __all__ = ["Linkage", "Links", "grashof"]
 
 PARALLEL = 1e-9  # of two lines, or of the line of two circles: its direction is rounding
 CHANGE_POINT = 1e-9  # relative excess of link lengths below which Grashof's sum is a tie
-BLOCK = 4096  # poses looked at together by `nearest`
-TINY = 1e-300  # keeps 0 / 0 away from a pivot that meets its centre
-FAR = 0.5  # lengths; the longest step of that projection
-STEPS, FEWER_STEPS = 100, 20  # at most, of the projection in `nearest`, for few and many poses;
-LAST = 5  # a few are enough near the poses; the last of them end on the linkage
-
-# Coupler angles tried around that of a pose, in radians: dense where the answer will be, and
-# every degree and a half where there are not too many poses for that.
-_AROUND = np.sort(np.concatenate([[0.0], *((-a, a) for a in np.pi * 0.5 ** np.arange(12))]))
-_EVERYWHERE = np.sort(np.concatenate([_AROUND, np.linspace(-np.pi, np.pi, 241)]))
-MANY = 1000  # poses
-STARTS = 4  # of the projection in `nearest`, beside the pose itself
 
 _TYPES = {
     frozenset({RR, PR}): "slider-crank",
@@ -110,110 +98,6 @@ class Linkage:
         z = np.where(np.isfinite(z).all(axis=0), z, np.nan)
         points = np.stack(np.broadcast_arrays(z[0], z[1], s[..., None], c[..., None]), axis=-1)
         return Displacement(Displacement.from_image_point(points).translation, angle[..., None])
-
-    def nearest(self, poses: Displacement, length: float) -> Displacement:
-        """The coupler's place nearest to each pose (N,), on whichever circuit it lies.
-
-        Near means the least |position difference|² + (length x angle difference)².  Followed by
-        projection to a local minimum from five starts: the best four of the valleys that some 500
-        places of the coupler show (one, of 50 near the pose, where there are more than 1000 poses),
-        and the pose itself.  That no
-        other minimum is nearer is not proved.  nan where the linkage reaches no place at all.
-        """
-        blocks = [poses[at : at + BLOCK] for at in range(0, poses.shape[0], BLOCK)]
-        rows = np.concatenate([self._nearest(block, length) for block in blocks])
-        return Displacement(rows[:, :2], rows[:, 2] / length)
-
-    def _nearest(self, poses: Displacement, length: float) -> FloatArray:
-        """Rows (N, 3) of x, y, length x angle; see `nearest`."""
-        wanted = _rows(poses, length)
-        few = poses.shape[0] <= MANY
-        tries = self.couplers(poses.angle[:, None] + (_EVERYWHERE if few else _AROUND))
-        start = _valleys(_rows(tries, length), wanted, STARTS if few else 1)
-        reached = self._project(
-            np.concatenate(
-                [np.where(np.isfinite(start), start, wanted[:, None]), wanted[:, None]], 1
-            ),
-            wanted[:, None],
-            length,
-        )
-        return _closest(np.concatenate([start, reached], axis=1), wanted[:, None])
-
-    def _project(self, at: FloatArray, wanted: FloatArray, length: float) -> FloatArray:
-        """The places (N, k, 3) nearest to wanted (N, 1, 3) that are reached from `at`, or nan.
-
-        Each step goes back to both dyads' tangent planes and along their intersection towards
-        the wanted pose; less far along it from then on where a step undoes the one before.
-        """
-        shape = at.shape
-        ends = at.reshape(-1, 3).copy()
-        target = np.broadcast_to(wanted, shape).reshape(-1, 3)
-        run = np.arange(len(ends))
-        before, share = np.zeros_like(ends), np.ones((len(ends), 1))
-        steps = STEPS if len(ends) <= MANY * (1 + STARTS) else FEWER_STEPS
-        for turn in range(steps):
-            here = ends[run]
-            (m1, m2), (s1, s2) = self._tangents(here, length)
-            # Back: the least step with s1 · step = -m1 and s2 · step = -m2.
-            a, b, c = _dot(s1, s1), _dot(s1, s2), _dot(s2, s2)
-            size = np.maximum(a * c - b * b, 1e-20 * a * c) + TINY
-            back = -(s1 * (c * m1 - b * m2) + s2 * (a * m2 - b * m1)) / size
-            line = np.cross(s1, s2)
-            along = line * _dot(line, target[run] - here) / size
-            # A lost row stays finite.
-            if turn >= steps - LAST:  # no more than back
-                share = np.zeros_like(share)
-            step = np.clip(share * along + back, -FAR * length, FAR * length)
-            share = np.where(_dot(step, before) < 0, share / 2, share)
-            ends[run] = here + step
-            # An error along the curve changes the distance by its square only.
-            moving = (np.abs(along) > 1e-8 * length) | (np.abs(back) > 1e-13 * length)
-            still = moving.any(axis=-1)
-            run, before, share = run[still], step[still], share[still]
-            if not len(run):
-                break
-        miss, _ = self._tangents(ends, length)
-        met = (np.abs(miss) < 1e-9 * length).all(axis=0)
-        return np.where(met, ends, np.nan).reshape(shape)
-
-    def _tangents(self, rows: FloatArray, length: float) -> tuple[FloatArray, FloatArray]:
-        """Residuals (2, *, 1) of both dyads and their gradients (2, *, 3) at rows (*, 3)."""
-        place = Displacement(rows[..., :2], rows[..., 2] / length)
-        dyads = (self.first, self.second)
-        miss = np.stack([dyad.residual(place) for dyad in dyads])
-        slope = np.stack([dyad.gradient(place) for dyad in dyads])
-        return miss[..., None], slope / np.array([1.0, 1.0, length])
-
-
-def _rows(places: Displacement, length: float) -> FloatArray:
-    return np.concatenate([places.translation, length * places.angle[..., None]], axis=-1)
-
-
-def _dot(a: FloatArray, b: FloatArray) -> FloatArray:
-    return np.asarray(np.einsum("...i,...i->...", a, b)[..., None])
-
-
-def _valleys(places: FloatArray, wanted: FloatArray, count: int) -> FloatArray:
-    """Of places (N, k, 2, 3), along k on two branches, the `count` nearest local minima: (N, *, 3).
-
-    By distance from wanted (N, 3).
-    """
-    distance = np.linalg.norm(places - wanted[:, None, None], axis=-1)
-    distance = np.nan_to_num(distance, nan=np.inf)
-    walls = np.pad(distance, ((0, 0), (1, 1), (0, 0)), constant_values=np.inf)
-    valley = (distance <= walls[:, :-2]) & (distance <= walls[:, 2:])
-    depth = np.where(valley, distance, np.inf).reshape(len(wanted), -1)
-    best = np.argpartition(depth, count - 1, axis=1)[:, :count]
-    flat = places.reshape(len(wanted), -1, 3)
-    return np.take_along_axis(flat, best[..., None], axis=1)
-
-
-def _closest(places: FloatArray, wanted: FloatArray) -> FloatArray:
-    """Of places (N, k, 3), some nan, the one nearest to wanted (N, 1, 3): rows (N, 3)."""
-    distance = np.nan_to_num(np.linalg.norm(places - wanted, axis=-1), nan=np.inf)
-    best = distance.argmin(axis=1)[:, None]
-    found = np.take_along_axis(places, best[..., None], axis=1)[:, 0]
-    return np.where(np.isfinite(np.take_along_axis(distance, best, axis=1)), found, np.nan)
 
 
 def grashof(links: Links) -> str:

@@ -33,7 +33,7 @@ NEARER, CLOSE = 6, 1e-6  # Newton's steps to the nearest place; a step whose nex
 OFF = 1e-6  # a place farther off its linkage is lost
 FAR = 0.25  # lengths that a place may move in a step
 STEPS = 60  # of Gauss and Newton, at most
-HELD = 80  # steps under conditions, at most
+HELD = 60  # steps under conditions, at most
 DAMPING, LEAST, MOST = 1e-4, 1e-14, 1e8  # relative, of Levenberg and Marquardt
 SETTLED = 1e-13  # a relative step that is rounding
 CURVED = 4  # good steps, before those take the residuals' curvature into account
@@ -618,7 +618,7 @@ def _held(
         near = problem.state(every, state.z, state.rows)
         also = problem.placed(every, state.z, near.rows)
         value, _, _ = _all_conditions(problem, every, also)
-        good: NDArray[np.bool_] = np.logical_and(met, _most(value, way.equal) < MET)
+        good = np.array(met & (_most(value, way.equal) < MET), dtype=np.bool_)
         state = state.but(good, also)
     return state.z, state.rows, way.done, met
 

@@ -39,11 +39,11 @@ from burmester.stack import LinkageStack
 __all__ = ["Aim", "Found", "linkages_that_work", "links_of_map"]
 
 FIRST = 24  # steps for all starts; the best go on
-STARTS, BEST = 96, 16  # at most, of the first and of the second
+STARTS, BEST = 96, 24  # at most, of the first and of the second
 WRONG = 0.1  # lengths squared, that a pose on the wrong branch counts as, to choose starts by
 ASTRAY = 0.1, 1.0  # the same of a sine and of a way back; half of the starts by each
 UNMET = 10.0  # the same of conditions that are not met
-FEW = 64  # pairs, up to which each circuit is a start
+FEW = 64  # pairs, the first ones, of which each circuit is a start
 SAME = 1e-3  # lengths; nearer places are the same
 AHEAD, ON = 12, 1e-9  # steps from poses onto a linkage, and what is on it
 MAP, WIDE, LINKS = 17, 3.0, 80  # pivots each way, how far out, and links kept of both maps
@@ -190,11 +190,11 @@ def links_of_map(poses: Displacement, weights: FloatArray | None = None) -> list
 def _likely(stack: LinkageStack, aim: Aim) -> _Starts:
     """Of pairs (k,) of dyads the likeliest starts.
 
-    Few pairs also from where they come nearest to the poses, on each of their circuits.
+    The first few pairs also from where they come nearest to the poses, on each of their circuits.
     """
     starts, score = _at_poses(stack, aim)
-    if len(stack) <= FEW:
-        there = _starts(stack, aim)
+    there = _starts(stack[:FEW], aim)
+    if len(there.pair):
         sine = lever_sine(there.stack, there.rows, aim.length, there.driver)
         wrong = (there.sign[:, None] * sine < 0).sum(axis=1)
         score = np.concatenate([score, aim.cost(there.rows) + WRONG * wrong])
