@@ -49,9 +49,13 @@ def answer(task, method):
 
 @pytest.mark.parametrize("method", ["auto", "pencil", "complete"])
 @pytest.mark.parametrize("name", STRANGE)
-def test_strange_poses(name, method):
+def test_strange_poses(name, method, monkeypatch):
+    """The search for linkages that work takes a second: one task of twelve has it."""
     rng = np.random.default_rng(list(STRANGE).index(name))
-    for _ in range(12):
+    for number in range(12):
+        if number == 1:
+            monkeypatch.setattr("burmester.joined.linkages_that_work", lambda *_: None)
+            monkeypatch.setattr("burmester.joined.links_of_map", lambda *_: [])
         rows = rng.normal(size=(int(rng.integers(3, 13)), 3)) * [10, 10, 1]
         task = Task(Displacement.from_poses(STRANGE[name](rows, rng)))
         synthesis = answer(task, method)

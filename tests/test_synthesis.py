@@ -77,7 +77,10 @@ def leads_through(found, at, in_order, near):
     for way in ways_through(drive, turns, in_order, near):
         low, high = way.min(), way.max()
         inside = (high - low) * np.linspace(1e-6, 1 - 1e-6, 2000) + low
-        if np.isfinite(bodies(inside)[0][0]).all():
+        where = bodies(inside)[0][min(max(side), 1)]
+        if (
+            np.isfinite(where).all() and np.abs(np.diff(where)).max() < size
+        ):  # nor leaps, by infinity
             return True
     return False
 

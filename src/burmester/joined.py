@@ -13,7 +13,7 @@ from itertools import combinations, product
 
 import numpy as np
 
-from burmester.accuracy import error_frames, nearest, on_circuits, rows_of
+from burmester.accuracy import error_frames, nearest, on_circuits, on_own_circuits, rows_of
 from burmester.candidates import ROUNDING
 from burmester.conditions import Conditions, Kept, Together
 from burmester.displacement import Displacement
@@ -99,6 +99,9 @@ def _of_pairs(start: LinkageStack, pairs: list[Pair], aim: Aim, wish: Wish) -> C
     made = Candidates(start[index], rows, [pairs[k] for k in index])
     if wish.refine:
         made = _refined(made, aim)
+        if len(made.rows[0]) <= MANY:  # refining leaves some in a valley that is not the nearest
+            rows = on_own_circuits(made.stack, made.rows, aim.poses, aim.length)
+            made = made._replace(rows=rows)
     # What was not touched keeps its digits.
     own = LinkageStack.of([Linkage(a.dyad, b.dyad) for a, b in made.pairs]).dimensions
     touched = (made.stack.dimensions != start.dimensions[index]).any(axis=(1, 2), keepdims=True)

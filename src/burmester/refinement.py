@@ -184,7 +184,8 @@ class _Problem:
         miss = self.share[:, None] * state.miss
         slope = self.share[:, None, None] * state.slope
         if power == 2.0:
-            return miss.reshape(count, -1), slope.reshape(count, -1, unknowns)
+            number = miss.shape[1] * miss.shape[2]  # given, as there may be no linkages
+            return miss.reshape(count, number), slope.reshape(count, number, unknowns)
         size = np.sqrt((miss * miss).sum(axis=-1)) + np.finfo(float).tiny
         top = size.max(axis=-1, keepdims=True)
         toward = (miss[..., None] * slope).sum(axis=-2) / size[..., None]
@@ -285,6 +286,7 @@ def _descend(
             step[curved] = _curved_step(
                 residual[curved], slope[curved], bent[run[curved]], damping[run[curved]]
             )
+        step = np.where(problem.free[run], step, 0.0)  # but for rounding it is so
         shift = (here.moved @ step[:, None, :, None])[..., 0]
         part = np.minimum(1.0, FAR / np.maximum(np.abs(shift).max(axis=(1, 2)), FAR))
         step, shift = part[:, None] * step, part[:, None, None] * shift
@@ -440,7 +442,7 @@ class _Seen(NamedTuple):
         """Which are finite, (k,)."""
         out = np.ones(len(self.value), dtype=bool)
         for part in (self.state.z, self.state.rows, *self[1:]):
-            out &= np.isfinite(part).reshape(len(out), -1).all(axis=1)
+            out &= np.isfinite(part).all(axis=tuple(range(1, part.ndim)))
         return out
 
 
@@ -544,6 +546,7 @@ class _Way:
         here, weight = self.seen.some(run), self.stiff[run]
         program = self.program(run, here)
         step, press = program.solved()
+        step = np.where(self.problem.may(run), step, 0.0)  # but for rounding it is so
         before = self.left(here.value)
         cost = (here.residual**2).sum(axis=1) / 2 + weight * before
         ahead = self.left(here.value + (here.turn @ step[..., None])[..., 0])
@@ -556,6 +559,7 @@ class _Way:
             some = here.some(again)
             off = there.value[again] - (some.turn @ step[again, :, None])[..., 0]
             second, own = program.bent(again, off).solved()
+            second = np.where(self.problem.may(run[again]), second, 0.0)
             second, other, later = self.tried(run[again], some, second)
             won = later <= enough[again]
             at = again[won]
@@ -645,6 +649,7 @@ def _closed(
     """What is held met to rounding: Newton's method, by the shortest step."""
     every = np.arange(len(state.z))
     value, slope, _ = _all_conditions(problem, every, state)
+    may = problem.may(every)
     for _ in range(6):
         active = active | (value > 0)
         gap = np.where(active, value, 0.0)
@@ -655,9 +660,9 @@ def _closed(
             sound = np.isfinite(rows).all(axis=(1, 2)) & np.isfinite(gap).all(axis=1)
         step = np.zeros((len(every), slope.shape[-1]))
         step[sound] = -(np.linalg.pinv(rows[sound], rcond=1e-10) @ gap[sound, :, None])[..., 0]
-        step = np.where((np.abs(step).max(axis=-1) < 0.1)[:, None], step, 0.0)
+        step = np.where((np.abs(step).max(axis=-1) < 0.1)[:, None] & may, step, 0.0)
         start = state.rows + (state.moved @ step[:, None, :, None])[..., 0]
         new = problem.placed(every, state.z + step[:, :SIZE], start)
-        state = state.but(np.isfinite(new.rows).all(axis=(1, 2)), new)
+        state = state.but(np.asarray(np.isfinite(new.rows).all(axis=(1, 2))), new)
         value, slope, _ = _all_conditions(problem, every, state)
     return state, np.asarray(_most(value, equal) < MET)
