@@ -41,6 +41,7 @@ MANY, BLOCK = 1000, 256  # poses; those looked at together
 VALLEYS, FEW = 3, 1  # of these places, the local minima followed, for few poses and many
 REACH = 2.0  # of the samples on an endless circuit: half of them lie within it
 STEPS, QUICK = 30, 12  # at most, of the way to the nearest place; where it can be closed in on
+WIDE = 0.4  # of a gap between samples, in lengths, that wants more of them
 FAR = 0.3  # the longest of them
 SETTLED = 1e-14  # a step that is rounding
 ROUNDS, LOOKS = 7, 17  # where it does not do: times looked closer, and places each time
@@ -219,7 +220,8 @@ class _Search:
         self.share = np.tile((np.arange(samples) + 0.5) / samples, (len(self.row), 1))
         self.sampled = self._at(own, self.share)
         for _ in range(SPLITS if len(self.row) else 0):
-            self._split(own)
+            if not self._split(own):
+                break
         after = self._after(self.sampled)
         self.hop = np.maximum(after, np.roll(after, 1, axis=-1))
         gap = np.roll(self.share, -1, axis=-1) - self.share
@@ -231,11 +233,16 @@ class _Search:
         hop = wrapped(np.roll(sampled, -1, axis=1) - sampled, self.length)
         return np.nan_to_num(np.sqrt(_away(hop, 0.0)), nan=np.inf)
 
-    def _split(self, own: Circuits) -> None:
-        """Put more samples where the widest gaps are: near change points a place runs fast."""
+    def _split(self, own: Circuits) -> bool:
+        """Put more samples where the widest gaps are: near change points a place runs fast.
+
+        Whether there were wide ones.
+        """
         hop = self._after(self.sampled)[:, :-1]
         far = np.sqrt(_away(self.sampled[:, :-1], 0.0))
         wide = np.nan_to_num(hop / (1 + far), nan=0.0, posinf=0.0)
+        if not (wide > WIDE).any():
+            return False
         at = np.argpartition(-wide, HALVED, axis=-1)[:, :HALVED]
         middle = (self.share[:, :-1] + self.share[:, 1:]) / 2
         share = np.take_along_axis(middle, at, axis=-1)
@@ -244,6 +251,7 @@ class _Search:
         order = np.argsort(share, axis=-1)
         self.share = np.take_along_axis(share, order, axis=-1)
         self.sampled = np.take_along_axis(places, order[..., None], axis=1)
+        return True
 
     def nearest(self, wanted: FloatArray) -> FloatArray:
         """The places (k, 2, N, 3) nearest to wanted (N, 3)."""

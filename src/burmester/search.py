@@ -38,7 +38,7 @@ from burmester.stack import LinkageStack
 
 __all__ = ["Aim", "Found", "linkages_that_work", "links_of_map"]
 
-FIRST = 24  # steps for all starts; the best go on
+FIRST, THEN = 24, 60  # steps for all starts, and for the best of them
 STARTS, BEST = 96, 24  # at most, of the first and of the second
 WRONG = 0.1  # lengths squared, that a pose on the wrong branch counts as, to choose starts by
 ASTRAY = 0.1, 1.0  # the same of a sine and of a way back; half of the starts by each
@@ -157,7 +157,11 @@ def linkages_that_work(stack: LinkageStack, aim: Aim) -> Found | None:
     order = _apart(first.rows, order[np.isfinite(first.cost[order])])[:BEST]
     starts = starts.some(order)._replace(stack=first.stack[order], rows=first.rows[order])
     refined = aim.refine(
-        starts.stack, starts.rows, conditions=_conditions(starts, aim), worst=aim.worst
+        starts.stack,
+        starts.rows,
+        conditions=_conditions(starts, aim),
+        worst=aim.worst,
+        held_steps=THEN,
     )
     return Found(refined, starts.pair)
 
