@@ -7,7 +7,7 @@ on under these conditions (`search`), so that the answer is not only what fails,
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import combinations, product
 
@@ -96,7 +96,8 @@ def _of_pairs(start: LinkageStack, pairs: list[Pair], aim: Aim, wish: Wish) -> C
     both = apart & np.isfinite(away) & np.isfinite(least) & wish.refine
     index = np.concatenate([every, np.flatnonzero(both)])
     rows = np.concatenate([np.where(apart[:, None, None], best, one), one[both]])
-    made = Candidates(start[index], rows, [pairs[k] for k in index])
+    sought = np.arange(len(index)) >= len(start)
+    made = Candidates(start[index], rows, [pairs[k] for k in index], sought)
     if wish.refine:
         made = _refined(made, aim)
         if len(made.rows[0]) <= MANY:  # refining leaves some in a valley that is not the nearest
@@ -143,38 +144,32 @@ def _sought(
     start: LinkageStack, pairs: list[Pair], judging: Judging, plain: list[FoundLinkage]
 ) -> list[FoundLinkage]:
     """Linkages that work and come nearer to the poses than the plain ones that do."""
-    found: list[FoundLinkage] = []
     best = min((each.error.worst for each in plain if each.usable), default=np.inf)
     aim = judging.aim.thinned(ENOUGH)
-    for stack, origin in _more(start, pairs, judging, best):
-        more = linkages_that_work(stack, aim)
-        if more is not None:
-            index = np.flatnonzero(more.refined.met)
-            found_stack, rows = more.refined.stack[index], more.refined.rows[index]
-            if aim is not judging.aim:
-                rows = judging.aim.places(found_stack)
-            came = [origin[k] for k in more.pair[index]]
-            told = judging.told(Candidates(found_stack, rows, came, sought=True))
-            found += [each for each in told if each.usable and each.error.worst < best][:FEW]
-        if found:
-            break
-    return found
+    stack, origin = _more(start, pairs, judging)
+    found = linkages_that_work(stack, aim)
+    if found is None:
+        return []
+    index = np.flatnonzero(found.refined.met)
+    stack, rows = found.refined.stack[index], found.refined.rows[index]
+    if aim is not judging.aim:
+        rows = judging.aim.places(stack)
+    came = [origin[k] for k in found.pair[index]]
+    told = judging.told(Candidates(stack, rows, came, np.ones(len(index), dtype=bool)))
+    return [each for each in told if each.usable and each.error.worst < best][:FEW]
 
 
 def _more(
-    start: LinkageStack, pairs: list[Pair], judging: Judging, best: float
-) -> Iterator[tuple[LinkageStack, list[Pair]]]:
-    """Where to start from: the pairs, and if nothing works so far, links of the pivot map."""
-    yield start, pairs
-    if np.isfinite(best) or judging.task.limits:
-        return
+    start: LinkageStack, pairs: list[Pair], judging: Judging
+) -> tuple[LinkageStack, list[Pair]]:
+    """Where the search starts from: the pairs, and links that are low in the pivot maps."""
+    if judging.task.limits:
+        return start, pairs
     links = links_of_map(judging.aim.poses, judging.task.weights)
     own = {each.id: each for pair in pairs for each in pair}
-    frames = judging.aim.frames
     map_ = [
-        judging.dyad(f"M{number}", frames.circle_back(link[None])[0])
+        judging.dyad(f"M{number}", judging.aim.frames.circle_back(link[None])[0])
         for number, link in enumerate(links, start=1)
     ]
-    more = [*combinations(map_, 2), *product(own.values(), map_)]
-    if more:
-        yield judging.stacked(more), more
+    every = [*pairs, *combinations(map_, 2), *product(own.values(), map_)]
+    return judging.stacked(every), every

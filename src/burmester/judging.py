@@ -58,20 +58,21 @@ class Wish:
 class Candidates(NamedTuple):
     """Linkages (k,) with the rows (k, N, 3) of their places, and the pairs that they come from.
 
+    sought: (k,), which were looked for under conditions.
     own: the same in the task's own frames, where not a digit is to be lost.
     """
 
     stack: LinkageStack
     rows: FloatArray
     pairs: list[Pair]
-    sought: bool = False
+    sought: NDArray[np.bool_]
     own: LinkageStack | None = None
 
     def some(self, index: NDArray[np.intp]) -> Candidates:
         """Those at the indices."""
         pairs = [self.pairs[k] for k in index]
         own = None if self.own is None else self.own[index]
-        return Candidates(self.stack[index], self.rows[index], pairs, self.sought, own)
+        return Candidates(self.stack[index], self.rows[index], pairs, self.sought[index], own)
 
 
 @final
@@ -107,7 +108,16 @@ class Judging:
                 parts = _exchanged(linkage, verdict, made.pairs[k])
             linkage, verdict, better, (one, two) = parts  # noqa: PLW2901
             dyads = self.dyad(one, linkage.first), self.dyad(two, linkage.second)
-            said = (dyads, linkage, errors[k], verdict, better, works, missing, made.sought)
+            said = (
+                dyads,
+                linkage,
+                errors[k],
+                verdict,
+                better,
+                works,
+                missing,
+                bool(made.sought[k]),
+            )
             out.append(FoundLinkage("", 0, *said))
         rows = np.arange(len(own))[:, None]
         stack = LinkageStack(made.stack.kinds[rows, sides], made.stack.dimensions[rows, sides])
@@ -145,7 +155,8 @@ class Judging:
             rows = rows_of(frames.see(each.error.places), self.aim.length)[None]
             driver = np.array([int(each.better == "second")])
             own, rows = rounded(stack, rows, self.aim, wish.step, wish.stock, driver)
-            new = self.told(Candidates(own.seen(frames), rows, [each.dyads], each.sought, own))
+            sought = np.array([each.sought])
+            new = self.told(Candidates(own.seen(frames), rows, [each.dyads], sought, own))
             if not new:
                 lost = Unmet("rounding", "rounded so coarsely its pivots would fall together")
                 new = [replace(each, usable=False, unmet=(*each.unmet, lost))]

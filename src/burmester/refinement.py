@@ -637,7 +637,8 @@ def _bowl(slope: FloatArray, bent: FloatArray) -> tuple[FloatArray, FloatArray]:
     """The curvature (k, n, n) of half the squares, scaled by size (k, n); not negative."""
     flat = np.swapaxes(slope, -1, -2) @ slope
     size = np.sqrt(np.einsum("kii->ki", flat))
-    size = np.maximum(size, COARSE * size.max(axis=1, keepdims=True)) + np.finfo(float).tiny
+    size = np.maximum(size, COARSE * size.max(axis=1, keepdims=True))
+    size = np.where(size > 0, size, 1.0)  # every pose is exact, and nothing else counts
     values, axes = np.linalg.eigh((flat + bent) / (size[:, None] * size[..., None]))
     values = np.maximum(np.abs(values), 1e-10)
     return (axes * values[:, None]) @ np.swapaxes(axes, -1, -2), size
