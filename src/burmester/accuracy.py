@@ -41,9 +41,9 @@ MANY, BLOCK = 1000, 256  # poses; those looked at together
 VALLEYS, FEW = 3, 1  # of these places, the local minima followed, for few poses and many
 REACH = 2.0  # of the samples on an endless circuit: half of them lie within it
 STEPS, QUICK = 30, 12  # at most, of the way to the nearest place; where it can be closed in on
-WIDE = 0.4  # of a gap between samples, in lengths, that wants more of them
+WIDE = 0.2  # of a gap between samples, in lengths, that wants more of them
 FAR = 0.3  # the longest of them
-SETTLED = 1e-14  # a step that is rounding
+SETTLED = 1e-12  # a step after which the next is rounding
 ROUNDS, LOOKS = 7, 17  # where it does not do: times looked closer, and places each time
 TWICE = 2.0  # the way to the next sample: no place beside a sample is farther from it
 EDGE = 1e-6  # of an endless circuit, left out
@@ -166,11 +166,22 @@ def on_circuits(stack: LinkageStack, poses: Displacement, length: float) -> Disp
     count, number = len(stack), poses.shape[0]
     out = np.full((count, 2, number, 3), np.nan)
     wanted = rows_of(poses, length)
-    for index, linkage in stack.alike():
-        circuits = Circuits.of(linkage, as_given=True)
-        some = _Search(stack[index], circuits, length, number <= MANY)
-        for at in range(0, number, BLOCK):
-            out[index, :, at : at + BLOCK] = some.nearest(wanted[at : at + BLOCK])
+    searches = [
+        _Search(index, stack[index], Circuits.of(linkage, as_given=True), length, number <= MANY)
+        for index, linkage in stack.alike()
+    ]
+    for at in range(0, number, BLOCK):
+        block = wanted[at : at + BLOCK]
+        starts = [each.starts(block) for each in searches]
+        rows = np.concatenate([each.index[each.row] for each in searches])
+        start = np.concatenate([start for start, _ in starts])
+        target = np.broadcast_to(block[:, None], start.shape)
+        ends = _led(stack[rows], start, target, length)  # of all kinds at once
+        done = 0
+        for each, (start, sample) in zip(searches, starts, strict=True):
+            own = ends[done : done + len(start)]
+            out[each.index, :, at : at + BLOCK] = each.nearest(start, sample, own, block)
+            done += len(start)
     return Displacement(out[..., :2], out[..., 2] / length)
 
 
@@ -210,10 +221,20 @@ def nearest(places: Displacement, poses: Displacement, length: float) -> Displac
 
 
 class _Search:
-    """Circuits (k, 2) of linkages (k,) of the same kinds, on which places are looked for."""
+    """Circuits (k, 2) of linkages (k,) of the same kinds, on which places are looked for.
 
-    def __init__(self, stack: LinkageStack, circuits: Circuits, length: float, few: bool) -> None:
-        self.stack, self.circuits, self.length = stack, circuits, length
+    index: (k,), their numbers among all.
+    """
+
+    def __init__(
+        self,
+        index: NDArray[np.intp],
+        stack: LinkageStack,
+        circuits: Circuits,
+        length: float,
+        few: bool,
+    ) -> None:
+        self.index, self.stack, self.circuits, self.length = index, stack, circuits, length
         samples, self.valleys = (SAMPLES, VALLEYS) if few else (FEWER, FEW)
         self.row, self.side = np.nonzero(circuits.exists)
         own = circuits[self.row, self.side]
@@ -253,15 +274,18 @@ class _Search:
         self.sampled = np.take_along_axis(places, order[..., None], axis=1)
         return True
 
-    def nearest(self, wanted: FloatArray) -> FloatArray:
-        """The places (k, 2, N, 3) nearest to wanted (N, 3)."""
+    def starts(self, wanted: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
+        """Where to start from to wanted (N, 3), places (n, N, *, 3), and their numbers."""
+        return _valleys(self.sampled, wanted, self.length, self.valleys)
+
+    def nearest(
+        self, start: FloatArray, sample: NDArray[np.intp], ends: FloatArray, wanted: FloatArray
+    ) -> FloatArray:
+        """The places (k, 2, N, 3) nearest to wanted (N, 3), from what Newton's method led to."""
         out = np.full((len(self.stack), 2, len(wanted), 3), np.nan)
         if not len(self.row):
             return out
-        start, sample = _valleys(self.sampled, wanted, self.length, self.valleys)
-        shape = start.shape
-        target = np.broadcast_to(wanted[:, None], shape)
-        ends = self._settled(self.row, start, target)
+        target = np.broadcast_to(wanted[:, None], start.shape)
         # Newton's method may leap to the other circuit, or past the valley.
         astray = ~(_away(ends, target) <= _away(start, target) + SETTLED)
         astray |= self._strayed(self.row, self.side, ends)
@@ -277,13 +301,6 @@ class _Search:
         best = np.nan_to_num(_away(ends, target), nan=np.inf).argmin(axis=-1)[..., None, None]
         out[self.row, self.side] = np.take_along_axis(ends, best, axis=2)[:, :, 0]
         return out
-
-    def _settled(self, row: NDArray[np.intp], start: FloatArray, target: FloatArray) -> FloatArray:
-        """Places (n, *, 3) of linkages (n,) in the stack that Newton's method leads to."""
-        flat = (len(row), math.prod(start.shape[1:-1]), 3)
-        args = start.reshape(flat), target.reshape(flat), self.length
-        ends = settled(self.stack[row], *args, steps=QUICK)
-        return ends.reshape(start.shape)
 
     def _at(self, circuits: Circuits, share: FloatArray) -> FloatArray:
         """Places (*, s, 3) where shares (s,) or (*, s) of circuits (*,) are passed."""
@@ -325,10 +342,17 @@ class _Search:
             share, near = tries[every, best], wanted + gap[every, best]
             width = width * 2.0 / (LOOKS - 1)
         row, side = self.row[which], self.side[which]
-        ends = self._settled(row, near[:, None], wanted[:, None])[:, 0]
+        ends = _led(self.stack[row], near[:, None], wanted[:, None], self.length)[:, 0]
         worse = np.nan_to_num(_away(ends, wanted), nan=np.inf) > _away(near, wanted) + SETTLED
         worse |= self._strayed(row, side, ends)
         return np.where(worse[..., None], near, ends)
+
+
+def _led(stack: LinkageStack, start: FloatArray, target: FloatArray, length: float) -> FloatArray:
+    """Places (n, *, 3) of linkages (n,) that Newton's method leads to, in a few steps."""
+    flat = (len(stack), math.prod(start.shape[1:-1]), 3)
+    ends = settled(stack, start.reshape(flat), target.reshape(flat), length, steps=QUICK)
+    return ends.reshape(start.shape)
 
 
 def _away(rows: FloatArray, wanted: FloatArray | float) -> FloatArray:
