@@ -485,7 +485,7 @@ def test_the_readme_shows_what_happens():
     """Its Python session is run, and what it says of the command is what the command prints."""
     root = Path(__file__).parent.parent
     failed, tried = doctest.testfile(str(root / "README.md"), module_relative=False)
-    assert (failed, tried) == (0, 5)
+    assert (failed, tried) == (0, 6)
     listed = run("--help").stdout
     for command in ("synthesize", "cases", "reproduce"):
         assert command in listed
