@@ -37,8 +37,7 @@ class FoundLinkage:
     better: which dyad is the better driver, or the only one allowed.
     usable: whether it leads through all poses, driven by that dyad, and is as asked.
     unmet: what is asked of it and not so, driven by that dyad.
-    sought: whether it was looked for under conditions (all poses on one circuit, or without any
-        defect), the closest ones not being usable.
+    sought: whether it was looked for under conditions, the closest ones not being usable.
     uncertainty: what errors of the poses leave open of both dyads; determined: whether that is
         little against the motion; tie: whether it leaves open which of Grashof's types it is.
     spread: of the error, where links and pivots are built within a tolerance.

@@ -96,8 +96,8 @@ def _of_pairs(start: LinkageStack, pairs: list[Pair], aim: Aim, wish: Wish) -> C
     both = apart & np.isfinite(away) & np.isfinite(least) & wish.refine
     index = np.concatenate([every, np.flatnonzero(both)])
     rows = np.concatenate([np.where(apart[:, None, None], best, one), one[both]])
-    sought = np.arange(len(index)) >= len(start)
-    made = Candidates(start[index], rows, [pairs[k] for k in index], sought)
+    none = np.zeros(len(index), dtype=bool)
+    made = Candidates(start[index], rows, [pairs[k] for k in index], none)
     if wish.refine:
         made = _refined(made, aim)
         if len(made.rows[0]) <= MANY:  # refining leaves some in a valley that is not the nearest

@@ -38,8 +38,8 @@ from burmester.stack import LinkageStack
 
 __all__ = ["Aim", "Found", "linkages_that_work", "links_of_map"]
 
-FIRST, THEN = 24, 60  # steps for all starts, and for the best of them
-STARTS, BEST = 96, 24  # at most, of the first and of the second
+STARTS = 96  # at most
+STAGES = (24, 24), (60, 8), (120, None)  # steps, and how many of the best then go on
 WRONG = 0.1  # lengths squared, that a pose on the wrong branch counts as, to choose starts by
 ASTRAY = 0.1, 1.0  # the same of a sine and of a way back; half of the starts by each
 UNMET = 10.0  # the same of conditions that are not met
@@ -145,25 +145,25 @@ class _Starts(NamedTuple):
 def linkages_that_work(stack: LinkageStack, aim: Aim) -> Found | None:
     """The best linkages under all conditions that pairs (k,) of dyads lead to.
 
-    None where there is nothing to start from.
+    Some steps for all starts, more for the best of them.  None where there is none.
     """
     starts = _likely(stack, aim)
     if not len(starts.pair):
         return None
-    first = aim.refine(
-        starts.stack, starts.rows, conditions=_conditions(starts, aim), held_steps=FIRST
-    )
-    order = np.argsort(np.where(first.met, 0.0, UNMET) + np.nan_to_num(first.cost, nan=np.inf))
-    order = _apart(first.rows, order[np.isfinite(first.cost[order])])[:BEST]
-    starts = starts.some(order)._replace(stack=first.stack[order], rows=first.rows[order])
-    refined = aim.refine(
-        starts.stack,
-        starts.rows,
-        conditions=_conditions(starts, aim),
-        worst=aim.worst,
-        held_steps=THEN,
-    )
-    return Found(refined, starts.pair)
+    for steps, best in STAGES:
+        found = aim.refine(
+            starts.stack,
+            starts.rows,
+            conditions=_conditions(starts, aim),
+            worst=aim.worst and best is None,
+            held_steps=steps,
+        )
+        if best is None:
+            break
+        order = np.argsort(np.where(found.met, 0.0, UNMET) + np.nan_to_num(found.cost, nan=np.inf))
+        order = _apart(found.rows, order[np.isfinite(found.cost[order])], best)
+        starts = starts.some(order)._replace(stack=found.stack[order], rows=found.rows[order])
+    return Found(found, starts.pair)
 
 
 def links_of_map(poses: Displacement, weights: FloatArray | None = None) -> list[RR]:
@@ -267,13 +267,13 @@ def _projected(
         return rows, np.asarray(on.all(axis=(1, 2)))
 
 
-def _apart(rows: FloatArray, order: NDArray[np.intp]) -> NDArray[np.intp]:
-    """Of places (k, N, 3), in an order (n,), those that are not the same as others before."""
+def _apart(rows: FloatArray, order: NDArray[np.intp], most: int) -> NDArray[np.intp]:
+    """Of places (k, N, 3), in an order (n,), the first that are not the same as others before."""
     kept: list[int] = []
     for k in order.tolist():
         if all(np.abs(rows[k] - rows[other]).max() > SAME for other in kept):
             kept.append(k)
-        if len(kept) == BEST:
+        if len(kept) == most:
             break
     return np.array(kept, dtype=np.intp)
 
