@@ -48,6 +48,7 @@ AWAY = 0.02  # from a change point, in shares of all lengths
 FEWEST, MOST = 6, 50  # poses
 EDGE = 0.03  # of a branch, left out at its ends
 SLACK = 0.05  # of a step of the tracer, as far as it tells two places apart
+LOOSE = 3.0  # times the greatest miss: places nearer to each other have no order (it says 2)
 TRIES = 2000  # at most, until a random linkage suits
 SPREAD = 3.0  # times the stated 95 % half width: what it covers
 
@@ -312,7 +313,7 @@ def _judge_usable(case, every, said, wrong):
         wrong.append("a usable linkage does not meet the poses as it claims")
     if case.variant != "sound":  # then it is another linkage than that of the case
         try:
-            named = traced(linkage, places_of(found), SLACK)[0]
+            named = traced(linkage, places_of(found), SLACK, LOOSE * claim.max())[0]
         except AssertionError:
             said.append("a usable one could not be traced")
         else:
@@ -380,15 +381,17 @@ def run(tasks, seed, processes=1, tell=lambda line: None):
 # The tasks held against the tracer ----------------------------------------------------------------
 
 
-def traced(linkage, places, slack=0.0):
+def traced(linkage, places, slack=0.0, loose=0.0):
     """The defects of a linkage for both drivers, by a walk along its coupler's motion.
 
-    slack: how far one place may be behind the one before, in steps of the walk.
+    slack: how far one place may be behind the one before, in steps of the walk; loose: the same as
+    a distance.
     """
     rows = np.column_stack([places.translation, places.angle])
     one = Linkage(linkage.first[None], linkage.second[None])
     (walk,), closed = walks(one, rows[:1], np.ones(1))
     assert closed.all()
+    slack += loose / np.median(np.linalg.norm(np.diff(walk[:, :2], axis=0), axis=1))
     far, leg = met_at(walk, rows)
     if (far > 1e-3).any():
         return [{"circuit"}] * 2
