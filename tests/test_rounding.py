@@ -20,9 +20,10 @@ from burmester.dyad import PR, RP, RR
 from burmester.limits import Limits, Polygon
 from burmester.linkage import Linkage
 from burmester.requirements import Requirements
-from burmester.rounding import closest_numbers, multiple, rounded
+from burmester.rounding import rounded
 from burmester.search import Aim
 from burmester.stack import LinkageStack
+from burmester.stock import closest_numbers, multiple
 from tests.witness import places, random_four_bar, random_poses
 
 LENGTH = 0.7

@@ -16,8 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
-from itertools import combinations, product
+from itertools import combinations
 from typing import NamedTuple, final
 
 import numpy as np
@@ -38,15 +37,15 @@ from burmester.course import Course
 from burmester.displacement import Displacement, FloatArray
 from burmester.search import Aim
 from burmester.stack import DIMENSIONS, LinkageStack
+from burmester.stock import Grid, closest_numbers, firmest_last
 
-__all__ = ["closest_numbers", "multiple", "rounded"]
+__all__ = ["rounded"]
 
 SIZE = 2 * DIMENSIONS
 NUDGE = 1e-4  # steps, of difference quotients
 NEAR = 0.01  # of a dimension's usual effect, what a step away from the start counts as
 MOST, LEAST = 256, 16  # roundings that go on from number to number
 PLACES = 25600  # of their couplers, that are looked at
-BESIDE, REACH = 1.5, 0.5  # steps, or sizes (radians), that a rounding may be off
 BEST = 3  # roundings from which single dimensions are moved
 MOVES = 20  # at most, of single dimensions and pairs
 MANY = 100  # poses; for more only single dimensions are moved
@@ -56,7 +55,6 @@ KEPT = 1e-9  # lengths; what is left by less is kept
 TOUCHED = 2.0  # steps; limits nearer than this are minded while the rest is fitted again
 CLEAR = 0.01  # of dead points, the sine of the transmission angle
 ALIKE = 1e-12  # lengths; distances that differ by less are the same
-WHOLE = 2.0**53  # from here on not every whole number is a double
 
 
 def rounded(  # noqa: PLR0917
@@ -89,119 +87,6 @@ def rounded(  # noqa: PLR0917
         own, places[k] = one.best(out[k].reshape(SIZE))
         out[k] = own.reshape(2, DIMENSIONS)
     return LinkageStack(stack.kinds, out), places
-
-
-def multiple(count: FloatArray, step: float) -> FloatArray:
-    """Multiples (*,) of a step as its decimal digits say, each the nearest double."""
-    exact = Fraction(repr(float(step)))
-    over, under = exact.numerator, exact.denominator
-    top = np.abs(count).max(initial=0.0)
-    if top * over < WHOLE and under < 1e22 and int(float(under)) == under:
-        return np.asarray(count * float(over) / float(under))  # of exact numbers: rounded once
-    values = [float(int(each) * exact) for each in np.ravel(count)]
-    return np.array(values).reshape(np.shape(count))
-
-
-@final
-@dataclass(frozen=True, slots=True, eq=False)
-class _Grid:
-    """The values that the ten dimensions of one linkage may have, numbered by whole numbers.
-
-    links, lines, lengths: (10,), which are links' lengths, normal angles, and other lengths.
-    """
-
-    step: float | None
-    turn: float | None
-    size: float
-    stock: FloatArray
-    links: NDArray[np.bool_]
-    lines: NDArray[np.bool_]
-    lengths: NDArray[np.bool_]
-
-    @classmethod
-    def of(
-        cls, kinds: NDArray[np.int8], step: float | None, stock: Sequence[float], size: float
-    ) -> _Grid:
-        """Of a linkage with dyads of kinds (2,), and a motion of this size."""
-        links, lines = np.zeros((2, DIMENSIONS), dtype=bool), np.zeros((2, DIMENSIONS), dtype=bool)
-        links[:, 4] = kinds == 0
-        lines[:, 0], lines[:, 2] = kinds == 1, kinds == 2
-        lengths = ~links & ~lines
-        lengths[:, 4] = False
-        turn = None
-        if step is not None:
-            turn = min(10.0, 10.0 ** np.floor(np.log10(np.degrees(step / size))))
-            turn = float(f"{turn:.0e}")  # 10 ** -3.0 is not always 0.001
-        parts = (each.reshape(SIZE) for each in (links, lines, lengths))
-        return cls(step, turn, size, np.array(stock, dtype=float), *parts)
-
-    @property
-    def rounded(self) -> NDArray[np.bool_]:
-        """Which dimensions are rounded at all."""
-        links = self.links & (len(self.stock) > 0 or self.step is not None)
-        return np.asarray(links | ((self.lines | self.lengths) & (self.step is not None)))
-
-    def number(self, dimensions: FloatArray) -> FloatArray:
-        """Where dimensions (*, 10) are among the values: whole numbers, and what is between."""
-        out = np.zeros(dimensions.shape)
-        if self.step is not None:
-            out = dimensions / self.step
-            out[..., self.lines] = np.degrees(dimensions[..., self.lines]) / self.turn
-        if len(self.stock):
-            at = np.interp(dimensions[..., self.links], self.stock, np.arange(len(self.stock)))
-            out[..., self.links] = at
-        return out
-
-    def possible(self, number: FloatArray, start: FloatArray) -> NDArray[np.bool_]:
-        """Whether there are links of these lengths, of numbers (*, 10), and all near a start (10,).
-
-        A coarse step leads to giants otherwise.
-        """
-        least, most = (0, len(self.stock) - 1) if len(self.stock) else (1, np.inf)
-        links = number[..., self.links]
-        near = np.abs(number - start) <= self.reach() + ALIKE
-        return np.asarray(((links >= least) & (links <= most)).all(axis=-1) & near.all(axis=-1))
-
-    def reach(self) -> FloatArray:
-        """How many whole numbers away values may be, (10,)."""
-        stride = self.stride()
-        size = np.where(self.lines, 1.0, self.size)
-        with np.errstate(divide="ignore"):
-            return np.where(stride > 0, np.maximum(BESIDE, REACH * size / stride), np.inf)
-
-    def nearest(self, number: FloatArray) -> FloatArray:
-        """The whole numbers nearest to numbers (*, 10), of links that are possible."""
-        out = np.rint(number)
-        if len(self.stock):
-            return out
-        out[..., self.links] = np.maximum(out[..., self.links], 1.0)
-        return out
-
-    def beside(self, number: FloatArray) -> list[tuple[float, ...]]:
-        """Both neighbours of the links' numbers among (10,), the nearest ones first."""
-        at = number[self.links]
-        sides = [sorted({float(np.floor(each)), float(np.ceil(each))}) for each in at]
-        return sorted(product(*sides), key=lambda each: float(((np.array(each) - at) ** 2).sum()))
-
-    def stride(self) -> FloatArray:
-        """How far apart the values are, (10,); 0 of stock and of what is not rounded."""
-        out = np.zeros(SIZE)
-        if self.step is not None and self.turn is not None:
-            out[self.lengths] = self.step
-            out[self.lines] = np.radians(self.turn)
-            out[self.links] = 0.0 if len(self.stock) else self.step
-        return out
-
-    def values(self, number: FloatArray, dimensions: FloatArray) -> FloatArray:
-        """Dimensions (*, 10) with those that are rounded at their whole numbers."""
-        out = np.array(np.broadcast_to(dimensions, number.shape))
-        if self.step is not None and self.turn is not None:
-            some = self.lengths | self.links
-            out[..., some] = multiple(number[..., some], self.step)
-            out[..., self.lines] = np.radians(multiple(number[..., self.lines], self.turn))
-        if len(self.stock):
-            out[..., self.links] = self.stock[number[..., self.links].astype(int)]
-        return out + 0.0  # no minus zeros
 
 
 @final
@@ -273,7 +158,7 @@ class _Rounding:
     kinds: NDArray[np.int8]
     rows: FloatArray
     aim: Aim
-    grid: _Grid
+    grid: Grid
     keep: _AsBefore
     touched: bool
     slack: FloatArray
@@ -312,7 +197,7 @@ class _Rounding:
         touched = bool((before & (equal | (value[0] > -reach))).any())
         half = 0.0 if step is None else step / np.sqrt(2) / unit
         slack = np.where(equal, half + KEPT, KEPT)
-        grid = _Grid.of(stack.kinds[0], step, stock, unit)
+        grid = Grid.of(stack.kinds[0], step, stock, unit)
         return cls(stack.kinds, rows, aim, grid, _AsBefore(inner, before), touched, slack)
 
     def best(self, own: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -396,7 +281,7 @@ class _Rounding:
         short = NEAR * np.sqrt((slope**2).sum(axis=0).mean()) + np.finfo(float).tiny
         slope = np.concatenate([slope, short * np.eye(len(some))])
         gap = np.concatenate([gap, np.zeros(len(some))])
-        order = _firmest_last(slope)
+        order = firmest_last(slope)
         some, number = some[order], grid.number(own)
         width = min(MOST, max(LEAST, PLACES // len(rows)))
         whole = closest_numbers(slope[:, order], gap, number[some], grid.links[some], width)
@@ -513,37 +398,3 @@ def _type_kept(stack: LinkageStack, driver: int, aim: Aim) -> str:
     led = stack.exchanged() if driver else stack
     name = led.linkage(0).type
     return name if name in SHORTEST or name == "triple-rocker" else ""
-
-
-def _firmest_last(slope: FloatArray) -> NDArray[np.intp]:
-    """Columns (m, n) in the order in which the last are fixed best when all others are free."""
-    left = list(range(slope.shape[1]))
-    order: list[int] = []
-    while left:
-        rows = np.linalg.pinv(slope[:, left])
-        firm = 1 / np.linalg.norm(rows, axis=1)
-        order.insert(0, left.pop(int(firm.argmax())))
-    return np.array(order)
-
-
-def closest_numbers(
-    slope: FloatArray, gap: FloatArray, at: FloatArray, positive: NDArray[np.bool_], width: int
-) -> FloatArray:
-    """Whole numbers (w, n) with about the least |gap + slope (numbers - at)|², the least first.
-
-    positive: (n,), which are at least 1.  width: how many go on from number to number.
-    """
-    basis, upper = np.linalg.qr(slope)
-    right, last = -(basis.T @ gap), len(at)
-    x, cost = np.zeros((1, last)), np.zeros(1)
-    for j in range(last - 1, -1, -1):
-        centre = (right[j] - x[:, j + 1 :] @ upper[j, j + 1 :]) / upper[j, j]
-        whole = np.floor(at[j] + centre)[:, None] + np.arange(-1.0, 3.0)
-        if positive[j]:
-            whole = np.maximum(whole[:, :1], 1.0) + np.arange(4.0)
-        step = whole - at[j]
-        total = cost[:, None] + (upper[j, j] * (step - centre[:, None])) ** 2
-        best = np.argsort(total, axis=None, kind="stable")[:width]
-        x = x[best // 4]
-        x[:, j], cost = step.ravel()[best], total.ravel()[best]
-    return np.rint(x + at)
