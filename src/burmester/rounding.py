@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.accuracy import on_circuits, rows_of, settled
-from burmester.circuit import Circuits, circuit_of
+from burmester.circuit import circuit_of
 from burmester.conditions import (
     SHORTEST,
     Conditions,
@@ -33,9 +33,8 @@ from burmester.conditions import (
     Together,
     lever_sine,
 )
-from burmester.course import Course
 from burmester.displacement import Displacement, FloatArray
-from burmester.search import Aim
+from burmester.search import Aim, middle_of
 from burmester.stack import DIMENSIONS, LinkageStack
 from burmester.stock import Grid, closest_numbers, firmest_last
 
@@ -182,7 +181,7 @@ class _Rounding:
             aim = replace(aim, weights=weights, exact=None)
         lead, here = np.array([driver]), rows[None]
         sine = _sign(stack, here, aim.length, lead)
-        middle = _middle(stack, rows, aim.length, driver)
+        middle = middle_of(stack, aim.places_of(rows[None, 0]), driver)
         journey = Journey.of(stack, here, aim.length, lead, sine, middle, aim.requirements)
         clear = max(CLEAR, float(np.sin(aim.requirements.transmission)))
         journey = replace(journey, clear=clear)
@@ -352,9 +351,6 @@ class _Rounding:
     def _somewhere(self, tried: _Tried) -> tuple[FloatArray, FloatArray]:
         """A rounding whose places were lost, with those on its nearer circuit; nan if none."""
         aim, stack = self.aim, self._stack(tried.own)
-        ((_, linkage),) = stack.alike()
-        if (Circuits.of(linkage, as_given=True).course == Course.NONE).all():
-            return tried.own[0], np.full_like(self.rows, np.nan)
         found = on_circuits(stack, aim.poses, aim.length)
         rows = rows_of(found, aim.length)[0]
         miss = stack.bearing(found).miss[0]
@@ -377,17 +373,6 @@ def _sign(
     with np.errstate(invalid="ignore"):
         positive = (lever_sine(stack, rows, length, driver) > 0).mean(axis=1)
     return np.where(positive >= 0.5, 1.0, -1.0)
-
-
-def _middle(stack: LinkageStack, rows: FloatArray, length: float, driver: int) -> FloatArray:
-    """The drive (1,) amid the dead points of the circuit of the first place; nan without."""
-    ((_, linkage),) = (stack.exchanged() if driver else stack).alike()
-    place = Displacement(rows[None, 0, :2], rows[None, 0, 2] / length)
-    circuits = Circuits.of(linkage, as_given=True)
-    own = int(circuit_of(linkage, place, as_given=True).circuit[0])
-    if own < 0 or circuits.branches[0, own] != 2:
-        return np.full(1, np.nan)
-    return np.asarray(circuits.limits[:, own].mean(axis=-1))
 
 
 def _type_kept(stack: LinkageStack, driver: int, aim: Aim) -> str:

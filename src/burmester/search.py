@@ -36,7 +36,7 @@ from burmester.refinement import Refined, refine
 from burmester.requirements import Requirements
 from burmester.stack import LinkageStack
 
-__all__ = ["Aim", "Found", "linkages_that_work", "links_of_map"]
+__all__ = ["Aim", "Found", "linkages_that_work", "links_of_map", "middle_of"]
 
 STARTS = 96  # at most
 STAGES = (24, 24), (60, 8), (120, None)  # steps, and how many of the best then go on
@@ -249,7 +249,7 @@ def _at_poses(stack: LinkageStack, aim: Aim) -> tuple[_Starts, FloatArray]:
     for side in (0, 1):
         some = driver == side
         if some.any():
-            middle[some] = _middle(stack[pair[some]], places[some], side)
+            middle[some] = middle_of(stack[pair[some]], places[some], side)
     starts = _Starts(pair, stack[pair], rows, driver, sign[best], middle)
     return starts, scores[0, best]
 
@@ -293,7 +293,7 @@ def _starts(stack: LinkageStack, aim: Aim) -> _Starts:
             some = np.flatnonzero(np.isfinite(rows[:, circuit]).all(axis=(1, 2)))
             leads = np.full(len(some), side)
             sine = lever_sine(stack[some], rows[some, circuit], aim.length, leads)
-            middle = _middle(stack[some], places[some, circuit, 0], side)
+            middle = middle_of(stack[some], places[some, circuit, 0], side)
             for sign in (1.0, -1.0):
                 on = (sign * sine > 0).any(axis=1)
                 whole = np.empty((5, int(on.sum())))
@@ -305,7 +305,7 @@ def _starts(stack: LinkageStack, aim: Aim) -> _Starts:
     return _Starts(pair, stack[pair], rows[pair, on_circuit], driver, table[3], table[4])
 
 
-def _middle(stack: LinkageStack, places: Displacement, side: int) -> FloatArray:
+def middle_of(stack: LinkageStack, places: Displacement, side: int) -> FloatArray:
     """The drive (k,) amid the dead points of the circuits on which places (k,) are.
 
     nan where there are none, and for drives that slide.
@@ -335,7 +335,9 @@ def _type_to_be(stack: LinkageStack, index: int, driver: int, asked: Requirement
     """Of the 4R types allowed the one nearest to a linkage, "" where it is one of them."""
     if (stack.kinds[index] != 0).any():
         return ""
-    allowed = set(SHORTEST) | {"triple-rocker"} if asked.types is None else set(asked.types)
+    allowed = (
+        set(SHORTEST) | {"triple-rocker"} if asked.types is None else set(asked.allowed_types or ())
+    )
     if asked.driver == "crank":
         allowed &= {"crank-rocker", "double-crank"}
     elif asked.types is None:
