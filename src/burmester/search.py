@@ -162,6 +162,8 @@ def linkages_that_work(stack: LinkageStack, aim: Aim) -> Found | None:
             break
         order = np.argsort(np.where(found.met, 0.0, UNMET) + np.nan_to_num(found.cost, nan=np.inf))
         order = _apart(found.rows, order[np.isfinite(found.cost[order])], best)
+        if not len(order):  # all were lost
+            return None
         starts = starts.some(order)._replace(stack=found.stack[order], rows=found.rows[order])
     return Found(found, starts.pair)
 
@@ -342,6 +344,6 @@ def _type_to_be(stack: LinkageStack, index: int, driver: int, asked: Requirement
         allowed &= {"crank-rocker", "double-crank"}
     elif asked.types is None:
         return ""
-    names = sorted(allowed & (set(SHORTEST) | {"triple-rocker"}))
+    names = sorted(allowed)
     excess = type_excess(stack[[index] * len(names)], np.full(len(names), driver), names)
     return names[int(excess.max(axis=1).argmin())] if names else ""
