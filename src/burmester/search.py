@@ -337,11 +337,10 @@ def _type_to_be(stack: LinkageStack, index: int, driver: int, asked: Requirement
     """Of the 4R types allowed the one nearest to a linkage, "" where it is one of them."""
     if (stack.kinds[index] != 0).any():
         return ""
-    allowed = (
-        set(SHORTEST) | {"triple-rocker"} if asked.types is None else set(asked.allowed_types or ())
-    )
+    four_bars = {*SHORTEST, "triple-rocker"}
+    allowed = four_bars if asked.allowed_types is None else four_bars & asked.allowed_types
     if asked.driver == "crank":
-        allowed &= {"crank-rocker", "double-crank"}
+        allowed = allowed & {"crank-rocker", "double-crank"}
     elif asked.types is None:
         return ""
     names = sorted(allowed)
