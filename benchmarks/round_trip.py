@@ -400,6 +400,11 @@ def traced(linkage, places, slack=0.0, loose=0.0):
     away = rows - base
     away[:, 2] = (away[:, 2] + np.pi) % (2 * np.pi) - np.pi
     along = leg + (away * step).sum(1) / (step**2).sum(1)
+    # Round the loop, a place within the slack of the one before is where that one is.
+    loop, whole = along.copy(), len(walk) - 1
+    for k in range(1, len(loop)):
+        if abs((loop[k] - loop[k - 1] + whole / 2) % whole - whole / 2) <= slack:
+            loop[k] = loop[k - 1]
     named = []
     for dyad in (linkage.first, linkage.second):
         sign = np.sign(np.diff(driven(dyad, walk)))
@@ -411,7 +416,7 @@ def traced(linkage, places, slack=0.0, loose=0.0):
             one_way = (step >= -slack).all() or (step <= slack).all()
             named.append(set() if one_way else {"order"})
         else:
-            named.append(set() if in_order(along, slack) else {"order"})
+            named.append(set() if in_order(loop) else {"order"})
     return named
 
 
