@@ -787,6 +787,33 @@ def test_many_linkages_are_judged_as_one_by_one():
                 assert np.array_equal(a.least_over_range, b.least_over_range, equal_nan=True)
 
 
+@pytest.mark.parametrize("branch", [False, True])
+@pytest.mark.parametrize("share", [0.3, 3.0])
+def test_poses_nearer_than_they_are_missed_have_no_order(share, branch):
+    """Round a full turn (crank) and along a branch (rocker): a step back within the misses.
+
+    Twice the greatest miss counts: on average over the way, which is uneven by less than three.
+    """
+    lengths = (3.0, 1.0, 2.5, 2.2)
+    linkage = Linkage(RR([0, 0], [0, 0], lengths[1]), RR([3.0, 0], [2.5, 0], lengths[3]))
+    linkage = Linkage(linkage.second, linkage.first) if branch else linkage
+    s = np.array([0.6, 1.0, 0.95, 1.4, 2.0])
+    one = Linkage(linkage.first[None], linkage.second[None])
+    places = Circuits.of(one)[0, :1].couplers(s)
+    length = 0.7
+    step = places.translation[0, 2] - places.translation[0, 1]
+    back = float(np.sqrt((step**2).sum() + (length * np.ptp(places.angle[0, 1:3])) ** 2))
+    missed = np.full((1, 5), share * back / 2)
+    for options, forgiven in (({"length": length}, share > 1), ({}, False)):
+        verdict = judge(one, places, missed=missed, reach=1.0, **options)[0]
+        kinds = [defect.kind for defect in verdict.first.defects]
+        assert kinds == ([] if forgiven else ["order"])
+    # Poses that are far apart keep their order, however much is missed.
+    shuffled = places[:, [0, 3, 1, 4, 2]]
+    verdict = judge(one, shuffled, missed=missed, reach=1.0, length=length)[0]
+    assert [defect.kind for defect in verdict.first.defects] == ["order"]
+
+
 if __name__ == "__main__":
     many, seed = (int(word) for word in sys.argv[1:])
     total = Counter()
