@@ -148,7 +148,7 @@ def dimensions(synthesis: Synthesis) -> Iterator[Text | Table]:
     unit = f", in {task.length_unit}" if task.length_unit else ""
     yield Text(f"\n{best.id} in full{unit}", style="bold")
     table = Table.grid(padding=(0, 2, 0, 0))
-    certain = not any(task.resolution)
+    certain = not any(task.resolution) or best.exact_error is not None  # rounded: as it is said
     regions: Sequence[DyadUncertainty | None] = best.uncertainty or (None, None)
     for dyad, region in zip(best.dyads, regions, strict=True):
         name = dyad.id
