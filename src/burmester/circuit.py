@@ -148,7 +148,7 @@ class Circuits:
         if change.any():
             with np.errstate(invalid="ignore", divide="ignore"):
                 d, turn = self._places(parameter)
-            self._restore(change, parameter, d, turn)
+                self._restore(change, parameter, d, turn)
         else:
             d, turn = self._places(parameter)
         shape = (*self.shape, d.shape[-1])
