@@ -28,7 +28,7 @@ from burmester.task import Task
 __all__ = ["joined"]
 
 TWICE = 2.0  # times the least greatest distance; one circuit may miss by so much for being one
-ROUGH, FINE = 12, 48  # steps of refining, for all linkages and for those that come near
+ROUGH, FINE = 8, 52  # steps of refining, for all linkages and for those that come near
 GOOD, NEAR = 4, 100.0  # those: so many, and all whose sum of squares is no more times the least
 MANY, ENOUGH = 1000, 60  # poses; of more so many are refined for, or looked for linkages with
 FEW = 5  # linkages found under conditions are kept, at most
