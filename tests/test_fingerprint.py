@@ -26,7 +26,6 @@ from burmester.motion_kind import (
 )
 from burmester.synthesis import synthesize
 from burmester.task import Task
-from burmester.uncertainty import pivot_uncertainty
 from tests.test_strange import STRANGE
 from tests.witness import places, random_four_bar, random_poses, span
 
@@ -625,35 +624,6 @@ def test_a_turn_and_one_pose_off_it_is_too_special():
     assert "digits" not in motion.message
     more = np.vstack([rows, rng.normal(size=(4, 3))])
     assert isinstance(kind_of(more), General)
-
-
-@pytest.mark.parametrize("seed", range(4))
-def test_the_uncertainty_of_pivots_is_that_of_many_draws(seed):
-    rng = np.random.default_rng(seed)
-    dyad, other = random_four_bar(rng)
-    rows = random_poses([dyad, other], rng, 12)
-    resolution = (1e-5, 1e-6)
-    fixed, moving = pivot_uncertainty(dyad, task_of(rows, resolution))
-    start = [*dyad.fixed_pivot, *dyad.moving_pivot]
-
-    def miss(v, seen):
-        arm = np.linalg.norm(seen.act(v[2:]) - v[:2], axis=1)
-        return arm - arm.mean()
-
-    draws = []
-    for _ in range(150):
-        off = rng.uniform(-1, 1, size=rows.shape) * [resolution[0], resolution[0], resolution[1]]
-        seen = Displacement.from_poses(rows + off)
-        draws.append(least_squares(miss, start, args=(seen,), method="lm", xtol=1e-14).x - start)
-    draws = np.array(draws)
-    for told, part in ((fixed, draws[:, :2]), (moving, draws[:, 2:])):
-        spread = 2 * np.sqrt(np.linalg.eigvalsh(part.T @ part / len(part)).max())
-        assert 0.75 < told / spread < 1.33
-
-
-def test_the_uncertainty_is_left_out_where_the_resolution_is_not_known():
-    rows = random_poses(random_four_bar(np.random.default_rng(0)), np.random.default_rng(0), 6)
-    assert pivot_uncertainty(RR([0, 0], [1, 0], 1.0), task_of(rows)) is None
 
 
 @pytest.mark.parametrize("name", STRANGE)
