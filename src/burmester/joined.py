@@ -124,7 +124,8 @@ def _refined(made: Candidates, aim: Aim) -> Candidates:
         return made._replace(stack=stack, rows=aim.places(stack))
     kept = Together(aim.kept) if aim.kept else None
     dimensions, rows = made.stack.dimensions.copy(), made.rows.copy()
-    for steps in (ROUGH, FINE):
+    plain = not aim.worst and kept is None and aim.exact is None
+    for steps in (ROUGH, FINE) if plain else (FINE,):
         stack = LinkageStack(made.stack.kinds[some], dimensions[some])
         refined = aim.refine(stack, rows[some], conditions=kept, worst=aim.worst, steps=steps)
         with np.errstate(invalid="ignore"):
@@ -135,7 +136,7 @@ def _refined(made: Candidates, aim: Aim) -> Candidates:
         near = np.sort(np.nan_to_num(cost, nan=np.inf))[: min(GOOD, len(cost))]
         some = some[~refined.settled]
         some = some[cost[some] <= max(NEAR * near[0], near[-1])]
-        if aim.worst or kept is not None or aim.exact is not None or not len(some):
+        if not len(some):
             break
     return made._replace(stack=LinkageStack(made.stack.kinds, dimensions), rows=rows)
 
