@@ -211,7 +211,7 @@ class Judging:
             driven = verdict.first if side == "first" else verdict.second
             missing = unmet(led(linkage, side), driven, asked, self.task.length_unit)
             wrong = len(driven.defects), len(missing)
-            weak = -float(np.nan_to_num(driven.least_over_range))
+            weak = -round(float(np.nan_to_num(driven.least_over_range)), 6)  # no rounding decides
             return (*map(float, wrong), 0.0 if driven.turns_fully else 1.0, weak), missing
 
         ranked = {side: judged(side) for side in sides}
