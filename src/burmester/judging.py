@@ -212,7 +212,8 @@ class Judging:
             missing = unmet(led(linkage, side), driven, asked, self.task.length_unit)
             wrong = len(driven.defects), len(missing)
             weak = -round(float(np.nan_to_num(driven.least_over_range)), 6)  # no rounding decides
-            return (*map(float, wrong), 0.0 if driven.turns_fully else 1.0, weak), missing
+            poses = sum(len(each.poses) for each in driven.defects)
+            return (*map(float, wrong), poses, 0.0 if driven.turns_fully else 1.0, weak), missing
 
         ranked = {side: judged(side) for side in sides}
         best = min(sides, key=lambda side: ranked[side][0])
