@@ -108,17 +108,8 @@ class Judging:
                 parts = _exchanged(linkage, verdict, made.pairs[k])
             linkage, verdict, better, (one, two) = parts  # noqa: PLW2901
             dyads = self.dyad(one, linkage.first), self.dyad(two, linkage.second)
-            said = (
-                dyads,
-                linkage,
-                errors[k],
-                verdict,
-                better,
-                works,
-                missing,
-                bool(made.sought[k]),
-            )
-            out.append(FoundLinkage("", 0, *said))
+            said = (dyads, linkage, errors[k], verdict, better, works, missing)
+            out.append(FoundLinkage("", 0, *said, bool(made.sought[k])))
         rows = np.arange(len(own))[:, None]
         stack = LinkageStack(made.stack.kinds[rows, sides], made.stack.dimensions[rows, sides])
         return self.ranked(self._measured(out, stack, made.rows))

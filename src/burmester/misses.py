@@ -52,33 +52,49 @@ class State(NamedTuple):
 @final
 @dataclass(frozen=True, slots=True, eq=False)
 class Problem:
+    """What is asked of linkages of kinds (k, 2), whose dimensions are z (k, 10) all along.
+
+    wanted: (N, 3), the poses as rows of x, y, length x angle; share: (N,), roots of their weights,
+    0 for exact ones; free: (k, 10), which dimensions may change.
+    """
+
     kinds: NDArray[np.int8]
     wanted: FloatArray
     length: float
-    share: FloatArray  # (N,), roots of the weights, 0 for exact poses
+    share: FloatArray
     exact: NDArray[np.bool_]
     conditions: Conditions | None
     free: NDArray[np.bool_]
 
     def stack(self, which: NDArray[np.intp], z: FloatArray) -> LinkageStack:
+        """The linkages at the indices with dimensions z."""
         return LinkageStack(self.kinds[which], z.reshape(-1, 2, DIMENSIONS))
 
     def state(self, which: NDArray[np.intp], z: FloatArray, rows: FloatArray) -> State:
         """The linkages z (k, 10) with the places nearest to the poses that rows lead to."""
-        stack = self.stack(which, z)
         with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-            surfaces = stack.surfaces()
-            for _ in range(NEARER):
-                step, size = newton_step(surfaces, rows, self.wanted, self.length)
-                rows = rows + step
-                if not (size > CLOSE).any():
-                    break
-            places = Displacement(rows[..., :2], rows[..., 2] / self.length)
-            miss, force, partial = stack.bearing(places)
-            off = ~(np.abs(miss) < OFF).all(axis=(1, 2))
-            rows[off] = np.nan
-            at = normal(miss, force, self.length)
+            rows, at, partial = self._brought(self.stack(which, z), rows, self.wanted)
             return State(z, rows, *_normal_part(at, rows - self.wanted, partial))
+
+    def _brought(
+        self, stack: LinkageStack, rows: FloatArray, target: FloatArray | None
+    ) -> tuple[FloatArray, Normal, FloatArray]:
+        """Rows brought to where target is nearest (None: straight ahead), nan where they are lost.
+
+        With what both dyads do there, and the derivatives by their dimensions.
+        """
+        surfaces = stack.surfaces()
+        for _ in range(NEARER):
+            to = rows if target is None else target
+            step, size = newton_step(surfaces, rows, to, self.length)
+            rows = rows + step
+            if not (size > CLOSE).any():
+                break
+        places = Displacement(rows[..., :2], rows[..., 2] / self.length)
+        miss, force, partial = stack.bearing(places)
+        off = ~(np.abs(miss) < OFF).all(axis=(1, 2))
+        rows[off] = np.nan
+        return rows, normal(miss, force, self.length), partial
 
     @property
     def loose(self) -> bool:
@@ -93,21 +109,10 @@ class Problem:
         """
         if not self.loose:
             return self.state(which, z, rows)
-        stack, number = self.stack(which, z), rows.shape[1]
         with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-            surfaces = stack.surfaces()
-            for _ in range(NEARER):
-                step, size = newton_step(surfaces, rows, rows, self.length)
-                rows = rows + step
-                if not (size > CLOSE).any():
-                    break
-            places = Displacement(rows[..., :2], rows[..., 2] / self.length)
-            miss, force, partial = stack.bearing(places)
-            off = ~(np.abs(miss) < OFF).all(axis=(1, 2))
-            rows[off] = np.nan
-            at, gap = normal(miss, force, self.length), rows - self.wanted
-            every = np.arange(number)
-            moved = np.zeros((*gap.shape, SIZE + number))
+            rows, at, partial = self._brought(self.stack(which, z), rows, None)
+            gap, every = rows - self.wanted, np.arange(rows.shape[1])
+            moved = np.zeros((*gap.shape, SIZE + len(every)))
             moved[..., :SIZE] = _normal_part(at, gap, partial)[2]
             moved[:, every, :, SIZE + every] = np.moveaxis(at.along, 1, 0)
             return State(z, rows, gap, moved, moved)
