@@ -68,11 +68,12 @@ class Outcome:
 @final
 @dataclass(frozen=True, slots=True)
 class Advice:
-    """A warning with what to do about it."""
+    """A warning with what to do about it; why: with numbers."""
 
     code: str
     message: str
     help: str
+    why: str | None = None
 
 
 def chosen_method(  # noqa: PLR0917

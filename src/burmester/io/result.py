@@ -46,7 +46,12 @@ def plain(synthesis: Synthesis) -> dict[str, Any]:
         "dyads": [dyad_data(dyad) for dyad in synthesis.dyads],
         "linkages": [linkage_data(each, tolerance) for each in synthesis.linkages],
         "warnings": [
-            {"code": warning.code, "message": warning.message, "help": warning.help}
+            {
+                "code": warning.code,
+                "message": warning.message,
+                "why": warning.why,
+                "help": warning.help,
+            }
             for warning in synthesis.warnings
         ],
         "characteristic_length": synthesis.length,

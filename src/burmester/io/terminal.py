@@ -47,6 +47,8 @@ def show_synthesis(synthesis: Synthesis, console: Console) -> None:
                 console.print(_bullets(sentences))
     for warning in synthesis.warnings:
         console.print(Text(f"warning[{warning.code}]: {warning.message}", style="yellow"))
+        if warning.why:
+            console.print(Text(f"  why: {warning.why}"))
         console.print(Text(f"  help: {warning.help}"))
 
 

@@ -1,28 +1,17 @@
-"""The command `burmester`: decode, call one function, encode."""
+"""`burmester synthesize`: what is wanted of it, as options."""
 
 from __future__ import annotations
 
-import json
-import os
-import sys
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
-from burmester import __version__
-from burmester.errors import BurmesterError, InputError
+from burmester.cli.out import EXIT_FOUND, EXIT_NOTHING, console, print_json
 
 if TYPE_CHECKING:
-    from rich.console import Console
-
     from burmester.synthesis import Synthesis
 
-__all__ = ["main"]
-
-# Rooms are imported inside the commands, so that `burmester --help` stays fast.
-
-EXIT_FOUND, EXIT_NOTHING, EXIT_INTERRUPT = 0, 1, 130  # errors bring their own: 2 and 3
+__all__ = ["synthesize"]
 
 POSES_HELP = """\b
 POSES   a CSV, JSON or TOML file, "-" for standard input, or case:NAME for
@@ -84,16 +73,7 @@ class Sectioned(click.Command):
                 formatter.write_dl(rows)
 
 
-@click.group(context_settings={"help_option_names": ["-h", "--help"]})
-@click.version_option(__version__, prog_name="burmester")
-def burmester() -> None:
-    """Planar four-bar linkages that guide a body through given poses.
-
-    Start with: burmester synthesize poses.csv
-    """
-
-
-@burmester.command(cls=Sectioned, epilog=POSES_HELP)
+@click.command(cls=Sectioned, epilog=POSES_HELP)
 @click.argument("poses")
 @click.option(
     "--fixed-pivot",
@@ -285,11 +265,11 @@ def synthesize(
     if as_json:
         from burmester.io.result import plain
 
-        _print_json(plain(synthesis))
+        print_json(plain(synthesis))
     else:
         from burmester.io.terminal import show_synthesis
 
-        show_synthesis(synthesis, _console())
+        show_synthesis(synthesis, console())
     return _exit_code(synthesis, accept_uncertain)
 
 
@@ -297,98 +277,3 @@ def _exit_code(synthesis: Synthesis, accept_uncertain: bool) -> int:
     """Whether a linkage was found that can be built: it works, and its pivots are determined."""
     found = synthesis.determined or (accept_uncertain and bool(synthesis.usable))
     return EXIT_FOUND if found else EXIT_NOTHING
-
-
-@burmester.command()
-@click.argument("name", required=False)
-def cases(name: str | None) -> int:
-    """List the tasks with known answers, or print one."""
-    from burmester.io.cases import load, names
-
-    if name is not None:
-        _print_json(load(name))
-        return EXIT_FOUND
-    width = max(map(len, names()))
-    for each in names():
-        case = load(each)
-        click.echo(f"{each:{width}}  {len(case['poses']):2} poses  {case['source']}")
-    return EXIT_FOUND
-
-
-@burmester.command()
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON object and nothing else.")
-def reproduce(as_json: bool) -> int:
-    """Recompute the tables of Ge et al. 2012."""
-    from burmester.reproduce import as_json as plain
-    from burmester.reproduce import reproduce as run
-    from burmester.side_by_side import side_by_side
-
-    sections, tasks = run(), side_by_side()
-    if as_json:
-        _print_json(plain(sections, tasks))
-    else:
-        from burmester.io.terminal import show_reproduction
-
-        show_reproduction(sections, tasks, _console())
-    return EXIT_FOUND
-
-
-def main(arguments: Sequence[str] | None = None) -> None:
-    """Run the command and exit: 0 a usable linkage found, 1 none, 2 bad input or usage, 3 a bug."""
-    given = list(sys.argv[1:] if arguments is None else arguments)
-    try:
-        code = burmester.main(given, prog_name="burmester", standalone_mode=False)
-    except click.exceptions.Exit as stop:
-        code = stop.exit_code
-    except click.UsageError as error:
-        code = _report(_usage(error), "--json" in given)
-    except BurmesterError as error:
-        code = _report(error, "--json" in given)
-    except (click.Abort, KeyboardInterrupt):
-        click.echo("interrupted; nothing was written", err=True)
-        code = EXIT_INTERRUPT
-    except BrokenPipeError:
-        # The reader has gone (as `head` does); what is left in the buffer has nowhere to go.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        code = EXIT_FOUND
-    except Exception as error:
-        code = _report(_bug(error), "--json" in given)
-    sys.exit(code)
-
-
-def _report(error: BurmesterError, as_json: bool) -> int:
-    if as_json:
-        from burmester.io.result import failure
-
-        _print_json(failure(error))
-    from burmester.io.terminal import show_error
-
-    show_error(error, _console(stderr=True))
-    return error.exit_code
-
-
-def _usage(error: click.UsageError) -> InputError:
-    command = error.ctx.command_path if error.ctx else "burmester"
-    return InputError("E100", error.format_message(), help=f"see `{command} --help`")
-
-
-def _bug(error: Exception) -> BurmesterError:
-    import traceback
-
-    last = traceback.extract_tb(error.__traceback__)[-1]
-    return BurmesterError(
-        "E900",
-        f"burmester itself failed: {type(error).__name__}: {error}",
-        where=f"{os.path.basename(last.filename)}:{last.lineno} in {last.name}",
-        help="this is a bug; please report it with the command and the input that led here",
-    )
-
-
-def _console(stderr: bool = False) -> Console:
-    from rich.console import Console
-
-    return Console(stderr=stderr, highlight=False)
-
-
-def _print_json(data: dict[str, Any]) -> None:
-    click.echo(json.dumps(data, ensure_ascii=False, allow_nan=False))

@@ -1,0 +1,84 @@
+"""The command `burmester`: decode, call one function, encode.
+
+A command a file.  Rooms are imported inside the commands, so that `burmester --help` stays fast.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+
+import click
+
+from burmester import __version__
+from burmester.cli.known import cases, reproduce
+from burmester.cli.out import EXIT_FOUND, EXIT_INTERRUPT, console, print_json
+from burmester.cli.synthesize import synthesize
+from burmester.errors import BurmesterError, InputError
+
+__all__ = ["main"]
+
+
+@click.group(context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(__version__, prog_name="burmester")
+def burmester() -> None:
+    """Planar four-bar linkages that guide a body through given poses.
+
+    Start with: burmester synthesize poses.csv
+    """
+
+
+for command in (synthesize, cases, reproduce):
+    burmester.add_command(command)
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run the command and exit: 0 a usable linkage found, 1 none, 2 bad input or usage, 3 a bug."""
+    given = list(sys.argv[1:] if arguments is None else arguments)
+    try:
+        code = burmester.main(given, prog_name="burmester", standalone_mode=False)
+    except click.exceptions.Exit as stop:
+        code = stop.exit_code
+    except click.UsageError as error:
+        code = _report(_usage(error), "--json" in given)
+    except BurmesterError as error:
+        code = _report(error, "--json" in given)
+    except (click.Abort, KeyboardInterrupt):
+        click.echo("interrupted; nothing was written", err=True)
+        code = EXIT_INTERRUPT
+    except BrokenPipeError:
+        # The reader has gone (as `head` does); what is left in the buffer has nowhere to go.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        code = EXIT_FOUND
+    except Exception as error:
+        code = _report(_bug(error), "--json" in given)
+    sys.exit(code)
+
+
+def _report(error: BurmesterError, as_json: bool) -> int:
+    if as_json:
+        from burmester.io.result import failure
+
+        print_json(failure(error))
+    from burmester.io.terminal import show_error
+
+    show_error(error, console(stderr=True))
+    return error.exit_code
+
+
+def _usage(error: click.UsageError) -> InputError:
+    command = error.ctx.command_path if error.ctx else "burmester"
+    return InputError("E100", error.format_message(), help=f"see `{command} --help`")
+
+
+def _bug(error: Exception) -> BurmesterError:
+    import traceback
+
+    last = traceback.extract_tb(error.__traceback__)[-1]
+    return BurmesterError(
+        "E900",
+        f"burmester itself failed: {type(error).__name__}: {error}",
+        where=f"{os.path.basename(last.filename)}:{last.lineno} in {last.name}",
+        help="this is a bug; please report it with the command and the input that led here",
+    )

@@ -1,0 +1,43 @@
+"""`burmester cases` and `burmester reproduce`: tasks with known answers."""
+
+from __future__ import annotations
+
+import click
+
+from burmester.cli.out import EXIT_FOUND, console, print_json
+
+__all__ = ["cases", "reproduce"]
+
+
+@click.command()
+@click.argument("name", required=False)
+def cases(name: str | None) -> int:
+    """List the tasks with known answers, or print one."""
+    from burmester.io.cases import load, names
+
+    if name is not None:
+        print_json(load(name))
+        return EXIT_FOUND
+    width = max(map(len, names()))
+    for each in names():
+        case = load(each)
+        click.echo(f"{each:{width}}  {len(case['poses']):2} poses  {case['source']}")
+    return EXIT_FOUND
+
+
+@click.command()
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object and nothing else.")
+def reproduce(as_json: bool) -> int:
+    """Recompute the tables of Ge et al. 2012."""
+    from burmester.reproduce import as_json as plain
+    from burmester.reproduce import reproduce as run
+    from burmester.side_by_side import side_by_side
+
+    sections, tasks = run(), side_by_side()
+    if as_json:
+        print_json(plain(sections, tasks))
+    else:
+        from burmester.io.terminal import show_reproduction
+
+        show_reproduction(sections, tasks, console())
+    return EXIT_FOUND

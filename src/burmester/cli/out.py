@@ -1,0 +1,27 @@
+"""What every command puts out: exit codes, JSON, and the consoles it draws on."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any
+
+import click
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+__all__ = ["EXIT_FOUND", "EXIT_INTERRUPT", "EXIT_NOTHING", "console", "print_json"]
+
+EXIT_FOUND, EXIT_NOTHING, EXIT_INTERRUPT = 0, 1, 130  # errors bring their own: 2 and 3
+
+
+def console(stderr: bool = False) -> Console:
+    """Standard output, or standard error."""
+    from rich.console import Console
+
+    return Console(stderr=stderr, highlight=False)
+
+
+def print_json(data: dict[str, Any]) -> None:
+    """One line on standard output, all digits."""
+    click.echo(json.dumps(data, ensure_ascii=False, allow_nan=False))
