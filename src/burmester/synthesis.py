@@ -20,15 +20,16 @@ from burmester.candidates import (
 from burmester.certificate import Certificate, certify_five
 from burmester.certificate import certify as certify_best
 from burmester.critical import CriticalDyads
+from burmester.diagnosis import diagnose
 from burmester.dyad import Dyad
 from burmester.exact import FivePoseDyads, dyads_of_five
 from burmester.feasible import require_feasible
-from burmester.fingerprint import Fingerprint, fingerprint
+from burmester.fingerprint import Fingerprint
 from burmester.found import FoundLinkage, Pair
 from burmester.joined import joined
 from burmester.judging import Wish
 from burmester.limited import Norm
-from burmester.motion_kind import FewPoses, Undetermined
+from burmester.motion_kind import FewPoses, Rest, Undetermined
 from burmester.optimal import BestDyads, best_dyads
 from burmester.outcome import (
     Advice,
@@ -128,7 +129,8 @@ def synthesize(
     """
     both = task.limits * (2 if len(task.limits) == 1 else 1)
     require_feasible(task.poses, both, task.exact)
-    motion = fingerprint(task) if task.poses.shape[0] > 2 else None
+    diagnosis = diagnose(task)
+    motion, warnings = diagnosis.motion, list(diagnosis.findings)
     whole, size = task, characteristic_length(task)
     wish = Wish(
         size if length is None else length,
@@ -138,27 +140,18 @@ def synthesize(
         step=step,
         stock=tuple(stock),
     )
-    warnings: list[Advice] = []
     if motion is not None:
         # Pivots at points or on lines may settle what too few or too small motions leave open.
         kind, settled = motion.motion, any(each.conditions for each in task.limits)
         few = isinstance(kind, FewPoses) and (settled or (kind.repeats and motion.distinct > 2))
         small = isinstance(kind, Undetermined) and settled
         if not (motion.determined or few or small):
-            return _special(task, method, motion, size, wish)
+            return _special(task, method, motion, size, wish, warnings)
         if motion.distinct < task.poses.shape[0]:
             task = _merged(task, motion)
-            warnings.append(
-                Advice(
-                    "W208",
-                    f"only {motion.distinct} of the {len(motion.group)} poses are different; each "
-                    "counts once" + ("" if task.weights is None else ", with all its weight"),
-                    "delete the repeats; to let a pose count more give it a weight",
-                )
-            )
     free = max(_freedom(task))
     if free > 0 and method in ("auto", "exact"):
-        return _family(whole, task, method, motion, size)
+        return _family(whole, task, method, motion, size, warnings)
     chosen = chosen_method(task, motion, method, normalise, norm, certify, free)
     fits = _fits(task, motion, chosen, normalise, norm)
     return _finish(whole, task, chosen, motion, size, fits, warnings, certify, wish)
@@ -184,8 +177,13 @@ def _freedom(task: Task) -> list[int]:
     return [CONDITIONS - each - task.poses.shape[0] for each in conditions]
 
 
-def _family(
-    whole: Task, task: Task, method: Method, motion: Fingerprint | None, length: float
+def _family(  # noqa: PLR0917
+    whole: Task,
+    task: Task,
+    method: Method,
+    motion: Fingerprint | None,
+    length: float,
+    warnings: list[Advice],
 ) -> Synthesis:
     """Too few conditions: infinitely many dyads, if not of both limits then of one."""
     freedom, dyads = _freedom(task), []
@@ -196,11 +194,17 @@ def _family(
             dyads += [replace(one, limits=number) for one in found]
     said, warning = family(task, whole.poses.shape[0], freedom)
     numbered = tuple(replace(each, id=f"D{i}") for i, each in enumerate(dyads, start=1))
-    return Synthesis(whole, method, said, motion, length, numbered, warnings=(warning,))
+    told_all = (*warnings, warning)
+    return Synthesis(whole, method, said, motion, length, numbered, warnings=told_all)
 
 
-def _special(
-    task: Task, method: Method, motion: Fingerprint, length: float, wish: Wish
+def _special(  # noqa: PLR0917
+    task: Task,
+    method: Method,
+    motion: Fingerprint,
+    length: float,
+    wish: Wish,
+    warnings: list[Advice],
 ) -> Synthesis:
     """A special motion: what is certain of it is the whole answer."""
     kind = motion.motion
@@ -215,7 +219,9 @@ def _special(
         once = replace(wish, refine=False)
         linkages = _joined(task, _merged(task, motion), pairs, once, motion)
     said = Outcome(kind.code, kind.message, kind.help)
-    advised = tuple(linkage_advice(task, linkages, said.code))
+    if isinstance(kind, Rest | FewPoses):  # which say themselves what repeats
+        warnings = [each for each in warnings if each.code != "W208"]
+    advised = (*warnings, *linkage_advice(task, linkages, said.code))
     return Synthesis(task, method, said, motion, length, tuple(found), linkages, advised, wish=wish)
 
 

@@ -52,7 +52,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         code = EXIT_FOUND
     except Exception as error:
-        code = _report(_bug(error), "--json" in given)
+        code = _report(_bug(error, given), "--json" in given)
     sys.exit(code)
 
 
@@ -72,13 +72,24 @@ def _usage(error: click.UsageError) -> InputError:
     return InputError("E100", error.format_message(), help=f"see `{command} --help`")
 
 
-def _bug(error: Exception) -> BurmesterError:
+def _bug(error: Exception, given: Sequence[str]) -> BurmesterError:
+    """A failure of burmester itself, with a file that its authors can work with."""
+    import tempfile
     import traceback
 
     last = traceback.extract_tb(error.__traceback__)[-1]
+    send = "the command and the input that led here"
+    try:
+        handle, path = tempfile.mkstemp(prefix="burmester-", suffix=".txt")
+        with os.fdopen(handle, "w", encoding="utf-8") as file:
+            told = "".join(traceback.format_exception(error))
+            file.write(f"burmester {__version__}, Python {sys.version}\n{list(given)}\n\n{told}")
+        send = f"{path} and your input"
+    except OSError:
+        pass  # no place for a file: the message itself has to do
     return BurmesterError(
         "E900",
         f"burmester itself failed: {type(error).__name__}: {error}",
         where=f"{os.path.basename(last.filename)}:{last.lineno} in {last.name}",
-        help="this is a bug; please report it with the command and the input that led here",
+        help=f"this is a bug; please report it with {send}",
     )

@@ -1,0 +1,75 @@
+"""What is the matter with a task, told before any linkage is looked for."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from burmester.distinct import ULPS
+from burmester.fingerprint import Fingerprint, fingerprint
+from burmester.outcome import Advice
+from burmester.reasons import length_of, span
+from burmester.task import Task
+
+__all__ = ["Diagnosis", "diagnose"]
+
+FAR = 1e8  # times their own span; half of a double's digits are gone there
+DIGITS = 16  # that a double holds
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Diagnosis:
+    """What a task's poses are, and what stands out among them.
+
+    motion: what the poses are; None for one or two of them.
+    findings: what a user should look at, in the order of the checks; nothing is changed by them.
+    """
+
+    task: Task
+    motion: Fingerprint | None
+    findings: tuple[Advice, ...]
+
+
+def diagnose(task: Task) -> Diagnosis:
+    """Look for repeated poses, lost digits, rows out of order and rows that do not agree."""
+    motion = fingerprint(task) if task.poses.shape[0] > 2 else None
+    checks = [_far_away(task)]
+    if motion is not None:
+        checks.insert(0, _repeats(task, motion))
+    return Diagnosis(task, motion, tuple(each for each in checks if each is not None))
+
+
+def _repeats(task: Task, motion: Fingerprint) -> Advice | None:
+    """W208: poses that are given more than once."""
+    if motion.distinct == len(motion.group):
+        return None
+    again = sorted(set(range(len(motion.group))) - set(motion.first.tolist()))
+    first = [int(motion.first[motion.group[i]]) for i in again]
+    pairs = [f"{i + 1} repeats {j + 1}" for i, j in zip(again, first, strict=True)]
+    shown = ", ".join(pairs[:3]) + (f" and {len(pairs) - 3} more" if len(pairs) > 3 else "")
+    return Advice(
+        "W208",
+        f"only {motion.distinct} of the {len(motion.group)} poses are different; each counts once"
+        + ("" if task.weights is None else ", with all its weight"),
+        "delete the repeats; to let a pose count more give it a weight",
+        f"pose {shown}",
+    )
+
+
+def _far_away(task: Task) -> Advice | None:
+    """W211: poses so far from the origin that their numbers have few digits left for them."""
+    size, reach = span(task), float(np.abs(task.poses.translation).max())
+    if not 0 < size * FAR < reach:
+        return None
+    lost = math.log10(reach / size)
+    return Advice(
+        "W211",
+        f"the poses lie {reach / size:.0e} times their own size from the origin",
+        "subtract the same point from all poses in the file that they come from",
+        f"of the {DIGITS} digits that a number holds {lost:.0f} say only that; the rest tells "
+        f"positions to {length_of(ULPS * reach, task)}",
+    )
