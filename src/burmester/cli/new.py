@@ -1,0 +1,42 @@
+"""`burmester new`: a task file to start from."""
+
+from __future__ import annotations
+
+import click
+
+from burmester.cli.out import EXIT_FOUND
+
+__all__ = ["new"]
+
+
+@click.command()
+@click.argument("template", required=False)
+@click.option(
+    "-o", "--output", metavar="FILE", help='Name of the file, or "-" for standard output.'
+)
+@click.option("--force", is_flag=True, help="Replace the file if it exists.")
+@click.option("--list", "as_list", is_flag=True, help="List the templates.")
+def new(template: str | None, output: str | None, force: bool, as_list: bool) -> int:
+    """Write a task file to start from.
+
+    It is commented: TEMPLATE if one is named (see --list), else one with every key.
+    """
+    from burmester.io import templates
+
+    if as_list:
+        width = max(map(len, templates.names()))
+        for each in templates.names():
+            click.echo(f"{each:{width}}  {templates.summary(each)}")
+        return EXIT_FOUND
+    name = template or templates.BLANK
+    text = templates.text(name)
+    if output == "-":
+        click.echo(text, nl=False)
+        return EXIT_FOUND
+    from burmester.io.files import quoted, write
+
+    path = output or f"{name}.toml"
+    write(path, text, force=force)
+    click.echo(f"wrote {path}: {templates.summary(name)}")
+    click.echo(f"next: burmester synthesize {quoted(path)}")
+    return EXIT_FOUND

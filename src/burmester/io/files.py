@@ -1,0 +1,273 @@
+"""Files that are there whole or not at all: every output of this package is written here.
+
+A temporary file beside the target is written, flushed to the disk and then put in place under the
+target's name.  Whoever looks sees the old file or the new one, also after a crash.
+
+E140 the file exists already        E141 the file cannot be written
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+import re
+import shlex
+import stat
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from burmester.errors import InputError
+
+__all__ = ["quoted", "require_free", "whole", "write"]
+
+LEFT_OVER = 3600.0  # seconds after which a temporary file is one that a killed process left
+
+_WINDOWS = os.name == "nt"
+_KEPT = 50  # characters of the target's name in the temporary one, which has 255 bytes at most
+_TEMPORARY = re.compile(r"\.burmester-[0-9a-f]{16}-")
+_DISK = (errno.ENOSPC, errno.EFBIG, errno.EIO, errno.EROFS, getattr(errno, "EDQUOT", errno.ENOSPC))
+_FULL = (errno.ENOSPC, getattr(errno, "EDQUOT", errno.ENOSPC))
+# What file systems without hard links say, and what those say whose folders take no fsync.
+_NO_LINKS = (errno.EPERM, errno.ENOSYS, errno.EOPNOTSUPP, errno.ENOTSUP, errno.EMLINK, errno.EINVAL)
+_NO_SYNC = (errno.EINVAL, errno.EACCES, errno.EBADF, errno.ENOSYS, errno.EOPNOTSUPP, errno.ENOTSUP)
+
+
+def write(path: str | os.PathLike[str], data: bytes | str, *, force: bool = False) -> None:
+    """Write a whole file; text as UTF-8, its line ends as they are.  Errors: see `whole`."""
+    with whole(path, force=force) as temporary, open(temporary, "wb") as file:
+        file.write(data.encode() if isinstance(data, str) else data)
+
+
+@contextmanager
+def whole(path: str | os.PathLike[str], *, force: bool = False) -> Iterator[Path]:
+    """An empty file to write into, which becomes `path` when the block ends without an error.
+
+    It lies in the folder of `path` and has its suffix.  A symbolic link is written through, and a
+    file that is replaced hands on its mode and its owner.  Without `force`, a file that exists is
+    not touched, whenever it came.  Where the block is left by an exception, KeyboardInterrupt
+    too, nothing remains; a killed process leaves a file `.burmester-...` behind, which the next
+    one to write to `path` sweeps away after an hour.  On a file system without hard links, a
+    process that is killed in the moment between claiming a new name and filling it leaves an empty
+    file there, and so may one that is interrupted while it claims it.
+    Raises InputError E140 and E141.
+    """
+    given = os.fspath(path)
+    target = _target(given, force)
+    _sweep(target)
+    temporary = _temporary(target)
+    try:
+        _create(temporary)
+        yield temporary
+        _settle(temporary, target, force)
+    except BaseException as error:
+        with suppress(OSError):
+            os.unlink(temporary)
+        if not isinstance(error, OSError) or not _ours(error, temporary, target):
+            raise
+        if isinstance(error, FileExistsError) and not force:
+            raise _exists(given) from None
+        raise _cannot(given, error, target) from None
+
+
+def require_free(path: str | os.PathLike[str], *, force: bool = False) -> None:
+    """Refuse now what `whole` would refuse later: to be called before a long computation.
+
+    Tries the folder with an empty file.  Raises InputError E140 and E141.
+    """
+    given = os.fspath(path)
+    target = _target(given, force)
+    temporary = _temporary(target)
+    try:
+        _create(temporary)
+    except OSError as error:
+        raise _cannot(given, error, target) from None
+    finally:
+        with suppress(OSError):
+            os.unlink(temporary)
+
+
+def _target(given: str, force: bool) -> Path:
+    """The file that is meant, behind all links, if it may be written as far as can be seen."""
+    if not given:
+        raise _refused(given, "its name is empty", "give the name of a file")
+    target = Path(given)
+    try:
+        target = Path(os.path.realpath(given))
+        known = _stat(given)
+        if known is None and not given.endswith(_separators()):
+            folder = _stat(str(target.parent))
+            if folder is not None and stat.S_ISDIR(folder.st_mode):
+                return target
+            code = errno.ENOENT if folder is None else errno.ENOTDIR
+            raise OSError(code, os.strerror(code))
+    except (OSError, ValueError) as error:  # ValueError: a null character in the path
+        raise _cannot(given, error, target) from None
+    if known is None or stat.S_ISDIR(known.st_mode):
+        why = "it is a folder" if known else "it ends as the name of a folder does"
+        inside = _plain(os.path.join(given, "NAME"))
+        raise _refused(given, why, f"give the name of a file, such as {inside}")
+    if not stat.S_ISREG(known.st_mode):
+        why = "it is a device or a pipe, and only files are written whole"
+        raise _refused(given, why, "give the name of a file")
+    if not force:
+        raise _exists(given)
+    if not os.access(target, os.W_OK):
+        unlock = f"attrib -r {quoted(given)}" if _WINDOWS else f"chmod u+w {quoted(given)}"
+        raise _refused(given, "the file is read-only", f"give another name, or run `{unlock}`")
+    return target
+
+
+def _stat(path: str) -> os.stat_result | None:
+    try:
+        return os.stat(path)
+    except FileNotFoundError:
+        return None
+
+
+def _temporary(target: Path) -> Path:
+    """A name that nobody has, with the target's suffix: libraries go by it."""
+    return target.with_name(f".burmester-{os.urandom(8).hex()}-{target.name[-_KEPT:]}")
+
+
+def _create(temporary: Path) -> None:
+    """An empty file with the mode that the umask leaves."""
+    os.close(os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666))
+
+
+def _ours(error: OSError, temporary: Path, target: Path) -> bool:
+    """Whether it is about this file; a block may do other things that fail."""
+    if error.filename is None:
+        return error.errno in _DISK
+    return os.fsdecode(error.filename) in (str(temporary), str(target), str(target.parent))
+
+
+def _settle(temporary: Path, target: Path, force: bool) -> None:
+    """Bring the temporary file to the disk, and then under the target's name."""
+    replaced = _stat(str(target)) if force else None
+    if replaced is not None and not _WINDOWS:
+        own = os.stat(temporary)
+        if (own.st_uid, own.st_gid) != (replaced.st_uid, replaced.st_gid):
+            with suppress(OSError):  # only root may give files away
+                os.chown(temporary, replaced.st_uid, replaced.st_gid)
+        os.chmod(temporary, stat.S_IMODE(replaced.st_mode))
+    with open(temporary, "rb+") as file:
+        os.fsync(file.fileno())
+    if force:
+        os.replace(temporary, target)
+    else:
+        _put_new(temporary, target)
+    if not _WINDOWS:  # where folders cannot be opened
+        _sync_folder(target.parent)
+
+
+def _put_new(temporary: Path, target: Path) -> None:
+    """The same under a name that nobody has; raises FileExistsError if somebody has it."""
+    if _WINDOWS:  # where a file does not replace another unless told to
+        os.rename(temporary, target)
+        return
+    try:
+        os.link(temporary, target)
+    except OSError as error:
+        if error.errno not in _NO_LINKS:
+            raise
+        # Claims the name: only this empty file of our own is replaced.
+        claim = os.open(target, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
+        try:
+            os.close(claim)
+            os.replace(temporary, target)
+        except BaseException:
+            with suppress(OSError):
+                os.unlink(target)
+            raise
+    else:
+        os.unlink(temporary)
+
+
+def _sync_folder(folder: Path) -> None:
+    """A name is on the disk only when its folder is."""
+    try:
+        descriptor = os.open(folder, os.O_RDONLY)
+        try:
+            os.fsync(descriptor)
+        finally:
+            os.close(descriptor)
+    except OSError as error:
+        if error.errno not in _NO_SYNC:
+            raise
+
+
+def _sweep(target: Path) -> None:
+    """Remove what killed processes left of this target long ago."""
+    with suppress(OSError), os.scandir(target.parent) as entries:
+        for entry in entries:
+            start = _TEMPORARY.match(entry.name)
+            if start and entry.name[start.end() :] == target.name[-_KEPT:]:
+                with suppress(OSError):
+                    if time.time() - entry.stat(follow_symlinks=False).st_mtime > LEFT_OVER:
+                        os.unlink(entry.path)
+
+
+def _exists(given: str) -> InputError:
+    help = "give another name, or add --force to replace it"
+    return InputError("E140", f"{_plain(given)} exists already", help=help)
+
+
+def _refused(given: str, why: str, help: str) -> InputError:
+    return InputError("E141", f"{_plain(given) or 'a file'} cannot be written", why=why, help=help)
+
+
+def _cannot(given: str, error: OSError | ValueError, target: Path) -> InputError:
+    """E141, with the system's words and a way out."""
+    why = getattr(error, "strerror", None) or str(error)
+    code, folder = getattr(error, "errno", None), os.path.dirname(given) or os.curdir
+    if code == errno.ENOENT and os.path.isdir(folder):  # a link into a folder that is not there
+        folder = str(target.parent)
+    if code == errno.ENOENT and not os.path.isdir(folder):
+        make = f"{'mkdir' if _WINDOWS else 'mkdir -p'} {quoted(folder)}"
+        why = f"there is no folder {_plain(folder)}"
+        return _refused(given, why, f"run `{make}`, or give another name")
+    if code == errno.ENOTDIR:
+        file = next((str(each) for each in target.parents if each.is_file()), folder)
+        return _refused(given, f"{_plain(file)} is a file, not a folder", "give another name")
+    if code in _FULL:
+        why = f"{why}{_free(target.parent)}"
+        return _refused(given, why, "make room there, or give a name on another disk")
+    if code in (errno.EACCES, errno.EPERM, errno.EROFS):
+        why = f"{why}, in the folder {_plain(str(target.parent))}"
+        return _refused(given, why, "give a name in a folder that you may write to")
+    help = {
+        errno.ENAMETOOLONG: "give a shorter name",
+        errno.EFBIG: "give a name on another disk, or raise the limit on the size of files",
+        errno.EINVAL: "give a name of letters, digits, - and _",
+        errno.ELOOP: "remove the symbolic link that leads to itself, or give another name",
+    }.get(code or 0, "give another name")
+    return _refused(given, why, help)
+
+
+def _free(folder: Path) -> str:
+    """How much room there is, in words."""
+    from shutil import disk_usage
+
+    try:
+        free = disk_usage(folder).free
+    except OSError:
+        return ""
+    size, unit = (free / 1e6, "MB") if free >= 1e6 else (free / 1e3, "kB")
+    return f"; {size:.3g} {unit} are free there"
+
+
+def _separators() -> tuple[str, ...]:
+    return tuple(filter(None, (os.sep, os.altsep)))
+
+
+def quoted(path: str) -> str:
+    """A path as the shell of this system takes it."""
+    return f'"{path}"' if _WINDOWS else shlex.quote(path)
+
+
+def _plain(path: str) -> str:
+    """A path that can be printed, whatever it is."""
+    plain = "".join(c if c.isprintable() else "?" for c in path)
+    return plain if len(plain) <= 200 else f"{plain[:100]}...{plain[-97:]}"

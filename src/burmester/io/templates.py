@@ -1,0 +1,45 @@
+"""Task files to start from: one with every key, and constructed tasks from six trades."""
+
+from __future__ import annotations
+
+from importlib import resources
+
+from burmester.errors import InputError
+
+__all__ = ["BLANK", "names", "summary", "text"]
+
+BLANK = "task"  # the file with every key; not counted among the examples
+
+
+def names() -> tuple[str, ...]:
+    """The names of all examples, sorted."""
+    files = (resources.files("burmester") / "templates").iterdir()
+    found = {f.name.removesuffix(".toml") for f in files if f.name.endswith(".toml")}
+    return tuple(sorted(found - {BLANK}))
+
+
+def text(name: str = BLANK) -> str:
+    """A template as it stands in its file (TOML), by default the one with every key.
+
+    Raises InputError E100 (no such template), with the nearest names first.
+    """
+    known = names()
+    if name not in (*known, BLANK):  # also keeps "../" out of the path
+        from difflib import SequenceMatcher
+
+        def likeness(other: str) -> float:
+            return SequenceMatcher(None, name.lower(), other).ratio()
+
+        nearest = sorted(known, key=likeness, reverse=True)
+        raise InputError(
+            "E100",
+            f"there is no template {name!r}",
+            help=f"take one of these: {', '.join(nearest)}",
+        )
+    file = resources.files("burmester") / "templates" / f"{name}.toml"
+    return file.read_text(encoding="utf-8")
+
+
+def summary(name: str) -> str:
+    """What a template is about, in the words of its first line."""
+    return text(name).partition("\n")[0].removeprefix("# ")
