@@ -1,52 +1,60 @@
-"""Poses in CSV: a header, then a pose a line, cells parted by commas, tabs or semicolons.
+"""Poses in CSV: a header, then a pose a line, cells parted by one separator.
 
-Where commas do not part the cells they may be decimal marks, if the numbers prove it.
-Blocks of plain rows are read at once; the others cell by cell, to say what is wrong and where.
-The errors are those that `burmester.io.poses` lists.
+The separator is the first of comma, tab, semicolon, bar and blank that the header holds, or
+what a first line `sep=;` says.  Where commas do not part the cells they may be decimal marks,
+if the numbers prove it.  Lines without a cell that holds something are blank, and so are cells
+beyond the header's.  A line that starts with # is a comment, unless it is an error of a
+spreadsheet (#N/A).  `burmester.io.columns` tells which headers are understood and which are
+ignored.  Blocks of plain rows are read at once; the others cell by cell, to say what is wrong
+and where.  The errors are those that `burmester.io.poses` lists.
 """
 
 from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 import numpy as np
 
 from burmester.errors import InputError
 from burmester.io import table
-from burmester.io.table import NUMERIC, PoseTable, Rows, Source
+from burmester.io.columns import HEADER, Columns, is_header, read_columns
+from burmester.io.table import PoseTable, Rows, Source, numeric_roles
+from burmester.io.wrong_numbers import not_a_number
 
 __all__ = ["BLOCK", "read_csv"]
 
 BLOCK = 1 << 20  # characters parsed at a time, so that a million rows need little memory
 
-_COLUMNS: dict[str, tuple[str, str | None]] = {  # name -> role and unit
-    **{name: (name, None) for name in ("x", "y", "weight", "name", "exact")},
-    **{f"{axis}_{u}": (axis, u) for axis in "xy" for u in ("um", "mm", "cm", "m", "in", "ft")},
-    **dict.fromkeys(("angle", "theta", "phi", "rotation"), ("angle", None)),
-    **{f"angle_{unit}": ("angle", unit) for unit in table.UNITS},
-}
 _MARK = f"(?i:{'|'.join(filter(None, table.MARKS))})?"
-_LINE = re.compile(r"(?m)^[^\S\n]*[^\s#].*$")  # neither blank nor a comment
+# of a spreadsheet: these begin no comment
+_FAULTS = r"#(?:N/A|REF!|DIV/0!|VALUE!|NAME\?|NUM!|NULL!)(?![^\s,;|])"
+_LINE = re.compile(rf"(?m)^[^\S\n]*(?:[^\s#]|{_FAULTS}).*$")  # neither blank nor a comment
+_TOP = re.compile(rf"(?m)^[^\S\n]*(?:[^\s#]|#[^\S\n]*[,;\t|]|{_FAULTS}).*$")  # also `#,x,y`
+_SAID = {",": "a comma", "\t": "a tab", ";": "a semicolon", "|": "a bar", " ": "a blank"}
+_SEPARATOR = re.compile(r'"?sep=([,;\t| ])"?[,;\t| ]*(?:\n|\Z)', re.IGNORECASE)
 
 
 class _Header(NamedTuple):
-    """What the header line says."""
+    """What the header line says, or --columns."""
 
     source: Source
     end: int  # where the rows begin in the text
     separator: str
-    names: list[str]
-    columns: dict[str, int]  # role -> place in a row
-    units: dict[str, str | None]  # role -> unit
-    where: str  # the angle column
+    names: list[str]  # without those at the end that are empty
+    spare: int  # how many those are
+    columns: Columns
+    where: str  # the angle column, if there is one
 
 
-def read_csv(source: Source) -> PoseTable:
-    """A header and a pose a line; raises E102 to E108."""
-    text, header = source.text, _header(source)
+def read_csv(source: Source, columns: str | None = None) -> PoseTable:
+    """A header and a pose a line; raises E102 to E108.
+
+    columns: the names of the columns, with commas between them, of a file without a header.
+    """
+    text, header = source.text, _header(source, columns)
     marks: dict[str, str] = {}  # what `plain_number` calls a mark -> where it is first seen
     blocks: list[Rows] = []
     start, row = header.end, 1
@@ -56,90 +64,148 @@ def read_csv(source: Source) -> PoseTable:
         rows = _plain_rows(text[start:end], header, marks)
         if rows is None:
             rows = _checked_rows(_LINE.finditer(text, start, end), header, marks, row)
-        blocks.append(rows)
-        start, row = end + 1, row + len(rows.values)
-    if row == 1:
+        if rows is not None:
+            blocks.append(rows)
+            row += len(rows.values)
+        start = end + 1
+    if not blocks:
         raise table.empty("there is only a header")
     _require_one_mark(marks)
+    where = "in the header" if columns is None else "in --columns"
     return PoseTable(
         Rows.joined(blocks),
-        length_unit=header.units["x"],
-        angle_unit=header.units["angle"],
+        length_unit=header.columns.length_unit,
+        angle_unit=header.columns.units.get("angle"),
         where=header.where,
-        say_unit="name the column `angle_deg` or `angle_rad` in the header",
+        say_unit=f"name the column `angle_deg` or `angle_rad` {where}",
+        place=functools.partial(_place, header) if "px" in header.columns.places else None,
     )
 
 
-def _header(source: Source) -> _Header:
-    """The first line that is neither blank nor a comment, understood."""
-    found = _LINE.search(source.text)
-    if not found:
+def _header(source: Source, given: str | None) -> _Header:
+    """The names of the columns, understood, and where the rows begin."""
+    said = _SEPARATOR.match(source.text)
+    part = said[1] if said else None
+    first = next(_tops(source.text, said.end() if said else 0, part, given is None), None)
+    if not first:
         raise table.empty("there are only comments")
-    separator = next((s for s in ",\t;" if s in found[0]), ",")
-    cells = _split(found[0], separator)
-    where = functools.partial(_where_cell, source, found.start(), cells)
-    names = [_unquoted(cell).lower() for cell in cells]
-    columns: dict[str, int] = {}
-    units: dict[str, str | None] = {}
-    unknown: list[int] = []
-    for i, name in enumerate(names):
-        if name not in _COLUMNS:
-            unknown += [] if name.startswith("#") else [i]
-            continue
-        role, unit = _COLUMNS[name]
-        if role in columns:
-            message = f"two columns for {role}: {names[columns[role]]} and {name}"
-            help = "delete one of the two columns"
-            raise InputError("E108", message, where=where(i), help=help)
-        columns[role], units[role] = i, unit
-    if missing := [role for role in NUMERIC[:3] if role not in columns]:
-        where_all = source.where(found.start(), len(found[0]))
-        raise _no_header(found[0], names, missing, where_all)
-    if unknown:
-        name = names[unknown[0]].replace('"', "")
-        message = f"the column {table.shown(name)} is not known"
-        why = (
-            "known are x, y (or x_mm, y_mm and so on), angle_deg, angle_rad, weight, exact and name"
-        )
-        help = f'delete the column, or name it "#{name}" (with the quotes) to have it ignored'
-        raise InputError("E107", message, where=where(unknown[0]), why=why, help=help)
-    if units["x"] != units["y"]:
-        message = f"x is in {units['x'] or 'no unit'}, y in {units['y'] or 'no unit'}"
-        help = "give both columns the same unit"
-        raise InputError("E108", message, where=where(columns["y"]), help=help)
-    angle = where(columns["angle"], "angle")
-    return _Header(source, found.end() + 1, separator, names, columns, units, angle)
+    if given is not None:
+        return _given(source, given, first, part)
+    separator = part or _separator(first[0])
+    cells = _split(first[0], separator)
+    names = [_unquoted(cell) for cell in cells]
+    while names and not names[-1]:
+        names.pop()
+
+    def where(i: int | None, note: str = "") -> str:
+        if i is None:
+            return source.where(first.start(), len(first[0].rstrip()))
+        return _where_cell(source, first.start(), cells, i, note)
+
+    _require_header(source, first, where(None))
+    columns = read_columns(names, where)
+    angle = where(columns.places["angle"], "angle") if "angle" in columns.places else where(None)
+    spare = len(cells) - len(names)
+    return _Header(source, first.end() + 1, separator, names, spare, columns, angle)
 
 
-def _no_header(line: str, names: list[str], missing: list[str], where: str) -> InputError:
-    """E105; a line of numbers is told the header that would fit above it."""
-    message = f"the header has no column for {' and '.join(missing)}"
-    why: str | None = f"it has: {', '.join(map(table.shown, names))}"
+def _tops(text: str, start: int, part: str | None, header: bool) -> Iterator[re.Match[str]]:
+    """The lines in which a cell holds something, and where a header may stand `#,x,y` too."""
+    for line in (_TOP if header else _LINE).finditer(text, start):
+        comment = not _LINE.fullmatch(line[0])
+        cells = _split(line[0], part or _separator(line[0]))
+        if is_header(_filled(list(map(_unquoted, cells)))) or (
+            not comment and any(map(_unquoted, cells))
+        ):
+            yield line
+
+
+def _given(source: Source, given: str, first: re.Match[str], separator: str | None) -> _Header:
+    """The columns that --columns names; the first line of the file is a row."""
+    option, cells = Source("--columns", given), given.split(",")
+
+    def where(i: int | None, note: str = "") -> str:
+        return option.where(0, len(given)) if i is None else _where_cell(option, 0, cells, i, note)
+
+    names = [cell.strip() for cell in cells]
+    columns = read_columns(names, where, "name it #{}")
+    if _is_header(first[0]):
+        where_line = source.where(first.start(), len(first[0]))
+        message = "the file has a header, and --columns gives another"
+        help = "leave --columns out, or delete this line"
+        raise InputError("E108", message, where=where_line, help=help)
+    numeric = [columns.places[role] for role in numeric_roles(columns.places)]
+    separator = separator or _of_row(first[0], len(names), numeric)
+    angle = where(columns.places["angle"], "angle") if "angle" in columns.places else where(None)
+    return _Header(source, first.start(), separator, names, 0, columns, angle)
+
+
+def _of_row(line: str, width: int, numeric: list[int]) -> str:
+    """What parts the cells of a row that has so many, with numbers in these places."""
+    rows = {s: list(map(_unquoted, _filled(_split(line, s)))) for s in "\t;|, "}
+    fits = [s for s, row in rows.items() if len(row) == width]
+    for separator in fits:
+        if all(table.NUMBER_LIKE.fullmatch(rows[separator][i]) for i in numeric):
+            return separator
+    return next(iter(fits), _separator(line))
+
+
+def _separator(line: str) -> str:
+    """What parts the cells of a header."""
+    for separator in ",\t;| ":
+        if is_header(_filled(list(map(_unquoted, _split(line, separator))))):
+            return separator
+    blank = " " if re.search(r"\S[ \t]+\S", line) else ","
+    return next((s for s in ",\t;|" if s in line), blank)
+
+
+def _is_header(line: str) -> bool:
+    return is_header(_filled(list(map(_unquoted, _split(line, _separator(line))))))
+
+
+def _filled(cells: list[str]) -> list[str]:
+    """Cells without the blank ones at their end."""
+    while cells and not _unquoted(cells[-1]):
+        cells = cells[:-1]
+    return cells
+
+
+def _require_header(source: Source, first: re.Match[str], where: str) -> None:
+    """Refuse a line of numbers on top: E105 with the header that would fit above it."""
+    for separator in "\t;|, ":  # commas may be decimal marks
+        cells = [_unquoted(cell) for cell in _split(first[0], separator)]
+        if (separator in first[0].strip()) and all(map(table.NUMBER_LIKE.fullmatch, cells)):
+            break
+    else:
+        return
+    names = [*HEADER.split(","), *(f"#{i}" for i in range(4, len(cells) + 1))]
+    points = " or `px,py,qx,qy` for two points" if len(cells) == 4 else ""
     help = (
-        "name the columns x, y and angle_deg (or angle_rad), with commas, semicolons or tabs "
-        "between them; x_mm and y_mm (um, mm, cm, m, in, ft) state the length unit"
+        f"put this line on top: `{separator.join(names)}` (or angle_rad in it), or pass "
+        f"--columns {','.join(names)}{points}"
     )
-    separator = next((s for s in "\t;," if s in line), ",")  # commas may be decimal marks
-    cells = [_unquoted(cell) for cell in _split(line, separator)]
-    if all(table.NUMBER_LIKE.fullmatch(cell) for cell in cells):
-        names = ["x", "y", "angle_deg", *(f"#{i}" for i in range(4, len(cells) + 1))]
-        message, why = "there is no header: the first line is all numbers", None
-        help = f"put this line on top: `{separator.join(names)}` (or angle_rad in it)"
-    return InputError("E105", message, where=where, why=why, help=help)
+    above = source.text[: first.start()].rstrip("\n").rpartition("\n")[2].strip()
+    if above.startswith("#") and _is_header(above.lstrip("# ")):
+        help = f"delete the # in front of `{above.lstrip('# ')}`, or pass --columns {HEADER}"
+    message = "there is no header: the first line is all numbers"
+    raise InputError("E105", message, where=where, help=help)
 
 
 def _plain_rows(block: str, header: _Header, marks: dict[str, str]) -> Rows | None:
     """The rows of a block in which nothing is unusual, fast; None if something is."""
-    separator, width = header.separator, len(header.names)
+    separator, places = header.separator, header.columns.places
+    if separator == " ":
+        block = re.sub(r"(?m)^[ \t]+|[ \t]+$", "", re.sub(r"[ \t]+", " ", block))
     mark = "," if "," in marks else "."  # a comma once it is proved to be a decimal one
     text, number = rf'[^{separator}\n"#]*+', rf"[-+{mark}0-9eE]*+"
     looks = {"name": text, "exact": _MARK}
-    like = {place: looks.get(role, number) for role, place in header.columns.items()}
-    row = separator.join(like.get(i, text) for i in range(width))
+    like = {place: looks.get(role, number) for role, place in places.items()}
+    part, width = re.escape(separator), len(header.names) + header.spare
+    row = part.join([like.get(i, text) for i in range(len(header.names))] + [""] * header.spare)
     if not re.fullmatch(rf"(?:{row}\n)*+{row}", block):
         return None
     cells = block.replace("\n", separator).split(separator)
-    columns = {role: cells[place::width] for role, place in header.columns.items()}
+    columns = {role: cells[place::width] for role, place in places.items()}
     for role, column in columns.items():
         if role == "name":
             columns[role] = [name.strip() for name in column]
@@ -156,29 +222,51 @@ def _plain_rows(block: str, header: _Header, marks: dict[str, str]) -> Rows | No
 
 def _checked_rows(
     lines: Iterable[re.Match[str]], header: _Header, marks: dict[str, str], row: int
-) -> Rows:
+) -> Rows | None:
     """The rows in any lines, cell by cell; the first of them is number `row` of the file."""
-    columns: dict[str, list[str]] = {role: [] for role in header.columns}
-    for line in lines:
-        cells = _split(line[0], header.separator)
+    places, units = header.columns.places, header.columns.units
+    columns: dict[str, list[str]] = {role: [] for role in places}
+    numeric = numeric_roles(places)
+    count = 0
+    for line, cells in _rows(lines, header.separator):
         if len(cells) != len(header.names):
-            raise _wrong_width(line, cells, header, row)
-        for role, place in header.columns.items():
+            _require_width(line, cells, header, row + count)
+        for role, place in places.items():
             cell = _unquoted(cells[place])
             if role == "exact" and cell.lower() not in table.MARKS:
                 where = _where_cell(header.source, line.start(), cells, place, role)
-                raise _not_a_mark(cell, row, where)
-            if role in NUMERIC:
+                raise _not_a_mark(cell, row + count, where)
+            if role in numeric:
                 plain, mark = table.plain_number(cell, header.separator)
                 if mark not in marks:
                     where = _where_cell(header.source, line.start(), cells, place, role)
                     if mark is None:
-                        raise table.not_a_number(cell, plain, row, header.units[role], where)
+                        raise not_a_number(
+                            cell, plain, row + count, units[role], where, header.separator
+                        )
                     marks[mark] = where
                 cell = plain
             columns[role].append(cell)
-        row += 1
-    return Rows.read(columns)
+        count += 1
+    return Rows.read(columns) if count else None
+
+
+def _rows(
+    lines: Iterable[re.Match[str]], separator: str
+) -> Iterator[tuple[re.Match[str], list[str]]]:
+    """The lines in which a cell holds something, with their cells."""
+    for line in lines:
+        cells = _split(line[0], separator)
+        if any(map(_unquoted, cells)):
+            yield line, cells
+
+
+def _place(header: _Header, row: int) -> str:
+    """Where a row stands, by its number from 0."""
+    lines = _rows(_LINE.finditer(header.source.text, header.end), header.separator)
+    line = next(line for k, (line, _) in enumerate(lines) if k == row)
+    start = line.start() + len(line[0]) - len(line[0].lstrip())
+    return header.source.where(start, line.end() - start)
 
 
 def _not_a_mark(cell: str, row: int, where: str) -> InputError:
@@ -204,9 +292,15 @@ def _require_one_mark(marks: dict[str, str]) -> None:
 
 def _split(line: str, separator: str) -> list[str]:
     """The cells as they stand, with their blanks and quotes, so that places can be counted."""
+    if separator == " ":  # one blank parts two cells, the others belong to the second
+        line = line.rstrip(" \t")
+        if '"' not in line or line.count('"') % 2:
+            return re.split(r"(?<=[^ \t])[ \t](?![ \t]*[(\[])", line)  # `x (mm)` is one
+        return re.findall(r'(?:^|[ \t])([ \t]*+(?:"[^"]*"|[^" \t])++)', line)
     if '"' not in line or line.count('"') % 2:
         return line.split(separator)
-    return re.findall(rf'(?:^|{separator})((?:"[^"]*"|[^"{separator}])*+)', line)
+    part = re.escape(separator)
+    return re.findall(rf'(?:^|{part})((?:"[^"]*"|[^"{part}])*+)', line)
 
 
 def _unquoted(cell: str) -> str:
@@ -223,14 +317,28 @@ def _where_cell(source: Source, start: int, cells: list[str], i: int, note: str 
     return source.where(start, len(cells[i].strip()), note)
 
 
-def _wrong_width(line: re.Match[str], cells: list[str], header: _Header, row: int) -> InputError:
-    """E106, at the first cell too many or at the end of the line."""
+def _require_width(line: re.Match[str], cells: list[str], header: _Header, row: int) -> None:
+    """Refuse a row that lacks a cell (E106), or has one that no name stands above (E106, E107)."""
     given, needed = len(cells), len(header.names)
+    filled = max(len(_filled(cells)), min(given, needed))
+    if filled == needed:
+        return
     where, why = header.source.where(line.end()), None
-    if given > needed:
-        where = _where_cell(header.source, line.start(), cells, needed)
+    named = f" ({', '.join(header.names)})" if needed < 20 else ""
+    help = f"give {needed} cells{named}, or delete the row"
+    if filled > needed:
+        extra = next(i for i in range(needed, filled) if _unquoted(cells[i]))
+        where = _where_cell(header.source, line.start(), cells, extra)
+        if extra < needed + header.spare:
+            message = f"row {row} has {table.shown(_unquoted(cells[extra]))} below no name"
+            help = "give its column a name, or delete what stands in it"
+            raise InputError("E107", message, where=where, help=help)
     if given == 2 * needed and header.separator == ",":
         why = "a comma ends a cell here, so it cannot be a decimal mark as well"
+        help = "write decimal points, or part all cells with semicolons, those of the header too"
+    other = next((s for s in "\t;|," if len(_filled(_split(line[0], s))) == needed), None)
+    if given == 1 and other:
+        why = f"{_SAID[header.separator]} parts the cells of the header, {_SAID[other]} these"
+        help = f"write the header as `{other.join(header.names)}`"
     message = f"row {row} has {given} cell{'' if given == 1 else 's'}, the header has {needed}"
-    help = f"give {needed} cells ({', '.join(header.names)}), or delete the row"
-    return InputError("E106", message, where=where, why=why, help=help)
+    raise InputError("E106", message, where=where, why=why, help=help)

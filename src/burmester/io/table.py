@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Callable, Container, Sequence
 from decimal import Decimal
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from burmester.displacement import FloatArray
 from burmester.errors import InputError
@@ -15,45 +17,58 @@ from burmester.io.wanted import Wanted
 
 __all__ = [
     "MARKS",
+    "NOT_FINITE",
+    "NUMBER",
     "NUMBER_LIKE",
     "NUMERIC",
+    "POINTS",
     "UNITS",
     "PoseTable",
     "Rows",
     "Source",
+    "decimals",
     "empty",
-    "not_a_number",
+    "numeric_roles",
     "plain_number",
+    "pose_marks",
     "shown",
 ]
 
 UNITS = {"deg": "degrees", "rad": "radians"}
 NUMERIC = ("x", "y", "angle", "weight")
+POINTS = ("px", "py", "qx", "qy")  # in place of x, y and angle
 MARKS = {"yes": True, "true": True, "1": True, "x": True}  # of an exact pose, in small letters
 MARKS |= {"no": False, "false": False, "0": False, "": False}
 
-_NUMBER = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?")
-_NOT_FINITE = re.compile(r"[+-]?(nan|inf|infinity)", re.IGNORECASE)
+NUMBER = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?")
+NOT_FINITE = re.compile(r"[+-]?(nan|inf|infinity)", re.IGNORECASE)
 _THOUSANDS = re.compile(r"[+-]?[1-9][0-9]{0,2},[0-9]{3}")
-NUMBER_LIKE = re.compile(rf"[-+.,]*[0-9][-+.,0-9eE]*|{_NOT_FINITE.pattern}", re.IGNORECASE)
+NUMBER_LIKE = re.compile(rf"[-−+.,]*[0-9][-−+.,0-9eE]*|{NOT_FINITE.pattern}", re.IGNORECASE)
 
 
 class Rows(NamedTuple):
     """Some poses, as numbers."""
 
-    values: FloatArray  # (N, 3) or (N, 4): x, y, angle in its own unit, and weight if given
+    # (N, 3): x, y and angle in its own unit, or (N, 4): the points p and q; then weight if given
+    values: FloatArray
     decimals: tuple[float, float]  # the most that a length and an angle are printed with
     names: list[str]  # one a pose, or none at all
     exact: list[bool]  # the same
+    points: bool = False  # whether the values are px, py, qx, qy in place of x, y, angle
 
     @classmethod
     def read(cls, columns: dict[str, list[str]]) -> Rows:
-        """The rows in texts by role; raises ValueError where float() does."""
-        numeric = [columns[role] for role in NUMERIC if role in columns]
-        x, y, angle = (max(map(_decimals, column), default=0.0) for column in numeric[:3])
+        """The rows in texts by role; raises ValueError where float() does.
+
+        The roles are x, y, angle, or px, py, qx, qy; and weight, name and exact if there are any.
+        """
+        numeric = [columns[role] for role in numeric_roles(columns)]
+        points = "px" in columns
+        printed = [max(map(decimals, column), default=0.0) for column in numeric[: 3 + points]]
+        most = (max(printed), 0.0) if points else (max(printed[:2]), printed[2])
         values = np.array([[float(number) for number in column] for column in numeric]).T
         exact = [MARKS[mark.lower()] for mark in columns.get("exact", [])]
-        return cls(values, (max(x, y), angle), columns.get("name", []), exact)
+        return cls(values, most, columns.get("name", []), exact, points)
 
     @classmethod
     def joined(cls, parts: list[Rows]) -> Rows:
@@ -62,7 +77,7 @@ class Rows(NamedTuple):
         values = np.concatenate([part.values for part in parts])
         names = [name for part in parts for name in part.names]
         exact = [mark for part in parts for mark in part.exact]
-        return cls(values, (max(lengths), max(angles)), names, exact)
+        return cls(values, (max(lengths), max(angles)), names, exact, parts[0].points)
 
 
 class PoseTable(NamedTuple):
@@ -75,6 +90,7 @@ class PoseTable(NamedTuple):
     say_unit: str  # how to state it there
     wanted: Wanted = Wanted()
     sigma: tuple[float, float] | None = None  # standard deviations of the poses, if stated
+    place: Callable[[int], str] | None = None  # where a row stands, by its number from 0
 
 
 class Source(NamedTuple):
@@ -98,30 +114,56 @@ class Source(NamedTuple):
         ).rstrip()
 
 
+def numeric_roles(columns: Container[str]) -> list[str]:
+    """The roles of numbers among the columns, in the order in which `Rows.values` has them."""
+    return [role for role in (*NUMERIC[:3], *POINTS, NUMERIC[3]) if role in columns]
+
+
 def plain_number(cell: str, separator: str) -> tuple[str, str | None]:
     """A cell with a point for its decimal comma, and its mark: "", ".", "," or "?".
 
-    "?" is a comma that may part thousands; the mark is None if this is no finite number.
+    "?" is a comma that may part thousands; the mark is None if this is no finite number.  The
+    minus sign U+2212 is a minus.  What is nearer to 0 than to any other double is 0: 1e-400.
     """
+    cell = cell.replace("\u2212", "-")
     plain = cell.replace(",", ".") if separator != "," and "." not in cell else cell
-    if not _NUMBER.fullmatch(plain) or not math.isfinite(float(plain)):
+    if not NUMBER.fullmatch(plain) or not math.isfinite(float(plain)):
         return plain, None
     if _THOUSANDS.fullmatch(cell):
         return plain, "?"
     return plain, "," if "," in cell else "." if "." in cell else ""
 
 
-def not_a_number(cell: str, plain: str, row: int, unit: str | None, where: str) -> InputError:
-    """E103 or E104, for a cell that `plain_number` made `plain` and gave no mark."""
-    code, fault, why = "E103", "a value that is not a finite number", None
-    if _NUMBER.fullmatch(plain):
-        why = f"{shown(cell)} is beyond 1.8e308, the largest number there is"
-    elif not _NOT_FINITE.fullmatch(cell):
-        code, fault = "E104", f"{'text' if cell else 'an empty cell'} where a number belongs"
-        why = f"{shown(cell)} is not digits with at most a decimal point and an exponent"
-    in_unit = f" in {UNITS.get(unit, unit)}" if unit else ""
-    help = f"give a number{in_unit}, such as -12.5 or 3e-4, or delete the row"
-    return InputError(code, f"row {row} has {fault}", where=where, why=why, help=help)
+def pose_marks(
+    option: str, texts: Sequence[str], names: Sequence[str], count: int
+) -> NDArray[np.bool_]:
+    """Which of `count` poses an option names, by numbers from 1 or by names; raises E122."""
+    marks = np.zeros(count, dtype=np.bool_)
+    for text in texts:
+        source, at = Source(option, text), 0
+        for item in [text] if text in names else text.split(","):
+            word = item.strip()
+            where = source.where(at + len(item) - len(item.lstrip()), len(word))
+            marks[_pose(word, names, count, option, where)] = True
+            at += len(item) + 1
+    return marks
+
+
+def _pose(word: str, names: Sequence[str], count: int, option: str, where: str) -> int:
+    """The pose that a number or a name stands for, counted from 0."""
+    found = {k for k, name in enumerate(names) if word and name == word}
+    if word.isascii() and word.isdigit() and len(word) < 10 and 1 <= int(word) <= count:
+        found.add(int(word) - 1)
+    if len(found) == 1:
+        return found.pop()
+    known = " or by their names" if names else ""
+    message = f"there is no pose {shown(word)}"
+    help = f"name poses by their numbers, 1 to {count}{known}, as in {option} 1,{count}"
+    if found:
+        which = " and ".join(str(k + 1) for k in sorted(found)[:5])
+        message = f"{shown(word)} may be pose {which}"
+        help = "give the poses names that differ and are no numbers, or none"
+    raise InputError("E122", message, where=where, help=help)
 
 
 def empty(message: str) -> InputError:
@@ -139,8 +181,10 @@ def shown(value: object) -> str:
     return text if len(text) <= 40 else f"{text[:37]}..."
 
 
-def _decimals(number: str) -> float:
+def decimals(number: str) -> float:
     """The decimals a number is printed with, its exponent counted: 4 for "1.5e-3"."""
-    mantissa, _, exponent = number.lower().partition("e")
-    printed = len(mantissa.partition(".")[2])
-    return max(0.0, printed - float(exponent)) if exponent else printed
+    if "e" in number or "E" in number:
+        mantissa, _, exponent = number.lower().partition("e")
+        return max(0.0, decimals(mantissa) - float(exponent))
+    point = number.find(".")
+    return len(number) - point - 1 if point >= 0 else 0

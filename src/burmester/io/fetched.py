@@ -1,0 +1,82 @@
+"""The bytes of a pose file, and the text in them."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+from burmester.errors import InputError
+from burmester.io import cases
+from burmester.io.columns import HEADER
+from burmester.io.table import empty
+
+__all__ = ["decode", "fetch"]
+
+_SHEET = (
+    "save the sheet as CSV, or copy its cells and paste them: "
+    f"burmester synthesize - --columns {HEADER}"
+)
+_BINARY: dict[bytes, tuple[str, str]] = {  # how a file begins -> what it is, and what to do
+    b"PK\x03\x04": ("a zip archive, as .xlsx and .ods spreadsheets are", _SHEET),
+    b"\xd0\xcf\x11\xe0": ("an .xls spreadsheet, or another old Office file", _SHEET),
+    b"\x1f\x8b": ("packed with gzip", "unpack it with gunzip, and read what comes out"),
+    b"%PDF": ("a PDF", f"copy its table and paste it: burmester synthesize - --columns {HEADER}"),
+}
+
+
+def fetch(source: str) -> bytes:
+    """The bytes of a file, of standard input ("-") or of a carried case; raises E101."""
+    if source == "-":
+        return sys.stdin.buffer.read()
+    if source.startswith("case:"):
+        return cases.read_bytes(source.removeprefix("case:"))
+    try:
+        with open(source, "rb") as file:
+            return file.read()
+    except (OSError, ValueError) as error:  # ValueError: a null character in the path
+        why = getattr(error, "strerror", None) or str(error)
+        help = _instead(source, error)
+        raise InputError("E101", "the poses cannot be read", why=why, help=help) from None
+
+
+def decode(data: bytes) -> str:
+    """Text with one line feed between its lines, from UTF-8 or from UTF-16 that says so."""
+    for start, (what, help) in _BINARY.items():
+        if data.startswith(start):
+            message = "the poses are not text"
+            raise InputError("E101", message, why=f"the file is {what}", help=help)
+    wide = data[:2] in (b"\xff\xfe", b"\xfe\xff")
+    try:
+        text = data.decode("utf-16" if wide else "utf-8-sig")
+        why = "there are null characters in it" if "\0" in text else ""
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        why = f"byte {error.start + 1}, in line {line}, is not UTF-{16 if wide else 8}"
+    if why:
+        raise InputError("E101", "the poses are not text", why=why, help="save the file as UTF-8")
+    if not text.strip():
+        raise empty("there is nothing in it")
+    # splitlines() would also break a name at U+2028 and shift the line numbers
+    return text.replace("\r\n", "\n").replace("\r", "\n").rstrip("\n")
+
+
+def _instead(source: str, error: Exception) -> str:
+    """What to read in place of a file that cannot be."""
+    from difflib import get_close_matches
+
+    if source in cases.names():
+        return f"write case:{source}"
+    folder, name = os.path.split(source)
+    if isinstance(error, PermissionError) and not os.path.isdir(source):
+        return "change its permissions, or read a copy that is yours"
+    try:
+        if os.path.isdir(source):
+            tables = sorted(f for f in os.listdir(source) if f.lower().endswith(".csv"))
+            near = [os.path.join(source, file) for file in tables[:1]]
+        else:
+            files = {file.lower(): file for file in os.listdir(folder or ".")}
+            near = get_close_matches(name.lower(), files, 1, 0.6)
+            near = [os.path.join(folder, files[file]) for file in near]
+    except (OSError, ValueError):
+        near = []
+    return f"read {near[0]} if that is meant, or check the path" if near else "check the path"

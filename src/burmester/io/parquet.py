@@ -1,0 +1,141 @@
+"""Poses in Parquet: columns as in the header of a CSV file, and every number as it is stored.
+
+Integers, floats and decimals are numbers; text is for names alone.  A resolution is taken from
+the shortest decimals that a number can be printed with.
+The errors are those that `burmester.io.poses` lists.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from burmester.displacement import FloatArray
+from burmester.errors import InputError
+from burmester.io import table
+from burmester.io.columns import read_columns
+from burmester.io.table import PoseTable, Rows, decimals, numeric_roles
+
+__all__ = ["is_parquet", "read_parquet"]
+
+
+def is_parquet(data: bytes) -> bool:
+    return data.startswith(b"PAR1")
+
+
+def read_parquet(label: str, data: bytes) -> PoseTable:
+    """The poses in the bytes of a Parquet file; raises E101 to E108, and E130 without pyarrow."""
+    file = _opened(data)
+    names = file.schema_arrow.names
+
+    def where(i: int | None, row: int | None = None) -> str:
+        parts = [f"row {row + 1}"] if row is not None else []
+        parts += [f"column {names[i]}"] if i is not None else []
+        return f"{label}: {', '.join(parts)}" if parts else label
+
+    columns = read_columns(names, where, 'name it "#{}"')
+    places = columns.places
+    stored = _taken(lambda: file.read(columns=[names[i] for i in places.values()]))
+    if not stored.num_rows:
+        raise table.empty("there are no rows in it")
+    numbers: list[FloatArray] = []
+    printed: dict[str, float] = {}
+    for role in numeric_roles(places):
+        i = places[role]
+        values, texts = _numbers(stored.column(names[i]), names[i], where(i))
+        if (bad := ~np.isfinite(values)).any():
+            row = int(bad.argmax())
+            given = "no value" if texts[row] is None else "a value that is not a finite number"
+            raise InputError(
+                "E103",
+                f"row {row + 1} has {given}",
+                where=where(i, row),
+                help="give a number, or delete the row",
+            )
+        numbers.append(values)
+        printed[role] = 0.0 if role == "weight" else max(decimals(text) for text in texts if text)
+    angle = printed.pop("angle", 0.0)
+    names_of = [str(v) if v is not None else "" for v in _list(stored, names, places.get("name"))]
+    exact = _marks(stored, names, places.get("exact"), where)
+    rows = Rows(
+        np.stack(numbers, axis=1), (max(printed.values()), angle), names_of, exact, "px" in places
+    )
+    return PoseTable(
+        rows,
+        length_unit=columns.length_unit,
+        angle_unit=columns.units.get("angle"),
+        where=where(places.get("angle")),
+        say_unit="name the column angle_deg or angle_rad",
+        place=lambda row: where(None, row),
+    )
+
+
+def _opened(data: bytes) -> Any:
+    try:
+        import pyarrow
+        import pyarrow.parquet
+    except ImportError:
+        raise InputError(
+            "E130",
+            "reading Parquet needs pyarrow",
+            why="it cannot be imported",
+            help="pip install 'burmester[data]'",
+        ) from None
+    return _taken(lambda: pyarrow.parquet.ParquetFile(pyarrow.BufferReader(data)))
+
+
+def _taken(read: Callable[[], Any]) -> Any:
+    """What pyarrow makes of a file, or E101."""
+    try:
+        return read()
+    except Exception as error:  # of many kinds, for files that are damaged
+        why = str(error).partition("\n")[0][:200]
+        help = "write the file again, or save the poses as CSV"
+        raise InputError("E101", "this Parquet file cannot be read", why=why, help=help) from None
+
+
+def _numbers(column: Any, name: str, where: str) -> tuple[FloatArray, list[str | None]]:
+    """A column as doubles (NaN for no value), and as its shortest texts."""
+    from pyarrow import types
+
+    kind = column.type
+    values: list[Any] = column.to_pylist()
+    if types.is_floating(kind):
+        doubles = column.to_numpy().astype(np.float64)
+        if not types.is_float64(kind):  # 0.1 in 32 bits is printed as 0.1
+            short = np.float32 if types.is_float32(kind) else np.float16
+            return doubles, [None if v is None else _short(str(short(v))) for v in values]
+        return doubles, [None if v is None else _short(repr(v)) for v in values]
+    if types.is_integer(kind) or types.is_decimal(kind):
+        texts = [None if v is None else _short(str(v)) for v in values]
+        return np.array([np.nan if text is None else float(text) for text in texts]), texts
+    message = f"the column {table.shown(name)} holds {kind}, not numbers"
+    raise InputError("E104", message, where=where, help="store it as float64")
+
+
+def _short(text: str) -> str:
+    """A number without the noughts behind its point: those are not stored."""
+    mantissa, e, exponent = text.lower().partition("e")
+    mantissa = mantissa.rstrip("0").rstrip(".") if "." in mantissa else mantissa
+    return mantissa + e + exponent
+
+
+def _list(stored: Any, names: list[str], place: int | None) -> list[Any]:
+    return [] if place is None else list(stored.column(names[place]).to_pylist())
+
+
+def _marks(
+    stored: Any, names: list[str], place: int | None, where: Callable[[int | None, int], str]
+) -> list[bool]:
+    """The column `exact`: true and false, or what stands for them in a CSV file."""
+    marks = []
+    for row, value in enumerate(_list(stored, names, place)):
+        text = "" if value is None else str(value).strip().lower()
+        if text not in table.MARKS:
+            message = f"row {row + 1} has {table.shown(value)} where yes or no belongs"
+            help = "store true for a pose to be met exactly, false for one to come near"
+            raise InputError("E104", message, where=where(place, row), help=help)
+        marks.append(table.MARKS[text])
+    return marks

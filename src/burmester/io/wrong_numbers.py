@@ -1,0 +1,123 @@
+"""What is wrong with text that stands where a number belongs, and what to write in its place.
+
+Nothing is taken for what it seems to mean: a number that has to be guessed is refused.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from decimal import Decimal
+from fractions import Fraction
+
+from burmester.errors import InputError
+from burmester.io.table import NOT_FINITE, NUMBER, UNITS, plain_number, shown
+
+__all__ = ["not_a_number"]
+
+_DASHES = {
+    "\u2010": "a hyphen (U+2010)",
+    "\u2011": "a hyphen (U+2011)",
+    "\u2012": "a figure dash",
+    "\u2013": "an en dash",
+    "\u2014": "an em dash",
+    "\u2015": "a bar (U+2015)",
+    "\ufe63": "a small hyphen (U+FE63)",
+    "\uff0d": "a wide hyphen (U+FF0D)",
+}
+_PARTED = re.compile(r"([+-]?[0-9]{1,3}(?:([\s,.'’_])[0-9]{3})(?:\2[0-9]{3})*)(?:([.,])([0-9]*))?")
+_MEASURE = re.compile(r"([-+.,0-9eE]*[0-9.])\s*([^\s\d.,+-][^\d,;]*)")
+_FRACTION = re.compile(r"([+-]?)(?:([0-9]{1,9})\s+)?([0-9]{1,9})\s*[/⁄]\s*([0-9]{1,9})")
+
+
+def not_a_number(  # noqa: PLR0917
+    cell: str, plain: str, row: int, unit: str | None, where: str, separator: str = ","
+) -> InputError:
+    """E103 or E104, for a cell that `plain_number` made `plain` and gave no mark."""
+    code, fault, why = "E103", "a value that is not a finite number", None
+    in_unit = f" in {UNITS.get(unit, unit)}" if unit else ""
+    help = f"give a number{in_unit}, such as -12.5 or 3e-4, or delete the row"
+    if NUMBER.fullmatch(plain):
+        why = f"{shown(cell)} is beyond 1.8e308, the largest number there is"
+    elif not NOT_FINITE.fullmatch(plain):
+        code, fault = "E104", f"{'text' if cell else 'an empty cell'} where a number belongs"
+        if cell:
+            why = f"{shown(cell)} is not digits with at most a decimal point and an exponent"
+        for look in (_dash, _spreadsheet, _digits, _parted, _fraction, _measure, _comma):
+            if found := look(cell, separator):
+                why, help = f"{shown(cell)} {found[0]}", found[1]
+                break
+    return InputError(code, f"row {row} has {fault}", where=where, why=why, help=help)
+
+
+def _is_number(text: str, separator: str) -> bool:
+    return plain_number(text, separator)[1] is not None
+
+
+def _dash(cell: str, separator: str) -> tuple[str, str] | None:
+    dash = next((c for c in cell if c in _DASHES), None)
+    if dash is None:
+        return None
+    plain = re.sub(f"[{''.join(_DASHES)}]", "-", cell)
+    edit = f"write {plain}" if _is_number(plain, separator) else "write a minus sign: -"
+    return f"has {_DASHES[dash]} where a minus sign belongs", edit
+
+
+def _spreadsheet(cell: str, separator: str) -> tuple[str, str] | None:
+    if not re.fullmatch(r"#(N/A|REF!|DIV/0!|VALUE!|NAME\?|NUM!|NULL!)", cell):
+        return None
+    return "is an error of the spreadsheet", "correct the formula in the sheet, or delete the row"
+
+
+def _digits(cell: str, separator: str) -> tuple[str, str] | None:
+    if not any(c.isdigit() and not c.isascii() for c in cell):
+        return None
+    plain = "".join(str(unicodedata.decimal(c, c)) for c in cell)
+    edit = plain if _is_number(plain, separator) else "it with the digits 0 to 9"
+    return "has digits other than 0 to 9", f"write {edit}"
+
+
+def _parted(cell: str, separator: str) -> tuple[str, str] | None:
+    found = _PARTED.fullmatch(cell.replace("\u2212", "-"))
+    if not found or found[3] == found[2]:
+        return None
+    if found[2] == "," and cell.count(",") == 1 and not found[3]:
+        return None  # 0,435 may as well have a decimal comma
+    whole = re.sub(r"[^0-9+-]", "", found[1])
+    comma = found[3] == "," and separator != ","
+    plain = whole + (f"{',' if comma else '.'}{found[4]}" if found[3] else "")
+    return "has separators between its thousands", f"write {plain}"
+
+
+def _fraction(cell: str, separator: str) -> tuple[str, str] | None:
+    found = _FRACTION.fullmatch(cell)
+    if not found or not int(found[4]):
+        return None
+    size = int(found[2] or 0) + Fraction(int(found[3]), int(found[4]))
+    return "is a fraction", f"write {found[1]}{float(size)!r}"
+
+
+def _measure(cell: str, separator: str) -> tuple[str, str] | None:
+    found = _MEASURE.fullmatch(cell.replace("\u2212", "-"))
+    if not found or not _is_number(found[1], separator):
+        return None
+    if found[2] == "%" and len(cell) < 30 and "e" not in cell.lower():
+        plain = format(Decimal(plain_number(found[1], separator)[0]).scaleb(-2), "f")
+        mark = "," if "," in found[1] else "."
+        return "has a percent sign", f"write {plain.replace('.', mark)}"
+    if re.fullmatch(r"[a-zA-Zµμ°\"'′″]+\.?", found[2]):
+        column = "angle_deg" if found[2] == "°" else "x_mm"
+        return (
+            "has a unit or other text behind the number",
+            f"write {found[1]}, and the unit in the header, as in {column}",
+        )
+    return None
+
+
+def _comma(cell: str, separator: str) -> tuple[str, str] | None:
+    if separator != "," or cell.count(",") != 1 or not _is_number(cell, ";"):
+        return None
+    return (
+        "has a comma, which ends a cell in this file",
+        f"write {cell.replace(',', '.')}, or delete the comma if it parts thousands",
+    )
