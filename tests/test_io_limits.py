@@ -11,6 +11,7 @@ from burmester.io import csv_poses
 from burmester.io.limits_text import wanted
 from burmester.io.poses import read_task
 from burmester.limits import Limits, Line, Point, Polygon, Segment
+from tests.marked import carets, marked
 
 H = "x,y,angle_deg,exact\n"
 POSES = 'angle_unit = "deg"\nposes = [[0, 0, 0], [1, 2, 30], [3, 1, 60.5]]\n'  # above [limits]
@@ -123,10 +124,12 @@ def test_other_words_for_exact_are_refused_with_a_caret(read, mark):
 
 @pytest.mark.parametrize("value", ["1", '"yes"', "[]"])
 def test_exact_in_documents_is_true_or_false(read, value):
-    text = f'[[0,0,0],[1,1,1],{{"x":1,"y":2,"angle_deg":3,"exact":{value}}}]'
+    text = f'[[0,0,0],[1,1,1],{{"x":1,"y":2,"angle_deg":3,"exact":«{value}»}}]'
+    text, *place = marked(text)
     error = refused(lambda: read(text, ".json", angle_unit="deg"))
     assert error.code == "E104"
-    assert error.where.endswith("poses[2].exact")
+    assert error.message.startswith("poses[2].exact is ")
+    assert list(carets(error.where)[1:]) == place
     assert error.help == "write true or false"
 
 
@@ -258,8 +261,12 @@ def test_limits_under_task_as_the_command_prints_it(read):
     document = json.loads(as_json("[limits]\nlength.most = 3\n"))
     assert read(json.dumps({"task": document}), ".json").limits[0].length == (0, 3)
     document["limits"]["length"] = 3
-    error = refused(lambda: read(json.dumps({"task": document}), ".json"))
-    assert error.where.endswith("poses.json: task.limits.length")
+    text = json.dumps({"task": document}, indent=1)
+    error = refused(lambda: read(text, ".json"))
+    assert error.message == "task.limits.length does not fit: 3"
+    _, line, column, width = carets(error.where)
+    assert text.splitlines()[line - 1].strip() == '"length": 3'
+    assert (text.splitlines()[line - 1][column - 1 :], width) == ("3", 1)
 
 
 def test_numbers_of_limits_come_back_bit_by_bit(read):
@@ -273,54 +280,74 @@ def test_numbers_of_limits_come_back_bit_by_bit(read):
         assert text.fixed_pivot[0].at.tolist() == [x, y]
 
 
-FAULTS = [  # TOML, code, the end of where, what the message holds
-    ("[limits]\nfixed_pivot.point = [1, inf]\n", "E103", "limits.fixed_pivot.point[1]", "finite"),
-    ("[limits]\nfixed_pivot.point = [1, 1e999]\n", "E103", "limits.fixed_pivot.point[1]", "finite"),
-    ("[limits]\nlength.most = nan\n", "E103", "limits.length.most", "finite"),
-    ('[limits]\nfixed_pivot.point = [1, "2"]\n', "E104", "limits.fixed_pivot.point[1]", "'2'"),
-    ("[limits]\nfixed_pivot.point = [1, true]\n", "E104", "limits.fixed_pivot.point[1]", "True"),
-    ("[limits]\nfixed_pivot = [1, 2]\n", "E104", "limits.fixed_pivot", "does not fit"),
-    ("[limits]\nlength = [10, 200]\n", "E104", "limits.length", "does not fit"),
-    ('[limits]\nkinds = "RR"\n', "E104", "limits.kinds", "'RR'"),
-    ("[limits]\nkinds = [1]\n", "E104", "limits.kinds[0]", "1"),
-    ("limits = 5\n", "E104", "limits", "5"),
-    ("[[limits]]\n[[limits]]\nfixed_pivot = {}\n", "E105", "limits[1].fixed_pivot", "no shape"),
-    ("[limits]\nfixed_pivot.point = [1, 2, 3]\n", "E106", "limits.fixed_pivot.point", "than 2"),
-    ("[limits]\nfixed_pivot.line = [[1, 2]]\n", "E106", "limits.fixed_pivot.line", "1 of 2"),
-    ("[limits]\nfixed_pivot.box = [[1, 2], [3]]\n", "E106", "limits.fixed_pivot.box[1]", "1 of 2"),
-    ("[limits]\nmoving_pivot.polygon = [[1, 2], [3, 4]]\n", "E106", "polygon", "2 of 3"),
-    ("limits = []\n", "E106", "limits", "0 tables"),
-    ("[[limits]]\n[[limits]]\n[[limits]]\n", "E106", "limits", "3 tables"),
-    ("[limits]\nfixed = 1\n", "E107", "limits.fixed", "not known"),
-    ("[limits]\nfixed_pivot.circle = [1, 2]\n", "E107", "limits.fixed_pivot.circle", "not known"),
-    ("[limits]\nlength.max = 2\n", "E107", "limits.length.max", "not known"),
-    ("[limit]\nlength.most = 2\n", "E107", "limit", "limits nothing"),
-    ("fixed_pivot = { point = [1, 2] }\n", "E107", "fixed_pivot", "limits nothing"),
-    ("exact = [1, 5]\n", "E107", "exact", "limits nothing"),
+FAULTS = [  # TOML, code, the path that is named, what the message holds
+    ("[limits]\nfixed_pivot.point = [1, «inf»]\n", "E103", "limits.fixed_pivot.point[1]", "finite"),
     (
-        "[limits]\nfixed_pivot = { point = [1, 2], box = [[0, 0], [1, 1]] }\n",
+        "[limits]\nfixed_pivot.point = [1, «1e999»]\n",
+        "E103",
+        "limits.fixed_pivot.point[1]",
+        "finite",
+    ),
+    ("[limits]\nlength.most = «nan»\n", "E103", "limits.length.most", "finite"),
+    ('[limits]\nfixed_pivot.point = [1, «"2"»]\n', "E104", "limits.fixed_pivot.point[1]", "'2'"),
+    ("[limits]\nfixed_pivot.point = [1, «true»]\n", "E104", "limits.fixed_pivot.point[1]", "true"),
+    ("[limits]\nfixed_pivot = «[1, 2]»\n", "E104", "limits.fixed_pivot", "does not fit"),
+    ("[limits]\nlength = «[10, 200]»\n", "E104", "limits.length", "does not fit"),
+    ('[limits]\nkinds = «"RR"»\n', "E104", "limits.kinds", "'RR'"),
+    ("[limits]\nkinds = [«1»]\n", "E104", "limits.kinds[0]", "1"),
+    ("limits = «5»\n", "E104", "limits", "5"),
+    ("[[limits]]\n[[limits]]\nfixed_pivot = «{}»\n", "E105", "limits[1].fixed_pivot", "no shape"),
+    ("[limits]\nfixed_pivot.point = «[1, 2, 3]»\n", "E106", "limits.fixed_pivot.point", "than 2"),
+    ("[limits]\nfixed_pivot.line = «[[1, 2]]»\n", "E106", "limits.fixed_pivot.line", "1 of 2"),
+    (
+        "[limits]\nfixed_pivot.box = [[1, 2], «[3]»]\n",
+        "E106",
+        "limits.fixed_pivot.box[1]",
+        "1 of 2",
+    ),
+    (
+        "[limits]\nmoving_pivot.polygon = «[[1, 2], [3, 4]]»\n",
+        "E106",
+        "limits.moving_pivot.polygon",
+        "2 of 3",
+    ),
+    ("limits = «[]»\n", "E106", "limits", "0 tables"),
+    ("[[limits]]\n[[limits]]\n«[[limits]]»\n", "E106", "limits", "3 tables"),
+    ("[limits]\n«fixed» = 1\n", "E107", "limits.fixed", "not known"),
+    ("[limits]\nfixed_pivot.«circle» = [1, 2]\n", "E107", "limits.fixed_pivot.circle", "not known"),
+    ("[limits]\nlength.«max» = 2\n", "E107", "limits.length.max", "not known"),
+    ("[«limit»]\nlength.most = 2\n", "E107", "limit ", "limits nothing"),
+    ("«fixed_pivot» = { point = [1, 2] }\n", "E107", "fixed_pivot", "limits nothing"),
+    ("«exact» = [1, 5]\n", "E107", "exact", "limits nothing"),
+    (
+        "[limits]\nfixed_pivot = «{ point = [1, 2], box = [[0, 0], [1, 1]] }»\n",
         "E108",
         "limits.fixed_pivot",
         "point and box",
     ),
-    ("[limits]\nfixed_pivot.line = [[1, 2], [1, 2]]\n", "E131", "limits.fixed_pivot.line", "twice"),
     (
-        "[limits]\nmoving_pivot.polygon = [[0, 0], [1, 1], [2, 2]]\n",
+        "[limits]\nfixed_pivot.line = «[[1, 2], [1, 2]]»\n",
+        "E131",
+        "limits.fixed_pivot.line",
+        "twice",
+    ),
+    (
+        "[limits]\nmoving_pivot.polygon = «[[0, 0], [1, 1], [2, 2]]»\n",
         "E131",
         "limits.moving_pivot.polygon",
         "no inside",
     ),
-    ('[limits]\nkinds = ["RRR"]\n', "E131", "limits", "no dyad kind RRR"),
-    ("[limits]\nkinds = []\n", "E131", "limits", "no dyad kind is left"),
+    ('[limits]\nkinds = [«"RRR"»]\n', "E131", "limits.kinds[0]", "no dyad kind RRR"),
+    ("[limits]\nkinds = «[]»\n", "E131", "limits.kinds", "no dyad kind is left"),
     (
-        "[[limits]]\n[[limits]]\nfixed_pivot.box = [[0, 5], [1, 4]]\n",
+        "[[limits]]\n[[limits]]\nfixed_pivot.box = «[[0, 5], [1, 4]]»\n",
         "E132",
         "limits[1].fixed_pivot.box",
         "y from 5 to 4",
     ),
-    ("[limits]\nlength = { least = 5, most = 4 }\n", "E132", "limits", "at least 5 long"),
+    ("[limits]\nlength = «{ least = 5, most = 4 }»\n", "E132", "limits.length", "at least 5 long"),
     (
-        '[[limits]]\n[[limits]]\nfixed_pivot.point = [0, 0]\nkinds = ["PR"]\n',
+        '[[limits]]\n«[[limits]]»\nfixed_pivot.point = [0, 0]\nkinds = ["PR"]\n',
         "E132",
         "limits[1]",
         "fixed pivot at (0, 0)",
@@ -329,12 +356,16 @@ FAULTS = [  # TOML, code, the end of where, what the message holds
 
 
 @pytest.mark.parametrize("fault", FAULTS, ids=lambda fault: f"{fault[1]}-{fault[2]}")
-def test_what_is_no_limit_is_refused_with_its_path(read, fault):
-    text, code, where, holds = fault
-    error = refused(lambda: read(POSES + text, ".toml"))
+def test_what_is_no_limit_is_refused_with_its_path_and_place(read, fault):
+    text, code, path, holds = fault
+    text, *place = marked(POSES + text)
+    error = refused(lambda: read(text, ".toml"))
     assert error.code == code
-    assert error.where.endswith(f"poses.toml: {where}" if where != "polygon" else where)
-    assert holds in str(error)
+    assert error.message.startswith(path)
+    assert holds in error.message
+    name, *found = carets(error.where)
+    assert name.endswith("poses.toml")
+    assert found == place
 
 
 @pytest.mark.parametrize("key", ["poses", "angle_unit"])
@@ -342,7 +373,8 @@ def test_poses_below_the_head_of_limits_belong_to_it(read, key):
     lines = {"poses": "poses = [[0, 0, 0]]\n", "angle_unit": 'angle_unit = "deg"\n'}
     error = refused(lambda: read("[limits]\n" + lines[key], ".toml"))
     assert error.code == "E107"
-    assert error.where.endswith(f"limits.{key}")
+    assert error.message.startswith(f"limits.{key} ")
+    assert carets(error.where)[1:] == (2, 1, len(key))
     assert f"write {key} above" in error.help
 
 
@@ -479,7 +511,7 @@ def test_a_point_given_once_is_for_the_first_dyad():
 def test_contradictions_on_the_command_line_say_so():
     error = refused(wanted(fixed_pivot=["1,2"], kinds=["PR"]).limits)
     assert error.code == "E132"
-    assert error.where == "the command line"
+    assert error.where == "--fixed-pivot 1,2, and --kinds PR"
 
 
 def test_file_and_command_line_add_up_but_not_on_the_same_thing(read):
@@ -493,9 +525,7 @@ def test_file_and_command_line_add_up_but_not_on_the_same_thing(read):
         error = refused(lambda: read(text, ".toml", wanted=wanted(length=[again])))  # noqa: B023
         assert error.code == "E108"
         assert "length" in error.message
-        assert "poses.toml: limits" in error.where
-        assert "the command line" in error.where
+        assert error.where.endswith(f"poses.toml:4:1, and --length {again}")
     error = refused(lambda: read(text, ".toml", wanted=wanted(kinds=["PR"])))
     assert error.code == "E132"
-    assert "poses.toml: limits" in error.where
-    assert "the command line" in error.where
+    assert error.where.endswith("poses.toml:4:1, and --kinds PR")

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 from burmester.errors import InputError
 from burmester.requirements import GROUPS, TYPES, Requirements
 
-__all__ = ["FILE_KEYS", "REQUIREMENT_KEYS", "Asked", "ask", "plain", "requirements"]
+__all__ = ["FILE_KEYS", "REQUIREMENT_KEYS", "Asked", "ask", "joined", "plain", "requirements"]
 
 # Under `requirements` in a file, and the field of `Requirements` that it sets.
 FILE_KEYS: Mapping[str, str] = {
@@ -47,6 +47,12 @@ class Asked(NamedTuple):
     where: str
 
 
+def joined(*places: str) -> str:
+    """Several places in one line, without the lines of text that one alone is shown with."""
+    some = list(dict.fromkeys(filter(None, places)))
+    return some[0] if len(some) == 1 else ", and ".join(each.partition("\n")[0] for each in some)
+
+
 def ask(field: str, value: Any, where: str, place: str | None = None) -> Asked:
     """A requirement that is sound by itself; raises what `Requirements` does, at `place`."""
     try:
@@ -65,7 +71,7 @@ def requirements(said: Sequence[Asked]) -> Requirements:
             raise InputError(
                 "E108",
                 f"{_SAID[each.field]} said twice",
-                where=f"{known[each.field].where}, and {each.where}",
+                where=joined(known[each.field].where, each.where),
                 help="leave one of the two out",
             )
         known[each.field] = each
@@ -73,9 +79,7 @@ def requirements(said: Sequence[Asked]) -> Requirements:
         return Requirements(**{field: each.value for field, each in known.items()})
     except InputError as error:
         # No others contradict each other.
-        error.where = ", and ".join(
-            each.where for each in said if each.field in ("types", "driver")
-        )
+        error.where = joined(*(each.where for each in said if each.field in ("types", "driver")))
         raise
 
 

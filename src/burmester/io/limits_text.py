@@ -1,4 +1,4 @@
-"""Limits and exact poses as the command line says them.
+"""Limits as the command line says them.
 
 A region is X,Y (a point) or line:X,Y:X,Y, segment:X,Y:X,Y, box:X,Y:X,Y or
 polygon:X,Y:X,Y:X,Y with any more corners; a length is MIN:MAX, either side may be empty; kinds
@@ -8,6 +8,7 @@ caret below the text.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 from typing import TypeVar
 
@@ -18,7 +19,7 @@ from burmester.io.table import Source, plain_number, shown
 from burmester.io.wanted import SHAPES, Length, Wanted, WantedKinds
 from burmester.limits import KINDS, Kind, Region
 
-__all__ = ["ANY", "exact_marks", "fault", "number", "region", "wanted"]
+__all__ = ["ANY", "fault", "number", "region", "said", "wanted"]
 
 ANY = "any"
 REGION = "write X,Y for a point, or line:X,Y:X,Y, segment:, box: or polygon: likewise, or any"
@@ -34,41 +35,31 @@ def wanted(
     kinds: Sequence[str] = (),
 ) -> Wanted:
     """What the options of these names say; raises E131, and E132 for an empty box."""
+    given = {
+        "fixed_pivot": fixed_pivot,
+        "moving_pivot": moving_pivot,
+        "length": length,
+        "kinds": kinds,
+    }
     return Wanted(
         _each(fixed_pivot, "--fixed-pivot", region),
         _each(moving_pivot, "--moving-pivot", region),
         _each(length, "--length", _length),
         _each(kinds, "--kinds", _kinds),
-        "the command line",
+        {n: said(f"--{n.replace('_', '-')}", texts) for n, texts in given.items() if texts},
     )
 
 
-def exact_marks(texts: Sequence[str], names: Sequence[str], count: int) -> list[bool]:
-    """Which of `count` poses `--exact` names, by numbers from 1 or by names; raises E122."""
-    marks = [False] * count
-    for text in texts:
-        source, at = Source("--exact", text), 0
-        for item in [text] if text in names else text.split(","):
-            word = item.strip()
-            where = source.where(at + len(item) - len(item.lstrip()), len(word))
-            marks[_pose(word, names, count, where)] = True
-            at += len(item) + 1
-    return marks
+def said(option: str, texts: Sequence[str]) -> str:
+    """An option as it was given, once or more often, in one line; empty where it was not."""
+    return " ".join(f"{option} {quoted(text)}" for text in texts)
 
 
-def _pose(word: str, names: Sequence[str], count: int, where: str) -> int:
-    """The pose that a number or a name stands for, counted from 0."""
-    found = {k for k, name in enumerate(names) if word and name == word}
-    if word.isascii() and word.isdigit() and len(word) < 10 and 1 <= int(word) <= count:
-        found.add(int(word) - 1)
-    if len(found) == 1:
-        return found.pop()
-    message, known = f"there is no pose {shown(word)}", " or by their names" if names else ""
-    if found:
-        which = " and ".join(str(k + 1) for k in sorted(found))
-        message = f"{shown(word)} may be pose {which}"
-    help = f"name poses by their numbers, 1 to {count}{known}, as in --exact 1,{count}"
-    raise InputError("E122", message, where=where, help=help)
+def quoted(text: str) -> str:
+    """A text of the command line as one types it: in quotes if there is a blank in it."""
+    plain = "".join(c if c.isprintable() else " " for c in text)
+    plain = plain if len(plain) <= 60 else f"{plain[:57]}..."
+    return plain if plain and plain.split() == [plain] else f'"{plain}"'
 
 
 def _each(texts: Sequence[str], option: str, read: Callable[[Source], T]) -> tuple[T | None, ...]:
@@ -76,7 +67,7 @@ def _each(texts: Sequence[str], option: str, read: Callable[[Source], T]) -> tup
         raise InputError(
             "E131",
             f"{option} is given {len(texts)} times, and a linkage has two dyads",
-            where="the command line",
+            where=said(option, texts),
             help=f"give {option} once for both dyads, or twice, once for each",
         )
     return tuple(None if text.strip() == ANY else read(Source(option, text)) for text in texts)
@@ -95,7 +86,8 @@ def region(source: Source, help: str = REGION) -> Region:
         cells = part.split(",")
         if len(cells) != 2:
             message = f"{shown(part)} is not a point X,Y"
-            raise fault(source, message, help, at, len(part))
+            why = "a comma parts X and Y, and is no decimal mark" if len(cells) > 2 else None
+            raise fault(source, message, help, at, len(part), why=why)
         points.append(
             [number(source, cells[0], at), number(source, cells[1], at + len(cells[0]) + 1)]
         )
@@ -144,8 +136,24 @@ def number(source: Source, cell: str, at: int, code: str = "E131") -> float:
         such = "-12.5 or 3e-4" if code == "E131" else "12.5 or 3e-4"
         help = f"write digits with at most a decimal point and an exponent, such as {such}"
         message = f"{shown(cell.strip())} is not a finite number"
-        raise fault(source, message, help, at, len(cell.strip()), code)
+        why, edit = _slip(cell.strip())
+        raise fault(source, message, edit or help, at, len(cell.strip()), code, why)
     return float(plain)
+
+
+def _slip(cell: str) -> tuple[str | None, str | None]:
+    """Why a cell is no number, and the edit that makes it one, where both are plain."""
+    if re.fullmatch(r"[-+]?[0-9]+,[0-9]+", cell):
+        return "a comma is no decimal mark here", f"write {cell.replace(',', '.')}"
+    if found := re.fullmatch(r"([-+]?[0-9]*\.?[0-9]+) *([^\W\d_]+|°|%)", cell):
+        return f"a number is written without {found[2]}", f"write {found[1]}"
+    if re.fullmatch(r"[-+]?[0-9]+(_[0-9]+)+", cell):
+        return "no underscores part digits here", f"write {cell.replace('_', '')}"
+    if cell[:1] in tuple("−–"):
+        return f"{cell[0]} is a dash, not a minus sign", f"write -{cell[1:]}"
+    if re.fullmatch(r"[-+]?[0-9.]+[eE][+-]?[0-9]+", cell):
+        return f"{cell} is beyond 1.8e308, the largest number there is", None
+    return None, None
 
 
 def fault(  # noqa: PLR0917
@@ -155,7 +163,8 @@ def fault(  # noqa: PLR0917
     at: int = 0,
     width: int | None = None,
     code: str = "E131",
+    why: str | None = None,
 ) -> InputError:
     """An error with carets below the text at fault."""
     where = source.where(at, len(source.text) if width is None else width)
-    return InputError(code, f"{source.label}: {message}", where=where, help=help)
+    return InputError(code, f"{source.label}: {message}", where=where, why=why, help=help)

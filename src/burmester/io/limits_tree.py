@@ -23,9 +23,9 @@ from pydantic_core import PydanticCustomError
 
 from burmester.errors import InputError
 from burmester.io.asked import FILE_KEYS
-from burmester.io.table import shown
-from burmester.io.wanted import LIMIT_KEYS, SHAPES, Length, Wanted, WantedRegion
-from burmester.limits import Limits
+from burmester.io.places import Document, Path, meant
+from burmester.io.wanted import LIMIT_KEYS, SHAPES, TOP_KEYS, Length, Wanted, WantedRegion
+from burmester.limits import KINDS, Limits
 
 __all__ = ["Model", "Number", "Pair", "Two", "read", "unfit"]
 
@@ -86,68 +86,88 @@ _HELP = {
 _TABLE = f"a table of limits has {', '.join(_KEYS[:-1])} and {_KEYS[-1]}, or some of them"
 
 
-def read(tree: dict[str, Any], path: str) -> Wanted:
-    """What the tree of a task, at `path`, says of limits.
+def read(tree: dict[str, Any], document: Document) -> Wanted:
+    """What the tree of a task in a document says of limits.
 
     Raises E103 to E107 as for poses, E108 (a region of two shapes), E131 and E132.
     """
     for key in LIMIT_KEYS[1:]:
         if key in tree:
-            help = "write it into a pose" if key == "exact" else "write it under limits"
-            message = f"{key} stands beside the poses, where it limits nothing"
-            raise InputError("E107", message, where=f"{path}{key}", help=f"{help}, or delete it")
-    given, path = tree.get("limits"), f"{path}limits"
+            help = "write limits in its place" if key == "limit" else "write it under limits"
+            help = "write it into a pose" if key == "exact" else help
+            message = f"{document.named(key)} stands beside the poses, where it limits nothing"
+            where = document.where(key, key=True)
+            raise InputError("E107", message, where=where, help=f"{help}, or delete it")
+    given = tree.get("limits")
     if given is None:
         return Wanted()
     tables = given if isinstance(given, list) else [given]
-    places = [f"{path}[{k}]" for k in range(len(tables))] if tables is given else [path]
+    paths: list[Path] = [("limits",)]
+    if tables is given:
+        paths = [("limits", k) for k in range(len(tables))]
     if not 0 < len(tables) <= 2:
         raise InputError(
             "E106",
-            f"limits has {len(tables)} tables, and a linkage has two dyads",
-            where=path,
-            help="give one table for both dyads, or two, one for each",
+            f"{document.named('limits')} has {len(tables)} tables, and a linkage has two dyads",
+            where=document.where("limits", *([2] if tables else [])),
+            help="give one table for both dyads, or two, one for each; or delete limits",
         )
     try:
         found = _TABLES.validate_python(tables)
     except ValidationError as error:
-        raise _unfit(places, error.errors(include_url=False)[0]) from None
-    said = [_said(table, place) for table, place in zip(found, places, strict=True)]
+        fault: Any = error.errors(include_url=False)[0]
+        raise _unfit(document, paths[fault["loc"][0]], fault) from None
+    said = [_said(table, document, path) for table, path in zip(found, paths, strict=True)]
     by_key = {key: tuple(each[key] for each in said) for key in _KEYS}
     some = {key: values for key, values in by_key.items() if any(v is not None for v in values)}
-    return Wanted(**some, where=path)
+    places = {}
+    for key, values in some.items():
+        first = next(k for k, value in enumerate(values) if value is not None)
+        places[key] = document.where(*paths[first], key, key=True)
+    return Wanted(**some, where=places)
 
 
-def _said(table: _Limits, place: str) -> dict[str, Any]:
+def _said(table: _Limits, document: Document, path: Path) -> dict[str, Any]:
     """What one table says; contradictions are refused here, where its place is known."""
     said: dict[str, Any] = {
-        "fixed_pivot": _region(table.fixed_pivot, f"{place}.fixed_pivot"),
-        "moving_pivot": _region(table.moving_pivot, f"{place}.moving_pivot"),
+        "fixed_pivot": _region(table.fixed_pivot, document, (*path, "fixed_pivot")),
+        "moving_pivot": _region(table.moving_pivot, document, (*path, "moving_pivot")),
         "length": _length(table.length),
         "kinds": None if table.kinds is None else frozenset(table.kinds),
     }
-    try:
-        Limits(**{key: value for key, value in said.items() if value is not None})
-    except InputError as error:
-        error.where = place
-        raise
+    given = {key: value for key, value in said.items() if value is not None}
+    for key, value in given.items():
+        _check({key: value}, document, (*path, key), table)
+    _check(given, document, path, table)
     return said
 
 
-def _region(tree: _Region | None, place: str) -> WantedRegion:
+def _check(given: dict[str, Any], document: Document, path: Path, table: _Limits) -> None:
+    """Refuse limits that `Limits` refuses."""
+    try:
+        Limits(**given)
+    except InputError as error:
+        if path[-1] == "kinds":
+            for i, kind in enumerate(table.kinds or ()):
+                if kind not in KINDS:
+                    path = (*path, i)
+                    break
+        raise document.again(error, *path) from None
+
+
+def _region(tree: _Region | None, document: Document, path: Path) -> WantedRegion:
     if tree is None:
         return None
     given = tree.model_dump(exclude_none=True)
     if len(given) != 1:
         code, what = ("E108", " and ".join(given)) if given else ("E105", "no shape")
-        name = place.rpartition(".")[2]
-        raise InputError(code, f"{name} has {what}", where=place, help=_REGION)
+        message = f"{document.named(*path)} has {what}"
+        raise InputError(code, message, where=document.where(*path), help=_REGION)
     ((shape, points),) = given.items()
     try:
         return SHAPES[shape][1](np.atleast_2d(np.array(points)))
     except InputError as error:
-        error.where = f"{place}.{shape}"
-        raise
+        raise document.again(error, *path, shape) from None
 
 
 def _length(tree: _Length | None) -> Length | None:
@@ -157,33 +177,53 @@ def _length(tree: _Length | None) -> Length | None:
     return 0.0 if least is None else least, math.inf if most is None else most
 
 
-def _unfit(places: list[str], fault: Any) -> InputError:
-    """A fault that pydantic found in one of the tables."""
-    k, *keys = fault["loc"]
+def _unfit(document: Document, path: Path, fault: Any) -> InputError:
+    """A fault that pydantic found in the table at a path."""
+    _, *keys = fault["loc"]
     help = _HELP.get(str(keys[0]), _TABLE) if keys else _TABLE
-    if fault["type"] == "extra_forbidden" and keys[-1] in FILE_KEYS:
-        help = f"write {keys[-1]} under requirements, which speak of the whole linkage"
-    return unfit(places[k], keys, fault, "limits", "a kind", help)
+    if fault["type"] == "extra_forbidden":
+        known = _KEYS if len(keys) == 1 else (*SHAPES, "least", "most")
+        if keys[-1] in FILE_KEYS:
+            help = f"write {keys[-1]} under requirements, which speak of the whole linkage"
+        elif near := meant(str(keys[-1]), known):
+            help = f"write {near} in its place; {help}"
+    return unfit(document, (*path, *keys), fault, "a kind", help)
 
 
-def unfit(  # noqa: PLR0917
-    place: str, keys: list[int | str], fault: Any, head: str, item: str, help: str
-) -> InputError:
-    """A fault that pydantic found below the head of a table, in this house's words.
+def unfit(document: Document, path: Path, fault: Any, item: str, help: str) -> InputError:
+    """A fault that pydantic found at a path, in this house's words.
 
-    place: the path of the table; keys: the way on from there; item: what stands in quotes.
+    item: what stands in quotes there.
     """
-    place += "".join(f"[{key}]" if isinstance(key, int) else f".{key}" for key in keys)
-    value, context = shown(fault.get("input")), fault.get("ctx", {})
+    kind, given = fault["type"], fault.get("input")
+    if kind == "string_unicode" and document.is_key(given, *path):
+        path, kind = (*path, given), "extra_forbidden"
+    value, context = document.shown(given, *path), fault.get("ctx", {})
+    head, why = path[0], None
+    extra = kind == "extra_forbidden"
+    items = "points" if path[-1] in SHAPES and path[-1] != "point" else "numbers"
     code, message = {
         "finite_number": ("E103", "is not a finite number"),
         "no_number": ("E104", f"is {value}, not a number"),
         "string_type": ("E104", f"is {value}, not {item} in quotes"),
+        "string_unicode": ("E104", f"is {value}, not {item} in quotes"),
         "bool_type": ("E104", f"is {value}, neither true nor false"),
-        "too_short": ("E106", f"has {context.get('actual_length')} of {context.get('min_length')}"),
-        "too_long": ("E106", f"has more than {context.get('max_length')}"),
+        "too_short": (
+            "E106",
+            f"has {context.get('actual_length')} of {context.get('min_length')} {items}",
+        ),
+        "too_long": ("E106", f"has more than {context.get('max_length')} {items}"),
         "extra_forbidden": ("E107", "is not known"),
-    }.get(fault["type"], ("E104", f"does not fit: {value}"))
-    if fault["type"] == "extra_forbidden" and keys[-1] in ("poses", "angle_unit", "length_unit"):
-        help = f"write {keys[-1]} above the head of {head}: what stands below it belongs to {head}"
-    return InputError(code, f"{place.rpartition(': ')[2]} {message}", where=place, help=help)
+    }.get(kind, ("E104", f"does not fit: {value}"))
+    if extra and path[-1] in TOP_KEYS:
+        help = f"write {path[-1]} above the head of {head}: what stands below it belongs to {head}"
+        if document.language == "JSON":
+            help = f"write {path[-1]} beside {head}, not in it"
+    if code == "E103" or kind == "no_number":
+        help = "write a number without quotes, such as -12.5 or 3e-4"
+    if code == "E103" and value[-1:].isdigit():
+        why = f"{value} is beyond 1.8e308, the largest number there is"
+    if kind == "too_long" and items == "numbers":
+        why = "a comma parts numbers, and is no decimal mark"
+    where = document.where(*path, key=extra)
+    return InputError(code, f"{document.named(*path)} {message}", where=where, why=why, help=help)

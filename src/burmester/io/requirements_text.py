@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable, Sequence
 
 from burmester.io.asked import Asked, ask
-from burmester.io.limits_text import ANY, fault, number, region
+from burmester.io.limits_text import ANY, fault, number, region, said
 from burmester.io.table import Source, shown
 from burmester.requirements import Driver
 
@@ -38,13 +38,14 @@ def asked(
         out.append(_number("transmission", "--min-transmission", min_transmission, math.radians))
     if types:
         names = frozenset(name for text in types for name in _types(Source("--type", text)))
-        out.append(Asked("types", names, "--type"))
+        out.append(Asked("types", names, said("--type", types)))
     if driver is not None:
-        out.append(ask("driver", driver, "--driver"))
+        out.append(ask("driver", driver, said("--driver", [driver])))
     if footprint is not None:
         source = Source("--footprint", footprint)
         area = None if footprint.strip() == ANY else region(source, FOOTPRINT)
-        out.append(ask("footprint", area, source.label, source.where(0, len(footprint))))
+        where = said(source.label, [footprint])
+        out.append(ask("footprint", area, where, source.where(0, len(footprint))))
     if link_ratio is not None:
         out.append(_number("link_ratio", "--link-ratio", link_ratio))
     if within is not None:
@@ -96,7 +97,7 @@ def pose_sigma(text: str) -> tuple[float, float]:
 def _number(field: str, option: str, text: str, into: Callable[[float], float] = float) -> Asked:
     source = Source(option, text)
     value = into(number(source, text, 0, "E134"))
-    return ask(field, value, option, source.where(0, len(text)))
+    return ask(field, value, said(option, [text]), source.where(0, len(text)))
 
 
 def _types(source: Source) -> list[str]:

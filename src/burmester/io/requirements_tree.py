@@ -14,6 +14,7 @@ from pydantic import Field, ValidationError
 from burmester.errors import InputError
 from burmester.io.asked import FILE_KEYS, REQUIREMENT_KEYS, Asked, ask
 from burmester.io.limits_tree import Model, Number, Pair, Two, unfit
+from burmester.io.places import Document, meant
 from burmester.io.wanted import LIMIT_KEYS, SHAPES
 from burmester.limits import Region
 from burmester.requirements import DRIVERS
@@ -52,57 +53,73 @@ _HELP = {
 _TABLE = f"a table of requirements has {', '.join(_KEYS[:-1])} and {_KEYS[-1]}, or some of them"
 
 
-def read(tree: dict[str, Any], path: str) -> tuple[Asked, ...]:
-    """What the tree of a task, at `path`, asks of the whole linkage.
+def read(tree: dict[str, Any], document: Document) -> tuple[Asked, ...]:
+    """What the tree of a task in a document asks of the whole linkage.
 
     Raises E103 to E107 as for limits, E108 (a footprint of two shapes), E131, E132 and E134.
     """
     for key in REQUIREMENT_KEYS[1:]:
         if key in tree:
-            message = f"{key} stands beside the poses, where it asks for nothing"
+            message = f"{document.named(key)} stands beside the poses, where it asks for nothing"
             help = "write it under requirements, or delete it"
-            raise InputError("E107", message, where=f"{path}{key}", help=help)
-    given, path = tree.get("requirements"), f"{path}requirements"
+            if key == "requirement":
+                help = "write requirements in its place, or delete it"
+            raise InputError("E107", message, where=document.where(key, key=True), help=help)
+    given, path = tree.get("requirements"), "requirements"
     if given is None:
         return ()
     try:
         table = _Requirements.model_validate(given)
     except ValidationError as error:
-        raise _unfit(path, error.errors(include_url=False)[0]) from None
+        raise _unfit(document, error.errors(include_url=False)[0]) from None
     out = []
     for key, field in FILE_KEYS.items():
-        value, place = getattr(table, key), f"{path}.{key}"
+        value = getattr(table, key)
         if value is None:
             continue
         if key == "transmission_deg":
             value = math.radians(value)
         elif key == "types" and value:
-            names = [ask(field, [name], place, f"{place}[{i}]") for i, name in enumerate(value)]
-            value = frozenset(name for each in names for name in each.value)
+            names = [
+                _ask(document, field, [name], path, key, i).value for i, name in enumerate(value)
+            ]
+            value = frozenset(name for each in names for name in each)
         elif key == "footprint":
-            value = _footprint(value, place)
-        out.append(ask(field, value, place))
+            value = _footprint(value, document)
+        asked = _ask(document, field, value, path, key)
+        out.append(asked._replace(where=document.where(path, key, key=True)))
     return tuple(out)
 
 
-def _footprint(tree: _Footprint, place: str) -> Region:
-    given = tree.model_dump(exclude_none=True)
+def _ask(document: Document, field: str, value: Any, *path: str | int) -> Asked:
+    """A requirement that is sound by itself; raises what `Requirements` does, with its place."""
+    try:
+        return ask(field, value, "")
+    except InputError as error:
+        raise document.again(error, *path) from None
+
+
+def _footprint(tree: _Footprint, document: Document) -> Region:
+    given, path = tree.model_dump(exclude_none=True), ("requirements", "footprint")
     if len(given) != 1:
         code, what = ("E108", " and ".join(given)) if given else ("E105", "no shape")
-        raise InputError(code, f"footprint has {what}", where=place, help=_FOOTPRINT)
+        message, where = f"{document.named(*path)} has {what}", document.where(*path)
+        raise InputError(code, message, where=where, help=_FOOTPRINT)
     ((shape, points),) = given.items()
     try:
         return SHAPES[shape][1](np.array(points))
     except InputError as error:
-        error.where = f"{place}.{shape}"
-        raise
+        raise document.again(error, *path, shape) from None
 
 
-def _unfit(path: str, fault: Any) -> InputError:
+def _unfit(document: Document, fault: Any) -> InputError:
     """A fault that pydantic found."""
     keys = list(fault["loc"])
     help = _HELP.get(str(keys[0]), _TABLE) if keys else _TABLE
-    if fault["type"] == "extra_forbidden" and keys[-1] in LIMIT_KEYS:
-        help = f"write {keys[-1]} under limits, which speak of single dyads"
+    if fault["type"] == "extra_forbidden":
+        if keys[-1] in LIMIT_KEYS:
+            help = f"write {keys[-1]} under limits, which speak of single dyads"
+        elif near := meant(str(keys[-1]), _KEYS if len(keys) == 1 else ("box", "polygon")):
+            help = f"write {near} in its place; {help}"
     item = "a name of a type" if keys[:1] == ["types"] else "one of its names"
-    return unfit(path, keys, fault, "requirements", item, help)
+    return unfit(document, ("requirements", *keys), fault, item, help)

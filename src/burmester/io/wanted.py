@@ -8,18 +8,22 @@ point said once is for the first dyad alone: two dyads that share a pivot only t
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from types import MappingProxyType
 from typing import Any, NamedTuple, TypeAlias
 
 from burmester.displacement import FloatArray
 from burmester.errors import InputError
-from burmester.io.asked import Asked
+from burmester.io.asked import Asked, joined
 from burmester.limits import Kind, Limits, Line, Point, Polygon, Region, Segment, box
 
-__all__ = ["LIMIT_KEYS", "SHAPES", "Length", "Wanted", "WantedKinds", "WantedRegion"]
+__all__ = ["LIMIT_KEYS", "SHAPES", "TOP_KEYS", "Length", "Wanted", "WantedKinds", "WantedRegion"]
 
 Length: TypeAlias = tuple[float, float]
 WantedRegion: TypeAlias = Region | None  # None leaves a dyad free
 WantedKinds: TypeAlias = frozenset[Kind] | None
+
+# What stands at the top of a task in a file.
+TOP_KEYS = ("poses", "angle_unit", "length_unit", "pose_sigma", "limits", "requirements")
 
 # `limits`, and what may be met beside the poses by mistake, where it would limit nothing
 LIMIT_KEYS = ("limits", "limit", "exact", "fixed_pivot", "moving_pivot", "length", "kinds")
@@ -39,14 +43,14 @@ SHAPES: Mapping[str, tuple[int | None, Callable[[FloatArray], Region]]] = {
 class Wanted(NamedTuple):
     """Limits as said, at most two of each, and what is asked of the whole linkage.
 
-    where: the file, or the command line, for the limits; a requirement has its own.
+    where: the places of the limits, by their names; a requirement has its own.
     """
 
     fixed_pivot: tuple[WantedRegion, ...] = ()
     moving_pivot: tuple[WantedRegion, ...] = ()
     length: tuple[Length | None, ...] = ()
     kinds: tuple[WantedKinds, ...] = ()
-    where: str = ""
+    where: Mapping[str, str] = MappingProxyType({})
     asked: tuple[Asked, ...] = ()
 
     def joined(self, other: Wanted) -> Wanted:
@@ -57,7 +61,7 @@ class Wanted(NamedTuple):
                 raise InputError(
                     "E108",
                     f"the {what} is limited twice" if name != "kinds" else "kinds are said twice",
-                    where=f"{self.where}, and {other.where}",
+                    where=joined(self.where.get(name, ""), other.where.get(name, "")),
                     help="leave one of the two out",
                 )
         return Wanted(
@@ -65,7 +69,7 @@ class Wanted(NamedTuple):
             self.moving_pivot + other.moving_pivot,
             self.length + other.length,
             self.kinds + other.kinds,
-            ", and ".join(filter(None, (self.where, other.where))),
+            {**self.where, **other.where},
             self.asked + other.asked,
         )
 
@@ -79,18 +83,15 @@ class Wanted(NamedTuple):
         try:
             return tuple(Limits(**said) for said in ([first] if same else [first, second]))
         except InputError as error:
-            error.where = error.where or self.where
+            error.where = error.where or joined(*self.where.values())
             raise
 
     @property
     def places(self) -> str:
         """Where the limits are said, and the requirements that they may contradict."""
-        limited = any(getattr(self, name) for name in _FIELDS)
-        places = [self.where] if limited else []
-        asked = [
-            each.where for each in self.asked if each.field in ("types", "driver", "footprint")
-        ]
-        return ", and ".join(filter(None, [*places, *asked]))
+        places = [self.where.get(name, "") for name in _FIELDS if getattr(self, name)]
+        asked = ("types", "driver", "footprint")
+        return joined(*places, *(each.where for each in self.asked if each.field in asked))
 
     def _of(self, dyad: int) -> dict[str, Any]:
         """What is said of the first dyad (0) or of the second (1)."""
