@@ -1,0 +1,62 @@
+"""Coverage-guided fuzzing of a reader's bytes with atheris; run by `scripts/fuzz`.
+
+    python -m benchmarks.fuzz_bytes csv -max_total_time=180 [CORPUS FOLDER]
+
+Each input is read as a file of that kind: it must be refused well (`tests.test_fuzz`), or be
+taken with every number as `tests/plain_reader.py` reads it, where that one is sure.
+"""
+
+import pathlib
+import sys
+import tempfile
+
+import atheris
+
+with atheris.instrument_imports(include=["burmester.io", "tomllib", "json"]):
+    import burmester.io.csv_poses
+    import burmester.io.documents
+    import burmester.io.limits_tree
+    import burmester.io.parquet
+    import burmester.io.poses
+    import burmester.io.requirements_tree  # noqa: F401
+
+from tests.fuzzed_files import STRANGE_WORDS, File, any_file
+from tests.test_fuzz import judged
+
+SUFFIXES = {"csv": ".csv", "json": ".json", "toml": ".toml", "parquet": ".parquet"}
+UNITS = ({}, {"angle_unit": "deg"}, {"angle_unit": "rad"})
+
+
+def main():
+    """Fuzz one reader until libFuzzer's limits end it; the exit code is libFuzzer's."""
+    language = sys.argv.pop(1)
+    suffix, options = SUFFIXES[language], [*UNITS]
+    folder = pathlib.Path(tempfile.mkdtemp(prefix=f"fuzz-{language}-"))
+    corpus, words = folder / "corpus", folder / "words"
+    corpus.mkdir()
+    for seed in range(60):
+        data = any_file(language, seed).data
+        if len(data) < 4000:
+            (corpus / str(seed)).write_bytes(data)
+    hexes = ["".join(f"\\x{byte:02x}" for byte in word.encode()) for word in STRANGE_WORDS]
+    words.write_text("".join(f'"{word}"\n' for word in hexes if word))
+
+    def one(data):
+        judged(File(data, suffix, options[len(data) % 3], None, "bytes"), folder / "poses")
+
+    atheris.Setup(
+        [
+            *sys.argv,
+            f"-dict={words}",
+            "-timeout=5",
+            "-print_final_stats=1",
+            f"-artifact_prefix={folder}/",
+            str(corpus),
+        ],
+        one,
+    )
+    atheris.Fuzz()
+
+
+if __name__ == "__main__":
+    main()
