@@ -81,6 +81,11 @@ class FoundLinkage:
         return self.verdict.defects + self.driven.defects
 
     @property
+    def in_order(self) -> Pair:
+        """The dyads as `led` has them, the better driver first."""
+        return self.dyads if self.better == "first" else (self.dyads[1], self.dyads[0])
+
+    @property
     def led(self) -> Linkage:
         """The linkage with the better driver first."""
         return led(self.linkage, self.better)

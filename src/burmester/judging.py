@@ -175,7 +175,8 @@ class Judging:
         missed = position if within is not None else np.hypot(position, self.wish.length * turn)
         reach = REACH * float(self.aim.frames.length) if within is None else within
         numbers = list(range(shape[1])) if self.numbers is None else list(self.numbers)
-        names = self.task.names or [str(number + 1) for number in numbers]
+        given = self.task.names or ("",) * len(numbers)
+        names = [name or str(number + 1) for name, number in zip(given, numbers, strict=True)]
         out: list[Verdict | None] = [None] * len(own)
         for index, linkage in own.alike():
             verdicts = judge(

@@ -51,7 +51,8 @@ def least_angle(angle: float) -> str:
 
 def called(task: Task, poses: Sequence[int], last: str = "and") -> str:
     """Poses (numbers from 0) by their names or numbers: "pose 3", "poses 2, 3 and 7"."""
-    names = [str(pose + 1) if task.names is None else task.names[pose] for pose in poses]
+    given = task.names or ("",) * task.poses.shape[0]
+    names = [given[pose] or str(pose + 1) for pose in poses]
     if len(names) == 1:
         return f"pose {names[0]}"
     return f"poses {', '.join(names[:-1])} {last} {names[-1]}"
@@ -175,7 +176,7 @@ def _options(found: FoundLinkage, task: Task) -> tuple[str, ...]:
             lengths = [float(length) for length in links]
             options.append(f"--link-ratio {_above(max(lengths) / min(lengths))}")
         elif each.kind == "type":
-            name = found.linkage.type
+            name = found.led.type
             options.append(f'--type "{name}"' if " " in name else f"--type {name}")
         elif each.kind == "driver":
             options.append("--driver any")

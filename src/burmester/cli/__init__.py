@@ -12,7 +12,10 @@ from collections.abc import Sequence
 import click
 
 from burmester import __version__
+from burmester.cli.check import check
+from burmester.cli.explain import explain
 from burmester.cli.known import cases, reproduce
+from burmester.cli.new import new
 from burmester.cli.out import EXIT_FOUND, EXIT_INTERRUPT, console, print_json
 from burmester.cli.synthesize import synthesize
 from burmester.errors import BurmesterError, InputError
@@ -29,7 +32,7 @@ def burmester() -> None:
     """
 
 
-for command in (synthesize, cases, reproduce):
+for command in (new, synthesize, check, explain, cases, reproduce):
     burmester.add_command(command)
 
 

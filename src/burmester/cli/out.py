@@ -10,7 +10,7 @@ import click
 if TYPE_CHECKING:
     from rich.console import Console
 
-__all__ = ["EXIT_FOUND", "EXIT_INTERRUPT", "EXIT_NOTHING", "console", "print_json"]
+__all__ = ["EXIT_FOUND", "EXIT_INTERRUPT", "EXIT_NOTHING", "as_line", "console", "print_json"]
 
 EXIT_FOUND, EXIT_NOTHING, EXIT_INTERRUPT = 0, 1, 130  # errors bring their own: 2 and 3
 
@@ -22,6 +22,11 @@ def console(stderr: bool = False) -> Console:
     return Console(stderr=stderr, highlight=False)
 
 
+def as_line(data: dict[str, Any]) -> str:
+    """A line of JSON with all digits."""
+    return json.dumps(data, ensure_ascii=False, allow_nan=False) + "\n"
+
+
 def print_json(data: dict[str, Any]) -> None:
-    """One line on standard output, all digits."""
-    click.echo(json.dumps(data, ensure_ascii=False, allow_nan=False))
+    """That line on standard output, and nothing else."""
+    click.echo(as_line(data), nl=False)

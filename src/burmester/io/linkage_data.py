@@ -30,8 +30,11 @@ def number(value: float) -> float | None:
 
 
 def poses_data(poses: Displacement) -> list[dict[str, float]]:
-    """Poses (N,) as rows of a file."""
-    rows = zip(poses.translation.tolist(), np.degrees(poses.angle).tolist(), strict=True)
+    """Poses (N,) as rows of a file; an angle of 45.58 degrees is told as that."""
+    degrees = np.degrees(poses.angle)
+    short = np.array([float(f"{angle:.15g}") for angle in degrees.tolist()])
+    told = np.where(np.radians(short) == poses.angle, short, degrees)
+    rows = zip(poses.translation.tolist(), told.tolist(), strict=True)
     return [{"x": x, "y": y, "angle_deg": angle} for (x, y), angle in rows]
 
 
@@ -75,7 +78,7 @@ def linkage_data(found: FoundLinkage, tolerance: float | None = None) -> dict[st
         "rank": found.rank,
         "usable": found.usable,
         "driver": found.driver,
-        "type": found.linkage.type,
+        "type": found.type,
         "dyads": [dyad_data(dyad) for dyad in found.dyads],
         "position_error": _errors(found.error.position),
         "angle_error_deg": _errors(np.degrees(found.error.angle)),
@@ -89,7 +92,7 @@ def linkage_data(found: FoundLinkage, tolerance: float | None = None) -> dict[st
         },
         "pivot_uncertainty": _uncertainty(found),
     }
-    if (links := found.linkage.links) is not None:
+    if (links := found.led.links) is not None:
         data["links"] = {name: float(length) for name, length in links._asdict().items()}
     if np.isfinite(found.error.angle).all():
         data["coupler"] = poses_data(found.error.places)

@@ -59,11 +59,11 @@ def decimals(synthesis: Synthesis, error: float) -> int:
 def best_sentences(synthesis: Synthesis) -> Iterator[Text]:
     """What the best usable linkage does, and why it is not another one."""
     best, task, size = synthesis.usable[0], synthesis.task, synthesis.length
-    kind = best.linkage.type.replace("change-point", "change-point linkage")
+    kind = best.type.replace("change-point", "change-point linkage")
     article = "an" if kind[0] in "aeiouAEIOU" else "a"
     least = said.least_angle(best.driven.least_over_range)
     yield Text(
-        f"Best: {best.id}, {article} {kind} driven by {best.dyads[0].id}, "
+        f"Best: {best.id}, {article} {kind} driven by {best.in_order[0].id}, "
         f"{_meets(synthesis, best)}, transmission angle {least} or more."
     )
     nearest = said.by_nearness(synthesis.linkages, size)[0]
@@ -111,11 +111,11 @@ def _usable(synthesis: Synthesis, usable: Sequence[FoundLinkage], links: bool, g
         table.add_column(name, justify="right", no_wrap=True)
     for found in usable:
         # Of the longest name, the second word stands under the first.
-        kind = found.linkage.type.replace("inverted ", "inverted\n")
+        kind = found.type.replace("inverted ", "inverted\n")
         table.add_row(
             found.id,
             kind,
-            " ".join(dyad.id for dyad in found.dyads),
+            " ".join(dyad.id for dyad in found.in_order),
             *(_links(synthesis, found) if links else ()),
             *_errors(synthesis, found),
             said.least_angle(found.driven.least_over_range),
@@ -127,14 +127,14 @@ def unusable(synthesis: Synthesis, found: Sequence[FoundLinkage]) -> Group:
     """Linkages that do not work, each with its reasons under it."""
     rows: list[Text | Padding] = []
     for each in found[:SHOWN]:
-        dyads = " ".join(dyad.id for dyad in each.dyads)
+        dyads = " ".join(dyad.id for dyad in each.in_order)
         how = said.met(each, synthesis.task, synthesis.length)
         angle = float(each.error.angle.max())
         if math.isfinite(angle) and not said.exact(each, synthesis.length):
             how += f" and {_degrees(angle)}"
         if each.exact_error is not None:
             how += f" (before rounding {said.length_of(each.exact_error.worst, synthesis.task)})"
-        head = Text(f"{each.id:<{INDENT - 1}} {each.linkage.type}, {dyads}: {how}")
+        head = Text(f"{each.id:<{INDENT - 1}} {each.type}, {dyads}: {how}")
         reasons = "; ".join(said.reasons(each, synthesis.task))
         rows += [head, Padding(Text(reasons), (0, 0, 0, INDENT))]
     if len(found) > SHOWN:
@@ -295,5 +295,5 @@ def _degrees(angle: float) -> str:
 
 def _links(synthesis: Synthesis, found: FoundLinkage) -> list[str]:
     digits = decimals(synthesis, max(dyad.rms_error for dyad in found.dyads))
-    links = found.linkage.links
+    links = found.led.links
     return ["-"] * 4 if links is None else [f"{length:.{digits}f}" for length in links]

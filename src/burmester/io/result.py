@@ -20,10 +20,10 @@ from burmester.io.linkage_data import dyad_data, linkage_data, number, poses_dat
 from burmester.limits import KINDS, Limits, Line, Point, Polygon, Segment
 from burmester.optimal import BestDyads
 from burmester.pencil import Pencil
-from burmester.synthesis import Synthesis
+from burmester.synthesis import Advice, Synthesis
 from burmester.task import Task
 
-__all__ = ["failure", "plain"]
+__all__ = ["advice_data", "failure", "motion_data", "plain", "task_data"]
 
 SCHEMA = "burmester.synthesis/1"
 
@@ -41,19 +41,11 @@ def plain(synthesis: Synthesis) -> dict[str, Any]:
             "help": outcome.help,
         },
         "method": synthesis.method,
-        "task": _task(task),
-        "motion": None if motion is None else _motion(motion),
+        "task": task_data(task),
+        "motion": None if motion is None else motion_data(motion),
         "dyads": [dyad_data(dyad) for dyad in synthesis.dyads],
         "linkages": [linkage_data(each, tolerance) for each in synthesis.linkages],
-        "warnings": [
-            {
-                "code": warning.code,
-                "message": warning.message,
-                "why": warning.why,
-                "help": warning.help,
-            }
-            for warning in synthesis.warnings
-        ],
+        "warnings": list(map(advice_data, synthesis.warnings)),
         "characteristic_length": synthesis.length,
         "singular_values": _singular_values(synthesis),
         **_critical_points(synthesis),
@@ -64,7 +56,17 @@ def plain(synthesis: Synthesis) -> dict[str, Any]:
     }
 
 
-def _task(task: Task) -> dict[str, Any]:
+def advice_data(advice: Advice) -> dict[str, Any]:
+    """A warning."""
+    return {
+        "code": advice.code,
+        "message": advice.message,
+        "why": advice.why,
+        "help": advice.help,
+    }
+
+
+def task_data(task: Task) -> dict[str, Any]:
     """The task as a file may hold it."""
     poses: list[dict[str, Any]] = [dict(pose) for pose in poses_data(task.poses)]
     columns = {"weight": task.weights, "name": task.names, "exact": task.exact}
@@ -103,7 +105,7 @@ def _limits(limits: Limits) -> dict[str, Any]:
     return data
 
 
-def _motion(motion: Fingerprint) -> dict[str, Any]:
+def motion_data(motion: Fingerprint) -> dict[str, Any]:
     """What the poses are, whatever the method."""
     return {
         "code": motion.motion.code,

@@ -1,0 +1,98 @@
+"""A task before anything is looked for: its poses as they were read, its motion, what stands out.
+
+For people (`show`) and as an object ready for JSON (`plain`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from burmester.diagnosis import Diagnosis
+from burmester.io.linkage_table import new_table
+from burmester.io.message import show_advice, wrapped
+from burmester.io.result import advice_data, motion_data, task_data
+from burmester.task import Task
+
+__all__ = ["plain", "show"]
+
+SCHEMA = "burmester.check/1"
+SHOWN = 20  # poses; of more, the first and the last ones
+
+
+def plain(diagnosis: Diagnosis) -> dict[str, Any]:
+    """What `burmester check --json` prints."""
+    motion = diagnosis.motion
+    return {
+        "schema": SCHEMA,
+        "task": task_data(diagnosis.task),
+        "motion": None if motion is None else motion_data(motion),
+        "singular_values": None if motion is None else motion.singular_values.tolist(),
+        "warnings": [advice_data(each) for each in diagnosis.findings],
+    }
+
+
+def show(diagnosis: Diagnosis, console: Console) -> None:
+    """The poses as they were read, what they are, and what stands out."""
+    task = diagnosis.task
+    console.print(_poses(task))
+    console.print()
+    for name, text in _facts(diagnosis):
+        for line in wrapped(text, console.width, Text(f"{name:10}", style="bold")):
+            console.print(line, soft_wrap=True)
+    for each in diagnosis.findings:
+        console.print()
+        show_advice(each, console)
+
+
+def _poses(task: Task) -> Table:
+    """The poses, angles in degrees whatever the file has."""
+    count, unit = task.poses.shape[0], f" [{task.length_unit}]" if task.length_unit else ""
+    columns: dict[str, list[str]] = {"pose": [str(i + 1) for i in range(count)]}
+    if task.names is not None:
+        columns["name"] = list(task.names)
+    x, y = task.poses.translation.T
+    angle = np.degrees(task.poses.angle)
+    for head, values in ((f"x{unit}", x), (f"y{unit}", y), ("angle [°]", angle)):
+        columns[head] = [f"{value:.10g}" for value in values]
+    if task.weights is not None:
+        columns["weight"] = [f"{value:g}" for value in task.weights]
+    if task.exact is not None:
+        columns["exact"] = ["yes" if mark else "" for mark in task.exact]
+    table = new_table()
+    for head in columns:
+        # Square brackets are no style here.
+        table.add_column(Text(head), justify="left" if head == "name" else "right")
+    rows = list(zip(*columns.values(), strict=True))
+    if count > SHOWN:
+        rows[SHOWN - 2 : -2] = [("...",) * len(columns)]
+    for row in rows:
+        table.add_row(*map(Text, row))
+    return table
+
+
+def _facts(diagnosis: Diagnosis) -> Iterator[tuple[str, str]]:
+    """What is to be said of the poses as a whole, each under its name."""
+    task, motion = diagnosis.task, diagnosis.motion
+    unit = f" {task.length_unit}" if task.length_unit else ""
+    width, height = np.ptp(task.poses.translation, axis=0)
+    length, angle = task.resolution
+    yield "extent", f"{width:.4g} by {height:.4g}{unit or ', no unit stated'}"
+    if motion is not None:
+        yield "rotation", f"{math.degrees(motion.rotation):.4g}°"
+    if length or angle:
+        yield "known to", f"±{length:.2g}{unit} and ±{math.degrees(angle):.2g}°"
+    else:
+        yield "known to", "taken as exact"
+    if motion is not None:
+        yield "motion", motion.motion.message
+        quadrics = {0: "no quadric holds", 1: "1 quadric holds"}.get(
+            motion.nullity, f"{motion.nullity} independent quadrics hold"
+        )
+        yield "rank", f"{8 - motion.nullity} of 8: {quadrics} all poses in image space"
