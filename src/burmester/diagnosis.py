@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
+from burmester.agreement import odd_pose
 from burmester.distinct import ULPS
+from burmester.dyad import Dyad
 from burmester.fingerprint import Fingerprint, fingerprint
 from burmester.outcome import Advice
 from burmester.reasons import length_of, span
+from burmester.sequence import out_of_order
 from burmester.task import Task
 
-__all__ = ["Diagnosis", "diagnose"]
+__all__ = ["Diagnosis", "diagnose", "disagreement"]
 
 FAR = 1e8  # times their own span; half of a double's digits are gone there
 DIGITS = 16  # that a double holds
@@ -33,14 +37,30 @@ class Diagnosis:
     motion: Fingerprint | None
     findings: tuple[Advice, ...]
 
+    @property
+    def sound(self) -> bool:
+        """Whether nothing stands out, and a fit is of use."""
+        return not self.findings and (self.motion is None or self.motion.determined)
+
 
 def diagnose(task: Task) -> Diagnosis:
-    """Look for repeated poses, lost digits, rows out of order and rows that do not agree."""
+    """Look for repeated poses, lost digits and poses out of order; whether all agree costs more."""
     motion = fingerprint(task) if task.poses.shape[0] > 2 else None
-    checks = [_far_away(task)]
+    checks = [_far_away(task), _exchanged(task)]
     if motion is not None:
         checks.insert(0, _repeats(task, motion))
     return Diagnosis(task, motion, tuple(each for each in checks if each is not None))
+
+
+def disagreement(
+    task: Task, motion: Fingerprint | None, dyads: Sequence[Dyad] = ()
+) -> Advice | None:
+    """W201: one pose that does not agree with all the others.
+
+    dyads: the best of all poses, where they are known; see `agreement`.
+    """
+    found = None if motion is None else odd_pose(task, motion, dyads)
+    return None if found is None else Advice("W201", found.message, found.help, found.why)
 
 
 def _repeats(task: Task, motion: Fingerprint) -> Advice | None:
@@ -58,6 +78,12 @@ def _repeats(task: Task, motion: Fingerprint) -> Advice | None:
         "delete the repeats; to let a pose count more give it a weight",
         f"pose {shown}",
     )
+
+
+def _exchanged(task: Task) -> Advice | None:
+    """W202: two poses that seem to stand in each other's place."""
+    found = out_of_order(task)
+    return None if found is None else Advice("W202", found.message, found.help, found.why)
 
 
 def _far_away(task: Task) -> Advice | None:

@@ -1,4 +1,4 @@
-"""A synthesis, the reproduction of the paper and errors, as a terminal shows them."""
+"""A synthesis and the reproduction of the paper, as a terminal shows them."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ from rich.text import Text
 from burmester.candidates import ROUNDING
 from burmester.comparison import Section, Verdict
 from burmester.dyad import PP, PR, RP, RR, Dyad
-from burmester.errors import BurmesterError
 from burmester.io import linkage_table
 from burmester.io.linkage_table import decimals, new_table
+from burmester.io.message import draw, message, note, show_advice
 from burmester.synthesis import FoundLinkage, Synthesis
 
 if TYPE_CHECKING:
     from burmester.methods import Answer
     from burmester.side_by_side import SideBySide
 
-__all__ = ["show_error", "show_reproduction", "show_synthesis"]
+__all__ = ["show_reproduction", "show_synthesis"]
 
 FOUND = ("R300", "R307")  # outcomes that are told by what was found
 
@@ -46,24 +46,23 @@ def show_synthesis(synthesis: Synthesis, console: Console) -> None:
                 console.print(Text(f"\n{head}:", style="bold"))
                 console.print(_bullets(sentences))
     for warning in synthesis.warnings:
-        console.print(Text(f"warning[{warning.code}]: {warning.message}", style="yellow"))
-        if warning.why:
-            console.print(Text(f"  why: {warning.why}"))
-        console.print(Text(f"  help: {warning.help}"))
+        show_advice(warning, console)
 
 
 def _outcome(synthesis: Synthesis, three: Sequence[FoundLinkage], console: Console) -> None:
     """What came of it, in sentences; the nearest three linkages where none of them works."""
     said = synthesis.outcome
     told = synthesis.usable and said.code in FOUND
-    head = f"{said.message}." if told else f"result[{said.code}]: {said.message}"
-    console.print(Text(head, style="bold"))
+    if told:
+        console.print(Text(f"{said.message}.", style="bold"))
+    else:
+        draw(message("result", said.code, said.message, width=console.width), console)
     if three:
         console.print(linkage_table.unusable(synthesis, three))
     elif said.why:
-        console.print(Text(f"  why: {said.why}"))
+        draw(note("why", said.why, console.width), console)
     if said.help:
-        console.print(Text(f"  help: {said.help}"))
+        draw(note("help", said.help, console.width), console)
     if synthesis.usable:
         for sentence in linkage_table.best_sentences(synthesis):
             console.print(sentence)
@@ -112,12 +111,6 @@ def show_reproduction(
     counts = Counter(row.verdict for section in sections for row in section.rows)
     said = ", ".join(f"{counts[verdict]} {verdict}" for verdict in Verdict)
     console.print(Text(f"\n{sum(counts.values())} printed numbers: {said}", style="bold"))
-
-
-def show_error(error: BurmesterError, console: Console) -> None:
-    """An error as it stands, its code in colour where there is colour."""
-    head, _, rest = str(error).partition(": ")
-    console.print(Text(head, style="bold red") + Text(": " + rest), soft_wrap=True)
 
 
 def _methods(task: SideBySide) -> Table:
