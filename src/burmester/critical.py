@@ -86,7 +86,7 @@ def critical_dyads(poses: Displacement, weights: FloatArray | None = None) -> Cr
             "E121",
             f"at least 5 poses are needed to look for best dyads, not {count}",
             why="four poses or fewer are met exactly by infinitely many dyads",
-            help="give more poses, or see the exact methods for 3 and 4",
+            help="give more poses; dyad_curve takes 4 of them, dyad_with_moving_pivot 3",
         )
     poses.require_finite()
     frames, seen = CanonicalFrames.of(poses, weights)

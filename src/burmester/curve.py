@@ -310,7 +310,7 @@ def _refuse(seen: Displacement) -> NoReturn:
             same &= np.abs(turned[a, 2]) > SAME  # at infinity the body moves along, not around
             if same.all():
                 why = "the body only turns about one point"
-                help = "use a single pin there, or move one of the poses off that turn"
+                help = "use a single pin there, or move two of the poses off that turn"
                 break
             if same.any():
                 first, second = a[same][0], b[same][0]

@@ -9,7 +9,7 @@ object and Python callers get the same five fields.
 
 from __future__ import annotations
 
-__all__ = ["BurmesterError", "InputError"]
+__all__ = ["BurmesterError", "InputError", "printable"]
 
 
 class BurmesterError(Exception):
@@ -53,3 +53,10 @@ class InputError(BurmesterError):
     """Bad input or usage: nothing was computed and nothing was written."""
 
     exit_code = 2
+
+
+def printable(text: str) -> str:
+    """A text with blanks for what a terminal would obey (escape codes) or could not show."""
+    if text.isprintable():
+        return text
+    return "".join(c if c.isprintable() or c == "\n" else " " for c in text)

@@ -34,6 +34,7 @@ __all__ = [
 Kind: TypeAlias = Literal["RR", "PR", "RP", "PP"]
 KINDS: Final[tuple[Kind, ...]] = ("RR", "PR", "RP", "PP")
 
+MOST_CORNERS = 100  # of a polygon: a second or two of search
 FLAT = 1e-12  # of a polygon's length: no width
 STRAIGHT = 1e-9  # sine of the angle by which a corner that is none may turn
 
@@ -160,6 +161,13 @@ class Polygon:
     def __post_init__(self) -> None:
         v = _points(self.vertices, None, "a polygon")
         v = v[np.any(v != np.roll(v, 1, axis=0), axis=1)]
+        if len(v) > MOST_CORNERS:
+            raise InputError(
+                "E131",
+                f"a polygon of {len(v)} corners",
+                why="every edge and every corner is searched by itself",
+                help=f"take {MOST_CORNERS} of its corners at most",
+            )
         rounding = np.finfo(float).eps * len(v) * np.abs(v).max(initial=0)
         values = np.linalg.svd(v - v[:1], compute_uv=False) if len(v) > 2 else np.zeros(2)
         if values[1] <= FLAT * values[0] + rounding:

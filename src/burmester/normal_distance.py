@@ -132,7 +132,7 @@ class ImagePoints(NamedTuple):
                 "E121",
                 f"a fit by distance needs at least {LEAST_POSES} poses, not {poses.shape[0]}",
                 why="four poses or fewer are met exactly by infinitely many dyads",
-                help="give more poses, or see the exact methods for 3 and 4",
+                help="give more poses; dyad_curve takes 4 of them, dyad_with_moving_pivot 3",
             )
         poses.require_finite()
         z = poses.as_image_point()

@@ -16,7 +16,6 @@ from burmester.exact import FivePoseDyads
 from burmester.fingerprint import Fingerprint
 from burmester.found import FoundLinkage
 from burmester.limited import LimitedDyads, Norm
-from burmester.limits import Point
 from burmester.optimal import BestDyads
 from burmester.reasons import (
     by_nearness,
@@ -123,7 +122,7 @@ def chosen_method(  # noqa: PLR0917
             why=f"this task has {asked[0]}"
             if asked
             else "the pencil's dyads are not the best ones",
-            help="leave --certify out, or the rest",
+            help="leave --certify out" + (", or what it has" if asked else ""),
         )
     takes = {
         "pencil": number >= 6,
@@ -150,7 +149,8 @@ def advice(
             "W204",
             f"{item.id} has a link of {item.dyad.radius / length:.0f} times the motion's size: "
             "nearly a slider",
-            "use a slider in its place if a link that long cannot be built",
+            "if a link that long cannot be built, allow sliders only with --kinds PR,RP, or say "
+            "how long it may be with --length :MAX",
         )
         for item in dyads
         if isinstance(item.dyad, RR) and item.dyad.radius > LONG * length
@@ -211,6 +211,7 @@ def family(task: Task, whole: int, freedom: Sequence[int]) -> tuple[Outcome, Adv
             "R303",
             f"{given} leave infinitely many linkages: {which}a {parameter}-parameter family of "
             "dyads passes through all of them",
+            help,
         ),
         Advice("W203", f"{given} do not determine a linkage", help),
     )
@@ -308,9 +309,7 @@ def _undetermined(task: Task, usable: Sequence[FoundLinkage]) -> Outcome:
     only = "only " if rotation < LITTLE else ""
     best = usable[0]
     which = "the usable one" if len(usable) == 1 else "the best usable one"
-    help = "add poses with more rotation, or give the poses more exactly"
-    if not any(isinstance(limits.fixed_pivot, Point) for limits in task.limits):
-        help += "; or fix one pivot with --fixed-pivot X,Y"
+    help = "add poses with more rotation, or give the poses with more digits"
     return Outcome(
         "R305",
         "this motion does not determine pivots",

@@ -201,8 +201,8 @@ class Rotation(Kind):
     def help(self) -> str:
         return (
             f"pin the body at its point {_point(self.moving_centre, self.size)} to the ground at "
-            f"{_point(self.fixed_centre, self.size)}; for a four-bar give a pose that does not "
-            "turn about this point"
+            f"{_point(self.fixed_centre, self.size)}; for a four-bar give two poses or more that "
+            "do not turn about this point"
         )
 
 

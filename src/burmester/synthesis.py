@@ -20,7 +20,7 @@ from burmester.candidates import (
 from burmester.certificate import Certificate, certify_five
 from burmester.certificate import certify as certify_best
 from burmester.critical import CriticalDyads
-from burmester.diagnosis import diagnose
+from burmester.diagnosis import diagnose, disagreement
 from burmester.dyad import Dyad
 from burmester.exact import FivePoseDyads, dyads_of_five
 from burmester.feasible import require_feasible
@@ -271,6 +271,10 @@ def _finish(  # noqa: PLR0917
         ]
     dyads = [each for found in lists for each in found]
     dyads = [replace(each, id=f"D{i}") for i, each in enumerate(dyads, start=1)]
+    all_of_them = method == "complete" and not task.limits and task.exact is None
+    known = [each.dyad for each in dyads] if all_of_them else []
+    if (odd := disagreement(whole, motion, known)) is not None:
+        warnings.insert(0, odd)
     warnings += advice(task, fits, dyads, left_out, length)
     pairs: Iterable[tuple[FoundDyad, FoundDyad]]
     if len(fits) > 1:
@@ -282,7 +286,7 @@ def _finish(  # noqa: PLR0917
     for first, second in pairs:
         if not same_dyad(first.dyad, second.dyad, length):
             different.append((first, second))
-        else:
+        elif len(fits) == 1:  # what meets both of two limits is found twice
             warnings.append(
                 Advice(
                     "W205",

@@ -9,13 +9,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from burmester.displacement import Displacement, FloatArray
-from burmester.errors import InputError
+from burmester.errors import InputError, printable
 from burmester.limits import Limits
 from burmester.requirements import Requirements, require_possible
 
 __all__ = ["CONDITIONS", "Task"]
 
 CONDITIONS = 5  # that a dyad can meet exactly: it has five dimensions
+MOST = 1e100  # beyond it, or all below its inverse, squares of numbers leave a double's range
+MOST_TURN = 1e9  # radians; of an angle beyond it few digits say where the body points
 LEAST_POSES = 3  # two poses are met by every moving pivot with a whole line of fixed pivots
 
 
@@ -37,7 +39,8 @@ class Task:
     limits: none; one for both dyads of a linkage; or two, one for each.
     requirements: what is asked of the whole linkage, nothing by default.
     Fewer than 3 poses are enough where a limit puts a pivot at a point or on a line.
-    Raises InputError: E103 (a number that is not finite), E120 (too few poses), E122
+    Raises InputError: E103 (a number that is not finite), E112 (one too large or too small to
+    compute with), E120 (too few poses), E122
     (weights, names or marks that do not fit the poses), E132 (requirements that the limits
     contradict), E133 (more exact conditions than a dyad can meet), E134 (a driver named by limits
     that are not two).
@@ -69,13 +72,15 @@ class Task:
                 help="give at least 3 poses; 5 are met exactly, 6 or more as closely as possible",
             )
         self.poses.require_finite()
+        _require_computable(self.poses)
         if self.weights is not None:
             weights = np.asarray(self.weights, dtype=np.float64)
-            if weights.shape != (count,) or not (np.isfinite(weights) & (weights > 0)).all():
+            sound = (weights > 1 / MOST) & (weights < MOST)
+            if weights.shape != (count,) or not sound.all():
                 raise InputError(
                     "E122",
                     "the weights do not fit the poses",
-                    why=f"{count} poses need {count} finite weights above zero",
+                    why=f"{count} poses need {count} weights above zero, none beyond {MOST:.0e}",
                     help="give every pose a weight above zero; to drop a pose, delete it",
                 )
             object.__setattr__(self, "weights", weights)
@@ -107,6 +112,10 @@ class Task:
                 f"{len(self.names)} names for {count} poses",
                 help="give one name a pose, or none",
             )
+        if self.names is not None:
+            object.__setattr__(self, "names", tuple(map(printable, self.names)))
+        if self.length_unit is not None:
+            object.__setattr__(self, "length_unit", printable(self.length_unit))
         require_possible(self.requirements, self.limits)
 
     @classmethod
@@ -116,3 +125,21 @@ class Task:
         if rows.ndim != 2 or rows.shape[1] != 3:
             raise ValueError(f"poses need shape (N, 3): x, y, angle in degrees; not {rows.shape}")
         return cls(Displacement(rows[:, :2], np.radians(rows[:, 2])), length_unit=length_unit)
+
+
+def _require_computable(poses: Displacement) -> None:
+    """Refuse numbers whose squares are none; raises E112."""
+    reach, turn = np.abs(poses.translation).max(axis=1), np.abs(poses.angle)
+    if (far := reach > MOST).any() or 0 < reach.max() < 1 / MOST:
+        bad = int(far.argmax() if far.any() else reach.argmax())
+        message = f"the lengths of pose {bad + 1} are too {'large' if far.any() else 'small'}"
+        why = f"{reach[bad]:g} squared is beyond what a number can hold"
+        help = "write the lengths in another unit"
+    elif (far := turn > MOST_TURN).any():
+        bad = int(far.argmax())
+        message = f"the angle of pose {bad + 1} is too large"
+        why = f"it is {turn[bad]:.3g} rad, {turn[bad] / (2 * np.pi):.3g} turns"
+        help = "take whole turns off it"
+    else:
+        return
+    raise InputError("E112", message, why=why, help=help)

@@ -5,6 +5,7 @@ A command a file.  Rooms are imported inside the commands, so that `burmester --
 
 from __future__ import annotations
 
+import io
 import os
 import sys
 from collections.abc import Sequence
@@ -39,6 +40,9 @@ for command in (new, synthesize, check, explain, cases, reproduce):
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command and exit: 0 a usable linkage found, 1 none, 2 bad input or usage, 3 a bug."""
     given = list(sys.argv[1:] if arguments is None else arguments)
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):  # what it cannot show must not stop the answer
+            stream.reconfigure(errors="backslashreplace")
     try:
         code = burmester.main(given, prog_name="burmester", standalone_mode=False)
     except click.exceptions.Exit as stop:
@@ -64,7 +68,7 @@ def _report(error: BurmesterError, as_json: bool) -> int:
         from burmester.io.result import failure
 
         print_json(failure(error))
-    from burmester.io.terminal import show_error
+    from burmester.io.message import show_error
 
     show_error(error, console(stderr=True))
     return error.exit_code

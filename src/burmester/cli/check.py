@@ -20,14 +20,19 @@ def check(poses: str, *, as_json: bool, **given: Any) -> int:
 
     Exit code 0: nothing does; 1: something does; 2: the file cannot be used.
     """
-    from burmester.diagnosis import diagnose
+    from dataclasses import replace
+
+    from burmester.diagnosis import diagnose, disagreement
     from burmester.io import overview
+    from burmester.io.files import quoted
 
     found = diagnose(task(poses, **given))
+    if (odd := disagreement(found.task, found.motion)) is not None:
+        found = replace(found, findings=(odd, *found.findings))
     if as_json:
         print_json(overview.plain(found))
     else:
         overview.show(found, console())
-        if not found.findings:
-            click.echo(f"\nNothing stands out. Next: burmester synthesize {poses}")
-    return EXIT_NOTHING if found.findings else EXIT_FOUND
+        if found.sound:
+            click.echo(f"\nNothing stands out. Next: burmester synthesize {quoted(poses)}")
+    return EXIT_FOUND if found.sound else EXIT_NOTHING

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -22,11 +23,16 @@ def console(stderr: bool = False) -> Console:
     return Console(stderr=stderr, highlight=False)
 
 
-def as_line(data: dict[str, Any]) -> str:
-    """A line of JSON with all digits."""
-    return json.dumps(data, ensure_ascii=False, allow_nan=False) + "\n"
+def as_line(data: dict[str, Any], encoding: str = "utf-8") -> str:
+    """A line of JSON with all digits; what the encoding does not have is escaped."""
+    line = json.dumps(data, ensure_ascii=False, allow_nan=False) + "\n"
+    try:
+        line.encode(encoding)
+    except UnicodeEncodeError:  # half a character too, of a name or a path
+        line = json.dumps(data, allow_nan=False) + "\n"
+    return line
 
 
 def print_json(data: dict[str, Any]) -> None:
     """That line on standard output, and nothing else."""
-    click.echo(as_line(data), nl=False)
+    click.echo(as_line(data, sys.stdout.encoding or "utf-8"), nl=False)

@@ -16,8 +16,9 @@ from rich.text import Text
 
 from burmester.diagnosis import Diagnosis
 from burmester.io.linkage_table import new_table
-from burmester.io.message import show_advice, wrapped
+from burmester.io.message import draw, message, show_advice, wrapped
 from burmester.io.result import advice_data, motion_data, task_data
+from burmester.motion_kind import General
 from burmester.task import Task
 
 __all__ = ["plain", "show"]
@@ -46,6 +47,12 @@ def show(diagnosis: Diagnosis, console: Console) -> None:
     for name, text in _facts(diagnosis):
         for line in wrapped(text, console.width, Text(f"{name:10}", style="bold")):
             console.print(line, soft_wrap=True)
+    motion = diagnosis.motion
+    if motion is not None and not isinstance(motion.motion, General):
+        kind = motion.motion
+        console.print()
+        said = message("result", kind.code, kind.message, help=kind.help, width=console.width)
+        draw(said, console)
     for each in diagnosis.findings:
         console.print()
         show_advice(each, console)
@@ -91,7 +98,8 @@ def _facts(diagnosis: Diagnosis) -> Iterator[tuple[str, str]]:
     else:
         yield "known to", "taken as exact"
     if motion is not None:
-        yield "motion", motion.motion.message
+        general = isinstance(motion.motion, General)
+        yield "motion", motion.motion.message if general else motion.motion.name
         quadrics = {0: "no quadric holds", 1: "1 quadric holds"}.get(
             motion.nullity, f"{motion.nullity} independent quadrics hold"
         )
