@@ -1,0 +1,56 @@
+"""Figures: drawings in the plane, maps, charts, and the image space in 3D.
+
+Functions draw on Matplotlib axes that they are given and return the artists that they made.
+
+E130 Matplotlib is missing
+"""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+
+from burmester.errors import InputError
+
+if find_spec("matplotlib") is None:
+    raise InputError(
+        "E130",
+        "figures need Matplotlib",
+        why="it is not installed with burmester, which does without it for everything else",
+        help="pip install 'burmester[plot]'",
+    )
+
+from burmester.plot.camera import Box, Camera
+from burmester.plot.charts import pose_errors, transmission
+from burmester.plot.common_curve import common_curve
+from burmester.plot.maps import centre_point_curve, circle_point_curve, pivot_map
+from burmester.plot.mechanism import linkage
+from burmester.plot.paper import write_figures
+from burmester.plot.plane import achieved, centrodes, coupler_curve, poses
+from burmester.plot.space import image_space
+from burmester.plot.style import figure, finish, house_style, legend
+from burmester.plot.walk import steps, walk, write_gif
+
+__all__ = [
+    "Box",
+    "Camera",
+    "achieved",
+    "centre_point_curve",
+    "centrodes",
+    "circle_point_curve",
+    "common_curve",
+    "coupler_curve",
+    "figure",
+    "finish",
+    "house_style",
+    "image_space",
+    "legend",
+    "linkage",
+    "pivot_map",
+    "pose_errors",
+    "poses",
+    "steps",
+    "transmission",
+    "walk",
+    "write_figures",
+    "write_gif",
+]

@@ -1,0 +1,198 @@
+"""Numbers along the motion: the transmission angle over the drive, and the error at each pose."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from matplotlib.lines import Line2D
+from matplotlib.text import Annotation
+from matplotlib.ticker import MaxNLocator, NullFormatter
+
+from burmester.accuracy import PoseError
+from burmester.circuit import Circuits
+from burmester.defects import Driven
+from burmester.displacement import Displacement, FloatArray
+from burmester.dyad import PP, PR, RR, Dyad
+from burmester.linkage import Linkage
+from burmester.motion import transmission_angle
+from burmester.plot.plane import parameters
+from burmester.plot.style import (
+    BLACK,
+    BLUE,
+    GREY,
+    VERMILION,
+    label,
+    settle_labels,
+    with_unit,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+__all__ = ["DrawnErrors", "DrawnTransmission", "drive_of", "pose_errors", "transmission"]
+
+GOOD = 40.0  # degrees; below it friction may lock the linkage
+FLOOR = 1e-16  # what an error of zero is drawn as, next to the greatest or to 1
+
+
+class DrawnTransmission(NamedTuple):
+    """The transmission angle as drawn: a line a branch, the used range, the poses, their numbers.
+
+    least: the limit that is drawn across.
+    """
+
+    branches: list[Line2D]
+    used: Line2D | None
+    poses: Line2D | None
+    least: Line2D
+    labels: list[Annotation]
+
+
+class DrawnErrors(NamedTuple):
+    """Errors as drawn: position on the given axes, angle on axes laid over them, `angle_axes`."""
+
+    position: Line2D
+    angle: Line2D
+    angle_axes: Axes
+
+
+def drive_of(dyad: Dyad, places: Displacement) -> FloatArray:
+    """The coordinate of a dyad's ground joint at places (n,), without jumps: radians or a length.
+
+    The angle of an RR's link, the way along a PR's line, the angle in F of an RP's normal.
+    """
+    if isinstance(dyad, PP):
+        raise ValueError("a PP dyad has no one drive")
+    if isinstance(dyad, RR):
+        arm = places.act(dyad.moving_pivot) - dyad.fixed_pivot
+        return np.unwrap(np.arctan2(arm[..., 1], arm[..., 0]))
+    if isinstance(dyad, PR):
+        pin = places.act(dyad.moving_pivot)
+        return np.asarray(
+            np.cos(dyad.normal_angle) * pin[..., 1] - np.sin(dyad.normal_angle) * pin[..., 0]
+        )
+    return np.unwrap(places.angle + dyad.normal_angle)
+
+
+def transmission(
+    ax: Axes,
+    linkage: Linkage,
+    *,
+    circuit: int = 0,
+    driven: Driven | None = None,
+    unit: str | None = None,
+    samples: int = 721,
+) -> DrawnTransmission:
+    """The transmission angle over the first dyad's drive along a circuit, in degrees.
+
+    driven: the verdict of that drive; its circuit is taken, the range that the poses use is drawn
+    thick, and the poses are marked.  The second branch of a circuit is dashed.
+    """
+    circuit = circuit if driven is None or driven.circuit < 0 else driven.circuit
+    own = Circuits.of(linkage, as_given=True)[circuit]
+    slides = isinstance(linkage.first, PR)
+    turn = 1.0 if slides else 180 / np.pi
+    lines, rows = [], parameters(own, samples)
+    met = (
+        np.zeros(0, dtype=np.intp)
+        if driven is None
+        else np.flatnonzero(np.isfinite(driven.parameter))
+    )
+    if driven is not None and met.size and len(rows) == 1 and bool(own.closed):
+        # One turn, with the range of the poses in its middle.
+        middle = (driven.parameter[met].min() + driven.parameter[met].max()) / 2
+        rows = [rows[0] - np.pi + middle]
+    for branch, row in enumerate(rows):
+        places = own.couplers(row)
+        (line,) = ax.plot(
+            turn * _wound(linkage, places, driven, slides),
+            np.degrees(transmission_angle(linkage, places)),
+            color=BLUE,
+            ls=(0, (4, 1.6)) if branch else "-",
+            lw=1.1,
+            zorder=2,
+            label=("transmission angle", "the same, other branch")[branch],
+        )
+        lines.append(line)
+    used, marks, labels = None, None, list[Annotation]()
+    if driven is not None and met.size:
+        row = np.linspace(driven.parameter[met].min(), driven.parameter[met].max(), samples)
+        places = own.couplers(row)
+        (used,) = ax.plot(
+            turn * _wound(linkage, places, driven, slides),
+            np.degrees(transmission_angle(linkage, places)),
+            color=BLUE,
+            lw=2.8,
+            zorder=3,
+            label="range of the poses",
+        )
+        at = own.couplers(driven.parameter[met])
+        x = turn * (driven.drive[met] - _turns(driven, slides))
+        y = np.degrees(transmission_angle(linkage, at))
+        (marks,) = ax.plot(x, y, "o", ms=5, mfc="white", mec=BLACK, mew=1.2, zorder=4)
+        labels = [
+            label(ax, str(k + 1), (xx, yy), (0.0, 1.0)) for k, xx, yy in zip(met, x, y, strict=True)
+        ]
+    least = ax.axhline(GOOD, color=GREY, lw=0.9, ls=(0, (1, 2)), zorder=1)
+    ax.set_ylim(0, 95)
+    ax.set_yticks(range(0, 91, 15))
+    ax.set_ylabel("transmission angle (deg)")
+    ax.set_xlabel(with_unit("drive", unit) if slides else "drive (deg)")
+    settle_labels(ax)
+    return DrawnTransmission(lines, used, marks, least, labels)
+
+
+def _wound(
+    linkage: Linkage, places: Displacement, driven: Driven | None, slides: bool
+) -> FloatArray:
+    """The drive at places (n,), the turns counted so that it meets the driven range."""
+    drive = drive_of(linkage.first, places)
+    if slides or driven is None or not np.isfinite(driven.drive).any():
+        return drive
+    middle = (np.nanmin(driven.drive) + np.nanmax(driven.drive)) / 2 - _turns(driven, slides)
+    own = (np.nanmin(drive) + np.nanmax(drive)) / 2
+    return np.asarray(drive + 2 * np.pi * np.round((middle - own) / (2 * np.pi)))
+
+
+def _turns(driven: Driven, slides: bool) -> float:
+    """Whole turns to take off, so that the poses' range begins within the first."""
+    if slides:
+        return 0.0
+    return float(2 * np.pi * np.floor(np.nanmin(driven.drive) / (2 * np.pi)))
+
+
+def pose_errors(ax: Axes, error: PoseError, unit: str | None = None) -> DrawnErrors:
+    """Position error (filled, left axis) and angle error (hollow, right axis) of each pose.
+
+    Both axes are logarithmic.  An error of zero is drawn at the bottom.
+    """
+    number = np.arange(1, error.position.shape[-1] + 1)
+    other = ax.twinx()
+    out = []
+    styles: tuple[tuple[Axes, FloatArray, dict[str, Any], float], ...] = (
+        (ax, error.position, {"color": BLUE, "marker": "o", "mfc": BLUE}, -0.1),
+        (other, np.degrees(error.angle), {"color": VERMILION, "marker": "^", "mfc": "white"}, 0.1),
+    )
+    for axes, values, style, shift in styles:
+        greatest = float(np.nanmax(values)) if np.isfinite(values).any() else 1.0
+        shown = np.maximum(values, FLOOR * (greatest or 1.0))
+        (line,) = axes.plot(number + shift, shown, ls="none", ms=6, mew=1.3, zorder=3, **style)
+        axes.set_yscale("log")
+        finite = shown[np.isfinite(shown)]
+        if finite.size:
+            # Whole powers of ten, so that each has its number and nothing else has.
+            low, high = np.log10(finite.min() / 1.2), np.log10(finite.max() * 1.2)
+            axes.set_ylim(10 ** np.floor(low), 10 ** np.ceil(high))
+            axes.yaxis.set_minor_formatter(NullFormatter())
+        out.append(line)
+    ax.set_xlabel("pose")
+    ax.xaxis.set_major_locator(MaxNLocator(20, integer=True))
+    ax.set_xlim(0.4, len(number) + 0.6)
+    ax.set_ylabel(with_unit("position error", unit), color=BLUE)
+    other.set_ylabel("angle error (deg)", color=VERMILION)
+    out[0].set_label("position")
+    out[1].set_label("angle")
+    ax.legend(handles=out, loc="lower left", ncols=2, bbox_to_anchor=(0.0, 1.0), borderaxespad=0.2)
+    ax.grid(axis="x", color="#e3e7eb", lw=0.6, zorder=0)
+    return DrawnErrors(out[0], out[1], other)

@@ -1,0 +1,135 @@
+"""Where pivots may be: the pivot map of many poses, and Burmester's curves of four."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from matplotlib.collections import QuadMesh
+from matplotlib.colors import LogNorm
+from matplotlib.contour import QuadContourSet
+from matplotlib.lines import Line2D
+from numpy.typing import ArrayLike
+
+from burmester.curve import DyadCurve
+from burmester.displacement import Displacement, FloatArray
+from burmester.pivot_map import PivotMap, fixed_pivot_map, grid
+from burmester.plot.style import BLUE, VERMILION
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+__all__ = ["DrawnMap", "centre_point_curve", "circle_point_curve", "pivot_map"]
+
+DECADES = 4.0  # of errors that the colours tell apart, at most
+FAR = 3.0  # spans of the poses beyond which a curve is not drawn
+
+
+class DrawnMap(NamedTuple):
+    """A pivot map as drawn: the map's numbers, its colours, and the lines of equal error."""
+
+    found: PivotMap
+    mesh: QuadMesh
+    lines: QuadContourSet
+
+
+def pivot_map(
+    ax: Axes,
+    poses: Displacement,
+    low: ArrayLike,
+    high: ArrayLike,
+    *,
+    columns: int = 240,
+    rows: int | None = None,
+    weights: FloatArray | None = None,
+) -> DrawnMap:
+    """The least error of a link for every fixed pivot between two corners (2,) of F.
+
+    Colours go with the logarithm of the rms distance from the circle, dark where it is small; a
+    line is drawn at each power of ten and, dashed, at three times as much.  `mesh` is for a colour
+    bar.
+    """
+    (x0, y0), (x1, y1) = np.asarray([low, high], dtype=np.float64)
+    rows = max(2, round(columns * (y1 - y0) / (x1 - x0))) if rows is None else rows
+    at = grid(low, high, columns, rows)
+    found = fixed_pivot_map(poses, at, weights)
+    error = np.where(np.isfinite(found.rms_error), found.rms_error, np.nan)
+    greatest = float(np.nanmax(error))
+    least = max(float(np.nanmin(error)), greatest * 10**-DECADES)
+    if not 0 < least < greatest:  # every pivot does as well
+        least, greatest = 0.5 * (greatest or 1.0), 2 * (greatest or 1.0)
+    norm = LogNorm(least, greatest)
+    mesh = ax.pcolormesh(
+        at[..., 0],
+        at[..., 1],
+        np.maximum(error, least),
+        norm=norm,
+        cmap="cividis",
+        shading="gouraud",
+        zorder=0.5,
+        rasterized=True,
+    )
+    powers = np.arange(np.floor(np.log10(least)), np.ceil(np.log10(greatest)) + 1)
+    levels = np.sort(np.concatenate([10.0**powers, 3 * 10.0**powers]))
+    levels = levels[(levels > least) & (levels < greatest)]
+    lines = ax.contour(
+        at[..., 0],
+        at[..., 1],
+        error,
+        levels=levels if len(levels) else [np.sqrt(least * greatest)],
+        colors="white",
+        linewidths=0.8,
+        linestyles=["-" if abs(np.log10(v) % 1) < 0.1 else "--" for v in levels] or "-",
+        zorder=0.7,
+    )
+    return DrawnMap(found, mesh, lines)
+
+
+def centre_point_curve(ax: Axes, curve: DyadCurve, *, within: float | None = None) -> list[Line2D]:
+    """The fixed pivots of four poses in F: solid, a line for each loop.
+
+    within: how far from the middle of the curve's frame it is drawn, in the unit of lengths.
+    """
+    return _loops(
+        ax,
+        [part.fixed_pivot for part in curve.components],
+        curve.frames.fixed_origin,
+        _reach(curve, within),
+        {"color": BLUE, "ls": "-", "label": "centre-point curve (in F)"},
+    )
+
+
+def circle_point_curve(
+    ax: Axes, curve: DyadCurve, *, place: Displacement | None = None, within: float | None = None
+) -> list[Line2D]:
+    """The moving pivots of four poses: dashed, in M, or in F where M is at a place ()."""
+    place = Displacement.identity() if place is None else place
+    return _loops(
+        ax,
+        [place.act(part.moving_pivot) for part in curve.components],
+        place.act(curve.frames.moving_origin),
+        _reach(curve, within),
+        {"color": VERMILION, "ls": (0, (5, 2)), "label": "circle-point curve (in M)"},
+    )
+
+
+def _reach(curve: DyadCurve, within: float | None) -> float:
+    return FAR * float(curve.frames.length) if within is None else within
+
+
+def _loops(
+    ax: Axes, loops: list[FloatArray], middle: FloatArray, reach: float, style: dict[str, object]
+) -> list[Line2D]:
+    """Loops (n, 2) with gaps where they are far away."""
+    out = []
+    for k, loop in enumerate(loops):
+        points = np.concatenate([loop, loop[:1]])
+        far = np.abs(points - middle).max(axis=-1) > reach
+        points = np.where(far[:, None], np.nan, points)
+        jump = np.abs(np.diff(points, axis=0)).max(axis=-1) > reach / 2
+        points[1:][jump] = np.nan
+        if k:
+            style = style | {"label": "_"}
+        (line,) = ax.plot(*points.T, lw=1.5, zorder=2.6, **style)  # type: ignore[arg-type]
+        out.append(line)
+    return out

@@ -1,0 +1,276 @@
+"""The figures of Ge, Zhao, Purwar and Li 2012, made from the numbers that the paper prints.
+
+Figures 1 to 7 are all that the paper has.  Figure 1 is a sketch without numbers, drawn here for a
+displacement of our choice; the colours, the point of view and the piece of the image space shown
+are ours too, for the paper does not give them.  Figures 5 and 6, one quadric a panel here, need v1
+and v2 themselves, which an exact motion leaves free to turn in their plane: taken are those of the
+plane computed that are nearest to the ones printed in Table 4 (known misprints put right).  The
+linkages of Fig. 2 and Table 8 at the poses of Tables 2 and 5 are no figures of the paper.  No
+figure can be made of Tables 1 and 9: the ten poses of Ravani and Roth on which they rest are not
+printed.
+
+Source: JCISE 12(4) 041003, doi 10.1115/1.4007447.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from burmester.accuracy import PoseError
+from burmester.displacement import Displacement, FloatArray
+from burmester.dyad import RR
+from burmester.errors import InputError
+from burmester.io.cases import load
+from burmester.io.files import require_free, whole
+from burmester.linkage import Linkage
+from burmester.paper_fit import PaperFit
+from burmester.plot.camera import Box
+from burmester.plot.charts import pose_errors
+from burmester.plot.common_curve import common_curve
+from burmester.plot.mechanism import linkage as draw_linkage
+from burmester.plot.plane import achieved, coupler_curve, poses, span_of
+from burmester.plot.space import image_space
+from burmester.plot.style import BLACK, GREY, PALETTE, figure, finish, house_style, label, legend
+from burmester.plot.walk import steps, walk, write_gif
+
+__all__ = ["FORMATS", "NAMES", "paper_figure", "write_figures"]
+
+FORMATS: Final = ("png", "svg", "pdf", "gif")
+EXACT_BOX: Final = Box(np.array([-2.9, -4.6, -2.6]), np.array([3.1, 1.4, 1.7]), 1.9)
+NOISY_BOX: Final = Box(np.array([-2.2, -3.7, -1.5]), np.array([2.2, 0.7, 1.5]), 1.9)
+FIGURE5: Final = (90.0, 80.21, 70.73, 60.00)  # theta in degrees, as in the captions
+FIGURE6: Final = (0.0, -36.87, -42.84, -48.60)
+AT: Final = 2  # the pose at which linkages are drawn, counted from 0
+_METADATA: Final[dict[str, dict[str, Any]]] = {
+    "png": {"Software": None},
+    "svg": {"Date": None, "Creator": None},
+    "pdf": {"CreationDate": None},
+}
+
+
+def write_figures(
+    folder: str | os.PathLike[str],
+    formats: Sequence[str] = ("png", "svg", "pdf"),
+    force: bool = False,
+) -> list[Path]:
+    """Write the figures of the paper into a folder, which is made if need be; the paths written.
+
+    formats: of "png", "svg", "pdf"; with "gif" also the walk of theta as an animation.  The same
+    call writes the same bytes.
+    Raises InputError E140 (a file exists, and not `force`) and E141 (a file cannot be written),
+    before anything is drawn where that can be seen.
+    """
+    if unknown := [each for each in formats if each not in FORMATS]:
+        raise ValueError(f"no such format: {unknown[0]!r}; there are {', '.join(FORMATS)}")
+    room = Path(folder)
+    try:
+        room.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(
+            "E141",
+            f"the folder {room} cannot be made",
+            why=error.strerror,
+            help="give the name of a folder that is there, or can be made",
+        ) from None
+    wanted = [(name, kind) for name in NAMES for kind in formats if kind != "gif"]
+    paths = [room / f"{name}.{kind}" for name, kind in wanted]
+    moving = room / "walk.gif"
+    for path in [*paths, *([moving] if "gif" in formats else [])]:
+        require_free(path, force=force)
+    done = list[Path]()
+    with house_style():
+        for name in NAMES if paths else ():
+            drawing = paper_figure(name)
+            for path in (p for p in paths if p.stem == name):
+                kind = path.suffix[1:]
+                with whole(path, force=force) as temporary:
+                    drawing.savefig(temporary, format=kind, dpi="figure", metadata=_METADATA[kind])
+                done.append(path)
+    if "gif" in formats:
+        fit = _exact()
+        basis = _basis(fit)
+        end = np.radians(fit.printed["theta_deg"])
+        pictures = walk(
+            basis,
+            steps([0.0, np.pi / 2], end),
+            poses=fit.poses[0],
+            box=EXACT_BOX,
+            curve=common_curve(*fit.p[0]),
+        )
+        write_gif(moving, pictures, force=force)
+        done.append(moving)
+    return done
+
+
+def paper_figure(name: str) -> Figure:
+    """One figure by its name, one of `NAMES`; to be made and saved within `style.house_style`."""
+    return _FIGURES[name]()
+
+
+def _exact() -> PaperFit:
+    return PaperFit.of(load("ge2012-exact"), "Table 4", "singular_vectors_table4", 0, 0)
+
+
+def _noisy() -> PaperFit:
+    return PaperFit.of(load("ge2012-approximate"), "Table 7", "singular_vectors_table7", 0, 0)
+
+
+def _basis(fit: PaperFit) -> FloatArray:
+    """v1 and v2 (2, 8): of the plane computed, the orthonormal pair nearest to the print."""
+    left, _, right = np.linalg.svd(fit.vectors @ fit.plane[0].T)
+    return np.asarray(left @ right @ fit.plane[0])
+
+
+def _linkage(rows: list[dict[str, Any]]) -> Linkage:
+    """A linkage as the paper prints it."""
+    first, second = (RR(r["fixed_pivot"], r["moving_pivot"], r["radius"]) for r in rows)
+    return Linkage(first, second)
+
+
+def _figure1() -> Figure:
+    drawing = figure(4.4, 3.375, 200)
+    ax = drawing.add_axes((0, 0, 1, 1))
+    ax.set_axis_off()
+    at = Displacement(np.array([1.9, 1.1]), np.radians(35.0))
+    for place, name, color in ((Displacement.identity(), "F", BLACK), (at, "M", PALETTE[0])):
+        tips = place.act(np.array([[1.1, 0.0], [0.0, 1.1]]))
+        for tip, letter in zip(tips, ("X", "Y") if name == "F" else ("x", "y"), strict=True):
+            ax.annotate(
+                "",
+                (float(tip[0]), float(tip[1])),
+                (float(place.translation[0]), float(place.translation[1])),
+                arrowprops={"arrowstyle": "-|>", "color": color, "lw": 1.6},
+            )
+            label(ax, f"${letter}$", tip, tip - place.translation, fontsize=11, color=color)
+        corner = place.act(np.array([-0.12, -0.12]))
+        label(
+            ax, f"${name}$", place.translation, corner - place.translation, fontsize=12, color=color
+        )
+    d1, d2 = at.translation
+    ax.plot([0, d1, d1], [0, 0, d2], color=GREY, lw=1.0, ls=(0, (4, 2)))
+    label(ax, "$d_1$", (1.5, 0.0), (0, -1), fontsize=11)
+    label(ax, "$d_2$", (d1, d2 / 2), (1, 0), fontsize=11)
+    ax.plot([d1, d1 + 1.1], [d2, d2], color=GREY, lw=1.0, ls=(0, (4, 2)))
+    arc = np.linspace(0, at.angle, 40)
+    ax.plot(d1 + 0.7 * np.cos(arc), d2 + 0.7 * np.sin(arc), color=BLACK, lw=1.0)
+    label(ax, r"$\phi$", (d1 + 0.7 * np.cos(0.3), d2 + 0.7 * np.sin(0.3)), (1, 0.3), fontsize=12)
+    finish(ax)
+    ax.set_xlim(-0.35, 3.3)
+    ax.set_ylim(-0.4, 2.4)
+    return drawing
+
+
+def _figure2() -> Figure:
+    fit = _exact()
+    linkage, place = _linkage(fit.printed["linkage"]), fit.poses[0][AT]
+    drawing = figure(5.0, 6.0, 200)
+    ax = drawing.add_axes((0.1, 0.08, 0.87, 0.9))
+    coupler_curve(ax, linkage, only=1, size=span_of(fit.poses[0]))
+    draw_linkage(ax, linkage, place, names=True)
+    poses(ax, Displacement.identity((1,)), size=0.8, names=("F",), color=BLACK)
+    poses(ax, place, size=0.8, names=("M",))
+    finish(ax)
+    return drawing
+
+
+def _pair(drawing: Figure, ax: Axes, p: FloatArray, fit: PaperFit, box: Box, **more: Any) -> None:
+    """Quadrics (k, 8) with the curve of the fit's pencil and the image points of its poses."""
+    image_space(ax, p, poses=fit.poses[0], curve=common_curve(*fit.p[0]), box=box, **more)
+
+
+def _figure3() -> Figure:
+    fit = _exact()
+    drawing = figure(6.4, 5.6, 250)
+    ax = drawing.add_axes((0, 0, 1, 1))
+    _pair(drawing, ax, _basis(fit), fit, EXACT_BOX, names=("$v_1$: ellipsoid", "$v_2$: two sheets"))
+    return drawing
+
+
+def _figure4() -> Figure:
+    fit = _exact()
+    drawing = figure(6.4, 5.6, 250)
+    ax = drawing.add_axes((0, 0, 1, 1))
+    names = (r"$\theta_1 = -43.13°$", r"$\theta_2 = 44.72°$")
+    _pair(drawing, ax, fit.p[0], fit, EXACT_BOX, names=names)
+    return drawing
+
+
+def _between(theta: Sequence[float], color: str) -> Figure:
+    """Four quadrics of the exact pencil, beside each other."""
+    fit = _exact()
+    basis = _basis(fit)
+    drawing = figure(8.0, 7.2, 200)
+    for k, degrees in enumerate(theta):
+        ax = drawing.add_axes((0.5 * (k % 2), 0.5 * (1 - k // 2), 0.5, 0.5))
+        t = np.radians(degrees)
+        p = (np.cos(t) * basis[0] + np.sin(t) * basis[1])[None]
+        name = rf"$\theta = {degrees:.2f}°$"
+        _pair(drawing, ax, p, fit, EXACT_BOX, names=(name,), colours=(color,), numbers=False)
+    return drawing
+
+
+def _figure7() -> Figure:
+    fit = _noisy()
+    drawing = figure(10.0, 4.6, 200)
+    for k, (p, names) in enumerate(
+        (
+            (fit.plane[0], ("$v_1$: ellipsoid", "$v_2$: two sheets")),
+            (fit.p[0], (r"$\theta_1 = -21.28°$", r"$\theta_2 = 54.08°$")),
+        )
+    ):
+        ax = drawing.add_axes((0.5 * k, 0, 0.5, 1))
+        _pair(drawing, ax, p, fit, NOISY_BOX, names=names)
+    return drawing
+
+
+def _table2() -> Figure:
+    fit = _exact()
+    return _at_poses(_linkage(fit.printed["linkage"]), fit.poses[0])
+
+
+def _table8() -> Figure:
+    fit = _noisy()
+    return _at_poses(_linkage(fit.printed["linkage_table8"]), fit.poses[0])
+
+
+def _at_poses(linkage: Linkage, wanted: Displacement) -> Figure:
+    """A linkage at one pose, faintly at the others; over the wanted poses; its errors."""
+    error = PoseError.of(linkage, wanted, span_of(wanted))
+    drawing = figure(10.0, 5.2, 200)
+    left, upper, lower = (
+        drawing.add_axes(at)
+        for at in ((0.05, 0.09, 0.40, 0.83), (0.52, 0.50, 0.42, 0.42), (0.54, 0.09, 0.38, 0.28))
+    )
+    coupler_curve(left, linkage, size=span_of(wanted))
+    for k in range(len(wanted.angle)):
+        draw_linkage(left, linkage, error.places[k], faint=k != AT, names=k == AT)
+    poses(left, wanted)
+    legend(left)
+    finish(left)
+    upper.set_anchor("W")
+    achieved(upper, error.places, wanted)
+    legend(upper)
+    finish(upper)
+    pose_errors(lower, error)
+    return drawing
+
+
+_FIGURES: Final[dict[str, Callable[[], Figure]]] = {
+    "figure-1": _figure1,
+    "figure-2": _figure2,
+    "figure-3": _figure3,
+    "figure-4": _figure4,
+    "figure-5": lambda: _between(FIGURE5, PALETTE[1]),
+    "figure-6": lambda: _between(FIGURE6, PALETTE[0]),
+    "figure-7": _figure7,
+    "table-2-linkage": _table2,
+    "table-8-linkage": _table8,
+}
+NAMES: Final = tuple(_FIGURES)

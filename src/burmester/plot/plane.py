@@ -1,0 +1,274 @@
+"""Drawings in the plane of F: poses as frames, linkages, coupler curves, errors, centrodes.
+
+Every function draws on axes that it is given and returns the artists that it made.  `style.finish`
+comes last: equal axes, units, and labels moved apart.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from matplotlib.collections import LineCollection
+from matplotlib.lines import Line2D
+from matplotlib.text import Annotation
+from numpy.typing import ArrayLike
+
+from burmester.circuit import Circuits
+from burmester.displacement import Displacement, FloatArray
+from burmester.linkage import Linkage
+from burmester.motion import Centrodes
+from burmester.motion import centrodes as centrodes_of
+from burmester.plot.mechanism import dimension
+from burmester.plot.style import BLACK, BLUE, GREEN, GREY, PURPLE, VERMILION, label
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+__all__ = [
+    "Achieved",
+    "CouplerCurve",
+    "Frames",
+    "achieved",
+    "centrodes",
+    "coupler_curve",
+    "parameters",
+    "poses",
+    "span_of",
+]
+
+FRAME = 0.13  # length of a frame's x axis, in shares of the poses' span
+SHORTER = 0.6  # its y axis, next to that
+FAR = 2.0  # spans beyond which an endless curve is cut off
+CIRCUITS = ((BLUE, "-"), (GREEN, (0, (5, 2))))
+
+
+class Frames(NamedTuple):
+    """Poses as drawn: one line for all x axes, one for all y axes, the origins, the numbers."""
+
+    x_axes: Line2D
+    y_axes: Line2D
+    origins: Line2D
+    labels: list[Annotation]
+
+
+class CouplerCurve(NamedTuple):
+    """A coupler curve as drawn: a list of lines for each circuit, and its dead points."""
+
+    circuits: list[list[Line2D]]
+    dead_points: list[Line2D]
+
+
+class Achieved(NamedTuple):
+    """Wanted and achieved poses, and lines from the former to the latter, `scale` times as long."""
+
+    wanted: Frames
+    achieved: Frames
+    errors: LineCollection
+    scale: float
+
+
+def span_of(poses: Displacement) -> float:
+    """The longer side of the box of the origins (N,), or 1 where there is none."""
+    size = float(np.ptp(poses.translation.reshape(-1, 2), axis=0).max())
+    return size if size > 0 else 1.0
+
+
+def poses(
+    ax: Axes,
+    poses: Displacement,
+    *,
+    size: float | None = None,
+    names: Sequence[str] | None = None,
+    color: str = VERMILION,
+    linestyle: str | tuple[int, tuple[float, ...]] = "-",
+    numbers: bool = True,
+) -> Frames:
+    """Poses (N,) as frames: a long x axis with a dot at its foot, a shorter y axis, and a number.
+
+    size: of the x axis, in the unit of lengths; an eighth of the span of the poses if None.
+    names: one a pose, in the place of the numbers from 1.
+    """
+    row = poses if poses.shape else poses[None]
+    long = FRAME * span_of(row) if size is None else size
+    tips = row[:, None].act(np.array([[0.0, 0.0], [long, 0.0], [0.0, SHORTER * long]]))
+    style: dict[str, Any] = {
+        "color": color,
+        "ls": linestyle,
+        "zorder": 5,
+        "solid_capstyle": "round",
+    }
+    (x_axes,) = ax.plot(*_broken(tips[:, :2]).T, lw=1.7, **style)
+    (y_axes,) = ax.plot(*_broken(tips[:, [0, 2]]).T, lw=1.0, **style)
+    (origins,) = ax.plot(*tips[:, 0].T, "o", ms=3.2, color=color, zorder=5.1)
+    labels = []
+    if numbers or names is not None:
+        texts = names or [str(k + 1) for k in range(len(tips))]
+        away = row.rotate(np.array([-1.0, -1.0]))
+        labels = [
+            label(ax, text, at, way, color=color)
+            for text, at, way in zip(texts, tips[:, 0], away, strict=True)
+        ]
+    return Frames(x_axes, y_axes, origins, labels)
+
+
+def parameters(circuits: Circuits, samples: int = 721, reach: float = 1.0) -> list[FloatArray]:
+    """Parameters along one circuit, a row for each of its branches, ends included.
+
+    reach: of a drive that slides without end, in the unit of lengths.
+    """
+    closed, two = bool(circuits.closed), int(circuits.branches) == 2
+    if closed:
+        ends = [(0.0, np.pi), (np.pi, 2 * np.pi)] if two else [(0.0, 2 * np.pi)]
+    elif circuits.drive.turns:
+        ends = [(0.0, np.pi / 2), (np.pi / 2, np.pi)] if two else [(0.0, np.pi)]
+    else:
+        ends = [(-reach, 0.0), (0.0, reach)] if two else [(-reach, reach)]
+    return [np.linspace(low, high, samples) for low, high in ends]
+
+
+def coupler_curve(
+    ax: Axes,
+    linkage: Linkage,
+    point: ArrayLike = (0.0, 0.0),
+    *,
+    samples: int = 721,
+    only: int | None = None,
+    size: float | None = None,
+) -> CouplerCurve:
+    """The curve of a point (2,) of M: solid blue on the first circuit, dashed green on the second.
+
+    The second branch of a circuit is drawn thinner, and a cross marks each dead point of the first
+    dyad's drive.  only: the number of the one circuit to draw.  size: of the motion, which decides
+    where an endless curve is cut off; that of the linkage if None.
+    Raises InputError E401 where the first dyad cannot drive.
+    """
+    circuits = Circuits.of(linkage, as_given=True)
+    drawn, dead = list[list[Line2D]](), list[Line2D]()
+    reach = FAR * (dimension(linkage) if size is None else size)
+    for number, (color, style) in enumerate(CIRCUITS):
+        own = circuits[number]
+        if not own.exists or only not in (None, number):
+            continue
+        lines = []
+        branches = parameters(own, samples, reach)
+        for branch, row in enumerate(branches):
+            curve = own.curve(np.asarray(point, dtype=np.float64), row)
+            if not own.closed:
+                curve = _near(curve, reach)
+            (line,) = ax.plot(
+                *curve.T,
+                color=color,
+                ls=style,
+                lw=0.8 if branch else 1.6,
+                zorder=2.5,
+                label=f"circuit {number + 1}" if branch == 0 else "_",
+            )
+            lines.append(line)
+        if len(branches) == 2:
+            ends = np.array([branches[0][-1]] + ([branches[0][0]] if own.closed else []))
+            marks = own.curve(np.asarray(point, dtype=np.float64), ends)
+            (cross,) = ax.plot(
+                *marks.T,
+                "X",
+                ms=6.5,
+                mfc="white",
+                mec=color,
+                mew=1.2,
+                zorder=6,
+                label="_" if dead else "dead point",
+            )
+            dead.append(cross)
+        drawn.append(lines)
+    return CouplerCurve(drawn, dead)
+
+
+def achieved(
+    ax: Axes,
+    places: Displacement,
+    poses_: Displacement,
+    *,
+    scale: float | None = None,
+    size: float | None = None,
+) -> Achieved:
+    """Achieved places (N,) over wanted poses (N,), and the position errors as lines.
+
+    The places are drawn `scale` times as far from their poses as they are, turned as far, and a
+    note says so; None takes a round number for which the greatest error is well seen.
+    """
+    gap = places.translation - poses_.translation
+    turn = places.angle - poses_.angle
+    turn = turn - 2 * np.pi * np.round(turn / (2 * np.pi))
+    span = span_of(poses_)
+    worst = float(max(np.hypot(*gap.T).max(), np.abs(turn).max() * FRAME * span))
+    if scale is None:
+        scale = 1.0
+        if worst > 0:
+            exact = 0.5 * FRAME * span / worst
+            power = 10.0 ** np.floor(np.log10(exact))
+            scale = float(max(1.0, *(m * power for m in (1, 2, 5) if m * power <= exact)))
+    shown = Displacement(poses_.translation + scale * gap, poses_.angle + scale * turn)
+    wanted = poses(ax, poses_, size=size, color=GREY, linestyle=(0, (2, 1.2)), numbers=True)
+    got = poses(ax, shown, size=FRAME * span if size is None else size, color=BLUE, numbers=False)
+    errors = LineCollection(
+        list(np.stack([poses_.translation, shown.translation], axis=1)),
+        colors=BLACK,
+        linewidths=1.4,
+        zorder=6,
+    )
+    ax.add_collection(errors)
+    wanted.x_axes.set_label("wanted")
+    got.x_axes.set_label(
+        "achieved" if scale == 1 else f"achieved, errors drawn {scale:g} times as large"
+    )
+    return Achieved(wanted, got, errors, scale)
+
+
+class DrawnCentrodes(NamedTuple):
+    """Both centrodes as drawn, and the points (n, 2) of them in F."""
+
+    fixed: Line2D
+    moving: Line2D
+    points: Centrodes
+
+
+def centrodes(
+    ax: Axes, linkage: Linkage, place: Displacement, *, circuit: int = 0, samples: int = 721
+) -> DrawnCentrodes:
+    """The fixed centrode, solid, and the moving one, dashed, where the coupler is at a place ().
+
+    Along one circuit; both are cut off far from the place, for they may run through infinity.
+    """
+    own = Circuits.of(linkage, as_given=True)[circuit]
+    size = dimension(linkage)
+    rows = np.concatenate(parameters(own, samples, FAR * size))
+    both = centrodes_of(linkage, own.couplers(rows))
+    fixed = _near(both.fixed, FAR * size, place.translation)
+    moving = _near(place.act(both.moving), FAR * size, place.translation)
+    (one,) = ax.plot(*fixed.T, color=GREEN, lw=1.5, zorder=2.2, label="fixed centrode")
+    (two,) = ax.plot(
+        *moving.T, color=PURPLE, lw=1.5, ls=(0, (4, 1.6)), zorder=2.2, label="moving centrode"
+    )
+    return DrawnCentrodes(one, two, Centrodes(fixed, moving))
+
+
+def _near(points: FloatArray, reach: float, middle: ArrayLike | None = None) -> FloatArray:
+    """Points (n, 2) with nan for those far away, so that a line has a gap there."""
+    if middle is None:
+        finite = points[np.isfinite(points).all(axis=-1)]
+        middle = np.median(finite, axis=0) if len(finite) else np.zeros(2)
+    with np.errstate(invalid="ignore", over="ignore"):
+        close = np.abs(points - np.asarray(middle)).max(axis=-1) <= reach
+    out = np.where(close[:, None], points, np.nan)
+    # A jump from one far side to the other is no piece of the curve.
+    with np.errstate(invalid="ignore"):
+        jump = np.abs(np.diff(out, axis=0)).max(axis=-1) > reach / 2
+    out[1:][jump] = np.nan
+    return np.asarray(out)
+
+
+def _broken(lines: FloatArray) -> FloatArray:
+    """Lines (n, k, 2) as one row with gaps between them."""
+    gap = np.full((len(lines), 1, 2), np.nan)
+    return np.concatenate([lines, gap], axis=1).reshape(-1, 2)
