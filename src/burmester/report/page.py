@@ -1,0 +1,71 @@
+"""The report as one HTML file that asks no network for anything."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import html
+import json
+from importlib import resources
+
+from burmester.report.data import report_data
+from burmester.synthesis import Synthesis
+
+__all__ = ["page"]
+
+EXPORT = "export default {"  # what the widget's module ends with; a page has no one to export to
+
+
+def page(synthesis: Synthesis, title: str) -> str:
+    """The report of a synthesis: a whole HTML document, scripts, styles and data within.
+
+    Its content security policy allows its own script and style, by their hashes, and nothing else.
+    """
+    data = {**report_data(synthesis), "title": title}
+    module = _text("widget.mjs")
+    assert module.count(EXPORT) == 1
+    script = f"{module.replace(EXPORT, 'const widget = {')}\n{_text('start.mjs')}"
+    style = _text("widget.css") + _text("page.css")
+    policy = "; ".join(
+        [
+            "default-src 'none'",
+            f"script-src '{_hash(script)}'",
+            f"style-src '{_hash(style)}'",
+            "base-uri 'none'",
+            "form-action 'none'",
+        ]
+    )
+    parts = {
+        "policy": html.escape(policy, quote=False),
+        "title": html.escape(title),
+        "style": style,
+        "outcome": html.escape(data["outcome"]["message"]),
+        "data": as_script(data),
+        "script": script,
+    }
+    text = _text("page.html")
+    for name, part in parts.items():
+        before, mark, after = text.partition(f"<!--{name}-->")
+        assert mark
+        # What is put in is never looked through for more marks.
+        parts[name] = before + part
+        text = after
+    return "".join(parts.values()) + text
+
+
+def as_script(data: object) -> str:
+    """JSON that can stand in a script element, whatever its strings hold."""
+    text = json.dumps(data, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+    # In JSON these characters stand in strings only, where an escape is as good.
+    for character in "<>&\u2028\u2029":
+        text = text.replace(character, f"\\u{ord(character):04x}")
+    return text
+
+
+def _text(name: str) -> str:
+    return (resources.files("burmester.report") / name).read_text(encoding="utf-8")
+
+
+def _hash(text: str) -> str:
+    digest = hashlib.sha256(text.encode()).digest()
+    return f"sha256-{base64.b64encode(digest).decode()}"
