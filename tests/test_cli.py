@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 
 import burmester
+from burmester import cli
 
 TABLE_2 = """x,y,angle_deg
 -0.8253,-1.0329,91.91
@@ -36,7 +37,7 @@ def run(*arguments, stdin=None, env=None):
         [sys.executable, "-m", "burmester", *map(str, arguments)],
         input=stdin,
         capture_output=True,
-        text=True,
+        encoding=(env or {}).get("PYTHONIOENCODING", "utf-8"),
         check=False,
         timeout=60,
         env={**os.environ, **(env or {})},
@@ -375,7 +376,7 @@ def test_limits_that_cannot_be_met_are_refused_before_solving(poses, name):
     assert done.stdout == ""
     assert done.stderr.startswith(f"error[{code}]")
     for words in [*said, "help:"]:
-        assert words in done.stderr
+        assert words in " ".join(done.stderr.split())
     as_json = run("synthesize", poses, *arguments, "--json")
     assert valid(as_json.stdout)["outcome"]["code"] == code
 
@@ -387,12 +388,62 @@ def test_help_tells_every_option_in_80_columns():
         "--fixed-pivot --moving-pivot --length --kinds --exact --min-transmission --type --driver "
         "--footprint --link-ratio --within --any-order --method --norm --pose-sigma "
         "--angle-weight --certify --raw --tolerance --round --stock --accept-uncertain "
-        "--angle-unit --json --help"
+        "--angle-unit --columns --drop --json --output --force --help"
     )
     for option in options.split():
         assert f"{option} " in done.stdout
     for shape in ("line:", "segment:", "box:", "polygon:", "any"):
         assert f" {shape}" in done.stdout
+
+
+def test_the_object_is_written_whole_and_never_over_a_file(poses, tmp_path):
+    made = tmp_path / "result.json"
+    done = run("synthesize", poses, "-o", made)
+    assert done.returncode == 0
+    assert "wrote" in done.stderr
+    assert valid(made.read_text()) == valid(run("synthesize", poses, "--json").stdout)
+    made.write_text("mine")
+    again = run("synthesize", poses, "-o", made)
+    assert again.returncode == 2
+    assert "error[E140]" in again.stderr
+    assert again.stdout == ""  # refused before anything was computed
+    assert made.read_text() == "mine"
+    assert run("synthesize", poses, "-o", made, "--force").returncode == 0
+    assert valid(made.read_text())["linkages"]
+    assert [each.name for each in tmp_path.iterdir() if each.name.startswith(".")] == []
+
+
+def test_a_bug_leaves_a_file_to_send(monkeypatch, capsys, tmp_path, poses):
+    def broken(*_, **__):
+        return [].pop()
+
+    monkeypatch.setattr("burmester.synthesis.synthesize", broken)
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "bugs"))
+    (tmp_path / "bugs").mkdir()
+    with pytest.raises(SystemExit) as stop:
+        cli.main(["synthesize", str(poses)])
+    assert stop.value.code == 3
+    (left,) = (tmp_path / "bugs").iterdir()
+    told = "".join(capsys.readouterr().err.split())
+    assert "error[E900]" in told
+    assert "".join(str(left).split()) in told
+    assert "pop from empty list" in left.read_text()
+    assert str(poses) in left.read_text()
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "latin-1", "utf-8"])
+def test_output_goes_through_any_encoding(encoding, tmp_path):
+    named = tmp_path / "poses.csv"
+    named.write_text(
+        "x,y,angle_deg,name\n0,0,0,\u4e00\n3,1,40,b\n4,3,70,\u00fc\n5,3,95,d\n6,2,110,e\n",
+        encoding="utf-8",
+    )
+    done = run("synthesize", named, env={"PYTHONIOENCODING": encoding})
+    assert done.returncode in (0, 1)
+    assert "four-bar" in done.stdout
+    as_json = run("synthesize", named, "--json", env={"PYTHONIOENCODING": encoding})
+    names = [pose["name"] for pose in valid(as_json.stdout)["task"]["poses"]]
+    assert names == ["\u4e00", "b", "\u00fc", "d", "e"]
 
 
 def test_cases_are_listed_and_printed():
@@ -487,7 +538,7 @@ def test_the_readme_shows_what_happens():
     failed, tried = doctest.testfile(str(root / "README.md"), module_relative=False)
     assert (failed, tried) == (0, 6)
     listed = run("--help").stdout
-    for command in ("synthesize", "cases", "reproduce"):
+    for command in ("new", "check", "synthesize", "explain", "cases", "reproduce"):
         assert command in listed
     example = run("synthesize", root / "examples" / "poses.csv")
     shown = "\n".join(line.rstrip() for line in example.stdout.rstrip().splitlines())

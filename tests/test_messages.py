@@ -101,6 +101,13 @@ FIVE = "x,y,angle_deg\n" + "".join(ROWS.splitlines(keepends=True)[:5])
 TEN = "x,y,angle_deg\n" + ROWS
 FOUR = "\n".join(FIVE.splitlines()[:5])
 TWO_ANGLES = "0.2,2.4,10 2,-4.4,50 1.2,9.4,50 -6.7,-5.2,10 -2.7,-10.5,50 0,5.9,10 3.3,4,50"
+DOUBLE = (
+    "-2.5495573073301947,-2.098368591404158,86.42401525867588 "
+    "1.956385211122196,3.324833345781434,74.04646732863674 "
+    "-0.398604471496901,-0.7919837331487007,102.97990441864269 "
+    "4.84004552975421,-2.2443327047694974,112.3858523985342 "
+    "-1.7167260579029935,2.04900057372093,90.49287273236531"
+)
 POINTS = "px,py,qx,qy\n0,0,5,0\n3,1,7,4\n4,3,7,7\n5,3,5,8\n6,2,3,6\n"
 GOOD = {"poses.csv": FIVE}
 FEW = {"poses.csv": "\n".join(FIVE.splitlines()[:4])}
@@ -125,6 +132,14 @@ x_mm,y_mm,angle_deg
 def rows(text):
     """A CSV file of rows with blanks between them."""
     return "x,y,angle_deg\n" + "\n".join(text.split()) + "\n"
+
+
+def exchanged(text, *numbers):
+    """The rows of a text, two of them in each other's place."""
+    rows = text.splitlines()
+    first, second = (number - 1 for number in numbers)
+    rows[first], rows[second] = rows[second], rows[first]
+    return "\n".join(rows) + "\n"
 
 
 def json_poses(extra="", rows="[0, 0, 0], [3, 1, 40], [4, 3, 70]"):
@@ -534,6 +549,15 @@ CASES: dict[str, Case] = {
         Edit("poses.csv", "5,3,5,3\n", ""),
         {"poses.csv": POINTS.replace("5,3,5,8", "5,3,5,3")},
     ),
+    "too large to square": Case(
+        "E112", S, Edit("poses.csv", "3e200", "3"), {"poses.csv": rows("0,0,0 3e200,1,40 4,3,70")}
+    ),
+    "too many turns": Case(
+        "E112",
+        S,
+        Edit("poses.csv", "4e10", "40"),
+        {"poses.csv": "x,y,angle_rad\n0,0,0\n3,1,4e10\n4,3,70\n"},
+    ),
     "no pyarrow": Case(
         "E130",
         "synthesize poses.parquet",
@@ -670,6 +694,13 @@ CASES: dict[str, Case] = {
         {"poses.csv": TEN.replace("52.87", "52.67")},
         exit=0,
     ),
+    "two poses exchanged": Case(
+        "W202",
+        S,
+        Write("poses.csv", TEN),
+        {"poses.csv": "x,y,angle_deg\n" + exchanged(ROWS, 3, 7)},
+        exit=0,
+    ),
     "not determined": Case("W203", S, Write("poses.csv", FIVE), {"poses.csv": FOUR}, exit=1),
     "a very long link": Case(
         "W204",
@@ -682,8 +713,9 @@ CASES: dict[str, Case] = {
         },
         exit=1,
     ),
+    # Between five poses with two real dyads and five with four: two of them are one, to rounding.
     "the same dyad twice": Case(
-        "W205", f"{S} --kinds RR --kinds RR", Args(f"{S} --kinds RR"), GOOD, exit=0
+        "W205", S, Write("poses.csv", FIVE), {"poses.csv": rows(DOUBLE)}, exit=1
     ),
     "solutions left out": Case(
         "W206",

@@ -16,7 +16,7 @@ from burmester.requirements import Requirements, require_possible
 __all__ = ["CONDITIONS", "Task"]
 
 CONDITIONS = 5  # that a dyad can meet exactly: it has five dimensions
-MOST = 1e100  # beyond it, or all below its inverse, squares of numbers leave a double's range
+MOST = 1e60  # beyond it, or all below its inverse, fourth powers leave a double's range
 MOST_TURN = 1e9  # radians; of an angle beyond it few digits say where the body points
 LEAST_POSES = 3  # two poses are met by every moving pivot with a whole line of fixed pivots
 
@@ -128,12 +128,12 @@ class Task:
 
 
 def _require_computable(poses: Displacement) -> None:
-    """Refuse numbers whose squares are none; raises E112."""
+    """Refuse numbers that cannot be computed with; raises E112."""
     reach, turn = np.abs(poses.translation).max(axis=1), np.abs(poses.angle)
     if (far := reach > MOST).any() or 0 < reach.max() < 1 / MOST:
         bad = int(far.argmax() if far.any() else reach.argmax())
         message = f"the lengths of pose {bad + 1} are too {'large' if far.any() else 'small'}"
-        why = f"{reach[bad]:g} squared is beyond what a number can hold"
+        why = f"the fourth power of {reach[bad]:g} is beyond what a number can hold"
         help = "write the lengths in another unit"
     elif (far := turn > MOST_TURN).any():
         bad = int(far.argmax())

@@ -18,6 +18,7 @@ from burmester.cli.explain import explain
 from burmester.cli.known import cases, reproduce
 from burmester.cli.new import new
 from burmester.cli.out import EXIT_FOUND, EXIT_INTERRUPT, console, print_json
+from burmester.cli.report import report
 from burmester.cli.synthesize import synthesize
 from burmester.errors import BurmesterError, InputError
 
@@ -33,7 +34,7 @@ def burmester() -> None:
     """
 
 
-for command in (new, synthesize, check, explain, cases, reproduce):
+for command in (new, check, synthesize, report, explain, cases, reproduce):
     burmester.add_command(command)
 
 

@@ -27,8 +27,16 @@ def cases(name: str | None) -> int:
 
 @click.command()
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object and nothing else.")
-def reproduce(as_json: bool) -> int:
-    """Recompute the tables of Ge et al. 2012."""
+@click.option("--figures", metavar="DIR", help="Draw the figures into DIR: PNG, SVG and PDF.")
+@click.option("--force", is_flag=True, help="Draw over files that exist.")
+def reproduce(as_json: bool, figures: str | None, force: bool) -> int:
+    """Recompute the tables of Ge et al. 2012, or draw the figures."""
+    if figures is not None:
+        from burmester.plot import write_figures
+
+        for path in write_figures(figures, force=force):
+            click.echo(f"wrote {path}")
+        return EXIT_FOUND
     from burmester.reproduce import as_json as plain
     from burmester.reproduce import reproduce as run
     from burmester.side_by_side import side_by_side

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
-import numpy as np
 from rich import box
 from rich.console import Console, Group
 from rich.padding import Padding
@@ -14,15 +13,14 @@ from rich.text import Text
 
 from burmester import reasons as said
 from burmester.candidates import ROUNDING
-from burmester.dyad import PR, RP, RR
 from burmester.found import FoundLinkage
+from burmester.io.digits import degrees, links, misses, parts
 from burmester.synthesis import Synthesis
-from burmester.uncertainty import DyadUncertainty, PivotRegion, pose_sigma
+from burmester.uncertainty import DyadUncertainty, pose_sigma
 
 __all__ = [
     "best_sentences",
     "closest_three",
-    "decimals",
     "dimensions",
     "footnotes",
     "new_table",
@@ -30,8 +28,6 @@ __all__ = [
     "usable_table",
 ]
 
-DIGITS = 1e-4  # of the characteristic length: what pivots are shown to, errors permitting
-FINEST = 1e-6  # the same for the best linkage, however exact the poses are
 SHOWN = 8  # linkages that are not usable; the rest are counted
 THREE = 3
 INDENT = 5
@@ -48,12 +44,6 @@ def new_table(title: str | None = None, gap: int = 1) -> Table:
         pad_edge=False,
         show_edge=False,
     )
-
-
-def decimals(synthesis: Synthesis, error: float) -> int:
-    """Decimals down to a dyad's error; the poses can tell no more, and JSON keeps them all."""
-    size = max(error if math.isfinite(error) else 0.0, DIGITS * (synthesis.length or 1.0))
-    return int(np.clip(-math.floor(math.log10(size)), 0, 12))
 
 
 def best_sentences(synthesis: Synthesis) -> Iterator[Text]:
@@ -93,19 +83,19 @@ def usable_table(synthesis: Synthesis, console: Console) -> Table:
     usable = synthesis.usable
     all_pins = any(found.linkage.links is not None for found in usable)
     unlimited = console.options.update(max_width=10 * console.width)
-    for links, gap in ((all_pins, 1), (all_pins, 0)):
-        table = _usable(synthesis, usable, links, gap)
+    for pins, gap in ((all_pins, 1), (all_pins, 0)):
+        table = _usable(synthesis, usable, pins, gap)
         if console.measure(table, options=unlimited).maximum <= console.width:
             return table
     return _usable(synthesis, usable, False, 1)
 
 
-def _usable(synthesis: Synthesis, usable: Sequence[FoundLinkage], links: bool, gap: int) -> Table:
+def _usable(synthesis: Synthesis, usable: Sequence[FoundLinkage], pins: bool, gap: int) -> Table:
     table = new_table("Usable, by worst miss", gap)
     table.add_column("", no_wrap=True)
     table.add_column("type")
     table.add_column("dyads", no_wrap=True)
-    for name in ("ground", "driver", "coupler", "follower") if links else ():
+    for name in ("ground", "driver", "coupler", "follower") if pins else ():
         table.add_column(name, justify="right", no_wrap=True)
     for name in ("worst", "angle", "transm."):
         table.add_column(name, justify="right", no_wrap=True)
@@ -116,8 +106,8 @@ def _usable(synthesis: Synthesis, usable: Sequence[FoundLinkage], links: bool, g
             found.id,
             kind,
             " ".join(dyad.id for dyad in found.in_order),
-            *(_links(synthesis, found) if links else ()),
-            *_errors(synthesis, found),
+            *(links(synthesis, found) if pins else ()),
+            *misses(synthesis, found),
             said.least_angle(found.driven.least_over_range),
         )
     return table
@@ -131,7 +121,7 @@ def unusable(synthesis: Synthesis, found: Sequence[FoundLinkage]) -> Group:
         how = said.met(each, synthesis.task, synthesis.length)
         angle = float(each.error.angle.max())
         if math.isfinite(angle) and not said.exact(each, synthesis.length):
-            how += f" and {_degrees(angle)}"
+            how += f" and {degrees(angle)}"
         if each.exact_error is not None:
             how += f" (before rounding {said.length_of(each.exact_error.worst, synthesis.task)})"
         head = Text(f"{each.id:<{INDENT - 1}} {each.type}, {dyads}: {how}")
@@ -152,7 +142,7 @@ def dimensions(synthesis: Synthesis) -> Iterator[Text | Table]:
     regions: Sequence[DyadUncertainty | None] = best.uncertainty or (None, None)
     for dyad, region in zip(best.dyads, regions, strict=True):
         name = dyad.id
-        for what, value, give in _parts(synthesis, best, dyad.dyad, None if certain else region):
+        for what, value, give in parts(synthesis, best, dyad.dyad, None if certain else region):
             table.add_row(name, what, value, *(() if certain else (give,)))
             name = ""
     yield table
@@ -211,89 +201,12 @@ def footnotes(synthesis: Synthesis) -> str:
     return notes
 
 
-def _parts(
-    synthesis: Synthesis, found: FoundLinkage, dyad: object, region: DyadUncertainty | None
-) -> Iterator[tuple[str, str, str]]:
-    """Of a dyad, each dimension: what it is, its value and how certain it is."""
-    error = found.error.worst
-    turn = math.degrees(float(found.error.angle.max()))
-
-    def known(give: float, unit: str = "") -> tuple[int, str]:
-        digits = _digits(synthesis, max(error, give))
-        return digits, _give(give, digits, unit)
-
-    def point(pivot: np.ndarray, region: PivotRegion | None) -> tuple[str, str]:
-        digits, give = known(region.half_width if region else 0.0)
-        return f"({_fixed(pivot[0], digits)}, {_fixed(pivot[1], digits)})", give
-
-    if isinstance(dyad, RR | RP):
-        yield "fixed pivot", *point(dyad.fixed_pivot, region.fixed if region else None)
-    if isinstance(dyad, RR | PR):
-        yield "moving pivot", *point(dyad.moving_pivot, region.moving if region else None)
-    if isinstance(dyad, RR):
-        digits, give = known(region.length or 0.0 if region else 0.0)
-        yield "length", f"{dyad.radius:.{digits}f}", give
-    if isinstance(dyad, PR | RP):
-        line = region.line if region else None
-        swing = math.degrees(line.angle) if line else 0.0
-        digits, angle = _places(max(turn, swing)), math.degrees(dyad.normal_angle)
-        frame = "line in F" if isinstance(dyad, PR) else "line in M"
-        yield f"{frame}, normal", f"{_fixed(angle, digits)}°", _give(swing, digits, "°")
-        digits, give = known(line.offset if line else 0.0, " at mid-travel")
-        yield "offset", _fixed(float(dyad.offset), digits), give
-
-
-def _fixed(value: float, digits: int) -> str:
-    """A number with so many decimals, and no sign where it is zero."""
-    text = f"{value:.{digits}f}"
-    return text.lstrip("-") if float(text) == 0 else text
-
-
-def _give(value: float, digits: int, what: str = "") -> str:
-    """A half-width, for a number with so many decimals."""
-    if not math.isfinite(value):
-        return "-"
-    if value < 0.5 * 10.0**-digits:
-        return f"± under {10.0**-digits:.{digits}f}{what}"
-    shown = f"{value:.{min(digits, _places(value))}f}" if value < 1e6 else f"{value:.1e}"
-    return f"± {shown}{what}"
-
-
-def _digits(synthesis: Synthesis, size: float) -> int:
-    return _places(max(size if math.isfinite(size) else 0.0, FINEST * synthesis.length))
-
-
-def _places(size: float) -> int:
-    """Decimals that show a size with one digit, or two where the first is 1 or 2; 12 at most."""
-    if not size > 0:
-        return 12
-    return int(np.clip(math.ceil(-math.log10(size / 3)), 0, 12))
-
-
 def _meets(synthesis: Synthesis, best: FoundLinkage) -> str:
     if said.exact(best, synthesis.length):
         return "passes every pose exactly, up to rounding"
     worst = said.length_of(best.error.worst, synthesis.task)
-    return f"passes every pose within {worst} and {_degrees(float(best.error.angle.max()))}"
+    return f"passes every pose within {worst} and {degrees(float(best.error.angle.max()))}"
 
 
 def _nearer(one: FoundLinkage, other: FoundLinkage, size: float) -> bool:
     return one.error.worst < other.error.worst - ROUNDING * size
-
-
-def _errors(synthesis: Synthesis, found: FoundLinkage) -> tuple[str, str]:
-    angle, worst = float(found.error.angle.max()), found.error.worst
-    return (
-        "exact" if worst < ROUNDING * (synthesis.length or 1.0) else said.figure(worst),
-        "exact" if angle < ROUNDING else _degrees(angle),
-    )
-
-
-def _degrees(angle: float) -> str:
-    return f"{said.figure(math.degrees(angle))}°"
-
-
-def _links(synthesis: Synthesis, found: FoundLinkage) -> list[str]:
-    digits = decimals(synthesis, max(dyad.rms_error for dyad in found.dyads))
-    links = found.led.links
-    return ["-"] * 4 if links is None else [f"{length:.{digits}f}" for length in links]

@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 from collections.abc import Sequence
 from itertools import zip_longest
 from typing import TYPE_CHECKING
 
-import numpy as np
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from burmester.candidates import ROUNDING
 from burmester.comparison import Section, Verdict
-from burmester.dyad import PP, PR, RP, RR, Dyad
 from burmester.io import linkage_table
-from burmester.io.linkage_table import decimals, new_table
+from burmester.io.digits import decimals, miss, short, sides
+from burmester.io.linkage_table import new_table
 from burmester.io.message import draw, message, note, show_advice
 from burmester.synthesis import FoundLinkage, Synthesis
 
@@ -137,12 +134,12 @@ def _circle(answer: Answer, k: int) -> list[str]:
 
 
 def _of_starts(answers: Sequence[Answer]) -> list[str]:
-    needed = [f"{a.method} {_short(a.needed)}" for a in answers if a.needed is not None]
+    needed = [f"{a.method} {short(a.needed)}" for a in answers if a.needed is not None]
     settled = [f"{a.method} {a.settled} of {a.starts}" for a in answers if a.starts is not None]
     seconds = [
-        f"{a.method} {_short(a.seconds)} s"
+        f"{a.method} {short(a.seconds)} s"
         if a.seconds >= 0.1
-        else f"{a.method} {_short(1e3 * a.seconds)} ms"
+        else f"{a.method} {short(1e3 * a.seconds)} ms"
         for a in answers
     ]
     return [
@@ -180,8 +177,8 @@ def _dyads(synthesis: Synthesis, width: int) -> Table:
     if width >= 80:
         table.add_column("worst", justify="right", no_wrap=True)
     for found in synthesis.dyads:
-        ground, body, length = _sides(found.dyad, decimals(synthesis, found.rms_error))
-        errors = _error(synthesis, found.rms_error), _error(synthesis, found.max_error)
+        ground, body, length = sides(found.dyad, decimals(synthesis, found.rms_error))
+        errors = miss(synthesis, found.rms_error), miss(synthesis, found.max_error)
         row = found.id, type(found.dyad).__name__, ground, body, length, *errors
         table.add_row(*row[: len(table.columns)])
     return table
@@ -192,32 +189,3 @@ def _bullets(sentences: Sequence[str]) -> Table:
     for sentence in sentences:
         grid.add_row("-", Text(sentence))
     return grid
-
-
-def _sides(dyad: Dyad, digits: int) -> tuple[str, str, str]:
-    """A dyad's pivots or lines on the ground and on the body, and its link's length or "slider"."""
-
-    def point(pivot: np.ndarray) -> str:
-        return f"({pivot[0]:.{digits}f}, {pivot[1]:.{digits}f})"
-
-    def line(side: PR | RP) -> str:
-        angle = math.degrees(side.normal_angle)
-        return f"normal {angle:.2f}°,\noffset {side.offset:.{digits}f}"
-
-    match dyad:
-        case RR():
-            return point(dyad.fixed_pivot), point(dyad.moving_pivot), f"{dyad.radius:.{digits}f}"
-        case PR():
-            return line(dyad), point(dyad.moving_pivot), "slider"
-        case RP():
-            return point(dyad.fixed_pivot), line(dyad), "slider"
-        case PP():
-            return f"angle {math.degrees(dyad.angle):.2f}°", "-", "slider"
-
-
-def _error(synthesis: Synthesis, value: float) -> str:
-    return "exact" if value < ROUNDING * (synthesis.length or 1.0) else _short(value)
-
-
-def _short(value: float) -> str:
-    return f"{value:.2g}" if math.isfinite(value) else "never"

@@ -20,7 +20,7 @@ from burmester.candidates import ROUNDING, FoundDyad
 from burmester.displacement import Displacement
 from burmester.dyad import PP, RP, RR, Dyad
 from burmester.found import FoundLinkage
-from burmester.io import linkage_table, terminal
+from burmester.io import digits, linkage_table
 from burmester.io.linkage_data import dyad_data, linkage_data, number, poses_data
 from burmester.pivot_map import fixed_pivot_map, grid
 from burmester.report.space import chart_of, space_of
@@ -104,16 +104,16 @@ def _poses(task: Task) -> list[dict[str, Any]]:
 
 def _dyad(synthesis: Synthesis, found: FoundDyad) -> dict[str, Any]:
     """A dyad on its own, and how it is written."""
-    digits = linkage_table.decimals(synthesis, found.rms_error)
-    ground, body, length = terminal._sides(found.dyad, digits)
+    places = digits.decimals(synthesis, found.rms_error)
+    ground, body, length = digits.sides(found.dyad, places)
     return {
         **dyad_data(found),
         "said": {
             "ground": ground.replace("\n", " "),
             "body": body.replace("\n", " "),
             "length": length,
-            "rms": terminal._error(synthesis, found.rms_error),
-            "worst": terminal._error(synthesis, found.max_error),
+            "rms": digits.miss(synthesis, found.rms_error),
+            "worst": digits.miss(synthesis, found.max_error),
         },
     }
 
@@ -125,7 +125,7 @@ def _linkage(
     task = synthesis.task
     tolerance = getattr(synthesis.wish, "tolerance", None)
     motion = motion_of(found, task.poses, scene, frames)
-    worst, turned = linkage_table._errors(synthesis, found)
+    worst, turned = digits.misses(synthesis, found)
     first, second = found.dyads if found.better == "first" else found.dyads[::-1]
     data = linkage_data(found, tolerance)
     return {
@@ -158,7 +158,7 @@ def _links(synthesis: Synthesis, found: FoundLinkage) -> dict[str, str] | None:
     if found.linkage.links is None:
         return None
     names = ("ground", "driver", "coupler", "follower")
-    return dict(zip(names, linkage_table._links(synthesis, found), strict=True))
+    return dict(zip(names, digits.links(synthesis, found), strict=True))
 
 
 def _dimensions(synthesis: Synthesis, found: FoundLinkage) -> list[dict[str, str]]:
@@ -171,7 +171,7 @@ def _dimensions(synthesis: Synthesis, found: FoundLinkage) -> list[dict[str, str
         if isinstance(dyad.dyad, PP):
             angle = f"{math.degrees(dyad.dyad.angle):.2f}°"
             rows.append({"dyad": dyad.id, "what": "angle kept", "value": angle, "give": ""})
-        for what, value, plus_minus in linkage_table._parts(synthesis, found, dyad.dyad, known):
+        for what, value, plus_minus in digits.parts(synthesis, found, dyad.dyad, known):
             give = "" if known is None else plus_minus
             rows.append({"dyad": dyad.id, "what": what, "value": value, "give": give})
     return rows

@@ -1,0 +1,35 @@
+"""`burmester report`: the linkages for a motion as a page that moves."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+import click
+
+from burmester.cli.options import FOUND, MADE, READ, WANTED, Sectioned, synthesis, takes
+from burmester.cli.out import EXIT_FOUND, EXIT_NOTHING
+
+__all__ = ["report"]
+
+
+@click.command(cls=Sectioned)
+@takes(READ, WANTED, FOUND, MADE)
+@click.option("-o", "--output", metavar="FILE", help="Name of the page; else POSES with .html.")
+@click.option("--title", metavar="TEXT", help="What the page is called; else the name of POSES.")
+@click.option("--force", is_flag=True, help="Write FILE even if it exists.")
+def report(poses: str, *, output: str | None, title: str | None, force: bool, **given: Any) -> int:
+    """Write a page with the linkages for POSES, moving, that opens without a network.
+
+    The options are those of `burmester synthesize`, where REGION and NAME are explained.
+    """
+    from burmester.io import files
+    from burmester.report import page
+
+    name = {"-": "poses"}.get(poses, os.path.basename(poses.removeprefix("case:")))
+    path = output or f"{os.path.splitext(name)[0]}.html"
+    files.require_free(path, force=force)
+    found = synthesis(poses, **given)
+    files.write(path, page(found, title or name), force=force)
+    click.echo(f"{found.outcome.message}\nwrote {path}; open it in any browser")
+    return EXIT_FOUND if found.determined else EXIT_NOTHING
