@@ -94,7 +94,8 @@ def _scene(synthesis: Synthesis) -> float:
 def _poses(task: Task) -> list[dict[str, Any]]:
     poses: list[dict[str, Any]] = [dict(each) for each in poses_data(task.poses)]
     for index, pose in enumerate(poses):
-        pose["name"] = str(index + 1) if task.names is None else task.names[index]
+        own = "" if task.names is None else task.names[index]
+        pose["name"] = own or str(index + 1)
         if task.exact is not None and task.exact[index]:
             pose["exact"] = True
         if task.weights is not None:
