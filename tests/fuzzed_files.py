@@ -95,7 +95,7 @@ def number(rng, language="csv", positive=False):
         text = f"{int(text[:-70])}.{text[-70:]}".rstrip("0") + rng.choice(("", "1"))
     elif style == 8:
         small = ("4.9e-324", "2.4e-324", "2.5e-324", "1e-310", "2.2250738585072011e-308", "1e-400")
-        text = rng.choice((*small, "1e300", "1.7976931348623157e308", "8.98846567431158e307"))
+        text = rng.choice((*small, "1e50", "9.999999999999999e49", "8.98846567431158e47"))
     elif style == 9:
         text = rng.choice(("0", "0.0", "0.000", "0e5", "0e400", "0.0e-400"))
     elif style == 10:
@@ -108,9 +108,16 @@ def number(rng, language="csv", positive=False):
     if language == "toml" and rng.random() < 0.05 and text.isdigit() and len(text) > 2:
         text = f"{text[:-2]}_{text[-2:]}"
     if positive:
-        return text if Decimal(text.replace("_", "")) > Decimal("1e-300") else "1"
+        return text if Decimal(text.replace("_", "")) > Decimal("1e-50") else "1"
     signs = ("", "", "-") if language == "json" else ("", "", "-", "+")
     return rng.choice(signs) + text
+
+
+def angle_number(rng, language="csv"):
+    """The text of an angle; those beyond 1e9 rad are refused."""
+    while abs(value(text := number(rng, language))) > 10**9:
+        pass
+    return text
 
 
 def tracked(rng, count):
@@ -157,6 +164,7 @@ def sheet(rng):
     extra = [word for word in ("weight", "name", "exact", "#note", "#") if rng.random() < 0.15]
     count = rng.choice((3, 3, 4, 5, 6, 9, 30))
     columns = {name: [number(rng) for _ in range(count)] for name in header}
+    columns[angle] = [angle_number(rng) for _ in range(count)]
     if rng.random() < 0.15:  # whole numbers alone, and nothing to prove a decimal mark
         columns = {name: [str(rng.randint(-3000, 9000)) for _ in range(count)] for name in header}
     if points := rng.random() < 0.15:
@@ -396,7 +404,10 @@ def tree(rng, language):
     """A sound tree, its key and its options."""
     unit, length = rng.choice(("deg", "rad")), rng.choice((None, None, "mm", "in", "Zoll"))
     count = rng.choice((3, 3, 4, 5, 6, 12))
-    key = [[number(rng, language) for _ in range(3)] for _ in range(count)]
+    key = [
+        [number(rng, language), number(rng, language), angle_number(rng, language)]
+        for _ in range(count)
+    ]
     weights = [number(rng, language, positive=True) for _ in range(count)]
     names = [_name(rng) for _ in range(count)]
     as_lists, by_name, with_weights = (rng.random() < part for part in (0.5, 0.2, 0.2))
@@ -617,13 +628,13 @@ def mangle(rng, file, other):
 # Parquet
 
 
-def _stored(rng, count, kind):
-    """A column as Arrow has it, and its numbers as Decimals."""
-    texts = [number(rng) for _ in range(count)]
+def _stored(rng, count, kind, turn):
+    """A column as Arrow has it, and its numbers as Decimals; whether of angles."""
+    texts = [angle_number(rng) if turn else number(rng) for _ in range(count)]
     doubles = [float(text) for text in texts]
     if kind == "int":
         array = pyarrow.array(
-            [rng.randint(-(2**63), 2**63 - 1) >> rng.randrange(64) for _ in texts]
+            [rng.randint(-(2**63), 2**63 - 1) >> rng.randrange(34 * turn, 64) for _ in texts]
         )
     elif kind == "decimal":
         digits = [Decimal(rng.randint(-(10**9), 10**9)).scaleb(-4) for _ in texts]
@@ -650,7 +661,7 @@ def parquet_file(rng, faulty=False):
     kinds = [rng.choice(("double", "double", "float32", "int", "decimal")) for _ in header]
     if faulty:
         kinds[rng.randrange(3)] = rng.choice(("text", "hole", "nan", "double"))
-    made = [_stored(rng, count, kind) for kind in kinds]
+    made = [_stored(rng, count, kind, k == 2) for k, kind in enumerate(kinds)]
     columns = dict(zip(header, (array for array, _ in made), strict=True))
     if by_name := rng.random() < 0.3:
         columns["name"] = pyarrow.array([_name(rng) for _ in range(count)])

@@ -292,6 +292,14 @@ def nearest(number):
         return math.copysign(math.inf, number)
 
 
+def extreme(plain):
+    """Whether powers of a file's numbers leave a double's range, or an angle has no digits."""
+    points = len(plain.poses[0]) == 4
+    lengths = [abs(nearest(n)) for pose in plain.poses for n in (pose if points else pose[:2])]
+    turns = [] if points else [abs(nearest(pose[2])) for pose in plain.poses]
+    return max(lengths) > 1e50 or 0 < max(lengths) < 1e-50 or any(turn > 1e9 for turn in turns)
+
+
 def wrong(task, plain, angle_unit=None):  # noqa: PLR0911
     """What in a task differs from the file, as a sentence; "" if nothing does.
 

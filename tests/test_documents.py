@@ -230,6 +230,38 @@ def test_many_brackets(read, suffix, depth):
             assert f"inside each other: {depth}" in error.why.replace(str(depth + 1), str(depth))
 
 
+def test_a_toml_key_may_have_a_hundred_parts(read):
+    dots = "a." * 150
+    sound = f'# {dots}a = 1\nt = """\n{dots}a = 1\n"""\nu = "{dots}"\nv = \'{dots}\'\n'
+    sound += f"w = [{'1.5,' * 150}]\n{'a.' * 99}a = 1\n[{'b.' * 99}b]\n"
+    poses = "angle_unit = 'deg'\nposes = [[1, 2, 3], [2, 3, 4], [3, 4, 6]]\n"
+    assert read(poses + sound, ".toml").poses.shape == (3,)
+    for parts in ("«{}a» = 1", "[«{}a»]", "q = {{«{}a» = 1}}", "[['x'.«{}a»]]"):
+        text, line, column, _ = marked(sound + parts.format("b . " * 50 + "'c'. " * 50 + "d"))
+        error = refused(lambda: read(text, ".toml"))  # noqa: B023
+        assert error.code == "E109"
+        nested = "'x'" in parts  # the key begins there
+        assert carets(error.where)[1:3] == (line, column - 4 * nested)
+        assert f" {101 + nested} parts" in error.message
+
+
+@pytest.mark.parametrize("bad", [0, 999, 1000, 2345])
+@pytest.mark.parametrize(("pose", "wrong"), [("[1, 2, 3]", "[1, «true», 3]"), ("{P}", "{«B»}")])
+def test_the_first_bad_pose_of_thousands_is_told(read, bad, pose, wrong):
+    """They are looked at in slices."""
+    pose = pose.replace("P", '"p": [1, 2], "q": [3, 4]')
+    wrong = wrong.replace("B", '"p": [1, 2], "q": [3, 4], "r"').replace("»}", "»: 1}")
+    if '"r"' in wrong:
+        wrong = wrong.replace("«", "").replace('"r"', '«"r"')
+    lines = [pose] * 2500
+    lines[bad] = wrong
+    text, line, column, _ = marked("[" + ",\n".join(lines[: bad + 1]) + "]")
+    text = text.removesuffix("]") + ",\n" + ",\n".join([pose, "[null]", "{}"]) + "]"
+    error = refused(lambda: read(text, ".json"))
+    assert error.message.startswith(f"poses[{bad}].")
+    assert carets(error.where)[1:3] == (line, column)
+
+
 # What stands at the wrong place or is misspelt --------------------------------------------------
 
 POSES = 'angle_unit = "deg"\nposes = [[0, 0, 0], [1, 2, 30], [3, 1, 60.5]]\n'
@@ -369,7 +401,7 @@ def test_every_way_to_write_a_number_in_toml(read, number):
     assert math.copysign(1, value) == math.copysign(1, tomllib.loads(f"v = {number}")["v"])
 
 
-@pytest.mark.parametrize("number", ["1e-400", "5e-324", "1.7976931348623157e308", "1E2", "-0"])
+@pytest.mark.parametrize("number", ["1e-400", "5e-324", "9.999999999999999e49", "1E2", "-0"])
 def test_extreme_numbers_in_json(read, number):
     text = f'{{"angle_unit": "rad", "poses": [[0, {number}, 0], [1, 2, 1], [2, 2, 2]]}}'
     assert read(text, ".json").poses.translation[0, 1] == float(number)

@@ -417,7 +417,9 @@ BAD: list[tuple[str, str | bytes, str, str, str]] = [
         "poses.json:1:24",
         "different units",
     ),
-    (".json", '{"poses": []}', "E120", "poses.json", "0 poses"),
+    (".json", '{"poses": []}', "E120", "poses.json:1:2", "0 poses"),
+    (".json", " []", "E120", "poses.json:1:2", "0 poses"),
+    (".toml", "angle_unit = 'deg'\nposes = []", "E120", "poses.toml:2:1", "0 poses"),
     (".toml", "a = 1\nposes = [[1, @, 3]]", "E109", "poses.toml:2:14", "^"),
     (".toml", "poses = [[1, 2", "E109", "poses.toml:1:14", "not TOML"),
     (".toml", "a = " + "[" * 100_000, "E109", "poses.toml:1:100004", "too many brackets"),
@@ -484,7 +486,7 @@ def test_files_that_cannot_be_opened(tmp_path: Path) -> None:
     for source in (tmp_path / "none.csv", tmp_path, f"{tmp_path}/nul\0.csv"):
         error = refusal(functools.partial(read_task, source))
         assert error.code == "E101"
-        assert error.where == os.fspath(source)
+        assert error.where == os.fspath(source).replace("\0", " ")
         assert error.why
 
 
@@ -542,6 +544,42 @@ def test_e110_with_large_angles_does_not_claim_they_are_small(read: Read) -> Non
         "all 3 angles lie between 49.9 and 91.91. "
         "As degrees the body turns 42.0 deg in total, as radians 2407.0 deg"
     )
+
+
+def test_e110_speaks_of_one_angle_as_one(read: Read) -> None:
+    error = refused(read, "x,y,angle\n1,2,2.5\n")
+    assert error.code == "E110"
+    assert "the angle is 2.5: so many degrees, or 143.239 deg as radians" in error.text
+
+
+ESCAPES = "\x1b[31m\x07\x9b\u202e"  # what a terminal would obey
+STEALTH = [
+    (".csv", f"x,y,angle_deg,n{ESCAPES}\n1,2,3,4\n", "E107"),
+    (".csv", f"x,\x1fx,y,angle_deg\n1,2,3,4\n{ESCAPES}", "E108"),
+    (".csv", f"x,y,angle_deg\n1,{ESCAPES}2,3\n", "E104"),
+    (".csv", f"x,y,angle_deg\n1,\u2013{ESCAPES},3\n", "E104"),
+    (".csv", f"x,y,angle_deg,#{ESCAPES}\n1,2,3\n", "E106"),
+    (".csv", f"# x,y,angle_deg,#{ESCAPES}\n1,2,3\n2,3,4\n", "E105"),
+    (".json", f"[[1, {ESCAPES}]]", "E109"),
+    (".json", f"[[1, a{ESCAPES}]]", "E109"),
+    (".json", json.dumps([{"x": 1, "y": 2, "angle": 3, ESCAPES: 4}]), "E107"),
+    (".json", json.dumps([{"x": 1, "y": 2, "angle": 3, "\udc1b": 4}]), "E107"),
+    (".json", json.dumps({ESCAPES: 1, "poses": [[1, 2, "\udc1b"]]}), "E104"),
+    (".json", json.dumps({"poses": [], "requirements": {"types": [ESCAPES]}}), "E134"),
+    (".json", json.dumps({"poses": [], "limits": {"kinds": [ESCAPES + "\udc1b"]}}), "E104"),
+    (".toml", f"a = {ESCAPES}", "E109"),
+    (".toml", "angle_unit = '\u202e'\nposes = [[1, 2, 3]]", "E110"),
+]
+
+
+@pytest.mark.parametrize(("suffix", "content", "code"), STEALTH)
+def test_errors_hold_nothing_that_a_terminal_obeys(
+    read: Read, suffix: str, content: str, code: str
+) -> None:
+    error = refusal(lambda: read(content, suffix))
+    assert error.code == code
+    for part in (error.message, error.where, error.why, error.help):
+        assert (part or "").replace("\n", "").isprintable()
 
 
 @pytest.mark.parametrize("column", ["angle", "theta", "phi", "rotation", "ANGLE"])
@@ -681,8 +719,10 @@ def test_e101_offers_the_case_that_was_meant(tmp_path: Path, monkeypatch: Any) -
 
 # Laws ---------------------------------------------------------------------------------------
 
-numbers = st.floats(allow_nan=False, allow_infinity=False)
-tables = st.lists(st.tuples(numbers, numbers, numbers), min_size=3, max_size=20)
+lengths, angles = st.floats(-1e50, 1e50), st.floats(-1e9, 1e9)  # others are refused
+tables = st.lists(st.tuples(lengths, lengths, angles), min_size=3, max_size=20).map(
+    lambda rows: [*rows, (1.0, 0.0, 0.0)]  # a length that is not tiny
+)
 
 
 def as_csv(rows: list[tuple[float, float, float]], separator: str, mark: str) -> str:

@@ -464,8 +464,9 @@ def parquet(columns: dict[str, Any], **options: Any) -> bytes:
     return sink.getvalue()
 
 
-doubles = st.lists(
-    st.tuples(*[st.floats(allow_nan=False, allow_infinity=False)] * 3), min_size=3, max_size=9
+lengths = st.floats(-1e50, 1e50)  # others are refused
+doubles = st.lists(st.tuples(lengths, lengths, st.floats(-1e9, 1e9)), min_size=3, max_size=9).map(
+    lambda rows: [*rows, (1.0, 0.0, 0.0)]  # a length that is not tiny
 )
 
 
@@ -540,6 +541,22 @@ def test_what_parquet_cannot_mean_is_refused(
     error = refusal(lambda: read(data, ".parquet"))
     assert error.code == code
     assert str(error.where).endswith(f"poses.parquet{place}")
+
+
+@pytest.mark.parametrize("column", ["x", "name", "exact"])
+def test_text_in_parquet_that_is_no_text_is_told_with_its_row(read: Read, column: str) -> None:
+    damaged = pa.array([b"", b"", b"\xc8\xff"])
+    text = pa.Array.from_buffers(pa.string(), 3, damaged.buffers())
+    columns = {name: [1.0, 2.0, 4.0] for name in ("x", "y", "angle_rad")} | {column: text}
+    error = refusal(lambda: read(parquet(columns), ".parquet"))
+    if column == "x":
+        assert error.code == "E104"
+        assert error.where.endswith("column x")
+    else:
+        assert error.code == "E101"
+        assert error.where.endswith(f"row 3, column {column}")
+    del columns[column]  # as the help says
+    assert error.code == "E104" or len(read(parquet(columns), ".parquet").poses.angle) == 3
 
 
 def test_a_damaged_parquet_file_is_read_or_refused(read: Read) -> None:

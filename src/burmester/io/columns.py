@@ -16,7 +16,7 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from burmester.errors import InputError
-from burmester.io.table import NUMERIC, POINTS, shown
+from burmester.io.table import NUMERIC, POINTS, brief, shown
 
 __all__ = ["HEADER", "Columns", "is_header", "read_columns"]
 
@@ -192,7 +192,8 @@ def _unknown(
     why = _units(name) or _KNOWN
     if not name:
         message = "a column has no name"
-    help = f"delete the column, or {ignore.format(name)} to have it ignored"
+    edit = brief(ignore.format(name), "begin its name with # (and put it in quotes)")
+    help = f"delete the column, or {edit} to have it ignored"
     if near := _nearest(name):
         help = f"write `{near}` if that is what it is; otherwise {help}"
     return InputError("E107", message, where=where(i), why=why, help=help)

@@ -12,6 +12,7 @@ and where.  The errors are those that `burmester.io.poses` lists.
 from __future__ import annotations
 
 import functools
+import itertools
 import re
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
@@ -21,12 +22,13 @@ import numpy as np
 from burmester.errors import InputError
 from burmester.io import table
 from burmester.io.columns import HEADER, Columns, is_header, read_columns
-from burmester.io.table import PoseTable, Rows, Source, numeric_roles
+from burmester.io.table import PoseTable, Rows, Source, brief, numeric_roles
 from burmester.io.wrong_numbers import not_a_number
 
 __all__ = ["BLOCK", "read_csv"]
 
 BLOCK = 1 << 20  # characters parsed at a time, so that a million rows need little memory
+_MANY = 20  # names of columns that a help writes out
 
 _MARK = f"(?i:{'|'.join(filter(None, table.MARKS))})?"
 # of a spreadsheet: these begin no comment
@@ -78,7 +80,7 @@ def read_csv(source: Source, columns: str | None = None) -> PoseTable:
         angle_unit=header.columns.units.get("angle"),
         where=header.where,
         say_unit=f"name the column `angle_deg` or `angle_rad` {where}",
-        place=functools.partial(_place, header) if "px" in header.columns.places else None,
+        place=functools.partial(_place, header),
     )
 
 
@@ -165,9 +167,10 @@ def _is_header(line: str) -> bool:
 
 def _filled(cells: list[str]) -> list[str]:
     """Cells without the blank ones at their end."""
-    while cells and not _unquoted(cells[-1]):
-        cells = cells[:-1]
-    return cells
+    count = len(cells)
+    while count and not _unquoted(cells[count - 1]):
+        count -= 1
+    return cells[:count]
 
 
 def _require_header(source: Source, first: re.Match[str], where: str) -> None:
@@ -184,9 +187,15 @@ def _require_header(source: Source, first: re.Match[str], where: str) -> None:
         f"put this line on top: `{separator.join(names)}` (or angle_rad in it), or pass "
         f"--columns {','.join(names)}{points}"
     )
+    if len(names) > _MANY:
+        help = (
+            f"put a line on top that names the {len(names)} columns: {HEADER} for those of the "
+            f"poses, and #1, #2 and so on for the others"
+        )
     above = source.text[: first.start()].rstrip("\n").rpartition("\n")[2].strip()
     if above.startswith("#") and _is_header(above.lstrip("# ")):
-        help = f"delete the # in front of `{above.lstrip('# ')}`, or pass --columns {HEADER}"
+        line = brief(f"`{above.lstrip('# ')}`", "the line above")
+        help = f"delete the # in front of {line}, or pass --columns {HEADER}"
     message = "there is no header: the first line is all numbers"
     raise InputError("E105", message, where=where, help=help)
 
@@ -201,7 +210,13 @@ def _plain_rows(block: str, header: _Header, marks: dict[str, str]) -> Rows | No
     looks = {"name": text, "exact": _MARK}
     like = {place: looks.get(role, number) for role, place in places.items()}
     part, width = re.escape(separator), len(header.names) + header.spare
-    row = part.join([like.get(i, text) for i in range(len(header.names))] + [""] * header.spare)
+    cell = [like.get(i, text) for i in range(len(header.names))] + [""] * header.spare
+    row = (
+        cell[0]
+        + "".join(  # a file may have thousands of columns that are ignored
+            f"(?:{part}{look}){{{len(list(same))}}}" for look, same in itertools.groupby(cell[1:])
+        )
+    )
     if not re.fullmatch(rf"(?:{row}\n)*+{row}", block):
         return None
     cells = block.replace("\n", separator).split(separator)
@@ -261,8 +276,10 @@ def _rows(
             yield line, cells
 
 
-def _place(header: _Header, row: int) -> str:
-    """Where a row stands, by its number from 0."""
+def _place(header: _Header, row: int | None) -> str:
+    """Where a row stands, by its number from 0; the file for None."""
+    if row is None:
+        return header.source.label
     lines = _rows(_LINE.finditer(header.source.text, header.end), header.separator)
     line = next(line for k, (line, _) in enumerate(lines) if k == row)
     start = line.start() + len(line[0]) - len(line[0].lstrip())
@@ -324,7 +341,7 @@ def _require_width(line: re.Match[str], cells: list[str], header: _Header, row: 
     if filled == needed:
         return
     where, why = header.source.where(line.end()), None
-    named = f" ({', '.join(header.names)})" if needed < 20 else ""
+    named = brief(f" ({', '.join(header.names)})", "")
     help = f"give {needed} cells{named}, or delete the row"
     if filled > needed:
         extra = next(i for i in range(needed, filled) if _unquoted(cells[i]))
@@ -339,6 +356,7 @@ def _require_width(line: re.Match[str], cells: list[str], header: _Header, row: 
     other = next((s for s in "\t;|," if len(_filled(_split(line[0], s))) == needed), None)
     if given == 1 and other:
         why = f"{_SAID[header.separator]} parts the cells of the header, {_SAID[other]} these"
-        help = f"write the header as `{other.join(header.names)}`"
+        edit = brief(f"`{other.join(header.names)}`", f"its names with {_SAID[other]} between them")
+        help = f"write the header as {edit}"
     message = f"row {row} has {given} cell{'' if given == 1 else 's'}, the header has {needed}"
     raise InputError("E106", message, where=where, why=why, help=help)

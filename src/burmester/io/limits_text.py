@@ -136,7 +136,8 @@ def number(source: Source, cell: str, at: int, code: str = "E131") -> float:
         such = "-12.5 or 3e-4" if code == "E131" else "12.5 or 3e-4"
         help = f"write digits with at most a decimal point and an exponent, such as {such}"
         message = f"{shown(cell.strip())} is not a finite number"
-        why, edit = _slip(cell.strip())
+        short = len(cell) <= 40 and cell.isprintable()
+        why, edit = _slip(cell.strip()) if short else (None, None)
         raise fault(source, message, edit or help, at, len(cell.strip()), code, why)
     return float(plain)
 

@@ -7,8 +7,9 @@ The errors are those that `burmester.io.poses` lists.
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -20,6 +21,8 @@ from burmester.io.table import PoseTable, Rows, decimals, numeric_roles
 
 __all__ = ["is_parquet", "read_parquet"]
 
+_Where: TypeAlias = Callable[[int | None, int | None], str]  # the place of a column and a row
+
 
 def is_parquet(data: bytes) -> bool:
     return data.startswith(b"PAR1")
@@ -28,11 +31,12 @@ def is_parquet(data: bytes) -> bool:
 def read_parquet(label: str, data: bytes) -> PoseTable:
     """The poses in the bytes of a Parquet file; raises E101 to E108, and E130 without pyarrow."""
     file = _opened(data)
-    names = file.schema_arrow.names
+    names = _taken(lambda: file.schema_arrow.names)
 
     def where(i: int | None, row: int | None = None) -> str:
         parts = [f"row {row + 1}"] if row is not None else []
-        parts += [f"column {names[i]}"] if i is not None else []
+        if i is not None:
+            parts.append(table.brief(f"column {names[i]}", f"column number {i + 1}"))
         return f"{label}: {', '.join(parts)}" if parts else label
 
     columns = read_columns(names, where, 'name it "#{}"')
@@ -57,7 +61,8 @@ def read_parquet(label: str, data: bytes) -> PoseTable:
         numbers.append(values)
         printed[role] = 0.0 if role == "weight" else max(decimals(text) for text in texts if text)
     angle = printed.pop("angle", 0.0)
-    names_of = [str(v) if v is not None else "" for v in _list(stored, names, places.get("name"))]
+    given_names = _list(stored, names, places.get("name"), where)
+    names_of = [str(value) if value is not None else "" for value in given_names]
     exact = _marks(stored, names, places.get("exact"), where)
     rows = Rows(
         np.stack(numbers, axis=1), (max(printed.values()), angle), names_of, exact, "px" in places
@@ -68,7 +73,7 @@ def read_parquet(label: str, data: bytes) -> PoseTable:
         angle_unit=columns.units.get("angle"),
         where=where(places.get("angle")),
         say_unit="name the column angle_deg or angle_rad",
-        place=lambda row: where(None, row),
+        place=lambda row: where(None, row),  # where(None, None) is the file
     )
 
 
@@ -101,15 +106,15 @@ def _numbers(column: Any, name: str, where: str) -> tuple[FloatArray, list[str |
     from pyarrow import types
 
     kind = column.type
-    values: list[Any] = column.to_pylist()
     if types.is_floating(kind):
+        values: list[Any] = column.to_pylist()
         doubles = column.to_numpy().astype(np.float64)
         if not types.is_float64(kind):  # 0.1 in 32 bits is printed as 0.1
             short = np.float32 if types.is_float32(kind) else np.float16
             return doubles, [None if v is None else _short(str(short(v))) for v in values]
         return doubles, [None if v is None else _short(repr(v)) for v in values]
     if types.is_integer(kind) or types.is_decimal(kind):
-        texts = [None if v is None else _short(str(v)) for v in values]
+        texts = [None if v is None else _short(str(v)) for v in column.to_pylist()]
         return np.array([np.nan if text is None else float(text) for text in texts]), texts
     message = f"the column {table.shown(name)} holds {kind}, not numbers"
     raise InputError("E104", message, where=where, help="store it as float64")
@@ -122,16 +127,28 @@ def _short(text: str) -> str:
     return mantissa + e + exponent
 
 
-def _list(stored: Any, names: list[str], place: int | None) -> list[Any]:
-    return [] if place is None else list(stored.column(names[place]).to_pylist())
+def _list(stored: Any, names: list[str], place: int | None, where: _Where) -> list[Any]:
+    """The values of a column that need not be there; raises E101 for damaged text."""
+    if place is None:
+        return []
+    column, values = stored.column(names[place]), []
+    with contextlib.suppress(ValueError):
+        return list(column.to_pylist())
+    for row, each in enumerate(column):
+        try:
+            values.append(each.as_py())
+        except ValueError as error:  # text that is not UTF-8, a date of the year 10,000
+            why = str(error).partition("\n")[0][:200]
+            message = f"row {row + 1} has a value that cannot be read"
+            help = "write the file again with another text there, or without this column"
+            raise InputError("E101", message, where=where(place, row), why=why, help=help) from None
+    return values
 
 
-def _marks(
-    stored: Any, names: list[str], place: int | None, where: Callable[[int | None, int], str]
-) -> list[bool]:
+def _marks(stored: Any, names: list[str], place: int | None, where: _Where) -> list[bool]:
     """The column `exact`: true and false, or what stands for them in a CSV file."""
     marks = []
-    for row, value in enumerate(_list(stored, names, place)):
+    for row, value in enumerate(_list(stored, names, place, where)):
         text = "" if value is None else str(value).strip().lower()
         if text not in table.MARKS:
             message = f"row {row + 1} has {table.shown(value)} where yes or no belongs"

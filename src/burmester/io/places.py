@@ -20,6 +20,7 @@ __all__ = [
     "LONG",
     "SHORT",
     "STRING",
+    "UNCLOSED",
     "Document",
     "Language",
     "Path",
@@ -40,7 +41,11 @@ LONG = (  # up to two quotes may stand before those that end it
 )
 SHORT = r'"(?:[^"\\\n]++|\\.)*+"|' r"'[^'\n]*+'"
 STRING = f"{LONG}|{SHORT}"
-_TOKEN = re.compile(rf"{STRING}|#[^\n]*+|[\[\]{{}}]")
+# texts without an end: gone through once, as it would take the square of their length to try
+# each of their quotes
+UNCLOSED = r'"{3}(?:[^"\\]++|\\[\s\S]|"{1,2}(?!"))*+|' + r"'{3}(?:[^']++|'{1,2}(?!'))*+|"
+UNCLOSED += r'"(?:[^"\\\n]++|\\.)*+|' + r"'[^'\n]*+"
+_TOKEN = re.compile(rf"{STRING}|{UNCLOSED}|#[^\n]*+|[\[\]{{}}]")
 _BLANK = re.compile(r"(?:\s++|#[^\n]*+)*+")
 _SCALAR = re.compile(rf"{STRING}|[^\s,\]}}#][^,\]}}#\n]*+")
 _KEY = re.compile(rf"{STRING}|[\w-]++")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,9 @@ from burmester.errors import InputError
 __all__ = ["Tracked", "tracked"]
 
 MOST_CHANGE = 0.1  # of the distance between points of one rigid body, before they are refused
+
+
+_Place: TypeAlias = Callable[[int | None], str]  # where a row stands
 
 
 class Tracked(NamedTuple):
@@ -29,7 +32,7 @@ def tracked(
     points: FloatArray,
     decimals: float,
     numbers: NDArray[np.intp],
-    place: Callable[[int], str] | None = None,
+    place: _Place | None = None,
 ) -> Tracked:
     """Poses whose origin is p, exactly as given, and whose x axis points from p to q.
 
@@ -70,9 +73,7 @@ def tracked(
     return Tracked(poses, resolution, sigma)
 
 
-def _not_rigid(
-    distance: FloatArray, numbers: NDArray[np.intp], place: Callable[[int], str] | None
-) -> InputError:
+def _not_rigid(distance: FloatArray, numbers: NDArray[np.intp], place: _Place | None) -> InputError:
     """E111, at the row whose distance is furthest from the usual one."""
     short, long = int(distance.argmin()), int(distance.argmax())
     least, usual, most = (float(f(distance)) for f in (np.min, np.median, np.max))
@@ -82,6 +83,6 @@ def _not_rigid(
     return _refusal("p and q do not stay on one rigid body", why, int(numbers[odd]), place)
 
 
-def _refusal(message: str, why: str, row: int, place: Callable[[int], str] | None) -> InputError:
+def _refusal(message: str, why: str, row: int, place: _Place | None) -> InputError:
     help = f"correct row {row + 1}, or leave it out: delete it, or pass --drop {row + 1}"
     return InputError("E111", message, where=place(row) if place else None, why=why, help=help)

@@ -29,7 +29,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.displacement import Displacement, FloatArray
-from burmester.errors import InputError
+from burmester.errors import InputError, printable
 from burmester.io.asked import requirements
 from burmester.io.csv_poses import read_csv
 from burmester.io.documents import read_json, read_toml
@@ -76,12 +76,16 @@ def read_task(
     if angle_unit not in (None, *UNITS):
         raise InputError("E110", f"there is no angle unit {angle_unit!r}", help="say deg or rad")
     path = os.fspath(source)
-    label = "<stdin>" if path == "-" else path
+    label = "<stdin>" if path == "-" else printable(path)
     try:
         table = _table(label, path, columns)
         return _task(table, angle_unit, wanted, exact, drop, sigma)
     except InputError as error:
-        error.where = error.where or label
+        error.where = printable(error.where or label)
+        error.message = printable(error.message)
+        error.why = error.why and printable(error.why)
+        if error.help:  # a tab may part the cells of a line to be written
+            error.help = "\t".join(map(printable, error.help.split("\t")))
         raise
 
 
@@ -150,6 +154,8 @@ def _task(  # noqa: PLR0917
     except InputError as error:
         if error.code in ("E132", "E134"):  # limits and requirements, not the poses
             error.where = error.where or said.places
+        elif error.code == "E120" and table.place and not error.where:  # too few poses
+            error.where = table.place(None)
         raise
 
 
@@ -186,6 +192,8 @@ def _marked(rows: Rows, exact: Sequence[str]) -> NDArray[np.bool_] | None:
 
 def _both_readings(least: float, most: float, count: int) -> str:
     """How far the body turns if the angles are degrees, and if they are radians."""
+    if count == 1:
+        return f"the angle is {least:g}: so many degrees, or {math.degrees(least):g} deg as radians"
     small = max(-least, most) <= 2 * math.pi
     lie = "within +-6.28" if small else f"between {least:g} and {most:g}"
     turns = (most - least, math.degrees(most - least))

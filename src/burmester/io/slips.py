@@ -11,7 +11,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from burmester.io.places import LONG, SHORT, STRING, Language, deepest, statement
-from burmester.io.table import shown
+from burmester.io.table import brief, shown
 
 __all__ = ["Slip", "long_integer", "slip"]
 
@@ -40,10 +40,7 @@ class _Stop(NamedTuple):
     @property
     def last(self) -> int:
         """The place of the last character before it that is no blank."""
-        at = self.at - 1
-        while at > 0 and self.text[at].isspace():
-            at -= 1
-        return max(at, 0)
+        return max(len(self.text[: self.at].rstrip()) - 1, 0)
 
 
 class _Rule(NamedTuple):
@@ -83,7 +80,7 @@ def _piece(text: str) -> str:
 _TOKENS = re.compile(rf"{LONG}|\"{{3}}|'{{3}}|{SHORT}|#[^\n]*+|[\[\]{{}}]|[\"']")
 _INTEGER = re.compile(rf"{STRING}|#[^\n]*+|(?<![\w.+-])([-+]?[0-9][0-9_]{{4300,}})(?![\w.]|\s*=)")
 _NUMBER = re.compile(r"[-+]?(?=\.?[0-9])[\w.]+(?:(?<=[eE])[-+][0-9]+)?")
-_PARTS = re.compile(r"([-+]?)0*([0-9]*)\.?([0-9]*)((?:[eE][-+]?[0-9]+)?)")
+_PARTS = re.compile(r"([-+]?)0*+([0-9]*+)\.?([0-9]*+)((?:[eE][-+]?[0-9]++)?)")
 _WORD = re.compile(r"[^\W\d][\w-]*")
 _CONSTANTS = {"true": "true", "false": "false", "none": "null", "null": "null", "undefined": "null"}
 
@@ -198,8 +195,9 @@ def _number(stop: _Stop) -> Slip | None:
     token, behind = found[0], text[found.end() : found.end() + 40]
     comma = re.match(r",([0-9]+)", behind)
     if stop.language == "TOML" and comma and stop.at == found.end():
-        why = f"the comma in {token}{comma[0]} is no decimal mark"
-        return Slip(start, len(token + comma[0]), why, f"write {token}.{comma[1]}")
+        why = f"the comma in {_piece(token + comma[0])} is no decimal mark"
+        help = brief(f"write {token}.{comma[1]}", "write a decimal point in its place")
+        return Slip(start, len(token + comma[0]), why, help)
     simple = _PARTS.fullmatch(token.replace("_", ""))
     if not simple:
         why, help = (
@@ -215,7 +213,8 @@ def _number(stop: _Stop) -> Slip | None:
     if plain == token:
         return None
     why = f"{_piece(token)} is not how {stop.language} writes a number"
-    return Slip(start, len(token), why, f"write {_piece(plain)}")
+    help = brief(f"write {plain}", "write digits with at most a decimal point and an exponent")
+    return Slip(start, len(token), why, help)
 
 
 def _cut_off(stop: _Stop) -> Slip | None:
@@ -255,7 +254,8 @@ def _word(stop: _Stop) -> Slip | None:
     if plain and plain != word[0]:
         why = f"{word[0]} is spelt {plain} in {stop.language}"
         return Slip(start, width, why, f"write {plain}")
-    why, help = f"the text {_piece(word[0])} has no quotes around it", f'write "{word[0]}"'
+    why = f"the text {_piece(word[0])} has no quotes around it"
+    help = brief(f'write "{word[0]}"', "write quotes around it")
     return None if plain else Slip(start, width, why, help)
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.displacement import FloatArray
-from burmester.errors import InputError
+from burmester.errors import InputError, printable
 from burmester.io.wanted import Wanted
 
 __all__ = [
@@ -26,6 +26,7 @@ __all__ = [
     "PoseTable",
     "Rows",
     "Source",
+    "brief",
     "decimals",
     "empty",
     "numeric_roles",
@@ -90,7 +91,8 @@ class PoseTable(NamedTuple):
     say_unit: str  # how to state it there
     wanted: Wanted = Wanted()
     sigma: tuple[float, float] | None = None  # standard deviations of the poses, if stated
-    place: Callable[[int], str] | None = None  # where a row stands, by its number from 0
+    # where a row stands, by its number from 0; None is for where they begin
+    place: Callable[[int | None], str] | None = None
 
 
 class Source(NamedTuple):
@@ -105,7 +107,7 @@ class Source(NamedTuple):
         number, column = self.text.count("\n", 0, start) + 1, position - start
         start += max(0, column - 60)  # a whole JSON file may be one line
         line = self.text[start : start + 100].partition("\n")[0]
-        line = "".join(c if c.isprintable() else " " for c in line)
+        line = printable(line)
         blanks, gutter = position - start, max(4, len(str(number)))
         carets = "^" * max(1, min(width, len(line) - blanks))
         return (
@@ -179,6 +181,11 @@ def shown(value: object) -> str:
     except (ValueError, RecursionError):  # an integer of 5,000 digits, a thousand brackets
         text = f"a long {type(value).__name__}"
     return text if len(text) <= 40 else f"{text[:37]}..."
+
+
+def brief(edit: str, otherwise: str) -> str:
+    """An edit that holds a piece of a file, or the same in other words if that is long."""
+    return edit if len(edit) <= 120 and edit.replace("\t", "").isprintable() else otherwise
 
 
 def decimals(number: str) -> float:

@@ -11,7 +11,7 @@ from decimal import Decimal
 from fractions import Fraction
 
 from burmester.errors import InputError
-from burmester.io.table import NOT_FINITE, NUMBER, UNITS, plain_number, shown
+from burmester.io.table import NOT_FINITE, NUMBER, UNITS, brief, plain_number, shown
 
 __all__ = ["not_a_number"]
 
@@ -60,7 +60,7 @@ def _dash(cell: str, separator: str) -> tuple[str, str] | None:
         return None
     plain = re.sub(f"[{''.join(_DASHES)}]", "-", cell)
     edit = f"write {plain}" if _is_number(plain, separator) else "write a minus sign: -"
-    return f"has {_DASHES[dash]} where a minus sign belongs", edit
+    return f"has {_DASHES[dash]} where a minus sign belongs", brief(edit, "write a minus sign: -")
 
 
 def _spreadsheet(cell: str, separator: str) -> tuple[str, str] | None:
@@ -74,7 +74,7 @@ def _digits(cell: str, separator: str) -> tuple[str, str] | None:
         return None
     plain = "".join(str(unicodedata.decimal(c, c)) for c in cell)
     edit = plain if _is_number(plain, separator) else "it with the digits 0 to 9"
-    return "has digits other than 0 to 9", f"write {edit}"
+    return "has digits other than 0 to 9", brief(f"write {edit}", "write the digits 0 to 9")
 
 
 def _parted(cell: str, separator: str) -> tuple[str, str] | None:
@@ -86,7 +86,8 @@ def _parted(cell: str, separator: str) -> tuple[str, str] | None:
     whole = re.sub(r"[^0-9+-]", "", found[1])
     comma = found[3] == "," and separator != ","
     plain = whole + (f"{',' if comma else '.'}{found[4]}" if found[3] else "")
-    return "has separators between its thousands", f"write {plain}"
+    edit = brief(f"write {plain}", "write it without them")
+    return "has separators between its thousands", edit
 
 
 def _fraction(cell: str, separator: str) -> tuple[str, str] | None:
@@ -107,9 +108,10 @@ def _measure(cell: str, separator: str) -> tuple[str, str] | None:
         return "has a percent sign", f"write {plain.replace('.', mark)}"
     if re.fullmatch(r"[a-zA-Zµμ°\"'′″]+\.?", found[2]):
         column = "angle_deg" if found[2] == "°" else "x_mm"
+        edit = brief(f"write {found[1]}", "delete that")
         return (
             "has a unit or other text behind the number",
-            f"write {found[1]}, and the unit in the header, as in {column}",
+            f"{edit}, and the unit in the header, as in {column}",
         )
     return None
 
@@ -119,5 +121,6 @@ def _comma(cell: str, separator: str) -> tuple[str, str] | None:
         return None
     return (
         "has a comma, which ends a cell in this file",
-        f"write {cell.replace(',', '.')}, or delete the comma if it parts thousands",
+        brief(f"write {cell.replace(',', '.')}", "write a point for it")
+        + ", or delete the comma if it parts thousands",
     )
