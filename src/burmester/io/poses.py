@@ -55,8 +55,11 @@ def read_task(
     sigma: tuple[float, float] | None = None,
     columns: str | None = None,
     drop: Sequence[str] = (),
+    data: bytes | None = None,
 ) -> Task:
     """Read the task in a file, on standard input ("-") or in a carried case ("case:NAME").
+
+    data: the bytes of the source, where they have been read already.
 
     What begins as a Parquet file does is one; .csv, .tsv and .txt are CSV; .json and .toml are
     what they say; anything else is JSON if it begins with a bracket, and CSV if not.  `columns`
@@ -78,7 +81,7 @@ def read_task(
     path = os.fspath(source)
     label = "<stdin>" if path == "-" else printable(path)
     try:
-        table = _table(label, path, columns)
+        table = _table(label, fetch(path) if data is None else data, columns)
         return _task(table, angle_unit, wanted, exact, drop, sigma)
     except InputError as error:
         error.where = printable(error.where or label)
@@ -89,9 +92,8 @@ def read_task(
         raise
 
 
-def _table(label: str, path: str, columns: str | None) -> PoseTable:
+def _table(label: str, data: bytes, columns: str | None) -> PoseTable:
     """What a file says, by its first bytes and the end of its name."""
-    data = fetch(path)
     suffix = PurePath(label).suffix.lower()
     if is_parquet(data) or (suffix == ".parquet" and data):
         read: Callable[[], PoseTable] = functools.partial(read_parquet, label, data)

@@ -94,8 +94,9 @@ def read_result(source: str | os.PathLike[str]) -> Result:
     path = os.fspath(source)
     label = "<stdin>" if path == "-" else path
     help = "make it with `burmester synthesize POSES --json > result.json`"
+    data = fetch(path)
     try:
-        tree = json.loads(fetch(path))
+        tree = json.loads(data)
     except (ValueError, RecursionError) as error:
         raise InputError(
             "E109", "this is not JSON", where=label, why=str(error), help=help
@@ -106,7 +107,11 @@ def read_result(source: str | os.PathLike[str]) -> Result:
     if tree.get("task") is None:
         message = "this result has no task: the poses could not be used"
         raise InputError("E150", message, where=label, help=help)
-    task = read_task(source)
+    try:
+        task = read_task("-", data=data)
+    except InputError as error:
+        error.where = (error.where or "").replace("<stdin>", label)
+        raise
     linkages = []
     for number, each in enumerate(tree.get("linkages", [])):
         try:
