@@ -293,11 +293,14 @@ def nearest(number):
 
 
 def extreme(plain):
-    """Whether powers of a file's numbers leave a double's range, or an angle has no digits."""
+    """Whether powers of numbers leave a double's range, or some are lost beside others."""
     points = len(plain.poses[0]) == 4
     lengths = [abs(nearest(n)) for pose in plain.poses for n in (pose if points else pose[:2])]
     turns = [] if points else [abs(nearest(pose[2])) for pose in plain.poses]
-    return max(lengths) > 1e50 or 0 < max(lengths) < 1e-50 or any(turn > 1e9 for turn in turns)
+    weights = [nearest(weight) for weight in plain.weights or ()] or [1.0]
+    apart = max(weights) > 1e11 * min(weights)
+    far = max(lengths) > 1e50 or 0 < max(lengths) < 1e-50
+    return far or apart or any(turn > 1e9 for turn in turns)
 
 
 def wrong(task, plain, angle_unit=None):  # noqa: PLR0911

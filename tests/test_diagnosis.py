@@ -8,6 +8,7 @@ import pytest
 
 from burmester import cli
 from burmester.diagnosis import diagnose, disagreement
+from burmester.displacement import Displacement
 from burmester.errors import InputError
 from burmester.io.poses import read_task
 from burmester.synthesis import synthesize
@@ -153,6 +154,15 @@ def test_numbers_that_cannot_be_computed_with_are_refused(row, words):
     with pytest.raises(InputError, match=words) as caught:
         Task.from_degrees([(0, 0, 0), row, (1, 1, 50)])
     assert caught.value.code == "E112"
+
+
+def test_a_pose_that_is_lost_beside_another_is_refused():
+    poses = Displacement(np.array([[0.0, 0.0], [1, 0], [1, 1]]), np.array([0.0, 0.5, 1]))
+    assert Task(poses, weights=np.array([1e-6, 1, 9e5])).weights is not None
+    with pytest.raises(InputError, match="too far apart") as caught:
+        Task(poses, weights=np.array([1e-6, 1, 1e7]))
+    assert caught.value.code == "E112"
+    assert "the greatest is 1e+07, the least 1e-06" in caught.value.why
 
 
 def test_lengths_that_vanish_are_refused():

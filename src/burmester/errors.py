@@ -9,6 +9,10 @@ object and Python callers get the same five fields.
 
 from __future__ import annotations
 
+from unicodedata import category
+
+_UNSHOWN = ("Cc", "Cf", "Cs", "Zl", "Zp")  # controls, half characters, foreign line ends
+
 __all__ = ["BurmesterError", "InputError", "printable"]
 
 
@@ -59,4 +63,4 @@ def printable(text: str) -> str:
     """A text with blanks for what a terminal would obey (escape codes) or could not show."""
     if text.isprintable():
         return text
-    return "".join(c if c.isprintable() or c == "\n" else " " for c in text)
+    return "".join(" " if category(c) in _UNSHOWN and c != "\n" else c for c in text)

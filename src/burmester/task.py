@@ -18,6 +18,7 @@ __all__ = ["CONDITIONS", "Task"]
 CONDITIONS = 5  # that a dyad can meet exactly: it has five dimensions
 MOST = 1e60  # beyond it, or all below its inverse, fourth powers leave a double's range
 MOST_TURN = 1e9  # radians; of an angle beyond it few digits say where the body points
+MOST_RATIO = 1e12  # of two weights; beyond it the lighter pose is lost in rounding
 LEAST_POSES = 3  # two poses are met by every moving pivot with a whole line of fixed pivots
 
 
@@ -40,7 +41,7 @@ class Task:
     requirements: what is asked of the whole linkage, nothing by default.
     Fewer than 3 poses are enough where a limit puts a pivot at a point or on a line.
     Raises InputError: E103 (a number that is not finite), E112 (one too large or too small to
-    compute with), E120 (too few poses), E122
+    compute with, or weights too far apart), E120 (too few poses), E122
     (weights, names or marks that do not fit the poses), E132 (requirements that the limits
     contradict), E133 (more exact conditions than a dyad can meet), E134 (a driver named by limits
     that are not two).
@@ -75,13 +76,20 @@ class Task:
         _require_computable(self.poses)
         if self.weights is not None:
             weights = np.asarray(self.weights, dtype=np.float64)
-            sound = (weights > 1 / MOST) & (weights < MOST)
-            if weights.shape != (count,) or not sound.all():
+            if weights.shape != (count,) or not (np.isfinite(weights) & (weights > 0)).all():
                 raise InputError(
                     "E122",
                     "the weights do not fit the poses",
-                    why=f"{count} poses need {count} weights above zero, none beyond {MOST:.0e}",
+                    why=f"{count} poses need {count} finite weights above zero",
                     help="give every pose a weight above zero; to drop a pose, delete it",
+                )
+            least, most = float(weights.min()), float(weights.max())
+            if most > MOST_RATIO * least:
+                raise InputError(
+                    "E112",
+                    "the weights are too far apart to compute with",
+                    why=f"the greatest is {most:.3g}, the least {least:.3g}",
+                    help="mark the heavy poses exact, or leave out the light ones",
                 )
             object.__setattr__(self, "weights", weights)
         if self.exact is not None:
