@@ -15,6 +15,7 @@ import click
 from burmester import __version__
 from burmester.cli.check import check
 from burmester.cli.explain import explain
+from burmester.cli.export import export
 from burmester.cli.known import cases, reproduce
 from burmester.cli.new import new
 from burmester.cli.out import EXIT_FOUND, EXIT_INTERRUPT, console, print_json
@@ -34,7 +35,7 @@ def burmester() -> None:
     """
 
 
-for command in (new, check, synthesize, report, explain, cases, reproduce):
+for command in (new, check, synthesize, report, export, explain, cases, reproduce):
     burmester.add_command(command)
 
 

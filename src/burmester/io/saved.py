@@ -93,7 +93,7 @@ def read_result(source: str | os.PathLike[str]) -> Result:
     """The result in a file, or on standard input ("-"); raises E101, E109, E150 and E152."""
     path = os.fspath(source)
     label = "<stdin>" if path == "-" else path
-    help = "make it with `burmester synthesize POSES --json > result.json`"
+    help = "make it with `burmester synthesize POSES -o result.json`"
     data = fetch(path)
     try:
         tree = json.loads(data)
@@ -143,7 +143,7 @@ def _linkage(data: dict[str, Any], task: Task) -> SavedLinkage:
                 "E152",
                 f"linkage {data['id']} does not do what the file says of it",
                 why=f"at the places that the file gives its links are off by {off:.2g}",
-                help="the file has been changed: make it anew with `burmester synthesize --json`",
+                help="the file has been changed: make it anew with `burmester synthesize POSES -o result.json`",
             )
     else:
         error = PoseError.of(own, task.poses, size)

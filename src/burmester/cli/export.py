@@ -1,0 +1,82 @@
+"""`burmester export`: one linkage of a result as a file for another program."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import click
+
+from burmester.cli.out import EXIT_FOUND
+from burmester.errors import InputError
+
+__all__ = ["export"]
+
+FORMATS = """\b
+FORMAT  dxf, svg       plates with their holes for cutting, and the assembly
+        step, stl      solid parts in their places; flat: for printing
+        openscad       a model with its numbers on top, animated
+        mjcf, urdf     for simulation (MuJoCo; robots)
+        gif, mp4       the motion
+        csv, json      the coupler's places; the one linkage
+        pylinkage      a Python script
+
+Every file is read back and compared with the linkage before it is put in place.
+Lengths are in the unit of the poses."""
+
+
+@click.command(epilog=FORMATS)
+@click.argument("result")
+@click.option("--linkage", metavar="ID", help="Which one, such as L2; the best one by default.")
+@click.option("--to", metavar="FORMAT", help="What to write, if the name of FILE does not say it.")
+@click.option("-o", "--output", metavar="FILE", required=True, help="Name of the file.")
+@click.option("--force", is_flag=True, help="Write FILE even if it exists.")
+@click.option("--unit", metavar="UNIT", help="Of the lengths, if the poses name none (mm).")
+@click.option("--hole", type=float, metavar="LENGTH", help="Diameter of holes and pins.")
+@click.option("--width", type=float, metavar="LENGTH", help="Width of the links.")
+@click.option("--thickness", type=float, metavar="LENGTH", help="Thickness of the plates.")
+@click.option("--gap", type=float, metavar="LENGTH", help="Between plates that lie on each other.")
+@click.option(
+    "--pose", type=int, metavar="N", default=1, help="The pose at which the assembly is drawn."
+)
+@click.option("--seconds", type=float, default=4.0, help="Of gif and mp4.", show_default=True)
+@click.option(
+    "--fps",
+    "frames_per_second",
+    type=float,
+    default=25.0,
+    help="Frames a second, of gif and mp4.",
+    show_default=True,
+)
+@click.option(
+    "--pixels", "width_px", type=int, default=800, help="Width of gif and mp4.", show_default=True
+)
+def export(
+    result: str,
+    *,
+    linkage: str | None,
+    to: str | None,
+    output: str,
+    force: bool,
+    **options: Any,
+) -> int:
+    """Write a linkage of RESULT, which `burmester synthesize POSES -o RESULT` made."""
+    from burmester.export import FORMATS, Options, format_of
+    from burmester.export import export as run
+    from burmester.io.files import require_free
+    from burmester.io.saved import read_result
+
+    name = to or format_of(output)
+    if name is None:
+        raise InputError(
+            "E161",
+            f"the name {output} does not say which format is wanted",
+            why=f"known are {', '.join(FORMATS)}",
+            help="say --to dxf, or another of these",
+        )
+    require_free(output, force=force)
+    chosen = read_result(result).choose(linkage)
+    for path in run(chosen, name, output, Options(**options), force):
+        click.echo(f"wrote {path}: {chosen.id}, {chosen.type}; read back and found the same")
+    if not chosen.usable:
+        click.echo(f"{chosen.id} is not usable: `burmester synthesize` says why", err=True)
+    return EXIT_FOUND

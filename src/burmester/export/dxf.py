@@ -1,0 +1,222 @@
+"""DXF (R2010, millimetres): the plates laid out for cutting, and the assembly as a block.
+
+Outlines are closed polylines with exact arcs, holes are circles, slots are closed polylines.  The
+block ASSEMBLY is inserted where F has it, with the coupler at the pose asked for.  The bytes
+depend on the linkage and the options only.
+
+E160 what was written is not the linkage
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from burmester.displacement import Displacement, FloatArray
+from burmester.errors import BurmesterError
+from burmester.export.options import Options
+from burmester.export.plates import Assembly, assembly_of, slot_outline
+from burmester.export.sheet import Sheet, beside, moved, notes_on, sheet_of
+from burmester.export.truth import Truth, about, agree
+from burmester.io.saved import SavedLinkage
+
+__all__ = ["check", "write"]
+
+ezdxf: Any = import_module("ezdxf")
+
+TOLERANCE = 1e-6  # mm
+MM = 4  # the code of millimetres in the format
+LAYERS = {  # and their colours by the index of AutoCAD
+    "GROUND": 8,
+    "DRIVER": 1,
+    "COUPLER": 5,
+    "FOLLOWER": 3,
+    "HOLES": 7,
+    "SLOTS": 7,
+    "MARKS": 9,
+    "ASSEMBLY": 9,
+    "POSES": 6,
+    "TEXT": 7,
+}
+
+
+def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
+    """Write the drawing."""
+    assembly = assembly_of(chosen, options)
+    poses = Truth.of(chosen, options).poses
+    notes = about(chosen, options, "mm") + notes_on(assembly)
+    sheet = sheet_of(assembly, poses, len(notes))
+    fixed = ezdxf.options.write_fixed_meta_data_for_testing
+    try:
+        ezdxf.options.write_fixed_meta_data_for_testing = True  # no dates and no random numbers
+        document = ezdxf.new("R2010", units=MM)
+        document.header["$MEASUREMENT"] = 1
+        document.header["$INSUNITS"] = MM
+        document.header["$EXTMIN"] = (*sheet.low.tolist(), 0.0)
+        document.header["$EXTMAX"] = (*sheet.high.tolist(), 0.0)
+        for name, colour in LAYERS.items():
+            document.layers.add(name, color=colour)
+        _draw(document, assembly, sheet, poses, notes)
+        middle, size = (sheet.low + sheet.high) / 2, sheet.high - sheet.low
+        document.set_modelspace_vport(float(size.max()), center=tuple(middle.tolist()))
+        document.saveas(path)
+    finally:
+        ezdxf.options.write_fixed_meta_data_for_testing = fixed
+
+
+def _draw(
+    document: Any,
+    assembly: Assembly,
+    sheet: Sheet,
+    poses: Displacement,
+    notes: list[str],
+) -> None:
+    space = document.modelspace()
+    for (plate, shift), label in zip(sheet.parts, sheet.labels, strict=True):
+        drawn = moved(plate, Displacement(shift, np.array(0.0)))
+        layers = (plate.owner.upper(), "HOLES", "SLOTS", "MARKS")
+        _plate(space, drawn, layers, sheet)
+        _text(space, f"{plate.name}, layer {plate.layer}", label, sheet.letters)
+    block = document.blocks.new("ASSEMBLY", base_point=(0, 0))
+    for plate in assembly.plates:
+        drawn = moved(plate, plate.at(assembly.drawn))
+        _plate(block, drawn, ("ASSEMBLY",) * 4, sheet)
+    space.add_blockref("ASSEMBLY", (0, 0), dxfattribs={"layer": "ASSEMBLY"})
+    for number in range(poses.shape[0]):
+        place = poses[number]
+        ends = place[None].act(np.array([[0.0, 0.0], [sheet.axes, 0.0], [0.0, sheet.axes / 2]]))
+        for end in ends[1:]:
+            space.add_line(_point(ends[0]), _point(end), dxfattribs={"layer": "POSES"})
+        _text(space, str(number + 1), beside(place, sheet), sheet.letters, layer="POSES")
+    for k, line in enumerate(notes):
+        at = sheet.notes - [0, 1.6 * k * sheet.letters]
+        _text(space, line, at, sheet.letters)
+
+
+def _plate(
+    space: Any,
+    drawn: tuple[FloatArray, FloatArray, FloatArray, FloatArray],
+    layers: tuple[str, ...],
+    sheet: Sheet,
+) -> None:
+    """Draw the outline, the holes, the slots and the marks of a plate, each on its layer."""
+    outline, holes, slots, marks = drawn
+    outline_layer, hole_layer, slot_layer, mark_layer = layers
+    _closed(space, outline, outline_layer)
+    for x, y, diameter in holes.tolist():
+        space.add_circle((x, y), diameter / 2, dxfattribs={"layer": hole_layer})
+    for slot in slots:
+        _closed(space, slot_outline(slot), slot_layer)
+    for mark in marks:
+        arm = 0.3 * sheet.letters
+        for way in ([arm, 0], [0, arm]):
+            ends = _point(mark - way), _point(mark + way)
+            space.add_line(*ends, dxfattribs={"layer": mark_layer})
+
+
+def _closed(space: Any, outline: FloatArray, layer: str) -> None:
+    space.add_lwpolyline(outline.tolist(), format="xyb", close=True, dxfattribs={"layer": layer})
+
+
+def _text(space: Any, text: str, at: FloatArray, height: float, layer: str = "TEXT") -> None:
+    space.add_text(text, height=height, dxfattribs={"layer": layer, "insert": _point(at)})
+
+
+def _point(at: FloatArray) -> tuple[float, float]:
+    return float(at[0]), float(at[1])
+
+
+def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
+    """Read the drawing back, audit it and compare it; raises E160."""
+    truth = Truth.of(chosen, options)
+    assembly = assembly_of(chosen, options)
+    poses = truth.poses
+    document = ezdxf.readfile(path)
+    auditor = document.audit()
+    if auditor.has_errors or auditor.has_fixes:
+        found = [str(each.message) for each in (*auditor.errors, *auditor.fixes)]
+        raise BurmesterError(
+            "E160",
+            "what was written is no sound DXF file, so nothing was kept",
+            why="; ".join(found[:3]),
+            help="this is a fault of burmester: report it, with the result file",
+        )
+    agree("the unit of the drawing", document.header["$INSUNITS"], MM, 0)
+    # The assembly holds a hole or a slot's middle line where the dyads have their pivots.
+    block = document.blocks.get("ASSEMBLY")
+    assert block is not None
+    (insert,) = document.modelspace().query("INSERT")
+    agree("the place of the assembly", tuple(insert.dxf.insert)[:2], (0, 0), 0)
+    circles = np.array([tuple(each.dxf.center)[:2] for each in block.query("CIRCLE")])
+    circles = circles.reshape(-1, 2)
+    place = truth.places[options.pose - 1]
+    wanted = _pivots(truth, place)
+    for name, point in wanted:
+        gap = np.linalg.norm(circles - point, axis=1)
+        agree(f"{name} in the assembly", gap.min(initial=np.inf), 0, TOLERANCE)
+    for point in circles:
+        gap = min(float(np.linalg.norm(point - each)) for _, each in wanted)
+        agree("a hole in the assembly", gap, 0, TOLERANCE)
+    drawn = iter(block.query("LWPOLYLINE"))
+    for plate in assembly.plates:
+        outline, _, slots, _ = moved(plate, plate.at(assembly.drawn))
+        for rows in (outline, *map(slot_outline, slots)):
+            agree(f"{plate.name} in the assembly", _rows(next(drawn)), rows, TOLERANCE)
+    _check_plates(document, assembly)
+    axes = document.modelspace().query('LINE[layer=="POSES"]')
+    starts = np.array([tuple(each.dxf.start)[:2] for each in axes])
+    agree("the poses", starts, np.repeat(poses.translation, 2, axis=0), TOLERANCE)
+    ends = np.array([tuple(each.dxf.end)[:2] for each in axes])[::2] - starts[::2]
+    turned = np.exp(1j * (np.arctan2(ends[:, 1], ends[:, 0]) - poses.angle))
+    agree("the angles of the poses", np.abs(turned - 1), np.zeros(len(turned)), 1e-6)
+
+
+def _pivots(truth: Truth, place: Displacement) -> list[tuple[str, FloatArray]]:
+    """Every joint that has a hole, in F, with its name."""
+    found = []
+    for k, side in enumerate(("driver", "follower")):
+        fixed, moving = truth.fixed[k], truth.moving[k]
+        if fixed is not None:
+            found.append((f"the {side}'s fixed pivot", fixed))
+        if moving is not None:
+            found.append((f"the {side}'s moving pivot", place.act(moving)))
+    return found
+
+
+def _check_plates(document: Any, assembly: Assembly) -> None:
+    """The plates laid out, by what lies within their outlines."""
+    space = document.modelspace()
+    outlines = {
+        layer: [each for each in space.query("LWPOLYLINE") if each.dxf.layer == layer]
+        for layer in ("GROUND", "DRIVER", "COUPLER", "FOLLOWER")
+    }
+    circles = np.array(
+        [(*tuple(each.dxf.center)[:2], 2 * each.dxf.radius) for each in space.query("CIRCLE")]
+    ).reshape(-1, 3)
+    slots = list(space.query('LWPOLYLINE[layer=="SLOTS"]'))
+    agree("the number of holes", len(circles), sum(len(p.holes) for p in assembly.plates), 0)
+    agree("the number of slots", len(slots), sum(len(p.slots) for p in assembly.plates), 0)
+    for plate in assembly.plates:
+        own = outlines[plate.owner.upper()].pop(0)
+        agree(f"whether the outline of {plate.name} is closed", own.closed, True, 0)
+        points = _rows(own)
+        shift = points[0, :2] - plate.outline[0, :2]
+        agree(f"the outline of {plate.name}", points - [*shift, 0], plate.outline, TOLERANCE)
+        if len(plate.holes):
+            local = circles - [*shift, 0]
+            gaps = np.abs(local[:, None] - plate.holes).max(axis=-1).min(axis=0)
+            agree(f"the holes of {plate.name}", gaps, np.zeros(len(gaps)), TOLERANCE)
+        for slot in plate.slots:
+            gaps_of = [
+                float(np.abs(rows - [*shift, 0] - slot_outline(slot)).max())
+                for rows in map(_rows, slots)
+                if rows.shape == slot_outline(slot).shape
+            ]
+            agree(f"the slot of {plate.name}", min(gaps_of, default=np.inf), 0, TOLERANCE)
+
+
+def _rows(polyline: Any) -> FloatArray:
+    return np.array([tuple(point) for point in polyline.get_points(format="xyb")])

@@ -1,0 +1,343 @@
+"""MJCF, MuJoCo's own format: links as bodies in metres, a motor on the driver, the loop closed.
+
+The model begins at the pose asked for.  The joints' coordinates are angles in F (of the coupler:
+from the driver), so that each key frame `pose1`, `pose2`, ... is readable.  Masses and
+friction stand in for real ones: 1 kg a body.
+
+E160 what was written is not the linkage        E163 a linkage that a model of bodies cannot hold
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+
+from burmester.displacement import Displacement, FloatArray
+from burmester.export.joints import (
+    along_slot,
+    directions,
+    driven,
+    ground_joint,
+    hinged,
+    require_bodies,
+)
+from burmester.export.options import Options
+from burmester.export.truth import PRECISION, Truth, about, agree, as_rows
+from burmester.io.saved import SavedLinkage
+
+__all__ = ["check", "write"]
+
+STEP = 1e-3  # seconds
+THIN = 0.02  # of the span: the radius of the capsules
+SWIFT = 100.0  # radians a second: the natural frequency of the motor's position control
+RUB = 20.0  # of a body's inertia a second: friction in the joints
+BODIES = 4.0  # what moves with the motor, in bodies
+COLOURS = {
+    "driver": ".76 .15 .18 1",
+    "coupler": "0 .34 .72 1",
+    "follower": ".11 .5 .25 1",
+    "ground": ".4 .4 .4 1",
+}
+
+
+def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
+    """Write the model; raises E163."""
+    truth = Truth.of(chosen, options, "m")
+    require_bodies(chosen, truth)
+    place = truth.places[options.pose - 1]
+    q = _coordinates(chosen, truth)
+    start = q[options.pose - 1]
+    thin = THIN * truth.span
+    gain = BODIES * SWIFT * (truth.span**2 if hinged(truth, 0) else 1.0)
+    middle = truth.places.translation.mean(axis=0)
+    low, high = q[:, 0].min(), q[:, 0].max()
+    told = about(chosen, options, "m")
+    lines = [
+        f'<mujoco model="{chosen.id}">',
+        f"  <!-- {' '.join(told)} -->".replace("--unit", "the option unit"),
+        "  <!-- Masses (1 kg a body) and friction are stand-ins. Set the motor's ctrl to the "
+        "driver's place: radians, or metres of a slide. -->",
+        '  <compiler angle="radian" autolimits="true"/>',
+        f'  <option timestep="{STEP}" gravity="0 0 0" integrator="implicitfast" solver="Newton"'
+        ' iterations="100" tolerance="0"><flag contact="disable"/></option>',
+        f'  <statistic center="{_xyz(middle)}" extent="{_n(1.5 * truth.span)}"/>',
+        "  <default>",
+        f'    <geom type="capsule" size="{_n(thin)}" contype="0" conaffinity="0" group="1"/>',
+        f'    <site size="{_n(1.2 * thin)}" rgba="0 0 0 1"/>',
+        f'    <equality solref="{2 * STEP} 1" solimp="0.9999 0.9999 0.001 0.5 2"/>',
+        "  </default>",
+        "  <worldbody>",
+        f'    <light pos="{_xyz(middle, 3 * truth.span)}" dir="0 0 -1"/>',
+    ]
+    lines += _ground(truth)
+    lines += _driver(truth, place, start, thin)
+    if truth.kinds[1] != "RP":
+        lines += _follower(truth, start, thin)
+    motor = "hinge, radians" if hinged(truth, 0) else "slide, metres"
+    lines += [
+        "  </worldbody>",
+        '  <equality><connect name="loop" site1="loop_a" site2="loop_b"/></equality>',
+        f"  <actuator><!-- {motor} -->",
+        f'    <position name="motor" joint="driver" kp="{_n(gain * SWIFT)}" kv="{_n(2 * gain)}" '
+        f'ctrlrange="{_n(low)} {_n(high)}"/>'
+        if high > low
+        else f'    <position name="motor" joint="driver" kp="{_n(gain * SWIFT)}" '
+        f'kv="{_n(2 * gain)}"/>',
+        "  </actuator>",
+        "  <keyframe>",
+    ]
+    for number, row in enumerate(q):
+        at = " ".join(map(_n, row))
+        lines.append(f'    <key name="pose{number + 1}" qpos="{at}" ctrl="{_n(row[0])}"/>')
+    lines += ["  </keyframe>", "</mujoco>", ""]
+    path.write_text("\n".join(lines), encoding="utf-8", newline="\n")
+
+
+def _coordinates(chosen: SavedLinkage, truth: Truth) -> FloatArray:
+    """The joints driver, coupler and follower (N, 3) at the poses."""
+    places = truth.places
+    drive = driven(chosen, truth)
+    if truth.kinds[0] == "RR":
+        coupler = _wrapped(places.angle - drive)
+    elif truth.kinds[0] == "PR":
+        coupler = places.angle
+    else:
+        coupler = -along_slot(truth, 0, places)
+    follower = (
+        along_slot(truth, 1, places) if truth.kinds[1] == "RP" else ground_joint(truth, 1, places)
+    )
+    return np.column_stack([drive, coupler, follower])
+
+
+def _wrapped(angle: FloatArray) -> FloatArray:
+    return np.asarray(np.arctan2(np.sin(angle), np.cos(angle)))
+
+
+def _ground(truth: Truth) -> list[str]:
+    """What is seen of the ground: rails and pivots."""
+    lines = []
+    for side in (0, 1):
+        fixed, line = truth.fixed[side], truth.line[side]
+        if fixed is not None:
+            name = ' name="loop_b"' if side and truth.kinds[1] == "RP" else ""
+            lines.append(f'    <site{name} pos="{_xyz(fixed)}"/>')
+        elif line is not None:
+            n, along = directions(line[0])
+            s = ground_joint(truth, 1 if side else 0, truth.places)
+            ends = [line[1] * n + each * along for each in (s.min(), s.max())]
+            lines.append(f"    {_bar(ends[0], ends[1], 'ground', 0.3 * THIN * truth.span)}")
+    return lines
+
+
+def _driver(truth: Truth, place: Displacement, start: FloatArray, thin: float) -> list[str]:
+    """The driver with the coupler on it."""
+    fixed, moving, line, radius = (
+        truth.fixed[0],
+        truth.moving[0],
+        truth.line[0],
+        truth.radius[0],
+    )
+    angle = float(place.angle)
+    if truth.kinds[0] == "RR":
+        assert fixed is not None
+        assert moving is not None
+        at, turn = fixed, float(start[0])
+        joint = 'type="hinge" axis="0 0 1"'
+        seen = _bar(np.zeros(2), np.array([radius, 0.0]), "driver", thin)
+        relative = float(start[1])
+        body = np.array([radius, 0.0]) - _turned(moving, relative)
+        inner = f'type="hinge" axis="0 0 1" pos="{_xyz(moving)}"'
+    elif truth.kinds[0] == "PR":
+        assert line is not None
+        assert moving is not None
+        n, along = directions(line[0])
+        at, turn = line[1] * n + float(start[0]) * along, 0.0
+        joint = f'type="slide" axis="{_xyz(along)}"'
+        seen = _block("driver", thin)
+        relative = angle
+        body = -_turned(moving, relative)
+        inner = f'type="hinge" axis="0 0 1" pos="{_xyz(moving)}"'
+    else:
+        assert fixed is not None
+        assert line is not None
+        at, turn = fixed, float(start[0])
+        joint = 'type="hinge" axis="0 0 1"'
+        seen = _block("driver", thin)
+        relative = -line[0]
+        body = np.array([-line[1], float(start[1])])
+        inner = f'type="slide" axis="{_xyz(directions(line[0])[1])}"'
+    lines = [
+        f'    <body name="driver" pos="{_xyz(at)}" euler="0 0 {_n(turn)}">',
+        f'      <joint name="driver" {joint}{_rub(truth, joint)} ref="{_n(start[0])}"/>',
+        f"      {_mass(truth)}",
+        f"      {seen}",
+        f'      <body name="coupler" pos="{_xyz(body)}" euler="0 0 {_n(relative)}">',
+        f'        <joint name="coupler" {inner}{_rub(truth, inner)} ref="{_n(start[1])}"/>',
+        f"        {_mass(truth)}",
+    ]
+    seen_points = [_on_coupler(truth, 0, place), np.zeros(2), _on_coupler(truth, 1, place)]
+    for k in range(3):
+        one, two = seen_points[k], seen_points[(k + 1) % 3]
+        if np.linalg.norm(two - one) > 1e-3 * thin:
+            lines.append(f"        {_bar(one, two, 'coupler', thin)}")
+    lines.append('        <site name="body" pos="0 0 0"/>')
+    if truth.kinds[1] == "RP":
+        held = truth.line[1]
+        assert held is not None
+        n, along = directions(held[0])
+        lines += [
+            f'        <body name="follower" pos="{_xyz(held[1] * n + float(start[2]) * along)}">',
+            f'          <joint name="follower" type="slide" axis="{_xyz(along)}"'
+            f'{_rub(truth, "slide")} ref="{_n(start[2])}"/>',
+            f"          {_mass(truth)}",
+            f"          {_block('follower', thin)}",
+            '          <site name="loop_a" pos="0 0 0"/>',
+            "        </body>",
+        ]
+    else:
+        hand = truth.moving[1]
+        assert hand is not None
+        lines.append(f'        <site name="loop_a" pos="{_xyz(hand)}"/>')
+    return [*lines, "      </body>", "    </body>"]
+
+
+def _follower(truth: Truth, start: FloatArray, thin: float) -> list[str]:
+    """A follower on the ground."""
+    fixed, line, radius = truth.fixed[1], truth.line[1], truth.radius[1]
+    if truth.kinds[1] == "RR":
+        assert fixed is not None
+        at, turn, tip = fixed, float(start[2]), np.array([radius, 0.0])
+        joint, seen = (
+            'type="hinge" axis="0 0 1"',
+            _bar(np.zeros(2), tip, "follower", thin),
+        )
+    else:
+        assert line is not None
+        n, along = directions(line[0])
+        at, turn, tip = line[1] * n + float(start[2]) * along, 0.0, np.zeros(2)
+        joint, seen = f'type="slide" axis="{_xyz(along)}"', _block("follower", thin)
+    return [
+        f'    <body name="follower" pos="{_xyz(at)}" euler="0 0 {_n(turn)}">',
+        f'      <joint name="follower" {joint}{_rub(truth, joint)} ref="{_n(start[2])}"/>',
+        f"      {_mass(truth)}",
+        f"      {seen}",
+        f'      <site name="loop_b" pos="{_xyz(tip)}"/>',
+        "    </body>",
+    ]
+
+
+def _on_coupler(truth: Truth, side: int, place: Displacement) -> FloatArray:
+    """Where a side holds the coupler, in M."""
+    moving, fixed = truth.moving[side], truth.fixed[side]
+    if moving is not None:
+        return moving
+    assert fixed is not None
+    return np.asarray(place.inverse().act(fixed))
+
+
+def _mass(truth: Truth) -> str:
+    inertia = _n(truth.span**2)
+    return f'<inertial pos="0 0 0" mass="1" diaginertia="{inertia} {inertia} {inertia}"/>'
+
+
+def _rub(truth: Truth, joint: str) -> str:
+    """Friction of a joint, by its speed, so that a motor does not throw links over dead points."""
+    return f' damping="{_n(RUB * (1.0 if "slide" in joint else truth.span**2))}"'
+
+
+def _bar(one: FloatArray, two: FloatArray, owner: str, size: float) -> str:
+    if not np.linalg.norm(two - one) > 0:
+        return _block(owner, size)
+    ends = f"{_xyz(one)} {_xyz(two)}"
+    return f'<geom fromto="{ends}" size="{_n(size)}" rgba="{COLOURS[owner]}"/>'
+
+
+def _block(owner: str, size: float) -> str:
+    half = _n(1.5 * size)
+    return f'<geom type="box" size="{half} {half} {half}" rgba="{COLOURS[owner]}"/>'
+
+
+def _turned(point: FloatArray, angle: float) -> FloatArray:
+    return np.asarray(Displacement(np.zeros(2), np.array(angle)).act(point))
+
+
+def _xyz(point: FloatArray, z: float = 0.0) -> str:
+    return f"{_n(point[0])} {_n(point[1])} {_n(z)}"
+
+
+def _n(value: float) -> str:
+    return repr(float(value) + 0.0)
+
+
+def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
+    """Read the model's XML back, put its joints to every key frame and compare; raises E160."""
+    truth = Truth.of(chosen, options, "m")
+    tolerance = PRECISION * truth.span
+    root = ElementTree.parse(path).getroot()
+    world = root.find("worldbody")
+    assert world is not None
+    keys = root.findall("keyframe/key")
+    agree("the number of key frames", len(keys), len(truth.places.angle), 0)
+    for number, key in enumerate(keys):
+        q = dict(zip(("driver", "coupler", "follower"), _numbers(key, "qpos"), strict=True))
+        sites: dict[str, complex] = {}
+        turns: dict[str, float] = {}
+        _walk(world, 0j, 0.0, q, sites, turns)
+        place = truth.places[number]
+        name = f"at pose {number + 1}"
+        body = sites["body"]
+        agree(f"the coupler {name}", [body.real, body.imag], place.translation, tolerance)
+        gap = np.exp(1j * (turns["coupler"] - float(place.angle))) - 1
+        agree(f"the coupler's angle {name}", abs(gap), 0, PRECISION)
+        agree(f"the loop {name}", abs(sites["loop_a"] - sites["loop_b"]), 0, tolerance)
+        agree(f"the motor {name}", _numbers(key, "ctrl")[0], q["driver"], 0)
+    hold = as_rows(truth.places[options.pose - 1])
+    sites, turns = {}, {}
+    _walk(world, 0j, 0.0, {}, sites, turns)
+    body, turn = sites["body"], turns["coupler"]
+    agree("where it begins", [body.real, body.imag], hold[:2], tolerance)
+    agree("how it begins", [math.cos(turn), math.sin(turn)], hold[2:], PRECISION)
+
+
+def _walk(  # noqa: PLR0917
+    element: ElementTree.Element,
+    origin: complex,
+    angle: float,
+    q: dict[str, float],
+    sites: dict[str, complex],
+    turns: dict[str, float],
+) -> None:
+    """Where the sites are, and the angles of the bodies, with joints at q or as they begin."""
+    for each in element:
+        if each.tag == "site" and each.get("name"):
+            x, y, _ = _numbers(each, "pos")
+            turn = complex(math.cos(angle), math.sin(angle))
+            sites[str(each.get("name"))] = origin + complex(x, y) * turn
+        elif each.tag == "body":
+            x, y, _ = _numbers(each, "pos")
+            turn = complex(math.cos(angle), math.sin(angle))
+            at = origin + complex(x, y) * turn
+            spin = angle + (_numbers(each, "euler")[2] if each.get("euler") else 0.0)
+            joint = each.find("joint")
+            assert joint is not None
+            name = str(joint.get("name"))
+            ref = _numbers(joint, "ref")[0]
+            by = q.get(name, ref) - ref
+            turn = complex(math.cos(spin), math.sin(spin))
+            if joint.get("type") == "slide":
+                ax, ay, _ = _numbers(joint, "axis")
+                at += by * complex(ax, ay) * turn
+            else:
+                px, py, _ = _numbers(joint, "pos") if joint.get("pos") else (0.0, 0.0, 0.0)
+                pin = at + complex(px, py) * turn
+                spin += by
+                at = pin - complex(px, py) * complex(math.cos(spin), math.sin(spin))
+            turns[str(each.get("name"))] = spin
+            _walk(each, at, spin, q, sites, turns)
+
+
+def _numbers(element: ElementTree.Element, key: str) -> list[float]:
+    return [float(part) for part in (element.get(key) or "").split()]

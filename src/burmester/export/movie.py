@@ -1,0 +1,357 @@
+"""Films of a linkage that moves through the poses: GIF and MP4.
+
+The camera stands still and both axes have one scale.  A driver that turns fully goes round once;
+any other goes from the first pose to the last and back.  The wanted poses stand as frames, the
+body's own frame moves with it, and the path of its origin grows.
+
+E130 imageio-ffmpeg is missing        E160 what was written shows another motion
+"""
+
+from __future__ import annotations
+
+import math
+import re
+import subprocess
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
+
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.patches import Circle
+from numpy.typing import NDArray
+from PIL import Image
+
+from burmester import plot
+from burmester.displacement import FloatArray
+from burmester.dyad import PR, RR
+from burmester.errors import BurmesterError, InputError
+from burmester.export.travel import Travel
+from burmester.io.saved import SavedLinkage
+from burmester.linkage import Linkage
+from burmester.plot.plane import FRAME, span_of
+from burmester.plot.style import BLACK, BLUE, GREY, VERMILION, settle_labels, with_unit
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from burmester.export.options import Options
+
+__all__ = ["check_gif", "check_mp4", "write_gif", "write_mp4"]
+
+Picture = NDArray[np.uint8]
+
+GIF_RATE: Final = 25.0  # pictures a second at most: more would only make the file larger
+MARK: Final = "#F0E442"  # of the followed pivot; nothing else comes near this colour
+DOT: Final = 9.0  # its size in points
+STRAY: Final = 1.5  # pixels, by which it may be off
+LOOKS: Final = 8  # pictures that are looked at again
+HOLD: Final = 0.08  # of a film that goes back and forth, spent at each end
+POSED: Final = 25  # places whose drawing has to fit into the picture
+DPI: Final = 100.0
+MARGIN: Final = (0.62, 0.12, 0.48, 0.34)  # inches left, right, below and above the axes
+TALL, FLAT = 1.15, 0.5  # the height of a picture at most and at least, in shares of its width
+COLOURS: Final = 64  # of a GIF
+NEAR: Final = 70  # of 255, how far from its colour, in all, the followed pivot may be
+
+
+@dataclass(frozen=True)
+class Film:
+    """A film that is to be drawn: its travel, picture by picture, and the size of the pictures."""
+
+    chosen: SavedLinkage
+    width: int
+    count: int
+
+    @cached_property
+    def travel(self) -> Travel:
+        """The place of the coupler in each picture."""
+        share, whole = np.arange(self.count) / self.count, Travel.of(self.chosen, 2).turns_fully
+        if not whole:
+            there = np.clip((1 - np.abs(2 * share - 1)) * (1 + 2 * HOLD) - HOLD, 0.0, 1.0)
+            share = (1 - np.cos(np.pi * there)) / 2
+        return Travel.of(self.chosen, share, whole)
+
+    @property
+    def linkage(self) -> Linkage:
+        """The driver first."""
+        return self.chosen.linkage
+
+    @cached_property
+    def grown(self) -> NDArray[np.intp]:
+        """How many pictures' points (count,) the path has."""
+        s, many = self.travel.parameter, np.arange(1, self.count + 1)
+        return np.minimum(many, self.count if self.travel.round else np.abs(s - s[0]).argmax() + 1)
+
+    def followed(self, number: NDArray[np.intp]) -> FloatArray:
+        """The driver's moving pivot (n, 2) in F, or the body's origin after an RP, in pictures."""
+        places, first = self.travel.places[number], self.linkage.first
+        return places.act(first.moving_pivot) if isinstance(first, RR | PR) else places.translation
+
+
+class Stage(NamedTuple):
+    """Axes whose limits stay, the background without what moves, and what lies over it."""
+
+    figure: Figure
+    ax: Axes
+    over: list[Artist]
+
+
+def write_gif(chosen: SavedLinkage, path: Path, options: Options) -> None:
+    """Write a film as an endless GIF of 25 pictures a second or fewer."""
+    film, rate = _gif(chosen, options)
+    plot.write_gif(path, _pictures(film), seconds=1 / rate, force=True)
+
+
+def write_mp4(chosen: SavedLinkage, path: Path, options: Options) -> None:
+    """Write a film as an MP4 that every player shows: H.264, yuv420p, made to begin at once."""
+    ffmpeg = _ffmpeg()
+    film = _mp4(chosen, options)
+    pictures = _pictures(film)
+    first = next(pictures)
+    writer = ffmpeg.write_frames(
+        str(path),
+        (first.shape[1], first.shape[0]),
+        fps=options.frames_per_second,
+        codec="libx264",
+        quality=None,
+        macro_block_size=2,
+        # One thread and no version in it, so that the same film has the same bytes.
+        output_params=[
+            "-crf",
+            "16",
+            "-preset",
+            "medium",
+            "-threads",
+            "1",
+            "-movflags",
+            "+faststart",
+            "-fflags",
+            "+bitexact",
+            "-flags:v",
+            "+bitexact",
+            "-map_metadata",
+            "-1",
+        ],
+    )
+    writer.send(None)
+    try:
+        writer.send(np.ascontiguousarray(first))
+        for picture in pictures:
+            writer.send(np.ascontiguousarray(picture))
+    finally:
+        writer.close()
+
+
+def check_gif(chosen: SavedLinkage, path: Path, options: Options) -> None:
+    """Read a GIF back with Pillow; raises E160 unless it shows this linkage's motion."""
+    film, rate = _gif(chosen, options)
+    with Image.open(path) as image:
+        times, pictures = [], []
+        for number in range(getattr(image, "n_frames", 1)):
+            image.seek(number)
+            times.append(image.info.get("duration", 0) / 1000)
+            pictures.append(np.asarray(image.convert("RGB")))
+        endless = image.info.get("loop") == 0
+    ends = np.cumsum(times)
+    if not endless:
+        raise _off("it is shown once, not again and again")
+    if abs(ends[-1] - film.count / rate) > 1e-6:
+        raise _off(f"it lasts {ends[-1]:g} s, not {film.count / rate:g} s")
+    looks = _looks(film)
+    at = np.searchsorted(ends, (looks + 0.5) / rate)
+    _compare(film, looks, [pictures[k] for k in at])
+
+
+def check_mp4(chosen: SavedLinkage, path: Path, options: Options) -> None:
+    """Read an MP4 back with ffmpeg; raises E160 unless it shows this linkage's motion."""
+    film, program = _mp4(chosen, options), _ffmpeg().get_ffmpeg_exe()
+    told = subprocess.run(
+        [program, "-hide_banner", "-i", str(path)], capture_output=True, check=False
+    ).stderr.decode(errors="replace")
+    video = next((line for line in told.splitlines() if "Video:" in line), "")
+    size = re.search(r", (\d+)x(\d+)", video)
+    rate = re.search(r", ([\d.]+) fps", video)
+    if size is None or rate is None or "h264" not in video or "yuv420p" not in video:
+        raise _off(f"it is no film that every player shows: {video.strip() or 'no picture'}")
+    width, height = int(size[1]), int(size[2])
+    looks, kept, count = _looks(film), list[Picture](), 0
+    asked = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-fps_mode", "passthrough", "-"]
+    with subprocess.Popen(
+        [program, "-v", "error", "-i", str(path), *asked], stdout=subprocess.PIPE
+    ) as reader:
+        assert reader.stdout is not None
+        while len(data := reader.stdout.read(3 * width * height)) == 3 * width * height:
+            if count in looks:
+                kept.append(np.frombuffer(data, dtype=np.uint8).reshape(height, width, 3))
+            count += 1
+    if count != film.count or abs(float(rate[1]) - options.frames_per_second) > 0.01:
+        raise _off(f"it has {count} pictures at {rate[1]} a second, not {film.count}")
+    _compare(film, looks, kept)
+
+
+def _gif(chosen: SavedLinkage, options: Options) -> tuple[Film, float]:
+    """The film, and its rate: a GIF counts in hundredths of a second."""
+    rate = 100 / math.ceil(100 / min(GIF_RATE, options.frames_per_second) - 1e-9)
+    return Film(chosen, options.width_px, max(2, round(options.seconds * rate))), rate
+
+
+def _mp4(chosen: SavedLinkage, options: Options) -> Film:
+    count = max(2, round(options.seconds * options.frames_per_second))
+    return Film(chosen, options.width_px, count)
+
+
+def _looks(film: Film) -> NDArray[np.intp]:
+    """The numbers of the pictures that are looked at again, spread over the film."""
+    return np.unique(np.linspace(0, film.count - 1, LOOKS).astype(np.intp))
+
+
+def _compare(film: Film, looks: NDArray[np.intp], pictures: list[Picture]) -> None:
+    """Raise E160 unless the followed pivot is in the pictures where the linkage has it."""
+    stage = _stage(film)
+    width, height = stage.figure.canvas.get_width_height()
+    wanted = stage.ax.transData.transform(film.followed(looks))
+    for number, picture, at in zip(looks.tolist(), pictures, wanted, strict=True):
+        if picture.shape != (height, width, 3):
+            raise _off(f"its pictures are {picture.shape[1]} x {picture.shape[0]} pixels")
+        seen = blob(picture)
+        # Rows run downwards, and the middle of the first one is at half a pixel.
+        away = math.hypot(seen[0] + 0.5 - at[0], height - seen[1] - 0.5 - at[1])
+        if not away <= STRAY:
+            raise _off(f"in picture {number + 1} the driver is {away:.3g} pixels off")
+
+
+def blob(picture: Picture) -> tuple[float, float]:
+    """The middle (column, row) of what has the colour of the followed pivot; nan if nothing."""
+    colour = [int(MARK[at : at + 2], 16) for at in (1, 3, 5)]
+    near = np.abs(picture.astype(np.int16) - colour).sum(axis=-1) < NEAR
+    rows, columns = np.nonzero(near)
+    if not len(rows):
+        return math.nan, math.nan
+    # Beside lines a film may have single pixels of any colour.
+    spot = np.hypot(rows - np.median(rows), columns - np.median(columns)) < DOT * DPI / 72
+    return float(columns[spot].mean()), float(rows[spot].mean())
+
+
+def _off(why: str) -> BurmesterError:
+    return BurmesterError(
+        "E160",
+        "what was written does not show the linkage's motion, so nothing was kept",
+        why=why,
+        help="this is a fault of burmester: report it, with the result file",
+    )
+
+
+def _ffmpeg() -> Any:
+    """The imageio-ffmpeg module, which brings ffmpeg with it."""
+    try:
+        return import_module("imageio_ffmpeg")
+    except ImportError:
+        raise InputError(
+            "E130",
+            "an MP4 needs imageio-ffmpeg",
+            why="it cannot be imported",
+            help="pip install 'burmester[export]'",
+        ) from None
+
+
+# Drawing ------------------------------------------------------------------------------------------
+
+
+def _pictures(film: Film) -> Iterator[Picture]:
+    """The pictures (rows, columns, 3) of a film."""
+    travel, along = film.travel, (film.travel.places,)
+    long = FRAME * span_of(film.chosen.task.poses)
+    body = np.array([[long, 0.0], [0.0, 0.0], [0.0, 0.6 * long]])
+    path = travel.places.translation
+    pivot = film.followed(np.arange(film.count))
+    with plot.house_style():
+        stage = _stage(film)
+        ax, canvas = stage.ax, stage.figure.canvas
+        under = canvas.copy_from_bbox(stage.figure.bbox)  # type: ignore[attr-defined]
+        (grown,) = ax.plot([], [], color=BLUE, lw=2.4, zorder=3.0)
+        (frame,) = ax.plot([], [], color=BLACK, lw=1.6, zorder=5.5, solid_joinstyle="round")
+        # No marker: those are drawn at whole pixels, and would tremble.
+        unit = 1 / float(ax.transData.get_matrix()[0, 0])
+        mark = Circle((0, 0), DOT / 2 * DPI / 72 * unit, fc=MARK, ec=BLACK, lw=1.2, zorder=10)
+        ax.add_patch(mark)
+        drive = ax.text(1.0, 1.0, "", transform=ax.transAxes, ha="right", va="bottom", fontsize=9)
+        for number in range(film.count):
+            place = travel.places[number]
+            drawn = plot.linkage(ax, film.linkage, place, travel=along)
+            own = [*drawn.links, drawn.coupler, *drawn.ground]
+            own += [drawn.fixed_pivots, drawn.moving_pivots]
+            grown.set_data(*path[: film.grown[number]].T)
+            frame.set_data(*place.act(body).T)
+            mark.set_center(tuple(pivot[number].tolist()))
+            drive.set_text(_drive_text(film, number))
+            every = [*own, grown, frame, mark, drive, *stage.over]
+            canvas.restore_region(under)  # type: ignore[attr-defined]
+            for artist in sorted(every, key=lambda each: each.get_zorder()):
+                ax.draw_artist(artist)
+            yield np.asarray(canvas.buffer_rgba())[..., :3].copy()  # type: ignore[attr-defined]
+            for artist in own:
+                artist.remove()
+
+
+def _stage(film: Film) -> Stage:
+    """Axes that hold the whole motion, with the path, the poses and a title, drawn once."""
+    task, travel, linkage = film.chosen.task, film.travel, film.linkage
+    with plot.house_style():
+        # First all that is ever drawn, to see how large it is.
+        trial = plot.figure(film.width / DPI, film.width / DPI, DPI)
+        ax = trial.add_subplot()
+        some = np.unique(np.linspace(0, film.count - 1, POSED).astype(np.intp))
+        plot.poses(ax, task.poses, numbers=False)
+        for number in some:
+            plot.linkage(ax, linkage, travel.places[number], travel=(travel.places,))
+        plot.finish(ax, film.chosen.unit, room=0.04)
+        (left, right), (low, high) = ax.get_xlim(), ax.get_ylim()
+
+        beside, above = MARGIN[0] + MARGIN[1], MARGIN[2] + MARGIN[3]
+        height = (film.width / DPI - beside) * (high - low) / (right - left) + above
+        height = min(max(height * DPI, FLAT * film.width), TALL * film.width)
+        w, h = (2 * round(pixels / 2) / DPI for pixels in (film.width, height))  # even in pixels
+        figure = plot.figure(w, h, DPI)
+        ax = figure.add_axes((MARGIN[0] / w, MARGIN[2] / h, 1 - beside / w, 1 - above / h))
+        half = max((right - left) / (w - beside), (high - low) / (h - above)) / 2
+        x, y = (left + right) / 2, (low + high) / 2
+        ax.set(
+            xlim=(x - half * (w - beside), x + half * (w - beside)),
+            ylim=(y - half * (h - above), y + half * (h - above)),
+            autoscale_on=False,
+        )
+        curve = plot.coupler_curve(ax, linkage, only=travel.number)
+        for line in [each for lines in curve.circuits for each in lines]:
+            line.set(color=GREY, lw=0.9, linestyle=(0, (3, 2)))
+        for cross in curve.dead_points:
+            cross.remove()
+        over = list[Artist]()
+        long = FRAME * span_of(task.poses)
+        for color, reached in ((VERMILION, True), (GREY, False)):
+            numbers = np.flatnonzero(np.isfinite(travel.at) == reached)
+            if len(numbers):
+                names = [str(k + 1) for k in numbers]
+                wanted = plot.poses(ax, task.poses[numbers], size=long, names=names, color=color)
+                over += [wanted.x_axes, wanted.y_axes, wanted.origins, *wanted.labels]
+        ax.set_xlabel(with_unit("X", film.chosen.unit), labelpad=1)
+        ax.set_ylabel(with_unit("Y", film.chosen.unit), labelpad=1)
+        ax.set_title(f"{film.chosen.id}  {film.chosen.type}", loc="left", fontsize=10, pad=4)
+        settle_labels(ax)
+        for artist in over:
+            artist.set_animated(True)
+        figure.canvas.draw()
+    return Stage(figure, ax, over)
+
+
+def _drive_text(film: Film, number: int) -> str:
+    """Where the driver is."""
+    travel = film.travel
+    value = float(travel.drive[number])
+    if not travel.circuit.drive.turns:
+        return with_unit(f"driver {value:.4g}".replace("-", "−"), film.chosen.unit)
+    return f"driver {math.degrees(value) % 360 if travel.round else math.degrees(value):5.1f}°"

@@ -1,0 +1,65 @@
+"""What an export is told, and the unit that its lengths have.
+
+E162 dimensions that cannot be made
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import final
+
+from burmester.errors import InputError
+from burmester.io.saved import SavedLinkage
+
+__all__ = ["MILLIMETRES", "Options", "unit_of"]
+
+MILLIMETRES = {"um": 1e-3, "mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "ft": 304.8}
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Options:
+    """How a linkage is drawn and made; what is None is chosen from the linkage's own size.
+
+    unit: of the task's lengths where the task names none (mm if this does not either).
+    hole: diameter of pins and holes; width: of links; thickness: of plates; gap: between plates
+    that lie on each other.  These four in the task's unit of lengths, or in `unit`.
+    pose: at which the assembly is drawn, from 1.
+    seconds, frames_per_second, width_px: of pictures that move.
+    """
+
+    unit: str | None = None
+    hole: float | None = None
+    width: float | None = None
+    thickness: float | None = None
+    gap: float | None = None
+    pose: int = 1
+    seconds: float = 4.0
+    frames_per_second: float = 25.0
+    width_px: int = 800
+
+
+def unit_of(chosen: SavedLinkage, options: Options) -> str:
+    """The unit of the linkage's lengths, a key of `MILLIMETRES`; raises E162."""
+    known = ", ".join(MILLIMETRES)
+    own, said = chosen.unit, options.unit
+    if said is not None and said not in MILLIMETRES:
+        raise InputError(
+            "E162", f"there is no unit {said!r}", why=f"known are {known}", help="say --unit mm"
+        )
+    if own is not None and said is not None and own != said:
+        raise InputError(
+            "E162",
+            f"the lengths of this linkage are in {own}, not in {said}",
+            why="the poses came with their unit",
+            help="leave --unit out",
+        )
+    unit = own or said or "mm"
+    if unit not in MILLIMETRES:
+        raise InputError(
+            "E162",
+            f"lengths in {unit} cannot be exported",
+            why=f"known are {known}",
+            help="state the poses in one of these units",
+        )
+    return unit

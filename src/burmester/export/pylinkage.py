@@ -1,0 +1,238 @@
+"""A Python script that builds the linkage with pylinkage and takes it through its poses.
+
+What pylinkage has: cranks and sliders that drive, and followers that are links or sliders on the
+ground.  It has no slot on a moving body, so a linkage with an RP dyad is refused.
+
+E160 what was written is not the linkage        E163 a linkage that pylinkage has no parts for
+"""
+
+from __future__ import annotations
+
+import ast
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from burmester.displacement import FloatArray
+from burmester.errors import InputError
+from burmester.export.joints import directions, driven, ground_joint
+from burmester.export.options import Options
+from burmester.export.truth import PRECISION, Truth, about, agree
+from burmester.io.saved import SavedLinkage
+
+__all__ = ["check", "write"]
+
+ROOM = 0.05  # of the travel, by which a rail is longer on either side
+
+IMPORTS = '''"""{about}
+
+Run it to see where the joints and the body are at each pose; `build()` gives the linkage.
+"""
+
+import math
+
+from pylinkage.actuators import {actuator}
+from pylinkage.components import Ground, PointTracker
+from pylinkage.dyads import {dyad}
+from pylinkage.simulation import Linkage
+'''
+RUN = '''
+
+def poses(steps=200):
+    """The positions of all components at the poses, one after the other."""
+    linkage = build()
+    linkage.rebuild()
+    place = DRIVES[START]
+    # From where it is assembled to the first pose, then on from each to the next.
+    stops = [*DRIVES[START:0:-1], *DRIVES]
+    for number, stop in enumerate(stops):
+        for positions in linkage.step(iterations=steps, dt=(stop - place) / steps):
+            pass
+        place = stop
+        if number >= START:
+            yield {component.name: at for component, at in zip(linkage.components, positions)}
+
+
+if __name__ == "__main__":
+    for number, positions in enumerate(poses(), start=1):
+        (x, y), (x1, y1) = positions["body"], positions["body_x"]
+        angle = math.degrees(math.atan2(y1 - y, x1 - x))
+        print(f"pose {number}: body at ({x:.9g}, {y:.9g}), {angle:.9g} degrees")
+        for name, (px, py) in positions.items():
+            print(f"    {name}: ({px:.9g}, {py:.9g})")
+'''
+
+
+def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
+    """Write the script; raises E163."""
+    truth = Truth.of(chosen, options, None)
+    if not set(truth.kinds) <= {"RR", "PR"}:
+        slot = "RP" in truth.kinds
+        raise InputError(
+            "E163",
+            f"linkage {chosen.id} cannot be built with pylinkage",
+            why="it has no slot on a moving body (RP)"
+            if slot
+            else "it has no body that only translates (PP)",
+            help="choose a linkage of RR and PR dyads, or --to mjcf, which has slots"
+            if slot
+            else "choose another linkage",
+        )
+    place = truth.places[options.pose - 1]
+    one, two = truth.moving
+    assert one is not None
+    assert two is not None
+    drive = driven(chosen, truth)
+    tips = place.act(np.stack([one, two]))
+    actuator = "Crank" if truth.kinds[0] == "RR" else "LinearActuator"
+    dyad = "RRRDyad" if truth.kinds[1] == "RR" else "RRPDyad"
+    told = "\n".join(about(chosen, options, None))
+    arm = two - one
+    length = math.hypot(*arm.tolist())
+    angle = math.atan2(arm[1], arm[0])
+
+    def tracked(point: Any) -> str:
+        """A point of M by its distance and angle from the way between the two pivots."""
+        to = np.asarray(point) - one
+        return f"{_n(math.hypot(*to.tolist()))}, {_n(math.atan2(to[1], to[0]) - angle)}"
+
+    lines = [
+        IMPORTS.format(about=told, actuator=actuator, dyad=dyad),
+        f"COUPLER = {_n(length)}  # between its pivots",
+    ]
+    numbers, body, drives = _driver(truth, drive)
+    lines += numbers
+    x, y = tips[1].tolist()
+    lines.append(f"B0 = {_p((x, y))}  # the follower's pin at the start")
+    numbers, more, grounds = _follower(truth)
+    lines += numbers
+    body += more
+    body += [
+        'body = PointTracker(driver.output, follower, *BODY, name="body")',
+        'body_x = PointTracker(driver.output, follower, *BODY_X, name="body_x")',
+        f"parts = [{', '.join(grounds)}, driver, follower, body, body_x]",
+        f"return Linkage(parts, name={chosen.id!r})",
+    ]
+    unit_x = np.array([length, 0.0])
+    lines += [
+        "# The body's origin and a point of its x axis: distance and angle from the driver's pin.",
+        f"BODY = ({tracked((0.0, 0.0))})",
+        f"BODY_X = ({tracked(unit_x)})",
+        "# Where the driver is at the poses: "
+        + ("radians." if truth.kinds[0] == "RR" else "from the beginning of its rail."),
+        f"DRIVES = {[float(each) for each in drives]!r}",
+        f"START = {options.pose - 1}  # the pose at which it is assembled, from 0",
+        "",
+        "",
+        "def build():",
+        '    """The linkage, assembled."""',
+        *[f"    {each}" for each in body],
+    ]
+    path.write_text("\n".join(lines) + "\n" + RUN, encoding="utf-8", newline="\n")
+
+
+def _driver(truth: Truth, drive: FloatArray) -> tuple[list[str], list[str], FloatArray]:
+    """The driver's numbers, what builds it, and where it is at the poses (N,)."""
+    fixed, radius, line = truth.fixed[0], truth.radius[0], truth.line[0]
+    ground = 'a = Ground(*A, name="A")'
+    if fixed is not None:
+        numbers = [f"A = {_p(fixed)}  # the driver's fixed pivot", f"CRANK = {_n(radius or 0.0)}"]
+        built = (
+            "driver = Crank(a, CRANK, angular_velocity=1.0, initial_angle=DRIVES[START], "
+            'name="driver")'
+        )
+        return numbers, [ground, built], drive
+    assert line is not None
+    # The rail begins a little before the first place, and ends a little behind the last.
+    n, along = directions(line[0])
+    room = ROOM * (float(np.ptp(drive)) or truth.span)
+    low = float(drive.min()) - room
+    drives = drive - low
+    numbers = [
+        f"A = {_p(line[1] * n + low * along)}  # where the driver's rail begins",
+        f"DIRECTION = {_n(math.atan2(along[1], along[0]))}",
+        f"STROKE = {_n(float(drives.max()) + room)}",
+    ]
+    built = (
+        "driver = LinearActuator(a, DIRECTION, STROKE, speed=1.0, "
+        'initial_extension=DRIVES[START], name="driver")'
+    )
+    return numbers, [ground, built], drives
+
+
+def _follower(truth: Truth) -> tuple[list[str], list[str], list[str]]:
+    """The follower's numbers, what builds it, and the names of all points of the ground."""
+    fixed, radius, line = truth.fixed[1], truth.radius[1], truth.line[1]
+    if fixed is not None:
+        numbers = [
+            f"B = {_p(fixed)}  # the follower's fixed pivot",
+            f"ROCKER = {_n(radius or 0.0)}",
+        ]
+        built = [
+            'b = Ground(*B, name="B")',
+            "follower = RRRDyad(driver.output, b, COUPLER, ROCKER, x=B0[0], y=B0[1], "
+            'name="follower")',
+        ]
+        return numbers, built, ["a", "b"]
+    assert line is not None
+    n, along = directions(line[0])
+    s = ground_joint(truth, 1, truth.places)
+    room = ROOM * (float(np.ptp(s)) or truth.span)
+    ends = [line[1] * n + each * along for each in (s.min() - room, s.max() + room)]
+    built = [
+        'b1, b2 = Ground(*RAIL[0], name="B1"), Ground(*RAIL[1], name="B2")',
+        'follower = RRPDyad(driver.output, b1, b2, COUPLER, x=B0[0], y=B0[1], name="follower")',
+    ]
+    return [f"RAIL = [{_p(ends[0])}, {_p(ends[1])}]  # of the follower"], built, ["a", "b1", "b2"]
+
+
+def _n(value: float) -> str:
+    return repr(float(value) + 0.0)
+
+
+def _p(point: Any) -> str:
+    return f"({_n(point[0])}, {_n(point[1])})"
+
+
+def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
+    """Read the script's numbers back as Python has them, and compare; raises E160."""
+    truth = Truth.of(chosen, options, None)
+    tolerance = PRECISION * truth.span
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    told: dict[str, Any] = {}
+    for node in tree.body:
+        if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
+            told[node.targets[0].id] = ast.literal_eval(node.value)
+    drives, start = np.array(told["DRIVES"]), told["START"]
+    agree("the pose at the start", start, options.pose - 1, 0)
+    if truth.kinds[0] == "RR":
+        assert truth.fixed[0] is not None
+        agree("the driver's fixed pivot", told["A"], truth.fixed[0], tolerance)
+        agree("the driver's length", told["CRANK"], truth.radius[0] or np.nan, tolerance)
+        way = np.stack([np.cos(drives), np.sin(drives)], axis=1) * told["CRANK"]
+    else:
+        way = drives[:, None] * [math.cos(told["DIRECTION"]), math.sin(told["DIRECTION"])]
+    pins = np.array(told["A"]) + way
+    one, two = truth.moving
+    assert one is not None
+    assert two is not None
+    agree("the driver's pin at the poses", pins, truth.places.act(one), tolerance)
+    agree("the follower's pin", told["B0"], truth.places[start].act(two), tolerance)
+    agree("the coupler's length", told["COUPLER"], np.linalg.norm(two - one), tolerance)
+    if truth.kinds[1] == "RR":
+        assert truth.fixed[1] is not None
+        agree("the follower's fixed pivot", told["B"], truth.fixed[1], tolerance)
+        agree("the follower's length", told["ROCKER"], truth.radius[1] or np.nan, tolerance)
+    else:
+        assert truth.line[1] is not None
+        normal, offset = truth.line[1]
+        off = np.array(told["RAIL"]) @ [math.cos(normal), math.sin(normal)] - offset
+        agree("the follower's rail", off, [0, 0], tolerance)
+    arm = two - one
+    for name, point in (("BODY", [0.0, 0.0]), ("BODY_X", [told["COUPLER"], 0.0])):
+        size, angle = told[name]
+        turn = complex(*arm) / abs(complex(*arm)) * complex(math.cos(angle), math.sin(angle))
+        at = complex(*one) + size * turn
+        agree(f"{name} on the coupler", [at.real, at.imag], point, tolerance)

@@ -1,0 +1,179 @@
+"""CSV of the coupler's places along the motion, and JSON of the one linkage; the task's own unit.
+
+CSV: a row for each step along the way from the first pose to the last, and one for each pose.
+JSON: what `linkage.SCHEMA` says, the driver first.
+
+E160 what was written is not the linkage        E163 a linkage that has no way through its poses
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+
+from burmester.displacement import Displacement
+from burmester.dyad import PP, PR, RP, RR, Dyad
+from burmester.export.options import Options, unit_of
+from burmester.export.travel import Travel
+from burmester.export.truth import PRECISION, Truth, agree, as_rows
+from burmester.io.linkage_data import poses_data
+from burmester.io.saved import SavedLinkage
+
+__all__ = ["SCHEMA", "check_csv", "check_json", "write_csv", "write_json"]
+
+SCHEMA: Final = "burmester.linkage/1"
+STEPS = 361  # rows along the way, beside those of the poses
+
+
+def write_csv(chosen: SavedLinkage, path: Path, options: Options) -> None:
+    """Write the table; raises E163."""
+    way = Travel.of(chosen, 2)
+    shares = np.linspace(0, 1, STEPS)
+    poses = {int(k): float(way.at[k]) for k in way.reached}
+    met = np.array(list(poses.values()))
+    # Where a pose and a step are one place, the pose's row stands for both.
+    shares = shares[np.abs(shares[:, None] - met).min(axis=1) > 0.01 / STEPS]
+    marked = [(share, 0) for share in shares.tolist()]
+    marked += [(share, number + 1) for number, share in poses.items()]
+    marked.sort()
+    way = Travel.of(chosen, np.array([share for share, _ in marked]))
+    turns = way.circuit.drive.turns
+    drive = np.degrees(way.drive) if turns else way.drive
+    unit = _unit(chosen, options)
+    in_unit = f"_{unit}" if unit else ""
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(
+            [
+                "drive_deg" if turns else f"drive{in_unit}",
+                f"x{in_unit}",
+                f"y{in_unit}",
+                "angle_deg",
+                "pose",
+            ]
+        )
+        rows = zip(
+            drive.tolist(), poses_data(way.places), [number for _, number in marked], strict=True
+        )
+        for value, place, number in rows:
+            table.writerow([repr(value), *map(repr, place.values()), number or ""])
+
+
+def check_csv(chosen: SavedLinkage, path: Path, options: Options) -> None:
+    """Read the table back and compare: every place is one of the linkage, and the poses' too."""
+    truth = Truth.of(chosen, options, None)
+    with open(path, encoding="utf-8", newline="") as file:
+        head, *rows = list(csv.reader(file))
+    numbers = np.array([[float(cell) for cell in row[:4]] for row in rows])
+    places = Displacement(numbers[:, 1:3], np.radians(numbers[:, 3]))
+    tolerance = PRECISION * truth.span
+    agree("the links at the places", truth.missed(places), 0, tolerance)
+    at = [(k, int(row[4]) - 1) for k, row in enumerate(rows) if row[4]]
+    here, wanted = places[[k for k, _ in at]], truth.places[[pose for _, pose in at]]
+    # Along a circuit a place is computed from the drive; beside dead points digits are lost.
+    agree("the places for the poses", here.translation, wanted.translation, 1e3 * tolerance)
+    agree("the angles for the poses", as_rows(here)[:, 2:], as_rows(wanted)[:, 2:], 1e-6)
+    if chosen.usable:
+        agree("the poses", sorted(pose for _, pose in at), np.arange(len(truth.places.angle)), 0)
+    # The driver, from the places.
+    fixed, moving, line = truth.fixed[0], truth.moving[0], truth.line[0]
+    told = numbers[:, 0]
+    if head[0] == "drive_deg" and line is None:
+        assert fixed is not None
+        assert moving is not None
+        arm = places.act(moving) - fixed
+        own = np.arctan2(arm[:, 1], arm[:, 0])
+    elif head[0] == "drive_deg":
+        assert line is not None
+        own = places.angle + line[0]
+    else:
+        assert line is not None
+        assert moving is not None
+        along = np.array([-math.sin(line[0]), math.cos(line[0])])
+        agree("the drive", told, places.act(moving) @ along, 10 * tolerance)
+        return
+    turned = np.exp(1j * (np.radians(told) - own))
+    agree("the drive", np.abs(turned - 1).max(), 0, 1e-8)
+
+
+def write_json(chosen: SavedLinkage, path: Path, options: Options) -> None:
+    """Write the linkage."""
+    linkage = chosen.linkage
+    data: dict[str, Any] = {
+        "schema": SCHEMA,
+        "id": chosen.id,
+        "type": chosen.type,
+        "usable": chosen.usable,
+        "length_unit": _unit(chosen, options),
+        "driver": "first",
+        "dyads": [
+            {"id": name, **_dyad(dyad)}
+            for name, dyad in zip(chosen.ids, (linkage.first, linkage.second), strict=True)
+        ],
+    }
+    if (links := linkage.links) is not None:
+        data["links"] = {name: float(length) for name, length in links._asdict().items()}
+    data["poses"] = poses_data(chosen.task.poses)
+    data["coupler"] = poses_data(chosen.error.places)
+    data["position_error"] = {"max": float(chosen.error.position.max())}
+    data["angle_error_deg"] = {"max": math.degrees(float(chosen.error.angle.max()))}
+    path.write_text(json.dumps(data, indent=2, allow_nan=False) + "\n", encoding="utf-8")
+
+
+def check_json(chosen: SavedLinkage, path: Path, options: Options) -> None:
+    """Read the linkage back and compare all its numbers."""
+    truth = Truth.of(chosen, options, None)
+    data = json.loads(path.read_text(encoding="utf-8"))
+    tolerance = PRECISION * truth.span
+    for k, dyad in enumerate(data["dyads"]):
+        agree(f"the kind of dyad {k + 1}", dyad["kind"] == truth.kinds[k], True, 0)
+        for key, wanted in (
+            ("fixed_pivot", truth.fixed[k]),
+            ("moving_pivot", truth.moving[k]),
+            ("radius", truth.radius[k]),
+        ):
+            if wanted is not None:
+                agree(f"{key} of dyad {k + 1}", dyad[key], wanted, tolerance)
+        if (line := truth.line[k]) is not None:
+            agree("a normal", math.radians(dyad["line"]["normal_deg"]), line[0], 1e-12)
+            agree("an offset", dyad["line"]["offset"], line[1], tolerance)
+    for key, places in (("coupler", truth.places), ("poses", truth.poses)):
+        rows = [[each["x"], each["y"]] for each in data[key]]
+        agree(f"the places of {key}", rows, places.translation, tolerance)
+        angles = [math.radians(each["angle_deg"]) for each in data[key]]
+        agree(f"the angles of {key}", angles, places.angle, 1e-12)
+    if "links" in data:
+        pivots = [np.asarray(each) for each in (*truth.fixed, *truth.moving)]
+        ground, coupler = (np.linalg.norm(pivots[k + 1] - pivots[k]) for k in (0, 2))
+        lengths = np.array([ground, truth.radius[0], coupler, truth.radius[1]], dtype=np.float64)
+        agree("the links", list(data["links"].values()), lengths, tolerance)
+    gap = truth.places.translation - truth.poses.translation
+    worst = float(np.hypot(gap[:, 0], gap[:, 1]).max())
+    agree("the error", data["position_error"]["max"], worst, 10 * tolerance)
+
+
+def _unit(chosen: SavedLinkage, options: Options) -> str | None:
+    """The unit in which the task or the options say lengths are; None where nobody does."""
+    said = chosen.unit or options.unit
+    return unit_of(chosen, options) if said else None
+
+
+def _dyad(dyad: Dyad) -> dict[str, Any]:
+    data: dict[str, Any] = {"kind": type(dyad).__name__}
+    if isinstance(dyad, PP):
+        return data | {"angle_deg": math.degrees(float(dyad.angle))}
+    if isinstance(dyad, RR | RP):
+        data["fixed_pivot"] = dyad.fixed_pivot.tolist()
+    if isinstance(dyad, PR | RP):
+        normal = math.degrees(float(dyad.normal_angle))
+        data["line"] = {"normal_deg": normal, "offset": float(dyad.offset)}
+    if isinstance(dyad, RR | PR):
+        data["moving_pivot"] = dyad.moving_pivot.tolist()
+    if isinstance(dyad, RR):
+        data["radius"] = float(dyad.radius)
+    return data

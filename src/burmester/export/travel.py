@@ -1,0 +1,178 @@
+"""The way of a coupler through the poses: what moves in a film, and what must not collide.
+
+It runs along one circuit, from the first pose that the driver reaches to the last, in the sense in
+which the poses are met; a driver that turns fully may go all the way round.
+
+E163 a linkage that has no such way
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Final, Self, final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from burmester.accuracy import wrapped_angle
+from burmester.candidates import characteristic_length
+from burmester.circuit import Circuits, circuit_of
+from burmester.course import Course
+from burmester.defects import Driven, judge
+from burmester.displacement import Displacement, FloatArray
+from burmester.dyad import PP
+from burmester.errors import InputError
+from burmester.io.saved import SavedLinkage
+from burmester.linkage import Linkage
+
+__all__ = ["Travel"]
+
+TURN: Final = 2 * np.pi
+STEPS: Final = 721  # places by which the coupler's angle is followed
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Travel:
+    """Places (n,) of a coupler on its way from the first pose to the last.
+
+    circuit: the one circuit, see `Circuits`; number: its own, in `Circuits.of`.
+    parameter: (n,) along it, rising or falling as the poses want it; evenly spaced unless shares
+        of the way were asked for.
+    places: (n,), their angles without jumps.
+    drive: (n,), the driver's coordinate without jumps, a length or radians (see `Drive`); the way
+        begins within the first turn, from 0 to 2 pi.
+    at: (N,), where each pose is met, in shares of the way; nan for poses that the driver does not
+        reach.
+    turns_fully: whether the driver can turn round and round.
+    round: whether the way is one whole turn, its last place being its first one again.
+    """
+
+    circuit: Circuits
+    number: int
+    parameter: FloatArray
+    places: Displacement
+    drive: FloatArray
+    at: FloatArray
+    turns_fully: bool
+    round: bool
+
+    @classmethod
+    def of(cls, chosen: SavedLinkage, count: int | ArrayLike, whole: bool = False) -> Self:
+        """So many places, 2 or more, of the way of a linkage through its poses.
+
+        count: or the shares (n,) of the way, from 0 to 1, at which they are.
+        whole: one whole turn that begins at the first pose, where the driver turns fully.
+        Of a linkage that is not usable, the poses on one branch are taken, on the one with the
+        most of them.  Raises InputError E163 where these are fewer than two, and where the linkage
+        cannot be driven.
+        """
+        driven = _driven(chosen)
+        reached = np.flatnonzero(np.isfinite(driven.parameter))
+        if len(reached) < 2 or driven.circuit < 0:
+            name = f"linkage {chosen.id}"
+            raise InputError(
+                "E163",
+                f"{name} does not move from one pose to another",
+                why=f"its driver reaches {_poses(len(reached))} of {len(driven.parameter)} "
+                "without being taken apart or passing a dead point",
+                help="choose a linkage that `burmester synthesize` calls usable",
+            )
+        s = driven.parameter
+        first, last = s[reached[0]], s[reached[-1]]
+        sense = -1.0 if last < first else 1.0
+        start = sense * np.nanmin(sense * s)
+        length = TURN if whole and driven.turns_fully else float(np.ptp(s[reached]))
+        if length <= 0:
+            raise InputError(
+                "E163",
+                f"linkage {chosen.id} does not move from one pose to another",
+                why="all poses that its driver reaches are the same place",
+                help="give poses that differ",
+            )
+        own = Circuits.of(chosen.linkage, as_given=True)[driven.circuit]
+        share = np.linspace(0.0, 1.0, count) if isinstance(count, int) else np.asarray(count, float)
+        # Angles are followed in small steps, and come by whole turns as the first pose has its own.
+        steps = np.linspace(0.0, 1.0, STEPS)
+        followed = np.unwrap(own.couplers(start + sense * length * steps).angle)
+        there = np.interp(sense * (first - start) / length, steps, followed)
+        turns = np.round((chosen.error.places.angle[reached[0]] - there) / TURN)
+        parameter = start + sense * length * share
+        places = own.couplers(parameter)
+        angle = np.interp(share, steps, followed) + TURN * turns
+        angle = places.angle + TURN * np.round((angle - places.angle) / TURN)
+        return cls(
+            own,
+            driven.circuit,
+            parameter,
+            Displacement(places.translation, angle),
+            _drive(own, parameter, places) - TURN * _turns(own, start),
+            sense * (s - start) / length,
+            driven.turns_fully,
+            bool(whole and driven.turns_fully),
+        )
+
+    @property
+    def reached(self) -> NDArray[np.intp]:
+        """The numbers, from 0, of the poses that the driver reaches."""
+        return np.flatnonzero(np.isfinite(self.at))
+
+
+def _driven(chosen: SavedLinkage) -> Driven:
+    """How the linkage does with its driver, from the poses that lie together on one branch."""
+    first, second = chosen.linkage.first, chosen.linkage.second
+    if isinstance(first, PP) or isinstance(second, PP):
+        raise InputError(
+            "E163",
+            f"linkage {chosen.id} has no way that could be followed",
+            why="a body that only translates is held by a PP dyad, which has no one joint",
+            help="choose a linkage of RR, PR and RP dyads",
+        )
+    places, task = chosen.error.places, chosen.task
+    length = characteristic_length(task)
+    missed = np.hypot(chosen.error.position, length * chosen.error.angle)
+
+    def judged(places: Displacement) -> tuple[Driven, bool]:
+        (verdict,) = judge(
+            Linkage(first[None], second[None]),
+            places[None],
+            missed=missed[None],
+            reach=np.inf,
+            length=length,
+            any_order=task.requirements.any_order,
+        )
+        locks = any(each.kind == "branch" and each.certain for each in verdict.first.defects)
+        return verdict.first, locks
+
+    driven, locks = judged(places)
+    if locks:
+        here = circuit_of(chosen.linkage, places, as_given=True)
+        on = np.isfinite(driven.parameter)
+        more = int((on & (here.branch == 1)).sum()) > int((on & (here.branch == 0)).sum())
+        keep = on & (here.branch == int(more))
+        driven, _ = judged(replace(places, angle=np.where(keep, places.angle, np.nan)))
+    return driven
+
+
+def _drive(own: Circuits, parameter: FloatArray, places: Displacement) -> FloatArray:
+    """The driver's coordinate (n,) at places of a circuit, without jumps."""
+    with np.errstate(invalid="ignore", divide="ignore"):
+        w = own.drive.reading(places)[0]
+    if not own.drive.turns:
+        return np.asarray(own.drive.centre + w.real)
+    if own.course == Course.WHOLE:
+        return np.asarray(own.drive.centre + parameter)
+    middle = np.pi if own.course == Course.BELOW else 0.0  # psi keeps within half a turn of it
+    return np.asarray(own.drive.centre + middle + wrapped_angle(np.angle(w) - middle))
+
+
+def _turns(own: Circuits, start: float) -> float:
+    """The whole turns of the driver at a parameter."""
+    if not own.drive.turns:
+        return 0.0
+    at = np.array([start])
+    return float(np.floor(_drive(own, at, own.couplers(at))[0] / TURN))
+
+
+def _poses(count: int) -> str:
+    return ("no pose", "one pose")[count] if count < 2 else f"{count} poses"

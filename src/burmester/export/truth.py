@@ -1,0 +1,179 @@
+"""What every file has to say of a linkage, from its dyads alone, and the comparison with it.
+
+E160 what was written is not the linkage
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from burmester.displacement import Displacement, FloatArray
+from burmester.dyad import PP, PR, RP, RR
+from burmester.errors import BurmesterError
+from burmester.export.options import MILLIMETRES, Options, unit_of
+from burmester.io.saved import SavedLinkage
+
+__all__ = ["PRECISION", "Truth", "about", "agree", "as_rows"]
+
+PRECISION = 1e-9  # of the span, by which what is read back may differ
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Truth:
+    """A linkage in some unit: per dyad what it has, None for what it has not.
+
+    kinds: RR, PR, RP or PP; fixed: pivots in F; moving: pivots in M; radius: link lengths;
+    line: the angle of the normal and the offset, in F for PR and in M for RP.
+    places: (N,) of the coupler for the poses; poses: (N,) those asked for.
+    span: the size of all of it; scale: of the unit, in the task's own.
+    """
+
+    kinds: tuple[str, str]
+    fixed: tuple[FloatArray | None, FloatArray | None]
+    moving: tuple[FloatArray | None, FloatArray | None]
+    radius: tuple[float | None, float | None]
+    line: tuple[tuple[float, float] | None, tuple[float, float] | None]
+    places: Displacement
+    poses: Displacement
+    span: float
+    scale: float
+
+    @classmethod
+    def of(cls, chosen: SavedLinkage, options: Options, unit: str | None = "mm") -> Truth:
+        """The linkage in a unit, None for the task's own; raises E162."""
+        scale = 1.0
+        if unit is not None:
+            scale = MILLIMETRES[unit_of(chosen, options)] / MILLIMETRES[unit]
+        places, poses = (
+            Displacement(each.translation * scale, each.angle)
+            for each in (chosen.error.places, chosen.task.poses)
+        )
+        fixed: list[FloatArray | None] = []
+        moving: list[FloatArray | None] = []
+        radius: list[float | None] = []
+        line: list[tuple[float, float] | None] = []
+        dyads = (chosen.linkage.first, chosen.linkage.second)
+        for dyad in dyads:
+            fixed.append(dyad.fixed_pivot * scale if isinstance(dyad, RR | RP) else None)
+            moving.append(dyad.moving_pivot * scale if isinstance(dyad, RR | PR) else None)
+            radius.append(float(dyad.radius) * scale if isinstance(dyad, RR) else None)
+            line.append(
+                (float(dyad.normal_angle), float(dyad.offset) * scale)
+                if isinstance(dyad, PR | RP)
+                else None
+            )
+        seen = [places.translation, *(each[None] for each in fixed if each is not None)]
+        seen += [places.act(each) for each in moving if each is not None]
+        span = math.hypot(*np.ptp(np.concatenate(seen), axis=0).tolist())
+        return cls(
+            (type(dyads[0]).__name__, type(dyads[1]).__name__),
+            (fixed[0], fixed[1]),
+            (moving[0], moving[1]),
+            (radius[0], radius[1]),
+            (line[0], line[1]),
+            places,
+            poses,
+            span,
+            scale,
+        )
+
+    @property
+    def only_translates(self) -> bool:
+        """Whether a dyad is PP."""
+        return PP.__name__ in self.kinds
+
+    def missed(self, places: Displacement) -> float:
+        """By how much the links do not fit at coupler places, in the unit of lengths."""
+        worst = 0.0
+        c, s = np.cos(places.angle), np.sin(places.angle)
+        x, y = places.translation[..., 0], places.translation[..., 1]
+        for k in (0, 1):
+            fixed, moving, line, radius = (
+                self.fixed[k],
+                self.moving[k],
+                self.line[k],
+                self.radius[k],
+            )
+            if moving is not None:
+                px, py = c * moving[0] - s * moving[1] + x, s * moving[0] + c * moving[1] + y
+                if line is None:
+                    assert fixed is not None
+                    assert radius is not None
+                    off = np.hypot(px - fixed[0], py - fixed[1]) - radius
+                else:
+                    off = math.cos(line[0]) * px + math.sin(line[0]) * py - line[1]
+            elif fixed is not None:
+                assert line is not None
+                px, py = fixed[0] - x, fixed[1] - y
+                off = math.cos(line[0]) * (c * px + s * py) - line[1]
+                off = off + math.sin(line[0]) * (c * py - s * px)
+            else:
+                continue
+            worst = max(worst, float(np.abs(off).max()))
+        return worst
+
+
+def agree(what: str, got: ArrayLike, wanted: ArrayLike, tolerance: float) -> None:
+    """Raise E160 where numbers read from a file are not those of the linkage."""
+    one, two = np.asarray(got, dtype=np.float64), np.asarray(wanted, dtype=np.float64)
+    if one.shape != two.shape:
+        off: float | str = f"{one.shape} numbers where {two.shape} belong"
+    else:
+        gap = float(np.abs(one - two).max()) if one.size else 0.0
+        if gap <= tolerance:
+            return
+        off = f"off by {gap:.3g}, more than {tolerance:.3g}"
+    raise BurmesterError(
+        "E160",
+        "what was written is not the linkage, so nothing was kept",
+        why=f"{what}: {off}",
+        help="this is a fault of burmester: report it, with the result file",
+    )
+
+
+def as_rows(places: Displacement) -> FloatArray:
+    """Places (*,) as rows (*, 4): x, y, and the cosine and sine of their angles."""
+    return np.concatenate(
+        [places.translation, np.cos(places.angle)[..., None], np.sin(places.angle)[..., None]],
+        axis=-1,
+    )
+
+
+def about(chosen: SavedLinkage, options: Options, unit: str | None) -> list[str]:
+    """Sentences on what a file holds, for its head; unit: of its lengths, None for the task's."""
+    number = chosen.error.places.shape[0]
+    own = unit_of(chosen, options)
+    worst = float(chosen.error.position.max())
+    named = f" {own}" if unit is not None or chosen.unit or options.unit else ""
+    told = [
+        f"Linkage {chosen.id}, {_article(chosen.type)}, for {number} poses.",
+        f"Its driver is {chosen.ids[0]} ({type(chosen.linkage.first).__name__}), and "
+        f"{chosen.ids[1]} ({type(chosen.linkage.second).__name__}) follows.",
+        f"The coupler comes within {worst:.3g}{named} of every pose.",
+    ]
+    if not chosen.usable:
+        told.append("It is not usable as it is: it cannot go from pose to pose in one motion.")
+    if unit is None:
+        said = chosen.unit or options.unit
+        told.append(f"Lengths are in {said}." if said else "The task names no unit of length.")
+        return told
+    if own == unit or chosen.unit is None:
+        told.append(f"Lengths are in {unit}.")
+    else:
+        told.append(f"Lengths are in {unit}; the task's are in {own}.")
+    if chosen.unit is None:
+        told.append(
+            f"The task names no unit of length: one of its units is taken for 1 {own}"
+            + (f", as asked for with --unit {own}." if options.unit else "; --unit says another.")
+        )
+    return told
+
+
+def _article(text: str) -> str:
+    return f"{'an' if text[0] in 'aeiouAEIO' else 'a'} {text}"

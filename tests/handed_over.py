@@ -1,0 +1,87 @@
+"""Linkages as they come from a result file, made here without a search: every kind of pair.
+
+The places are those of the linkage at a few parameters along a circuit; the poses miss them by a
+known little.
+"""
+
+import numpy as np
+
+from burmester.accuracy import PoseError
+from burmester.circuit import Circuits
+from burmester.displacement import Displacement
+from burmester.dyad import PR, RP, RR
+from burmester.io.saved import SavedLinkage
+from burmester.linkage import Linkage
+from burmester.task import Task
+
+
+def rr(fixed, moving, radius):
+    return RR(np.array(fixed, float), np.array(moving, float), np.array(float(radius)))
+
+
+def pr(degrees, offset, moving):
+    return PR(np.radians(degrees), np.array(float(offset)), np.array(moving, float))
+
+
+def rp(fixed, degrees, offset):
+    return RP(np.array(fixed, float), np.radians(degrees), np.array(float(offset)))
+
+
+# name: both dyads, the unit, parameters along the first circuit
+GIVEN = {
+    "crank-rocker, mm": (rr([0, 0], [5, -8], 20), rr([70, 10], [65, 10], 50), "mm", (0.4, 3.2)),
+    "double-rocker, in": (rr([0, 0], [0, 1], 4), rr([5, 0.5], [2, 0], 3.5), "in", (0.5, 2.6)),
+    "double-crank, cm": (rr([0, 0], [1, 0], 6), rr([2, 0.3], [5, 1], 7), "cm", (0.2, 4.0)),
+    "slider-crank, no unit": (rr([1, 0], [0.1, 0], 1), pr(80, 0.4, [3, 0.2]), None, (0.4, 3.4)),
+    "inverted slider-crank, ft": (rr([0, 0], [1, 0.3], 2), rp([5, 1], 70, 1.2), "ft", (0.3, 3)),
+    "slider drives, m": (pr(95, 0.3, [0.2, 0.1]), rr([2, -1], [1.5, 0.4], 1.8), "m", (0.4, 2.4)),
+    "slot drives, um": (rp([900, 100], 60, 200), rr([0, 0], [300, 40], 350), "um", (0.4, 1.8)),
+    "trammel, mm": (pr(90, 5, [0, 0]), pr(10, -3, [80, -40]), "mm", (0.3, 2.8)),
+    "Rapson slide, mm": (pr(80, 10, [5, 5]), rp([60, 70], 20, 12), "mm", (-20, 40)),
+}
+NAMES = list(GIVEN)
+
+
+def saved(name, poses=6, given=None):
+    """The linkage of that name, or one given as they are."""
+    first, second, unit, span = given or GIVEN[name]
+    linkage = Linkage(first, second)
+    parameter = np.linspace(*span, poses)
+    places = Circuits.of(linkage)[0].couplers(parameter)
+    places = Displacement(places.translation, np.unwrap(places.angle))
+    size = float(np.ptp(places.translation, axis=0).max())
+    wave = np.arange(poses)
+    off = 1e-3 * size * np.column_stack([np.cos(wave), np.sin(2 * wave)])
+    wanted = Displacement(places.translation + off, places.angle + 1e-3 * np.sin(wave))
+    return SavedLinkage(
+        "L1",
+        linkage,
+        ("D1", "D2"),
+        True,
+        "first",
+        linkage.type,
+        Task(wanted, length_unit=unit),
+        PoseError.at(places, wanted),
+    )
+
+
+def complex_places(chosen, scale=1.0):
+    """The coupler's places as (d, e^(i angle)), complex."""
+    places = chosen.error.places
+    d = places.translation @ np.array([1, 1j]) * scale
+    return d, np.exp(1j * places.angle)
+
+
+def joints(chosen, number, scale=1.0):
+    """The joints at a place, complex points of F: {"fixed1": , "moving1": , ...}.
+
+    Sliders have the joint that they have: a PR its moving pivot, an RP its fixed one.
+    """
+    d, turn = (values[number] for values in complex_places(chosen, scale))
+    found = {}
+    for k, dyad in enumerate((chosen.linkage.first, chosen.linkage.second), start=1):
+        if not isinstance(dyad, PR):
+            found[f"fixed{k}"] = complex(*dyad.fixed_pivot) * scale
+        if not isinstance(dyad, RP):
+            found[f"moving{k}"] = d + complex(*dyad.moving_pivot) * scale * turn
+    return found
