@@ -17,6 +17,7 @@ import shlex
 import sys
 import tempfile
 from collections.abc import Callable, Mapping
+from functools import cache
 from importlib import import_module
 from pathlib import Path
 from types import MappingProxyType
@@ -33,11 +34,14 @@ from burmester.balls import flint
 from burmester.displacement import Displacement
 from burmester.dyad import PP, RR
 from burmester.errors import BurmesterError, InputError
+from burmester.export import Options, pylinkage
 from burmester.fingerprint import fingerprint
 from burmester.io.explain import pages
 from burmester.io.message import note, place, show_error
 from burmester.io.poses import read_task
-from burmester.io.result import failure
+from burmester.io.result import failure, plain
+from burmester.io.saved import read_result
+from burmester.synthesis import synthesize
 
 WIDTHS = (60, 80, 200)
 ROOT = Path(burmester.__file__).parent
@@ -81,7 +85,7 @@ class Case(NamedTuple):
     code: str
     run: str | Callable[[], object]
     follow: Args | Edit | Write | Call | Callable[[str], object] | None
-    files: Mapping[str, str | bytes] = MappingProxyType({})
+    files: Mapping[str, str | bytes | Callable[[], str]] = MappingProxyType({})
     exit: int = 2
 
 
@@ -578,6 +582,51 @@ CASES: dict[str, Case] = {
         lambda: api("io.files.write")("results/lid.toml", "new"),
         lambda help: Call(lambda: made(in_backticks(help), "results/lid.toml")),
     ),
+    "a template there already": Case(
+        "E140", "new gripper", Args("new gripper --force"), {"gripper.toml": "old"}
+    ),
+    "no result": Case(
+        "E150",
+        "export poses.json -o a.csv",
+        lambda help: Write("poses.json", result(TEN)),
+        {"poses.json": json_poses()},
+    ),
+    "no such linkage": Case(
+        "E151",
+        "export result.json -o a.csv --linkage L99",
+        lambda help: Args("export result.json -o a.csv " + re.search(r"--linkage \w+", help)[0]),
+        {"result.json": lambda: result(TEN)},
+    ),
+    "a result changed by hand": Case(
+        "E152",
+        "export result.json -o a.csv",
+        lambda help: Write("result.json", result(TEN)),
+        {"result.json": lambda: re.sub(r'"radius": \d', '"radius": 7', result(TEN))},
+    ),
+    "no such format": Case(
+        "E161",
+        "export result.json -o a.xyz",
+        lambda help: Args("export result.json -o a.xyz " + re.search(r"--to \w+", help)[0]),
+        {"result.json": lambda: result(TEN)},
+    ),
+    "holes too wide": Case(
+        "E162",
+        "export result.json -o a.svg --hole 9",
+        lambda help: Args("export result.json -o a.svg " + re.search(r"--hole \S+", help)[0]),
+        {"result.json": lambda: result(TEN)},
+    ),
+    "a file that went wrong": Case(
+        "E160",
+        lambda: checked(lambda text: text.replace("CRANK = 1", "CRANK = 2")),
+        Call(lambda: checked(lambda text: text)),
+        exit=3,
+    ),
+    "a slot for pylinkage": Case(
+        "E163",
+        "export result.json -o a.py --linkage L2",
+        Args("export result.json -o a.csv --linkage L2 --to csv"),
+        {"result.json": lambda: result(TEN)},
+    ),
     "driver without a joint": Case(
         "E401",
         lambda: api("drive.Drive").of(burmester.Linkage(PP(np.array(0.0)), START)),
@@ -699,7 +748,7 @@ CASES: dict[str, Case] = {
         S,
         Write("poses.csv", TEN),
         {"poses.csv": "x,y,angle_deg\n" + exchanged(ROWS, 3, 7)},
-        exit=0,
+        exit=1,
     ),
     "not determined": Case("W203", S, Write("poses.csv", FIVE), {"poses.csv": FOUR}, exit=1),
     "a very long link": Case(
@@ -818,8 +867,27 @@ def hurried(monkeypatch):
     return hurried
 
 
+@cache
+def result(text):
+    """What `synthesize -o` writes for a pose file."""
+    with tempfile.TemporaryDirectory() as folder:
+        poses = Path(folder, "poses.csv")
+        poses.write_text(text)
+        return json.dumps(plain(synthesize(read_task(poses))))
+
+
+def checked(change):
+    """Export a script, change it, and read it back."""
+    Path("result.json").write_text(result(TEN))
+    chosen = read_result("result.json").choose()
+    pylinkage.write(chosen, Path("a.py"), Options())
+    Path("a.py").write_text(change(Path("a.py").read_text()))
+    pylinkage.check(chosen, Path("a.py"), Options())
+
+
 def lay(case):
-    for name, data in case.files.items():
+    for name, content in case.files.items():
+        data = content() if callable(content) else content
         Path(name).write_bytes(data if isinstance(data, bytes) else data.encode())
 
 
@@ -948,6 +1016,8 @@ def test_the_same_message_in_json(name, run, broken, hurried):
     if callable(case.run):
         data = json.loads(json.dumps(failure(raised(case.run)), allow_nan=False))
         text = drawn(raised(case.run), 10_000)
+    elif case.run.startswith(("new", "export")):  # which have no --json
+        return
     elif "synthesize" not in case.run:
         done = run(f"{case.run} --json", 10_000)
         data, text = json.loads(done.out), done.err
@@ -992,6 +1062,8 @@ def parts(text):
 def help_of(case, run):
     if callable(case.run):
         return raised(case.run).help
+    if case.run.startswith(("new", "export")):
+        return parts(run(case.run, 10_000).err.rstrip("\n"))["help"]
     if case.code in ONLY_JSON:
         return fingerprint(read_task("poses.csv")).motion.help
     data = json.loads(run(f"{case.run} --json").out)
