@@ -13,12 +13,12 @@ import tempfile
 import atheris
 
 with atheris.instrument_imports(include=["burmester.io", "tomllib", "json"]):
-    import burmester.io.csv_poses
-    import burmester.io.documents
-    import burmester.io.limits_tree
-    import burmester.io.parquet
-    import burmester.io.poses
-    import burmester.io.requirements_tree  # noqa: F401
+    import burmester.io.reading.csv_poses
+    import burmester.io.reading.documents
+    import burmester.io.reading.limits_tree
+    import burmester.io.reading.parquet
+    import burmester.io.reading.poses
+    import burmester.io.reading.requirements_tree  # noqa: F401
 
 from tests.fuzzed_files import STRANGE_WORDS, File, any_file
 from tests.test_fuzz import judged

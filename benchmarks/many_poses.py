@@ -9,7 +9,7 @@ import sys
 import numpy as np
 
 from burmester import Displacement, fit_pencil, manifold
-from burmester.io.poses import read_task
+from burmester.io.reading.poses import read_task
 
 TABLE_5 = read_task("case:ge2012-approximate")
 

@@ -19,7 +19,7 @@ from benchmarks.many_poses import TABLE_5, design, in_one_task, near_table_5
 from burmester import best_dyads, critical_dyads, dyads_of_five, fit_pencil, synthesize
 from burmester.accuracy import PoseError
 from burmester.dyad import RR
-from burmester.io.poses import read_task
+from burmester.io.reading.poses import read_task
 from burmester.linkage import Linkage
 
 ONE = pytest.mark.benchmark(group="1. one pencil fit with both dyads, 10 poses of Table 5")
@@ -154,7 +154,9 @@ def test_stack_in_a_loop(measure):
 # 6 ------------------------------------------------------------------------------------------
 
 
-MAIN_JOB = "from burmester import Task, synthesize; import burmester.io.poses, burmester.io.result"
+MAIN_JOB = (
+    "from burmester import Task, synthesize; import burmester.io.reading.poses, burmester.io.result"
+)
 COMMANDS = {
     '`python -c "import numpy"`': (["-c", "import numpy"], {}),
     "`python -c pass`": (["-c", "pass"], {}),

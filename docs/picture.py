@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from burmester import Displacement, synthesize
-from burmester.io.poses import read_task
+from burmester.io.reading.poses import read_task
 
 LINE = '<path d="{d}" fill="none" stroke="{stroke}" stroke-width="{width}" {more}/>'
 SCALE, MARGIN = 90.0, 40.0

@@ -10,7 +10,7 @@ from burmester import Displacement, Task
 from burmester.agreement import _chance, _chance_of_number, odd_pose
 from burmester.fingerprint import fingerprint
 from burmester.io.cases import load
-from burmester.io.poses import read_task
+from burmester.io.reading.poses import read_task
 from burmester.left_out import LeftOut
 from burmester.linkage import Linkage
 from burmester.optimal import best_dyads

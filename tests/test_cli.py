@@ -413,6 +413,43 @@ def test_the_object_is_written_whole_and_never_over_a_file(poses, tmp_path):
     assert [each.name for each in tmp_path.iterdir() if each.name.startswith(".")] == []
 
 
+def test_a_report_is_a_page_with_the_numbers_that_are_printed(poses, tmp_path):
+    page = tmp_path / "page.html"
+    done = run("report", poses, "-o", page, "--title", "Lid <1>")
+    assert done.returncode == 0, done.stderr
+    text = page.read_text("utf-8")
+    assert "Lid &lt;1&gt;" in text
+    printed = run("synthesize", poses).stdout
+    length = re.search(r"length +([0-9.]+)", printed)[1]
+    assert length in text
+    assert not re.search(r"(src|href)=[\"']?http", text)
+    assert run("report", poses, "-o", page).returncode == 2
+    assert page.read_text("utf-8") == text
+
+
+def test_a_linkage_is_exported_from_a_result(poses, tmp_path):
+    result, made = tmp_path / "result.json", tmp_path / "coupler.csv"
+    assert run("synthesize", poses, "-o", result).returncode == 0
+    done = run("export", result, "-o", made, "--unit", "mm")
+    assert done.returncode == 0, done.stderr
+    header, *rows = made.read_text().splitlines()
+    assert "x_mm" in header
+    saved = json.loads(result.read_text())["linkages"][0]
+    columns = header.split(",")
+    at_poses = [
+        [float(row.split(",")[columns.index(name)]) for name in ("x_mm", "y_mm", "angle_deg")]
+        for row in rows
+        if row.split(",")[columns.index("pose")]
+    ]
+    wanted = [[each["x"], each["y"], each["angle_deg"]] for each in saved["coupler"]]
+    turned = (np.array(sorted(at_poses)) - sorted(wanted))[:, 2]
+    assert np.abs((turned + 180) % 360 - 180).max() < 1e-8
+    assert np.array(sorted(at_poses))[:, :2] == pytest.approx(np.array(sorted(wanted))[:, :2])
+    piped = run("export", "-", "--to", "svg", "-o", tmp_path / "a", stdin=result.read_text())
+    assert piped.returncode == 0, piped.stderr
+    assert (tmp_path / "a").read_text().lstrip().startswith("<")
+
+
 def test_a_bug_leaves_a_file_to_send(monkeypatch, capsys, tmp_path, poses):
     def broken(*_, **__):
         return [].pop()

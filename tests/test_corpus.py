@@ -15,7 +15,7 @@ import pytest
 
 from burmester import cli
 from burmester.errors import InputError
-from burmester.io.poses import read_task
+from burmester.io.reading.poses import read_task
 from burmester.task import Task
 
 CORPUS = Path(__file__).parent / "corpus"

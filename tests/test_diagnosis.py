@@ -10,7 +10,7 @@ from burmester import cli
 from burmester.diagnosis import diagnose, disagreement
 from burmester.displacement import Displacement
 from burmester.errors import InputError
-from burmester.io.poses import read_task
+from burmester.io.reading.poses import read_task
 from burmester.synthesis import synthesize
 from burmester.task import Task
 

@@ -15,9 +15,9 @@ import pytest
 from burmester.displacement import Displacement
 from burmester.errors import InputError
 from burmester.io import cases
-from burmester.io.poses import read_task
+from burmester.io.reading.poses import read_task
+from burmester.io.reading.slips import slip
 from burmester.io.result import task_data
-from burmester.io.slips import slip
 from burmester.limits import KINDS, Limits, Line, Point, Polygon, Segment
 from burmester.requirements import DRIVERS, GROUPS, TYPES, Requirements
 from burmester.task import Task

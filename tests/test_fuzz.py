@@ -18,8 +18,8 @@ from hypothesis import strategies as st
 
 from burmester.cli import main
 from burmester.errors import InputError
-from burmester.io import csv_poses, limits_text, requirements_text
-from burmester.io.poses import read_task
+from burmester.io.reading import csv_poses, limits_text, requirements_text
+from burmester.io.reading.poses import read_task
 from tests import fuzzed_files, plain_reader
 from tests.fuzzed_files import File
 from tests.plain_reader import Plain

@@ -21,8 +21,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from burmester.errors import InputError
-from burmester.io import cases, csv_poses
-from burmester.io.poses import read_task
+from burmester.io import cases
+from burmester.io.reading import csv_poses
+from burmester.io.reading.poses import read_task
 from burmester.task import Task
 
 Read = Callable[..., Task]
@@ -861,7 +862,7 @@ def test_csv_does_not_import_pydantic(tmp_path: Path) -> None:
     path = tmp_path / "poses.csv"
     path.write_text(CSV)
     code = (
-        "import sys; from burmester.io.poses import read_task; read_task(sys.argv[1]);"
+        "import sys; from burmester.io.reading.poses import read_task; read_task(sys.argv[1]);"
         "print([m for m in ('pydantic', 'scipy', 'matplotlib', 'rich') if m in sys.modules])"
     )
     done = subprocess.run(

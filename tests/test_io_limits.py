@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from burmester.errors import InputError
-from burmester.io import csv_poses
-from burmester.io.limits_text import wanted
-from burmester.io.poses import read_task
+from burmester.io.reading import csv_poses
+from burmester.io.reading.limits_text import wanted
+from burmester.io.reading.poses import read_task
 from burmester.limits import Limits, Line, Point, Polygon, Segment
 from tests.marked import carets, marked
 

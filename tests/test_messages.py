@@ -38,7 +38,7 @@ from burmester.export import Options, pylinkage
 from burmester.fingerprint import fingerprint
 from burmester.io.explain import pages
 from burmester.io.message import note, place, show_error
-from burmester.io.poses import read_task
+from burmester.io.reading.poses import read_task
 from burmester.io.result import failure, plain
 from burmester.io.saved import read_result
 from burmester.synthesis import synthesize

@@ -19,8 +19,8 @@ from burmester.cli.new import new
 from burmester.dyad import RR
 from burmester.errors import InputError
 from burmester.io import templates
-from burmester.io.asked import FILE_KEYS
-from burmester.io.poses import read_task
+from burmester.io.reading.asked import FILE_KEYS
+from burmester.io.reading.poses import read_task
 from burmester.linkage import Linkage
 from burmester.synthesis import synthesize
 from tests import witness

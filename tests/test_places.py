@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from burmester.io.places import place
+from burmester.io.reading.places import place
 
 # Trees, and one of the ways to write each ------------------------------------------------------
 

@@ -15,7 +15,7 @@ from burmester.conditions import Kept
 from burmester.displacement import Displacement
 from burmester.dyad import PR, RP, RR
 from burmester.frames import CanonicalFrames
-from burmester.io.poses import read_task
+from burmester.io.reading.poses import read_task
 from burmester.limits import Limits, Line, Point, Polygon, Segment
 from burmester.linkage import Linkage
 from burmester.refinement import refine

@@ -14,10 +14,10 @@ from burmester import cli
 from burmester.displacement import Displacement
 from burmester.dyad import PR, RP, RR
 from burmester.errors import InputError
-from burmester.io.asked import plain, requirements
-from burmester.io.limits_text import wanted
-from burmester.io.poses import read_task
-from burmester.io.requirements_text import asked
+from burmester.io.reading.asked import plain, requirements
+from burmester.io.reading.limits_text import wanted
+from burmester.io.reading.poses import read_task
+from burmester.io.reading.requirements_text import asked
 from burmester.limits import KINDS, Limits, Line, Point, Polygon, Segment, box
 from burmester.linkage import Linkage
 from burmester.requirements import DRIVERS, GROUPS, TYPES, Requirements

@@ -20,7 +20,7 @@ from burmester import cli
 from burmester.displacement import Displacement
 from burmester.dyad import PR, RP, RR
 from burmester.io.cases import names
-from burmester.io.poses import read_task
+from burmester.io.reading.poses import read_task
 from burmester.io.result import plain
 from burmester.io.terminal import show_synthesis
 from burmester.linkage import Linkage

@@ -13,7 +13,7 @@ from scipy.optimize import minimize
 from burmester.displacement import Displacement
 from burmester.dyad import PR, RP, RR
 from burmester.frames import CanonicalFrames
-from burmester.io.poses import read_task
+from burmester.io.reading.poses import read_task
 from burmester.limits import Limits, Polygon
 from burmester.linkage import Linkage
 from burmester.requirements import Requirements

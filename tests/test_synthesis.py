@@ -9,7 +9,7 @@ import pytest
 from burmester.displacement import Displacement
 from burmester.dyad import PR, RP, RR
 from burmester.errors import InputError
-from burmester.io.poses import read_task
+from burmester.io.reading.poses import read_task
 from burmester.synthesis import synthesize
 from burmester.task import Task
 from tests.swept import TooFineError, circuits

@@ -22,8 +22,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from burmester.errors import InputError
-from burmester.io import csv_poses
-from burmester.io.poses import read_task
+from burmester.io.reading import csv_poses
+from burmester.io.reading.poses import read_task
 from burmester.task import Task
 
 Read = Callable[..., Task]

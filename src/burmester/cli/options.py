@@ -243,9 +243,9 @@ def takes(*groups: tuple[Decorator, ...]) -> Decorator:
 
 def task(poses: str, **given: Any) -> Task:
     """The task that the options of READ, and of WANTED if there are any, make of POSES."""
-    from burmester.io import requirements_text as text
-    from burmester.io.limits_text import wanted
-    from burmester.io.poses import read_task
+    from burmester.io.reading import requirements_text as text
+    from burmester.io.reading.limits_text import wanted
+    from burmester.io.reading.poses import read_task
 
     further: dict[str, Any] = {}
     if "length" in given:
@@ -264,7 +264,7 @@ def task(poses: str, **given: Any) -> Task:
 
 def synthesis(poses: str, **given: Any) -> Synthesis:
     """What the options of all groups make of POSES."""
-    from burmester.io import requirements_text as text
+    from burmester.io.reading import requirements_text as text
     from burmester.synthesis import synthesize
 
     further: dict[str, Any] = {}

@@ -1,4 +1,7 @@
-"""Files in and out: poses (`burmester.io.poses`) and the cases carried along (`.cases`).
+"""Files and screens: tasks in (`reading`), results out.
 
-Nothing is imported here, so that asking for the names of the cases stays cheap.
+Out: tables (`terminal`, `linkage_table`, `digits`), messages (`message`, `explain`), JSON (`result`,
+`linkage_data`), a task before it is solved (`overview`); `files` writes them whole.  In again:
+`saved`.  Carried along: `cases` and `templates`.  Nothing is imported here, so that asking for their
+names stays cheap.
 """

@@ -15,8 +15,8 @@ from burmester.critical import COUNT, CriticalDyads
 from burmester.errors import BurmesterError
 from burmester.exact import FivePoseDyads
 from burmester.fingerprint import Fingerprint
-from burmester.io.asked import plain as requirements_data
 from burmester.io.linkage_data import dyad_data, linkage_data, number, poses_data
+from burmester.io.reading.asked import plain as requirements_data
 from burmester.limits import KINDS, Limits, Line, Point, Polygon, Segment
 from burmester.optimal import BestDyads
 from burmester.pencil import Pencil

@@ -24,8 +24,8 @@ from burmester.displacement import Displacement
 from burmester.dyad import PP, PR, RP, RR, Dyad
 from burmester.errors import InputError
 from burmester.found import Side, led
-from burmester.io.fetched import fetch
-from burmester.io.poses import read_task
+from burmester.io.reading.fetched import fetch
+from burmester.io.reading.poses import read_task
 from burmester.io.result import SCHEMA
 from burmester.linkage import Linkage
 from burmester.task import Task
@@ -143,7 +143,8 @@ def _linkage(data: dict[str, Any], task: Task) -> SavedLinkage:
                 "E152",
                 f"linkage {data['id']} does not do what the file says of it",
                 why=f"at the places that the file gives its links are off by {off:.2g}",
-                help="the file has been changed: make it anew with `burmester synthesize POSES -o result.json`",
+                help="the file has been changed: make it anew with "
+                "`burmester synthesize POSES -o result.json`",
             )
     else:
         error = PoseError.of(own, task.poses, size)

@@ -11,7 +11,7 @@ from decimal import Decimal
 from fractions import Fraction
 
 from burmester.errors import InputError
-from burmester.io.table import NOT_FINITE, NUMBER, UNITS, brief, plain_number, shown
+from burmester.io.reading.table import NOT_FINITE, NUMBER, UNITS, brief, plain_number, shown
 
 __all__ = ["not_a_number"]
 

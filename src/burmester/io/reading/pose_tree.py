@@ -14,11 +14,11 @@ from typing import Any
 import numpy as np
 
 from burmester.errors import InputError
-from burmester.io.asked import REQUIREMENT_KEYS
-from burmester.io.places import Document, meant
-from burmester.io.pose_model import PLACE_KEYS, POINT_KEYS, checked, unfit
-from burmester.io.table import POINTS, PoseTable, Rows
-from burmester.io.wanted import LIMIT_KEYS, TOP_KEYS, Wanted
+from burmester.io.reading.asked import REQUIREMENT_KEYS
+from burmester.io.reading.places import Document, meant
+from burmester.io.reading.pose_model import PLACE_KEYS, POINT_KEYS, checked, unfit
+from burmester.io.reading.table import POINTS, PoseTable, Rows
+from burmester.io.reading.wanted import LIMIT_KEYS, TOP_KEYS, Wanted
 
 __all__ = ["read"]
 
@@ -93,11 +93,11 @@ def _wanted(tree: dict[str, Any], document: Document) -> Wanted:
     _require_known(document, tree)
     wanted = Wanted()
     if not tree.keys().isdisjoint(LIMIT_KEYS):
-        from burmester.io.limits_tree import read as read_limits
+        from burmester.io.reading.limits_tree import read as read_limits
 
         wanted = read_limits(tree, document)
     if not tree.keys().isdisjoint(REQUIREMENT_KEYS):
-        from burmester.io.requirements_tree import read as read_requirements
+        from burmester.io.reading.requirements_tree import read as read_requirements
 
         wanted = wanted._replace(asked=read_requirements(tree, document))
     return wanted

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple, TypeAlias
 
 from burmester.displacement import FloatArray
 from burmester.errors import InputError
-from burmester.io.asked import Asked, joined
+from burmester.io.reading.asked import Asked, joined
 from burmester.limits import Kind, Limits, Line, Point, Polygon, Region, Segment, box
 
 __all__ = ["LIMIT_KEYS", "SHAPES", "TOP_KEYS", "Length", "Wanted", "WantedKinds", "WantedRegion"]

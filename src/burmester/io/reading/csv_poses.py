@@ -4,9 +4,9 @@ The separator is the first of comma, tab, semicolon, bar and blank that the head
 what a first line `sep=;` says.  Where commas do not part the cells they may be decimal marks,
 if the numbers prove it.  Lines without a cell that holds something are blank, and so are cells
 beyond the header's.  A line that starts with # is a comment, unless it is an error of a
-spreadsheet (#N/A).  `burmester.io.columns` tells which headers are understood and which are
+spreadsheet (#N/A).  `burmester.io.reading.columns` tells which headers are understood and which are
 ignored.  Blocks of plain rows are read at once; the others cell by cell, to say what is wrong
-and where.  The errors are those that `burmester.io.poses` lists.
+and where.  The errors are those that `burmester.io.reading.poses` lists.
 """
 
 from __future__ import annotations
@@ -20,10 +20,10 @@ from typing import NamedTuple
 import numpy as np
 
 from burmester.errors import InputError
-from burmester.io import table
-from burmester.io.columns import HEADER, Columns, is_header, read_columns
-from burmester.io.table import PoseTable, Rows, Source, brief, numeric_roles
-from burmester.io.wrong_numbers import not_a_number
+from burmester.io.reading import table
+from burmester.io.reading.columns import HEADER, Columns, is_header, read_columns
+from burmester.io.reading.table import PoseTable, Rows, Source, brief, numeric_roles
+from burmester.io.reading.wrong_numbers import not_a_number
 
 __all__ = ["BLOCK", "read_csv"]
 

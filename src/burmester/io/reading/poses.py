@@ -30,14 +30,14 @@ from numpy.typing import NDArray
 
 from burmester.displacement import Displacement, FloatArray
 from burmester.errors import InputError, printable
-from burmester.io.asked import requirements
-from burmester.io.csv_poses import read_csv
-from burmester.io.documents import read_json, read_toml
-from burmester.io.fetched import decode, fetch
-from burmester.io.parquet import is_parquet, read_parquet
-from burmester.io.points import tracked
-from burmester.io.table import UNITS, PoseTable, Rows, Source, pose_marks
-from burmester.io.wanted import Wanted
+from burmester.io.reading.asked import requirements
+from burmester.io.reading.csv_poses import read_csv
+from burmester.io.reading.documents import read_json, read_toml
+from burmester.io.reading.fetched import decode, fetch
+from burmester.io.reading.parquet import is_parquet, read_parquet
+from burmester.io.reading.points import tracked
+from burmester.io.reading.table import UNITS, PoseTable, Rows, Source, pose_marks
+from burmester.io.reading.wanted import Wanted
 from burmester.task import Task
 
 __all__ = ["read_task"]

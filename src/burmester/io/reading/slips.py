@@ -10,8 +10,8 @@ import re
 from collections.abc import Callable
 from typing import NamedTuple
 
-from burmester.io.places import LONG, SHORT, STRING, Language, deepest, statement
-from burmester.io.table import brief, shown
+from burmester.io.reading.places import LONG, SHORT, STRING, Language, deepest, statement
+from burmester.io.reading.table import brief, shown
 
 __all__ = ["Slip", "long_integer", "slip"]
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from burmester.displacement import FloatArray
 from burmester.errors import InputError, printable
-from burmester.io.wanted import Wanted
+from burmester.io.reading.wanted import Wanted
 
 __all__ = [
     "MARKS",

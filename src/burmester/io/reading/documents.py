@@ -1,7 +1,7 @@
 """Tasks in JSON and TOML: texts as trees, whose numbers keep the digits they are printed with.
 
-What may stand in the trees is told by `burmester.io.pose_tree`.  The errors are those that
-`burmester.io.poses` lists.
+What may stand in the trees is told by `burmester.io.reading.pose_tree`.  The errors are those that
+`burmester.io.reading.poses` lists.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from decimal import Decimal, InvalidOperation
 from typing import Any
 
 from burmester.errors import InputError
-from burmester.io.places import LONG, SHORT, UNCLOSED, Document, repeated
-from burmester.io.table import PoseTable, Source, shown
+from burmester.io.reading.places import LONG, SHORT, UNCLOSED, Document, repeated
+from burmester.io.reading.table import PoseTable, Source, shown
 
 __all__ = ["read_json", "read_toml"]
 
@@ -48,7 +48,7 @@ def read_json(source: Source) -> PoseTable:
         object_pairs_hook=once,
     )
     tree = _tree(Document(source, "JSON"), parse)
-    from burmester.io.pose_tree import read  # loads pydantic
+    from burmester.io.reading.pose_tree import read  # loads pydantic
 
     example = '{"angle_unit": "deg", "poses": [[0.5, 2, 30], ...]}'
     return read(tree, Document(source, "JSON"), example)
@@ -59,7 +59,7 @@ def read_toml(source: Source) -> PoseTable:
     document = Document(source, "TOML")
     _require_short_keys(source)
     tree = _tree(document, functools.partial(tomllib.loads, parse_float=_exact))
-    from burmester.io.pose_tree import read  # loads pydantic
+    from burmester.io.reading.pose_tree import read  # loads pydantic
 
     return read(tree, document, 'angle_unit = "deg" above poses = [[0.5, 2, 30], ...]')
 
@@ -98,7 +98,7 @@ def _tree(document: Document, parse: Callable[[str], Any]) -> Any:
             at = sum(len(line) + 1 for line in before) + int(found[2]) - 1
         elif not place:  # an integer of more digits than Python reads, in TOML
             raise _too_long(source, said) from None
-    from burmester.io.slips import slip
+    from burmester.io.reading.slips import slip
 
     found_slip = slip(language, source.text, at, said)
     raise InputError(
@@ -112,7 +112,7 @@ def _tree(document: Document, parse: Callable[[str], Any]) -> Any:
 
 def _too_long(source: Source, said: str) -> InputError:
     """E103, for an integer of more digits than are read."""
-    from burmester.io.slips import long_integer
+    from burmester.io.reading.slips import long_integer
 
     start, end = long_integer(source.text) or (0, 1)
     message = f"a number of {end - start} digits is not a finite number"

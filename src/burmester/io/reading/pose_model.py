@@ -15,9 +15,9 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError, model_validator
 
 from burmester.errors import InputError
-from burmester.io.limits_tree import Number
-from burmester.io.places import Document, meant
-from burmester.io.table import NUMERIC, POINTS
+from burmester.io.reading.limits_tree import Number
+from burmester.io.reading.places import Document, meant
+from burmester.io.reading.table import NUMERIC, POINTS
 
 __all__ = ["PLACE_KEYS", "POINT_KEYS", "checked", "unfit"]
 

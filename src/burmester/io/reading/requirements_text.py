@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 
-from burmester.io.asked import Asked, ask
-from burmester.io.limits_text import ANY, fault, number, region, said
-from burmester.io.table import Source, shown
+from burmester.io.reading.asked import Asked, ask
+from burmester.io.reading.limits_text import ANY, fault, number, region, said
+from burmester.io.reading.table import Source, shown
 from burmester.requirements import Driver
 
 __all__ = ["above_zero", "asked", "lengths", "pose_sigma"]

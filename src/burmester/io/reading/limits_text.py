@@ -15,8 +15,8 @@ from typing import TypeVar
 import numpy as np
 
 from burmester.errors import InputError
-from burmester.io.table import Source, plain_number, shown
-from burmester.io.wanted import SHAPES, Length, Wanted, WantedKinds
+from burmester.io.reading.table import Source, plain_number, shown
+from burmester.io.reading.wanted import SHAPES, Length, Wanted, WantedKinds
 from burmester.limits import KINDS, Kind, Region
 
 __all__ = ["ANY", "fault", "number", "region", "said", "wanted"]

@@ -2,7 +2,7 @@
 
 Integers, floats and decimals are numbers; text is for names alone.  A resolution is taken from
 the shortest decimals that a number can be printed with.
-The errors are those that `burmester.io.poses` lists.
+The errors are those that `burmester.io.reading.poses` lists.
 """
 
 from __future__ import annotations
@@ -15,9 +15,9 @@ import numpy as np
 
 from burmester.displacement import FloatArray
 from burmester.errors import InputError
-from burmester.io import table
-from burmester.io.columns import read_columns
-from burmester.io.table import PoseTable, Rows, decimals, numeric_roles
+from burmester.io.reading import table
+from burmester.io.reading.columns import read_columns
+from burmester.io.reading.table import PoseTable, Rows, decimals, numeric_roles
 
 __all__ = ["is_parquet", "read_parquet"]
 

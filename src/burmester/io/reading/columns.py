@@ -16,7 +16,7 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from burmester.errors import InputError
-from burmester.io.table import NUMERIC, POINTS, brief, shown
+from burmester.io.reading.table import NUMERIC, POINTS, brief, shown
 
 __all__ = ["HEADER", "Columns", "is_header", "read_columns"]
 

@@ -14,7 +14,7 @@ from collections.abc import Iterable, Iterator
 from typing import Literal, NamedTuple, TypeAlias
 
 from burmester.errors import InputError
-from burmester.io.table import Source, shown
+from burmester.io.reading.table import Source, shown
 
 __all__ = [
     "LONG",

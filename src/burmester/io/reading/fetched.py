@@ -7,8 +7,8 @@ import sys
 
 from burmester.errors import InputError
 from burmester.io import cases
-from burmester.io.columns import HEADER
-from burmester.io.table import empty
+from burmester.io.reading.columns import HEADER
+from burmester.io.reading.table import empty
 
 __all__ = ["decode", "fetch"]
 

@@ -22,9 +22,9 @@ from pydantic import (
 from pydantic_core import PydanticCustomError
 
 from burmester.errors import InputError
-from burmester.io.asked import FILE_KEYS
-from burmester.io.places import Document, Path, meant
-from burmester.io.wanted import LIMIT_KEYS, SHAPES, TOP_KEYS, Length, Wanted, WantedRegion
+from burmester.io.reading.asked import FILE_KEYS
+from burmester.io.reading.places import Document, Path, meant
+from burmester.io.reading.wanted import LIMIT_KEYS, SHAPES, TOP_KEYS, Length, Wanted, WantedRegion
 from burmester.limits import KINDS, Limits
 
 __all__ = ["Model", "Number", "Pair", "Two", "read", "unfit"]
