@@ -777,6 +777,30 @@ def test_margins_fall_to_nothing_at_a_dead_point():
     assert np.allclose(found.circuit_margin, Circuits.of(linkage).drive.margin[0])
 
 
+@all_pairs
+def test_the_drive_along_a_circuit_is_the_joint_s_own_coordinate_and_never_jumps(pair):
+    linkage = random_linkages(pair, np.random.default_rng(21), 40)
+    circuits = Circuits.of(linkage)
+    for k, c in zip(*np.nonzero(circuits.exists), strict=True):
+        own, first = circuits[k, c], linkage.first[k]
+        low, high = (0.3, 2 * np.pi - 0.3) if own.closed else (0.05, np.pi - 0.05)
+        s = np.linspace(low, high, 4001)
+        where = own.couplers(s)
+        drive = own.drives(s, where)
+        if isinstance(first, PR):  # n . X = offset, and the drive runs along n turned
+            pin = where.act(first.moving_pivot)
+            n = np.array([np.cos(first.normal_angle), np.sin(first.normal_angle)])
+            assert drive == pytest.approx(pin @ [-n[1], n[0]], abs=1e-9)
+            continue
+        if isinstance(first, RR):
+            arm = (where.act(first.moving_pivot) - first.fixed_pivot) / first.radius
+        else:
+            normal = where.angle + first.normal_angle
+            arm = np.stack([np.cos(normal), np.sin(normal)], axis=-1)
+        assert np.abs(np.stack([np.cos(drive), np.sin(drive)], axis=-1) - arm).max() < 1e-9
+        assert np.abs(np.diff(drive)).max() < 0.5
+
+
 if __name__ == "__main__":
     many, seed = (int(word) for word in sys.argv[1:])
     bad = 0

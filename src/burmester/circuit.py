@@ -200,6 +200,22 @@ class Circuits:
         second = np.where(self.branches == 2, branch == 1, (self.sign < 0) & (self.drive.ways == 2))
         return _picked(both, second[..., None])
 
+    def drives(self, parameter: FloatArray, places: Displacement) -> FloatArray:
+        """The drive's coordinates (*, n) at places (*, n) of these circuits, without jumps.
+
+        parameter: (*, n), those of the places, which count the turns where the drive goes round.
+        """
+        drive = facing(self.drive, np.ndim(parameter))
+        with np.errstate(invalid="ignore", divide="ignore"):
+            w = drive.reading(places)[0]
+        if not drive.turns:
+            return np.asarray(drive.centre + w.real)
+        course = self.course[..., None]
+        # But for whole circuits psi keeps within half a turn of a middle.
+        middle = np.where(course == Course.BELOW, np.pi, 0.0)
+        swung = middle + np.angle(w * np.exp(-1j * middle))
+        return np.asarray(drive.centre + np.where(course == Course.WHOLE, parameter, swung))
+
     def curve(self, point: FloatArray, parameter: FloatArray) -> FloatArray:
         """Coupler curves (*, n, 2) of points (2,) or (*, 2) of M, at parameters as above."""
         if (self.undecided & self.exists).any():

@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 
 from burmester.accuracy import wrapped_angle
 from burmester.circuit import Circuits, Location, locate
-from burmester.course import Course
 from burmester.dead_points import complex_of
 from burmester.displacement import Displacement, FloatArray
 from burmester.drive import facing
@@ -202,7 +201,11 @@ def range_of(journey: Passage, seen: Seen) -> Range:
     first = every[:, :count].min(axis=1) < TOO_CLOSE
     worst = np.where(first, every[:, :count].argmin(axis=1), every.argmin(axis=1))
     both = np.concatenate([along, quarters], axis=1)
-    drive = np.where(counts, _drives(circuits, seen.places, between, both), np.nan)
+    places = Displacement(
+        np.concatenate([seen.places.translation, between.translation], axis=1),
+        np.concatenate([seen.places.angle, between.angle], axis=1),
+    )
+    drive = np.where(counts, circuits.drives(both, places), np.nan)
     travel = np.stack([end.reduce(drive, axis=1) for end in (np.fmin, np.fmax)], axis=-1)
     both = np.where(counts, both, np.nan)
     return Range(drive[:, :count], travel, least, both, worst)
@@ -332,22 +335,3 @@ def _quarters(along: FloatArray, circuits: Circuits) -> tuple[FloatArray, BoolAr
     angle = circuits.closed[:, None] | circuits.drive.turns
     inside = np.where(angle, at < high, (low < 0) & (high > 0))
     return np.where(inside, np.where(angle, at, 0.0), low), inside
-
-
-def _drives(
-    circuits: Circuits, poses: Displacement, between: Displacement, along: FloatArray
-) -> FloatArray:
-    """The drive's coordinates (k, n) at poses and places between them, with no jumps."""
-    drive = facing(circuits.drive, 2)
-    places = Displacement(
-        np.concatenate([poses.translation, between.translation], axis=1),
-        np.concatenate([poses.angle, between.angle], axis=1),
-    )
-    with np.errstate(invalid="ignore", divide="ignore"):
-        w = drive.reading(places)[0]
-    if not drive.turns:
-        return np.asarray(drive.centre + w.real)
-    course = circuits.course[:, None]
-    middle = np.where(course == Course.BELOW, np.pi, 0.0)  # others keep psi within half a turn
-    swung = middle + wrapped_angle(np.angle(w) - middle)
-    return np.asarray(drive.centre + np.where(course == Course.WHOLE, along, swung))

@@ -14,10 +14,8 @@ from typing import Final, Self, final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from burmester.accuracy import wrapped_angle
 from burmester.candidates import characteristic_length
 from burmester.circuit import Circuits, circuit_of
-from burmester.course import Course
 from burmester.defects import Driven, judge
 from burmester.displacement import Displacement, FloatArray
 from burmester.dyad import PP
@@ -106,7 +104,7 @@ class Travel:
             driven.circuit,
             parameter,
             Displacement(places.translation, angle),
-            _drive(own, parameter, places) - TURN * _turns(own, start),
+            own.drives(parameter, places) - TURN * _turns(own, start),
             sense * (s - start) / length,
             driven.turns_fully,
             bool(whole and driven.turns_fully),
@@ -154,24 +152,12 @@ def _driven(chosen: SavedLinkage) -> Driven:
     return driven
 
 
-def _drive(own: Circuits, parameter: FloatArray, places: Displacement) -> FloatArray:
-    """The driver's coordinate (n,) at places of a circuit, without jumps."""
-    with np.errstate(invalid="ignore", divide="ignore"):
-        w = own.drive.reading(places)[0]
-    if not own.drive.turns:
-        return np.asarray(own.drive.centre + w.real)
-    if own.course == Course.WHOLE:
-        return np.asarray(own.drive.centre + parameter)
-    middle = np.pi if own.course == Course.BELOW else 0.0  # psi keeps within half a turn of it
-    return np.asarray(own.drive.centre + middle + wrapped_angle(np.angle(w) - middle))
-
-
 def _turns(own: Circuits, start: float) -> float:
     """The whole turns of the driver at a parameter."""
     if not own.drive.turns:
         return 0.0
     at = np.array([start])
-    return float(np.floor(_drive(own, at, own.couplers(at))[0] / TURN))
+    return float(np.floor(own.drives(at, own.couplers(at))[0] / TURN))
 
 
 def _poses(count: int) -> str:

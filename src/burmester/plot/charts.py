@@ -13,7 +13,7 @@ from burmester.accuracy import PoseError
 from burmester.circuit import Circuits
 from burmester.defects import Driven
 from burmester.displacement import Displacement, FloatArray
-from burmester.dyad import PP, PR, RR, Dyad
+from burmester.dyad import PR
 from burmester.linkage import Linkage
 from burmester.motion import transmission_angle
 from burmester.plot.plane import parameters
@@ -30,7 +30,7 @@ from burmester.plot.style import (
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["DrawnErrors", "DrawnTransmission", "drive_of", "pose_errors", "transmission"]
+__all__ = ["DrawnErrors", "DrawnTransmission", "pose_errors", "transmission"]
 
 GOOD = 40.0  # degrees; below it friction may lock the linkage
 FLOOR = 1e-16  # what an error of zero is drawn as, next to the greatest or to 1
@@ -55,24 +55,6 @@ class DrawnErrors(NamedTuple):
     position: Line2D
     angle: Line2D
     angle_axes: Axes
-
-
-def drive_of(dyad: Dyad, places: Displacement) -> FloatArray:
-    """The coordinate of a dyad's ground joint at places (n,), without jumps: radians or a length.
-
-    The angle of an RR's link, the way along a PR's line, the angle in F of an RP's normal.
-    """
-    if isinstance(dyad, PP):
-        raise ValueError("a PP dyad has no one drive")
-    if isinstance(dyad, RR):
-        arm = places.act(dyad.moving_pivot) - dyad.fixed_pivot
-        return np.unwrap(np.arctan2(arm[..., 1], arm[..., 0]))
-    if isinstance(dyad, PR):
-        pin = places.act(dyad.moving_pivot)
-        return np.asarray(
-            np.cos(dyad.normal_angle) * pin[..., 1] - np.sin(dyad.normal_angle) * pin[..., 0]
-        )
-    return np.unwrap(places.angle + dyad.normal_angle)
 
 
 def transmission(
@@ -106,7 +88,7 @@ def transmission(
     for branch, row in enumerate(rows):
         places = own.couplers(row)
         (line,) = ax.plot(
-            turn * _wound(linkage, places, driven, slides),
+            turn * _wound(own, row, places, driven, slides),
             np.degrees(transmission_angle(linkage, places)),
             color=BLUE,
             ls=(0, (4, 1.6)) if branch else "-",
@@ -120,7 +102,7 @@ def transmission(
         row = np.linspace(driven.parameter[met].min(), driven.parameter[met].max(), samples)
         places = own.couplers(row)
         (used,) = ax.plot(
-            turn * _wound(linkage, places, driven, slides),
+            turn * _wound(own, row, places, driven, slides),
             np.degrees(transmission_angle(linkage, places)),
             color=BLUE,
             lw=2.8,
@@ -144,15 +126,19 @@ def transmission(
 
 
 def _wound(
-    linkage: Linkage, places: Displacement, driven: Driven | None, slides: bool
+    own: Circuits,
+    parameter: FloatArray,
+    places: Displacement,
+    driven: Driven | None,
+    slides: bool,
 ) -> FloatArray:
     """The drive at places (n,), the turns counted so that it meets the driven range."""
-    drive = drive_of(linkage.first, places)
+    drive = own.drives(parameter, places)
     if slides or driven is None or not np.isfinite(driven.drive).any():
         return drive
     middle = (np.nanmin(driven.drive) + np.nanmax(driven.drive)) / 2 - _turns(driven, slides)
-    own = (np.nanmin(drive) + np.nanmax(drive)) / 2
-    return np.asarray(drive + 2 * np.pi * np.round((middle - own) / (2 * np.pi)))
+    centre = (np.nanmin(drive) + np.nanmax(drive)) / 2
+    return np.asarray(drive + 2 * np.pi * np.round((middle - centre) / (2 * np.pi)))
 
 
 def _turns(driven: Driven, slides: bool) -> float:

@@ -16,7 +16,6 @@ import numpy as np
 from burmester.circuit import Circuits, circuit_of
 from burmester.course import Course
 from burmester.displacement import Displacement, FloatArray
-from burmester.dyad import PR, RP, RR, Dyad
 from burmester.errors import InputError
 from burmester.found import FoundLinkage
 from burmester.linkage import Linkage
@@ -184,10 +183,9 @@ def _way(
     places = Displacement(places.translation, angle)
     if not (np.isfinite(places.translation).all() and np.isfinite(angle).all()):
         return None, False
-    drive = _drive(led.first, places)
-    turns = not isinstance(led.first, PR)
+    drive = own.drives(s, places)
+    turns = own.drive.turns
     if turns:
-        drive = np.unwrap(drive)
         middle = (drive[0] + drive[-1]) / 2
         drive = drive - 2 * np.pi * np.round(middle / (2 * np.pi))
     falls = bool(drive[-1] < drive[0])
@@ -203,14 +201,3 @@ def _way(
         "angle": np.round(places.angle, 13).tolist(),
         "transmission": [None if math.isnan(each) else round(each, 4) for each in passed.tolist()],
     }, falls
-
-
-def _drive(first: Dyad, places: Displacement) -> FloatArray:
-    """The first dyad's drive at places (n,), radians or a length along its line (see `drive`)."""
-    if isinstance(first, RP):
-        return np.asarray(places.angle + first.normal_angle)
-    assert isinstance(first, RR | PR)  # nothing else drives
-    x, y = np.moveaxis(places.act(first.moving_pivot), -1, 0)
-    if isinstance(first, PR):
-        return np.asarray(y * np.cos(first.normal_angle) - x * np.sin(first.normal_angle))
-    return np.asarray(np.arctan2(y - first.fixed_pivot[1], x - first.fixed_pivot[0]))
