@@ -217,7 +217,7 @@ def _plain_rows(block: str, header: _Header, marks: dict[str, str]) -> Rows | No
             f"(?:{part}{look}){{{len(list(same))}}}" for look, same in itertools.groupby(cell[1:])
         )
     )
-    if not re.fullmatch(rf"(?:{row}\n)*+{row}", block):
+    if not re.fullmatch(rf"(?:{row}\n)*{row}", block):
         return None
     cells = block.replace("\n", separator).split(separator)
     columns = {role: cells[place::width] for role, place in places.items()}
@@ -313,11 +313,11 @@ def _split(line: str, separator: str) -> list[str]:
         line = line.rstrip(" \t")
         if '"' not in line or line.count('"') % 2:
             return re.split(r"(?<=[^ \t])[ \t](?![ \t]*[(\[])", line)  # `x (mm)` is one
-        return re.findall(r'(?:^|[ \t])([ \t]*+(?:"[^"]*"|[^" \t])++)', line)
+        return re.findall(r'(?:^|[ \t])([ \t]*(?=[^ \t])[^" \t]*(?:"[^"]*"[^" \t]*)*)', line)
     if '"' not in line or line.count('"') % 2:
         return line.split(separator)
     part = re.escape(separator)
-    return re.findall(rf'(?:^|{part})((?:"[^"]*"|[^"{part}])*+)', line)
+    return re.findall(rf'(?:^|{part})([^"{part}]*(?:"[^"]*"[^"{part}]*)*)', line)
 
 
 def _unquoted(cell: str) -> str:

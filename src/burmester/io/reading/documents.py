@@ -22,14 +22,14 @@ __all__ = ["read_json", "read_toml"]
 
 _PARTS = 100  # in a dotted key of TOML: the parser takes the square of their number, or worse
 _PART = rf"(?:[\w-]++|{SHORT})"
-_KEYS = re.compile(rf"{LONG}|#[^\n]*+|({_PART}(?:[ \t]*+\.[ \t]*+{_PART})*+)|{UNCLOSED}")
+_KEYS = re.compile(rf"{LONG}|#[^\n]*+|({_PART}(?:[ \t]*\.[ \t]*{_PART})*)|{UNCLOSED}")
 
 
 def read_json(source: Source) -> PoseTable:
     """A list of poses, an object with "poses", or what `--json` prints; raises E103 to E110."""
 
     def refuse(constant: str) -> Any:
-        tokens = re.finditer(r'"(?:[^"\\]|\\.)*+"|-?Infinity|NaN', source.text)
+        tokens = re.finditer(r'"[^"\\]*(?:\\.[^"\\]*)*"|-?Infinity|NaN', source.text)
         start = next(token.start() for token in tokens if token[0][0] != '"')
         where, help = source.where(start, len(constant)), "give a number, or delete the pose"
         raise InputError("E103", f"{constant} is not a finite number", where=where, help=help)

@@ -36,21 +36,23 @@ Path: TypeAlias = tuple[str | int, ...]
 Language: TypeAlias = Literal["JSON", "TOML"]
 _Part: TypeAlias = tuple[str | int, int, int]  # a key or an index, and where it stands
 
+# Possessive groups would say it shorter, but match wrongly before Python 3.11.5.
 LONG = (  # up to two quotes may stand before those that end it
-    r'"""(?:[^"\\]++|\\[\s\S]|"{1,2}(?!"))*+"{3,5}|' r"'''(?:[^']++|'{1,2}(?!'))*+'{3,5}"
+    r'"""[^"\\]*(?:(?:\\[\s\S]|"{1,2}(?!"))[^"\\]*)*"{3,5}|'
+    r"'''[^']*(?:'{1,2}(?!')[^']*)*'{3,5}"
 )
-SHORT = r'"(?:[^"\\\n]++|\\.)*+"|' r"'[^'\n]*+'"
+SHORT = r'"[^"\\\n]*(?:\\.[^"\\\n]*)*"|' r"'[^'\n]*'"
 STRING = f"{LONG}|{SHORT}"
 # texts without an end: gone through once, as it would take the square of their length to try
 # each of their quotes
-UNCLOSED = r'"{3}(?:[^"\\]++|\\[\s\S]|"{1,2}(?!"))*+|' + r"'{3}(?:[^']++|'{1,2}(?!'))*+|"
-UNCLOSED += r'"(?:[^"\\\n]++|\\.)*+|' + r"'[^'\n]*+"
-_TOKEN = re.compile(rf"{STRING}|{UNCLOSED}|#[^\n]*+|[\[\]{{}}]")
-_BLANK = re.compile(r"(?:\s++|#[^\n]*+)*+")
+UNCLOSED = r'"{3}[^"\\]*(?:(?:\\[\s\S]|"{1,2}(?!"))[^"\\]*)*|' + r"'{3}[^']*(?:'{1,2}(?!')[^']*)*|"
+UNCLOSED += r'"[^"\\\n]*(?:\\.[^"\\\n]*)*|' + r"'[^'\n]*"
+_TOKEN = re.compile(rf"{STRING}|{UNCLOSED}|#[^\n]*|[\[\]{{}}]")
+_BLANK = re.compile(r"(?:\s|#[^\n]*)*")
 _SCALAR = re.compile(rf"{STRING}|[^\s,\]}}#][^,\]}}#\n]*+")
 _KEY = re.compile(rf"{STRING}|[\w-]++")
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
-_JSON_TOKEN = re.compile(r'("(?:[^"\\]++|\\.)*+")(\s*+:)?|[{}]')
+_JSON_TOKEN = re.compile(r'("[^"\\]*(?:\\.[^"\\]*)*")(\s*:)?|[{}]')
 
 
 class Document(NamedTuple):
