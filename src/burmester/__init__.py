@@ -7,10 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from burmester.accuracy import PoseError as PoseError
+    from burmester.agreement import odd_pose as odd_pose
     from burmester.certificate import certify as certify
     from burmester.certificate import certify_five as certify_five
     from burmester.critical import critical_dyads as critical_dyads
     from burmester.curve import dyad_curve as dyad_curve
+    from burmester.diagnosis import Diagnosis as Diagnosis
+    from burmester.diagnosis import diagnose as diagnose
     from burmester.displacement import Displacement as Displacement
     from burmester.dyad import PP as PP
     from burmester.dyad import PR as PR
@@ -22,6 +25,7 @@ if TYPE_CHECKING:
     from burmester.exact import dyad_with_fixed_pivot as dyad_with_fixed_pivot
     from burmester.exact import dyad_with_moving_pivot as dyad_with_moving_pivot
     from burmester.exact import dyads_of_five as dyads_of_five
+    from burmester.io.reading.poses import read_task as read_task
     from burmester.limits import Limits as Limits
     from burmester.limits import Line as Line
     from burmester.limits import Point as Point
@@ -51,6 +55,7 @@ __all__ = [
     "RP",
     "RR",
     "BurmesterError",
+    "Diagnosis",
     "Displacement",
     "Dyad",
     "FoundLinkage",
@@ -72,6 +77,7 @@ __all__ = [
     "certify",
     "certify_five",
     "critical_dyads",
+    "diagnose",
     "dyad_curve",
     "dyad_with_fixed_pivot",
     "dyad_with_moving_pivot",
@@ -81,20 +87,25 @@ __all__ = [
     "fixed_pivot_map",
     "larochelle",
     "moving_pivot_map",
+    "odd_pose",
     "ravani_roth",
+    "read_task",
     "synthesize",
 ]
 
 # Loaded when first asked for, so that `burmester --help` needs no NumPy.
 _ROOMS = {
     "accuracy": ("PoseError",),
+    "agreement": ("odd_pose",),
     "certificate": ("certify", "certify_five"),
     "critical": ("critical_dyads",),
     "curve": ("dyad_curve",),
+    "diagnosis": ("Diagnosis", "diagnose"),
     "displacement": ("Displacement",),
     "dyad": ("PP", "PR", "RP", "RR", "Dyad"),
     "errors": ("BurmesterError", "InputError"),
     "exact": ("dyad_with_fixed_pivot", "dyad_with_moving_pivot", "dyads_of_five"),
+    "io.reading.poses": ("read_task",),
     "limits": ("Limits", "Line", "Point", "Polygon", "Segment", "box"),
     "linkage": ("Linkage",),
     "normal_distance": ("algebraic_fit", "larochelle", "ravani_roth"),
