@@ -17,7 +17,7 @@ from rich.text import Text
 from burmester.diagnosis import Diagnosis
 from burmester.io.linkage_table import new_table
 from burmester.io.message import draw, message, show_advice, wrapped
-from burmester.io.result import advice_data, motion_data, task_data
+from burmester.io.result import motion_data, task_data, told
 from burmester.motion_kind import General
 from burmester.task import Task
 
@@ -35,7 +35,7 @@ def plain(diagnosis: Diagnosis) -> dict[str, Any]:
         "task": task_data(diagnosis.task),
         "motion": None if motion is None else motion_data(motion),
         "singular_values": None if motion is None else motion.singular_values.tolist(),
-        "warnings": [advice_data(each) for each in diagnosis.findings],
+        "warnings": [told(each) for each in diagnosis.findings],
     }
 
 

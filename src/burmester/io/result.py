@@ -20,10 +20,10 @@ from burmester.io.reading.asked import plain as requirements_data
 from burmester.limits import KINDS, Limits, Line, Point, Polygon, Segment
 from burmester.optimal import BestDyads
 from burmester.pencil import Pencil
-from burmester.synthesis import Advice, Synthesis
+from burmester.synthesis import Advice, Outcome, Synthesis
 from burmester.task import Task
 
-__all__ = ["advice_data", "failure", "motion_data", "plain", "task_data"]
+__all__ = ["failure", "motion_data", "plain", "task_data", "told"]
 
 SCHEMA = "burmester.synthesis/1"
 
@@ -34,18 +34,13 @@ def plain(synthesis: Synthesis) -> dict[str, Any]:
     tolerance = getattr(getattr(synthesis, "wish", None), "tolerance", None)
     return {
         "schema": SCHEMA,
-        "outcome": {
-            "code": outcome.code,
-            "message": outcome.message,
-            "why": outcome.why,
-            "help": outcome.help,
-        },
+        "outcome": told(outcome),
         "method": synthesis.method,
         "task": task_data(task),
         "motion": None if motion is None else motion_data(motion),
         "dyads": [dyad_data(dyad) for dyad in synthesis.dyads],
         "linkages": [linkage_data(each, tolerance) for each in synthesis.linkages],
-        "warnings": list(map(advice_data, synthesis.warnings)),
+        "warnings": list(map(told, synthesis.warnings)),
         "characteristic_length": synthesis.length,
         "singular_values": _singular_values(synthesis),
         **_critical_points(synthesis),
@@ -56,13 +51,13 @@ def plain(synthesis: Synthesis) -> dict[str, Any]:
     }
 
 
-def advice_data(advice: Advice) -> dict[str, Any]:
-    """A warning."""
+def told(message: Advice | Outcome) -> dict[str, Any]:
+    """An outcome or a warning."""
     return {
-        "code": advice.code,
-        "message": advice.message,
-        "why": advice.why,
-        "help": advice.help,
+        "code": message.code,
+        "message": message.message,
+        "why": message.why,
+        "help": message.help,
     }
 
 

@@ -22,6 +22,7 @@ from burmester.dyad import PP, RP, RR, Dyad
 from burmester.found import FoundLinkage
 from burmester.io import digits, linkage_table
 from burmester.io.linkage_data import dyad_data, linkage_data, number, poses_data
+from burmester.io.result import told
 from burmester.pivot_map import fixed_pivot_map, grid
 from burmester.report.space import chart_of, space_of
 from burmester.report.ways import Motion, motion_of
@@ -52,19 +53,11 @@ def report_data(synthesis: Synthesis) -> dict[str, Any]:
     linkages = [_linkage(synthesis, each, scene, frames, chart) for each in synthesis.linkages]
     return {
         "schema": SCHEMA,
-        "outcome": {
-            "code": outcome.code,
-            "message": outcome.message,
-            "why": outcome.why,
-            "help": outcome.help,
-        },
+        "outcome": told(outcome),
         "best": [text.plain for text in linkage_table.best_sentences(synthesis)]
         if synthesis.usable
         else [],
-        "warnings": [
-            {"code": each.code, "message": each.message, "why": each.why, "help": each.help}
-            for each in synthesis.warnings
-        ],
+        "warnings": list(map(told, synthesis.warnings)),
         "method": synthesis.method,
         "unit": task.length_unit,
         "poses": _poses(task),
