@@ -92,6 +92,13 @@ def test_repeats_are_counted_and_paired(task, check):
     assert check(text)[0] == 1
 
 
+def test_a_repeat_is_paired_with_the_pose_that_it_repeats(task):
+    lines = GOOD.splitlines()
+    text = "\n".join([*lines[:3], lines[1], *lines[3:5], lines[4], *lines[5:]])
+    (found,) = diagnose(task(text)).findings
+    assert found.why == "pose 3 repeats 1, 6 repeats 5"
+
+
 def test_exchanged_rows_are_named(task):
     lines = GOOD.splitlines()
     lines[3], lines[7] = lines[7], lines[3]
