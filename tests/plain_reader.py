@@ -10,6 +10,7 @@ import json
 import math
 import re
 import tomllib
+import unicodedata
 from decimal import Decimal
 from fractions import Fraction
 from typing import NamedTuple
@@ -292,6 +293,13 @@ def nearest(number):
         return math.copysign(math.inf, number)
 
 
+UNTOLD = ("Cc", "Cf", "Cs", "Zl", "Zp")  # escape codes and the like, which are told as blanks
+
+
+def told(name):
+    return "".join(" " if unicodedata.category(char) in UNTOLD else char for char in name)
+
+
 def extreme(plain):
     """Whether powers of numbers leave a double's range, or some are lost beside others."""
     points = len(plain.poses[0]) == 4
@@ -329,7 +337,8 @@ def wrong(task, plain, angle_unit=None):  # noqa: PLR0911
     weights = None if plain.weights is None else [nearest(w) for w in plain.weights]
     if (None if task.weights is None else task.weights.tolist()) != weights:
         return f"the weights are {task.weights}, the file says {weights}"
-    if (plain.names or None) != (None if task.names is None else [*task.names]):
+    names = [told(name) for name in plain.names or ()] or None
+    if names != (None if task.names is None else [*task.names]):
         return f"the names are {task.names}, the file says {plain.names}"
     marks = [False] * len(plain.poses) if task.exact is None else task.exact.tolist()
     if plain.exact is not None and marks != plain.exact:
