@@ -599,7 +599,7 @@ def test_the_help_for_a_spreadsheet_works(read: Read, monkeypatch: pytest.Monkey
     for start in (b"PK\x03\x04", b"\xd0\xcf\x11\xe0", b"%PDF-1.7"):
         error = refusal(lambda start=start: read(start + bytes(40), ".xlsx"))
         assert error.code == "E101"
-        columns = re.findall(r"burmester synthesize - --columns (\S+)", str(error.help))[0]
+        columns = re.findall(r"burmester synthesize - --columns ([^\s`]+)", str(error.help))[0]
         stdin = SimpleNamespace(buffer=io.BytesIO(ROWS.replace(",", "\t").encode()))
         monkeypatch.setattr(sys, "stdin", stdin)
         require_same(read_task("-", columns=columns), read(CSV))

@@ -14,13 +14,13 @@ __all__ = ["decode", "fetch"]
 
 _SHEET = (
     "save the sheet as CSV, or copy its cells and paste them: "
-    f"burmester synthesize - --columns {HEADER}"
+    f"`burmester synthesize - --columns {HEADER}`"
 )
 _BINARY: dict[bytes, tuple[str, str]] = {  # how a file begins -> what it is, and what to do
     b"PK\x03\x04": ("a zip archive, as .xlsx and .ods spreadsheets are", _SHEET),
     b"\xd0\xcf\x11\xe0": ("an .xls spreadsheet, or another old Office file", _SHEET),
     b"\x1f\x8b": ("packed with gzip", "unpack it with gunzip, and read what comes out"),
-    b"%PDF": ("a PDF", f"copy its table and paste it: burmester synthesize - --columns {HEADER}"),
+    b"%PDF": ("a PDF", f"copy its table and paste it: `burmester synthesize - --columns {HEADER}`"),
 }
 
 
