@@ -290,6 +290,9 @@ def test_the_precision_of_the_poses_is_what_the_regions_come_from(cases):
     assert sigma["position"] == pytest.approx(5e-4 / math.sqrt(3))
     assert sigma["angle_deg"] == pytest.approx(0.05 / math.sqrt(3))
     assert "if the poses err by 0.00029 and 0.029° (standard deviations" in screen()
+    whole = replace(task, resolution=(task.resolution[0], 0.0))  # angles in whole degrees, say
+    _, _, screen = synthesized(whole)
+    assert "if the poses err by 2.9e-05 and 0° (standard deviations" in screen()
     exact = replace(task, resolution=(0.0, 0.0))
     _, data, screen = synthesized(exact)
     assert data["task"]["pose_sigma"] == {"position": 0, "angle_deg": 0}

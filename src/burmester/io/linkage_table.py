@@ -148,9 +148,11 @@ def dimensions(synthesis: Synthesis) -> Iterator[Text | Table]:
     yield table
     if not certain:
         position, angle = pose_sigma(task)
+        given = said.length_of(position, task) if task.resolution[0] else "0"
+        turned = f"{said.figure(math.degrees(angle))}°" if task.resolution[1] else "0°"
         yield Text(
             "±: 95 % regions, of a pivot in its worst direction, if the poses err by "
-            f"{said.length_of(position, task)} and {said.figure(math.degrees(angle))}° "
+            f"{given} and {turned} "
             "(standard deviations: from their digits, or --pose-sigma).",
             style="dim",
         )
