@@ -504,7 +504,7 @@ TOLD = {
 
 
 def test_what_fails_its_check_never_comes_to_be(tmp_path, monkeypatch):
-    monkeypatch.setattr(mjcf, "_n", lambda value: f"{value:.6g}")
+    monkeypatch.setattr(mjcf, "number", lambda value: f"{value:.6g}")
     with pytest.raises(BurmesterError) as caught:
         written("crank-rocker, mm", "mjcf", tmp_path)
     assert caught.value.code == "E160"

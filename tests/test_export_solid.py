@@ -18,6 +18,7 @@ from burmester.errors import BurmesterError, InputError
 from burmester.export import solid
 from burmester.export.options import Options
 from burmester.export.plates import assembly_of
+from burmester.export.stl import read_stl, shells_of
 from burmester.io.saved import SavedLinkage
 from burmester.linkage import Linkage
 from tests import witness
@@ -281,7 +282,7 @@ def test_stl_has_the_rims_of_the_holes_on_their_circles(made):
 
 
 def test_flat_parts_lie_beside_each_other(made):
-    shells = solid.shells_of(solid.read_stl(made.flat))
+    shells = shells_of(read_stl(made.flat))
     volumes = sorted(part.volume for part in made.parts.values())
     found = sorted(
         float(np.einsum("ij,ij", np.cross(s[:, 0], s[:, 1]), s[:, 2])) / 6 for s in shells

@@ -24,6 +24,8 @@ from burmester.export.joints import (
     hinged,
     require_bodies,
 )
+from burmester.export.mjcf_places import walk
+from burmester.export.model_xml import number, numbers_in, xy
 from burmester.export.options import Options
 from burmester.export.truth import PRECISION, Truth, about, agree, as_rows
 from burmester.io.saved import SavedLinkage
@@ -63,10 +65,10 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
         '  <compiler angle="radian" autolimits="true"/>',
         f'  <option timestep="{STEP}" gravity="0 0 0" integrator="implicitfast" solver="Newton"'
         ' iterations="100" tolerance="0"><flag contact="disable"/></option>',
-        f'  <statistic center="{_xyz(middle)}" extent="{_n(1.5 * truth.span)}"/>',
+        f'  <statistic center="{_xyz(middle)}" extent="{number(1.5 * truth.span)}"/>',
         "  <default>",
-        f'    <geom type="capsule" size="{_n(thin)}" contype="0" conaffinity="0" group="1"/>',
-        f'    <site size="{_n(1.2 * thin)}" rgba="0 0 0 1"/>',
+        f'    <geom type="capsule" size="{number(thin)}" contype="0" conaffinity="0" group="1"/>',
+        f'    <site size="{number(1.2 * thin)}" rgba="0 0 0 1"/>',
         f'    <equality solref="{2 * STEP} 1" solimp="0.9999 0.9999 0.001 0.5 2"/>',
         "  </default>",
         "  <worldbody>",
@@ -76,22 +78,20 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
     lines += _driver(truth, place, start, thin)
     if truth.kinds[1] != "RP":
         lines += _follower(truth, start, thin)
+    reach = f' ctrlrange="{number(low)} {number(high)}"' if high > low else ""
     motor = "hinge, radians" if hinged(truth, 0) else "slide, metres"
     lines += [
         "  </worldbody>",
         '  <equality><connect name="loop" site1="loop_a" site2="loop_b"/></equality>',
         f"  <actuator><!-- {motor} -->",
-        f'    <position name="motor" joint="driver" kp="{_n(gain * SWIFT)}" kv="{_n(2 * gain)}" '
-        f'ctrlrange="{_n(low)} {_n(high)}"/>'
-        if high > low
-        else f'    <position name="motor" joint="driver" kp="{_n(gain * SWIFT)}" '
-        f'kv="{_n(2 * gain)}"/>',
+        f'    <position name="motor" joint="driver" kp="{number(gain * SWIFT)}" '
+        f'kv="{number(2 * gain)}"{reach}/>',
         "  </actuator>",
         "  <keyframe>",
     ]
-    for number, row in enumerate(q):
-        at = " ".join(map(_n, row))
-        lines.append(f'    <key name="pose{number + 1}" qpos="{at}" ctrl="{_n(row[0])}"/>')
+    for k, row in enumerate(q):
+        at = " ".join(map(number, row))
+        lines.append(f'    <key name="pose{k + 1}" qpos="{at}" ctrl="{number(row[0])}"/>')
     lines += ["  </keyframe>", "</mujoco>", ""]
     path.write_text("\n".join(lines), encoding="utf-8", newline="\n")
 
@@ -170,12 +170,12 @@ def _driver(truth: Truth, place: Displacement, start: FloatArray, thin: float) -
         body = np.array([-line[1], float(start[1])])
         inner = f'type="slide" axis="{_xyz(directions(line[0])[1])}"'
     lines = [
-        f'    <body name="driver" pos="{_xyz(at)}" euler="0 0 {_n(turn)}">',
-        f'      <joint name="driver" {joint}{_rub(truth, joint)} ref="{_n(start[0])}"/>',
+        f'    <body name="driver" pos="{_xyz(at)}" euler="0 0 {number(turn)}">',
+        f'      <joint name="driver" {joint}{_rub(truth, joint)} ref="{number(start[0])}"/>',
         f"      {_mass(truth)}",
         f"      {seen}",
-        f'      <body name="coupler" pos="{_xyz(body)}" euler="0 0 {_n(relative)}">',
-        f'        <joint name="coupler" {inner}{_rub(truth, inner)} ref="{_n(start[1])}"/>',
+        f'      <body name="coupler" pos="{_xyz(body)}" euler="0 0 {number(relative)}">',
+        f'        <joint name="coupler" {inner}{_rub(truth, inner)} ref="{number(start[1])}"/>',
         f"        {_mass(truth)}",
     ]
     seen_points = [_on_coupler(truth, 0, place), np.zeros(2), _on_coupler(truth, 1, place)]
@@ -191,7 +191,7 @@ def _driver(truth: Truth, place: Displacement, start: FloatArray, thin: float) -
         lines += [
             f'        <body name="follower" pos="{_xyz(held[1] * n + float(start[2]) * along)}">',
             f'          <joint name="follower" type="slide" axis="{_xyz(along)}"'
-            f'{_rub(truth, "slide")} ref="{_n(start[2])}"/>',
+            f'{_rub(truth, "slide")} ref="{number(start[2])}"/>',
             f"          {_mass(truth)}",
             f"          {_block('follower', thin)}",
             '          <site name="loop_a" pos="0 0 0"/>',
@@ -220,8 +220,8 @@ def _follower(truth: Truth, start: FloatArray, thin: float) -> list[str]:
         at, turn, tip = line[1] * n + float(start[2]) * along, 0.0, np.zeros(2)
         joint, seen = f'type="slide" axis="{_xyz(along)}"', _block("follower", thin)
     return [
-        f'    <body name="follower" pos="{_xyz(at)}" euler="0 0 {_n(turn)}">',
-        f'      <joint name="follower" {joint}{_rub(truth, joint)} ref="{_n(start[2])}"/>',
+        f'    <body name="follower" pos="{_xyz(at)}" euler="0 0 {number(turn)}">',
+        f'      <joint name="follower" {joint}{_rub(truth, joint)} ref="{number(start[2])}"/>',
         f"      {_mass(truth)}",
         f"      {seen}",
         f'      <site name="loop_b" pos="{_xyz(tip)}"/>',
@@ -239,24 +239,24 @@ def _on_coupler(truth: Truth, side: int, place: Displacement) -> FloatArray:
 
 
 def _mass(truth: Truth) -> str:
-    inertia = _n(truth.span**2)
+    inertia = number(truth.span**2)
     return f'<inertial pos="0 0 0" mass="1" diaginertia="{inertia} {inertia} {inertia}"/>'
 
 
 def _rub(truth: Truth, joint: str) -> str:
     """Friction of a joint, by its speed, so that a motor does not throw links over dead points."""
-    return f' damping="{_n(RUB * (1.0 if "slide" in joint else truth.span**2))}"'
+    return f' damping="{number(RUB * (1.0 if "slide" in joint else truth.span**2))}"'
 
 
 def _bar(one: FloatArray, two: FloatArray, owner: str, size: float) -> str:
     if not np.linalg.norm(two - one) > 0:
         return _block(owner, size)
     ends = f"{_xyz(one)} {_xyz(two)}"
-    return f'<geom fromto="{ends}" size="{_n(size)}" rgba="{COLOURS[owner]}"/>'
+    return f'<geom fromto="{ends}" size="{number(size)}" rgba="{COLOURS[owner]}"/>'
 
 
 def _block(owner: str, size: float) -> str:
-    half = _n(1.5 * size)
+    half = number(1.5 * size)
     return f'<geom type="box" size="{half} {half} {half}" rgba="{COLOURS[owner]}"/>'
 
 
@@ -265,11 +265,7 @@ def _turned(point: FloatArray, angle: float) -> FloatArray:
 
 
 def _xyz(point: FloatArray, z: float = 0.0) -> str:
-    return f"{_n(point[0])} {_n(point[1])} {_n(z)}"
-
-
-def _n(value: float) -> str:
-    return repr(float(value) + 0.0)
+    return f"{xy(point)} {number(z)}"
 
 
 def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
@@ -281,63 +277,22 @@ def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
     assert world is not None
     keys = root.findall("keyframe/key")
     agree("the number of key frames", len(keys), len(truth.places.angle), 0)
-    for number, key in enumerate(keys):
-        q = dict(zip(("driver", "coupler", "follower"), _numbers(key, "qpos"), strict=True))
+    for k, key in enumerate(keys):
+        q = dict(zip(("driver", "coupler", "follower"), numbers_in(key, "qpos"), strict=True))
         sites: dict[str, complex] = {}
         turns: dict[str, float] = {}
-        _walk(world, 0j, 0.0, q, sites, turns)
-        place = truth.places[number]
-        name = f"at pose {number + 1}"
+        walk(world, 0j, 0.0, q, sites, turns)
+        place = truth.places[k]
+        name = f"at pose {k + 1}"
         body = sites["body"]
         agree(f"the coupler {name}", [body.real, body.imag], place.translation, tolerance)
         gap = np.exp(1j * (turns["coupler"] - float(place.angle))) - 1
         agree(f"the coupler's angle {name}", abs(gap), 0, PRECISION)
         agree(f"the loop {name}", abs(sites["loop_a"] - sites["loop_b"]), 0, tolerance)
-        agree(f"the motor {name}", _numbers(key, "ctrl")[0], q["driver"], 0)
+        agree(f"the motor {name}", numbers_in(key, "ctrl")[0], q["driver"], 0)
     hold = as_rows(truth.places[options.pose - 1])
     sites, turns = {}, {}
-    _walk(world, 0j, 0.0, {}, sites, turns)
+    walk(world, 0j, 0.0, {}, sites, turns)
     body, turn = sites["body"], turns["coupler"]
     agree("where it begins", [body.real, body.imag], hold[:2], tolerance)
     agree("how it begins", [math.cos(turn), math.sin(turn)], hold[2:], PRECISION)
-
-
-def _walk(  # noqa: PLR0917
-    element: ElementTree.Element,
-    origin: complex,
-    angle: float,
-    q: dict[str, float],
-    sites: dict[str, complex],
-    turns: dict[str, float],
-) -> None:
-    """Where the sites are, and the angles of the bodies, with joints at q or as they begin."""
-    for each in element:
-        if each.tag == "site" and each.get("name"):
-            x, y, _ = _numbers(each, "pos")
-            turn = complex(math.cos(angle), math.sin(angle))
-            sites[str(each.get("name"))] = origin + complex(x, y) * turn
-        elif each.tag == "body":
-            x, y, _ = _numbers(each, "pos")
-            turn = complex(math.cos(angle), math.sin(angle))
-            at = origin + complex(x, y) * turn
-            spin = angle + (_numbers(each, "euler")[2] if each.get("euler") else 0.0)
-            joint = each.find("joint")
-            assert joint is not None
-            name = str(joint.get("name"))
-            ref = _numbers(joint, "ref")[0]
-            by = q.get(name, ref) - ref
-            turn = complex(math.cos(spin), math.sin(spin))
-            if joint.get("type") == "slide":
-                ax, ay, _ = _numbers(joint, "axis")
-                at += by * complex(ax, ay) * turn
-            else:
-                px, py, _ = _numbers(joint, "pos") if joint.get("pos") else (0.0, 0.0, 0.0)
-                pin = at + complex(px, py) * turn
-                spin += by
-                at = pin - complex(px, py) * complex(math.cos(spin), math.sin(spin))
-            turns[str(each.get("name"))] = spin
-            _walk(each, at, spin, q, sites, turns)
-
-
-def _numbers(element: ElementTree.Element, key: str) -> list[float]:
-    return [float(part) for part in (element.get(key) or "").split()]

@@ -13,8 +13,6 @@ import math
 import re
 import subprocess
 from collections.abc import Iterator
-from dataclasses import dataclass
-from functools import cached_property
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
@@ -26,12 +24,9 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from burmester import plot
-from burmester.displacement import FloatArray
-from burmester.dyad import PR, RR
 from burmester.errors import BurmesterError, InputError
-from burmester.export.travel import Travel
+from burmester.export.film import DOT, DPI, MARK, Film, Picture, blob
 from burmester.io.saved import SavedLinkage
-from burmester.linkage import Linkage
 from burmester.plot.plane import FRAME, span_of
 from burmester.plot.style import BLACK, BLUE, GREY, VERMILION, settle_labels, with_unit
 
@@ -43,54 +38,13 @@ if TYPE_CHECKING:
 
 __all__ = ["check_gif", "check_mp4", "write_gif", "write_mp4"]
 
-Picture = NDArray[np.uint8]
 
 GIF_RATE: Final = 25.0  # pictures a second at most: more would only make the file larger
-MARK: Final = "#F0E442"  # of the followed pivot; nothing else comes near this colour
-DOT: Final = 9.0  # its size in points
 STRAY: Final = 1.5  # pixels, by which it may be off
-LOOKS: Final = 8  # pictures that are looked at again
-HOLD: Final = 0.08  # of a film that goes back and forth, spent at each end
 POSED: Final = 25  # places whose drawing has to fit into the picture
-DPI: Final = 100.0
 MARGIN: Final = (0.62, 0.12, 0.48, 0.34)  # inches left, right, below and above the axes
 TALL, FLAT = 1.15, 0.5  # the height of a picture at most and at least, in shares of its width
 COLOURS: Final = 64  # of a GIF
-NEAR: Final = 70  # of 255, how far from its colour, in all, the followed pivot may be
-
-
-@dataclass(frozen=True)
-class Film:
-    """A film that is to be drawn: its travel, picture by picture, and the size of the pictures."""
-
-    chosen: SavedLinkage
-    width: int
-    count: int
-
-    @cached_property
-    def travel(self) -> Travel:
-        """The place of the coupler in each picture."""
-        share, whole = np.arange(self.count) / self.count, Travel.of(self.chosen, 2).turns_fully
-        if not whole:
-            there = np.clip((1 - np.abs(2 * share - 1)) * (1 + 2 * HOLD) - HOLD, 0.0, 1.0)
-            share = (1 - np.cos(np.pi * there)) / 2
-        return Travel.of(self.chosen, share, whole)
-
-    @property
-    def linkage(self) -> Linkage:
-        """The driver first."""
-        return self.chosen.linkage
-
-    @cached_property
-    def grown(self) -> NDArray[np.intp]:
-        """How many pictures' points (count,) the path has."""
-        s, many = self.travel.parameter, np.arange(1, self.count + 1)
-        return np.minimum(many, self.count if self.travel.round else np.abs(s - s[0]).argmax() + 1)
-
-    def followed(self, number: NDArray[np.intp]) -> FloatArray:
-        """The driver's moving pivot (n, 2) in F, or the body's origin after an RP, in pictures."""
-        places, first = self.travel.places[number], self.linkage.first
-        return places.act(first.moving_pivot) if isinstance(first, RR | PR) else places.translation
 
 
 class Stage(NamedTuple):
@@ -162,7 +116,7 @@ def check_gif(chosen: SavedLinkage, path: Path, options: Options) -> None:
         raise _off("it is shown once, not again and again")
     if abs(ends[-1] - film.count / rate) > 1e-6:
         raise _off(f"it lasts {ends[-1]:g} s, not {film.count / rate:g} s")
-    looks = _looks(film)
+    looks = film.looks
     at = np.searchsorted(ends, (looks + 0.5) / rate)
     _compare(film, looks, [pictures[k] for k in at])
 
@@ -179,7 +133,7 @@ def check_mp4(chosen: SavedLinkage, path: Path, options: Options) -> None:
     if size is None or rate is None or "h264" not in video or "yuv420p" not in video:
         raise _off(f"it is no film that every player shows: {video.strip() or 'no picture'}")
     width, height = int(size[1]), int(size[2])
-    looks, kept, count = _looks(film), list[Picture](), 0
+    looks, kept, count = film.looks, list[Picture](), 0
     asked = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-fps_mode", "passthrough", "-"]
     with subprocess.Popen(
         [program, "-v", "error", "-i", str(path), *asked], stdout=subprocess.PIPE
@@ -205,11 +159,6 @@ def _mp4(chosen: SavedLinkage, options: Options) -> Film:
     return Film(chosen, options.width_px, count)
 
 
-def _looks(film: Film) -> NDArray[np.intp]:
-    """The numbers of the pictures that are looked at again, spread over the film."""
-    return np.unique(np.linspace(0, film.count - 1, LOOKS).astype(np.intp))
-
-
 def _compare(film: Film, looks: NDArray[np.intp], pictures: list[Picture]) -> None:
     """Raise E160 unless the followed pivot is in the pictures where the linkage has it."""
     stage = _stage(film)
@@ -223,18 +172,6 @@ def _compare(film: Film, looks: NDArray[np.intp], pictures: list[Picture]) -> No
         away = math.hypot(seen[0] + 0.5 - at[0], height - seen[1] - 0.5 - at[1])
         if not away <= STRAY:
             raise _off(f"in picture {number + 1} the driver is {away:.3g} pixels off")
-
-
-def blob(picture: Picture) -> tuple[float, float]:
-    """The middle (column, row) of what has the colour of the followed pivot; nan if nothing."""
-    colour = [int(MARK[at : at + 2], 16) for at in (1, 3, 5)]
-    near = np.abs(picture.astype(np.int16) - colour).sum(axis=-1) < NEAR
-    rows, columns = np.nonzero(near)
-    if not len(rows):
-        return math.nan, math.nan
-    # Beside lines a film may have single pixels of any colour.
-    spot = np.hypot(rows - np.median(rows), columns - np.median(columns)) < DOT * DPI / 72
-    return float(columns[spot].mean()), float(rows[spot].mean())
 
 
 def _off(why: str) -> BurmesterError:
@@ -288,7 +225,7 @@ def _pictures(film: Film) -> Iterator[Picture]:
             grown.set_data(*path[: film.grown[number]].T)
             frame.set_data(*place.act(body).T)
             mark.set_center(tuple(pivot[number].tolist()))
-            drive.set_text(_drive_text(film, number))
+            drive.set_text(film.drive_text(number))
             every = [*own, grown, frame, mark, drive, *stage.over]
             canvas.restore_region(under)  # type: ignore[attr-defined]
             for artist in sorted(every, key=lambda each: each.get_zorder()):
@@ -346,12 +283,3 @@ def _stage(film: Film) -> Stage:
             artist.set_animated(True)
         figure.canvas.draw()
     return Stage(figure, ax, over)
-
-
-def _drive_text(film: Film, number: int) -> str:
-    """Where the driver is."""
-    travel = film.travel
-    value = float(travel.drive[number])
-    if not travel.circuit.drive.turns:
-        return with_unit(f"driver {value:.4g}".replace("-", "−"), film.chosen.unit)
-    return f"driver {math.degrees(value) % 360 if travel.round else math.degrees(value):5.1f}°"

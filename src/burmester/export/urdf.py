@@ -17,6 +17,7 @@ import numpy as np
 
 from burmester.displacement import Displacement, FloatArray
 from burmester.export.joints import along_slot, directions, ground_joint, require_bodies
+from burmester.export.model_xml import number, numbers_in, xy
 from burmester.export.options import Options
 from burmester.export.truth import PRECISION, Truth, about, agree
 from burmester.io.saved import SavedLinkage
@@ -121,7 +122,7 @@ def _joint(  # noqa: PLR0917
     return [
         f'  <joint name="{child}" type="{kind}">',
         f'    <parent link="{parent}"/><child link="{child}"/>',
-        f'    <origin xyz="{_xyz(at)}" rpy="0 0 {_n(turn)}"/>',
+        f'    <origin xyz="{xy(at)} 0" rpy="0 0 {number(turn)}"/>',
         f'    <axis xyz="{axis}"/>{limit}',
         "  </joint>",
     ]
@@ -139,10 +140,10 @@ def _slide(  # noqa: PLR0917
     """A slide along a line with a normal at that angle, as the child's frame has it."""
     low, high = float(travel.min()), float(travel.max())
     limit = (
-        f'<limit lower="{_n(low)}" upper="{_n(high)}" effort="{_n(FORCE)}" '
-        f'velocity="{_n(SPEED * truth.span)}"/>'
+        f'<limit lower="{number(low)}" upper="{number(high)}" effort="{number(FORCE)}" '
+        f'velocity="{number(SPEED * truth.span)}"/>'
     )
-    axis = _xyz(directions(normal)[1])
+    axis = f"{xy(directions(normal)[1])} 0"
     return _joint(child, "prismatic", parent, at, turn, axis, limit)
 
 
@@ -151,14 +152,15 @@ def _fixed(child: str, parent: str, at: FloatArray) -> list[str]:
         f'  <link name="{child}"/>',
         f'  <joint name="{child}" type="fixed">',
         f'    <parent link="{parent}"/><child link="{child}"/>',
-        f'    <origin xyz="{_xyz(at)}" rpy="0 0 0"/>',
+        f'    <origin xyz="{xy(at)} 0" rpy="0 0 0"/>',
         "  </joint>",
     ]
 
 
 def _link(name: str, points: list[FloatArray], truth: Truth, closed: bool = False) -> list[str]:
     """A link with boxes from point to point, and a mass that stands in."""
-    thin, inertia = THIN * truth.span, _n(truth.span**2)
+    thin, inertia = THIN * truth.span, number(truth.span**2)
+    sides = f"{number(thin)} {number(thin)}"
     lines = [
         f'  <link name="{name}">',
         '    <inertial><origin xyz="0 0 0" rpy="0 0 0"/><mass value="1"/>',
@@ -171,18 +173,10 @@ def _link(name: str, points: list[FloatArray], truth: Truth, closed: bool = Fals
         size = float(np.linalg.norm(way)) + thin
         turn = math.atan2(way[1], way[0])
         lines.append(
-            f'    <visual><origin xyz="{_xyz(middle)}" rpy="0 0 {_n(turn)}"/>'
-            f'<geometry><box size="{_n(size)} {_n(thin)} {_n(thin)}"/></geometry></visual>'
+            f'    <visual><origin xyz="{xy(middle)} 0" rpy="0 0 {number(turn)}"/>'
+            f'<geometry><box size="{number(size)} {sides}"/></geometry></visual>'
         )
     return [*lines, "  </link>"]
-
-
-def _xyz(point: FloatArray | list[float]) -> str:
-    return f"{_n(point[0])} {_n(point[1])} 0"
-
-
-def _n(value: float) -> str:
-    return repr(float(value) + 0.0)
 
 
 def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
@@ -192,8 +186,8 @@ def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
     root = ElementTree.parse(path).getroot()
     joints = {str(each.get("name")): each for each in root.findall("joint")}
     start = truth.places[options.pose - 1]
-    for number in range(truth.places.shape[0]):
-        place = truth.places[number]
+    for k in range(truth.places.shape[0]):
+        place = truth.places[k]
         q = {}
         for side, name in ((0, "driver"), (1, "follower")):
             if side == 1 and truth.kinds[1] == "RP":
@@ -209,7 +203,7 @@ def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
             q["coupler"] = float(place.angle - start.angle)
             q["coupler"] -= q["driver"] if truth.kinds[0] == "RR" else 0.0
         frames = {name: _frame(name, joints, q) for name in ("body", "loop_a", "loop_b")}
-        name = f"at pose {number + 1}"
+        name = f"at pose {k + 1}"
         at, turn = frames["body"]
         agree(f"the coupler {name}", [at.real, at.imag], place.translation, tolerance)
         gap = turn - complex(np.exp(1j * float(place.angle)))
@@ -231,15 +225,15 @@ def _frame(
         origin, parent = joint.find("origin"), joint.find("parent")
         assert origin is not None
         assert parent is not None
-        x, y, _ = (float(part) for part in (origin.get("xyz") or "").split())
-        spin = float((origin.get("rpy") or "").split()[2])
+        x, y, _ = numbers_in(origin, "xyz")
+        spin = numbers_in(origin, "rpy")[2]
         own, by, value = 0j, complex(math.cos(spin), math.sin(spin)), q.get(link, 0.0)
         if joint.get("type") == "continuous":
             own, inner = 0j, complex(math.cos(value), math.sin(value))
         elif joint.get("type") == "prismatic":
             axis = joint.find("axis")
             assert axis is not None
-            ax, ay, _ = (float(part) for part in (axis.get("xyz") or "").split())
+            ax, ay, _ = numbers_in(axis, "xyz")
             own, inner = value * complex(ax, ay), 1 + 0j
         else:
             inner = 1 + 0j

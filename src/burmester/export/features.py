@@ -1,0 +1,72 @@
+"""What plates have to hold of a linkage, before it is known how wide they are; millimetres.
+
+E163 a linkage that plates cannot hold
+"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+
+from burmester.displacement import Displacement, FloatArray
+from burmester.dyad import PP, PR, RP, RR, Dyad
+from burmester.errors import InputError
+
+__all__ = ["Features", "scaled"]
+
+
+class Features:
+    """The holes and slots of two dyads whose coupler goes through places (n,).
+
+    reach: of a PR's pin along its line, of an RP's along the slot: two ends, (2, 2), in F or M.
+    """
+
+    def __init__(self, first: RR | PR | RP, second: RR | PR | RP, motion: Displacement) -> None:
+        self.dyads = (first, second)
+        self.motion = motion
+        self.reach = tuple(_reach(dyad, motion) for dyad in self.dyads)
+
+    def of_link(self, on: Literal["ground", "coupler"]) -> list[FloatArray]:
+        """What each dyad has on the ground or the coupler: ends (1, 2) of a hole, (2, 2) a slot."""
+        slotted = PR if on == "ground" else RP
+        found: list[FloatArray] = []
+        for dyad, reach in zip(self.dyads, self.reach, strict=True):
+            if isinstance(dyad, slotted):
+                assert reach is not None
+                found.append(reach)
+            else:
+                pivot = dyad.fixed_pivot if on == "ground" else dyad.moving_pivot  # type: ignore[union-attr]
+                found.append(pivot[None])
+        return found
+
+
+def _reach(dyad: RR | PR | RP, motion: Displacement) -> FloatArray | None:
+    """Both ends (2, 2) of what a slider's pin travels along its line."""
+    if isinstance(dyad, RR):
+        return None
+    if isinstance(dyad, PR):
+        points = motion.act(dyad.moving_pivot)
+    else:
+        points = motion.inverse().act(dyad.fixed_pivot)
+    n = np.array([np.cos(dyad.normal_angle), np.sin(dyad.normal_angle)])
+    along = np.array([-n[1], n[0]])
+    s = points @ along
+    return np.asarray(n * dyad.offset + np.stack([s.min(), s.max()])[:, None] * along)
+
+
+def scaled(dyad: Dyad, scale: float) -> RR | PR | RP:
+    """A dyad whose lengths are so many times as long; raises E163 for a PP."""
+    if isinstance(dyad, RR):
+        return RR(dyad.fixed_pivot * scale, dyad.moving_pivot * scale, dyad.radius * scale)
+    if isinstance(dyad, PR):
+        return PR(dyad.normal_angle, dyad.offset * scale, dyad.moving_pivot * scale)
+    if isinstance(dyad, RP):
+        return RP(dyad.fixed_pivot * scale, dyad.normal_angle, dyad.offset * scale)
+    assert isinstance(dyad, PP)
+    raise InputError(
+        "E163",
+        "this linkage cannot be made of plates with pins and slots",
+        why="its body only translates, on two sliders of which one carries the other",
+        help="choose another linkage, or a table of its places: --to csv",
+    )

@@ -1,0 +1,88 @@
+"""A film of a linkage, before it is drawn: what each picture shows, and how it is found again."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burmester.displacement import FloatArray
+from burmester.dyad import PR, RR
+from burmester.export.travel import Travel
+from burmester.io.saved import SavedLinkage
+from burmester.linkage import Linkage
+from burmester.plot.style import with_unit
+
+__all__ = ["DOT", "DPI", "MARK", "Film", "Picture", "blob"]
+
+Picture = NDArray[np.uint8]
+
+MARK: Final = "#F0E442"  # of the followed pivot; nothing else comes near this colour
+DOT: Final = 9.0  # its size in points
+NEAR: Final = 70  # of 255, how far from its colour, in all, the followed pivot may be
+DPI: Final = 100.0
+LOOKS: Final = 8  # pictures that are looked at again
+HOLD: Final = 0.08  # of a film that goes back and forth, spent at each end
+
+
+@dataclass(frozen=True)
+class Film:
+    """A film that is to be drawn: its travel, picture by picture, and the size of the pictures."""
+
+    chosen: SavedLinkage
+    width: int
+    count: int
+
+    @cached_property
+    def travel(self) -> Travel:
+        """The place of the coupler in each picture."""
+        share, whole = np.arange(self.count) / self.count, Travel.of(self.chosen, 2).turns_fully
+        if not whole:
+            there = np.clip((1 - np.abs(2 * share - 1)) * (1 + 2 * HOLD) - HOLD, 0.0, 1.0)
+            share = (1 - np.cos(np.pi * there)) / 2
+        return Travel.of(self.chosen, share, whole)
+
+    @property
+    def linkage(self) -> Linkage:
+        """The driver first."""
+        return self.chosen.linkage
+
+    @cached_property
+    def grown(self) -> NDArray[np.intp]:
+        """How many pictures' points (count,) the path has."""
+        s, many = self.travel.parameter, np.arange(1, self.count + 1)
+        return np.minimum(many, self.count if self.travel.round else np.abs(s - s[0]).argmax() + 1)
+
+    def followed(self, number: NDArray[np.intp]) -> FloatArray:
+        """The driver's moving pivot (n, 2) in F, or the body's origin after an RP, in pictures."""
+        places, first = self.travel.places[number], self.linkage.first
+        return places.act(first.moving_pivot) if isinstance(first, RR | PR) else places.translation
+
+    @property
+    def looks(self) -> NDArray[np.intp]:
+        """The numbers of the pictures that are looked at again, spread over the film."""
+        return np.unique(np.linspace(0, self.count - 1, LOOKS).astype(np.intp))
+
+    def drive_text(self, number: int) -> str:
+        """Where the driver is in a picture."""
+        travel = self.travel
+        value = float(travel.drive[number])
+        if not travel.circuit.drive.turns:
+            return with_unit(f"driver {value:.4g}".replace("-", "−"), self.chosen.unit)
+        return f"driver {math.degrees(value) % 360 if travel.round else math.degrees(value):5.1f}°"
+
+
+def blob(picture: Picture) -> tuple[float, float]:
+    """The middle (column, row) of what has the colour of the followed pivot; nan if nothing."""
+    colour = [int(MARK[at : at + 2], 16) for at in (1, 3, 5)]
+    near = np.abs(picture.astype(np.int16) - colour).sum(axis=-1) < NEAR
+    rows, columns = np.nonzero(near)
+    if not len(rows):
+        return math.nan, math.nan
+    # Beside lines a film may have single pixels of any colour.
+    spot = np.hypot(rows - np.median(rows), columns - np.median(columns)) < DOT * DPI / 72
+    return float(columns[spot].mean()), float(rows[spot].mean())

@@ -1,0 +1,83 @@
+"""Outlines of flat parts: closed polylines whose bulges make arcs exact.
+
+Rows (x, y, bulge) as in DXF: the bulge, the tangent of a quarter of the arc's angle, says how the
+way to the next point bends (0 straight, 1 half a circle to the left).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from burmester.displacement import FloatArray
+
+__all__ = ["convex_hull", "points_on", "rounded_hull", "slot_outline"]
+
+
+def convex_hull(points: FloatArray) -> FloatArray:
+    """The corners (n, 2) of the convex hull of points (m, 2), counter-clockwise."""
+    size = float(np.ptp(points, axis=0).max())
+    rows: list[FloatArray] = []
+    for point in points[np.lexsort((points[:, 1], points[:, 0]))]:
+        if not any(np.linalg.norm(point - each) <= 1e-12 * size for each in rows):
+            rows.append(point)
+    if len(rows) < 3:
+        return np.array(rows)
+
+    def half(run: list[FloatArray]) -> list[FloatArray]:
+        chain: list[FloatArray] = []
+        for point in run:
+            while len(chain) > 1:
+                (ax, ay), (bx, by) = chain[-1] - chain[-2], point - chain[-1]
+                if ax * by - ay * bx > 1e-12 * size * size:
+                    break
+                chain.pop()
+            chain.append(point)
+        return chain[:-1]
+
+    return np.array(half(rows) + half(rows[::-1]))
+
+
+def rounded_hull(corners: FloatArray, radius: float) -> FloatArray:
+    """The outline (k, 3), with bulges, of all that is within a radius of a convex polygon."""
+    if len(corners) == 1:
+        (x, y), r = corners[0], radius
+        return np.array([[x + r, y, 1.0], [x - r, y, 1.0]])
+    edge = np.roll(corners, -1, axis=0) - corners
+    unit = edge / np.linalg.norm(edge, axis=1, keepdims=True)
+    normal = np.stack([unit[:, 1], -unit[:, 0]], axis=1)
+    before = np.roll(normal, 1, axis=0)
+    cross = before[:, 0] * normal[:, 1] - before[:, 1] * normal[:, 0]
+    turn = np.arctan2(np.abs(cross), (before * normal).sum(axis=1))
+    into = np.column_stack([corners + radius * before, np.tan(turn / 4)])
+    out = np.column_stack([corners + radius * normal, np.zeros(len(corners))])
+    return np.stack([into, out], axis=1).reshape(-1, 3)
+
+
+def slot_outline(slot: FloatArray) -> FloatArray:
+    """The outline (k, 3) with bulges of a slot (5,)."""
+    ends = convex_hull(np.reshape(slot[:4], (2, 2)))
+    return rounded_hull(ends, float(slot[4]) / 2)
+
+
+def points_on(outline: FloatArray, tolerance: float) -> FloatArray:
+    """A polygon (n, 2) on an outline (k, 3), not closed again.
+
+    Its sides leave the arcs by the tolerance at most; the ends of the arcs are among the points.
+    """
+    points: list[FloatArray] = []
+    for start, end in zip(outline, np.roll(outline, -1, axis=0), strict=True):
+        points.append(start[:2])
+        if (bulge := float(start[2])) == 0:
+            continue
+        chord = complex(*(end[:2] - start[:2]))
+        centre = complex(*start[:2]) + chord * (0.5 + 0.25j * (1 / bulge - bulge))
+        angle, r = 4 * math.atan(bulge), abs(complex(*start[:2]) - centre)
+        step = 2 * math.acos(max(1 - tolerance / r, 0.0))
+        count = max(math.ceil(abs(angle) / step), 1)
+        arm = complex(*start[:2]) - centre
+        for k in range(1, count):
+            z = centre + arm * complex(math.cos(angle * k / count), math.sin(angle * k / count))
+            points.append(np.array([z.real, z.imag]))
+    return np.array(points)
