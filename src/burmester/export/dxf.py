@@ -2,7 +2,8 @@
 
 Outlines are closed polylines with exact arcs, holes are circles, slots are closed polylines.  The
 block ASSEMBLY is inserted where F has it, with the coupler at the pose asked for.  The bytes
-depend on the linkage and the options only.
+depend on the linkage and the options only, but for the order of two entries that ezdxf keeps in a
+set.
 
 E160 what was written is not the linkage
 """
