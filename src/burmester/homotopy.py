@@ -15,7 +15,6 @@ What is reached is counted: paths that end far away belong to solutions at infin
 from __future__ import annotations
 
 from functools import cache
-from importlib import resources
 from typing import Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
@@ -226,6 +225,8 @@ def distinct(points: ComplexArray) -> ComplexArray:
 @cache
 def _start(name: str) -> tuple[Parameters, ComplexArray]:
     """The generic parameters of a shape, and all solutions (k, size) there."""
+    from importlib import resources  # noqa: PLC0415  tasks without limits do without it
+
     with (
         resources.files("burmester").joinpath("start_points.npz").open("rb") as file,
         np.load(file, allow_pickle=False) as table,
