@@ -13,20 +13,7 @@ from burmester.errors import InputError
 from burmester.io.reading.poses import read_task
 from burmester.synthesis import synthesize
 from burmester.task import Task
-
-GOOD = """\
-x,y,angle_deg
--0.8253,-1.0329,91.91
--1.6554,-0.2721,66.99
--2.6392,0.2920,49.90
--3.5027,0.3088,43.94
--4.0549,-0.2141,45.58
--4.1022,-1.0521,52.87
--3.5805,-1.8708,64.52
--2.6250,-2.3408,78.84
--1.5557,-2.2742,93.02
--0.8016,-1.7382,101.25
-"""
+from tests.ten_poses import TEN as GOOD
 
 
 @pytest.fixture

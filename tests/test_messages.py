@@ -38,11 +38,12 @@ from burmester.exact import dyads_of_five
 from burmester.export import Options, pylinkage
 from burmester.fingerprint import fingerprint
 from burmester.io.explain import pages
-from burmester.io.message import note, place, show_error
+from burmester.io.message import note, place, show
 from burmester.io.reading.poses import read_task
 from burmester.io.result import failure, plain
 from burmester.io.saved import read_result
 from burmester.synthesis import synthesize
+from tests.ten_poses import ROWS, TEN
 
 WIDTHS = (60, 80, 200)
 ROOT = Path(burmester.__file__).parent
@@ -90,20 +91,7 @@ class Case(NamedTuple):
     exit: int = 2
 
 
-ROWS = """\
--0.8253,-1.0329,91.91
--1.6554,-0.2721,66.99
--2.6392,0.2920,49.90
--3.5027,0.3088,43.94
--4.0549,-0.2141,45.58
--4.1022,-1.0521,52.87
--3.5805,-1.8708,64.52
--2.6250,-2.3408,78.84
--1.5557,-2.2742,93.02
--0.8016,-1.7382,101.25
-"""
 FIVE = "x,y,angle_deg\n" + "".join(ROWS.splitlines(keepends=True)[:5])
-TEN = "x,y,angle_deg\n" + ROWS
 FOUR = "\n".join(FIVE.splitlines()[:5])
 TWO_ANGLES = "0.2,2.4,10 2,-4.4,50 1.2,9.4,50 -6.7,-5.2,10 -2.7,-10.5,50 0,5.9,10 3.3,4,50"
 POINTS = "px,py,qx,qy\n0,0,5,0\n3,1,7,4\n4,3,7,7\n5,3,5,8\n6,2,3,6\n"
@@ -942,7 +930,7 @@ def raised(call):
 
 def drawn(error, width):
     console = Console(file=io.StringIO(), width=width, highlight=False)
-    show_error(error, console)
+    show("error", error, console)
     return console.file.getvalue()
 
 
@@ -1147,7 +1135,7 @@ def test_a_message_in_colour(name, run, hurried, snapshot):
 def test_a_message_is_drawn_in_the_same_way_on_a_terminal_without_colour():
     error = InputError("E103", "what", where="a:1:2\n   1 | abc\n     |  ^ b", why="so", help="do")
     console = Console(file=io.StringIO(), width=60, force_terminal=True, no_color=True)
-    show_error(error, console)
+    show("error", error, console)
     assert console.file.getvalue() == f"{error}\n"
 
 

@@ -10,6 +10,7 @@ import re
 import sys
 from collections.abc import Callable, Sequence
 from decimal import Decimal
+from itertools import product
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -234,14 +235,14 @@ def test_errors_of_a_spreadsheet_are_no_comments(read: Read) -> None:
 # A header that the file lacks ----------------------------------------------------------------
 
 
-@pytest.mark.parametrize("separator", [",", "\t", ";", "|", " ", "   "])
-@pytest.mark.parametrize("mark", [".", ","])
+@pytest.mark.parametrize(
+    ("separator", "mark"),
+    [pair for pair in product([",", "\t", ";", "|", " ", "   "], ".,") if pair != (",", ",")],
+)
 @pytest.mark.parametrize("end", ["", "\n", "\r\n", "\n\n  \n"])
 def test_pasted_cells_with_columns_are_the_file_with_a_header(
     separator: str, mark: str, end: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    if separator == mark:
-        pytest.skip("a comma cannot do both")
     rows = [row.split(",") for row in ROWS.split()]
     pasted = "\r\n".join(separator.join(row).replace(".", mark) for row in rows) + end
     stdin = SimpleNamespace(buffer=io.BytesIO(pasted.encode()))

@@ -70,9 +70,9 @@ def _report(error: BurmesterError, as_json: bool) -> int:
         from burmester.io.result import failure
 
         print_json(failure(error))
-    from burmester.io.message import show_error
+    from burmester.io.message import show
 
-    show_error(error, console(stderr=True))
+    show("error", error, console(stderr=True))
     return error.exit_code
 
 

@@ -25,7 +25,7 @@ from burmester.export.joints import (
     require_bodies,
 )
 from burmester.export.mjcf_places import walk
-from burmester.export.model_xml import number, numbers_in, xy
+from burmester.export.numbers import number, numbers_in, xy
 from burmester.export.options import Options
 from burmester.export.truth import PRECISION, Truth, about, agree, as_rows
 from burmester.io.saved import SavedLinkage

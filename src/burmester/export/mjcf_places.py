@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from xml.etree import ElementTree
 
-from burmester.export.model_xml import numbers_in
+from burmester.export.numbers import numbers_in
 
 __all__ = ["walk"]
 

@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from burmester.displacement import Displacement, FloatArray
+from burmester.export.numbers import number
 from burmester.export.options import Options
 from burmester.export.plates import assembly_of
 from burmester.export.truth import PRECISION, Truth, about, agree
@@ -77,11 +78,11 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
         "// View > Animate plays the motion, with FPS 25 and Steps 100. At $t = 0 the coupler is",
         "// at the pose asked for.",
         "",
-        f"width = {_n(made.width)};",
-        f"hole = {_n(made.hole)};",
-        f"pin_diameter = {_n(0.95 * made.hole)};",
-        f"thickness = {_n(made.thickness)};",
-        f"gap = {_n(made.gap)};",
+        f"width = {number(made.width)};",
+        f"hole = {number(made.hole)};",
+        f"pin_diameter = {number(0.95 * made.hole)};",
+        f"thickness = {number(made.thickness)};",
+        f"gap = {number(made.gap)};",
         f"pose = {options.pose};  // drawn at $t = 0",
         "$fn = 96;",
         "",
@@ -91,7 +92,7 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
         name = plate.name.replace("-", "_")
         if plate.fixed is not None and plate.moving is not None:
             lines += [
-                f"{name}_length = {_n(float(plate.holes[1, 0]))};",
+                f"{name}_length = {number(float(plate.holes[1, 0]))};",
                 f"{name}_fixed = {_list(plate.fixed)};  // on the ground",
                 f"{name}_moving = {_list(plate.moving)};  // on the coupler",
             ]
@@ -111,7 +112,7 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
         colour = COLOURS[name]
         shown.append(f'layer({name}_layer) {place}color("{colour}") {name}();')
     for pin in assembly.pins:
-        where = f"translate([{_n(pin.x)}, {_n(pin.y)}, 0]) pin({pin.low}, {pin.high});"
+        where = f"translate([{number(pin.x)}, {number(pin.y)}, 0]) pin({pin.low}, {pin.high});"
         shown.append(f"at_place(place) {where}" if pin.plate == "coupler" else where)
     lines += [
         "",
@@ -129,10 +130,6 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
             body = f"plate([[0, 0], [{name}_length, 0]], [[0, 0], [{name}_length, 0]], []);"
         lines.append(f"module {name}() {{ {body} }}")
     path.write_text("\n".join([*lines, "", *shown, ""]), encoding="utf-8", newline="\n")
-
-
-def _n(value: float) -> str:
-    return repr(float(value) + 0.0)
 
 
 def _list(values: FloatArray) -> str:

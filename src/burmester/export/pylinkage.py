@@ -18,6 +18,7 @@ import numpy as np
 from burmester.displacement import FloatArray
 from burmester.errors import InputError
 from burmester.export.joints import directions, driven, ground_joint
+from burmester.export.numbers import number
 from burmester.export.options import Options
 from burmester.export.truth import PRECISION, Truth, about, agree
 from burmester.io.saved import SavedLinkage
@@ -96,11 +97,11 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
     def tracked(point: Any) -> str:
         """A point of M by its distance and angle from the way between the two pivots."""
         to = np.asarray(point) - one
-        return f"{_n(math.hypot(*to.tolist()))}, {_n(math.atan2(to[1], to[0]) - angle)}"
+        return f"{number(math.hypot(*to.tolist()))}, {number(math.atan2(to[1], to[0]) - angle)}"
 
     lines = [
         IMPORTS.format(about=told, actuator=actuator, dyad=dyad),
-        f"COUPLER = {_n(length)}  # between its pivots",
+        f"COUPLER = {number(length)}  # between its pivots",
     ]
     numbers, body, drives = _driver(truth, drive)
     lines += numbers
@@ -138,7 +139,10 @@ def _driver(truth: Truth, drive: FloatArray) -> tuple[list[str], list[str], Floa
     fixed, radius, line = truth.fixed[0], truth.radius[0], truth.line[0]
     ground = 'a = Ground(*A, name="A")'
     if fixed is not None:
-        numbers = [f"A = {_p(fixed)}  # the driver's fixed pivot", f"CRANK = {_n(radius or 0.0)}"]
+        numbers = [
+            f"A = {_p(fixed)}  # the driver's fixed pivot",
+            f"CRANK = {number(radius or 0.0)}",
+        ]
         built = (
             "driver = Crank(a, CRANK, angular_velocity=1.0, initial_angle=DRIVES[START], "
             'name="driver")'
@@ -152,8 +156,8 @@ def _driver(truth: Truth, drive: FloatArray) -> tuple[list[str], list[str], Floa
     drives = drive - low
     numbers = [
         f"A = {_p(line[1] * n + low * along)}  # where the driver's rail begins",
-        f"DIRECTION = {_n(math.atan2(along[1], along[0]))}",
-        f"STROKE = {_n(float(drives.max()) + room)}",
+        f"DIRECTION = {number(math.atan2(along[1], along[0]))}",
+        f"STROKE = {number(float(drives.max()) + room)}",
     ]
     built = (
         "driver = LinearActuator(a, DIRECTION, STROKE, speed=1.0, "
@@ -168,7 +172,7 @@ def _follower(truth: Truth) -> tuple[list[str], list[str], list[str]]:
     if fixed is not None:
         numbers = [
             f"B = {_p(fixed)}  # the follower's fixed pivot",
-            f"ROCKER = {_n(radius or 0.0)}",
+            f"ROCKER = {number(radius or 0.0)}",
         ]
         built = [
             'b = Ground(*B, name="B")',
@@ -188,12 +192,8 @@ def _follower(truth: Truth) -> tuple[list[str], list[str], list[str]]:
     return [f"RAIL = [{_p(ends[0])}, {_p(ends[1])}]  # of the follower"], built, ["a", "b1", "b2"]
 
 
-def _n(value: float) -> str:
-    return repr(float(value) + 0.0)
-
-
 def _p(point: Any) -> str:
-    return f"({_n(point[0])}, {_n(point[1])})"
+    return f"({number(point[0])}, {number(point[1])})"
 
 
 def check(chosen: SavedLinkage, path: Path, options: Options) -> None:

@@ -17,7 +17,7 @@ import numpy as np
 
 from burmester.displacement import Displacement, FloatArray
 from burmester.export.joints import along_slot, directions, ground_joint, require_bodies
-from burmester.export.model_xml import number, numbers_in, xy
+from burmester.export.numbers import number, numbers_in, xy
 from burmester.export.options import Options
 from burmester.export.truth import PRECISION, Truth, about, agree
 from burmester.io.saved import SavedLinkage

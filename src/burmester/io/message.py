@@ -16,17 +16,21 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from rich.cells import cell_len, get_character_cell_size
 from rich.text import Text
 
-from burmester.errors import BurmesterError, printable
+from burmester.errors import printable
 
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from burmester.errors import BurmesterError
+    from burmester.motion_kind import MotionKind
     from burmester.outcome import Advice
+
+    _Said: TypeAlias = BurmesterError | Advice | MotionKind
 
 __all__ = [
     "PLACE",
@@ -35,8 +39,7 @@ __all__ = [
     "message",
     "note",
     "place",
-    "show_advice",
-    "show_error",
+    "show",
     "wrapped",
 ]
 
@@ -53,28 +56,15 @@ _GUTTER = re.compile(r"( *(\d*) \|)(?: (.*))?")
 _CARETS = re.compile(r"( *)(\^+)(.*)")
 
 
-def show_error(error: BurmesterError, console: Console) -> None:
-    """An error with its place, its reason and its help."""
+def show(kind: str, said: _Said, console: Console) -> None:
+    """An error, a warning or a result, with its place, its reason and its help."""
     lines = message(
-        "error",
-        error.code,
-        error.message,
-        where=error.where,
-        why=error.why,
-        help=error.help,
-        width=console.width,
-    )
-    draw(lines, console)
-
-
-def show_advice(advice: Advice, console: Console) -> None:
-    """A warning with its reason and its help."""
-    lines = message(
-        "warning",
-        advice.code,
-        advice.message,
-        why=advice.why,
-        help=advice.help,
+        kind,
+        said.code,
+        said.message,
+        where=getattr(said, "where", None),
+        why=getattr(said, "why", None),
+        help=said.help,
         width=console.width,
     )
     draw(lines, console)

@@ -16,7 +16,8 @@ from rich.text import Text
 
 from burmester.diagnosis import Diagnosis
 from burmester.io.linkage_table import new_table
-from burmester.io.message import draw, message, show_advice, wrapped
+from burmester.io.message import show as show_message
+from burmester.io.message import wrapped
 from burmester.io.result import motion_data, task_data, told
 from burmester.motion_kind import General
 from burmester.task import Task
@@ -49,13 +50,11 @@ def show(diagnosis: Diagnosis, console: Console) -> None:
             console.print(line, soft_wrap=True)
     motion = diagnosis.motion
     if motion is not None and not isinstance(motion.motion, General):
-        kind = motion.motion
         console.print()
-        said = message("result", kind.code, kind.message, help=kind.help, width=console.width)
-        draw(said, console)
+        show_message("result", motion.motion, console)
     for each in diagnosis.findings:
         console.print()
-        show_advice(each, console)
+        show_message("warning", each, console)
 
 
 def _poses(task: Task) -> Table:

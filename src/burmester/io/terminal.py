@@ -15,7 +15,7 @@ from burmester.comparison import Section, Verdict
 from burmester.io import linkage_table
 from burmester.io.digits import decimals, miss, short, sides
 from burmester.io.linkage_table import new_table
-from burmester.io.message import draw, message, note, show_advice
+from burmester.io.message import draw, message, note, show
 from burmester.synthesis import FoundLinkage, Synthesis
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ def show_synthesis(synthesis: Synthesis, console: Console) -> None:
                 console.print(Text(f"\n{head}:", style="bold"))
                 console.print(_bullets(sentences))
     for warning in synthesis.warnings:
-        show_advice(warning, console)
+        show("warning", warning, console)
 
 
 def _outcome(synthesis: Synthesis, three: Sequence[FoundLinkage], console: Console) -> None:

@@ -1,4 +1,4 @@
-"""Numbers in the XML of models, written with all their digits and read back."""
+"""Numbers as models and scripts hold them: with all their digits."""
 
 from __future__ import annotations
 
