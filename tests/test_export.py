@@ -22,6 +22,7 @@ from burmester.dyad import PP
 from burmester.errors import BurmesterError, InputError
 from burmester.export import FORMATS, Options, export, format_of, mjcf
 from burmester.export.options import MILLIMETRES
+from burmester.export.outlines import convex_hull
 from burmester.export.plates import assembly_of, outline_points
 from burmester.io import templates
 from burmester.io.saved import read_result
@@ -578,3 +579,12 @@ def test_a_body_that_only_translates(tmp_path):
             export(still, to, tmp_path / "a.out")
         assert caught.value.code == "E163", to
     export(still, "json", tmp_path / "a.json")
+
+
+def test_a_hull_has_the_corners_of_points_on_both_sides_of_the_origin_once():
+    square = np.array([[1.0, 1], [-1, -1], [1, -1], [-1, 1]])
+    points = np.concatenate([square, square, 0.3 * square, [[0, 1], [0, 0]]])
+    hull = convex_hull(points)
+    assert sorted(hull.tolist()) == sorted(square.tolist())
+    (ax, ay), (bx, by) = hull[1] - hull[0], hull[2] - hull[1]
+    assert ax * by - ay * bx > 0  # counter-clockwise

@@ -757,6 +757,15 @@ def test_without_matplotlib_the_error_says_what_to_install():
     assert "pip install 'burmester[plot]'" in out.stdout
 
 
+def test_a_box_around_points_holds_them_and_little_more():
+    points = np.random.default_rng(3).normal([5.0, -7.0, 0.3], [0.4, 0.1, 0.2], (40, 3))
+    box = Box.around([*points, [np.nan, 0, 0]], room=0.1)
+    low, high = points.min(axis=0), points.max(axis=0)
+    assert (box.low + box.high) / 2 == pytest.approx((low + high) / 2)
+    wide, deep = (high - low)[:2].max(), (high - low)[2]  # equally wide in Z1 and Z2
+    assert box.high - box.low == pytest.approx(1.2 * np.array([wide, wide, deep]))
+
+
 if __name__ == "__main__":
     paper.figure = lambda w, h, dpi: figure(w, h, DPI)
     BASELINES.mkdir(exist_ok=True)
