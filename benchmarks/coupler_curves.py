@@ -13,9 +13,9 @@ from itertools import product
 
 import numpy as np
 
-from burmester.circuit import Circuits
-from burmester.dyad import PR, RP, RR
-from burmester.linkage import Linkage
+from burmester.fourbar.circuits import Circuits
+from burmester.fourbar.dyad import PR, RP, RR
+from burmester.fourbar.linkage import Linkage
 
 
 def dyads(kind, rng, count):

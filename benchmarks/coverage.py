@@ -23,18 +23,19 @@ import numpy as np
 from scipy.optimize import least_squares
 from tests.witness import places, random_four_bar, random_poses, span
 
-from burmester import joined
-from burmester.accuracy import error_frames, nearest, on_circuits
-from burmester.candidates import characteristic_length, found_dyads
-from burmester.displacement import Displacement
-from burmester.dyad import PR, RP, RR
-from burmester.linkage import Linkage
-from burmester.optimal import best_dyads
-from burmester.refinement import refine
-from burmester.stack import LinkageStack
-from burmester.synthesis import synthesize
-from burmester.task import Task
-from burmester.uncertainty import covariance, uncertainties
+from burmester.dyads.local_minima import best_dyads
+from burmester.dyads.selection import characteristic_length, found_dyads
+from burmester.fourbar.dyad import PR, RP, RR
+from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.linkage_batch import LinkageStack
+from burmester.fourbar.nearest_places import nearest, on_circuits
+from burmester.fourbar.pose_error import error_frames
+from burmester.geometry.displacement import Displacement
+from burmester.linkages import from_dyads
+from burmester.linkages.refinement import refine
+from burmester.linkages.uncertainty import covariance, uncertainties
+from burmester.synthesis.motion_generation import synthesize
+from burmester.tasks.motion_task import Task
 
 LEVELS = 1e-5, 1e-4, 1e-3  # of the span, and in radians
 OPEN = 0.05  # of the span; a region that reaches farther says that the pivot is not determined
@@ -178,7 +179,9 @@ def main():
     parser.add_argument("--second", choices=["RR", "PR", "RP"], default="RR")
     parser.add_argument("--fit", choices=["package", "refine", "scipy"], default="package")
     given = parser.parse_args()
-    joined.linkages_that_work = lambda *_: None  # only the linkage behind the poses is asked for
+    from_dyads.linkages_that_work = lambda *_: (
+        None
+    )  # only the linkage behind the poses is asked for
     second, bad = {"RR": RR, "PR": PR, "RP": RP}[given.second], False
     for number, level in enumerate(LEVELS):
         counts, open_hits, missing, undetermined, widths = {}, [], 0, 0, []

@@ -19,7 +19,7 @@ from tests.random_starts import distance, local_fits, squared
 from tests.witness import random_four_bar, random_poses
 
 from burmester import Displacement, best_dyads, critical_dyads
-from burmester.prismatic import fixed_lines, moving_lines
+from burmester.dyads.sliders import fixed_lines, moving_lines
 
 
 def random_task(rng):

@@ -23,7 +23,7 @@ import numpy as np
 from tests.test_search import comes_by, known_cost, noisy_task, rough_task, squares
 
 from burmester import Task, synthesize
-from burmester.displacement import Displacement
+from burmester.geometry.displacement import Displacement
 
 FAMILIES = {"noisy": noisy_task, "rough": rough_task}
 AS_WELL = 1.02  # times the known sum of squares

@@ -8,7 +8,8 @@ import sys
 
 import numpy as np
 
-from burmester import Displacement, fit_pencil, manifold
+from burmester import Displacement, fit_pencil
+from burmester.geometry import constraint_manifold
 from burmester.io.reading.poses import read_task
 
 TABLE_5 = read_task("case:ge2012-approximate")
@@ -29,7 +30,7 @@ def in_one_task(count):
 
 def design(poses):
     """The whole design matrix (*, N, 8) of Eq. (14)."""
-    return manifold.monomials(poses.as_image_point())
+    return constraint_manifold.monomials(poses.as_image_point())
 
 
 def main(method, count):

@@ -18,9 +18,9 @@ import numpy as np
 from tests.witness import places, random_four_bar, random_poses, span
 
 from burmester import Displacement, Task
-from burmester.agreement import odd_pose
-from burmester.dyad import PR, RP, RR
-from burmester.sequence import out_of_order
+from burmester.diagnosis.odd_pose import odd_pose
+from burmester.diagnosis.swapped_poses import out_of_order
+from burmester.fourbar.dyad import PR, RP, RR
 
 WRONG = 20.0  # standard deviations, at least
 FACTORS = (10.0, 25.4, 1000.0, 1 / 10.0, 1 / 25.4, 1 / 1000.0)

@@ -36,11 +36,12 @@ from tests.elsewhere import gap, made_of
 from tests.tracer import driven, met_at, walks
 from tests.witness import misses
 
-from burmester import Task, joined, synthesize
-from burmester.circuit import Circuits, circuit_of
-from burmester.displacement import Displacement
-from burmester.dyad import PR, RP, RR
-from burmester.linkage import Linkage, grashof
+from burmester import Task, synthesize
+from burmester.fourbar.circuits import Circuits, circuit_of
+from burmester.fourbar.dyad import PR, RP, RR
+from burmester.fourbar.linkage import Linkage, grashof
+from burmester.geometry.displacement import Displacement
+from burmester.linkages import from_dyads
 
 FOUND = 1e-7  # spans, of every dimension of the generating linkage
 MET = 1e-6  # spans, between the witness and what a usable linkage claims
@@ -456,7 +457,7 @@ def main():
     )
     given = parser.parse_args()
     if given.without_search:
-        joined.linkages_that_work = lambda *_: None
+        from_dyads.linkages_that_work = lambda *_: None
     if given.check:
         return int(check(given.check, given.seed) > 0)
     begun = time.perf_counter()

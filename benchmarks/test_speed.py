@@ -17,10 +17,10 @@ from tests.witness import span
 
 from benchmarks.many_poses import TABLE_5, design, in_one_task, near_table_5
 from burmester import best_dyads, critical_dyads, dyads_of_five, fit_pencil, synthesize
-from burmester.accuracy import PoseError
-from burmester.dyad import RR
+from burmester.fourbar.dyad import RR
+from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.pose_error import PoseError
 from burmester.io.reading.poses import read_task
-from burmester.linkage import Linkage
 
 ONE = pytest.mark.benchmark(group="1. one pencil fit with both dyads, 10 poses of Table 5")
 MILLION = pytest.mark.benchmark(group="2. one fit of a million poses")

@@ -1,4 +1,4 @@
-"""Make src/burmester/start_points.npz: all solutions of each shape, for generic parameters.
+"""Make src/burmester/dyads/start_points.npz: all solutions of each shape, for generic parameters.
 
 Monodromy: one solution is easy, for parameters can be chosen to fit it.  Carried around loops in
 the space of parameters it turns into others; when ten loops bring no new one, they are taken to
@@ -12,7 +12,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from burmester.homotopy import (
+from burmester.dyads.parameter_homotopy import (
     Parameters,
     circle_shape,
     distinct,
@@ -111,4 +111,4 @@ if __name__ == "__main__":
         for part, value in zip(Parameters._fields, parameters, strict=True):
             table[f"{shape.name}/{part}"] = value
         table[f"{shape.name}/points"] = points
-    np.savez_compressed("src/burmester/start_points.npz", **table)
+    np.savez_compressed("src/burmester/dyads/start_points.npz", **table)

@@ -7,7 +7,7 @@ for what is fair to ask.
 import numpy as np
 
 from burmester import Displacement, Task, best_dyads, critical_dyads, synthesize
-from burmester.dyad import PR, RP, RR
+from burmester.fourbar.dyad import PR, RP, RR
 from tests.witness import random_four_bar, random_poses, span
 
 LIMIT, EPS, ENDLESS = 1e-8, 1e-15, 100

@@ -6,13 +6,13 @@ known little.
 
 import numpy as np
 
-from burmester.accuracy import PoseError
-from burmester.circuit import Circuits
-from burmester.displacement import Displacement
-from burmester.dyad import PR, RP, RR
+from burmester.fourbar.circuits import Circuits
+from burmester.fourbar.dyad import PR, RP, RR
+from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.pose_error import PoseError
+from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
-from burmester.linkage import Linkage
-from burmester.task import Task
+from burmester.tasks.motion_task import Task
 
 
 def rr(fixed, moving, radius):

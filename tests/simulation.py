@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
-from burmester.dyad import PR, RP, RR
+from burmester.fourbar.dyad import PR, RP, RR
 
 STEP = 1e-3  # seconds
 SPEED = 1.5  # radians or lengths a second; the lengths are divided by the span of the poses

@@ -6,7 +6,7 @@ are the circuits: where a run ends both assemblies meet.  Shares no code with th
 
 import numpy as np
 
-from burmester.dyad import RP, RR
+from burmester.fourbar.dyad import RP, RR
 from tests.tracer import constraint, driven
 from tests.witness import places
 

@@ -13,11 +13,12 @@ from importlib import resources
 import numpy as np
 import pytest
 
-from burmester.accuracy import PoseError, error_frames, on_circuits, on_own_circuits
-from burmester.displacement import Displacement
-from burmester.dyad import PR, RP, RR
-from burmester.linkage import Linkage
-from burmester.stack import LinkageStack
+from burmester.fourbar.dyad import PR, RP, RR
+from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.linkage_batch import LinkageStack
+from burmester.fourbar.nearest_places import on_circuits, on_own_circuits
+from burmester.fourbar.pose_error import PoseError, error_frames
+from burmester.geometry.displacement import Displacement
 from tests.swept import TooFineError, circuits, on_both
 from tests.test_motion import PAIRS, all_pairs, random_dyad
 from tests.witness import misses, places, random_four_bar, random_poses

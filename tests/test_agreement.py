@@ -7,21 +7,21 @@ from scipy.optimize import least_squares
 from scipy.stats import combine_pvalues, f
 
 from burmester import Displacement, Task
-from burmester.agreement import _chance, _chance_of_number, odd_pose
-from burmester.fingerprint import fingerprint
+from burmester.diagnosis.leave_one_out import LeftOut
+from burmester.diagnosis.odd_pose import _chance, _chance_of_number, odd_pose
+from burmester.diagnosis.repairs import Nearness
+from burmester.diagnosis.sampson_fits import Seen
+from burmester.diagnosis.sampson_fits import misses as tangents
+from burmester.diagnosis.swapped_poses import _best, _distances, _way, out_of_order
+from burmester.diagnosis.unit_errors import _landed, chance_of
+from burmester.dyads.local_minima import best_dyads
+from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.linkage_batch import LinkageStack
 from burmester.io.cases import load
 from burmester.io.reading.poses import read_task
-from burmester.left_out import LeftOut
-from burmester.linkage import Linkage
-from burmester.optimal import best_dyads
-from burmester.reasons import figure
-from burmester.repairs import Nearness
-from burmester.requirements import Requirements
-from burmester.sequence import _best, _distances, _way, out_of_order
-from burmester.stack import LinkageStack
-from burmester.tangent_fits import Seen
-from burmester.tangent_fits import misses as tangents
-from burmester.unit_slip import _landed, chance_of
+from burmester.tasks.motion_class import fingerprint
+from burmester.tasks.requirements import Requirements
+from burmester.tasks.wording import figure
 from tests.witness import misses, random_four_bar, random_poses
 
 CASE = load("ge2012-exact")

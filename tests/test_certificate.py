@@ -9,16 +9,16 @@ import mpmath
 import numpy as np
 import pytest
 
-from burmester import balls
-from burmester.certificate import certify, certify_five
-from burmester.critical import critical_dyads
-from burmester.displacement import Displacement
-from burmester.dyad import PP, PR, RP, RR
+from burmester.certificates import ball_arithmetic as balls
+from burmester.certificates.certificate import certify, certify_five
+from burmester.certificates.proofs import infinity_takes_eight
+from burmester.dyads.critical_points import critical_dyads
+from burmester.dyads.five_poses import dyads_of_five
+from burmester.dyads.local_minima import best_dyads
+from burmester.dyads.sliders import fixed_lines, moving_lines
 from burmester.errors import InputError
-from burmester.exact import dyads_of_five
-from burmester.optimal import best_dyads
-from burmester.prismatic import fixed_lines, moving_lines
-from burmester.proofs import infinity_takes_eight
+from burmester.fourbar.dyad import PP, PR, RP, RR
+from burmester.geometry.displacement import Displacement
 from tests.test_critical import poses_of
 from tests.witness import random_four_bar, random_poses
 
@@ -331,7 +331,9 @@ def test_a_list_with_a_fault_is_not_complete(seed):
 
 def test_without_the_points_at_infinity_nothing_is_complete(monkeypatch):
     poses = noisy_task(0)
-    monkeypatch.setattr("burmester.certificate.infinity_takes_eight", lambda gram: False)
+    monkeypatch.setattr(
+        "burmester.certificates.certificate.infinity_takes_eight", lambda gram: False
+    )
     certificate = certify(poses, None, critical_dyads(poses), [])
     assert not certificate.complete
     assert not said(certificate, f"{NO_OTHERS}|global")

@@ -442,7 +442,7 @@ def test_a_bug_leaves_a_file_to_send(monkeypatch, capsys, tmp_path, poses):
     def broken(*_, **__):
         return [].pop()
 
-    monkeypatch.setattr("burmester.synthesis.synthesize", broken)
+    monkeypatch.setattr("burmester.synthesis.motion_generation.synthesize", broken)
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "bugs"))
     (tmp_path / "bugs").mkdir()
     with pytest.raises(SystemExit) as stop:

@@ -5,7 +5,15 @@ import itertools
 import numpy as np
 import pytest
 
-from burmester.conditions import (
+from burmester.fourbar.canonical_frames import CanonicalFrames
+from burmester.fourbar.dyad import PR, RP, RR
+from burmester.fourbar.instantaneous import transmission_angle
+from burmester.fourbar.linkage import Linkage, Links, grashof
+from burmester.fourbar.linkage_batch import LinkageStack
+from burmester.fourbar.loop_closure import Drive
+from burmester.geometry.displacement import Displacement
+from burmester.geometry.regions import Line, Polygon, Segment
+from burmester.linkages.constraints import (
     Journey,
     Kept,
     Proportions,
@@ -15,15 +23,8 @@ from burmester.conditions import (
     lever_sine,
     type_excess,
 )
-from burmester.displacement import Displacement
-from burmester.drive import Drive
-from burmester.dyad import PR, RP, RR
-from burmester.frames import CanonicalFrames
-from burmester.limits import Limits, Line, Polygon, Segment
-from burmester.linkage import Linkage, Links, grashof
-from burmester.motion import transmission_angle
-from burmester.requirements import Requirements
-from burmester.stack import LinkageStack
+from burmester.tasks.limits import Limits
+from burmester.tasks.requirements import Requirements
 from tests.test_search import assembled, sines
 from tests.witness import random_four_bar
 

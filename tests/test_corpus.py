@@ -16,7 +16,7 @@ import pytest
 from burmester import cli
 from burmester.errors import InputError
 from burmester.io.reading.poses import read_task
-from burmester.task import Task
+from burmester.tasks.motion_task import Task
 
 CORPUS = Path(__file__).parent / "corpus"
 KEY: dict[str, Any] = json.loads((CORPUS / "key.json").read_text(encoding="utf-8"))

@@ -9,11 +9,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import least_squares
 
-from burmester.critical import critical_dyads
-from burmester.displacement import Displacement
-from burmester.dyad import PR, RP
+from burmester.dyads.critical_points import critical_dyads
+from burmester.dyads.five_poses import dyads_of_five
 from burmester.errors import InputError
-from burmester.exact import dyads_of_five
+from burmester.fourbar.dyad import PR, RP
+from burmester.geometry.displacement import Displacement
 from tests.elsewhere import judged
 from tests.homotopy import critical_points
 from tests.random_starts import local_fits, squared

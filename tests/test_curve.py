@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from burmester.curve import dyad_curve
-from burmester.displacement import Displacement
+from burmester.dyads.burmester_curve import dyad_curve
 from burmester.errors import InputError
+from burmester.geometry.displacement import Displacement
 from tests.witness import random_four_bar, random_poses
 
 

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from burmester.curve import dyad_curve
-from burmester.displacement import Displacement
-from burmester.exact import dyads_of_five
+from burmester.dyads.burmester_curve import dyad_curve
+from burmester.dyads.five_poses import dyads_of_five
+from burmester.geometry.displacement import Displacement
 from tests.witness import random_four_bar, random_poses, span
 
 

@@ -17,13 +17,13 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize_scalar
 
-from burmester.accuracy import PoseError
-from burmester.circuit import Circuits, circuit_of
-from burmester.defects import judge
-from burmester.displacement import Displacement
-from burmester.dyad import PR, RP, RR
-from burmester.linkage import Linkage
-from burmester.passage import REPEATED, STEP_BACK, TOO_CLOSE
+from burmester.fourbar.circuits import Circuits, circuit_of
+from burmester.fourbar.defects import judge
+from burmester.fourbar.dyad import PR, RP, RR
+from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.pose_error import PoseError
+from burmester.fourbar.traversal import REPEATED, STEP_BACK, TOO_CLOSE
+from burmester.geometry.displacement import Displacement
 from tests.test_motion import (
     CHANGE,
     NAMES,

@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 from burmester import cli
-from burmester.diagnosis import diagnose, disagreement
-from burmester.displacement import Displacement
+from burmester.diagnosis.checks import diagnose, disagreement
 from burmester.errors import InputError
+from burmester.geometry.displacement import Displacement
 from burmester.io.reading.poses import read_task
-from burmester.synthesis import synthesize
-from burmester.task import Task
+from burmester.synthesis.motion_generation import synthesize
+from burmester.tasks.motion_task import Task
 from tests.ten_poses import TEN as GOOD
 
 

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from burmester.displacement import Displacement, image_multiply
 from burmester.errors import InputError
+from burmester.geometry.displacement import Displacement, image_multiply
 
 coordinate = st.floats(-1e3, 1e3)
 displacements = st.builds(

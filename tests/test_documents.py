@@ -12,15 +12,16 @@ from decimal import Decimal
 import numpy as np
 import pytest
 
-from burmester.displacement import Displacement
 from burmester.errors import InputError
+from burmester.geometry.displacement import Displacement
+from burmester.geometry.regions import Line, Point, Polygon, Segment
 from burmester.io import cases
 from burmester.io.reading.poses import read_task
 from burmester.io.reading.slips import slip
 from burmester.io.result import task_data
-from burmester.limits import KINDS, Limits, Line, Point, Polygon, Segment
-from burmester.requirements import DRIVERS, GROUPS, TYPES, Requirements
-from burmester.task import Task
+from burmester.tasks.limits import KINDS, Limits
+from burmester.tasks.motion_task import Task
+from burmester.tasks.requirements import DRIVERS, GROUPS, TYPES, Requirements
 from tests.marked import carets, marked
 
 

@@ -8,11 +8,12 @@ import numpy as np
 import pytest
 from scipy.optimize import fsolve
 
-from burmester import manifold
-from burmester.displacement import Displacement
+from burmester.dyads.five_poses import dyads_of_five
+from burmester.dyads.three_poses import dyad_with_fixed_pivot, dyad_with_moving_pivot
 from burmester.errors import InputError
-from burmester.exact import dyad_with_fixed_pivot, dyad_with_moving_pivot, dyads_of_five
-from burmester.linkage import Linkage
+from burmester.fourbar.linkage import Linkage
+from burmester.geometry import constraint_manifold
+from burmester.geometry.displacement import Displacement
 from tests.witness import misses, places, random_four_bar, random_poses, span
 
 
@@ -163,7 +164,7 @@ def test_a_slider_has_no_first_coefficient():
     leading = np.abs(five.coefficients[:, 0])
     assert leading.min() < 1e-12
     p = five.coefficients[leading.argmin()].real
-    fixed, moving = manifold.prismatic_parts(p)
+    fixed, moving = constraint_manifold.prismatic_parts(p)
     assert np.abs(moving).max() < 1e-10
     assert abs(fixed[0]) < 1e-10 * abs(fixed[1])
 

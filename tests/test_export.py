@@ -17,16 +17,16 @@ import numpy as np
 import pytest
 
 from burmester import export as exported
-from burmester.displacement import Displacement
-from burmester.dyad import PP
 from burmester.errors import BurmesterError, InputError
 from burmester.export import FORMATS, Options, export, format_of, mjcf
 from burmester.export.options import MILLIMETRES
 from burmester.export.outlines import convex_hull
 from burmester.export.plates import assembly_of, outline_points
+from burmester.fourbar.dyad import PP
+from burmester.fourbar.linkage import Linkage
+from burmester.geometry.displacement import Displacement
 from burmester.io import templates
 from burmester.io.saved import read_result
-from burmester.linkage import Linkage
 from tests.handed_over import GIVEN, NAMES, complex_places, joints, rp, saved
 
 SPANS = 1e-9

@@ -15,10 +15,10 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from burmester.dyad import PR, RP, RR
 from burmester.errors import BurmesterError, InputError
 from burmester.export import movie
 from burmester.export.options import Options
+from burmester.fourbar.dyad import PR, RP, RR
 from tests import witness
 from tests.test_travel import PAPER, paper, saved
 

@@ -5,10 +5,10 @@ import re
 import numpy as np
 import pytest
 
-from burmester.dyad import PR
 from burmester.export import Options
 from burmester.export.joints import ground_joint
 from burmester.export.truth import Truth
+from burmester.fourbar.dyad import PR
 from tests.handed_over import NAMES, complex_places, joints
 from tests.test_export import scale_of, span_of, written
 

@@ -13,14 +13,14 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from burmester.dyad import PP, PR, RP, RR
 from burmester.errors import BurmesterError, InputError
 from burmester.export import solid
 from burmester.export.options import Options
 from burmester.export.plates import assembly_of
 from burmester.export.stl import read_stl, shells_of
+from burmester.fourbar.dyad import PP, PR, RP, RR
+from burmester.fourbar.linkage import Linkage
 from burmester.io.saved import SavedLinkage
-from burmester.linkage import Linkage
 from tests import witness
 from tests.test_travel import PAPER, paper, saved
 

@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 
-from burmester.displacement import Displacement
 from burmester.errors import InputError
-from burmester.feasible import require_feasible, spans
-from burmester.limits import Limits, Line, Point, Polygon, Segment, box
+from burmester.geometry.displacement import Displacement
+from burmester.geometry.regions import Line, Point, Polygon, Segment, box
+from burmester.tasks.feasibility import require_feasible, spans
+from burmester.tasks.limits import Limits
 
 ARROW = Polygon(np.array([(0, 0), (4, 2), (0, 4), (1.5, 2)], float))
 REGIONS = {

@@ -8,11 +8,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import least_squares
 
-from burmester.displacement import Displacement
-from burmester.dyad import PP, PR, RP, RR
-from burmester.exact import dyads_of_five
-from burmester.fingerprint import fingerprint
-from burmester.motion_kind import (
+from burmester.dyads.five_poses import dyads_of_five
+from burmester.fourbar.dyad import PP, PR, RP, RR
+from burmester.geometry.displacement import Displacement
+from burmester.synthesis.motion_generation import synthesize
+from burmester.tasks.motion_class import fingerprint
+from burmester.tasks.motion_kinds import (
     CircularTranslation,
     FewPoses,
     FreeTranslation,
@@ -24,8 +25,7 @@ from burmester.motion_kind import (
     TwoSliders,
     Undetermined,
 )
-from burmester.synthesis import synthesize
-from burmester.task import Task
+from burmester.tasks.motion_task import Task
 from tests.test_strange import STRANGE
 from tests.witness import places, random_four_bar, random_poses, span
 

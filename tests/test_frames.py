@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize
 
-from burmester.displacement import Displacement
-from burmester.dyad import PR, RP, RR
-from burmester.frames import CanonicalFrames
+from burmester.fourbar.canonical_frames import CanonicalFrames
+from burmester.fourbar.dyad import PR, RP, RR
+from burmester.geometry.displacement import Displacement
 
 
 @pytest.mark.parametrize("seed", range(6))

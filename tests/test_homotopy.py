@@ -10,10 +10,7 @@ import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
 
-from burmester.displacement import Displacement
-from burmester.dyad import PR
-from burmester.frames import CanonicalFrames
-from burmester.homotopy import (
+from burmester.dyads.parameter_homotopy import (
     Parameters,
     _start,
     circle_shape,
@@ -23,6 +20,9 @@ from burmester.homotopy import (
     line_shape,
     stationary,
 )
+from burmester.fourbar.canonical_frames import CanonicalFrames
+from burmester.fourbar.dyad import PR
+from burmester.geometry.displacement import Displacement
 from tests.witness import random_four_bar, random_poses
 
 SHAPES = [

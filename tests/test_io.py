@@ -24,7 +24,7 @@ from burmester.errors import InputError
 from burmester.io import cases
 from burmester.io.reading import csv_poses
 from burmester.io.reading.poses import read_task
-from burmester.task import Task
+from burmester.tasks.motion_task import Task
 
 Read = Callable[..., Task]
 

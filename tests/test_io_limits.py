@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 
 from burmester.errors import InputError
+from burmester.geometry.regions import Line, Point, Polygon, Segment
 from burmester.io.reading import csv_poses
 from burmester.io.reading.limits_text import wanted
 from burmester.io.reading.poses import read_task
-from burmester.limits import Limits, Line, Point, Polygon, Segment
+from burmester.tasks.limits import Limits
 from tests.marked import carets, marked
 
 H = "x,y,angle_deg,exact\n"

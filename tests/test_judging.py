@@ -3,17 +3,18 @@
 import numpy as np
 import pytest
 
-from burmester.accuracy import error_frames
-from burmester.circuit import Circuits
-from burmester.displacement import Displacement
-from burmester.dyad import PR, RR
-from burmester.limits import Limits, box
-from burmester.linkage import Linkage
-from burmester.requirements import Requirements
-from burmester.stack import LinkageStack
-from burmester.synthesis import synthesize
-from burmester.task import Task
-from burmester.uncertainty import covariance, pose_sigma, uncertainties
+from burmester.fourbar.circuits import Circuits
+from burmester.fourbar.dyad import PR, RR
+from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.linkage_batch import LinkageStack
+from burmester.fourbar.pose_error import error_frames
+from burmester.geometry.displacement import Displacement
+from burmester.geometry.regions import box
+from burmester.linkages.uncertainty import covariance, pose_sigma, uncertainties
+from burmester.synthesis.motion_generation import synthesize
+from burmester.tasks.limits import Limits
+from burmester.tasks.motion_task import Task
+from burmester.tasks.requirements import Requirements
 from tests.witness import misses, random_four_bar, random_poses, span
 
 FREE = Requirements(any_order=True)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.optimize import least_squares
 
-from burmester.least_squares import levenberg_marquardt
+from burmester.numerics.least_squares import levenberg_marquardt
 
 TIMES = np.linspace(0.1, 2, 12)
 
@@ -42,7 +42,7 @@ def test_it_ends_where_scipy_ends(name):
 @pytest.mark.parametrize("limit", [2, 5, 10])
 @pytest.mark.parametrize("name", CASES)
 def test_it_stays_at_the_lowest_that_it_has_seen(name, limit, monkeypatch):
-    monkeypatch.setattr("burmester.least_squares.STEPS", limit)
+    monkeypatch.setattr("burmester.numerics.least_squares.STEPS", limit)
     kernel, size = CASES[name]
     for x in np.random.default_rng(4).uniform(-3, 3, (10, 1, size)):
         seen = []

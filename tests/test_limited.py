@@ -7,15 +7,16 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize
 
-from burmester.descent import Block, Range, descend
-from burmester.displacement import Displacement
-from burmester.dyad import PR, RP, RR
-from burmester.frames import CanonicalFrames
-from burmester.limited import limited_dyads
-from burmester.limits import Limits, Line, Point, Polygon, Segment, box
-from burmester.polish import circle_misses, least_squares
-from burmester.synthesis import synthesize
-from burmester.task import Task
+from burmester.dyads.face_descent import Block, Range, descend
+from burmester.dyads.geometric_fit import circle_misses, least_squares
+from burmester.dyads.minima_within_limits import limited_dyads
+from burmester.fourbar.canonical_frames import CanonicalFrames
+from burmester.fourbar.dyad import PR, RP, RR
+from burmester.geometry.displacement import Displacement
+from burmester.geometry.regions import Line, Point, Polygon, Segment, box
+from burmester.synthesis.motion_generation import synthesize
+from burmester.tasks.limits import Limits
+from burmester.tasks.motion_task import Task
 from tests.witness import misses, random_four_bar, random_poses, span
 
 LONG = 100.0  # spans: beyond this a link is a slider in disguise

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from burmester.errors import InputError
-from burmester.limits import Limits, Line, Point, Polygon, Segment, box
+from burmester.geometry.regions import Line, Point, Polygon, Segment, box
+from burmester.tasks.limits import Limits
 
 RNG = np.random.default_rng(5)
 

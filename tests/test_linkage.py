@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from burmester.dyad import PR, RP, RR
-from burmester.linkage import Linkage, Links, grashof
+from burmester.fourbar.dyad import PR, RP, RR
+from burmester.fourbar.linkage import Linkage, Links, grashof
 from tests.witness import places, random_four_bar
 
 

@@ -4,9 +4,9 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from burmester import manifold
-from burmester.displacement import Displacement
-from burmester.dyad import PP, PR, RP, RR
+from burmester.fourbar.dyad import PP, PR, RP, RR
+from burmester.geometry import constraint_manifold
+from burmester.geometry.displacement import Displacement
 
 number = st.floats(-5, 5)
 pair = st.tuples(number, number).map(np.array)
@@ -18,7 +18,7 @@ poses = st.lists(st.tuples(number, number, number), min_size=3, max_size=8).map(
 
 def quadratic_form(dyad, at):
     z = at.as_image_point()
-    return np.einsum("ni,ij,nj->n", z, manifold.matrix(dyad.coefficients()), z)
+    return np.einsum("ni,ij,nj->n", z, constraint_manifold.matrix(dyad.coefficients()), z)
 
 
 @given(circles, poses)
@@ -42,12 +42,12 @@ def test_matrix_of_a_circle_as_printed_in_eqs_7_and_9(dyad):
         [s1, s2, s1**2 + s2**2 - c, s1 * t1 + s2 * t2],
         [t1, t2, s1 * t1 + s2 * t2, t1**2 + t2**2 - c],
     ]
-    assert np.allclose(manifold.matrix(dyad.coefficients()), eq9, rtol=0, atol=1e-12)
+    assert np.allclose(constraint_manifold.matrix(dyad.coefficients()), eq9, rtol=0, atol=1e-12)
 
 
 @given(circles, st.floats(-3, 3).filter(lambda f: abs(f) > 1e-3))
 def test_circle_and_back_whatever_the_factor(dyad, factor):
-    fixed, moving, squared = manifold.circle(factor * dyad.coefficients())
+    fixed, moving, squared = constraint_manifold.circle(factor * dyad.coefficients())
     assert np.allclose(fixed, dyad.fixed_pivot, rtol=0, atol=1e-9)
     assert np.allclose(moving, dyad.moving_pivot, rtol=0, atol=1e-9)
     assert np.allclose(squared, dyad.radius**2, rtol=0, atol=1e-8)
@@ -55,7 +55,7 @@ def test_circle_and_back_whatever_the_factor(dyad, factor):
 
 def test_published_dyads_have_the_published_matrices():
     # Eqs. (20) and (21), from the linkage of Fig. 2; r2 as its printed matrix implies.
-    first = manifold.matrix(RR([-2.2, 0.1], [1.24, 0.1], 1.2377).coefficients())
+    first = constraint_manifold.matrix(RR([-2.2, 0.1], [1.24, 0.1], 1.2377).coefficients())
     eq20 = [
         [1, 0, 0.48, 0],
         [0, 1, -0.1, 1.72],
@@ -63,7 +63,7 @@ def test_published_dyads_have_the_published_matrices():
         [0, 1.72, -0.172, 2.5754],
     ]
     assert np.allclose(first, eq20, rtol=0, atol=1e-4)
-    second = manifold.matrix(RR([1.15, 0.38], [4.59, 1.34], 4.6712).coefficients())
+    second = constraint_manifold.matrix(RR([1.15, 0.38], [4.59, 1.34], 4.6712).coefficients())
     eq21 = [
         [1, 0, -2.87, -0.48],
         [0, 1, -0.86, 1.72],
@@ -83,15 +83,17 @@ def test_published_dyads_have_the_published_matrices():
 )
 def test_every_dyad_fulfils_eq_17(dyad):
     p = dyad.coefficients()
-    assert np.allclose(manifold.conditions(p), 0, atol=1e-9 * (1 + p @ p))
+    assert np.allclose(constraint_manifold.conditions(p), 0, atol=1e-9 * (1 + p @ p))
 
 
 @given(st.lists(number, min_size=8, max_size=8).map(np.array), st.integers(0, 7))
 def test_condition_gradients_are_derivatives(p, k):
     step = np.zeros(8)
     step[k] = 1e-5
-    numeric = (manifold.conditions(p + step) - manifold.conditions(p - step)) / 2e-5
-    assert np.allclose(manifold.condition_gradients(p)[:, k], numeric, rtol=0, atol=1e-8)
+    numeric = (
+        constraint_manifold.conditions(p + step) - constraint_manifold.conditions(p - step)
+    ) / 2e-5
+    assert np.allclose(constraint_manifold.condition_gradients(p)[:, k], numeric, rtol=0, atol=1e-8)
 
 
 @given(st.builds(PR, number, number, pair), poses)
@@ -99,7 +101,7 @@ def test_fixed_line_form_is_the_signed_distance(dyad, at):
     n = np.array([np.cos(dyad.normal_angle), np.sin(dyad.normal_angle)])
     wanted = at.act(dyad.moving_pivot) @ n - dyad.offset
     assert np.allclose(quadratic_form(dyad, at), wanted, rtol=0, atol=1e-10)
-    fixed, moving = manifold.prismatic_parts(dyad.coefficients())
+    fixed, moving = constraint_manifold.prismatic_parts(dyad.coefficients())
     assert np.allclose(fixed, n)
     assert np.allclose(moving, 0, atol=1e-12)
 
@@ -109,7 +111,7 @@ def test_moving_line_form_is_the_signed_distance(dyad, at):
     n = np.array([np.cos(dyad.normal_angle), np.sin(dyad.normal_angle)])
     seen = at.inverse().act(dyad.fixed_pivot)
     assert np.allclose(quadratic_form(dyad, at), seen @ n - dyad.offset, rtol=0, atol=1e-10)
-    fixed, moving = manifold.prismatic_parts(dyad.coefficients())
+    fixed, moving = constraint_manifold.prismatic_parts(dyad.coefficients())
     assert np.allclose(moving, n)
     assert np.allclose(fixed, 0, atol=1e-12)
 

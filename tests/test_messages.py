@@ -30,19 +30,19 @@ from rich.console import Console
 
 import burmester
 from burmester import cli
-from burmester.balls import flint
-from burmester.displacement import Displacement
-from burmester.dyad import PP, RR
+from burmester.certificates.ball_arithmetic import flint
+from burmester.dyads.five_poses import dyads_of_five
 from burmester.errors import BurmesterError, InputError
-from burmester.exact import dyads_of_five
 from burmester.export import Options, pylinkage
-from burmester.fingerprint import fingerprint
+from burmester.fourbar.dyad import PP, RR
+from burmester.geometry.displacement import Displacement
 from burmester.io.explain import pages
 from burmester.io.message import note, place, show
 from burmester.io.reading.poses import read_task
 from burmester.io.result import failure, plain
 from burmester.io.saved import read_result
-from burmester.synthesis import synthesize
+from burmester.synthesis.motion_generation import synthesize
+from burmester.tasks.motion_class import fingerprint
 from tests.ten_poses import ROWS, TEN
 
 WIDTHS = (60, 80, 200)
@@ -829,7 +829,7 @@ SOLVED = {}  # what came of a command line on the files of a folder
 @pytest.fixture
 def run(folder, monkeypatch, capsys):
     """Run a command line in the folder.  What was solved once is not solved again."""
-    synthesis = import_module("burmester.synthesis")
+    synthesis = import_module("burmester.synthesis.motion_generation")
     solve = synthesis.synthesize
 
     def run(line, width=80, **environment):
@@ -863,8 +863,8 @@ def hurried(monkeypatch):
 
     def hurried(case):
         if case.code not in ("R301", "R305", "R307"):
-            monkeypatch.setattr("burmester.joined.linkages_that_work", lambda *_: None)
-            monkeypatch.setattr("burmester.joined.links_of_map", lambda *_: [])
+            monkeypatch.setattr("burmester.linkages.from_dyads.linkages_that_work", lambda *_: None)
+            monkeypatch.setattr("burmester.linkages.from_dyads.links_of_map", lambda *_: [])
 
     return hurried
 
@@ -910,7 +910,7 @@ def broken():
             space = {}
             text = "def synthesize(*given, **more):\n    return 1 / 0\n"
             exec(compile(text, "synthesis.py", "exec"), space)
-            patch.setattr("burmester.synthesis.synthesize", space["synthesize"])
+            patch.setattr("burmester.synthesis.motion_generation.synthesize", space["synthesize"])
             # With the name of a file it would be another message every time.
             patch.setattr(tempfile, "mkstemp", no_room)
 

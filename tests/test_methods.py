@@ -5,11 +5,11 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from burmester.displacement import Displacement
-from burmester.frames import CanonicalFrames
+from burmester.dyads.image_space_fits import algebraic_fit, larochelle, ravani_roth
+from burmester.fourbar.canonical_frames import CanonicalFrames
+from burmester.geometry.displacement import Displacement
 from burmester.io.cases import load
-from burmester.methods import by_every_method, random_starts, starts_needed
-from burmester.normal_distance import algebraic_fit, larochelle, ravani_roth
+from burmester.paper.five_methods import by_every_method, random_starts, starts_needed
 from tests.witness import misses, random_four_bar, random_poses
 
 SEARCHES = {"Ravani-Roth": ravani_roth, "Larochelle": larochelle, "algebraic": algebraic_fit}

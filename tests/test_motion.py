@@ -15,13 +15,19 @@ from itertools import product
 import numpy as np
 import pytest
 
-from burmester.circuit import Circuits, circuit_of
-from burmester.displacement import Displacement
-from burmester.drive import Drive
-from burmester.dyad import PP, PR, RP, RR
 from burmester.errors import InputError
-from burmester.linkage import Linkage
-from burmester.motion import centrodes, instant_centre, transmission_angle, twist, velocity
+from burmester.fourbar.circuits import Circuits, circuit_of
+from burmester.fourbar.dyad import PP, PR, RP, RR
+from burmester.fourbar.instantaneous import (
+    centrodes,
+    instant_centre,
+    transmission_angle,
+    twist,
+    velocity,
+)
+from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.loop_closure import Drive
+from burmester.geometry.displacement import Displacement
 from tests.tracer import FAR, NEAR, TOO_CLOSE, constraint, driven, gap, met_at, walks
 from tests.witness import places
 

@@ -16,13 +16,13 @@ import pytest
 from click.testing import CliRunner
 
 from burmester.cli.new import new
-from burmester.dyad import RR
 from burmester.errors import InputError
+from burmester.fourbar.dyad import RR
+from burmester.fourbar.linkage import Linkage
 from burmester.io import templates
 from burmester.io.reading.asked import FILE_KEYS
 from burmester.io.reading.poses import read_task
-from burmester.linkage import Linkage
-from burmester.synthesis import synthesize
+from burmester.synthesis.motion_generation import synthesize
 from tests import witness
 
 TRADES = (

@@ -6,14 +6,8 @@ import numpy as np
 import pytest
 from scipy.optimize import least_squares
 
-from burmester import manifold
-from burmester.critical import critical_dyads
-from burmester.displacement import Displacement
-from burmester.dyad import RR
-from burmester.errors import InputError
-from burmester.frames import CanonicalFrames
-from burmester.io.cases import load
-from burmester.normal_distance import (
+from burmester.dyads.critical_points import critical_dyads
+from burmester.dyads.image_space_fits import (
     ImagePoints,
     algebraic_distance,
     algebraic_fit,
@@ -22,6 +16,12 @@ from burmester.normal_distance import (
     manifold_distance,
     ravani_roth,
 )
+from burmester.errors import InputError
+from burmester.fourbar.canonical_frames import CanonicalFrames
+from burmester.fourbar.dyad import RR
+from burmester.geometry import constraint_manifold
+from burmester.geometry.displacement import Displacement
+from burmester.io.cases import load
 from tests.witness import misses, places, random_four_bar, random_poses, span
 
 FITS = {"algebraic": algebraic_fit, "larochelle": larochelle, "ravani_roth": ravani_roth}
@@ -78,7 +78,7 @@ def joined(dyads):
 def quadrics(x, poses):
     """G (k, N) and J (k, N, 3) of dyads x (k, 5), from the matrix of Eq. (9)."""
     z = poses.as_image_point()
-    c = manifold.matrix(dyad(x).coefficients())
+    c = constraint_manifold.matrix(dyad(x).coefficients())
     slope = 2 * np.einsum("kij,nj->kni", c, z)
     by_psi = slope[..., 2] * z[:, 3] - slope[..., 3] * z[:, 2]
     value = np.einsum("ni,kij,nj->kn", z, c, z)

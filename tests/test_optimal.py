@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from scipy.optimize import least_squares
 
-from burmester.displacement import Displacement
-from burmester.optimal import best_dyads
+from burmester.dyads.local_minima import best_dyads
+from burmester.geometry.displacement import Displacement
 from tests.elsewhere import judged
 from tests.random_starts import distance, local_fits
 from tests.witness import random_four_bar, random_poses

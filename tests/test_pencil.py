@@ -8,12 +8,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from burmester import manifold, pencil
-from burmester.displacement import Displacement
-from burmester.dyad import RR
+from burmester.dyads import pencil
+from burmester.dyads.pencil import fit_pencil
 from burmester.errors import InputError
-from burmester.linkage import Linkage
-from burmester.pencil import fit_pencil
+from burmester.fourbar.dyad import RR
+from burmester.fourbar.linkage import Linkage
+from burmester.geometry import constraint_manifold
+from burmester.geometry.displacement import Displacement
 from tests.witness import misses, random_four_bar, random_poses, span
 
 
@@ -52,7 +53,7 @@ def test_corrected_table_2_gives_the_published_linkage():
 def test_refitted_radius_beats_the_radius_of_table_8():
     poses = poses_of("ge2012-approximate")
     fit = fit_pencil(poses, normalise=False)
-    _, _, squared = manifold.circle(fit.at(fit.theta)[:2])
+    _, _, squared = constraint_manifold.circle(fit.at(fit.theta)[:2])
     paper = RR(fit.dyads.fixed_pivot, fit.dyads.moving_pivot, np.sqrt(squared).mean(axis=-1))
     for k in range(2):
         of_paper = np.sqrt((paper[k].residual(poses) ** 2).mean())
@@ -91,12 +92,12 @@ def test_stationary_points_against_a_fine_grid(kind):
     for _ in range(300):
         v = random_pencil(rng, kind)
         p = np.cos(grid)[:, None] * v[0] + np.sin(grid)[:, None] * v[1]
-        e = (manifold.conditions(p) ** 2).sum(axis=-1)
+        e = (constraint_manifold.conditions(p) ** 2).sum(axis=-1)
         low = (e < np.roll(e, 1)) & (e <= np.roll(e, -1))
         high = (e > np.roll(e, 1)) & (e >= np.roll(e, -1))
         theta = pencil._stationary_points(v[0], v[1])
         at = np.cos(theta)[:, None] * v[0] + np.sin(theta)[:, None] * v[1]
-        error = (manifold.conditions(at) ** 2).sum(axis=-1)
+        error = (constraint_manifold.conditions(at) ** 2).sum(axis=-1)
         assert low.sum() == high.sum() == np.isfinite(theta[:2]).sum()
         tolerance = 1e-6 * e.max()
         assert np.allclose(np.sort(error[:2])[: low.sum()], np.sort(e[low]), rtol=0, atol=tolerance)

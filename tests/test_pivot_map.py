@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from scipy.optimize import least_squares
 
-from burmester.critical import critical_dyads
-from burmester.displacement import Displacement
+from burmester.dyads.critical_points import critical_dyads
+from burmester.dyads.pivot_map import fixed_pivot_map, grid, moving_pivot_map
 from burmester.errors import InputError
-from burmester.pivot_map import fixed_pivot_map, grid, moving_pivot_map
+from burmester.geometry.displacement import Displacement
 from tests.witness import random_four_bar, random_poses
 
 

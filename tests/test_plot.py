@@ -15,7 +15,7 @@ from matplotlib.testing.compare import compare_images
 from PIL import Image
 
 from burmester import PR, RP, RR, Displacement, InputError, Linkage, Task, dyad_curve, synthesize
-from burmester.accuracy import PoseError
+from burmester.fourbar.pose_error import PoseError
 from burmester.io.cases import load
 from burmester.plot import (
     Box,

@@ -5,9 +5,15 @@ import pytest
 from scipy.optimize import least_squares as scipy_least_squares
 from scipy.optimize import linprog, minimize
 
-from burmester.displacement import Displacement
-from burmester.optimal import best_dyads
-from burmester.polish import circle_misses, circle_terms, least_squares, least_worst, line_misses
+from burmester.dyads.geometric_fit import (
+    circle_misses,
+    circle_terms,
+    least_squares,
+    least_worst,
+    line_misses,
+)
+from burmester.dyads.local_minima import best_dyads
+from burmester.geometry.displacement import Displacement
 from tests.test_limited import circle_distance, line_distance
 from tests.witness import random_four_bar, random_poses
 

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize
 
-from burmester.displacement import Displacement
-from burmester.dyad import PR, RP
-from burmester.prismatic import fixed_lines, moving_lines
+from burmester.dyads.sliders import fixed_lines, moving_lines
+from burmester.fourbar.dyad import PR, RP
+from burmester.geometry.displacement import Displacement
 
 
 def poses_of(name):

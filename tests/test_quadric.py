@@ -8,12 +8,12 @@ import itertools
 import numpy as np
 import pytest
 
-from burmester import manifold, quadric
-from burmester.displacement import Displacement
 from burmester.errors import InputError
+from burmester.geometry import constraint_manifold, quadric
+from burmester.geometry.displacement import Displacement
+from burmester.geometry.quadric import QuadricKind as Kind
+from burmester.geometry.quadric import classify, fit_quadric
 from burmester.io import cases
-from burmester.quadric import QuadricKind as Kind
-from burmester.quadric import classify, fit_quadric
 
 DIAGONAL = {
     Kind.ELLIPSOID: (1, 1, 1, -1),
@@ -201,19 +201,19 @@ def test_constraint_manifolds_have_the_kinds_of_their_dyads(unit):
     rng = np.random.default_rng(4)
     fixed, moving = unit * rng.normal(size=(2, 300, 2))
     radius, angle = unit * rng.uniform(0.1, 10, 300), rng.uniform(-np.pi, np.pi, 300)
-    rr = manifold.coefficients_of_circle(fixed, moving, radius)
-    assert (classify(manifold.matrix(rr)) == Kind.ONE_SHEET).all()  # Eq. (10)
+    rr = constraint_manifold.coefficients_of_circle(fixed, moving, radius)
+    assert (classify(constraint_manifold.matrix(rr)) == Kind.ONE_SHEET).all()  # Eq. (10)
     # A circle without a radius: a rotation about one point, a line of the image space.
-    point = manifold.coefficients_of_circle(fixed, moving, np.zeros(300))
-    assert (classify(manifold.matrix(point)) == Kind.IMAGINARY_INTERSECTING_PLANES).all()
+    point = constraint_manifold.coefficients_of_circle(fixed, moving, np.zeros(300))
+    assert (classify(constraint_manifold.matrix(point)) == Kind.IMAGINARY_INTERSECTING_PLANES).all()
     # p1 = 0: no term of the second degree in (Z1, Z2), and the cross terms are a rotation.
-    pr = manifold.coefficients_of_fixed_line(angle, fixed[:, 0], moving)
-    rp = manifold.coefficients_of_moving_line(fixed, angle, moving[:, 0])
-    assert (classify(manifold.matrix(pr)) == Kind.HYPERBOLIC_PARABOLOID).all()
-    assert (classify(manifold.matrix(rp)) == Kind.HYPERBOLIC_PARABOLOID).all()
-    pp = manifold.coefficients_of_rotation(angle)
-    assert (classify(manifold.matrix(pp)) == Kind.DOUBLED_PLANE).all()
-    half_turn = manifold.matrix(manifold.coefficients_of_rotation(np.pi))
+    pr = constraint_manifold.coefficients_of_fixed_line(angle, fixed[:, 0], moving)
+    rp = constraint_manifold.coefficients_of_moving_line(fixed, angle, moving[:, 0])
+    assert (classify(constraint_manifold.matrix(pr)) == Kind.HYPERBOLIC_PARABOLOID).all()
+    assert (classify(constraint_manifold.matrix(rp)) == Kind.HYPERBOLIC_PARABOLOID).all()
+    pp = constraint_manifold.coefficients_of_rotation(angle)
+    assert (classify(constraint_manifold.matrix(pp)) == Kind.DOUBLED_PLANE).all()
+    half_turn = constraint_manifold.matrix(constraint_manifold.coefficients_of_rotation(np.pi))
     assert classify(half_turn) == Kind.DOUBLED_INFINITY
 
 
@@ -225,7 +225,7 @@ def test_constraint_manifolds_have_the_kinds_of_their_dyads(unit):
     ],
 )
 def test_eigen_quadrics_of_the_paper(case, table):
-    v1_and_v2 = manifold.matrix(cases.load(case)["printed"][table])
+    v1_and_v2 = constraint_manifold.matrix(cases.load(case)["printed"][table])
     assert classify(v1_and_v2).tolist() == [Kind.ELLIPSOID, Kind.TWO_SHEETS]  # Figs. 3 and 7
 
 
@@ -299,7 +299,7 @@ def test_the_matrix_is_the_form_of_the_coefficients():
 def test_equation_12_leads_to_the_manifold_of_a_dyad():
     p1, p2, p3, p4, p5, p6, p7, p8 = p = np.random.default_rng(6).normal(size=8)
     q = [p1, p1, p2, 0, p3, p4, p5, p6, p7, p8]
-    np.testing.assert_array_equal(quadric.matrix(q), manifold.matrix(p))
+    np.testing.assert_array_equal(quadric.matrix(q), constraint_manifold.matrix(p))
 
 
 # The fit
@@ -339,7 +339,9 @@ def test_points_of_an_rr_manifold_give_it_back(seed):
     fixed, moving = rng.normal(size=(2, 2))
     radius = rng.uniform(0.3, 3)
     fit = fit_quadric(on_circle(rng, fixed, moving, radius, 40))
-    known = manifold.matrix(manifold.coefficients_of_circle(fixed, moving, radius))
+    known = constraint_manifold.matrix(
+        constraint_manifold.coefficients_of_circle(fixed, moving, radius)
+    )
     assert same_up_to_scale(fit.matrix(), known, 1e-9)
     assert fit.kind() == Kind.ONE_SHEET
     assert fit.singular_values[0] < 1e-12
@@ -351,7 +353,9 @@ def test_points_of_a_slider_manifold_give_it_back(unit):
     rng = np.random.default_rng(3)
     moving = unit * rng.normal(size=2)
     fit = fit_quadric(on_line(rng, 0.7, 1.3 * unit, moving, 40))
-    known = manifold.matrix(manifold.coefficients_of_fixed_line(0.7, 1.3 * unit, moving))
+    known = constraint_manifold.matrix(
+        constraint_manifold.coefficients_of_fixed_line(0.7, 1.3 * unit, moving)
+    )
     assert same_up_to_scale(fit.matrix(), known, 1e-9)
     assert fit.kind() == Kind.HYPERBOLIC_PARABOLOID
 

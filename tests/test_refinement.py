@@ -10,17 +10,19 @@ import numpy as np
 import pytest
 from scipy.optimize import least_squares, minimize
 
-from burmester.accuracy import error_frames, nearest, on_circuits
-from burmester.conditions import Kept
-from burmester.displacement import Displacement
-from burmester.dyad import PR, RP, RR
-from burmester.frames import CanonicalFrames
+from burmester.fourbar.canonical_frames import CanonicalFrames
+from burmester.fourbar.dyad import PR, RP, RR
+from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.linkage_batch import LinkageStack
+from burmester.fourbar.nearest_places import nearest, on_circuits
+from burmester.fourbar.pose_error import error_frames
+from burmester.geometry.displacement import Displacement
+from burmester.geometry.regions import Line, Point, Polygon, Segment
 from burmester.io.reading.poses import read_task
-from burmester.limits import Limits, Line, Point, Polygon, Segment
-from burmester.linkage import Linkage
-from burmester.refinement import refine
-from burmester.stack import LinkageStack
-from burmester.synthesis import synthesize
+from burmester.linkages.constraints import Kept
+from burmester.linkages.refinement import refine
+from burmester.synthesis.motion_generation import synthesize
+from burmester.tasks.limits import Limits
 from tests.witness import places
 
 PAIRS = {"4R": (RR, RR), "slider-crank": (RR, PR), "RR-RP": (RR, RP), "PR-RP": (PR, RP)}

@@ -14,14 +14,14 @@ import numpy as np
 import pytest
 
 from burmester import Task, synthesize
-from burmester.displacement import Displacement
-from burmester.dyad import PR, RP, RR
-from burmester.report import data as report_data_module
-from burmester.report.data import report_data
+from burmester.fourbar.dyad import PR, RP, RR
+from burmester.geometry.displacement import Displacement
 from burmester.report.page import as_script
 from burmester.report.page import page as page_of
-from burmester.report.ways import Motion
-from burmester.synthesis import Synthesis
+from burmester.synthesis.result import Synthesis
+from burmester.web import data as report_data_module
+from burmester.web.branches import Motion
+from burmester.web.data import report_data
 from tests import browser as browsers
 from tests import tracer, witness
 
@@ -359,8 +359,8 @@ def test_scrubbing_keeps_links_and_assembly(browser, tmp_path, monkeypatch, synt
 
     With so few frames that what lies between them would miss the linkage, were it not put on it.
     """
-    monkeypatch.setattr("burmester.report.data.FRAMES", 0)
-    monkeypatch.setattr("burmester.report.data.LEAST", 25)
+    monkeypatch.setattr("burmester.web.data.FRAMES", 0)
+    monkeypatch.setattr("burmester.web.data.LEAST", 25)
     file = tmp_path / "few.html"
     file.write_text(page_of(synthesis, "Few frames"), encoding="utf-8")
     with browsers.opened(browser, file) as (page, _, _asked):

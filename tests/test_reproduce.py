@@ -11,12 +11,11 @@ import numpy as np
 import pytest
 from rich.console import Console
 
-from burmester.comparison import compare
-from burmester.dyad import RR
+from burmester.fourbar.dyad import RR
 from burmester.io.cases import load
-from burmester.io.terminal import show_reproduction
-from burmester.methods import Answer
-from burmester.reproduce import (
+from burmester.paper.comparison import compare
+from burmester.paper.five_methods import Answer
+from burmester.paper.reproduction import (
     Comparison,
     Section,
     Verdict,
@@ -24,7 +23,8 @@ from burmester.reproduce import (
     compare_cases,
     reproduce,
 )
-from burmester.side_by_side import SideBySide, side_by_side
+from burmester.paper.side_by_side import SideBySide, side_by_side
+from burmester.paper.tables import show_reproduction
 
 Path = tuple[str | int, ...]
 

@@ -11,17 +11,18 @@ import numpy as np
 import pytest
 
 from burmester import cli
-from burmester.displacement import Displacement
-from burmester.dyad import PR, RP, RR
 from burmester.errors import InputError
+from burmester.fourbar.dyad import PR, RP, RR
+from burmester.fourbar.linkage import Linkage
+from burmester.geometry.displacement import Displacement
+from burmester.geometry.regions import Line, Point, Polygon, Segment, box
 from burmester.io.reading.asked import plain, requirements
 from burmester.io.reading.limits_text import wanted
 from burmester.io.reading.poses import read_task
 from burmester.io.reading.requirements_text import asked
-from burmester.limits import KINDS, Limits, Line, Point, Polygon, Segment, box
-from burmester.linkage import Linkage
-from burmester.requirements import DRIVERS, GROUPS, TYPES, Requirements
-from burmester.task import Task
+from burmester.tasks.limits import KINDS, Limits
+from burmester.tasks.motion_task import Task
+from burmester.tasks.requirements import DRIVERS, GROUPS, TYPES, Requirements
 from tests.marked import carets, marked
 
 POSES = 'angle_unit = "deg"\nposes = [[0, 0, 0], [1, 2.5, 30], [3, 1, 60.25]]\n'
@@ -599,7 +600,7 @@ def run(monkeypatch, tmp_path):
         calls.append((positional, options))
         return run.found
 
-    monkeypatch.setattr("burmester.synthesis.synthesize", synthesize)
+    monkeypatch.setattr("burmester.synthesis.motion_generation.synthesize", synthesize)
     monkeypatch.setattr("burmester.io.terminal.show_synthesis", lambda *_: None)
 
     def run(*arguments, text=CSV, suffix=".csv"):

@@ -13,17 +13,20 @@ import numpy as np
 import pytest
 from scipy.optimize import least_squares, minimize_scalar
 
-from burmester.accuracy import error_frames, on_circuits, rows_of
-from burmester.conditions import Kept
-from burmester.displacement import Displacement
-from burmester.dyad import PR, RP, RR
-from burmester.limits import Limits, Polygon
-from burmester.linkage import Linkage
-from burmester.requirements import Requirements
-from burmester.rounding import rounded
-from burmester.search import Aim
-from burmester.stack import LinkageStack
-from burmester.stock import closest_numbers, multiple
+from burmester.fourbar.dyad import PR, RP, RR
+from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.linkage_batch import LinkageStack
+from burmester.fourbar.nearest_places import on_circuits, rows_of
+from burmester.fourbar.pose_error import error_frames
+from burmester.geometry.displacement import Displacement
+from burmester.geometry.regions import Polygon
+from burmester.linkages.constraints import Kept
+from burmester.linkages.dimension_grid import multiple
+from burmester.linkages.rounding import rounded
+from burmester.linkages.target import Aim
+from burmester.numerics.integer_least_squares import closest_numbers
+from burmester.tasks.limits import Limits
+from burmester.tasks.requirements import Requirements
 from tests.witness import places, random_four_bar, random_poses
 
 LENGTH = 0.7

@@ -17,16 +17,16 @@ import pytest
 from rich.console import Console
 
 from burmester import cli
-from burmester.displacement import Displacement
-from burmester.dyad import PR, RP, RR
+from burmester.fourbar.dyad import PR, RP, RR
+from burmester.fourbar.linkage import Linkage
+from burmester.geometry.displacement import Displacement
 from burmester.io.cases import names
 from burmester.io.reading.poses import read_task
 from burmester.io.result import plain
 from burmester.io.terminal import show_synthesis
-from burmester.linkage import Linkage
-from burmester.requirements import Requirements
-from burmester.synthesis import synthesize
-from burmester.task import Task
+from burmester.synthesis.motion_generation import synthesize
+from burmester.tasks.motion_task import Task
+from burmester.tasks.requirements import Requirements
 from tests import witness
 
 # What other programs rely on; more may be required here, nothing less.

@@ -10,7 +10,7 @@ from burmester.io import templates
 from burmester.io.reading.poses import read_task
 from burmester.io.result import plain
 from burmester.io.saved import read_result
-from burmester.synthesis import synthesize
+from burmester.synthesis.motion_generation import synthesize
 from tests.witness import places
 
 

@@ -10,16 +10,17 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize
 
-from burmester.displacement import Displacement
-from burmester.dyad import PR, RP, RR
-from burmester.frames import CanonicalFrames
+from burmester.fourbar.canonical_frames import CanonicalFrames
+from burmester.fourbar.dyad import PR, RP, RR
+from burmester.fourbar.linkage import Linkage
+from burmester.geometry.displacement import Displacement
+from burmester.geometry.regions import Polygon
 from burmester.io.reading.poses import read_task
-from burmester.limits import Limits, Polygon
-from burmester.linkage import Linkage
-from burmester.requirements import Requirements
-from burmester.search import links_of_map
-from burmester.synthesis import synthesize
-from burmester.task import Task
+from burmester.linkages.defect_free_search import links_of_map
+from burmester.synthesis.motion_generation import synthesize
+from burmester.tasks.limits import Limits
+from burmester.tasks.motion_task import Task
+from burmester.tasks.requirements import Requirements
 from tests.witness import places, random_four_bar
 
 CLEAR = np.radians(5.0)  # what the search keeps from dead points

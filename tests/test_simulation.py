@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from benchmarks.round_trip import KINDS, poses_of, random_case, random_linkage
 
-from burmester.circuit import Circuits, circuit_of
-from burmester.displacement import Displacement
-from burmester.dyad import PR
-from burmester.motion import transmission_angle
+from burmester.fourbar.circuits import Circuits, circuit_of
+from burmester.fourbar.dyad import PR
+from burmester.fourbar.instantaneous import transmission_angle
+from burmester.geometry.displacement import Displacement
 
 pytest.importorskip(
     "mujoco",

@@ -5,11 +5,11 @@ import itertools
 import numpy as np
 import pytest
 
-from burmester.displacement import Displacement
-from burmester.dyad import PP, PR, RP, RR
-from burmester.frames import CanonicalFrames
-from burmester.linkage import Linkage
-from burmester.stack import DIMENSIONS, LinkageStack
+from burmester.fourbar.canonical_frames import CanonicalFrames
+from burmester.fourbar.dyad import PP, PR, RP, RR
+from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageStack
+from burmester.geometry.displacement import Displacement
 
 KINDS = (RR, PR, RP)
 PAIRS = list(itertools.product(KINDS, KINDS))

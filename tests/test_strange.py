@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 from rich.console import Console
 
-from burmester.displacement import Displacement
 from burmester.errors import InputError
+from burmester.geometry.displacement import Displacement
 from burmester.io.result import plain
 from burmester.io.terminal import show_synthesis
-from burmester.synthesis import synthesize
-from burmester.task import Task
+from burmester.synthesis.motion_generation import synthesize
+from burmester.tasks.motion_task import Task
 
 STRANGE = {
     "anything": lambda rows, rng: rows,
@@ -54,8 +54,8 @@ def test_strange_poses(name, method, monkeypatch):
     rng = np.random.default_rng(list(STRANGE).index(name))
     for number in range(12):
         if number == 1:
-            monkeypatch.setattr("burmester.joined.linkages_that_work", lambda *_: None)
-            monkeypatch.setattr("burmester.joined.links_of_map", lambda *_: [])
+            monkeypatch.setattr("burmester.linkages.from_dyads.linkages_that_work", lambda *_: None)
+            monkeypatch.setattr("burmester.linkages.from_dyads.links_of_map", lambda *_: [])
         rows = rng.normal(size=(int(rng.integers(3, 13)), 3)) * [10, 10, 1]
         task = Task(Displacement.from_poses(STRANGE[name](rows, rng)))
         synthesis = answer(task, method)

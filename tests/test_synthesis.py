@@ -6,12 +6,12 @@ from importlib import resources
 import numpy as np
 import pytest
 
-from burmester.displacement import Displacement
-from burmester.dyad import PR, RP, RR
 from burmester.errors import InputError
+from burmester.fourbar.dyad import PR, RP, RR
+from burmester.geometry.displacement import Displacement
 from burmester.io.reading.poses import read_task
-from burmester.synthesis import synthesize
-from burmester.task import Task
+from burmester.synthesis.motion_generation import synthesize
+from burmester.tasks.motion_task import Task
 from tests.swept import TooFineError, circuits
 from tests.tracer import driven
 from tests.witness import misses, places, random_four_bar, random_poses, span, turned

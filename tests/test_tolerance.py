@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize_scalar
 
-from burmester.displacement import Displacement
-from burmester.dyad import PR, RP, RR
-from burmester.linkage import Linkage
-from burmester.stack import LinkageStack
-from burmester.tolerance import monte_carlo, sensitivity, spread
+from burmester.fourbar.dyad import PR, RP, RR
+from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.linkage_batch import LinkageStack
+from burmester.geometry.displacement import Displacement
+from burmester.linkages.tolerances import monte_carlo, sensitivity, spread
 from tests.test_uncertainty import LENGTH, case, dyads_of, numbers_of
 from tests.witness import misses, places
 

@@ -5,15 +5,15 @@ import sys
 import numpy as np
 import pytest
 
-from burmester.accuracy import PoseError
-from burmester.displacement import Displacement
-from burmester.dyad import PP, PR, RP, RR
 from burmester.errors import InputError
 from burmester.export.travel import Travel
+from burmester.fourbar.dyad import PP, PR, RP, RR
+from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.pose_error import PoseError
+from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
-from burmester.linkage import Linkage
-from burmester.requirements import Requirements
-from burmester.task import Task
+from burmester.tasks.motion_task import Task
+from burmester.tasks.requirements import Requirements
 from tests import tracer, witness
 
 PAPER = (

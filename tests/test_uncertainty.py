@@ -9,13 +9,12 @@ import pytest
 from scipy.linalg import null_space
 from scipy.optimize import least_squares
 
-from burmester.displacement import Displacement
-from burmester.dyad import PR, RP, RR
-from burmester.frames import CanonicalFrames
-from burmester.linkage import Linkage
-from burmester.stack import LinkageStack
-from burmester.task import Task
-from burmester.uncertainty import (
+from burmester.fourbar.canonical_frames import CanonicalFrames
+from burmester.fourbar.dyad import PR, RP, RR
+from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.linkage_batch import LinkageStack
+from burmester.geometry.displacement import Displacement
+from burmester.linkages.uncertainty import (
     PivotRegion,
     covariance,
     line_middle,
@@ -23,6 +22,7 @@ from burmester.uncertainty import (
     pose_sigma,
     uncertainties,
 )
+from burmester.tasks.motion_task import Task
 from tests.witness import places, random_four_bar, random_poses
 
 LENGTH, STEP = 0.7, 1e-5

@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from burmester.defects import judge
-from burmester.displacement import Displacement
-from burmester.dyad import PR, RR
-from burmester.limits import Polygon
-from burmester.linkage import Linkage
-from burmester.requirements import Requirements
-from burmester.unmet import unmet
+from burmester.fourbar.defects import judge
+from burmester.fourbar.dyad import PR, RR
+from burmester.fourbar.linkage import Linkage
+from burmester.geometry.displacement import Displacement
+from burmester.geometry.regions import Polygon
+from burmester.linkages.requirement_check import unmet
+from burmester.tasks.requirements import Requirements
 from tests.test_search import sines
 from tests.witness import places, random_four_bar
 

@@ -5,8 +5,8 @@ It walks along the coupler's motion in small steps (x, y, angle), by the constra
 
 import numpy as np
 
-from burmester.dyad import RP, RR
-from burmester.linkage import Linkage
+from burmester.fourbar.dyad import RP, RR
+from burmester.fourbar.linkage import Linkage
 
 FAR = 40.0  # an open circuit is left where the body is as far away
 BEND, LONG, SHORT = 0.1, 0.05, 1e-6  # of a step: its greatest turn, its greatest and least length

@@ -12,7 +12,7 @@ from itertools import pairwise
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from burmester.dyad import PR, RP, RR
+from burmester.fourbar.dyad import PR, RP, RR
 
 
 def _c(pair):

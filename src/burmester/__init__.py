@@ -6,46 +6,46 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from burmester.accuracy import PoseError as PoseError
-    from burmester.agreement import odd_pose as odd_pose
-    from burmester.certificate import certify as certify
-    from burmester.certificate import certify_five as certify_five
-    from burmester.critical import critical_dyads as critical_dyads
-    from burmester.curve import dyad_curve as dyad_curve
-    from burmester.diagnosis import Diagnosis as Diagnosis
-    from burmester.diagnosis import diagnose as diagnose
-    from burmester.displacement import Displacement as Displacement
-    from burmester.dyad import PP as PP
-    from burmester.dyad import PR as PR
-    from burmester.dyad import RP as RP
-    from burmester.dyad import RR as RR
-    from burmester.dyad import Dyad as Dyad
+    from burmester.certificates.certificate import certify as certify
+    from burmester.certificates.certificate import certify_five as certify_five
+    from burmester.diagnosis.checks import Diagnosis as Diagnosis
+    from burmester.diagnosis.checks import diagnose as diagnose
+    from burmester.diagnosis.odd_pose import odd_pose as odd_pose
+    from burmester.dyads.burmester_curve import dyad_curve as dyad_curve
+    from burmester.dyads.critical_points import critical_dyads as critical_dyads
+    from burmester.dyads.five_poses import dyads_of_five as dyads_of_five
+    from burmester.dyads.image_space_fits import algebraic_fit as algebraic_fit
+    from burmester.dyads.image_space_fits import larochelle as larochelle
+    from burmester.dyads.image_space_fits import ravani_roth as ravani_roth
+    from burmester.dyads.local_minima import best_dyads as best_dyads
+    from burmester.dyads.pencil import fit_pencil as fit_pencil
+    from burmester.dyads.pivot_map import fixed_pivot_map as fixed_pivot_map
+    from burmester.dyads.pivot_map import moving_pivot_map as moving_pivot_map
+    from burmester.dyads.three_poses import dyad_with_fixed_pivot as dyad_with_fixed_pivot
+    from burmester.dyads.three_poses import dyad_with_moving_pivot as dyad_with_moving_pivot
     from burmester.errors import BurmesterError as BurmesterError
     from burmester.errors import InputError as InputError
-    from burmester.exact import dyad_with_fixed_pivot as dyad_with_fixed_pivot
-    from burmester.exact import dyad_with_moving_pivot as dyad_with_moving_pivot
-    from burmester.exact import dyads_of_five as dyads_of_five
+    from burmester.fourbar.dyad import PP as PP
+    from burmester.fourbar.dyad import PR as PR
+    from burmester.fourbar.dyad import RP as RP
+    from burmester.fourbar.dyad import RR as RR
+    from burmester.fourbar.dyad import Dyad as Dyad
+    from burmester.fourbar.linkage import Linkage as Linkage
+    from burmester.fourbar.pose_error import PoseError as PoseError
+    from burmester.geometry.displacement import Displacement as Displacement
+    from burmester.geometry.quadric import fit_quadric as fit_quadric
+    from burmester.geometry.regions import Line as Line
+    from burmester.geometry.regions import Point as Point
+    from burmester.geometry.regions import Polygon as Polygon
+    from burmester.geometry.regions import Segment as Segment
+    from burmester.geometry.regions import box as box
     from burmester.io.reading.poses import read_task as read_task
-    from burmester.limits import Limits as Limits
-    from burmester.limits import Line as Line
-    from burmester.limits import Point as Point
-    from burmester.limits import Polygon as Polygon
-    from burmester.limits import Segment as Segment
-    from burmester.limits import box as box
-    from burmester.linkage import Linkage as Linkage
-    from burmester.normal_distance import algebraic_fit as algebraic_fit
-    from burmester.normal_distance import larochelle as larochelle
-    from burmester.normal_distance import ravani_roth as ravani_roth
-    from burmester.optimal import best_dyads as best_dyads
-    from burmester.pencil import fit_pencil as fit_pencil
-    from burmester.pivot_map import fixed_pivot_map as fixed_pivot_map
-    from burmester.pivot_map import moving_pivot_map as moving_pivot_map
-    from burmester.quadric import fit_quadric as fit_quadric
-    from burmester.requirements import Requirements as Requirements
-    from burmester.synthesis import FoundLinkage as FoundLinkage
-    from burmester.synthesis import Synthesis as Synthesis
-    from burmester.synthesis import synthesize as synthesize
-    from burmester.task import Task as Task
+    from burmester.synthesis.motion_generation import FoundLinkage as FoundLinkage
+    from burmester.synthesis.motion_generation import synthesize as synthesize
+    from burmester.synthesis.result import Synthesis as Synthesis
+    from burmester.tasks.limits import Limits as Limits
+    from burmester.tasks.motion_task import Task as Task
+    from burmester.tasks.requirements import Requirements as Requirements
 
 __version__ = "0.1.0"
 
@@ -95,27 +95,64 @@ __all__ = [
 
 # Loaded when first asked for, so that `burmester --help` needs no NumPy.
 _ROOMS = {
-    "accuracy": ("PoseError",),
-    "agreement": ("odd_pose",),
-    "certificate": ("certify", "certify_five"),
-    "critical": ("critical_dyads",),
-    "curve": ("dyad_curve",),
-    "diagnosis": ("Diagnosis", "diagnose"),
-    "displacement": ("Displacement",),
-    "dyad": ("PP", "PR", "RP", "RR", "Dyad"),
-    "errors": ("BurmesterError", "InputError"),
-    "exact": ("dyad_with_fixed_pivot", "dyad_with_moving_pivot", "dyads_of_five"),
+    "certificates.certificate": (
+        "certify",
+        "certify_five",
+    ),
+    "diagnosis.checks": (
+        "Diagnosis",
+        "diagnose",
+    ),
+    "diagnosis.odd_pose": ("odd_pose",),
+    "dyads.burmester_curve": ("dyad_curve",),
+    "dyads.critical_points": ("critical_dyads",),
+    "dyads.five_poses": ("dyads_of_five",),
+    "dyads.image_space_fits": (
+        "algebraic_fit",
+        "larochelle",
+        "ravani_roth",
+    ),
+    "dyads.local_minima": ("best_dyads",),
+    "dyads.pencil": ("fit_pencil",),
+    "dyads.pivot_map": (
+        "fixed_pivot_map",
+        "moving_pivot_map",
+    ),
+    "dyads.three_poses": (
+        "dyad_with_fixed_pivot",
+        "dyad_with_moving_pivot",
+    ),
+    "errors": (
+        "BurmesterError",
+        "InputError",
+    ),
+    "fourbar.dyad": (
+        "Dyad",
+        "PP",
+        "PR",
+        "RP",
+        "RR",
+    ),
+    "fourbar.linkage": ("Linkage",),
+    "fourbar.pose_error": ("PoseError",),
+    "geometry.displacement": ("Displacement",),
+    "geometry.quadric": ("fit_quadric",),
+    "geometry.regions": (
+        "Line",
+        "Point",
+        "Polygon",
+        "Segment",
+        "box",
+    ),
     "io.reading.poses": ("read_task",),
-    "limits": ("Limits", "Line", "Point", "Polygon", "Segment", "box"),
-    "linkage": ("Linkage",),
-    "normal_distance": ("algebraic_fit", "larochelle", "ravani_roth"),
-    "optimal": ("best_dyads",),
-    "pencil": ("fit_pencil",),
-    "pivot_map": ("fixed_pivot_map", "moving_pivot_map"),
-    "quadric": ("fit_quadric",),
-    "requirements": ("Requirements",),
-    "synthesis": ("FoundLinkage", "Synthesis", "synthesize"),
-    "task": ("Task",),
+    "synthesis.motion_generation": (
+        "FoundLinkage",
+        "synthesize",
+    ),
+    "synthesis.result": ("Synthesis",),
+    "tasks.limits": ("Limits",),
+    "tasks.motion_task": ("Task",),
+    "tasks.requirements": ("Requirements",),
 }
 
 

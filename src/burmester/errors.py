@@ -9,11 +9,13 @@ object and Python callers get the same five fields.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from typing import final
 from unicodedata import category
 
 _UNSHOWN = ("Cc", "Cf", "Cs", "Zl", "Zp")  # controls, half characters, foreign line ends
 
-__all__ = ["BurmesterError", "InputError", "printable"]
+__all__ = ["Advice", "BurmesterError", "InputError", "printable"]
 
 
 class BurmesterError(Exception):
@@ -64,3 +66,14 @@ def printable(text: str) -> str:
     if text.isprintable():
         return text
     return "".join(" " if category(c) in _UNSHOWN and c != "\n" else c for c in text)
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Advice:
+    """A warning with what to do about it; why: with numbers."""
+
+    code: str
+    message: str
+    help: str
+    why: str | None = None

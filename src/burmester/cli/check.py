@@ -22,7 +22,7 @@ def check(poses: str, *, as_json: bool, **given: Any) -> int:
     """
     from dataclasses import replace
 
-    from burmester.diagnosis import diagnose, disagreement
+    from burmester.diagnosis.checks import diagnose, disagreement
     from burmester.io import overview
     from burmester.io.files import quoted
 

@@ -37,15 +37,15 @@ def reproduce(as_json: bool, figures: str | None, force: bool) -> int:
         for path in write_figures(figures, force=force):
             click.echo(f"wrote {path}")
         return EXIT_FOUND
-    from burmester.reproduce import as_json as plain
-    from burmester.reproduce import reproduce as run
-    from burmester.side_by_side import side_by_side
+    from burmester.paper.reproduction import as_json as plain
+    from burmester.paper.reproduction import reproduce as run
+    from burmester.paper.side_by_side import side_by_side
 
     sections, tasks = run(), side_by_side()
     if as_json:
         print_json(plain(sections, tasks))
     else:
-        from burmester.io.terminal import show_reproduction
+        from burmester.paper.tables import show_reproduction
 
         show_reproduction(sections, tasks, console())
     return EXIT_FOUND

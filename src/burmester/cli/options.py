@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import click
 
 if TYPE_CHECKING:
-    from burmester.synthesis import Synthesis
-    from burmester.task import Task
+    from burmester.synthesis.result import Synthesis
+    from burmester.tasks.motion_task import Task
 
 __all__ = [
     "FOUND",
@@ -265,7 +265,7 @@ def task(poses: str, **given: Any) -> Task:
 def synthesis(poses: str, **given: Any) -> Synthesis:
     """What the options of all groups make of POSES."""
     from burmester.io.reading import requirements_text as text
-    from burmester.synthesis import synthesize
+    from burmester.synthesis.motion_generation import synthesize
 
     further: dict[str, Any] = {}
     for keyword, option in _LENGTHS.items():

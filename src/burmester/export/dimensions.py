@@ -11,11 +11,11 @@ from typing import final
 
 import numpy as np
 
-from burmester.dyad import RR
 from burmester.errors import InputError
 from burmester.export.distances import distance
 from burmester.export.features import Features
 from burmester.export.options import Options
+from burmester.fourbar.dyad import RR
 
 __all__ = ["WALL", "Dimensions", "dimensions_of"]
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.displacement import FloatArray
+from burmester.numerics.arrays import FloatArray
 
 __all__ = ["distance", "distances"]
 

@@ -16,13 +16,14 @@ from typing import Any
 
 import numpy as np
 
-from burmester.displacement import Displacement, FloatArray
 from burmester.errors import BurmesterError
 from burmester.export.options import Options
 from burmester.export.plates import Assembly, assembly_of, slot_outline
 from burmester.export.sheet import Sheet, beside, moved, notes_on, sheet_of
 from burmester.export.truth import Truth, about, agree
+from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
+from burmester.numerics.arrays import FloatArray
 
 __all__ = ["check", "write"]
 

@@ -9,9 +9,10 @@ from typing import Literal
 
 import numpy as np
 
-from burmester.displacement import Displacement, FloatArray
-from burmester.dyad import PP, PR, RP, RR, Dyad
 from burmester.errors import InputError
+from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
+from burmester.geometry.displacement import Displacement
+from burmester.numerics.arrays import FloatArray
 
 __all__ = ["Features", "scaled"]
 

@@ -10,11 +10,11 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.displacement import FloatArray
-from burmester.dyad import PR, RR
 from burmester.export.travel import Travel
+from burmester.fourbar.dyad import PR, RR
+from burmester.fourbar.linkage import Linkage
 from burmester.io.saved import SavedLinkage
-from burmester.linkage import Linkage
+from burmester.numerics.arrays import FloatArray
 from burmester.plot.style import with_unit
 
 __all__ = ["DOT", "DPI", "MARK", "Film", "Picture", "blob"]

@@ -9,9 +9,9 @@ from typing import Any, Final
 
 import numpy as np
 
-from burmester.displacement import FloatArray
 from burmester.export.plates import Assembly
 from burmester.export.truth import Truth
+from burmester.numerics.arrays import FloatArray
 
 __all__ = ["Joint", "axes_of", "axis_away", "joints_of", "rim_away"]
 

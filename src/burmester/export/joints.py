@@ -12,11 +12,12 @@ from typing import Literal
 
 import numpy as np
 
-from burmester.displacement import Displacement, FloatArray
 from burmester.errors import InputError
 from burmester.export.travel import Travel
 from burmester.export.truth import Truth
+from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
+from burmester.numerics.arrays import FloatArray
 
 __all__ = ["along_slot", "directions", "driven", "ground_joint", "hinged", "require_bodies"]
 

@@ -11,12 +11,13 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from burmester.displacement import Displacement, FloatArray
-from burmester.dyad import PR, RR
 from burmester.export.dimensions import WALL, Dimensions
 from burmester.export.distances import distance, distances
 from burmester.export.features import Features
 from burmester.export.plate import Owner, Pin, Plate, plate_of
+from burmester.fourbar.dyad import PR, RR
+from burmester.geometry.displacement import Displacement
+from burmester.numerics.arrays import FloatArray
 
 __all__ = ["arranged"]
 

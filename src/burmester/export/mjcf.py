@@ -15,7 +15,6 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from burmester.displacement import Displacement, FloatArray
 from burmester.export.joints import (
     along_slot,
     directions,
@@ -28,7 +27,9 @@ from burmester.export.mjcf_places import walk
 from burmester.export.numbers import number, numbers_in, xy
 from burmester.export.options import Options
 from burmester.export.truth import PRECISION, Truth, about, agree, as_rows
+from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
+from burmester.numerics.arrays import FloatArray
 
 __all__ = ["check", "write"]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from xml.etree.ElementTree import Element
 
-from burmester.displacement import FloatArray
+from burmester.numerics.arrays import FloatArray
 
 __all__ = ["number", "numbers_in", "xy"]
 

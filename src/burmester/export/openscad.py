@@ -14,12 +14,13 @@ from pathlib import Path
 
 import numpy as np
 
-from burmester.displacement import Displacement, FloatArray
 from burmester.export.numbers import number
 from burmester.export.options import Options
 from burmester.export.plates import assembly_of
 from burmester.export.truth import PRECISION, Truth, about, agree
+from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
+from burmester.numerics.arrays import FloatArray
 
 __all__ = ["check", "write"]
 

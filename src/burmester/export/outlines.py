@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from burmester.displacement import FloatArray
+from burmester.numerics.arrays import FloatArray
 
 __all__ = ["convex_hull", "points_on", "rounded_hull", "slot_outline"]
 

@@ -8,8 +8,9 @@ from typing import Literal, TypeAlias, final
 
 import numpy as np
 
-from burmester.displacement import Displacement, FloatArray
 from burmester.export.outlines import convex_hull, points_on, rounded_hull
+from burmester.geometry.displacement import Displacement
+from burmester.numerics.arrays import FloatArray
 
 __all__ = ["Owner", "Pin", "Plate", "outline_points", "plate_of"]
 

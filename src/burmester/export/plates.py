@@ -12,8 +12,6 @@ from typing import final
 
 import numpy as np
 
-from burmester.circuit import Circuits, circuit_of
-from burmester.displacement import Displacement, FloatArray
 from burmester.errors import InputError
 from burmester.export.dimensions import Dimensions, dimensions_of
 from burmester.export.features import Features, scaled
@@ -21,8 +19,11 @@ from burmester.export.layers import arranged
 from burmester.export.options import MILLIMETRES, Options, unit_of
 from burmester.export.outlines import slot_outline
 from burmester.export.plate import Pin, Plate, outline_points
+from burmester.fourbar.circuits import Circuits, circuit_of
+from burmester.fourbar.linkage import Linkage
+from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
-from burmester.linkage import Linkage
+from burmester.numerics.arrays import FloatArray
 
 __all__ = [
     "Assembly",

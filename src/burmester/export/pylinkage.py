@@ -15,13 +15,13 @@ from typing import Any
 
 import numpy as np
 
-from burmester.displacement import FloatArray
 from burmester.errors import InputError
 from burmester.export.joints import directions, driven, ground_joint
 from burmester.export.numbers import number
 from burmester.export.options import Options
 from burmester.export.truth import PRECISION, Truth, about, agree
 from burmester.io.saved import SavedLinkage
+from burmester.numerics.arrays import FloatArray
 
 __all__ = ["check", "write"]
 

@@ -11,8 +11,9 @@ from typing import final
 
 import numpy as np
 
-from burmester.displacement import Displacement, FloatArray
 from burmester.export.plates import Assembly, Plate, outline_points
+from burmester.geometry.displacement import Displacement
+from burmester.numerics.arrays import FloatArray
 
 __all__ = ["Sheet", "beside", "moved", "notes_on", "sheet_of"]
 

@@ -12,8 +12,9 @@ from typing import Any, Final, NamedTuple
 
 import numpy as np
 
-from burmester.displacement import Displacement, FloatArray
 from burmester.export.plates import Assembly, Plate, slot_outline
+from burmester.geometry.displacement import Displacement
+from burmester.numerics.arrays import FloatArray
 
 __all__ = ["FIT", "Part", "area_of", "laid", "parts_of", "placed"]
 

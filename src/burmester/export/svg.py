@@ -16,12 +16,13 @@ from xml.sax.saxutils import escape
 
 import numpy as np
 
-from burmester.displacement import Displacement, FloatArray
 from burmester.export.options import Options
 from burmester.export.plates import Plate, assembly_of, slot_outline
 from burmester.export.sheet import beside, moved, notes_on, sheet_of
 from burmester.export.truth import PRECISION, Truth, about, agree
+from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
+from burmester.numerics.arrays import FloatArray
 
 __all__ = ["check", "write"]
 

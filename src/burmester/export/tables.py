@@ -16,11 +16,11 @@ from typing import Any, Final
 
 import numpy as np
 
-from burmester.displacement import Displacement
-from burmester.dyad import PP, PR, RP, RR, Dyad
 from burmester.export.options import Options, unit_of
 from burmester.export.travel import Travel
 from burmester.export.truth import PRECISION, Truth, agree, as_rows
+from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
+from burmester.geometry.displacement import Displacement
 from burmester.io.linkage_data import poses_data
 from burmester.io.saved import SavedLinkage
 

@@ -14,14 +14,15 @@ from typing import Final, Self, final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from burmester.candidates import characteristic_length
-from burmester.circuit import Circuits, circuit_of
-from burmester.defects import Driven, judge
-from burmester.displacement import Displacement, FloatArray
-from burmester.dyad import PP
+from burmester.dyads.selection import characteristic_length
 from burmester.errors import InputError
+from burmester.fourbar.circuits import Circuits, circuit_of
+from burmester.fourbar.defects import Driven, judge
+from burmester.fourbar.dyad import PP
+from burmester.fourbar.linkage import Linkage
+from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
-from burmester.linkage import Linkage
+from burmester.numerics.arrays import FloatArray
 
 __all__ = ["Travel"]
 

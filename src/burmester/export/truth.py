@@ -12,11 +12,12 @@ from typing import final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from burmester.displacement import Displacement, FloatArray
-from burmester.dyad import PP, PR, RP, RR
 from burmester.errors import BurmesterError
 from burmester.export.options import MILLIMETRES, Options, unit_of
+from burmester.fourbar.dyad import PP, PR, RP, RR
+from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
+from burmester.numerics.arrays import FloatArray
 
 __all__ = ["PRECISION", "Truth", "about", "agree", "as_rows"]
 

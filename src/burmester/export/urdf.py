@@ -15,12 +15,13 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from burmester.displacement import Displacement, FloatArray
 from burmester.export.joints import along_slot, directions, ground_joint, require_bodies
 from burmester.export.numbers import number, numbers_in, xy
 from burmester.export.options import Options
 from burmester.export.truth import PRECISION, Truth, about, agree
+from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
+from burmester.numerics.arrays import FloatArray
 
 __all__ = ["check", "write"]
 

@@ -11,13 +11,13 @@ from typing import Any
 
 import numpy as np
 
-from burmester.candidates import FoundDyad
-from burmester.defects import Defect, Driven
-from burmester.displacement import Displacement
-from burmester.dyad import PP, PR, RP, RR, Dyad
-from burmester.found import FoundLinkage
-from burmester.tolerance import Spread
-from burmester.uncertainty import DyadUncertainty, PivotRegion
+from burmester.dyads.selection import FoundDyad
+from burmester.fourbar.defects import Defect, Driven
+from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
+from burmester.geometry.displacement import Displacement
+from burmester.linkages.found_linkage import FoundLinkage
+from burmester.linkages.tolerances import Spread
+from burmester.linkages.uncertainty import DyadUncertainty, PivotRegion
 
 __all__ = ["dyad_data", "linkage_data", "number", "poses_data"]
 

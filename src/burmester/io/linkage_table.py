@@ -11,12 +11,13 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
-from burmester import reasons as said
-from burmester.candidates import ROUNDING
-from burmester.found import FoundLinkage
-from burmester.io.digits import degrees, links, misses, parts
-from burmester.synthesis import Synthesis
-from burmester.uncertainty import DyadUncertainty, pose_sigma
+from burmester.describe.digits import degrees, links, misses, parts
+from burmester.linkages import explanation
+from burmester.linkages.found_linkage import FoundLinkage
+from burmester.linkages.uncertainty import DyadUncertainty, pose_sigma
+from burmester.numerics.arrays import ROUNDING
+from burmester.synthesis.result import Synthesis
+from burmester.tasks import wording
 
 __all__ = [
     "best_sentences",
@@ -51,23 +52,24 @@ def best_sentences(synthesis: Synthesis) -> Iterator[Text]:
     best, task, size = synthesis.usable[0], synthesis.task, synthesis.length
     kind = best.type.replace("change-point", "change-point linkage")
     article = "an" if kind[0] in "aeiouAEIOU" else "a"
-    least = said.least_angle(best.driven.least_over_range)
+    least = wording.least_angle(best.driven.least_over_range)
     yield Text(
         f"Best: {best.id}, {article} {kind} driven by {best.in_order[0].id}, "
         f"{_meets(synthesis, best)}, transmission angle {least} or more."
     )
-    nearest = said.by_nearness(synthesis.linkages, size)[0]
+    nearest = explanation.by_nearness(synthesis.linkages, size)[0]
     if nearest.usable is False and _nearer(nearest, best, size):
         yield Text(
-            f"This one works and {said.met(best, task, size)}; the closest one, {nearest.id}, "
-            f"{said.in_short(nearest, task, size)}."
+            f"This one works and {explanation.met(best, task, size)}; "
+            f"the closest one, {nearest.id}, "
+            f"{explanation.in_short(nearest, task, size)}."
         )
     if not best.determined:
         better = next((each for each in synthesis.usable if each.determined), None)
         if better is not None:
             yield Text(
                 f"Its pivots are uncertain; those of {better.id} are not, and it "
-                f"{said.met(better, task, size)}."
+                f"{explanation.met(better, task, size)}."
             )
 
 
@@ -75,7 +77,7 @@ def closest_three(synthesis: Synthesis) -> list[FoundLinkage]:
     """The nearest ones, where none is usable."""
     if synthesis.usable:
         return []
-    return said.by_nearness(synthesis.linkages, synthesis.length)[:THREE]
+    return explanation.by_nearness(synthesis.linkages, synthesis.length)[:THREE]
 
 
 def usable_table(synthesis: Synthesis, console: Console) -> Table:
@@ -108,7 +110,7 @@ def _usable(synthesis: Synthesis, usable: Sequence[FoundLinkage], pins: bool, ga
             " ".join(dyad.id for dyad in found.in_order),
             *(links(synthesis, found) if pins else ()),
             *misses(synthesis, found),
-            said.least_angle(found.driven.least_over_range),
+            wording.least_angle(found.driven.least_over_range),
         )
     return table
 
@@ -118,14 +120,14 @@ def unusable(synthesis: Synthesis, found: Sequence[FoundLinkage]) -> Group:
     rows: list[Text | Padding] = []
     for each in found[:SHOWN]:
         dyads = " ".join(dyad.id for dyad in each.in_order)
-        how = said.met(each, synthesis.task, synthesis.length)
+        how = explanation.met(each, synthesis.task, synthesis.length)
         angle = float(each.error.angle.max())
-        if math.isfinite(angle) and not said.exact(each, synthesis.length):
+        if math.isfinite(angle) and not explanation.exact(each, synthesis.length):
             how += f" and {degrees(angle)}"
         if each.exact_error is not None:
-            how += f" (before rounding {said.length_of(each.exact_error.worst, synthesis.task)})"
+            how += f" (before rounding {wording.length_of(each.exact_error.worst, synthesis.task)})"
         head = Text(f"{each.id:<{INDENT - 1}} {each.type}, {dyads}: {how}")
-        reasons = "; ".join(said.reasons(each, synthesis.task))
+        reasons = "; ".join(explanation.reasons(each, synthesis.task))
         rows += [head, Padding(Text(reasons), (0, 0, 0, INDENT))]
     if len(found) > SHOWN:
         rows.append(Text(f"and {len(found) - SHOWN} more, see --json"))
@@ -148,8 +150,8 @@ def dimensions(synthesis: Synthesis) -> Iterator[Text | Table]:
     yield table
     if not certain:
         position, angle = pose_sigma(task)
-        given = said.length_of(position, task) if task.resolution[0] else "0"
-        turned = f"{said.figure(math.degrees(angle))}°" if task.resolution[1] else "0°"
+        given = wording.length_of(position, task) if task.resolution[0] else "0"
+        turned = f"{wording.figure(math.degrees(angle))}°" if task.resolution[1] else "0°"
         yield Text(
             "±: 95 % regions, of a pivot in its worst direction, if the poses err by "
             f"{given} and {turned} "
@@ -158,11 +160,14 @@ def dimensions(synthesis: Synthesis) -> Iterator[Text | Table]:
         )
     if best.spread is not None:
         wish = getattr(synthesis, "wish", None)
-        within = f"to ±{said.length_of(wish.tolerance, task)}" if wish else "within the tolerance"
+        within = (
+            f"to ±{wording.length_of(wish.tolerance, task)}" if wish else "within the tolerance"
+        )
         yield Text(
             f"Built {within}: position errors of up to "
-            f"{said.length_of(float(best.spread.greatest_95), task)} (95 % of linkages), at most "
-            f"{said.length_of(float(best.spread.bound), task)}."
+            f"{wording.length_of(float(best.spread.greatest_95), task)} (95 % of linkages), "
+            "at most "
+            f"{wording.length_of(float(best.spread.bound), task)}."
         )
     if best.exact_error is not None:
         yield Text(_rounded(synthesis, best))
@@ -174,14 +179,14 @@ def _rounded(synthesis: Synthesis, best: FoundLinkage) -> str:
     task, wish = synthesis.task, getattr(synthesis, "wish", None)
     how = []
     if wish and wish.step is not None:
-        how.append(f"rounded to {said.length_of(wish.step, task)}")
+        how.append(f"rounded to {wording.length_of(wish.step, task)}")
     if wish and wish.stock:
         how.append("with links from stock")
     text = " and ".join(how) or "rounded"
     before, after = (
         "by nothing but rounding errors"
         if each.worst < ROUNDING * synthesis.length
-        else f"by {said.length_of(each.worst, task)}"
+        else f"by {wording.length_of(each.worst, task)}"
         for each in (best.exact_error, best.error)
     )
     return f"{text[0].upper()}{text[1:]}: {best.id} misses {after}, instead of {before}."
@@ -204,9 +209,9 @@ def footnotes(synthesis: Synthesis) -> str:
 
 
 def _meets(synthesis: Synthesis, best: FoundLinkage) -> str:
-    if said.exact(best, synthesis.length):
+    if explanation.exact(best, synthesis.length):
         return "passes every pose exactly, up to rounding"
-    worst = said.length_of(best.error.worst, synthesis.task)
+    worst = wording.length_of(best.error.worst, synthesis.task)
     return f"passes every pose within {worst} and {degrees(float(best.error.angle.max()))}"
 
 

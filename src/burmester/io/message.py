@@ -26,9 +26,8 @@ from burmester.errors import printable
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from burmester.errors import BurmesterError
-    from burmester.motion_kind import MotionKind
-    from burmester.outcome import Advice
+    from burmester.errors import Advice, BurmesterError
+    from burmester.tasks.motion_kinds import MotionKind
 
     _Said: TypeAlias = BurmesterError | Advice | MotionKind
 

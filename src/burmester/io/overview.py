@@ -14,13 +14,13 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from burmester.diagnosis import Diagnosis
+from burmester.diagnosis.checks import Diagnosis
 from burmester.io.linkage_table import new_table
 from burmester.io.message import show as show_message
 from burmester.io.message import wrapped
 from burmester.io.result import motion_data, task_data, told
-from burmester.motion_kind import General
-from burmester.task import Task
+from burmester.tasks.motion_kinds import General
+from burmester.tasks.motion_task import Task
 
 __all__ = ["plain", "show"]
 

@@ -9,19 +9,21 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from burmester.candidates import Fit
-from burmester.certificate import Certificate
-from burmester.critical import COUNT, CriticalDyads
+from burmester.certificates.certificate import Certificate
+from burmester.dyads.critical_points import COUNT, CriticalDyads
+from burmester.dyads.five_poses import FivePoseDyads
+from burmester.dyads.local_minima import BestDyads
+from burmester.dyads.pencil import Pencil
+from burmester.dyads.selection import Fit
 from burmester.errors import BurmesterError
-from burmester.exact import FivePoseDyads
-from burmester.fingerprint import Fingerprint
+from burmester.geometry.regions import Line, Point, Polygon, Segment
 from burmester.io.linkage_data import dyad_data, linkage_data, number, poses_data
 from burmester.io.reading.asked import plain as requirements_data
-from burmester.limits import KINDS, Limits, Line, Point, Polygon, Segment
-from burmester.optimal import BestDyads
-from burmester.pencil import Pencil
-from burmester.synthesis import Advice, Outcome, Synthesis
-from burmester.task import Task
+from burmester.synthesis.motion_generation import Advice, Outcome
+from burmester.synthesis.result import Synthesis
+from burmester.tasks.limits import KINDS, Limits
+from burmester.tasks.motion_class import Fingerprint
+from burmester.tasks.motion_task import Task
 
 __all__ = ["failure", "motion_data", "plain", "task_data", "told"]
 

@@ -18,17 +18,17 @@ from typing import Any, NamedTuple, final
 
 import numpy as np
 
-from burmester.accuracy import PoseError
-from burmester.candidates import characteristic_length
-from burmester.displacement import Displacement
-from burmester.dyad import PP, PR, RP, RR, Dyad
+from burmester.dyads.selection import characteristic_length
 from burmester.errors import InputError
-from burmester.found import Side, led
+from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
+from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.pose_error import PoseError
+from burmester.geometry.displacement import Displacement
 from burmester.io.reading.fetched import fetch
 from burmester.io.reading.poses import read_task
 from burmester.io.result import SCHEMA
-from burmester.linkage import Linkage
-from burmester.task import Task
+from burmester.linkages.found_linkage import Side, led
+from burmester.tasks.motion_task import Task
 
 __all__ = ["Result", "SavedLinkage", "read_result"]
 

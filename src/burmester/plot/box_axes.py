@@ -10,7 +10,7 @@ from matplotlib.artist import Artist
 from matplotlib.text import Text
 from matplotlib.ticker import MaxNLocator
 
-from burmester.displacement import FloatArray
+from burmester.numerics.arrays import FloatArray
 from burmester.plot.camera import Box, Camera
 from burmester.plot.style import BLACK, GREY, with_unit
 

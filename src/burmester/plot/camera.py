@@ -13,7 +13,7 @@ from typing import Self, final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from burmester.displacement import FloatArray
+from burmester.numerics.arrays import FloatArray
 
 __all__ = ["Box", "Camera", "chart"]
 

@@ -9,23 +9,16 @@ from matplotlib.lines import Line2D
 from matplotlib.text import Annotation
 from matplotlib.ticker import MaxNLocator, NullFormatter
 
-from burmester.accuracy import PoseError
-from burmester.circuit import Circuits
-from burmester.defects import Driven
-from burmester.displacement import Displacement, FloatArray
-from burmester.dyad import PR
-from burmester.linkage import Linkage
-from burmester.motion import transmission_angle
+from burmester.fourbar.circuits import Circuits
+from burmester.fourbar.defects import Driven
+from burmester.fourbar.dyad import PR
+from burmester.fourbar.instantaneous import transmission_angle
+from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.pose_error import PoseError
+from burmester.geometry.displacement import Displacement
+from burmester.numerics.arrays import FloatArray
 from burmester.plot.plane import parameters
-from burmester.plot.style import (
-    BLACK,
-    BLUE,
-    GREY,
-    VERMILION,
-    label,
-    settle_labels,
-    with_unit,
-)
+from burmester.plot.style import BLACK, BLUE, GREY, VERMILION, label, settle_labels, with_unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

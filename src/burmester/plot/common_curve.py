@@ -15,7 +15,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from burmester.displacement import FloatArray
+from burmester.numerics.arrays import FloatArray
 
 __all__ = ["common_curve"]
 

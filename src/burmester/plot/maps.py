@@ -11,9 +11,10 @@ from matplotlib.contour import QuadContourSet
 from matplotlib.lines import Line2D
 from numpy.typing import ArrayLike
 
-from burmester.curve import DyadCurve
-from burmester.displacement import Displacement, FloatArray
-from burmester.pivot_map import PivotMap, fixed_pivot_map, grid
+from burmester.dyads.burmester_curve import DyadCurve
+from burmester.dyads.pivot_map import PivotMap, fixed_pivot_map, grid
+from burmester.geometry.displacement import Displacement
+from burmester.numerics.arrays import FloatArray
 from burmester.plot.style import BLUE, VERMILION
 
 if TYPE_CHECKING:

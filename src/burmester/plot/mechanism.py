@@ -17,9 +17,10 @@ from matplotlib.patches import Polygon
 from matplotlib.patheffects import Normal, Stroke
 from matplotlib.text import Annotation
 
-from burmester.displacement import Displacement, FloatArray
-from burmester.dyad import PR, RP, RR, Dyad
-from burmester.linkage import Linkage
+from burmester.fourbar.dyad import PR, RP, RR, Dyad
+from burmester.fourbar.linkage import Linkage
+from burmester.geometry.displacement import Displacement
+from burmester.numerics.arrays import FloatArray
 from burmester.plot.style import BLACK, BLUE, label
 
 if TYPE_CHECKING:

@@ -23,14 +23,15 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from burmester.accuracy import PoseError
-from burmester.displacement import Displacement, FloatArray
-from burmester.dyad import RR
 from burmester.errors import InputError
+from burmester.fourbar.dyad import RR
+from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.pose_error import PoseError
+from burmester.geometry.displacement import Displacement
 from burmester.io.cases import load
 from burmester.io.files import require_free, whole
-from burmester.linkage import Linkage
-from burmester.paper_fit import PaperFit
+from burmester.numerics.arrays import FloatArray
+from burmester.paper.fit import PaperFit
 from burmester.plot.camera import Box
 from burmester.plot.charts import pose_errors
 from burmester.plot.common_curve import common_curve

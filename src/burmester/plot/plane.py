@@ -15,11 +15,12 @@ from matplotlib.lines import Line2D
 from matplotlib.text import Annotation
 from numpy.typing import ArrayLike
 
-from burmester.circuit import Circuits
-from burmester.displacement import Displacement, FloatArray
-from burmester.linkage import Linkage
-from burmester.motion import Centrodes
-from burmester.motion import centrodes as centrodes_of
+from burmester.fourbar.circuits import Circuits
+from burmester.fourbar.instantaneous import Centrodes
+from burmester.fourbar.instantaneous import centrodes as centrodes_of
+from burmester.fourbar.linkage import Linkage
+from burmester.geometry.displacement import Displacement
+from burmester.numerics.arrays import FloatArray
 from burmester.plot.mechanism import dimension
 from burmester.plot.style import BLACK, BLUE, GREEN, GREY, PURPLE, VERMILION, label
 

@@ -17,7 +17,7 @@ from typing import NamedTuple, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.displacement import FloatArray
+from burmester.numerics.arrays import FloatArray
 from burmester.plot.camera import Camera
 
 __all__ = ["Extent", "Scene", "Surface", "cast", "render"]

@@ -20,8 +20,9 @@ from matplotlib.patheffects import withStroke
 from matplotlib.text import Annotation
 from numpy.typing import ArrayLike, NDArray
 
-from burmester import manifold
-from burmester.displacement import Displacement, FloatArray
+from burmester.geometry import constraint_manifold
+from burmester.geometry.displacement import Displacement
+from burmester.numerics.arrays import FloatArray
 from burmester.plot.box_axes import box_axes
 from burmester.plot.camera import Box, Camera, chart
 from burmester.plot.common_curve import common_curve
@@ -70,7 +71,7 @@ def scene_of(
 ) -> Scene:
     """Quadrics, manifolds (k, 8) or matrices (k, 4, 4), as surfaces in a box of the chart."""
     given = np.asarray(quadrics, dtype=np.float64)
-    forms = box.forms(given if given.shape[-2:] == (4, 4) else manifold.matrix(given))
+    forms = box.forms(given if given.shape[-2:] == (4, 4) else constraint_manifold.matrix(given))
     forms = forms.reshape(-1, 4, 4)
     ticks = 2 * box.half[2] / RINGS
     # Rings where Z3 = 0, and from there.

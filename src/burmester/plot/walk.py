@@ -14,8 +14,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from PIL import Image
 
-from burmester.displacement import Displacement, FloatArray
+from burmester.geometry.displacement import Displacement
 from burmester.io.files import write
+from burmester.numerics.arrays import FloatArray
 from burmester.plot.camera import Box, Camera
 from burmester.plot.space import image_space
 from burmester.plot.style import figure, house_style

@@ -8,8 +8,8 @@ import html
 import json
 from importlib import resources
 
-from burmester.report.data import report_data
-from burmester.synthesis import Synthesis
+from burmester.synthesis.result import Synthesis
+from burmester.web.data import report_data
 
 __all__ = ["page"]
 
@@ -63,7 +63,7 @@ def as_script(data: object) -> str:
 
 
 def _text(name: str) -> str:
-    return (resources.files("burmester.report") / name).read_text(encoding="utf-8")
+    return (resources.files("burmester.web") / "assets" / name).read_text(encoding="utf-8")
 
 
 def _hash(text: str) -> str:

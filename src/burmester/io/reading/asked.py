@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 from burmester.errors import InputError
-from burmester.requirements import GROUPS, TYPES, Requirements
+from burmester.tasks.requirements import GROUPS, TYPES, Requirements
 
 __all__ = ["FILE_KEYS", "REQUIREMENT_KEYS", "Asked", "ask", "joined", "plain", "requirements"]
 

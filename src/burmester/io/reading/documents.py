@@ -48,7 +48,7 @@ def read_json(source: Source) -> PoseTable:
         object_pairs_hook=once,
     )
     tree = _tree(Document(source, "JSON"), parse)
-    from burmester.io.reading.pose_tree import read  # loads pydantic
+    from burmester.io.reading.pose_tree import read
 
     example = '{"angle_unit": "deg", "poses": [[0.5, 2, 30], ...]}'
     return read(tree, Document(source, "JSON"), example)
@@ -59,7 +59,7 @@ def read_toml(source: Source) -> PoseTable:
     document = Document(source, "TOML")
     _require_short_keys(source)
     tree = _tree(document, functools.partial(tomllib.loads, parse_float=_exact))
-    from burmester.io.reading.pose_tree import read  # loads pydantic
+    from burmester.io.reading.pose_tree import read
 
     return read(tree, document, 'angle_unit = "deg" above poses = [[0.5, 2, 30], ...]')
 

@@ -15,9 +15,10 @@ from typing import TypeVar
 import numpy as np
 
 from burmester.errors import InputError
+from burmester.geometry.regions import Region
 from burmester.io.reading.table import Source, plain_number, shown
 from burmester.io.reading.wanted import SHAPES, Length, Wanted, WantedKinds
-from burmester.limits import KINDS, Kind, Region
+from burmester.tasks.limits import KINDS, Kind
 
 __all__ = ["ANY", "fault", "number", "region", "said", "wanted"]
 

@@ -25,7 +25,7 @@ from burmester.errors import InputError
 from burmester.io.reading.asked import FILE_KEYS
 from burmester.io.reading.places import Document, Path, meant
 from burmester.io.reading.wanted import LIMIT_KEYS, SHAPES, TOP_KEYS, Length, Wanted, WantedRegion
-from burmester.limits import KINDS, Limits
+from burmester.tasks.limits import KINDS, Limits
 
 __all__ = ["Model", "Number", "Pair", "Two", "read", "unfit"]
 

@@ -13,11 +13,11 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from burmester.displacement import FloatArray
 from burmester.errors import InputError
 from burmester.io.reading import table
 from burmester.io.reading.columns import read_columns
 from burmester.io.reading.table import PoseTable, Rows, decimals, numeric_roles
+from burmester.numerics.arrays import FloatArray
 
 __all__ = ["is_parquet", "read_parquet"]
 

@@ -9,8 +9,9 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.displacement import Displacement, FloatArray
 from burmester.errors import InputError
+from burmester.geometry.displacement import Displacement
+from burmester.numerics.arrays import FloatArray
 
 __all__ = ["Tracked", "tracked"]
 

@@ -28,8 +28,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.displacement import Displacement, FloatArray
 from burmester.errors import InputError, printable
+from burmester.geometry.displacement import Displacement
 from burmester.io.reading.asked import requirements
 from burmester.io.reading.csv_poses import read_csv
 from burmester.io.reading.documents import read_json, read_toml
@@ -38,7 +38,8 @@ from burmester.io.reading.parquet import is_parquet, read_parquet
 from burmester.io.reading.points import tracked
 from burmester.io.reading.table import UNITS, PoseTable, Rows, Source, pose_marks
 from burmester.io.reading.wanted import Wanted
-from burmester.task import Task
+from burmester.numerics.arrays import FloatArray
+from burmester.tasks.motion_task import Task
 
 __all__ = ["read_task"]
 

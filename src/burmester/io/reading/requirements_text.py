@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from burmester.io.reading.asked import Asked, ask
 from burmester.io.reading.limits_text import ANY, fault, number, region, said
 from burmester.io.reading.table import Source, shown
-from burmester.requirements import Driver
+from burmester.tasks.requirements import Driver
 
 __all__ = ["above_zero", "asked", "lengths", "pose_sigma"]
 

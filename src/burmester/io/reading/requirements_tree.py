@@ -12,12 +12,12 @@ import numpy as np
 from pydantic import Field, ValidationError
 
 from burmester.errors import InputError
+from burmester.geometry.regions import Region
 from burmester.io.reading.asked import FILE_KEYS, REQUIREMENT_KEYS, Asked, ask
 from burmester.io.reading.limits_tree import Model, Number, Pair, Two, unfit
 from burmester.io.reading.places import Document, meant
 from burmester.io.reading.wanted import LIMIT_KEYS, SHAPES
-from burmester.limits import Region
-from burmester.requirements import DRIVERS
+from burmester.tasks.requirements import DRIVERS
 
 __all__ = ["read"]
 

@@ -11,9 +11,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.displacement import FloatArray
 from burmester.errors import InputError, printable
 from burmester.io.reading.wanted import Wanted
+from burmester.numerics.arrays import FloatArray
 
 __all__ = [
     "MARKS",

@@ -11,10 +11,11 @@ from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, NamedTuple, TypeAlias
 
-from burmester.displacement import FloatArray
 from burmester.errors import InputError
+from burmester.geometry.regions import Line, Point, Polygon, Region, Segment, box
 from burmester.io.reading.asked import Asked, joined
-from burmester.limits import Kind, Limits, Line, Point, Polygon, Region, Segment, box
+from burmester.numerics.arrays import FloatArray
+from burmester.tasks.limits import Kind, Limits
 
 __all__ = ["LIMIT_KEYS", "SHAPES", "TOP_KEYS", "Length", "Wanted", "WantedKinds", "WantedRegion"]
 

@@ -1,0 +1,1 @@
+"""Words and digits, for any screen."""

@@ -1,0 +1,249 @@
+"""Five, four and three poses: Burmester's problem by the null space of the design matrix.
+
+Every quadric through N < 6 image points lies in the null space of their N x 8 design matrix;
+its dyads are the points there that fulfil the two conditions of Eq. (17).
+
+Five poses: two conics in a projective plane, four intersections: all dyads, at most four
+real ones.  Four poses: a curve of dyads, traced by `burmester.curve`.  Three poses: every
+moving pivot has one fixed pivot.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations_with_replacement
+from typing import final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burmester.errors import InputError
+from burmester.fourbar.canonical_frames import CanonicalFrames
+from burmester.fourbar.dyad import RR, refitted_circles
+from burmester.geometry import constraint_manifold
+from burmester.geometry.displacement import Displacement
+from burmester.numerics.arrays import FloatArray
+
+__all__ = ["FivePoseDyads", "dyads_of_five"]
+
+ComplexArray = NDArray[np.complex128]
+
+REAL = 1e-7  # imaginary share below which a polished root counts as real
+NEWTON_STEPS = 3
+SHARPER = 1e-5  # of a dyad's size; a longer step is not one of rounding
+STRAIGHT = 1e6  # characteristic lengths; a longer link is a slider up to rounding
+
+# Monomials of degree 2 and 3 in three unknowns, and where a product of them lands.
+_QUADRATIC = list(combinations_with_replacement(range(3), 2))
+_CUBIC = list(combinations_with_replacement(range(3), 3))
+_CUBIC_AT: dict[tuple[int, ...], int] = {cubic: at for at, cubic in enumerate(_CUBIC)}
+_TIMES = np.array([[_CUBIC_AT[tuple(sorted((*q, k)))] for q in _QUADRATIC] for k in range(3)])
+# A generic chart of the plane: no intersection of two conics of a task lies on its line at
+# infinity but by bad luck.
+_CHART = np.array([[0.46, 0.61, 0.65], [0.83, -0.52, -0.19], [0.28, 0.55, -0.78]])
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class FivePoseDyads:
+    """The four dyads of five poses, real or not.
+
+    frames: where they were found; coefficients are of manifolds in those frames.
+    singular_values: (*, 5) of the design matrix, ascending; the first is zero where the five
+        poses are not five different ones, and then there are more dyads than these.
+    roots: (*, 4, 8), complex coefficients of unit norm, the largest of each real and positive.
+    real: (*, 4), which are real; complex ones come in conjugate pairs.
+    coefficients: (*, 4, 8), the real ones; nan where not real.
+    residual: (*, 4), of the linear equations and the two conditions at unit coefficients.
+    separation: (*, 4), distance to the nearest other root as points of the projective space;
+        zero is a double root.
+    determined: (*,), False where the two conics share a curve and so the dyads are
+        infinitely many; then the four are some of them at best.
+    dyads: (*, 4), as RR dyads in the task's own frames; nan where not real, and with a radius
+        beyond all measure where the dyad is a slider (p1 = 0).
+    rms_error, max_error: (*, 4), the distance of the moving pivot from its circle over the
+        poses, in the task's unit: rounding, where the dyad is not a slider.
+    """
+
+    frames: CanonicalFrames
+    singular_values: FloatArray
+    roots: ComplexArray
+    real: NDArray[np.bool_]
+    coefficients: FloatArray
+    residual: FloatArray
+    separation: FloatArray
+    determined: NDArray[np.bool_]
+    dyads: RR
+    rms_error: FloatArray
+    max_error: FloatArray
+
+    @property
+    def noise(self) -> FloatArray:
+        """Zero (*,): five poses are met exactly."""
+        return np.zeros(self.determined.shape)
+
+    @property
+    def gap(self) -> FloatArray:
+        """The least singular value (*,); zero where the dyads are infinitely many."""
+        return np.where(self.determined, self.singular_values[..., 0], 0.0)
+
+
+def dyads_of_five(poses: Displacement) -> FivePoseDyads:
+    """All dyads that pass through five poses (*, 5) exactly.
+
+    Raises InputError E121 (another number of poses) and E103 (a number that is not finite).
+    Source: the null space and Eq. (17); the intersection of the conics is read off the null
+    space of their degree-3 Macaulay matrix by one 4 x 4 eigenproblem, with no start values.
+    """
+    _require(poses, 5)
+    frames, seen = CanonicalFrames.of(poses)
+    design = constraint_manifold.monomials(seen.as_image_point())
+    _, singular_values, v = np.linalg.svd(design, full_matrices=True)
+    basis = v[..., 5:, :]
+    points, determined = _conic_intersections(_conics(basis))
+    p = points @ basis
+    p = _polish(p / np.linalg.norm(p, axis=-1, keepdims=True), design)
+    largest = np.take_along_axis(p, np.abs(p).argmax(axis=-1)[..., None], axis=-1)
+    p *= largest.conj() / np.abs(largest)
+    real = np.linalg.norm(p.imag, axis=-1) < REAL
+    p = np.where(real[..., None], p.real, p)
+    residual = np.linalg.norm(_equations(p, design), axis=-1)
+    overlap = np.abs(p.conj() @ np.swapaxes(p, -1, -2)) * (1 - np.eye(4))
+    separation = np.sqrt(np.maximum(1 - overlap.max(axis=-1) ** 2, 0))
+    coefficients = np.where(real[..., None], p.real, np.nan)
+    circles, rms_error, max_error = refitted_circles(coefficients, seen)
+    length = frames.length[..., None]
+    return FivePoseDyads(
+        frames,
+        singular_values[..., ::-1],
+        p,
+        real,
+        coefficients,
+        residual,
+        separation,
+        determined,
+        _sharpened(frames.circle_back(circles), poses, length),
+        rms_error * length,
+        max_error * length,
+    )
+
+
+def _require(poses: Displacement, count: int) -> None:
+    got = poses.shape[-1] if poses.shape else 0
+    if got != count:
+        raise InputError(
+            "E121",
+            f"{count} poses are needed here, not {got}",
+            help=f"give {count} poses; fit_pencil takes 6 or more",
+        )
+    poses.require_finite()
+
+
+def _conics(basis: FloatArray) -> FloatArray:
+    """The two conditions on the plane of a basis (*, 3, 8): conics (*, 2, 6).
+
+    Their coefficients come by polarising the quadratic forms.
+    """
+    square = constraint_manifold.conditions(basis)
+    columns = [
+        square[..., i, :]
+        if i == j
+        else constraint_manifold.conditions(basis[..., i, :] + basis[..., j, :])
+        - square[..., i, :]
+        - square[..., j, :]
+        for i, j in _QUADRATIC
+    ]
+    conics = np.stack(columns, axis=-1)
+    unit: FloatArray = conics / np.linalg.norm(conics, axis=-1, keepdims=True)
+    return unit
+
+
+def _conic_intersections(conics: FloatArray) -> tuple[ComplexArray, NDArray[np.bool_]]:
+    """The four common points (*, 4, 3) of two conics (*, 2, 6), and whether they are isolated.
+
+    Each conic times each unknown is a row of a 6 x 10 matrix on the cubic monomials; its null
+    space is spanned by the cubic monomials of the four points.  The quotient of two linear
+    forms acts on it as a 4 x 4 matrix whose eigenvectors are the points.
+    """
+    macaulay = np.zeros((*conics.shape[:-2], 3, 2, 10))
+    for k in range(3):
+        macaulay[..., k, :, _TIMES[k]] = np.moveaxis(conics, -1, 0)
+    macaulay = macaulay.reshape(*conics.shape[:-2], 6, 10)
+    _, values, v = np.linalg.svd(macaulay, full_matrices=True)
+    null = np.swapaxes(v[..., 6:, :], -1, -2)
+    times = np.stack([null[..., _TIMES[k], :] for k in range(3)])
+    first, second = (np.tensordot(_CHART[i], times, axes=1) for i in range(2))
+    _, eigenvectors = np.linalg.eig(np.linalg.pinv(first) @ second)
+    # First form times quadratic monomials of each point: a symmetric matrix x xᵀ.
+    rows = np.swapaxes(first.astype(complex) @ eigenvectors, -1, -2)
+    outer = np.empty((*rows.shape[:-1], 3, 3), dtype=complex)
+    for at, (i, j) in enumerate(_QUADRATIC):
+        outer[..., i, j] = outer[..., j, i] = rows[..., at]
+    best = np.abs(np.diagonal(outer, axis1=-2, axis2=-1)).argmax(axis=-1)
+    points = np.take_along_axis(outer, best[..., None, None], axis=-1)[..., 0]
+    return points / np.linalg.norm(points, axis=-1, keepdims=True), values[..., 5] > 1e-10
+
+
+def _equations(p: ComplexArray, design: FloatArray) -> ComplexArray:
+    """The five linear equations and the two conditions at p (*, 4, 8): (*, 4, 7)."""
+    linear = p @ np.swapaxes(design, -1, -2)
+    return np.concatenate([linear, constraint_manifold.conditions(p)], axis=-1)
+
+
+def _polish(p: ComplexArray, design: FloatArray) -> ComplexArray:
+    """Newton on the poses' own equations, at p (*, 4, 8), with the norm of p held.
+
+    Takes off what rounding in the null space and the eigenproblem has left.
+    """
+    jacobian = np.empty((*p.shape[:-1], 8, 8), dtype=complex)
+    jacobian[..., :5, :] = design[..., None, :, :]
+    values = np.zeros(p.shape, dtype=complex)
+    for _ in range(NEWTON_STEPS):
+        jacobian[..., 5:7, :] = constraint_manifold.condition_gradients(p)
+        jacobian[..., 7, :] = p.conj()
+        values[..., :7] = _equations(p, design)
+        try:
+            step = np.linalg.solve(jacobian, values[..., None])[..., 0]
+        except np.linalg.LinAlgError:  # a double root, exactly: the least step that helps
+            step = (np.linalg.pinv(jacobian) @ values[..., None])[..., 0]
+        sound = np.isfinite(step).all(axis=-1) & (np.linalg.norm(step, axis=-1) < 0.1)
+        p = p - np.where(sound[..., None], step, 0.0)
+        p = p / np.linalg.norm(p, axis=-1, keepdims=True)
+    return p
+
+
+def _sharpened(dyads: RR, poses: Displacement, length: FloatArray) -> RR:
+    """Dyads (*, 4) with the digits that rounding in the fit has cost put right, as far as can be.
+
+    Newton steps on the circle equations of the poses (*, 5) as they were given, with
+    residuals in the machine's longest floating point (80 bits on x86, else 64: no loss).
+    Left as they are: sliders (`length` is (*, 1), see `frames`), and double roots, which have
+    no more digits to gain.
+    """
+    long = np.longdouble
+    d1, d2 = np.moveaxis(poses.translation.astype(long), -1, 0)[..., None, :]
+    cos, sin = (f(poses.angle.astype(long))[..., None, :] for f in (np.cos, np.sin))
+    given = np.concatenate([dyads.fixed_pivot, dyads.moving_pivot], axis=-1)
+    size = np.where(dyads.radius < STRAIGHT * length, np.abs(given).max(axis=-1) + length, 0.0)
+    x = given.astype(long)
+    best, radius, least = given, dyads.radius, np.full(size.shape, np.inf)
+    for _ in range(3):
+        c1, c2, m1, m2 = np.moveaxis(x, -1, 0)[..., None]
+        a1, a2 = cos * m1 - sin * m2 + (d1 - c1), sin * m1 + cos * m2 + (d2 - c2)
+        squared = a1 * a1 + a2 * a2
+        mean = squared.mean(axis=-1)
+        miss = np.asarray(squared - mean[..., None], dtype=np.float64)
+        worst = np.abs(miss).max(axis=-1)
+        better = (worst < least) & (size > 0)
+        best = np.where(better[..., None], np.asarray(x, dtype=np.float64), best)
+        radius = np.where(better, np.asarray(np.sqrt(mean), dtype=np.float64), radius)
+        least = np.where(better, worst, least)
+        columns = [-a1, -a2, cos * a1 + sin * a2, cos * a2 - sin * a1, np.full_like(a1, -0.5)]
+        jacobian = np.asarray(2 * np.stack(columns, axis=-1), dtype=np.float64)
+        try:
+            step = np.linalg.solve(jacobian, miss[..., None])[..., :4, 0]
+        except np.linalg.LinAlgError:
+            break
+        small = np.abs(step).max(axis=-1, keepdims=True) < SHARPER * size[..., None]
+        x = x - np.where(small, step, 0.0)
+    return RR(best[..., :2], best[..., 2:], radius)

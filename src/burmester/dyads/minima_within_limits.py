@@ -1,0 +1,317 @@
+"""The best dyads within limits: on every face of the regions, and with the link at its bounds.
+
+A dyad that is best within limits lies on some face of them: the fixed pivot inside its region, on
+an edge or at a corner, the moving pivot likewise, the link's length free or at a bound.  On each of
+these faces all stationary points of the squared residual are found (`homotopy`), the minima among
+them are followed to minima of the true distance, and those are kept that lie within the limits and
+from which no way into them leads down.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
+from itertools import product
+from typing import Any, Literal, TypeAlias, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burmester.dyads.critical_points import residual_rows
+from burmester.dyads.face_descent import Block, Range, descend, inside
+from burmester.dyads.geometric_fit import (
+    Misses,
+    Polished,
+    circle_misses,
+    least_squares,
+    least_worst,
+    line_misses,
+)
+from burmester.dyads.parameter_homotopy import (
+    Condition,
+    Parameters,
+    Shape,
+    circle_shape,
+    line_shape,
+    stationary,
+)
+from burmester.fourbar.canonical_frames import CanonicalFrames
+from burmester.fourbar.dyad import PR, RP, RR
+from burmester.geometry.displacement import Displacement
+from burmester.geometry.regions import Face, Region
+from burmester.numerics.arrays import FloatArray
+from burmester.tasks.limits import Limits
+
+__all__ = ["LimitedDyads", "Norm", "limited_dyads"]
+
+Norm: TypeAlias = Literal["rms", "worst"]
+
+SAME = 1e-7
+MET = 1e-9  # relative: an exact pose missed by less is met
+ENDLESS = 1e3  # in canonical lengths: a link this long whose worst distance still falls
+
+_CIRCLE = circle_shape(2, 2, 0, "none")
+_LINE = line_shape(2, 0)
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class LimitedDyads:
+    """The locally best dyads within limits, by distance from their circles and lines.
+
+    circles: (k,), sliders: PR and RP dyads, all in `frames`; by rising rms error each.
+    systems: how many faces were searched; found: their stationary points, complex ones included;
+    lost: paths that ended nowhere: where there are any, a dyad may be missing.
+    unsettled: how many ways down were given up, and did not lead to a dyad.
+    """
+
+    frames: CanonicalFrames
+    circles: RR
+    sliders: tuple[PR | RP, ...]
+    systems: int
+    found: int
+    lost: int
+    unsettled: int
+
+
+def limited_dyads(
+    poses: Displacement,
+    weights: FloatArray | None = None,
+    exact: NDArray[np.bool_] | None = None,
+    limits: Limits | None = None,
+    norm: Norm = "rms",
+) -> LimitedDyads:
+    """Every locally best dyad of poses (N,) within limits, and through the exact ones of them.
+
+    weights: (N,) or None; exact: (N,), or None for no exact poses; norm: the sum of squared
+    distances is least, or the worst distance.
+    On every face all minima of the squared residual are found, with probability one.  That the
+    true distance has no other minima than those they lead to is not proved, nor that the worst
+    distance has none.
+    """
+    frames, seen = CanonicalFrames.of(poses, weights)
+    share = np.ones(poses.shape) if weights is None else weights
+    share = share / share.sum()
+    held = np.zeros(poses.shape, dtype=bool) if exact is None else exact
+    limits = _seen(limits or Limits(), frames)
+    search = _Search(share, held, norm)
+    kinds = limits.allowed
+    rr = _circles(seen, limits, search) if "RR" in kinds else np.empty((0, 5))
+    sliders: list[PR | RP] = []
+    if "PR" in kinds:
+        sliders += [PR(*line) for line in _lines(seen, limits.moving_pivot, search)]
+    if "RP" in kinds:
+        lines = _lines(seen.inverse(), limits.fixed_pivot, search)
+        sliders += [RP(pivot, angle, offset) for angle, offset, pivot in lines]
+    return LimitedDyads(
+        frames,
+        RR(rr[:, :2], rr[:, 2:4], rr[:, 4]),
+        tuple(sliders),
+        search.systems,
+        search.found,
+        search.lost,
+        search.unsettled,
+    )
+
+
+@dataclass
+class _Search:
+    """What is minimised, and a count of what was found on the way."""
+
+    share: FloatArray
+    exact: NDArray[np.bool_]
+    norm: Norm
+    systems: int = 0
+    found: int = 0
+    lost: int = 0
+    unsettled: int = 0
+
+    def centre(self, rows: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Residual rows (N, f): what is taken off all of them, G of the rest, and A.
+
+        The mean where no pose is exact, or the first exact one's.
+        """
+        marked = np.flatnonzero(self.exact)
+        base, others = rows[marked[0]] if len(marked) else self.share @ rows, marked[1:]
+        loose = np.sqrt(np.where(self.exact, 0.0, self.share))[:, None] * (rows - base)
+        conditions = rows[others] - base
+        size = np.linalg.norm(conditions, axis=1, keepdims=True)
+        return base, loose.T @ loose, conditions / np.where(size > 0, size, 1.0)
+
+    def solve(self, shape: Shape, parameters: list[Parameters]) -> list[FloatArray]:
+        """The minima (k, n) of systems of one shape."""
+        stacked = Parameters(*(np.stack(part) for part in zip(*parameters, strict=True)))
+        minima = []
+        for one in stationary(shape, stacked):
+            self.systems += 1
+            self.found += one.found
+            self.lost += one.lost
+            minima.append(one.points[one.minimum])
+        return minima
+
+    def follow_up(
+        self,
+        dyads: list[FloatArray],
+        z: FloatArray,
+        misses: Misses,
+        blocks: Sequence[Block],
+    ) -> None:
+        """Add the minimum of the norm to which a dyad z leads, if it is within limits and new."""
+
+        def step(z: FloatArray, basis: FloatArray) -> Polished:
+            return least_squares(misses, z, basis, self.share, self.exact, steps=1)
+
+        def least(z: FloatArray, basis: FloatArray) -> Polished:
+            best = least_worst(misses, z, basis, self.share, self.exact)
+            if not best.settled and np.abs(best.z).max() > ENDLESS:
+                return best._replace(z=np.full_like(z, np.nan))  # on its way to a slider
+            return best._replace(settled=True)
+
+        if not inside(z, blocks):
+            return
+        best = descend(z, misses, step, blocks)
+        if best.settled and self.norm == "worst" and not self.exact.all():
+            best = descend(best.z, misses, least, blocks)
+        size = 1 + np.abs(best.z).max()
+        if not best.settled and not size < ENDLESS:
+            return  # on its way to a slider
+        # On an edge or at a corner there may be too little freedom to meet the exact poses.
+        if not best.settled or np.abs(misses(best.z).miss[self.exact]).max(initial=0) > MET * size:
+            self.unsettled += 1
+            return
+        if all(np.abs(best.z - other).max() > SAME * size for other in dyads):
+            dyads.append(best.z)
+
+
+def _circles(seen: Displacement, limits: Limits, search: _Search) -> FloatArray:
+    """The RR dyads (k, 5): c, m, r."""
+    base, gram, conditions = search.centre(residual_rows(seen))
+    misses = circle_misses(seen)
+    blocks = (
+        Block(slice(0, 2), limits.fixed_pivot),
+        Block(slice(2, 4), limits.moving_pivot),
+        Block(slice(4, 5), Range(*limits.length)),
+    )
+    dyads: list[FloatArray] = []
+
+    def follow_up(faces: tuple[Face, ...], minima: FloatArray) -> None:
+        fixed, moving, length = faces
+        i = fixed.basis.shape[1]
+        for x in minima:
+            pivots = [fixed.origin + fixed.basis @ x[:i], moving.origin + moving.basis @ x[i:]]
+            z = np.concatenate([*pivots, [0.0]])
+            distance, held = misses(z).miss, search.exact
+            mean = distance[held].mean() if held.any() else search.share @ distance
+            z[4:] = [mean] if length.basis.shape[1] else length.origin
+            search.follow_up(dyads, z, misses, blocks)
+
+    systems: dict[str, tuple[Shape, list[tuple[tuple[Face, ...], Parameters]]]] = {}
+    for faces in product(*(block.faces() for block in blocks)):
+        i, j, free = (face.basis.shape[1] for face in faces)
+        kind: Condition = "none"
+        if not free:
+            kind = "hard" if search.exact.any() else "soft"
+        if i + j < len(conditions) + (kind == "hard"):
+            continue
+        if i + j == 0:
+            follow_up(faces, np.empty((1, 0)))
+            continue
+        at, turn = _circle_map(faces[0], faces[1])
+        linear = turn.T @ base
+        linear[0] += at @ at
+        square = np.asarray(faces[2].origin[0] ** 2)
+        system = Parameters(turn.T @ gram @ turn, conditions @ turn, linear, square)
+        shape = circle_shape(i, j, len(conditions), kind)
+        systems.setdefault(shape.name, (shape, []))[1].append((faces, system))
+    for shape, members in systems.values():
+        found = search.solve(shape, [system for _, system in members])
+        for (faces, _), minima in zip(members, found, strict=True):
+            follow_up(faces, minima)
+    return np.array(sorted(dyads, key=lambda z: _cost(misses, z))).reshape(-1, 5)
+
+
+def _circle_map(fixed: Face, moving: Face) -> tuple[FloatArray, FloatArray]:
+    """The origin (c, m) of two faces, and what their features make of all seven: (7, f)."""
+    i, j = fixed.basis.shape[1], moving.basis.shape[1]
+    at = np.concatenate([fixed.origin, moving.origin])
+    steps = np.zeros((i + j, 4))
+    steps[:i, :2], steps[i:, 2:] = fixed.basis.T, moving.basis.T
+    if i == j == 2:
+        return at, np.eye(7)
+    zero, one = _CIRCLE.features(at), _CIRCLE.features(at + steps)
+    columns = [zero, *(one - zero)]
+    for u, v in product(range(i), range(i, i + j)):
+        columns.append(_CIRCLE.features(at + steps[u] + steps[v]) - one[u] - one[v] + zero)
+    return at, np.stack(columns, axis=-1)
+
+
+def _lines(
+    seen: Displacement, region: Region | None, search: _Search
+) -> list[tuple[FloatArray, FloatArray, FloatArray]]:
+    """The PR dyads: normal angle, offset, moving pivot in the region."""
+    rows = np.concatenate(
+        [seen.translation, np.cos(seen.angle)[:, None], np.sin(seen.angle)[:, None]], axis=-1
+    )
+    base, gram, conditions = search.centre(rows)
+    misses = line_misses(seen)
+    block = Block(slice(2, 4), region)
+    dyads: list[FloatArray] = []
+    for face in block.faces():
+        j = face.basis.shape[1]
+        if 1 + j < len(conditions):
+            continue
+        turn = _line_map(face)
+        shape = line_shape(j, len(conditions))
+        nothing = np.zeros(turn.shape[1])
+        system = Parameters(turn.T @ gram @ turn, conditions @ turn, nothing, np.ones(()))
+        for x in search.solve(shape, [system])[0]:
+            n, pivot = x[:2], face.origin + face.basis @ x[2:]
+            offset = base @ _LINE.features(np.concatenate([n, pivot]))
+            z = np.array([np.arctan2(n[1], n[0]), offset, *pivot])
+            search.follow_up(dyads, z, misses, (block,))
+    dyads.sort(key=lambda z: _cost(misses, z))
+    return [_upper(z) for z in dyads]
+
+
+def _upper(z: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """A line has two normals; take the one in the upper half plane."""
+    angle = np.arctan2(np.sin(z[0]), np.cos(z[0]))
+    flip = angle < 0 or angle == np.pi
+    angle = np.mod(angle, np.pi)
+    return angle, -z[1] if flip else z[1], z[2:]
+
+
+def _line_map(face: Face) -> FloatArray:
+    """What a face's features make of the four (n, n · m, n x m): (4, f)."""
+    normals, step = np.eye(2), face.basis.T
+    at = [_LINE.features(np.concatenate([n, face.origin])) for n in normals]
+    if len(step) == 2:
+        return np.eye(4)
+    more = [
+        _LINE.features(np.concatenate([n, face.origin + step[0]])) - zero
+        for n, zero in zip(normals, at, strict=True)
+        if len(step)
+    ]
+    return np.stack(at + more, axis=-1)
+
+
+def _cost(misses: Misses, z: FloatArray) -> float:
+    return float((misses(z).miss ** 2).sum())
+
+
+def _seen(limits: Limits, frames: CanonicalFrames) -> Limits:
+    """Limits as the canonical frames see them."""
+
+    def moved(region: Region | None, origin: FloatArray) -> Any:
+        if region is None:
+            return None
+        values = {f.name: (getattr(region, f.name) - origin) / unit for f in fields(region)}
+        return replace(region, **values)
+
+    unit = float(frames.length)
+    return replace(
+        limits,
+        fixed_pivot=moved(limits.fixed_pivot, frames.fixed_origin),
+        moving_pivot=moved(limits.moving_pivot, frames.moving_origin),
+        length=(limits.length[0] / unit, limits.length[1] / unit),
+    )

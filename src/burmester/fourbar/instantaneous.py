@@ -1,0 +1,132 @@
+"""How the coupler moves at a place: velocity, instant centre, centrodes, transmission angle.
+
+Each dyad lets the coupler move only so that it does no work against one force, which acts along a
+line: an RR's link, the normal of a PR's line through its moving pivot, the normal of an RP's line
+through its fixed pivot.  The instant centre is where the two lines cross.  So nothing here asks
+which dyad drives, except the speeds and the transmission angle.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from burmester.errors import InputError
+from burmester.fourbar.dyad import PP, PR, RP, RR
+from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.loop_closure import facing
+from burmester.geometry.displacement import Displacement
+from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
+
+__all__ = ["Centrodes", "centrodes", "instant_centre", "transmission_angle", "twist", "velocity"]
+
+
+class Centrodes(NamedTuple):
+    """The instant centres of places (*,) as F and as M see them: points (*, 2).
+
+    Along a circuit the curves of these points roll on each other without slipping.  Not finite
+    where the coupler only translates at that instant.
+    """
+
+    fixed: FloatArray
+    moving: FloatArray
+
+
+def twist(linkage: Linkage, places: Displacement) -> FloatArray:
+    """The direction (*, 3) in which the coupler can move at places (*,), of no certain size.
+
+    (v1, v2, omega): the velocity in F of the origin of M, and the angular velocity.  The axes of
+    the linkages are the first of the places.  Zero where both dyads ask for the same, as they do
+    at a change point: there the coupler can move in two ways.
+    """
+    first, second = (
+        facing(dyad, len(places.shape)).gradient(places) for dyad in (linkage.first, linkage.second)
+    )
+    return np.cross(first, second)
+
+
+def velocity(linkage: Linkage, places: Displacement) -> FloatArray:
+    """The coupler's velocity (*, 3) at places (*,) for a unit speed of the first dyad's drive.
+
+    (v1, v2, omega) as in `twist`; not finite at dead points of that drive.
+    Raises InputError E401 where the first dyad is PP, which has no one drive.
+    """
+    motion, driver = twist(linkage, places), facing(linkage.first, len(places.shape))
+    v, omega = complex_of(motion[..., :2]), motion[..., 2]
+    if isinstance(driver, RP):
+        speed = omega
+    elif isinstance(driver, PP):
+        raise InputError(
+            "E401",
+            "this linkage cannot be driven by its first dyad",
+            why="a PP dyad has no one joint to drive",
+            help="drive it by the other dyad, if that is RR or PR: exchange the two",
+        )
+    else:
+        arm = complex_of(places.rotate(driver.moving_pivot))
+        v_pin = v + 1j * omega * arm
+        if isinstance(driver, RR):
+            arm = arm + complex_of(places.translation - driver.fixed_pivot)
+            speed = (v_pin / arm).imag
+        else:
+            speed = (v_pin * np.exp(-1j * driver.normal_angle)).imag
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return motion / speed[..., None]
+
+
+def instant_centre(linkage: Linkage, places: Displacement) -> FloatArray:
+    """The point (*, 2) of F about which the coupler turns at places (*,); see `Centrodes`."""
+    motion = twist(linkage, places)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        arm = np.stack([-motion[..., 1], motion[..., 0]], axis=-1) / motion[..., 2:]
+    return places.translation + arm
+
+
+def centrodes(linkage: Linkage, places: Displacement) -> Centrodes:
+    """The instant centres of places (*,) in F and in M."""
+    fixed = instant_centre(linkage, places)
+    with np.errstate(invalid="ignore"):
+        return Centrodes(fixed, places.inverse().act(fixed))
+
+
+def transmission_angle(linkage: Linkage, places: Displacement) -> FloatArray:
+    """The angle (*,) in [0, pi/2] between the force on the second dyad and its lever, radians.
+
+    The first dyad drives.  It is 0 at its dead points, pi/2 where the force is best used.
+
+    An RR or PR that follows an RR or PR: between the coupler, from pin to pin, and the follower
+    (for PR the normal of its line).  The same after an RP: between the normal of the driving slot,
+    the force's only direction, and the follower.  An RP that follows: between the normal of its
+    slot and the line from the driving pin to the fixed pivot.  An RP after an RP passes a pure
+    couple on: pi/2.  nan for PP.
+    """
+    ndim = len(places.shape)
+    first, second = facing(linkage.first, ndim), facing(linkage.second, ndim)
+    turn = np.exp(1j * places.angle)
+    if isinstance(first, PP) or isinstance(second, PP):
+        return np.full(places.shape, np.nan)
+    if isinstance(first, RP):
+        if isinstance(second, RP):
+            return np.full(places.shape, np.pi / 2)
+        force = turn * np.exp(1j * first.normal_angle)
+        lever = _lever(second, places)
+    elif isinstance(second, RP):
+        force = turn * np.exp(1j * second.normal_angle)
+        lever = _pin(first, places) - complex_of(second.fixed_pivot)
+    else:
+        force, lever = _pin(second, places) - _pin(first, places), _lever(second, places)
+    product = force.conj() * lever
+    return np.asarray(np.arctan2(np.abs(product.imag), np.abs(product.real)))
+
+
+def _pin(dyad: RR | PR, places: Displacement) -> ComplexArray:
+    """The moving pivot, seen in F."""
+    return complex_of(places.act(dyad.moving_pivot))
+
+
+def _lever(dyad: RR | PR, places: Displacement) -> ComplexArray:
+    """From the fixed to the moving pivot, or the normal of a line."""
+    if isinstance(dyad, RR):
+        return _pin(dyad, places) - complex_of(dyad.fixed_pivot)
+    return np.asarray(np.exp(1j * dyad.normal_angle))

@@ -1,0 +1,123 @@
+"""Two dyads joined: a linkage, its links, its type, and where its coupler can be.
+
+The coupler moves where both constraint manifolds meet.  At a given coupler angle each of
+them is a circle (or a line) in the (Z1, Z2) plane, so the coupler's places are where two
+circles meet: one formula for every pair of RR, PR and RP.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple, final
+
+import numpy as np
+
+from burmester.fourbar.dyad import PR, RP, RR, Dyad
+from burmester.geometry.displacement import Displacement
+from burmester.numerics.arrays import FloatArray
+
+__all__ = ["Linkage", "Links", "grashof"]
+
+PARALLEL = 1e-9  # of two lines, or of the line of two circles: its direction is rounding
+CHANGE_POINT = 1e-9  # relative excess of link lengths below which Grashof's sum is a tie
+
+_TYPES = {
+    frozenset({RR, PR}): "slider-crank",
+    frozenset({RR, RP}): "inverted slider-crank",
+    frozenset({PR}): "double slider",
+    frozenset({RP}): "Oldham linkage",
+    frozenset({PR, RP}): "Rapson slide",
+}
+
+
+class Links(NamedTuple):
+    """The four link lengths of a 4R linkage, (*,) each, in the task's unit."""
+
+    ground: FloatArray
+    driver: FloatArray
+    coupler: FloatArray
+    follower: FloatArray
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Linkage:
+    """A four-bar: a coupler held to the ground by two dyads."""
+
+    first: Dyad
+    second: Dyad
+
+    @property
+    def links(self) -> Links | None:
+        """Link lengths of a 4R linkage; None where a dyad is a slider."""
+        a, b = self.first, self.second
+        if not (isinstance(a, RR) and isinstance(b, RR)):
+            return None
+        ground = np.linalg.norm(b.fixed_pivot - a.fixed_pivot, axis=-1)
+        coupler = np.linalg.norm(b.moving_pivot - a.moving_pivot, axis=-1)
+        return Links(ground, a.radius, coupler, b.radius)
+
+    @property
+    def type(self) -> str:
+        """The type in words: Grashof's for 4R, else the name of the slider linkage."""
+        if (links := self.links) is not None:
+            return grashof(links)
+        pair = frozenset({type(self.first), type(self.second)})
+        return _TYPES.get(pair, "translating linkage")
+
+    def couplers(self, angle: FloatArray) -> Displacement:
+        """The coupler's places at coupler angles (*,), radians: displacements (*, 2).
+
+        nan where the linkage cannot be assembled at that angle.  The two places exchange roles
+        where they meet.  Not for PP dyads, nor for a coupler that only translates.
+        """
+        angle = np.asarray(angle, dtype=np.float64)
+        s, c = np.sin(angle / 2), np.cos(angle / 2)
+        p, q = self.first.coefficients(), self.second.coefficients()
+        if abs(q[0]) > abs(p[0]):
+            p, q = q, p
+        (bp, ep), (bq, eq) = _slice(p, s, c), _slice(q, s, c)
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            if p[0] == 0:  # two sliders: two lines
+                cross = bp[0] * bq[1] - bp[1] * bq[0]
+                least = PARALLEL * np.hypot(*bp) * np.hypot(*bq)
+                cross = np.where(np.abs(cross) < least, np.nan, cross)
+                z1 = (bp[1] * eq - bq[1] * ep) / cross
+                z2 = (bq[0] * ep - bp[0] * eq) / cross
+                z = np.stack([[z1, z2], np.full((2, *angle.shape), np.nan)], axis=-1)
+            else:
+                centre = -bp / (2 * p[0])
+                squared = (centre * centre).sum(axis=0) - ep / p[0]
+                normal = bq - q[0] / p[0] * bp  # of the line through both common points
+                size = np.hypot(*normal)
+                size = np.where(size < PARALLEL * np.hypot(*bq), np.nan, size)
+                normal = normal / size
+                away = (normal * centre).sum(axis=0) + (eq - q[0] / p[0] * ep) / size
+                half = np.sqrt(squared - away * away)
+                foot, along = centre - away * normal, np.stack([-normal[1], normal[0]])
+                z = np.stack([foot - half * along, foot + half * along], axis=-1)
+        z = np.where(np.isfinite(z).all(axis=0), z, np.nan)
+        points = np.stack(np.broadcast_arrays(z[0], z[1], s[..., None], c[..., None]), axis=-1)
+        return Displacement(Displacement.from_image_point(points).translation, angle[..., None])
+
+
+def grashof(links: Links) -> str:
+    """The type of one 4R linkage from its link lengths (Grashof's rule).
+
+    A tie of s + l and p + q within 1e-9 of their sum is called a change point.
+    """
+    lengths = np.array([float(length) for length in links])
+    s, p, q, longest = np.sort(lengths)
+    excess = s + longest - p - q
+    if abs(excess) <= CHANGE_POINT * lengths.sum():
+        return "change-point"
+    if excess > 0:
+        return "triple-rocker"
+    names = ("double-crank", "crank-rocker", "double-rocker", "rocker-crank")
+    return names[int(lengths.argmin())]
+
+
+def _slice(p: FloatArray, s: FloatArray, c: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """The circle p1 |z|² + b · z + e = 0 of a manifold p (8,) at a half angle: b (2, *), e (*,)."""
+    b = np.stack([p[2] * s + p[4] * c, p[3] * s + p[5] * c])
+    return b, p[1] * s * s + p[6] * s * c + p[7] * c * c

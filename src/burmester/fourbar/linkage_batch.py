@@ -1,0 +1,239 @@
+"""Linkages of any kinds in one stack: each dyad by five dimensions, its constraint and derivatives.
+
+What judges and improves linkages does the same to RR, PR and RP alike: each dyad is one equation
+f = 0 of the coupler's place, with a force that it can bear (its gradient), and dimensions on which
+it depends.  So a stack of pairs of any kinds is a few arrays.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any, Final, NamedTuple, Self, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burmester.fourbar.canonical_frames import CanonicalFrames
+from burmester.fourbar.dyad import PR, RP, RR
+from burmester.fourbar.linkage import Linkage
+from burmester.geometry.displacement import Displacement
+from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
+
+__all__ = ["DIMENSIONS", "STACKED", "Bearing", "LinkageStack", "Surfaces"]
+
+STACKED: Final = (RR, PR, RP)  # the kinds, by their number in a stack
+DIMENSIONS: Final = 5  # of a dyad; a slider leaves the last one unused
+
+
+class Bearing(NamedTuple):
+    """What both dyads of linkages (k,) do at coupler places (k, *).
+
+    miss: (k, 2, *), the equation f, near its zero the distance from being met.
+    force: (k, 2, *, 3), its derivatives by d1, d2 and the angle: a force and its moment.
+    by_dimension: (k, 2, *, 5), its derivatives by the dyad's dimensions.
+    """
+
+    miss: FloatArray
+    force: FloatArray
+    by_dimension: FloatArray
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class LinkageStack:
+    """Linkages (k,) of two dyads each, RR, PR or RP.
+
+    kinds: (k, 2), indices in STACKED.
+    dimensions: (k, 2, 5): RR fixed pivot, moving pivot, radius; PR normal angle, offset, moving
+        pivot, 0; RP fixed pivot, normal angle, offset, 0.
+    """
+
+    kinds: NDArray[np.int8]
+    dimensions: FloatArray
+
+    @classmethod
+    def of(cls, linkages: Sequence[Linkage]) -> Self:
+        """Single linkages without PP dyads, put in a stack."""
+        kinds = np.zeros((len(linkages), 2), dtype=np.int8)
+        dimensions = np.zeros((len(linkages), 2, DIMENSIONS))
+        for k, linkage in enumerate(linkages):
+            for side, dyad in enumerate((linkage.first, linkage.second)):
+                if isinstance(dyad, RR):
+                    row = [*dyad.fixed_pivot, *dyad.moving_pivot, dyad.radius]
+                elif isinstance(dyad, PR):
+                    row = [dyad.normal_angle, dyad.offset, *dyad.moving_pivot, 0.0]
+                elif isinstance(dyad, RP):
+                    row = [*dyad.fixed_pivot, dyad.normal_angle, dyad.offset, 0.0]
+                else:
+                    raise TypeError("a PP dyad has no place in a stack")
+                kinds[k, side] = STACKED.index(type(dyad))
+                dimensions[k, side] = row
+        return cls(kinds, dimensions)
+
+    def __len__(self) -> int:
+        return len(self.kinds)
+
+    def __getitem__(self, index: Any) -> LinkageStack:
+        """Pick linkages (slices, masks, index arrays)."""
+        return LinkageStack(self.kinds[index], self.dimensions[index])
+
+    def linkage(self, index: int) -> Linkage:
+        """One of them."""
+        return Linkage(*(self._dyads(side, index) for side in (0, 1)))
+
+    def and_(self, other: LinkageStack) -> LinkageStack:
+        """These linkages, and then others."""
+        return LinkageStack(
+            np.concatenate([self.kinds, other.kinds]),
+            np.concatenate([self.dimensions, other.dimensions]),
+        )
+
+    def exchanged(self) -> LinkageStack:
+        """The same with the two dyads exchanged."""
+        return LinkageStack(self.kinds[:, ::-1], self.dimensions[:, ::-1])
+
+    def alike(self) -> Iterator[tuple[NDArray[np.intp], Linkage]]:
+        """The linkages (n,) of each pair of kinds, with their indices (n,)."""
+        number = self.kinds[:, 0] * len(STACKED) + self.kinds[:, 1]
+        for pair in np.unique(number):
+            index = np.flatnonzero(number == pair)
+            yield index, Linkage(*(self._dyads(side, index) for side in (0, 1)))
+
+    def _dyads(self, side: int, index: Any) -> RR | PR | RP:
+        """The dyads of one side; those indexed are of one kind."""
+        kind = STACKED[int(np.ravel(self.kinds[index, side])[0])]
+        row = self.dimensions[index, side]
+        if kind is RR:
+            return RR(row[..., :2], row[..., 2:4], row[..., 4])
+        if kind is PR:
+            return PR(row[..., 0], row[..., 1], row[..., 2:4])
+        return RP(row[..., :2], row[..., 2], row[..., 3])
+
+    def seen(self, frames: CanonicalFrames) -> LinkageStack:
+        """As the frames of one task see them."""
+        return self._moved(-frames.fixed_origin, -frames.moving_origin, 1.0, 1 / frames.length)
+
+    def back(self, frames: CanonicalFrames) -> LinkageStack:
+        """What `seen` undoes."""
+        return self._moved(frames.fixed_origin, frames.moving_origin, frames.length, 1.0)
+
+    def _moved(
+        self, fixed: FloatArray, moving: FloatArray, before: Any, after: Any
+    ) -> LinkageStack:
+        """With lengths times `before`, origins moved by fixed and moving, then times `after`."""
+        out = self.dimensions.copy()
+        for at, kind, shift in ((0, 1, fixed), (2, 2, moving)):
+            line = self.kinds == kind
+            points, lines = out[~line], out[line]
+            points[:, at : at + 2] = (before * points[:, at : at + 2] + shift) * after
+            normal = lines[:, at]
+            along = np.cos(normal) * shift[0] + np.sin(normal) * shift[1]
+            lines[:, at + 1] = (before * lines[:, at + 1] + along) * after
+            out[~line], out[line] = points, lines
+        out[..., 4] *= before * after
+        return LinkageStack(self.kinds, out)
+
+    def surfaces(self) -> Surfaces:
+        """The constraint manifolds of both dyads, scaled as in `bearing`."""
+        one, two, last = (
+            self.dimensions[..., :2],
+            self.dimensions[..., 2:4],
+            self.dimensions[..., 4],
+        )
+        c, m = complex_of(one), complex_of(two)
+        out = Surfaces(
+            *(np.zeros(c.shape, dtype) for dtype in (float, complex, complex, complex, float))
+        )
+        rr, pr, rp = (self.kinds == kind for kind in range(len(STACKED)))
+        if rr.any():
+            fixed, moving, r = c[rr], m[rr], last[rr]
+            constant = (np.abs(moving) ** 2 + np.abs(fixed) ** 2) / r - r
+            terms = (0.5 / r, -fixed / r, moving / r, -moving * fixed.conj() / r, constant / 2)
+            for whole, part in zip(out, terms, strict=True):
+                whole[rr] = part
+        if pr.any():
+            normal = np.exp(1j * one[pr][:, 0])
+            out.still[pr], out.both[pr] = normal, normal.conj() * m[pr]
+            out.constant[pr] = -one[pr][:, 1]
+        if rp.any():
+            normal = np.exp(1j * two[rp][:, 0])
+            out.turned[rp], out.both[rp] = -normal, normal * c[rp].conj()
+            out.constant[rp] = -two[rp][:, 1]
+        return out
+
+    def bearing(self, places: Displacement) -> Bearing:
+        """What both dyads do at coupler places (k, *)."""
+        d, turn = complex_of(places.translation)[:, None], np.exp(1j * places.angle)[:, None]
+        miss, push, swing = self.surfaces().at(d, turn)
+        force = np.stack([push.real, push.imag, -swing.imag], axis=-1)
+        by_dimension = np.zeros((*miss.shape, DIMENSIONS))
+        on_body = push * turn.conj()
+        for kind in range(len(STACKED)):
+            row, side = np.nonzero(self.kinds == kind)
+            if not len(row):
+                continue
+            z = self.dimensions[row, side].T
+            z = z.reshape(*z.shape, *[1] * (places.angle.ndim - 1))
+            at, body, moved, spun = push[row, side], on_body[row, side], d[row, 0], turn[row, 0]
+            if kind == 0:
+                slope = [-at.real, -at.imag, body.real, body.imag]
+                slope.append(-(at.real**2 + at.imag**2 + 1) / 2)
+            elif kind == 1:
+                point = moved + (z[2] + 1j * z[3]) * spun
+                slope = [(at.conj() * point).imag, -1.0, body.real, body.imag]
+            else:
+                point = z[0] + 1j * z[1] - moved
+                slope = [-at.real, -at.imag, -(at.conj() * point).imag, -1.0]
+            for k, value in enumerate(slope):
+                by_dimension[row, side, ..., k] = value
+        return Bearing(miss, force, by_dimension)
+
+
+class Surfaces(NamedTuple):
+    """Constraint manifolds in complex numbers, (*,) each: with d and turn = e^(i angle),
+
+    f = round |d|² + Re(d* (still + turned turn)) + Re(both turn) + constant = 0.
+
+    The eight coefficients of `manifold` in another order; RR is scaled by 1 / (2 r), lines by 1.
+    """
+
+    round: FloatArray
+    still: ComplexArray
+    turned: ComplexArray
+    both: ComplexArray
+    constant: FloatArray
+
+    def some(self, index: Any) -> Surfaces:
+        """Pick along the leading axes."""
+        return Surfaces(
+            self.round[index],
+            self.still[index],
+            self.turned[index],
+            self.both[index],
+            self.constant[index],
+        )
+
+    def at(
+        self, d: ComplexArray, turn: ComplexArray
+    ) -> tuple[FloatArray, ComplexArray, ComplexArray]:
+        """At places (k, 1, *), of surfaces (k, 2): f, the force, and what turning does (`swing`).
+
+        f and the force (a complex number) are (k, 2, *).  The moment of the force about the origin
+        of M is -swing.imag; f's second derivative by the angle is -swing.real.
+        """
+        spread = (..., *[None] * (d.ndim - 2))
+        round, still = self.round[spread], self.still[spread]
+        arm = self.turned[spread] * turn
+        swing = d.conj() * arm + self.both[spread] * turn
+        along = (d.conj() * still).real + swing.real + self.constant[spread]
+        return round * (d.real**2 + d.imag**2) + along, 2 * round * d + still + arm, swing
+
+    def bend(
+        self, turn: ComplexArray, swing: ComplexArray, v: ComplexArray, omega: FloatArray
+    ) -> FloatArray:
+        """Second derivatives (k, 2, *) of f along velocities v, omega (k, 1, *)."""
+        spread = (..., *[None] * (turn.ndim - 2))
+        turning = 2 * omega * (v.conj() * (1j * turn * self.turned[spread])).real
+        speed = v.real**2 + v.imag**2
+        return np.asarray(2 * self.round[spread] * speed + turning - omega**2 * swing.real)

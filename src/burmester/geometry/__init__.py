@@ -1,0 +1,1 @@
+"""Displacements of the plane, their image points, and what lies among them."""

@@ -1,0 +1,167 @@
+"""Planar displacements and their image points: Eqs. (1) to (3) of Ge et al. 2012.
+
+A displacement carries the moving frame M, seen in the fixed frame F, to the origin
+`translation` and the orientation `angle`.  Kinematic mapping sends it to the image point
+
+    Z = (Z1 : Z2 : Z3 : Z4),   Z3 = sin(angle / 2),   Z4 = cos(angle / 2),
+
+a point of a projective three-space; Z and -Z are the same displacement.  Image points are
+kept at unit scale, Z3² + Z4² = 1, so that nothing is singular at half turns.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Self, final
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from burmester.errors import InputError
+from burmester.numerics.arrays import FloatArray
+
+__all__ = ["Displacement", "image_multiply"]
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Displacement:
+    """Rigid displacements of the plane, one or a million, from M to F.
+
+    translation: (*, 2), the origin of M in F, in the task's length unit.
+    angle: (*,), the orientation of M in F, in radians, any number of turns.
+    Leading axes broadcast against each other.
+    """
+
+    translation: FloatArray
+    angle: FloatArray
+
+    def __post_init__(self) -> None:
+        translation = np.asarray(self.translation, dtype=np.float64)
+        angle = np.asarray(self.angle, dtype=np.float64)
+        if translation.ndim == 0 or translation.shape[-1] != 2:
+            raise ValueError(f"translation needs shape (*, 2), not {translation.shape}")
+        if translation.shape[:-1] != angle.shape:
+            shape = np.broadcast_shapes(translation.shape[:-1], angle.shape)
+            translation = np.broadcast_to(translation, (*shape, 2))
+            angle = np.broadcast_to(angle, shape)
+        object.__setattr__(self, "translation", translation)
+        object.__setattr__(self, "angle", angle)
+
+    @classmethod
+    def from_poses(cls, poses: ArrayLike) -> Self:
+        """Displacements from rows (x, y, angle in radians), shape (*, 3)."""
+        rows = np.asarray(poses, dtype=np.float64)
+        if rows.ndim == 0 or rows.shape[-1] != 3:
+            raise ValueError(f"poses need shape (*, 3): x, y, angle; not {rows.shape}")
+        return cls(rows[..., :2], rows[..., 2])
+
+    @classmethod
+    def identity(cls, shape: tuple[int, ...] = ()) -> Self:
+        """The displacement that leaves M on F."""
+        return cls(np.zeros((*shape, 2)), np.zeros(shape))
+
+    @classmethod
+    def from_matrix(cls, matrix: ArrayLike) -> Self:
+        """The displacement of a homogeneous (*, 3, 3) matrix, Eq. (1); angle in (-pi, pi]."""
+        t = np.asarray(matrix, dtype=np.float64)
+        return cls(t[..., :2, 2], np.arctan2(t[..., 1, 0], t[..., 0, 0]))
+
+    @classmethod
+    def from_image_point(cls, point: ArrayLike) -> Self:
+        """The displacement of an image point (*, 4) of any scale but zero, Eq. (3).
+
+        The angle comes back in (-pi, pi].
+        """
+        z = np.asarray(point, dtype=np.float64)
+        z1, z2, z3, z4 = np.moveaxis(z, -1, 0)
+        scale = z3**2 + z4**2
+        translation = np.stack([2 * (z1 * z3 + z2 * z4), 2 * (z2 * z3 - z1 * z4)], axis=-1)
+        angle = np.arctan2(2 * z3 * z4, z4**2 - z3**2)
+        return cls(translation / scale[..., None], angle)
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The leading axes: () for one displacement."""
+        return self.angle.shape
+
+    def __getitem__(self, index: Any) -> Displacement:
+        """Pick along the leading axes (indices, slices, masks)."""
+        d1, d2 = self.translation[..., 0][index], self.translation[..., 1][index]
+        return Displacement(np.stack([d1, d2], axis=-1), self.angle[index])
+
+    def as_matrix(self) -> FloatArray:
+        """Homogeneous matrices (*, 3, 3), Eq. (1)."""
+        c, s = np.cos(self.angle), np.sin(self.angle)
+        matrix = np.zeros((*self.shape, 3, 3))
+        matrix[..., 0, 0] = matrix[..., 1, 1] = c
+        matrix[..., 0, 1], matrix[..., 1, 0] = -s, s
+        matrix[..., :2, 2] = self.translation
+        matrix[..., 2, 2] = 1.0
+        return matrix
+
+    def as_image_point(self) -> FloatArray:
+        """Unit image points (*, 4), Eq. (2), with Z3² + Z4² = 1."""
+        s, c = np.sin(self.angle / 2), np.cos(self.angle / 2)
+        d1, d2 = self.translation[..., 0], self.translation[..., 1]
+        point = np.empty((*self.shape, 4))
+        point[..., 0] = (d1 * s - d2 * c) / 2
+        point[..., 1] = (d1 * c + d2 * s) / 2
+        point[..., 2] = s
+        point[..., 3] = c
+        return point
+
+    def rotate(self, vectors: ArrayLike) -> FloatArray:
+        """Directions of M (*, 2) seen in F: the rotation alone."""
+        v = np.asarray(vectors, dtype=np.float64)
+        c, s = np.cos(self.angle), np.sin(self.angle)
+        x, y = v[..., 0], v[..., 1]
+        return np.stack([c * x - s * y, s * x + c * y], axis=-1)
+
+    def act(self, points: ArrayLike) -> FloatArray:
+        """Points of M (*, 2) seen in F, Eq. (4)."""
+        return self.rotate(points) + self.translation
+
+    def inverse(self) -> Displacement:
+        """The displacement from F to M: the inverse motion."""
+        back = Displacement(np.zeros(2), -self.angle)
+        return Displacement(-back.rotate(self.translation), -self.angle)
+
+    def __matmul__(self, other: Displacement) -> Displacement:
+        """Compose: `(a @ b).act(p) == a.act(b.act(p))`; angles add."""
+        return Displacement(self.act(other.translation), self.angle + other.angle)
+
+    def require_finite(self) -> None:
+        """Refuse numbers that are not finite; some SVD codes never return on one `inf`.
+
+        Raises InputError E103 naming the first such pose.
+        """
+        bad = ~(np.isfinite(self.translation).all(axis=-1) & np.isfinite(self.angle))
+        if bad.any():
+            index = tuple(int(i) for i in np.argwhere(bad)[0])
+            x, y = self.translation[index]
+            raise InputError(
+                "E103",
+                f"pose {', '.join(str(i + 1) for i in index)} has a value that is not a "
+                f"finite number: x = {x:g}, y = {y:g}, angle = {self.angle[index]:g} rad",
+                help="give finite numbers, or delete the pose",
+            )
+
+
+def image_multiply(left: ArrayLike, right: ArrayLike) -> FloatArray:
+    """The image point (*, 4) of `a @ b` from those of a and b: a bilinear product.
+
+    So a change of the frame F or M is a linear map of the image space (Bottema and Roth,
+    Theoretical Kinematics, chapter 11).
+    """
+    a1, a2, a3, a4 = np.moveaxis(np.asarray(left, dtype=np.float64), -1, 0)
+    b1, b2, b3, b4 = np.moveaxis(np.asarray(right, dtype=np.float64), -1, 0)
+    return np.stack(
+        [
+            a1 * b4 + a2 * b3 - a3 * b2 + a4 * b1,
+            a2 * b4 - a1 * b3 + a4 * b2 + a3 * b1,
+            a3 * b4 + a4 * b3,
+            a4 * b4 - a3 * b3,
+        ],
+        axis=-1,
+    )

@@ -1,0 +1,316 @@
+"""Regions of the plane: a point, a line, a segment, a polygon, and their faces."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Final, NamedTuple, TypeAlias, final
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from burmester.errors import InputError
+from burmester.numerics.arrays import FloatArray
+
+__all__ = [
+    "FLAT",
+    "MOST_CORNERS",
+    "PLANE",
+    "STRAIGHT",
+    "Face",
+    "Line",
+    "Point",
+    "Polygon",
+    "Region",
+    "Segment",
+    "box",
+]
+
+MOST_CORNERS = 100  # of a polygon: a second or two of search
+FLAT = 1e-12  # of a polygon's length: no width
+STRAIGHT = 1e-9  # sine of the angle by which a corner that is none may turn
+
+
+class Face(NamedTuple):
+    """A piece of a region: origin (2,) + basis (2, dimension) u, for all u.
+
+    inward: (k, 2), unit directions that lead from the face into the region, the outermost of
+        them (where they are more than half a turn apart, one between as well); none where the
+        region is no wider than the face.
+    """
+
+    origin: FloatArray
+    basis: FloatArray
+    inward: FloatArray
+
+
+PLANE: Final = Face(np.zeros(2), np.eye(2), np.empty((0, 2)))
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Point:
+    """One point, (2,)."""
+
+    at: FloatArray
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "at", _points(self.at, 1, "a point")[0])
+
+    def __str__(self) -> str:
+        return f"at {_shown(self.at)}"
+
+    def equations(self) -> FloatArray:
+        """The linear conditions (k, 3) that it sets: row · (1, X, Y) = 0."""
+        x, y = self.at
+        return np.array([[-x, 1.0, 0.0], [-y, 0.0, 1.0]])
+
+    def faces(self) -> Iterator[Face]:
+        """Its pieces."""
+        yield Face(self.at, np.empty((2, 0)), np.empty((0, 2)))
+
+    def distance(self, points: FloatArray) -> FloatArray:
+        """How far points (*, 2) lie outside it, (*,)."""
+        return np.asarray(np.linalg.norm(points - self.at, axis=-1))
+
+    def corners(self) -> FloatArray:
+        """Points (k, 2) whose convex hull holds the region."""
+        return self.at[None]
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Line:
+    """The endless line through two points, start and end (2,) each."""
+
+    start: FloatArray
+    end: FloatArray
+
+    def __post_init__(self) -> None:
+        _take_two(self, "a line")
+
+    def __str__(self) -> str:
+        return f"on the line through {_shown(self.start)} and {_shown(self.end)}"
+
+    def equations(self) -> FloatArray:
+        """The linear conditions (k, 3) that it sets: row · (1, X, Y) = 0."""
+        return _line_equation(self.start, self.end)
+
+    def faces(self) -> Iterator[Face]:
+        """Its pieces."""
+        yield Face(self.start, _unit(self.end - self.start)[:, None], np.empty((0, 2)))
+
+    def distance(self, points: FloatArray) -> FloatArray:
+        """How far points (*, 2) lie outside it, (*,)."""
+        row = self.equations()[0]
+        return np.asarray(np.abs(points @ row[1:] + row[0]))
+
+    def corners(self) -> None:
+        """None: no points hold it."""
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Segment:
+    """The straight piece from start to end, (2,) each."""
+
+    start: FloatArray
+    end: FloatArray
+
+    def __post_init__(self) -> None:
+        _take_two(self, "a segment")
+
+    def __str__(self) -> str:
+        return f"on the segment from {_shown(self.start)} to {_shown(self.end)}"
+
+    def equations(self) -> FloatArray:
+        """The linear conditions (k, 3) that it sets: row · (1, X, Y) = 0."""
+        return _line_equation(self.start, self.end)
+
+    def faces(self) -> Iterator[Face]:
+        """Its pieces."""
+        along = _unit(self.end - self.start)
+        yield Face(self.start, along[:, None], np.empty((0, 2)))
+        for at, inward in ((self.start, along), (self.end, -along)):
+            yield Face(at, np.empty((2, 0)), inward[None])
+
+    def distance(self, points: FloatArray) -> FloatArray:
+        """How far points (*, 2) lie outside it, (*,)."""
+        return _from_segment(points, self.start, self.end)
+
+    def corners(self) -> FloatArray:
+        """Points (k, 2) whose convex hull holds the region."""
+        return np.stack([self.start, self.end])
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Polygon:
+    """The inside and the edge of a polygon, convex or not: vertices (n, 2), n >= 3."""
+
+    vertices: FloatArray
+
+    def __post_init__(self) -> None:
+        v = _points(self.vertices, None, "a polygon")
+        v = v[np.any(v != np.roll(v, 1, axis=0), axis=1)]
+        if len(v) > MOST_CORNERS:
+            raise InputError(
+                "E131",
+                f"a polygon of {len(v)} corners",
+                why="every edge and every corner is searched by itself",
+                help=f"take {MOST_CORNERS} of its corners at most",
+            )
+        rounding = np.finfo(float).eps * len(v) * np.abs(v).max(initial=0)
+        values = np.linalg.svd(v - v[:1], compute_uv=False) if len(v) > 2 else np.zeros(2)
+        if values[1] <= FLAT * values[0] + rounding:
+            raise InputError(
+                "E131",
+                "a polygon has no inside",
+                why=f"its {max(len(v), 1)} different corners lie on one line",
+                help="give three corners or more that enclose one, or a line or a point instead",
+            )
+        if _crosses_itself(v):
+            raise InputError(
+                "E131",
+                "a polygon crosses itself",
+                help="give its corners in order around it",
+            )
+        x, y = (v - v[0]).T
+        area = (x * np.roll(y, -1) - y * np.roll(x, -1)).sum()
+        object.__setattr__(self, "vertices", v if area > 0 else v[::-1])
+
+    def __str__(self) -> str:
+        low, high = self.vertices.min(axis=0), self.vertices.max(axis=0)
+        on_bounds = ((self.vertices == low) | (self.vertices == high)).all()
+        if on_bounds and len(self.vertices) == 4:
+            return f"in the box from {_shown(low)} to {_shown(high)}"
+        return "in the polygon " + " ".join(map(_shown, self.vertices))
+
+    def equations(self) -> FloatArray:
+        """None: no linear conditions, (0, 3)."""
+        return np.empty((0, 3))
+
+    def faces(self) -> Iterator[Face]:
+        """Its pieces: the inside, the edges, the corners."""
+        yield PLANE
+        v = self.vertices
+        along = _unit(np.roll(v, -1, axis=0) - v)
+        inward = np.stack([-along[:, 1], along[:, 0]], axis=-1)
+        for at, edge, inside in zip(v, along, inward, strict=True):
+            yield Face(at, edge[:, None], inside[None])
+        for k, at in enumerate(v):
+            ways = [along[k], -along[k - 1]]
+            if along[k] @ inward[k - 1] < STRAIGHT:  # straight, or pointing into the polygon
+                ways.append(_unit(inward[k] + inward[k - 1]))
+            yield Face(at, np.empty((2, 0)), np.stack(ways))
+
+    def distance(self, points: FloatArray) -> FloatArray:
+        """How far points (*, 2) lie outside it, (*,)."""
+        return np.maximum(self.signed_distance(points), 0.0)
+
+    def signed_distance(self, points: FloatArray) -> FloatArray:
+        """How far points (*, 2) lie outside it, (*,), or inside where negative."""
+        v, p = self.vertices, points[..., None, :]
+        w = np.roll(v, -1, axis=0)
+        above = (v[:, 1] > p[..., 1]) != (w[:, 1] > p[..., 1])
+        rise = np.where(w[:, 1] == v[:, 1], 1.0, w[:, 1] - v[:, 1])
+        crossing = v[:, 0] + (p[..., 1] - v[:, 1]) / rise * (w[:, 0] - v[:, 0])
+        inside = (above & (p[..., 0] < crossing)).sum(axis=-1) % 2 == 1
+        from_edge = _from_segment(p, v, w).min(axis=-1)
+        return np.asarray(np.where(inside, -from_edge, from_edge))
+
+    def corners(self) -> FloatArray:
+        """Points (k, 2) whose convex hull holds the region."""
+        return self.vertices
+
+
+Region: TypeAlias = Point | Line | Segment | Polygon
+
+
+def box(low: Sequence[float], high: Sequence[float]) -> Polygon:
+    """The box from one corner (2,) to the opposite one, the second above and right of the first.
+
+    Raises InputError E132 where it is not.
+    """
+    ((x0, y0), (x1, y1)) = _points([low, high], 2, "a box")
+    for name, least, most in (("x", x0, x1), ("y", y0, y1)):
+        if not least < most:
+            raise InputError(
+                "E132",
+                f"a box is empty: {name} from {least:g} to {most:g}",
+                why=f"its least {name}, {least:g}, is not below its greatest, {most:g}",
+                help="give the lower left corner first, then the upper right one",
+            )
+    return Polygon(np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)]))
+
+
+def _points(values: ArrayLike, count: int | None, what: str) -> FloatArray:
+    """Points (n, 2), finite, `count` of them."""
+    try:
+        points = np.array(values, dtype=np.float64)
+    except (TypeError, ValueError):  # ragged, or no numbers
+        points = np.empty(0)
+    points = points[None] if points.shape == (2,) else points
+    right = points.ndim == 2 and points.shape[1] == 2 and count in (None, len(points))
+    if not right or not np.isfinite(points).all():
+        raise InputError(
+            "E131",
+            f"{what} does not fit",
+            why=f"it takes {'points' if count is None else count} X, Y with finite numbers",
+            help="write every point as X,Y",
+        )
+    return points
+
+
+def _take_two(region: Line | Segment, what: str) -> None:
+    start, end = _points([region.start, region.end], 2, what)
+    if (start == end).all():
+        raise InputError(
+            "E131",
+            f"{what} needs two different points, not {_shown(start)} twice",
+            help="give another second point, or limit the pivot to that point",
+        )
+    object.__setattr__(region, "start", start)
+    object.__setattr__(region, "end", end)
+
+
+def _shown(point: FloatArray) -> str:
+    return f"({point[0]:g}, {point[1]:g})"
+
+
+def _unit(vectors: FloatArray) -> FloatArray:
+    return np.asarray(vectors / np.linalg.norm(vectors, axis=-1, keepdims=True))
+
+
+def _line_equation(start: FloatArray, end: FloatArray) -> FloatArray:
+    along = _unit(end - start)
+    normal = np.array([-along[1], along[0]])
+    return np.array([[-normal @ start, *normal]])
+
+
+def _from_segment(points: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray:
+    """The distance of points (*, 2) from segments (*, 2), broadcast."""
+    along = end - start
+    share = ((points - start) * along).sum(axis=-1) / (along * along).sum(axis=-1)
+    foot = start + np.clip(share, 0, 1)[..., None] * along
+    return np.asarray(np.linalg.norm(points - foot, axis=-1))
+
+
+def _crosses_itself(v: FloatArray) -> bool:
+    """Whether two edges of a polygon that are no neighbours meet."""
+    ring = [*v, v[0]]
+    edges = list(pairwise(ring))
+
+    def side(a: FloatArray, b: FloatArray, p: FloatArray) -> float:
+        return float(np.sign((b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])))
+
+    for i, (a, b) in enumerate(edges):
+        for j in range(i + 2, len(edges) - (i == 0)):
+            c, d = edges[j]
+            sides = side(a, b, c), side(a, b, d), side(c, d, a), side(c, d, b)
+            apart = np.maximum(a, b) < np.minimum(c, d), np.maximum(c, d) < np.minimum(a, b)
+            meet = sides[0] * sides[1] <= 0 and sides[2] * sides[3] <= 0
+            if meet and not np.any(apart):
+                return True
+    return False

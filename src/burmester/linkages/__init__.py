@@ -1,0 +1,1 @@
+"""Linkage synthesis: pairs of dyads refined, judged and ranked."""

@@ -1,0 +1,343 @@
+"""What a linkage keeps to while all its dimensions are refined: limits, a journey, requirements.
+
+Each is a number that is to be at most 0 (or 0, where `equal` says so), for linkages (k,) and their
+coupler's places, in the frames of `accuracy.error_frames`.  Lengths count in the frames' unit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import ClassVar, Final, Protocol, TypeAlias, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burmester.fourbar.canonical_frames import CanonicalFrames
+from burmester.fourbar.linkage_batch import LinkageStack
+from burmester.geometry.regions import Polygon, Region
+from burmester.numerics.arrays import FloatArray, complex_of, wrapped_angle
+from burmester.tasks.limits import Limits
+from burmester.tasks.requirements import Requirements
+
+__all__ = [
+    "CLEAR",
+    "SHORTEST",
+    "Conditions",
+    "Journey",
+    "Kept",
+    "Proportions",
+    "Together",
+    "drive_of",
+    "least_between",
+    "lever_sine",
+    "type_excess",
+]
+
+CLEAR: Final = np.radians(5.0)  # from dead points, of a linkage that is looked for
+BEYOND: Final = 1e-7  # radians, of a transmission angle that is asked for
+IN_ORDER: Final = 2e-3  # radians or lengths; the least way from pose to pose
+# The shortest of ground, driver, coupler and follower of Grashof's types.
+SHORTEST: Final = {"double-crank": 0, "crank-rocker": 1, "double-rocker": 2, "rocker-crank": 3}
+SURE: Final = 1e-6  # relative, by which proportions keep from the border
+
+
+Held: TypeAlias = tuple[FloatArray, NDArray[np.bool_]]
+
+
+class Conditions(Protocol):
+    """Numbers (k, m) of linkages and rows (k, N, 3) of places, to be at most 0.
+
+    With them, which of the m are to be 0, (m,).  The indices (k,) say which of the linkages that
+    are refined they are.  Those that do not look at the places say so by `placed = False`.
+    """
+
+    def __call__(self, stack: LinkageStack, rows: FloatArray, which: NDArray[np.intp]) -> Held: ...
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Together:
+    """Some conditions, one after the other."""
+
+    parts: tuple[Conditions, ...]
+
+    @property
+    def placed(self) -> bool:
+        """Whether one of them looks at the places."""
+        return any(getattr(part, "placed", True) for part in self.parts)
+
+    def __call__(self, stack: LinkageStack, rows: FloatArray, which: NDArray[np.intp]) -> Held:
+        values, equal = zip(*(part(stack, rows, which) for part in self.parts), strict=True)
+        return np.concatenate(values, axis=1), np.concatenate(equal)
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Kept:
+    """The limits of one side's dyad, for all linkages."""
+
+    side: int
+    limits: Limits
+    frames: CanonicalFrames
+    placed: ClassVar[bool] = False
+
+    def __call__(self, stack: LinkageStack, rows: FloatArray, which: NDArray[np.intp]) -> Held:
+        own = stack.back(self.frames)
+        kind, z = own.kinds[:, self.side], own.dimensions[:, self.side]
+        least, most = self.limits.length
+        with np.errstate(invalid="ignore"):
+            link = np.stack([least - z[:, 4], z[:, 4] - most], axis=1)
+        out = [np.where((kind == 0)[:, None] & np.isfinite(link), link, -1.0)]
+        equal = [np.zeros(2, dtype=bool)]
+        regions = (self.limits.fixed_pivot, 0, 1), (self.limits.moving_pivot, 2, 2)
+        for region, at, line in regions:
+            if region is not None:
+                off = _outside(region, z[:, at : at + 2])
+                out.append(np.where((kind == line)[:, None], 0.0 * off, off))
+                equal.append(np.arange(off.shape[1]) < len(region.equations()))
+        return np.concatenate(out, axis=1) / float(self.frames.length), np.concatenate(equal)
+
+
+def _outside(region: Region, points: FloatArray) -> FloatArray:
+    """How far points (k, 2) are off a region: its equations, then what is to be at most 0."""
+    if isinstance(region, Polygon):
+        return region.signed_distance(points)[:, None]
+    rows = region.equations()
+    off = points @ rows[:, 1:].T + rows[:, 0]
+    if len(rows) == 2:
+        return np.asarray(off)
+    ends = region.corners()
+    if ends is None:
+        beyond = np.full((len(points), 2), -1.0)
+    else:
+        along = (ends[1] - ends[0]) / np.linalg.norm(ends[1] - ends[0])
+        beyond = np.stack([(ends[0] - points) @ along, (points - ends[1]) @ along], axis=1)
+    return np.concatenate([off, beyond], axis=1)
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Journey:
+    """The poses met on one branch of a drive, clear of its dead points, and in order.
+
+    length: what a radian counts as in rows.  driver: (k,), the side that drives.
+    sign: (k,), of `lever_sine` on the branch; clear: its least size.
+    sense: (k,), +1 or -1, how the drive goes; ways: (k, N - 1), from pose to pose in that sense, to
+    know whole turns by.  ordered: whether it goes that way from each pose to the next.
+    """
+
+    length: float
+    driver: NDArray[np.intp]
+    sign: FloatArray
+    clear: float
+    sense: FloatArray
+    ways: FloatArray
+    ordered: bool
+    placed: ClassVar[bool] = True
+
+    @classmethod
+    def of(  # noqa: PLR0917
+        cls,
+        stack: LinkageStack,
+        rows: FloatArray,
+        length: float,
+        driver: NDArray[np.intp],
+        sign: FloatArray,
+        middle: FloatArray,
+        requirements: Requirements,
+    ) -> Journey:
+        """The journey that is nearest to what places rows (k, N, 3) are.
+
+        middle: (k,), the drive amid its dead points; nan where it turns fully, or slides.
+        """
+        clear = float(np.sin(max(CLEAR, requirements.transmission + BEYOND)))
+        drive, turns = drive_of(stack, rows, length, driver)
+        round_ = turns & np.isnan(middle)
+        between = drive - np.nan_to_num(middle)[:, None]
+        between = np.where((turns & ~round_)[:, None], wrapped_angle(between), between)
+        step = np.diff(between, axis=1)
+        step = np.where(round_[:, None], wrapped_angle(step), step)
+        forward = (step > 0).mean(axis=1) >= 0.5
+        # A drive that turns fully may meet all poses within one turn, in one of the two senses.
+        turn = np.stack([step, -step]) % (2 * np.pi)
+        total = turn.sum(axis=-1)
+        once = round_ & (total.min(axis=0) < 2 * np.pi)
+        forward = np.where(once, total[0] <= total[1], forward)
+        sense = np.where(forward, 1.0, -1.0)
+        around = np.where(forward[:, None], turn[0], turn[1])
+        ways = np.where(once[:, None], around, sense[:, None] * step)
+        return cls(length, driver, sign, clear, sense, ways, not requirements.any_order)
+
+    def __call__(self, stack: LinkageStack, rows: FloatArray, which: NDArray[np.intp]) -> Held:
+        driver, sense, ways = self.driver[which], self.sense[which, None], self.ways[which]
+        sine = self.sign[which, None] * lever_sine(stack, rows, self.length, driver)
+        out = [self.clear - sine]
+        drive, turns = drive_of(stack, rows, self.length, driver)
+        more = sense * np.diff(drive, axis=1) - ways
+        step = ways + np.where(turns[:, None], wrapped_angle(more), more)
+        along = np.concatenate([np.zeros((len(drive), 1)), np.cumsum(step, axis=1)], axis=1)
+        if self.ordered:
+            whole = along[:, -1:] - 2 * np.pi + IN_ORDER
+            out += [IN_ORDER - step, np.where(turns[:, None], whole, -1.0)]
+        # Between the poses, too, it stays clear.
+        at, cosine = least_between(stack, driver)
+        start = along.min(axis=1, keepdims=True)
+        ahead = sense * (at - drive[:, :1]) - start
+        ahead = np.where(turns[:, None], ahead % (2 * np.pi), ahead)
+        passed = (ahead > 0) & (ahead < along.max(axis=1, keepdims=True) - start)
+        out.append(np.where(passed, np.abs(cosine) - np.sqrt(1 - self.clear**2), -1.0))
+        return _at_most(out)
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Proportions:
+    """What a designer asks of the links' lengths, and of the room that the pivots take.
+
+    driver: (k,), the side that drives; types: (k,), the type to be, "" for any.
+    """
+
+    length: float
+    frames: CanonicalFrames
+    requirements: Requirements
+    driver: NDArray[np.intp]
+    types: NDArray[np.str_]
+    placed: ClassVar[bool] = True
+
+    def __call__(self, stack: LinkageStack, rows: FloatArray, which: NDArray[np.intp]) -> Held:
+        out = [np.full((len(stack), 1), -1.0)]
+        links = _links(stack, self.driver[which])
+        if np.isfinite(self.requirements.link_ratio):
+            ratio = self.requirements.link_ratio * (1 - SURE)
+            excess = links[:, :, None] - ratio * links[:, None]
+            out.append(excess.reshape(len(stack), -1))
+        if (self.types != "").any():
+            out.append(type_excess(stack, self.driver[which], self.types[which].tolist()))
+        if self.requirements.footprint is not None:
+            out.append(self._footprint(self.requirements.footprint, stack, rows))
+        value, equal = _at_most(out)
+        return np.where(np.isfinite(value), value, -1.0), equal
+
+    def _footprint(self, footprint: Polygon, stack: LinkageStack, rows: FloatArray) -> FloatArray:
+        """How far fixed pivots, and moving pivots at the places, are outside; -1 for lines."""
+        unit, origin = float(self.frames.length), self.frames.fixed_origin
+        out = []
+        turn = np.exp(1j * rows[..., 2] / self.length)
+        for side in (0, 1):
+            kind, z = stack.kinds[:, side], stack.dimensions[:, side]
+            off = footprint.signed_distance(z[:, :2] * unit + origin)
+            out.append(np.where(kind == 1, -1.0, off)[:, None])
+            pin = complex_of(rows) + complex_of(z[:, 2:4])[:, None] * turn
+            at = np.stack([pin.real, pin.imag], axis=-1) * unit + origin
+            out.append(np.where((kind == 2)[:, None], -1.0, footprint.signed_distance(at)))
+        return np.concatenate(out, axis=1) / unit
+
+
+def _at_most(parts: list[FloatArray]) -> Held:
+    value = np.concatenate(parts, axis=1)
+    return value, np.zeros(value.shape[1], dtype=bool)
+
+
+def lever_sine(
+    stack: LinkageStack, rows: FloatArray, length: float, driver: NDArray[np.intp]
+) -> FloatArray:
+    """The sine (k, n) of the transmission angle at rows (k, n, 3), signed.
+
+    It changes its sign at the dead points of the side that drives, (k,).  The power that the
+    driver passes on: of three wrenches (what the driver can do, and both constraints) the
+    determinant, over its lever.
+    """
+    every = np.arange(len(stack))
+    d, turn = complex_of(rows), np.exp(1j * rows[..., 2] / length)
+    _, push, swing = stack.surfaces().at(d[:, None], turn[:, None])
+    moment = -swing.imag
+    lead, follow = push[every, driver], push[every, 1 - driver]
+    own, other = moment[every, driver], moment[every, 1 - driver]
+    z, z2 = stack.dimensions[every, driver], stack.dimensions[every, 1 - driver]
+    kind, kind2 = stack.kinds[every, driver], stack.kinds[every, 1 - driver]
+    slot, slot2 = (kind == 2)[:, None], (kind2 == 2)[:, None]
+    hand, hand2 = complex_of(z[:, 2:4])[:, None], complex_of(z2[:, 2:4])[:, None]
+    effort, turning = 1j * lead, ((hand * turn).conj() * lead).real
+    across = (lead.conj() * follow).imag
+    # det(effort, own force, other force), by its moments.
+    det = (
+        turning * across - own * (effort.conj() * follow).imag + other * (effort.conj() * lead).imag
+    )
+    pin = d + hand * turn
+    far = np.abs(np.where(slot2, complex_of(z2[:, :2])[:, None] - pin, hand2 - hand))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        sine = np.where(slot, across, det / far)
+    return np.where(slot & slot2, 1.0, sine)
+
+
+def least_between(stack: LinkageStack, driver: NDArray[np.intp]) -> tuple[FloatArray, FloatArray]:
+    """Drives (k, 2) where a transmission angle may be least between two places, and its cosine.
+
+    Where the drive's f turns back, see `drive`; beyond 1 where the linkage does not close there.
+    nan for pairs whose transmission angle is nowhere least there.
+    """
+    every = np.arange(len(stack))
+    z, z2 = stack.dimensions[every, driver].T, stack.dimensions[every, 1 - driver].T
+    kind, kind2 = stack.kinds[every, driver], stack.kinds[every, 1 - driver]
+    c, m, c2, m2 = (complex_of(part[at : at + 2].T) for part in (z, z2) for at in (0, 2))
+    both = np.array([[1.0], [-1.0]])
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+        ground, arm = c2 - c, np.abs(m2 - m)
+        n, n2, slot2 = np.exp(1j * z[0]), np.exp(1j * z2[0]), np.exp(1j * z2[2])
+        rail = np.abs((n.conj() * c2).real - z[1])
+        far = np.where(kind == 0, np.abs(np.abs(ground) - both * z[4]), rail)
+        pins = (arm**2 + z2[4] ** 2 - far**2) / (2 * arm * z2[4])
+        line = (z2[1] - (n2.conj() * c).real - both * z[4]) / arm
+        slot = (z2[3] - (slot2.conj() * m).real) / far
+        across = (both * np.abs(ground) + (np.exp(-1j * z[2]) * m2).real - z[3]) / z2[4]
+    crank, of_slot = np.angle(ground), np.angle(-ground)
+    pair = kind * 3 + kind2
+    cosine = np.select(
+        [pair == 0, pair == 1, pair == 2, pair == 3, pair == 5, pair == 6],
+        [pins, line, slot, pins, slot, across],
+        np.nan,
+    )
+    start = np.select(
+        [pair == 1, kind == 0, kind == 1], [z2[0], crank, (n.conj() * c2).imag], of_slot
+    )
+    at = np.stack([start, np.where(kind == 1, np.nan, start + np.pi)], axis=1)
+    return at, cosine.T
+
+
+def drive_of(
+    stack: LinkageStack, rows: FloatArray, length: float, driver: NDArray[np.intp]
+) -> tuple[FloatArray, NDArray[np.bool_]]:
+    """The drive's coordinate (k, n) at rows (k, n, 3), see `drive`, and whether it turns (k,)."""
+    every = np.arange(len(stack))
+    z, kind = stack.dimensions[every, driver], stack.kinds[every, driver]
+    d, angle = complex_of(rows), rows[..., 2] / length
+    pin = d + complex_of(z[:, 2:4])[:, None] * np.exp(1j * angle)
+    crank = np.angle(pin - complex_of(z[:, :2])[:, None])
+    slide = (pin * np.exp(-1j * z[:, :1])).imag
+    kind_ = kind[:, None]
+    return np.select([kind_ == 0, kind_ == 1], [crank, slide], angle + z[:, 2:3]), kind != 1
+
+
+def _links(stack: LinkageStack, driver: NDArray[np.intp]) -> FloatArray:
+    """Ground, driver, coupler and follower (k, 4) of 4R linkages; nan of others."""
+    every = np.arange(len(stack))
+    z, z2 = stack.dimensions[every, driver], stack.dimensions[every, 1 - driver]
+    ground, coupler = (np.linalg.norm((z2 - z)[:, at : at + 2], axis=-1) for at in (0, 2))
+    links = np.stack([ground, z[:, 4], coupler, z2[:, 4]], axis=1)
+    return np.where((stack.kinds == 0).all(axis=1)[:, None], links, np.nan)
+
+
+def type_excess(stack: LinkageStack, driver: NDArray[np.intp], types: Sequence[str]) -> FloatArray:
+    """By how much 4R linkages (k,) are not of the types (k,): three numbers each, relative."""
+    links, names = _links(stack, driver), np.array(types, dtype=str)
+    out = np.full((len(links), 3), -1.0)
+    for name, shortest in SHORTEST.items():
+        some = links[names == name]
+        others = [i for i in range(4) if i != shortest]
+        whole = some.sum(axis=1, keepdims=True)
+        out[names == name] = (2 * (some[:, [shortest]] + some[:, others]) - whole) / whole + SURE
+    some = links[names == "triple-rocker"]
+    ends, whole = some.min(axis=1) + some.max(axis=1), some.sum(axis=1)
+    out[names == "triple-rocker", 0] = (whole - 2 * ends) / whole + SURE
+    return out

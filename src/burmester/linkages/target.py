@@ -1,0 +1,82 @@
+"""What linkages are made for: the poses in their frames, and what is asked."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burmester.fourbar.canonical_frames import CanonicalFrames
+from burmester.fourbar.linkage_batch import LinkageStack
+from burmester.fourbar.nearest_places import on_circuits, rows_of
+from burmester.geometry.displacement import Displacement
+from burmester.linkages.constraints import (
+    Conditions,
+)
+from burmester.linkages.refinement import Refined, refine
+from burmester.numerics.arrays import FloatArray
+from burmester.tasks.requirements import Requirements
+
+__all__ = ["Aim"]
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Aim:
+    """What linkages are looked for: near poses (N,), in the frames of `accuracy.error_frames`.
+
+    kept: the limits of the dyads.  The rest as in `refine`.
+    """
+
+    poses: Displacement
+    length: float
+    frames: CanonicalFrames
+    requirements: Requirements
+    kept: tuple[Conditions, ...] = ()
+    weights: FloatArray | None = None
+    exact: NDArray[np.bool_] | None = None
+    worst: bool = False
+
+    def refine(self, stack: LinkageStack, rows: FloatArray, **how: Any) -> Refined:
+        """Linkages (k,) from where they are to the least error."""
+        return refine(
+            stack,
+            self.places_of(rows),
+            self.poses,
+            self.length,
+            weights=self.weights,
+            exact=self.exact,
+            **how,
+        )
+
+    def thinned(self, most: int) -> Aim:
+        """The same with so many poses at most, evenly chosen; exact ones all stay."""
+        count = self.poses.shape[0]
+        if count <= most:
+            return self
+        index = np.linspace(0, count - 1, most).round().astype(np.intp)
+        if self.exact is not None:
+            index = np.union1d(index, np.flatnonzero(self.exact))
+        return replace(
+            self,
+            poses=self.poses[index],
+            weights=None if self.weights is None else self.weights[index],
+            exact=None if self.exact is None else self.exact[index],
+        )
+
+    def places(self, stack: LinkageStack) -> FloatArray:
+        """Rows (k, N, 3) of the places nearest to the poses, on the circuit nearest to all."""
+        rows = rows_of(on_circuits(stack, self.poses, self.length), self.length)
+        cost = np.nan_to_num(self.cost(rows), nan=np.inf)
+        return np.asarray(rows[np.arange(len(stack)), cost.argmin(axis=1)])
+
+    def places_of(self, rows: FloatArray) -> Displacement:
+        """Rows (*, 3) as displacements."""
+        return Displacement(rows[..., :2], rows[..., 2] / self.length)
+
+    def cost(self, rows: FloatArray) -> FloatArray:
+        """The weighted sum of squared distances (*,) of rows (*, N, 3) from the poses."""
+        gap = ((rows - rows_of(self.poses, self.length)) ** 2).sum(axis=-1)
+        return np.asarray(gap.sum(axis=-1) if self.weights is None else gap @ self.weights)

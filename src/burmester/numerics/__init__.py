@@ -1,0 +1,1 @@
+"""Numerics that knows no mechanism: arrays, least squares, quadratic programs."""

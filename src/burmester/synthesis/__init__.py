@@ -1,0 +1,1 @@
+"""From a task to its linkages, everything kept and ranked."""

@@ -1,0 +1,261 @@
+"""What came of a task, in words: the outcome, the warnings, and the method that it got."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from burmester.dyads.critical_points import COUNT, CriticalDyads
+from burmester.dyads.five_poses import FivePoseDyads
+from burmester.dyads.local_minima import BestDyads
+from burmester.dyads.minima_within_limits import LimitedDyads
+from burmester.dyads.selection import LONG, Fit, FoundDyad, characteristic_length
+from burmester.errors import Advice
+from burmester.fourbar.dyad import RR
+from burmester.linkages.explanation import by_nearness, in_short, met, way_on
+from burmester.linkages.found_linkage import FoundLinkage
+from burmester.synthesis.method import Method
+from burmester.synthesis.result import Outcome
+from burmester.tasks.motion_task import CONDITIONS, Task
+from burmester.tasks.repeated_poses import rotation_range
+from burmester.tasks.wording import count, figure, least_angle, length_of, span
+
+__all__ = ["advice", "family", "linkage_advice", "told"]
+
+BETTER = 1.2  # times the transmission angle, for another linkage to be named
+LITTLE = math.radians(30)  # of rotation
+GOOD_TRANSMISSION = math.radians(40)  # least angle over the range; below it friction may lock
+
+
+def advice(
+    task: Task, fits: Sequence[Fit], dyads: Sequence[FoundDyad], left_out: int, length: float
+) -> list[Advice]:
+    """What a user should know about the dyads."""
+    warnings = [
+        Advice(
+            "W204",
+            f"{item.id} has a link of {item.dyad.radius / length:.0f} times the motion's size: "
+            "nearly a slider",
+            "if a link that long cannot be built, allow sliders only with --kinds PR,RP, or say "
+            "how long it may be with --length :MAX",
+        )
+        for item in dyads
+        if isinstance(item.dyad, RR) and item.dyad.radius > LONG * length
+    ]
+    for fit in fits:
+        search = fit.search if isinstance(fit, BestDyads) else None
+        if isinstance(search, CriticalDyads) and (known := _accounted(search)) < COUNT:
+            warnings.append(
+                Advice(
+                    "W207",
+                    f"{known} of {COUNT} critical points were told apart: a locally best "
+                    "dyad may be missing",
+                    "compare with --method pencil; poses of a special motion are the usual reason",
+                )
+            )
+        if isinstance(search, LimitedDyads) and (search.lost or search.unsettled):
+            warnings.append(
+                Advice(
+                    "W207",
+                    f"{count(search.lost, 'path')} of the search and "
+                    f"{count(search.unsettled, 'way')} down from it were lost: a locally best "
+                    "dyad may be missing",
+                    "move a limit a little and compare",
+                )
+            )
+    if left_out:
+        warnings.append(
+            Advice(
+                "W206",
+                f"{count(left_out, 'solution')} left out as no dyad: an endless link with no "
+                "slider in its place, poses with two different angles only, or all digits lost",
+                "give poses that differ more, above all in their angles",
+            )
+        )
+    return warnings
+
+
+def family(task: Task, whole: int, freedom: Sequence[int]) -> tuple[Outcome, Advice]:
+    """What to say of a task with too few conditions, by how many for each limit.
+
+    whole: how many poses it had before the repeated ones were merged.
+    """
+    distinct, free = task.poses.shape[0], max(freedom)
+    poses = count(whole, "pose") + (f", {distinct} of them different," if distinct < whole else "")
+    on_pivots = CONDITIONS - free - distinct
+    given = poses + (f" and {count(on_pivots, 'condition')} on a pivot" if on_pivots else "")
+    which = "the other dyad: " if free > min(freedom) <= 0 else ""
+    parameter = {1: "one", 2: "two", 3: "three"}.get(free, str(free))
+    help = (
+        f"add {count(free, 'more pose')} to get all that pass exactly, or put pivots on lines "
+        "(one condition each) or at points (two)"
+    )
+    calls = {3: "dyad_with_moving_pivot", 4: "dyad_curve"}.get(distinct)
+    if calls and not task.limits:
+        help += f", or choose from the family in Python: burmester.{calls}"
+    return (
+        Outcome(
+            "R303",
+            f"{given} leave infinitely many linkages: {which}a {parameter}-parameter family of "
+            "dyads passes through all of them",
+            help,
+        ),
+        Advice("W203", f"{given} do not determine a linkage", help),
+    )
+
+
+def told(  # noqa: PLR0917
+    task: Task,
+    method: Method,
+    fits: Sequence[Fit],
+    found: Sequence[FoundDyad],
+    real: int,
+    linkages: Sequence[FoundLinkage],
+) -> Outcome:
+    """What came of a task, in one sentence; `real`: how many dyads are no mere neighbours.
+
+    task: with all its poses, repeated ones too, as the linkages have them.
+    """
+    dyads, aside = _dyads(task, method, fits, found, real)
+    if not linkages:
+        return _none(task, found, dyads + aside)
+    size = characteristic_length(task)
+    usable = [each for each in linkages if each.usable]
+    all_of_them = f"{count(len(linkages), 'four-bar')} from {dyads}"
+    if not usable:
+        return _none_usable(task, linkages, all_of_them, aside, size)
+    if not any(each.determined for each in usable):
+        return _undetermined(task, usable)
+    if len(usable) < len(linkages):
+        share = f"{len(usable)} of them usable"
+    else:
+        share = "usable" if len(usable) == 1 else "all of them usable"
+    code = "R307" if isinstance(fits[0], FivePoseDyads) and real < 2 else "R300"
+    return Outcome(code, f"{all_of_them}, {share}{aside}")
+
+
+def _dyads(
+    task: Task, method: Method, fits: Sequence[Fit], found: Sequence[FoundDyad], real: int
+) -> tuple[str, str]:
+    """The dyads found and how they were looked for, in words; and what is to be said aside."""
+    first = fits[0]
+    if isinstance(first, FivePoseDyads):
+        aside = ""
+        if real < len(found):
+            miss = length_of(found[real].rms_error, task)
+            aside = f"; the nearest other one misses the poses by {miss} rms"
+        return count(real, "real dyad") + " (of the 4 that five poses have)", aside
+    if isinstance(first, BestDyads) and isinstance(first.search, CriticalDyads):
+        known = f"({_accounted(first.search)} of {COUNT} critical points accounted for)"
+        return f"{count(len(found), 'locally best dyad')} {known}", ""
+    if isinstance(first, BestDyads):
+        faces = sum(
+            f.search.systems
+            for f in fits
+            if isinstance(f, BestDyads) and isinstance(f.search, LimitedDyads)
+        )
+        dyads = count(len(found), "dyad" if method == "exact" else "locally best dyad")
+        if task.limits:
+            dyads += f" within the limits ({count(faces, 'face')} of these searched)"
+        return dyads, ""
+    return count(len(found), "dyad"), ""
+
+
+def _none(task: Task, found: Sequence[FoundDyad], dyads: str) -> Outcome:
+    """No linkage at all."""
+    wider = "widen a limit, or allow another kind of dyad"
+    if task.limits and not found:
+        return Outcome("R306", f"no four-bar: {dyads}", wider)
+    message = f"no four-bar: {dyads}, and it takes two different ones"
+    return Outcome("R302", message, wider if task.limits else "change a pose, or drop one")
+
+
+def _none_usable(
+    task: Task, linkages: Sequence[FoundLinkage], all_of_them: str, aside: str, size: float
+) -> Outcome:
+    """Linkages, and none that works."""
+    nearest = by_nearness(linkages, size)[0]
+    works = "works as asked" if task.requirements.asked else "works"
+    if len(linkages) == 1:
+        none = f"which does not {works.replace('works', 'work')}"
+        why = "it"
+    else:
+        none = f"none of which {works}"
+        why = f"the closest one, {nearest.id},"
+    return Outcome(
+        "R301",
+        f"no usable linkage: {all_of_them}, {none}{aside}",
+        way_on(linkages, task, size),
+        f"{why} {in_short(nearest, task, size)}",
+    )
+
+
+def _undetermined(task: Task, usable: Sequence[FoundLinkage]) -> Outcome:
+    """Linkages that work, and pivots that could be elsewhere as well."""
+    rotation = rotation_range(task.poses.angle)
+    only = "only " if rotation < LITTLE else ""
+    best = usable[0]
+    which = "the usable one" if len(usable) == 1 else "the best usable one"
+    help = "add poses with more rotation, or give the poses with more digits"
+    return Outcome(
+        "R305",
+        "this motion does not determine pivots",
+        f"{help}; or accept it with --accept-uncertain",
+        f"the body turns {only}{figure(math.degrees(rotation))}°, and the pivots of {best.id}, "
+        f"{which}, are uncertain by {_uncertain(best, task)}",
+    )
+
+
+def _uncertain(found: FoundLinkage, task: Task) -> str:
+    """How uncertain its pivots are."""
+    assert found.uncertainty is not None
+    widest = max(each.half_width for each in found.uncertainty)
+    extent = f"the poses span {length_of(span(task), task)}"
+    if widest > 100 * max(span(task), characteristic_length(task)):
+        return f"far more than the motion's own size ({extent})"
+    return f"±{length_of(widest, task)} ({extent})"
+
+
+def linkage_advice(task: Task, linkages: Sequence[FoundLinkage], code: str) -> list[Advice]:
+    """What a user should know about the linkages that are usable; code: of the outcome."""
+    usable = [each for each in linkages if each.usable]
+    loose = [each for each in usable if not each.determined]
+    warnings = []
+    # Of special motions the outcome itself says how free the pivots are.
+    if loose and code != "R305" and not code.startswith("R31"):
+        ids = [each.id for each in loose]
+        listed = ids[0] if len(ids) == 1 else f"{', '.join(ids[:-1])} and {ids[-1]}"
+        warnings.append(
+            Advice(
+                "W209",
+                f"the poses hardly determine the pivots of {listed}, uncertain by "
+                f"{_uncertain(loose[0], task)}"
+                + ("" if len(ids) == 1 else f" in the case of {ids[0]}"),
+                "give more digits, or poses with more rotation between them",
+            )
+        )
+    if usable and not task.requirements.transmission:
+        best = usable[0]
+        least = best.driven.least_over_range
+        if least < GOOD_TRANSMISSION:
+            limit = math.degrees(GOOD_TRANSMISSION)
+            help = f"ask for more with --min-transmission {limit:.0f}"
+            other = max(usable, key=lambda each: each.driven.least_over_range)
+            if other.driven.least_over_range > BETTER * least:
+                angle = least_angle(other.driven.least_over_range)
+                near = met(other, task, characteristic_length(task))
+                help = f"take {other.id}, which has {angle} or more and {near}; or {help}"
+            warnings.append(
+                Advice(
+                    "W210",
+                    f"{best.id} transmits badly: its transmission angle falls to "
+                    f"{least_angle(least)} between the poses, and {limit:.0f}° is a usual limit",
+                    help,
+                )
+            )
+    return warnings
+
+
+def _accounted(search: CriticalDyads) -> int:
+    """How many critical points were found, those at infinity included."""
+    return int(search.found + search.at_infinity)

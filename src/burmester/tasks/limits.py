@@ -1,0 +1,107 @@
+"""What a designer allows a dyad to be: where its pivots may lie, how long, of which kind.
+
+A region of the plane is a point, a line, a segment or a polygon.  Its faces are the pieces of
+it without an edge of their own: the inside, the edges, the corners.  The best pivot in a region
+is a stationary point on one of them, from which no way into the region leads down.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Final, Literal, TypeAlias, final
+
+from burmester.errors import InputError
+from burmester.geometry.regions import Region
+
+__all__ = ["KINDS", "Kind", "Limits"]
+
+Kind: TypeAlias = Literal["RR", "PR", "RP", "PP"]
+KINDS: Final[tuple[Kind, ...]] = ("RR", "PR", "RP", "PP")
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Limits:
+    """What one dyad is allowed to be.
+
+    fixed_pivot: where in F, moving_pivot: where in M; None anywhere.  A slider's line has no
+        pivot: a dyad whose pivot is limited has that pivot (no PR where the fixed one is, no RP
+        where the moving one is).
+    length: least and greatest length of an RR dyad's link, in the task's unit.
+    kinds: which of RR, PR, RP and PP.
+    Raises InputError E131 (malformed) and E132 (limits that contradict each other).
+    """
+
+    fixed_pivot: Region | None = None
+    moving_pivot: Region | None = None
+    length: tuple[float, float] = (0.0, float("inf"))
+    kinds: frozenset[Kind] = field(default=frozenset(KINDS))
+
+    def __post_init__(self) -> None:
+        least, most = (float(bound) for bound in self.length)
+        if not (least >= 0 and most > 0 and least < float("inf")):
+            raise InputError(
+                "E131",
+                f"a link length from {least:g} to {most:g} is no range",
+                help="give a least length of zero or more and a greatest one above it",
+            )
+        if least > most:
+            raise InputError(
+                "E132",
+                "the limits contradict each other: "
+                f"a link at least {least:.15g} long and at most {most:.15g} long",
+                help="exchange the two, or give up one of them",
+            )
+        unknown = set(self.kinds) - set(KINDS)
+        if unknown or not self.kinds:
+            raise InputError(
+                "E131",
+                f"there is no dyad kind {', '.join(sorted(unknown))}"
+                if unknown
+                else "no dyad kind is left",
+                help=f"choose among {', '.join(KINDS)}",
+            )
+        object.__setattr__(self, "length", (least, most))
+        object.__setattr__(self, "kinds", frozenset(self.kinds))
+        if not self.allowed:
+            pivots = {"fixed": self.fixed_pivot, "moving": self.moving_pivot}
+            limited = [f"{name} pivot {at}" for name, at in pivots.items() if at is not None]
+            missing = "both pivots" if len(limited) > 1 else "that pivot"
+            raise InputError(
+                "E132",
+                "the limits contradict each other: "
+                f"{', '.join(limited)}, and dyads of kind {', '.join(sorted(self.kinds))} only",
+                why=f"no dyad of that kind has {missing}",
+                help="allow RR as well, or leave a pivot free",
+            )
+        if self.has_length and "RR" not in self.kinds:
+            raise InputError(
+                "E132",
+                "the limits contradict each other: a link "
+                f"from {least:g} to {most:g} long, and dyads of kind "
+                f"{', '.join(sorted(self.kinds))} only",
+                why="only an RR dyad has a link with a length",
+                help="allow RR as well, or leave the length free",
+            )
+
+    @property
+    def allowed(self) -> frozenset[Kind]:
+        """The kinds that have the pivots that are limited."""
+        out: set[Kind] = set()
+        if self.fixed_pivot is not None:
+            out |= {"PR", "PP"}
+        if self.moving_pivot is not None:
+            out |= {"RP", "PP"}
+        return self.kinds - out
+
+    @property
+    def has_length(self) -> bool:
+        """Whether the length is limited at all."""
+        return self.length != (0.0, float("inf"))
+
+    @property
+    def conditions(self) -> int:
+        """How many exact conditions they set on a dyad: two for a point, one for a line."""
+        return sum(
+            len(region.equations()) for region in (self.fixed_pivot, self.moving_pivot) if region
+        )

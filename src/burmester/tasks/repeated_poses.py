@@ -1,0 +1,85 @@
+"""Which poses differ: exactly, by more than the errors that they may have, and by how much."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burmester.geometry.displacement import Displacement
+from burmester.numerics.arrays import FloatArray
+
+__all__ = ["ULPS", "different", "rotation_range", "spanning", "told_apart"]
+
+Indices = NDArray[np.int_]
+
+ULPS = 8 * float(np.finfo(np.float64).eps)  # rounding of a number, as a share of it
+
+
+def different(poses: Displacement) -> tuple[Indices, Indices]:
+    """The first of each different pose of (N,), in order (k,), and which of them each is (N,).
+
+    Merged are exact repeats only, whole turns apart: poses whose x, y and orientation are the
+    same within 8 units in the last place of the greatest of all.  Poses that differ by more are
+    different, however little.
+    """
+    reach = float(np.abs(poses.translation).max())
+    turns = max(1.0, float(np.abs(poses.angle).max()))
+    twins, label = np.arange(len(poses.angle)), np.zeros(poses.shape, dtype=np.int64)
+    for values, size in (
+        (poses.translation[:, 0], reach),
+        (poses.translation[:, 1], reach),
+        (np.cos(poses.angle), turns),
+        (np.sin(poses.angle), turns),
+    ):
+        # Those that may still be twins fall into runs of nearly the same value.
+        order = np.argsort(values[twins])
+        run = np.zeros(len(twins), dtype=np.int64)
+        run[order[1:]] = np.cumsum(np.diff(values[twins][order]) > ULPS * size)
+        _, label, count = np.unique(
+            label * len(twins) + run, return_inverse=True, return_counts=True
+        )
+        shared = count[label] > 1
+        twins, label = twins[shared], label[shared]
+    same_as = np.arange(len(poses.angle))
+    earliest = np.full(len(same_as), len(same_as))
+    np.minimum.at(earliest, label, twins)
+    same_as[twins] = earliest[label]
+    first = np.flatnonzero(same_as == np.arange(len(same_as)))
+    return first, np.searchsorted(first, same_as)
+
+
+def told_apart(poses: Displacement, position: float, angle: float, enough: int) -> Indices:
+    """At most `enough` poses of (N,), each the farthest from those before, that are not one.
+
+    position, angle: bounds on the errors of a pose; two poses within both are as good as one.
+    """
+    turn = np.exp(1j * poses.angle)
+    position = max(position, float(np.finfo(np.float64).tiny))
+    chosen, nearest = [0], np.full(poses.shape, np.inf)
+    while len(chosen) < enough:
+        last = chosen[-1]
+        apart = np.linalg.norm(poses.translation - poses.translation[last], axis=-1) / position
+        apart = np.maximum(apart, np.abs(turn - turn[last]) / angle)
+        nearest = np.minimum(nearest, apart)
+        farthest = int(nearest.argmax())
+        if nearest[farthest] <= 2:
+            break
+        chosen.append(farthest)
+    return np.array(sorted(chosen))
+
+
+def spanning(rows: FloatArray, count: int) -> Indices:
+    """`count` of the rows (N, k) that span the most, each the farthest from those before."""
+    left, chosen = rows.copy(), []
+    for _ in range(count):
+        chosen.append(int((left**2).sum(axis=1).argmax()))
+        unit = left[chosen[-1]] / np.linalg.norm(left[chosen[-1]])
+        left = left - (left @ unit)[:, None] * unit
+    return np.array(sorted(chosen))
+
+
+def rotation_range(angle: FloatArray) -> float:
+    """The least arc that holds all orientations (N,), in radians."""
+    around = np.sort(angle % (2 * np.pi))
+    gaps = np.diff(around, append=around[0] + 2 * np.pi)
+    return float(2 * np.pi - gaps.max())

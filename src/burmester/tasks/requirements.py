@@ -1,0 +1,301 @@
+"""What a designer asks of the whole linkage, beside the limits of each of its dyads."""
+
+from __future__ import annotations
+
+import difflib
+import math
+from collections.abc import Iterable, Iterator, Mapping, Set
+from dataclasses import dataclass
+from numbers import Real
+from typing import Final, Literal, TypeAlias, final, get_args
+
+import numpy as np
+
+from burmester.errors import InputError
+from burmester.geometry.regions import Line, Polygon, Region
+from burmester.tasks.limits import Kind, Limits
+
+__all__ = ["DRIVERS", "GROUPS", "TYPES", "Driver", "Requirements", "require_possible"]
+
+Driver: TypeAlias = Literal["any", "first", "second", "crank"]
+DRIVERS: Final[tuple[Driver, ...]] = get_args(Driver)
+
+# The types as `Linkage.type` names them, and the kinds of their two dyads.
+TYPES: Final[Mapping[str, tuple[Kind, Kind]]] = {
+    "crank-rocker": ("RR", "RR"),
+    "rocker-crank": ("RR", "RR"),
+    "double-crank": ("RR", "RR"),
+    "double-rocker": ("RR", "RR"),
+    "triple-rocker": ("RR", "RR"),
+    "change-point": ("RR", "RR"),
+    "slider-crank": ("RR", "PR"),
+    "inverted slider-crank": ("RR", "RP"),
+    "double slider": ("PR", "PR"),
+    "Oldham linkage": ("RP", "RP"),
+    "Rapson slide": ("PR", "RP"),
+}
+# A change point is in neither group: it is the border between the two.
+GROUPS: Final[Mapping[str, frozenset[str]]] = {
+    "grashof": frozenset({"crank-rocker", "rocker-crank", "double-crank", "double-rocker"}),
+    "non-grashof": frozenset({"triple-rocker"}),
+}
+
+WITHOUT_CRANK = frozenset({"double-rocker", "triple-rocker", "double slider"})
+TURNING: frozenset[Kind] = frozenset({"RR", "RP"})  # a PR dyad slides on the ground
+MARGIN = 1e-9  # of a footprint's size: what rounding may put outside it
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Requirements:
+    """What a linkage must be to be usable, beyond meeting the poses in one piece and in order.
+
+    transmission: the least transmission angle over the range that the poses use, in radians, of
+        0 to below pi/2.
+    types: the types allowed, by the names in `TYPES` (in any case, with hyphens or spaces), or
+        the words in `GROUPS` for some 4R types together; None allows all.
+    driver: which dyad drives. "first" and "second" are those of the task's first and second
+        limits, "crank" is one that turns fully, "any" leaves it open.
+    footprint: the polygon, in F, that holds the fixed pivots, and the moving pivots wherever they
+        come between the poses.
+    link_ratio: the longest of the four links is at most this many times the shortest; linkages
+        with sliders have no four links, and pass.
+    within: the greatest acceptable position error at any pose, in the task's unit.
+    any_order: the poses need not be met in the order in which they are given.
+    Raises InputError E134 (malformed) and E132 (requirements that contradict each other).
+    """
+
+    transmission: float = 0.0
+    types: frozenset[str] | None = None
+    driver: Driver = "any"
+    footprint: Polygon | None = None
+    link_ratio: float = math.inf
+    within: float | None = None
+    any_order: bool = False
+
+    def __post_init__(self) -> None:
+        angle = _number(self.transmission, "the least transmission angle")
+        if not 0 <= angle < math.pi / 2:
+            raise InputError(
+                "E134",
+                f"a least transmission angle of {math.degrees(angle):g}° cannot be asked for",
+                why="a transmission angle is between 0° and 90°",
+                help="give an angle from 0° to below 90° (below 1.57 in radians)",
+            )
+        object.__setattr__(self, "transmission", angle)
+        if self.types is not None:
+            object.__setattr__(self, "types", frozenset(_type_names(self.types)))
+        if self.driver not in DRIVERS:
+            raise _unknown("driver", self.driver, DRIVERS)
+        if self.footprint is not None and not isinstance(self.footprint, Polygon):
+            what = type(self.footprint).__name__.lower()
+            raise InputError(
+                "E134",
+                f"a footprint is a box or a polygon, not a {what}",
+                why="the pivots must have room in it",
+                help="give a box by two corners, or a polygon by three or more",
+            )
+        ratio = self.link_ratio
+        if ratio != math.inf:
+            ratio = _number(ratio, "the greatest link ratio")
+        if ratio < 1:
+            raise InputError(
+                "E134",
+                f"a link ratio of at most {ratio:g} cannot be asked for",
+                why="the longest of the four links is never shorter than the shortest",
+                help="give a ratio of 1 or more, such as 5",
+            )
+        object.__setattr__(self, "link_ratio", float(ratio))
+        if self.within is not None:
+            within = _number(self.within, "the greatest acceptable error")
+            if within <= 0:
+                raise InputError(
+                    "E134",
+                    f"an error of at most {within:g} cannot be asked for",
+                    why="no pose is met better than rounding allows",
+                    help="give a length above zero, and mark poses that must be met exactly",
+                )
+            object.__setattr__(self, "within", within)
+        if not isinstance(self.any_order, bool | np.bool_):
+            raise InputError(
+                "E134",
+                f"any_order is {self.any_order!r}, neither true nor false",
+                help="give True where the poses need not be met in their order, else False",
+            )
+        object.__setattr__(self, "any_order", bool(self.any_order))
+        allowed = self.allowed_types
+        if self.driver == "crank" and allowed is not None and allowed <= WITHOUT_CRANK:
+            turning = [name for name in TYPES if name not in WITHOUT_CRANK]
+            raise InputError(
+                "E132",
+                "the requirements contradict each other: a driver that turns fully, and "
+                f"linkages of type {_listed(self.types, 'or')} only",
+                why=f"no driver of a {_listed(allowed, 'or')} turns fully",
+                help=f"allow another type as well, such as {turning[0]}, or any driver",
+            )
+
+    @property
+    def asked(self) -> bool:
+        """Whether anything is asked at all."""
+        return self != Requirements()
+
+    @property
+    def allowed_types(self) -> frozenset[str] | None:
+        """The types allowed, words for groups replaced by their types; None for all."""
+        if self.types is None:
+            return None
+        return frozenset().union(*(GROUPS.get(name, {name}) for name in self.types))
+
+    def allows(self, name: str) -> bool:
+        """Whether linkages of a type, named as `Linkage.type` does, are allowed."""
+        allowed = self.allowed_types
+        return allowed is None or name in allowed
+
+
+def require_possible(requirements: Requirements, limits: tuple[Limits, ...]) -> None:
+    """Refuse requirements that no dyads within limits (none, one for both, or two) can meet.
+
+    Getting past here proves nothing.  Raises InputError E132, which quotes both, and E134 where
+    the driver is named by limits that are not two.
+    """
+    if requirements.driver in ("first", "second") and len(limits) != 2:
+        given = "no limits" if not limits else "one set of limits for both dyads"
+        raise InputError(
+            "E134",
+            f"the {requirements.driver} dyad is to drive, and the dyads are not told apart",
+            why=f"there is {given}" if limits else f"there are {given}",
+            help="give limits for each dyad (an option such as --kinds twice, or two [[limits]] "
+            "tables in a file), or let any dyad drive",
+        )
+    both = (limits * 2)[:2] if limits else (Limits(), Limits())
+    _require_a_type(requirements, *both)
+    for each in limits:
+        if each.fixed_pivot is None or requirements.footprint is None:
+            continue
+        if _apart(requirements.footprint, each.fixed_pivot):
+            raise InputError(
+                "E132",
+                "the limits and the requirements contradict each other: fixed pivot "
+                f"{each.fixed_pivot}, and all pivots {requirements.footprint}",
+                why="the two have no point in common",
+                help="move one of them, enlarge the footprint, or leave it out",
+            )
+
+
+def _require_a_type(requirements: Requirements, first: Limits, second: Limits) -> None:
+    """Refuse types, or a crank, that two dyads within these limits never make."""
+    kinds = first.allowed, second.allowed
+    wanted = requirements.allowed_types
+    here = [name for name, pair in TYPES.items() if _fits(pair, kinds)]
+    if requirements.driver == "crank":
+        if not (kinds[0] | kinds[1]) & TURNING:
+            raise InputError(
+                "E132",
+                "the limits and the requirements contradict each other: "
+                f"{_said(kinds)}, and a driver that turns fully",
+                why="a dyad of such a kind slides on the ground, and does not turn",
+                help="allow RR as well, or let any dyad drive",
+            )
+        here = [name for name in here if name not in WITHOUT_CRANK]
+    if wanted is None or not wanted.isdisjoint(here):
+        return
+    name = min(wanted, key=list(TYPES).index)
+    crank = " with a driver that turns fully" if requirements.driver == "crank" else ""
+    why = f"{_with_article(name)} is made of {_made_of(TYPES[name])}"
+    if kinds != (first.kinds, second.kinds):
+        why += "; where a fixed pivot is limited there is no PR, and where a moving one is no RP"
+    others = f"ask for {_listed(here, 'or')}" if here else "ask for no type"
+    raise InputError(
+        "E132",
+        "the limits and the requirements contradict each other: "
+        f"{_said(kinds)}, and linkages of type {_listed(requirements.types, 'or')} only{crank}",
+        why=why,
+        help=f"{others}, or let the limits allow other dyads",
+    )
+
+
+def _fits(pair: tuple[Kind, Kind], kinds: tuple[frozenset[Kind], frozenset[Kind]]) -> bool:
+    """Whether two dyads of these kinds can be the pair, in either order."""
+    (a, b), (one, other) = pair, kinds
+    return (a in one and b in other) or (b in one and a in other)
+
+
+def _apart(footprint: Polygon, region: Region) -> bool:
+    """Whether a region is plainly outside the footprint."""
+    corners, edge = region.corners(), footprint.corners()
+    low, high = edge.min(axis=0), edge.max(axis=0)
+    slack = MARGIN * float(np.linalg.norm(high - low))
+    if isinstance(region, Line):
+        ((offset, *normal),) = region.equations()
+        sides = edge @ np.array(normal) + offset
+        return bool((sides > slack).all() or (sides < -slack).all())
+    assert corners is not None
+    if len(corners) == 1:
+        return bool(footprint.distance(corners[0]) > slack)
+    beyond = (corners.min(axis=0) > high + slack) | (corners.max(axis=0) < low - slack)
+    return bool(beyond.any())
+
+
+def _number(value: object, what: str) -> float:
+    """A finite number, or E134."""
+    if not isinstance(value, Real) or isinstance(value, bool):
+        raise InputError(
+            "E134", f"{what} is {value!r}, not a number", help="give a number, such as 0.5"
+        )
+    if not math.isfinite(value):
+        raise InputError(
+            "E134", f"{what} is {value}, not a finite number", help="give a finite number"
+        )
+    return float(value)
+
+
+def _type_names(given: Iterable[str]) -> Iterator[str]:
+    """The names as `TYPES` and `GROUPS` spell them."""
+    known = {_plain(name): name for name in (*TYPES, *GROUPS)}
+    names = list(given) if isinstance(given, Set | list | tuple) else None
+    if not names:
+        raise InputError(
+            "E134",
+            "no linkage type is left" if names == [] else f"types is {given!r}, not a set of names",
+            help=f"name one type or more: {', '.join(known.values())}; or leave types out",
+        )
+    for name in names:
+        if not isinstance(name, str) or _plain(name) not in known:
+            raise _unknown("linkage type", name, tuple(known.values()))
+        yield known[_plain(name)]
+
+
+def _plain(name: str) -> str:
+    return " ".join(name.lower().replace("-", " ").split())
+
+
+def _unknown(what: str, name: object, known: tuple[str, ...]) -> InputError:
+    """E134 for a name that is none of the known ones, with the likeliest of them."""
+    plain = {_plain(each): each for each in known}
+    near = difflib.get_close_matches(_plain(str(name)), plain, n=1)
+    guess = f"did you mean {plain[near[0]]}? " if near else ""
+    help = f"{guess}choose among {', '.join(known)}"
+    return InputError("E134", f"there is no {what} {name!r}", help=help)
+
+
+def _listed(names: Iterable[str] | None, last: str) -> str:
+    """Names of types in one phrase, in the order of `TYPES`."""
+    order = [*TYPES, *GROUPS]
+    *most, end = sorted(names or (), key=order.index)
+    return f"{', '.join(most)} {last} {end}" if most else end
+
+
+def _said(kinds: tuple[frozenset[Kind], frozenset[Kind]]) -> str:
+    """The kinds of two dyads that limits leave, in words."""
+    one, other = (", ".join(sorted(each)) for each in kinds)
+    if one == other:
+        return f"dyads of kind {one} only"
+    return f"one dyad of kind {one} and one of kind {other} only"
+
+
+def _made_of(pair: tuple[Kind, Kind]) -> str:
+    return f"two {pair[0]} dyads" if pair[0] == pair[1] else f"dyads {pair[0]} and {pair[1]}"
+
+
+def _with_article(name: str) -> str:
+    return f"{'an' if name[0] in 'aeiouAEIOU' else 'a'} {name}"

@@ -1,0 +1,303 @@
+"""The special motions: each with its numbers, a sentence that says them, and a way on.
+
+Their dyads are a whole family or none at all, known without a fit; a fit would give one member
+of the family, or invent one.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar, final
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
+from burmester.geometry.displacement import Displacement
+from burmester.numerics.arrays import FloatArray
+
+__all__ = [
+    "CircularTranslation",
+    "FreeTranslation",
+    "Kind",
+    "Rotation",
+    "StraightTranslation",
+    "TwoSliders",
+    "in_degrees",
+    "length",
+]
+
+DIGITS = 6  # of the motion's size, in what people read
+
+
+class Kind:
+    """What the kinds share: a stable code, a name, a sentence with numbers, and a way on."""
+
+    __slots__ = ()
+    code: ClassVar[str]
+    name: ClassVar[str]
+
+    @property
+    def message(self) -> str:
+        """What the motion is, in one sentence."""
+        raise NotImplementedError
+
+    @property
+    def help(self) -> str:
+        """What to do about it; it works when followed literally."""
+        raise NotImplementedError
+
+    @property
+    def dyads(self) -> tuple[Dyad, ...]:
+        """The dyads that are certain without a fit: those to show, of a family of them."""
+        return ()
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class StraightTranslation(Kind):
+    """The body keeps `angle` and moves along a line in `direction` (in F, [0, pi)), radians."""
+
+    code: ClassVar[str] = "R312"
+    name: ClassVar[str] = "translation along a line"
+    angle: float
+    direction: float
+
+    @property
+    def message(self) -> str:
+        return (
+            f"the body never turns (its angle stays {in_degrees(self.angle)}) and moves along a "
+            f"straight line at {in_degrees(self.direction)}: pivots cannot be determined, and one "
+            "slider does this"
+        )
+
+    @property
+    def help(self) -> str:
+        return (
+            f"guide the body by one slider along the direction {in_degrees(self.direction)}; for a "
+            "four-bar give poses whose angles differ"
+        )
+
+    @property
+    def dyads(self) -> tuple[Dyad, ...]:
+        return (PP(np.array(self.angle)),)
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class CircularTranslation(Kind):
+    """The body keeps `angle` (radians) and its origin runs on a circle: a parallelogram's coupler.
+
+    centre: (2,) in F, of the circle of M's origin; radius: of every point's circle.
+    chord: the distance between the pivots of the parallelogram that is offered.
+    toward: from the centre to the middle of the arc, radians.
+    """
+
+    code: ClassVar[str] = "R313"
+    name: ClassVar[str] = "translation along a circular arc"
+    angle: float
+    centre: FloatArray
+    radius: float
+    chord: float
+    toward: float
+    unit: str | None = None
+
+    @property
+    def message(self) -> str:
+        size = self.radius + self.chord
+        return (
+            f"the body never turns (its angle stays {in_degrees(self.angle)}) and every point of "
+            f"it runs on a circle of radius {length(self.radius, size, self.unit)}, its origin "
+            f"about {_point(self.centre, size, self.unit)}: a parallelogram linkage does this, "
+            "and its pivots may be anywhere"
+        )
+
+    @property
+    def help(self) -> str:
+        first, second = self._links()
+        size = self.radius + self.chord
+        pairs = " and ".join(
+            f"from {_point(link.fixed_pivot, size)} to {_point(link.moving_pivot, size)} of the "
+            "body"
+            for link in (first, second)
+        )
+        return (
+            f"take two links of {length(self.radius, size, self.unit)}, {pairs}, or shift both "
+            "ends of a link alike; for another four-bar give poses whose angles differ"
+        )
+
+    def link(self, moving_pivot: ArrayLike) -> RR:
+        """The one RR dyad with each moving pivot (*, 2) of M; any two make a parallelogram."""
+        m = np.asarray(moving_pivot, dtype=np.float64)
+        turn = Displacement(self.centre, np.array(self.angle))
+        return RR(turn.act(m), m, np.full(m.shape[:-1], self.radius))
+
+    @property
+    def dyads(self) -> tuple[Dyad, ...]:
+        """Two links of a parallelogram, square to its coupler at mid-arc, and the PP dyad."""
+        return (*self._links(), PP(np.array(self.angle)))
+
+    def _links(self) -> tuple[RR, RR]:
+        across = self.toward + np.pi / 2 - self.angle
+        half = self.chord / 2 * np.array([np.cos(across), np.sin(across)])
+        return self.link(half), self.link(-half)
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class FreeTranslation(Kind):
+    """The body keeps `angle` (radians); its points run on a curve that is no line and no circle."""
+
+    code: ClassVar[str] = "R314"
+    name: ClassVar[str] = "translation along a curve"
+    angle: float
+
+    @property
+    def message(self) -> str:
+        return (
+            f"the body never turns (its angle stays {in_degrees(self.angle)}): every point of it "
+            "traces the same curve, so pivots cannot be determined; the curve is neither a line "
+            "nor a circular arc, so no parallelogram fits"
+        )
+
+    @property
+    def help(self) -> str:
+        return (
+            "guide the body by two sliders, one on the other; for a four-bar give poses whose "
+            "angles differ"
+        )
+
+    @property
+    def dyads(self) -> tuple[Dyad, ...]:
+        return (PP(np.array(self.angle)),)
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Rotation(Kind):
+    """The body turns about one point: `fixed_centre` (2,) of F, `moving_centre` (2,) of M.
+
+    uncertainty: how far the digits of the poses leave the centre free, a length.
+    """
+
+    code: ClassVar[str] = "R315"
+    name: ClassVar[str] = "rotation about one point"
+    fixed_centre: FloatArray
+    moving_centre: FloatArray
+    uncertainty: float
+    size: float
+    unit: str | None = None
+
+    @property
+    def message(self) -> str:
+        about = ""
+        if self.uncertainty > 10.0**-DIGITS * self.size:
+            about = f" (within {self.uncertainty:.1g}{_unit(self.unit)}, as the digits go)"
+        return (
+            f"the body turns about the point {_point(self.fixed_centre, self.size, self.unit)}"
+            f"{about}: one pin joint does this, you do not need four bars"
+        )
+
+    @property
+    def help(self) -> str:
+        return (
+            f"pin the body at its point {_point(self.moving_centre, self.size)} to the ground at "
+            f"{_point(self.fixed_centre, self.size)}; for a four-bar give two poses or more that "
+            "do not turn about this point"
+        )
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class TwoSliders(Kind):
+    """A circle of points of M, each on a line of F: Cardan's motion.  Or the inverse of it.
+
+    In complex numbers the pose is d = c + b exp(-i angle) - R m: M's centre m runs backwards on
+    the circle |b| about F's centre c as M turns.  The points of M at the
+    distance |b| from m stay on lines through c, a pencil of PR dyads; one RR dyad joins c and
+    m.  There is no other dyad.  The inverse motion exchanges F and M: lines fixed in M, RP.
+
+    inverse: whether the lines are fixed in M (and all pass through `moving_centre`) or in F.
+    fixed_centre (2,) in F, moving_centre (2,) in M, radius |b|, phase the angle of b;
+    middle: the angle about which the poses lie.  Radians.
+    """
+
+    code: ClassVar[str] = "R316"
+    name: ClassVar[str] = "two-slider motion"
+    inverse: bool
+    fixed_centre: FloatArray
+    moving_centre: FloatArray
+    radius: float
+    phase: float
+    middle: float
+    unit: str | None = None
+
+    @property
+    def message(self) -> str:
+        on, of = ("ground", "body") if self.inverse else ("body", "ground")
+        own, other = self.fixed_centre, self.moving_centre
+        if not self.inverse:
+            own, other = other, own
+        return (
+            f"a two-slider motion{' (inverted)' if self.inverse else ''}: every point of the {on} "
+            f"on the circle of radius {length(self.radius, self.radius, self.unit)} about its "
+            f"point {_point(own, self.radius)} stays on a straight line of the {of} through "
+            f"{_point(other, self.radius)}; so the sliders are a whole family, with one crank "
+            "that joins the two centres"
+        )
+
+    @property
+    def help(self) -> str:
+        return (
+            "take any two sliders of the family (two square to each other are offered), or one "
+            "of them and the crank; for another four-bar give a pose off this motion"
+        )
+
+    def slider(self, place: ArrayLike) -> PR | RP:
+        """The slider whose pivot is at the angle `place` (*,) of its circle, in its own frame."""
+        psi = np.asarray(place, dtype=np.float64)
+        on = np.stack([np.cos(psi), np.sin(psi)], axis=-1) * self.radius
+        normal = (psi + self.phase + np.pi) / 2
+        n = np.stack([np.cos(normal), np.sin(normal)], axis=-1)
+        if self.inverse:
+            return RP(self.fixed_centre + on, normal, n @ self.moving_centre)
+        return PR(normal, n @ self.fixed_centre, self.moving_centre + on)
+
+    @property
+    def crank(self) -> RR:
+        """The one RR dyad."""
+        return RR(self.fixed_centre, self.moving_centre, np.array(self.radius))
+
+    @property
+    def dyads(self) -> tuple[Dyad, ...]:
+        """Two sliders square to each other, equally far from mid-stroke at `middle`; the crank."""
+        turn = -self.middle if self.inverse else self.middle
+        along = self.phase - 2 * turn
+        return self.slider(along + np.pi / 2), self.slider(along - np.pi / 2), self.crank
+
+
+# --- numbers for people
+
+
+def _unit(unit: str | None) -> str:
+    return f" {unit}" if unit else ""
+
+
+def _rounded(value: float, size: float, digits: int = DIGITS) -> str:
+    """A length to so many digits of `size`, so that rounding does not show as 1e-17."""
+    step = 10.0 ** (np.floor(np.log10(size)) + 1 - digits) if size > 0 else 1.0
+    snapped = round(float(value) / step) * step
+    wanted = int(np.log10(abs(snapped) / step)) + 1 if snapped else digits
+    return f"{snapped + 0.0:.{min(max(digits, wanted), 15)}g}"
+
+
+def length(value: float, size: float, unit: str | None = None, digits: int = DIGITS) -> str:
+    return _rounded(value, size, digits) + _unit(unit)
+
+
+def _point(value: FloatArray, size: float, unit: str | None = None) -> str:
+    return f"({_rounded(value[0], size)}, {_rounded(value[1], size)}){_unit(unit)}"
+
+
+def in_degrees(angle: float) -> str:
+    return f"{_rounded(float(np.degrees(angle)), 10.0)} deg"

@@ -1,0 +1,1 @@
+"""What the page, and later the studio and notebooks, share."""

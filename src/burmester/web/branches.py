@@ -1,0 +1,204 @@
+"""The motion of a linkage as plain data: every branch as frames along it, and where the poses are.
+
+A way is what the driver reaches without the linkage being taken apart and without passing a dead
+point: a branch of a circuit.  Its frames lie along the circuit's own parameter, so that nothing
+jumps at a dead point; the drive rises along them.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from burmester.errors import InputError
+from burmester.fourbar.circuit_parameter import Course
+from burmester.fourbar.circuits import Circuits, circuit_of
+from burmester.fourbar.instantaneous import transmission_angle
+from burmester.fourbar.linkage import Linkage
+from burmester.geometry.displacement import Displacement
+from burmester.linkages.found_linkage import FoundLinkage
+from burmester.numerics.arrays import FloatArray
+
+__all__ = ["Motion", "motion_of"]
+
+REACH, FARTHER = 1.2, 3.0  # of the scene: how far endless ways are followed, without poses too
+LOOKS = 2001  # places looked at to find where an endless way leaves the scene
+FAR = 0.999  # of a quarter turn, the last of them
+EDGE = 1e-3  # of half a turn, left out where a way runs to infinity at its ends
+DIGITS = 12  # of the scene's size, that places keep
+
+
+@dataclass(frozen=True)
+class Motion:
+    """ways: each as plain data; at: (N,) which of them a pose is on (-1: none) and where along it,
+
+    counted in frames, as pairs (way, frame).
+    """
+
+    ways: list[dict[str, Any]]
+    at: list[tuple[int, float] | None]
+
+
+class _Stretch(NamedTuple):
+    circuit: int
+    branch: int
+    ends: tuple[float, float]
+    round: bool  # it comes back to where it began
+    dead: tuple[bool, bool]  # whether its ends are dead points
+
+
+def motion_of(found: FoundLinkage, poses: Displacement, scene: float, frames: int) -> Motion:
+    """The ways of a linkage led by its better driver, each as so many frames.
+
+    poses: (N,); scene: the size of what is drawn, in the task's unit.
+    No ways where the linkage cannot be driven, or nothing can be told of it.
+    """
+    none: list[tuple[int, float] | None] = [None] * poses.shape[0]
+    led, places = found.led, found.error.places
+    try:
+        circuits = Circuits.of(led, as_given=True)
+    except InputError:
+        return Motion([], none)
+    here = circuit_of(led, places, as_given=True)
+    middle = poses.translation.mean(axis=0)
+    ways: list[dict[str, Any]] = []
+    at = list(none)
+    for stretch in _stretches(circuits, here.circuit, here.parameter):
+        own = circuits[stretch.circuit]
+        on = (here.circuit == stretch.circuit) & (here.branch == stretch.branch)
+        on &= np.isfinite(here.parameter)
+        ends = stretch.ends
+        endless = own.course == Course.HALF or not all(map(math.isfinite, ends))
+        if endless:
+            reach = (REACH if on.any() else FARTHER) * scene
+            within = _within(own, ends, middle, reach, here.parameter[on])
+            if within is None:
+                continue
+            ends = within
+        s = _evenly(own, ends, frames, scene) if endless else np.linspace(*ends, frames)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            way, falls = _way(led, own, s, scene)
+        if way is None:
+            continue
+        for pose in np.flatnonzero(on).tolist():
+            along = float(here.parameter[pose])
+            if stretch.round:
+                along = ends[0] + (along - ends[0]) % (2 * np.pi)
+            place = float(np.interp(along, s, np.arange(frames)))
+            at[pose] = (len(ways), round(frames - 1 - place if falls else place, 9))
+        dead = stretch.dead[::-1] if falls else stretch.dead
+        ways.append(
+            {
+                "circuit": stretch.circuit + 1,
+                "branch": stretch.branch + 1,
+                "branches": int(own.branches),
+                "round": stretch.round,
+                "dead": list(dead),
+                "poses": [pose + 1 for pose in np.flatnonzero(on).tolist()],
+                **way,
+            }
+        )
+    return Motion(ways, at)
+
+
+def _stretches(circuits: Circuits, circuit: np.ndarray, parameter: FloatArray) -> list[_Stretch]:
+    """Every branch of both circuits, with its ends along the parameter."""
+    found = []
+    for number in np.flatnonzero(circuits.exists).tolist():
+        own = circuits[number]
+        if own.branches == 1 and own.closed:
+            start = _widest_gap(parameter[(circuit == number) & np.isfinite(parameter)])
+            found.append(_Stretch(number, 0, (start, start + 2 * np.pi), True, (False, False)))
+        elif own.branches == 1:
+            ends = (0.0, np.pi) if own.drive.turns else (-np.inf, np.inf)
+            found.append(_Stretch(number, 0, ends, False, (False, False)))
+        elif own.closed:
+            found.append(_Stretch(number, 0, (0.0, np.pi), False, (True, True)))
+            found.append(_Stretch(number, 1, (np.pi, 2 * np.pi), False, (True, True)))
+        else:
+            found.append(_Stretch(number, 0, (0.0, np.inf), False, (True, False)))
+            found.append(_Stretch(number, 1, (-np.inf, 0.0), False, (False, True)))
+    return found
+
+
+def _widest_gap(parameter: FloatArray) -> float:
+    """Where to cut a whole turn open: farthest from the poses."""
+    if not len(parameter):
+        return 0.0
+    s = np.sort(parameter % (2 * np.pi))
+    gap = np.append(s[1:], s[0] + 2 * np.pi) - s
+    widest = int(gap.argmax())
+    return float(s[widest] + gap[widest] / 2 - 2 * np.pi)
+
+
+def _within(
+    own: Circuits, ends: tuple[float, float], middle: FloatArray, reach: float, poses: FloatArray
+) -> tuple[float, float] | None:
+    """The stretch of an endless way that stays in the scene, around the poses if there are any."""
+    if own.drive.turns:
+        s = np.linspace(ends[0] + EDGE, ends[1] - EDGE, LOOKS)
+    else:
+        share = np.linspace(-FAR, FAR, LOOKS) * np.pi / 2
+        s = reach * np.tan(share)
+        s = np.unique(np.clip(s, *ends))
+    if len(poses):
+        s = np.unique(np.concatenate([s, poses]))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        away = np.linalg.norm(own.couplers(s).translation - middle, axis=-1)
+    inside = np.nan_to_num(away, nan=np.inf) <= reach
+    if len(poses):
+        first, last = (int(np.searchsorted(s, end)) for end in (poses.min(), poses.max()))
+        inside[first : last + 1] = True
+    else:
+        first = last = int(np.nanargmin(np.where(np.isnan(away), np.inf, away)))
+    if not inside[first]:
+        return None
+    while first > 0 and inside[first - 1]:
+        first -= 1
+    while last < len(s) - 1 and inside[last + 1]:
+        last += 1
+    return (float(s[first]), float(s[last])) if last > first else None
+
+
+def _evenly(own: Circuits, ends: tuple[float, float], frames: int, scene: float) -> FloatArray:
+    """Parameters between two ends whose places are about as far from each other."""
+    s = np.linspace(*ends, LOOKS)
+    for _ in range(2):  # where places run fast, the first parameters are far apart
+        with np.errstate(invalid="ignore", divide="ignore"):
+            places = own.couplers(s)
+        rows = np.column_stack([places.translation, scene * np.unwrap(places.angle)])
+        length = np.cumsum(np.linalg.norm(np.diff(rows, axis=0, prepend=rows[:1]), axis=1))
+        s = np.interp(np.linspace(0, length[-1], LOOKS), length, s)
+    return np.asarray(s[np.linspace(0, LOOKS - 1, frames).round().astype(int)])
+
+
+def _way(
+    led: Linkage, own: Circuits, s: FloatArray, scene: float
+) -> tuple[dict[str, Any] | None, bool]:
+    """Frames at parameters s, and whether they had to be turned round for the drive to rise."""
+    places = own.couplers(s)
+    angle = np.unwrap(places.angle)
+    places = Displacement(places.translation, angle)
+    if not (np.isfinite(places.translation).all() and np.isfinite(angle).all()):
+        return None, False
+    drive = own.drives(s, places)
+    turns = own.drive.turns
+    if turns:
+        middle = (drive[0] + drive[-1]) / 2
+        drive = drive - 2 * np.pi * np.round(middle / (2 * np.pi))
+    falls = bool(drive[-1] < drive[0])
+    if falls:
+        drive, places = drive[::-1], Displacement(places.translation[::-1], angle[::-1])
+    passed = np.degrees(transmission_angle(led, places))
+    digits = DIGITS - math.floor(math.log10(scene))
+    x, y = places.translation.T
+    return {
+        "drive": np.round(np.degrees(drive) if turns else drive, 9 if turns else digits).tolist(),
+        "x": np.round(x, digits).tolist(),
+        "y": np.round(y, digits).tolist(),
+        "angle": np.round(places.angle, 13).tolist(),
+        "transmission": [None if math.isnan(each) else round(each, 4) for each in passed.tolist()],
+    }, falls
