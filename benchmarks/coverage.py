@@ -21,7 +21,7 @@ from itertools import combinations
 
 import numpy as np
 from scipy.optimize import least_squares
-from tests.witness import places, random_four_bar, random_poses, span
+from tests.oracles.witness import places, random_four_bar, random_poses, span
 
 from burmester.dyads.local_minima import best_dyads
 from burmester.dyads.selection import characteristic_length, found_dyads

@@ -15,8 +15,8 @@ import sys
 import time
 
 import numpy as np
-from tests.random_starts import distance, local_fits, squared
-from tests.witness import random_four_bar, random_poses
+from tests.oracles.random_starts import distance, local_fits, squared
+from tests.oracles.witness import random_four_bar, random_poses
 
 from burmester import Displacement, best_dyads, critical_dyads
 from burmester.dyads.sliders import fixed_lines, moving_lines

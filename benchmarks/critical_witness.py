@@ -2,9 +2,9 @@
 
     python -m benchmarks.critical_witness --tasks 200 --seed 0
 
-`tests/homotopy.py` shares no code with the package.  All 25 points are compared, complex ones too,
-each with its nearest; a gap counts in the greater of the motion's size and the point's distance.
-Exit code 1 if a task has other points, or other real ones, than the package says.
+`tests/oracles/homotopy.py` shares no code with the package.  All 25 points are compared, complex
+ones too, each with its nearest; a gap counts in the greater of the motion's size and the point's
+distance. Exit code 1 if a task has other points, or other real ones, than the package says.
 """
 
 import argparse
@@ -12,8 +12,8 @@ import sys
 import time
 
 import numpy as np
-from tests.homotopy import LostError
-from tests.test_critical import against_the_paths
+from tests.dyads.test_critical_points import against_the_paths
+from tests.oracles.homotopy import LostError
 
 from benchmarks.critical_points import random_task
 

@@ -13,8 +13,8 @@ import argparse
 import sys
 
 import numpy as np
-from tests.test_exact import as_rows, in_fifty_digits
-from tests.witness import random_four_bar, random_poses, span
+from tests.dyads.test_five_poses import as_rows, in_fifty_digits
+from tests.oracles.witness import random_four_bar, random_poses, span
 
 from burmester import Displacement, dyads_of_five
 

@@ -2,8 +2,8 @@
 
     python -m benchmarks.fuzz_bytes csv -max_total_time=180 [CORPUS FOLDER]
 
-Each input is read as a file of that kind: it must be refused well (`tests.test_fuzz`), or be
-taken with every number as `tests/plain_reader.py` reads it, where that one is sure.
+Each input is read as a file of that kind: it must be refused well (`tests.io.test_fuzzed_files`),
+or be taken with every number as `tests/oracles/plain_reader.py` reads it, where that one is sure.
 """
 
 import pathlib
@@ -20,8 +20,8 @@ with atheris.instrument_imports(include=["burmester.io", "tomllib", "json"]):
     import burmester.io.reading.poses
     import burmester.io.reading.requirements_tree  # noqa: F401
 
-from tests.fuzzed_files import STRANGE_WORDS, File, any_file
-from tests.test_fuzz import judged
+from tests.io.test_fuzzed_files import judged
+from tests.oracles.fuzzed_files import STRANGE_WORDS, File, any_file
 
 SUFFIXES = {"csv": ".csv", "json": ".json", "toml": ".toml", "parquet": ".parquet"}
 UNITS = ({}, {"angle_unit": "deg"}, {"angle_unit": "rad"})

@@ -2,10 +2,10 @@
 
     python -m benchmarks.fuzz_readers --files 5000 --seed 0 --commands 200
 
-The files are those of `tests/fuzzed_files.py`, four in ten sound, three with a fault of a known
-kind, three mangled byte by byte; each is held against what its maker knows and against
-`tests/plain_reader.py`.  A share of the files that are taken goes through the command, and so do
-options with random texts.  Exit code 1 if anything was wrong.
+The files are those of `tests/oracles/fuzzed_files.py`, four in ten sound, three with a fault of a
+known kind, three mangled byte by byte; each is held against what its maker knows and against
+`tests/oracles/plain_reader.py`.  A share of the files that are taken goes through the command, and
+so do options with random texts.  Exit code 1 if anything was wrong.
 """
 
 import argparse
@@ -21,9 +21,9 @@ import tempfile
 import time
 from collections import Counter
 
-from tests.fuzzed_files import any_file
-from tests.plain_reader import read
-from tests.test_fuzz import judged
+from tests.io.test_fuzzed_files import judged
+from tests.oracles.fuzzed_files import any_file
+from tests.oracles.plain_reader import read
 
 from burmester.cli import main as command
 

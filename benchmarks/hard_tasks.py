@@ -11,8 +11,8 @@ Two families of five or eight poses, half of each:
   leads through within a tenth.
 
 Said of each: how many have a linkage that works, how many were found by searching on, the median
-and the worst time, and what fails.  Every linkage called usable is driven by `tests/witness.py`;
-one that does not come by is exit code 1.
+and the worst time, and what fails.  Every linkage called usable is driven by
+`tests/oracles/witness.py`; one that does not come by is exit code 1.
 """
 
 import argparse
@@ -20,7 +20,13 @@ import sys
 import time
 
 import numpy as np
-from tests.test_search import comes_by, known_cost, noisy_task, rough_task, squares
+from tests.linkages.test_defect_free_search import (
+    comes_by,
+    known_cost,
+    noisy_task,
+    rough_task,
+    squares,
+)
 
 from burmester import Task, synthesize
 from burmester.geometry.displacement import Displacement

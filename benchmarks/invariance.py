@@ -20,7 +20,7 @@ import argparse
 import sys
 
 import numpy as np
-from tests.elsewhere import LIMIT, judged
+from tests.oracles.elsewhere import LIMIT, judged
 
 METHODS = ("exact", "pencil", "critical", "complete", "best_dyads")
 

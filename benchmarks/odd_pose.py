@@ -15,7 +15,7 @@ from collections import Counter
 from typing import NamedTuple
 
 import numpy as np
-from tests.witness import places, random_four_bar, random_poses, span
+from tests.oracles.witness import places, random_four_bar, random_poses, span
 
 from burmester import Displacement, Task
 from burmester.diagnosis.odd_pose import odd_pose

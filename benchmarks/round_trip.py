@@ -10,10 +10,10 @@ driven from either ground link) and 6 to 50 places of its coupler:
   but shuffled.  It is not usable, and the defect has to be named, for both drivers.
 
 The generating linkage has to be found within 1e-7 of the poses' span, or flagged: the stated
-uncertainty covers what is missing, or a warning says that the poses do not determine it.
-The best of those called usable has to meet the poses as it claims, by the witness in
-`tests/witness.py`, and to be without defects by the tracer in `tests/tracer.py`, where the
-generating linkage is not; they share no code with the package.
+uncertainty covers what is missing, or a warning says that the poses do not determine it. The best
+of those called usable has to meet the poses as it claims, by the witness in
+`tests/oracles/witness.py`, and to be without defects by the tracer in `tests/oracles/tracer.py`,
+where the generating linkage is not; they share no code with the package.
 
 Everything else is a silent wrong answer, and exit code 1.
 
@@ -32,9 +32,9 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from tests.elsewhere import gap, made_of
-from tests.tracer import driven, met_at, walks
-from tests.witness import misses
+from tests.oracles.elsewhere import gap, made_of
+from tests.oracles.tracer import driven, met_at, walks
+from tests.oracles.witness import misses
 
 from burmester import Task, synthesize
 from burmester.fourbar.circuits import Circuits, circuit_of

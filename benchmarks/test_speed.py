@@ -12,8 +12,8 @@ import time
 import numpy as np
 import pytest
 from scipy.optimize import fsolve, least_squares
-from tests.test_exact import as_rows, circle_equations
-from tests.witness import span
+from tests.dyads.test_five_poses import as_rows, circle_equations
+from tests.oracles.witness import span
 
 from benchmarks.many_poses import TABLE_5, design, in_one_task, near_table_5
 from burmester import best_dyads, critical_dyads, dyads_of_five, fit_pencil, synthesize

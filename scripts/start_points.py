@@ -1,9 +1,10 @@
 """Make src/burmester/dyads/start_points.npz: all solutions of each shape, for generic parameters.
 
 Monodromy: one solution is easy, for parameters can be chosen to fit it.  Carried around loops in
-the space of parameters it turns into others; when ten loops bring no new one, they are taken to
-be all.  Three tries from different parameters; two of them have to agree on the count, and none to
-exceed it.  The counts agree with those known otherwise (see tests/test_homotopy.py).
+the space of parameters it turns into others; when ten loops bring no new one, they are taken to be
+all.  Three tries from different parameters; two of them have to agree on the count, and none to
+exceed it.  The counts agree with those known otherwise (see
+tests/dyads/test_parameter_homotopy.py).
 
     .venv/bin/python scripts/start_points.py
 """

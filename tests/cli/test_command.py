@@ -1,0 +1,578 @@
+"""The command as its users meet it: as a process of its own."""
+
+import doctest
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from importlib import resources
+from pathlib import Path
+
+import jsonschema
+import numpy as np
+import pytest
+
+import burmester
+from burmester import cli
+from tests.oracles.ten_poses import TEN as TABLE_2
+
+
+def run(*arguments, stdin=None, env=None):
+    return subprocess.run(
+        [sys.executable, "-m", "burmester", *map(str, arguments)],
+        input=stdin,
+        capture_output=True,
+        encoding=(env or {}).get("PYTHONIOENCODING", "utf-8"),
+        check=False,
+        timeout=60,
+        env={**os.environ, **(env or {})},
+    )
+
+
+@pytest.fixture
+def poses(tmp_path):
+    file = tmp_path / "poses.csv"
+    file.write_text(TABLE_2)
+    return file
+
+
+def schema():
+    text = resources.files("burmester").joinpath("io/synthesis.schema.json").read_text()
+    return json.loads(text)
+
+
+def valid(stdout):
+    data = json.loads(stdout)
+    jsonschema.Draft202012Validator(schema()).validate(data)
+    return data
+
+
+def test_main_job_prints_the_published_linkage(poses):
+    done = run("synthesize", poses)
+    assert done.returncode == 0
+    assert done.stderr == ""
+    assert re.match(r"\d+ four-bars from 5 locally best dyads \(25 of 25", done.stdout)
+    assert "Best: L1, a crank-rocker driven by D1, passes every pose within" in done.stdout
+    assert "(-2.20006," in done.stdout
+    assert max(map(len, done.stdout.splitlines())) <= 80
+
+
+@pytest.mark.parametrize(
+    "case",
+    [
+        "ge2012-exact",
+        "ge2012-approximate",
+        "motiongen-shoulder",
+        "motiongen-mixed5",
+        "motiongen-rrrp",
+        "motiongen-rrpr",
+        "motiongen-prpr",
+    ],
+)
+def test_json_keeps_the_contract(case):
+    done = run("synthesize", f"case:{case}", "--json")
+    assert done.returncode == 0
+    data = valid(done.stdout)
+    assert data["outcome"]["code"] == "R300"
+    carried = json.loads(resources.files("burmester").joinpath(f"cases/{case}.json").read_text())
+    rows = [[p["x"], p["y"], p["angle_deg"]] for p in data["task"]["poses"]]
+    assert np.allclose(rows, carried["poses"], rtol=0, atol=1e-12)
+    for linkage in data["linkages"]:
+        # The coupler's places printed are on the circles printed, to the last digit.
+        for dyad in linkage["dyads"]:
+            if dyad["kind"] == "RR":
+                for place in linkage["coupler"]:
+                    turn = np.exp(1j * np.radians(place["angle_deg"]))
+                    pin = complex(*dyad["moving_pivot"]) * turn + place["x"] + 1j * place["y"]
+                    radius = abs(pin - complex(*dyad["fixed_pivot"]))
+                    assert np.isclose(radius, dyad["radius"], rtol=1e-9)
+
+
+def test_json_of_one_run_is_the_input_of_the_next(poses):
+    first = run("synthesize", poses, "--json")
+    second = run("synthesize", "-", "--json", stdin=first.stdout)
+    assert second.returncode == 0
+    one, two = json.loads(first.stdout), json.loads(second.stdout)
+    for a, b in zip(one["dyads"], two["dyads"], strict=True):
+        for key in ("fixed_pivot", "moving_pivot"):
+            assert (key in a) == (key in b)
+            assert np.allclose(a.get(key, 0), b.get(key, 0), rtol=0, atol=1e-9)
+
+
+BAD = {
+    "inf": (TABLE_2.replace("49.90", "inf"), "E103", ["row 3", "bad.csv:4:", "inf", "^"]),
+    "text": (TABLE_2.replace("-3.5027", "abc"), "E104", ["bad.csv:5:1", "abc", "^"]),
+    "empty": ("", "E102", ["bad.csv"]),
+    "header only": ("x,y,angle_deg\n", "E102", ["bad.csv"]),
+    "no unit": (TABLE_2.replace("angle_deg", "angle"), "E110", ["--angle-unit", "bad.csv:1"]),
+    "no y": (TABLE_2.replace("x,y,", "x,z,"), "E10", ["y"]),
+    "two poses": ("\n".join(TABLE_2.splitlines()[:3]), "E120", ["2 poses"]),
+    "one pose": ("\n".join(TABLE_2.splitlines()[:2]), "E120", ["1 pose"]),
+    "short row": (TABLE_2.replace(",101.25", ""), "E106", ["bad.csv:11"]),
+}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_a_bad_file_is_one_clear_message(tmp_path, name):
+    text, code, said = BAD[name]
+    file = tmp_path / "bad.csv"
+    file.write_text(text)
+    done = run("synthesize", file)
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert done.stderr.startswith(f"error[{code}")
+    assert done.stderr.count("error[") == 1
+    assert "Traceback" not in done.stderr
+    assert "help:" in done.stderr
+    for words in said:
+        assert words in done.stderr
+    as_json = run("synthesize", file, "--json")
+    assert as_json.returncode == 2
+    data = valid(as_json.stdout)
+    assert data["outcome"]["code"].startswith(code)
+    assert file.read_text() == text
+
+
+def test_following_the_help_on_the_angle_unit_works(tmp_path):
+    file = tmp_path / "poses.csv"
+    file.write_text(TABLE_2.replace("angle_deg", "angle"))
+    assert run("synthesize", file).returncode == 2
+    assert run("synthesize", file, "--angle-unit", "deg").returncode == 0
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("synthesize",),
+        ("synthesize", "x.csv", "--method", "magic"),
+        ("fly",),
+        ("synthesize", "--no"),
+    ],
+)
+def test_wrong_usage_is_one_message(arguments):
+    done = run(*arguments)
+    assert done.returncode == 2
+    assert done.stderr.startswith("error[E100]")
+    assert "--help" in done.stderr
+    data = valid(run(*arguments, "--json").stdout)
+    assert data["outcome"]["code"] == "E100"
+
+
+def test_a_missing_file(tmp_path):
+    done = run("synthesize", tmp_path / "none.csv")
+    assert done.returncode == 2
+    assert done.stderr.startswith("error[E101]")
+
+
+def test_sound_input_without_a_linkage_is_exit_code_1(tmp_path):
+    file = tmp_path / "four.csv"
+    file.write_text("\n".join(TABLE_2.splitlines()[:5]))
+    done = run("synthesize", file)
+    assert done.returncode == 1
+    assert "infinitely many" in done.stdout
+    data = valid(run("synthesize", file, "--json").stdout)
+    assert data["outcome"]["code"] == "R303"
+
+
+def test_methods_by_number_of_poses(poses):
+    assert run("synthesize", poses, "--method", "pencil").returncode == 0
+    refused = run("synthesize", poses, "--method", "exact")
+    assert refused.returncode == 2
+    assert "E121" in refused.stderr
+    raw = json.loads(run("synthesize", poses, "--raw", "--json").stdout)
+    wanted = [5.69e-06, 1.22e-04, 0.0073, 0.1525, 0.1868, 1.2043, 1.6355, 10.4665]
+    assert np.allclose(raw["singular_values"], wanted, rtol=0, atol=6e-5)
+
+
+def test_raw_is_for_the_pencil_only(poses):
+    refused = run("synthesize", poses, "--method", "complete", "--raw")
+    assert refused.returncode == 2
+    assert "E123" in refused.stderr
+    assert run("synthesize", poses, "--method", "pencil", "--raw").returncode == 0
+
+
+def test_complete_method_says_what_it_accounted_for(poses):
+    data = valid(run("synthesize", poses, "--method", "complete", "--json").stdout)
+    assert data["critical_points"] == {"found": 25, "expected": 25}
+    assert data["linkages"][0]["position_error"]["max"] < 2e-4
+    assert {dyad["kind"] for dyad in data["dyads"]} == {"RR", "PR", "RP"}
+
+
+def test_a_certificate_says_what_is_proved(poses):
+    pytest.importorskip("flint")
+    done = run("synthesize", poses, "--certify")
+    proved, computed = done.stdout.split("Proved, for the poses as given:")[1].split(
+        "Computed, not"
+    )
+    assert "there are no others" in proved
+    assert "may have minima other than those reported" in " ".join(computed.split())
+    data = valid(run("synthesize", poses, "--certify", "--json").stdout)
+    assert data["certificate"]["complete"]
+    assert [dyad["id"] for dyad in data["certificate"]["dyads"]] == [d["id"] for d in data["dyads"]]
+    for dyad in data["certificate"]["dyads"]:
+        assert dyad["proved"]
+        assert dyad["radius"] < 1e-9
+    for wrong in (("--method", "pencil"), ("--norm", "worst"), ("--kinds", "RR")):
+        refused = run("synthesize", poses, "--certify", *wrong)
+        assert refused.returncode == 2
+        assert "E123" in refused.stderr
+
+
+def test_a_missing_library_for_certificates_is_said(poses, tmp_path):
+    (tmp_path / "flint.py").write_text("raise ImportError")
+    done = run("synthesize", poses, "--certify", env={"PYTHONPATH": str(tmp_path)})
+    assert done.returncode == 2
+    assert "E130" in done.stderr
+    assert "burmester[certify]" in done.stderr
+
+
+def test_a_special_motion_is_told_with_a_way_on(tmp_path):
+    file = tmp_path / "turn.csv"
+    file.write_text("x,y,angle_deg\n" + "".join(f"2,3,{angle}\n" for angle in (0, 20, 45, 80, 100)))
+    done = run("synthesize", file)
+    assert done.returncode == 1
+    assert "result[R315]" in done.stdout
+    assert "pin the body at its point (0, 0) to the ground at (2, 3)" in " ".join(
+        done.stdout.split()
+    )
+    data = valid(run("synthesize", file, "--json").stdout)
+    assert data["motion"]["code"] == data["outcome"]["code"] == "R315"
+    assert data["linkages"] == []
+
+
+FIXED = ("--fixed-pivot=1,-2", "--fixed-pivot=4,-1")
+
+
+def test_poses_and_pivots_make_five_conditions(tmp_path):
+    file = tmp_path / "three.csv"
+    file.write_text("x,y,angle_deg\n0,0,0\n3,1,40\n4,3,70\n")
+    done = run("synthesize", file, *FIXED, "--length", "1:20", "--json")
+    data = valid(done.stdout)
+    assert data["method"] == "exact"
+    (linkage,) = data["linkages"]
+    pivots = sorted(dyad["fixed_pivot"] for dyad in linkage["dyads"])
+    assert np.allclose(pivots, [(1, -2), (4, -1)], rtol=0, atol=1e-12)
+    for dyad in linkage["dyads"]:
+        assert np.abs(circle_misses(dyad, data)).max() < 1e-9
+    # What --json prints can be read again, limits and all.
+    again = tmp_path / "again.json"
+    again.write_text(done.stdout)
+    read = valid(run("synthesize", again, "--json").stdout)
+    assert read["linkages"] == data["linkages"]
+    assert read["task"] == data["task"]
+    assert read["task"]["limits"][0]["length"] == {"least": 1, "most": 20}
+    one = run("synthesize", file, "--fixed-pivot=1,-2")
+    assert one.returncode == 1
+    assert "the other dyad: a two-parameter family" in " ".join(one.stdout.split())
+
+
+def circle_misses(dyad, data):
+    """How far a link's pin is from its circle at every pose, in plain complex numbers."""
+    out = []
+    for pose in data["task"]["poses"]:
+        turn = np.exp(1j * np.radians(pose["angle_deg"]))
+        pin = complex(*dyad["moving_pivot"]) * turn + pose["x"] + 1j * pose["y"]
+        out.append(abs(pin - complex(*dyad["fixed_pivot"])) - dyad["radius"])
+    return np.array(out)
+
+
+def linkages(*arguments):
+    done = run("synthesize", *arguments, "--json")
+    assert done.returncode == 0, done.stderr
+    data = valid(done.stdout)
+    assert data["linkages"]
+    return data, [linkage["dyads"] for linkage in data["linkages"]]
+
+
+@pytest.mark.parametrize("arguments", [("--fixed-pivot", "-2,0.5"), ("--fixed-pivot=-2,0.5",)])
+def test_a_point_on_the_command_line_is_the_pivot_of_one_dyad(poses, arguments):
+    _, pairs = linkages(poses, *arguments)
+    for pair in pairs:
+        at = [dyad.get("fixed_pivot") for dyad in pair]
+        assert sum(pivot is not None and np.allclose(pivot, [-2, 0.5]) for pivot in at) == 1
+
+
+def test_limits_for_both_dyads_hold_for_both(poses):
+    limits = ("--fixed-pivot", "box:-3,-1:3,0.3", "--length", "1:6", "--kinds", "RR")
+    data, pairs = linkages(poses, *limits)
+    for dyad in (dyad for pair in pairs for dyad in pair):
+        x, y = dyad["fixed_pivot"]
+        assert -3 - 1e-9 <= x <= 3 + 1e-9
+        assert -1 - 1e-9 <= y <= 0.3 + 1e-9
+        assert 1 - 1e-9 <= dyad["radius"] <= 6 + 1e-9
+        assert np.abs(circle_misses(dyad, data)).max() == pytest.approx(dyad["max_error"])
+
+
+def test_limits_for_each_dyad(poses):
+    _, pairs = linkages(poses, "--kinds", "RR", "--kinds", "PR")
+    assert {tuple(sorted(dyad["kind"] for dyad in pair)) for pair in pairs} == {("PR", "RR")}
+
+
+def test_exact_poses_are_met_and_the_others_come_near(poses):
+    data, pairs = linkages(poses, "--exact", "1,10", "--kinds", "RR")
+    for dyad in (dyad for pair in pairs for dyad in pair):
+        miss = np.abs(circle_misses(dyad, data))
+        assert miss[[0, 9]].max() < 1e-10
+        assert miss[1:9].max() > 1e-6
+
+
+def test_the_smallest_worst_deviation_is_smaller_than_that_of_least_squares(poses):
+    rms, worst = (linkages(poses, "--norm", norm)[0] for norm in ("rms", "worst"))
+    for a, b in zip(rms["dyads"][:2], worst["dyads"][:2], strict=True):
+        assert b["max_error"] < a["max_error"]
+        assert b["rms_error"] > a["rms_error"]
+
+
+def test_limits_in_a_file_are_those_of_the_command_line(tmp_path, poses):
+    file = tmp_path / "poses.toml"
+    rows = ", ".join(f"[{row}]" for row in TABLE_2.splitlines()[1:])
+    file.write_text(
+        f'angle_unit = "deg"\nposes = [{rows}]\n'
+        '[limits]\nfixed_pivot = { line = [[0, 0], [1, 0]] }\nkinds = ["RR"]\n'
+    )
+    by_option = linkages(poses, "--fixed-pivot", "line:0,0:1,0", "--kinds", "RR")[1]
+    assert linkages(file)[1] == by_option
+    again = run("synthesize", file, "--kinds", "PR")
+    assert again.returncode == 2
+    assert again.stderr.startswith("error[E108]")
+
+
+REFUSED = {
+    "region": (["--fixed-pivot", "box:0,0:a,2"], "E131", ["--fixed-pivot:1:9", "'a'", "^"]),
+    "empty": (["--moving-pivot", "box:0,0:0,2"], "E132", ["x from 0 to 0"]),
+    "length": (["--length", "5:2"], "E132", ["at least 5 long", "at most 2 long"]),
+    "kinds": (["--kinds", "PR", "--fixed-pivot", "1,2"], "E132", ["at (1, 2)", "PR only"]),
+    "pose": (["--exact", "11"], "E122", ["no pose '11'", "1 to 10"]),
+    "conditions": (["--exact", "1,2,3,4", "--fixed-pivot", "1,2"], "E133", ["6 exact conditions"]),
+    "one point twice": (["--fixed-pivot", "1,2"] * 2, "E132", ["both dyads", "at (1, 2)"]),
+    "out of reach": (
+        ["--fixed-pivot", "0,0", "--moving-pivot", "box:0,0:0.1,0.1", "--length", ":0.3"],
+        "E132",
+        ["at (0, 0)", "box from (0, 0) to (0.1, 0.1)", "at most 0.3 long"],
+    ),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_limits_that_cannot_be_met_are_refused_before_solving(poses, name):
+    arguments, code, said = REFUSED[name]
+    done = run("synthesize", poses, *arguments)
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert done.stderr.startswith(f"error[{code}]")
+    for words in [*said, "help:"]:
+        assert words in " ".join(done.stderr.split())
+    as_json = run("synthesize", poses, *arguments, "--json")
+    assert valid(as_json.stdout)["outcome"]["code"] == code
+
+
+def test_help_tells_every_option_in_80_columns():
+    done = run("synthesize", "--help")
+    assert max(map(len, done.stdout.splitlines())) <= 80
+    options = (
+        "--fixed-pivot --moving-pivot --length --kinds --exact --min-transmission --type --driver "
+        "--footprint --link-ratio --within --any-order --method --norm --pose-sigma "
+        "--angle-weight --certify --raw --tolerance --round --stock --accept-uncertain "
+        "--angle-unit --columns --drop --json --output --force --help"
+    )
+    for option in options.split():
+        assert f"{option} " in done.stdout
+    for shape in ("line:", "segment:", "box:", "polygon:", "any"):
+        assert f" {shape}" in done.stdout
+
+
+def test_the_object_is_written_whole_and_never_over_a_file(poses, tmp_path):
+    made = tmp_path / "result.json"
+    done = run("synthesize", poses, "-o", made)
+    assert done.returncode == 0
+    assert "wrote" in done.stderr
+    assert valid(made.read_text()) == valid(run("synthesize", poses, "--json").stdout)
+    made.write_text("mine")
+    again = run("synthesize", poses, "-o", made)
+    assert again.returncode == 2
+    assert "error[E140]" in again.stderr
+    assert again.stdout == ""  # refused before anything was computed
+    assert made.read_text() == "mine"
+    assert run("synthesize", poses, "-o", made, "--force").returncode == 0
+    assert valid(made.read_text())["linkages"]
+    assert [each.name for each in tmp_path.iterdir() if each.name.startswith(".")] == []
+
+
+def test_a_report_is_a_page_with_the_numbers_that_are_printed(poses, tmp_path):
+    page = tmp_path / "page.html"
+    done = run("report", poses, "-o", page, "--title", "Lid <1>")
+    assert done.returncode == 0, done.stderr
+    text = page.read_text("utf-8")
+    assert "Lid &lt;1&gt;" in text
+    printed = run("synthesize", poses).stdout
+    length = re.search(r"length +([0-9.]+)", printed)[1]
+    assert length in text
+    assert not re.search(r"(src|href)=[\"']?http", text)
+    assert run("report", poses, "-o", page).returncode == 2
+    assert page.read_text("utf-8") == text
+
+
+def test_a_linkage_is_exported_from_a_result(poses, tmp_path):
+    result, made = tmp_path / "result.json", tmp_path / "coupler.csv"
+    assert run("synthesize", poses, "-o", result).returncode == 0
+    done = run("export", result, "-o", made, "--unit", "mm")
+    assert done.returncode == 0, done.stderr
+    header, *rows = made.read_text().splitlines()
+    assert "x_mm" in header
+    saved = json.loads(result.read_text())["linkages"][0]
+    columns = header.split(",")
+    at_poses = [
+        [float(row.split(",")[columns.index(name)]) for name in ("x_mm", "y_mm", "angle_deg")]
+        for row in rows
+        if row.split(",")[columns.index("pose")]
+    ]
+    wanted = [[each["x"], each["y"], each["angle_deg"]] for each in saved["coupler"]]
+    turned = (np.array(sorted(at_poses)) - sorted(wanted))[:, 2]
+    assert np.abs((turned + 180) % 360 - 180).max() < 1e-8
+    assert np.array(sorted(at_poses))[:, :2] == pytest.approx(np.array(sorted(wanted))[:, :2])
+    piped = run("export", "-", "--to", "svg", "-o", tmp_path / "a", stdin=result.read_text())
+    assert piped.returncode == 0, piped.stderr
+    assert (tmp_path / "a").read_text().lstrip().startswith("<")
+
+
+def test_a_bug_leaves_a_file_to_send(monkeypatch, capsys, tmp_path, poses):
+    def broken(*_, **__):
+        return [].pop()
+
+    monkeypatch.setattr("burmester.synthesis.motion_generation.synthesize", broken)
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "bugs"))
+    (tmp_path / "bugs").mkdir()
+    with pytest.raises(SystemExit) as stop:
+        cli.main(["synthesize", str(poses)])
+    assert stop.value.code == 3
+    (left,) = (tmp_path / "bugs").iterdir()
+    told = "".join(capsys.readouterr().err.split())
+    assert "error[E900]" in told
+    assert "".join(str(left).split()) in told
+    assert "pop from empty list" in left.read_text()
+    assert str(poses) in left.read_text()
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "latin-1", "utf-8"])
+def test_output_goes_through_any_encoding(encoding, tmp_path):
+    named = tmp_path / "poses.csv"
+    named.write_text(
+        "x,y,angle_deg,name\n0,0,0,\u4e00\n3,1,40,b\n4,3,70,\u00fc\n5,3,95,d\n6,2,110,e\n",
+        encoding="utf-8",
+    )
+    done = run("synthesize", named, env={"PYTHONIOENCODING": encoding})
+    assert done.returncode in (0, 1)
+    assert "four-bar" in done.stdout
+    as_json = run("synthesize", named, "--json", env={"PYTHONIOENCODING": encoding})
+    names = [pose["name"] for pose in valid(as_json.stdout)["task"]["poses"]]
+    assert names == ["\u4e00", "b", "\u00fc", "d", "e"]
+
+
+def test_cases_are_listed_and_printed():
+    listed = run("cases")
+    assert listed.returncode == 0
+    assert len(listed.stdout.splitlines()) == 7
+    case = json.loads(run("cases", "ge2012-exact").stdout)
+    assert case["poses"][5] == [-4.1022, -1.0521, 52.87]
+    assert run("cases", "nothing").returncode == 2
+
+
+def test_reproduce_prints_every_table_and_its_verdicts():
+    done = run("reproduce")
+    assert done.returncode == 0
+    for title in ("Table 3", "Table 4", "Table 6", "Table 7", "Table 8", "Eqs. (19) to (21)"):
+        assert title in done.stdout
+    assert "0 differs" in " ".join(done.stdout.split())
+    data = json.loads(run("reproduce", "--json").stdout)
+    verdicts = [row["verdict"] for section in data["sections"] for row in section["rows"]]
+    assert verdicts.count("differs") == 0
+    assert verdicts.count("misprint") == 12
+
+
+def imported(*arguments):
+    """The modules that a run imports."""
+    code = (
+        "import sys; from burmester.cli import main\n"
+        f"try: main({list(map(str, arguments))})\n"
+        "except SystemExit: pass\n"
+        "print('\\n'.join(sys.modules), file=sys.stderr)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    return set(done.stderr.split())
+
+
+@pytest.mark.parametrize("arguments", [("--help",), ("synthesize", "--help")])
+def test_help_imports_next_to_nothing(arguments):
+    loaded = imported(*arguments)
+    assert "click" in loaded
+    assert not loaded & {"numpy", "rich", "pydantic", "scipy"}
+
+
+def test_the_main_job_does_without_what_it_does_not_need(poses):
+    loaded = imported("synthesize", poses)
+    assert {"numpy", "rich"} <= loaded
+    assert not loaded & {"scipy", "pydantic", "matplotlib"}
+
+
+def test_exported_names_are_what_the_package_says():
+    rooms = {name for names in burmester._ROOMS.values() for name in names}
+    assert rooms | {"__version__"} == set(burmester.__all__)
+    for name in burmester.__all__:
+        assert getattr(burmester, name) is not None
+    with pytest.raises(AttributeError):
+        burmester.no_such_thing  # noqa: B018
+
+
+def test_ctrl_c_leaves_quietly(tmp_path):
+    process = subprocess.Popen(
+        [sys.executable, "-m", "burmester", "synthesize", "-"],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    time.sleep(1.0)  # it waits for standard input by then
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=30)
+    assert process.returncode == 130
+    assert out == ""
+    assert "Traceback" not in err
+    assert "interrupted" in err
+
+
+def test_a_closed_pipe_is_not_an_error(poses):
+    done = subprocess.run(
+        f"{sys.executable} -m burmester reproduce | head -n 1; echo ${{PIPESTATUS[0]}}",
+        shell=True,
+        executable="/bin/bash",
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=60,
+    )
+    assert "Traceback" not in done.stderr
+    assert "error" not in done.stderr
+
+
+def test_the_readme_shows_what_happens(tmp_path, monkeypatch):
+    """Its Python session is run, and what it says of the command is what the command prints."""
+    root = Path(__file__).parents[2]
+    failed, tried = doctest.testfile(str(root / "README.md"), module_relative=False)
+    assert (failed, tried) == (0, 6)
+    listed = run("--help").stdout
+    for command in ("new", "check", "synthesize", "explain", "cases", "reproduce"):
+        assert command in listed
+    example = run("synthesize", root / "examples" / "poses.csv")
+    shown = "\n".join(line.rstrip() for line in example.stdout.rstrip().splitlines())
+    text = (root / "README.md").read_text()
+    assert shown in text
+    monkeypatch.chdir(tmp_path)
+    rows = (root / "examples" / "poses.csv").read_text().splitlines()
+    rows = [row for row in rows if not row.startswith("#")]
+    Path("poses.csv").write_text("\n".join([rows[0].replace("angle_deg", "angle"), *rows[1:]]))
+    assert run("synthesize", "poses.csv").stderr in text
+    Path("table2.csv").write_text("\n".join(rows).replace("52.87", "52.67"))
+    assert "warning" + run("check", "table2.csv").stdout.partition("warning")[2] in text

@@ -1,0 +1,544 @@
+"""What is said of linkages, in sentences, tables and JSON: held against what they do when driven.
+
+The numbers are computed again from the dimensions that the JSON gives, by the driver of `witness`,
+in plain complex numbers; the words are looked for around them.
+"""
+
+import io
+import json
+import math
+import re
+from dataclasses import replace
+from importlib import resources
+
+import jsonschema
+import numpy as np
+import pytest
+from rich.console import Console
+
+from burmester import cli
+from burmester.fourbar.dyad import PR, RP, RR
+from burmester.fourbar.linkage import Linkage
+from burmester.geometry.displacement import Displacement
+from burmester.io.cases import names
+from burmester.io.reading.poses import read_task
+from burmester.io.result import plain
+from burmester.io.terminal import show_synthesis
+from burmester.synthesis.motion_generation import synthesize
+from burmester.tasks.motion_task import Task
+from burmester.tasks.requirements import Requirements
+from tests.oracles import witness
+
+# What other programs rely on; more may be required here, nothing less.
+CONTRACT = {
+    "linkage": "id rank dyads type position_error angle_error_deg usable defects driver "
+    "min_transmission_angle_deg",
+    "defect": "kind message poses",
+}
+SCHEMA = json.loads(
+    resources.files("burmester").joinpath("io/synthesis.schema.json").read_text("utf-8")
+)
+CASES = names()
+
+
+def synthesized(task, **options):
+    """The synthesis, what --json prints of it, and the screen, `width` columns wide."""
+    synthesis = synthesize(task, **options)
+    data = json.loads(json.dumps(plain(synthesis), allow_nan=False))
+    jsonschema.Draft202012Validator(SCHEMA).validate(data)
+
+    def screen(width=200):
+        out = io.StringIO()
+        show_synthesis(synthesis, Console(file=out, width=width, highlight=False))
+        return out.getvalue()
+
+    return synthesis, data, screen
+
+
+@pytest.fixture(scope="module")
+def cases():
+    found = {}
+
+    def case(name):
+        if name not in found:
+            found[name] = synthesized(read_task(f"case:{name}"))
+        return found[name]
+
+    return case
+
+
+def decoded(data):
+    """A dyad of the JSON."""
+    match data["kind"]:
+        case "RR":
+            return RR(
+                np.array(data["fixed_pivot"]),
+                np.array(data["moving_pivot"]),
+                np.array(data["radius"]),
+            )
+        case "PR":
+            angle = np.radians(data["line"]["normal_deg"])
+            return PR(angle, np.array(data["line"]["offset"]), np.array(data["moving_pivot"]))
+        case "RP":
+            angle = np.radians(data["line"]["normal_deg"])
+            return RP(np.array(data["fixed_pivot"]), angle, np.array(data["line"]["offset"]))
+    raise AssertionError(data["kind"])
+
+
+def rows(poses):
+    return np.array([[pose["x"], pose["y"], math.radians(pose["angle_deg"])] for pose in poses])
+
+
+def on_dyad(dyad, at):
+    """How far body places (n, 3) are from what a dyad allows."""
+    d, turn = at[:, 0] + 1j * at[:, 1], np.exp(1j * at[:, 2])
+    if dyad["kind"] == "RR":
+        pin = d + turn * complex(*dyad["moving_pivot"])
+        return abs(pin - complex(*dyad["fixed_pivot"])) - dyad["radius"]
+    normal = np.exp(1j * math.radians(dyad["line"]["normal_deg"]))
+    if dyad["kind"] == "PR":
+        point = d + turn * complex(*dyad["moving_pivot"])
+    else:
+        point = (complex(*dyad["fixed_pivot"]) - d) / turn
+    return (np.conj(normal) * point).real - dyad["line"]["offset"]
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_errors_are_those_of_the_places_where_the_linkage_can_be(cases, name):
+    _, data, _ = cases(name)
+    size = data["characteristic_length"]
+    wanted = rows(data["task"]["poses"])
+    poses = Displacement(wanted[:, :2], wanted[:, 2])
+    for linkage in data["linkages"]:
+        at = rows(linkage["coupler"])
+        for dyad in linkage["dyads"]:
+            reach = size + abs(dyad.get("radius", 0.0))
+            assert np.abs(on_dyad(dyad, at)).max() < 1e-8 * reach
+        away = np.hypot(*(at - wanted)[:, :2].T)
+        turned = np.abs(np.angle(np.exp(1j * (at - wanted)[:, 2])))
+        for key, values in (
+            ("position_error", away),
+            ("angle_error_deg", np.degrees(turned)),
+        ):
+            assert linkage[key]["max"] == pytest.approx(values.max(), rel=1e-9, abs=1e-12 * size)
+            assert linkage[key]["rms"] == pytest.approx(
+                np.sqrt((values**2).mean()), rel=1e-9, abs=1e-12 * size
+            )
+        if linkage["usable"]:
+            pair = Linkage(*map(decoded, linkage["dyads"]))
+            driven = witness.misses(pair, poses, size)
+            said = np.hypot(away, size * turned)
+            assert said == pytest.approx(driven, rel=1e-4, abs=1e-6 * size)
+
+
+def least_transmission(linkage, at, steps=40_001):
+    """The least angle between coupler and follower, or its guide's normal, over the travel."""
+    first, second = map(decoded, linkage["dyads"])
+    low, high = (math.radians(end) for end in linkage["drives"]["first"]["travel_deg"])
+    drive = np.linspace(low, high, steps)
+    where, phi = witness.places(first, second, drive)
+    pin = at[:, 0] + 1j * at[:, 1] + np.exp(1j * at[:, 2]) * complex(*first.moving_pivot)
+    angle = np.angle(pin - complex(*first.fixed_pivot))
+    both, turned = witness.places(first, second, angle)
+    gaps = abs(both - (at[:, 0] + 1j * at[:, 1])) + abs(np.exp(1j * (turned - at[:, 2])) - 1)
+    (side,) = set(gaps.argmin(axis=0))  # of both assemblies, the one with the poses
+    hand, far = complex(*first.moving_pivot), complex(*second.moving_pivot)
+    turn = np.exp(1j * phi[side])
+    coupler = turn * (far - hand)
+    if isinstance(second, RR):
+        follower = where[side] + turn * far - complex(*second.fixed_pivot)
+    else:
+        follower = np.exp(1j * float(second.normal_angle))
+    folded = np.abs(np.angle(coupler / follower))
+    return np.degrees(np.nanmin(np.minimum(folded, np.pi - folded)))
+
+
+@pytest.mark.parametrize("name", ["ge2012-exact", "ge2012-approximate", "motiongen-rrrp"])
+def test_the_least_transmission_angle_is_that_of_the_whole_way(cases, name):
+    _, data, screen = cases(name)
+    tried = 0
+    for linkage in data["linkages"]:
+        kinds = [dyad["kind"] for dyad in linkage["dyads"]]
+        if linkage["usable"] and kinds in (["RR", "RR"], ["RR", "PR"]):
+            least = least_transmission(linkage, rows(linkage["coupler"]))
+            said = linkage["min_transmission_angle_deg"]
+            assert said["range"] == pytest.approx(least, abs=1e-3)
+            assert said["range"] <= said["poses"] + 1e-9
+            row = next(
+                line for line in screen().splitlines() if line.startswith(f"{linkage['id']} ")
+            )
+            assert float(row.split()[-1].rstrip("°")) == pytest.approx(least, abs=0.1)
+            tried += 1
+    assert tried >= 2
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_first_sentence_says_what_the_best_linkage_does(cases, name):
+    _, data, screen = cases(name)
+    best = data["linkages"][0]
+    text = screen()
+    usable = sum(linkage["usable"] for linkage in data["linkages"])
+    head = text.splitlines()[0]
+    assert head.startswith(f"{len(data['linkages'])} four-bar")
+    share = "usable" if len(data["linkages"]) == 1 else f"{usable} of them usable"
+    assert head.endswith(f", {share}.")
+    said = re.search(
+        r"^Best: L1, an? (.+) driven by ([DM]\d+), passes every pose (.+), transmission angle "
+        r"(\S+)° or more\.$",
+        text,
+        re.MULTILINE,
+    )
+    assert said is not None
+    kind, driver, how, least = said.groups()
+    assert kind == best["type"]
+    assert driver == best["dyads"][0]["id"]
+    range_ = best["min_transmission_angle_deg"]["range"]
+    assert range_ - 0.1 < float(least) <= range_ * (1 + 1e-9)
+    if how == "exactly, up to rounding":
+        assert best["position_error"]["max"] < 1e-10 * data["characteristic_length"]
+    else:
+        position, angle = re.fullmatch(r"within (\S+) and (\S+)°", how).groups()
+        assert float(position) == pytest.approx(best["position_error"]["max"], rel=0.05)
+        assert float(angle) == pytest.approx(best["angle_error_deg"]["max"], rel=0.05)
+
+
+def test_why_it_is_not_the_closest_one(cases):
+    _, data, screen = cases("motiongen-mixed5")
+    missed = f"{data['linkages'][0]['position_error']['max']:.2g}"
+    *works, closest = data["linkages"]
+    said = " ".join(screen().split())
+    assert f"This one works and misses by {missed}; the closest one, {closest['id']}," in said
+    assert "passes every pose exactly but locks between poses 3 and 4, at a dead point." in said
+    assert all(each["usable"] and each["sought"] for each in works)
+    assert not closest["usable"]
+    (defect,) = closest["defects"]
+    assert defect["kind"] == "branch"
+    assert defect["poses"] == [3, 4]
+    assert defect["certain"]
+    # The crank of the closest one is on both sides of a dead point at those poses.
+    pair = [decoded(dyad) for dyad in closest["dyads"]]
+    at = rows(closest["coupler"])
+    sides = []
+    for x, y, angle in at[[2, 3]]:
+        turn = np.exp(1j * angle)
+        coupler = turn * complex(*(pair[1].moving_pivot - pair[0].moving_pivot))
+        pin = x + 1j * y + turn * complex(*pair[1].moving_pivot)
+        follower = pin - complex(*pair[1].fixed_pivot)
+        sides.append(np.sign(np.angle(coupler / follower)))
+    assert sides[0] != sides[1]
+
+
+@pytest.mark.parametrize("width", [60, 80, 200])
+@pytest.mark.parametrize("name", CASES)
+def test_nothing_is_wider_than_the_screen_or_cut_off(cases, name, width):
+    _, data, screen = cases(name)
+    text = screen(width)
+    assert max(map(len, text.splitlines())) <= width
+    assert "…" not in text
+    one_line = " ".join(text.split())
+    for linkage in data["linkages"]:
+        shown = f" {linkage['id']} " in one_line
+        unusable = [each for each in data["linkages"] if not each["usable"]]
+        assert shown or linkage in unusable[8:]
+        if shown and linkage["usable"]:
+            assert linkage["type"].split()[0] in one_line
+        for defect in linkage["defects"] if shown else ():
+            if defect["kind"] != "assembly":
+                assert " ".join(defect["message"].split()) in one_line
+    if len(unusable) > 8:
+        assert f"and {len(unusable) - 8} more, see --json" in text
+
+
+def numbers_near(text):
+    return [float(number) for number in re.findall(r"-?\d+\.?\d*(?:e-?\d+)?", text)]
+
+
+def test_dimensions_have_as_many_digits_as_they_are_known_to(cases):
+    _, data, screen = cases("ge2012-exact")
+    best = data["linkages"][0]
+    block = screen().split("L1 in full\n")[1].splitlines()[:6]
+    regions = best["pivot_uncertainty"]["dyads"]
+    parts = [
+        (dyad[key], region[key]["half_width"] if key != "radius" else region["length"])
+        for dyad, region in zip(best["dyads"], regions, strict=True)
+        for key in ("fixed_pivot", "moving_pivot", "radius")
+    ]
+    for line, (value, give) in zip(block, parts, strict=True):
+        left, right = line.split("±")
+        shown = numbers_near(left.split("pivot")[-1].split("length")[-1])
+        assert float(right) == pytest.approx(give, rel=0.3)
+        assert shown == pytest.approx(np.atleast_1d(value).tolist(), abs=give)
+        decimals = {len(number.split(".")[1]) for number in re.findall(r"\d+\.\d+", left)}
+        worst = max(give, best["position_error"]["max"])
+        assert all(worst / 31 < 10.0**-places < worst for places in decimals)
+
+
+def test_the_precision_of_the_poses_is_what_the_regions_come_from(cases):
+    task = read_task("case:ge2012-exact")
+    _, rough, screen = synthesized(replace(task, resolution=tuple(10 * np.array(task.resolution))))
+    _, fine, _ = cases("ge2012-exact")
+    for a, b in zip(rough["linkages"][:4], fine["linkages"][:4], strict=True):
+        for one, other in zip(
+            a["pivot_uncertainty"]["dyads"], b["pivot_uncertainty"]["dyads"], strict=True
+        ):
+            for key in ("fixed_pivot", "moving_pivot"):
+                if one[key]:
+                    assert one[key]["half_width"] == pytest.approx(
+                        10 * other[key]["half_width"], rel=1e-6
+                    )
+    sigma = rough["task"]["pose_sigma"]
+    assert sigma["position"] == pytest.approx(5e-4 / math.sqrt(3))
+    assert sigma["angle_deg"] == pytest.approx(0.05 / math.sqrt(3))
+    assert "if the poses err by 0.00029 and 0.029° (standard deviations" in screen()
+    whole = replace(task, resolution=(task.resolution[0], 0.0))  # angles in whole degrees, say
+    _, _, screen = synthesized(whole)
+    assert "if the poses err by 2.9e-05 and 0° (standard deviations" in screen()
+    exact = replace(task, resolution=(0.0, 0.0))
+    _, data, screen = synthesized(exact)
+    assert data["task"]["pose_sigma"] == {"position": 0, "angle_deg": 0}
+    assert "±" not in screen()
+
+
+def small_turn(decimals=3):
+    """Poses of a four-bar that turn by 1.8° only, in mm."""
+    a = RR(np.zeros(2), np.zeros(2), np.array(12.0))
+    b = RR(np.array([30.0, 0.0]), np.array([28.0, 8.0]), np.array(22.0))
+    where, phi = witness.places(a, b, np.linspace(1.0, 1.25, 9))
+    table = np.column_stack([where[0].real, where[0].imag, np.degrees(phi[0])]).round(decimals)
+    return "x_mm,y_mm,angle_deg\n" + "".join(
+        f"{x:.{decimals}f},{y:.{decimals}f},{angle:.{decimals}f}\n" for x, y, angle in table
+    )
+
+
+def test_a_motion_that_determines_no_pivots_is_told_as_one(tmp_path):
+    file = tmp_path / "small.csv"
+    file.write_text(small_turn())
+    task = read_task(str(file))
+    _, data, screen = synthesized(task)
+    assert data["outcome"]["code"] == "R305"
+    turn = np.ptp([pose["angle_deg"] for pose in data["task"]["poses"]])
+    assert f"the body turns only {turn:.2g}°" in data["outcome"]["why"]
+    assert "does not determine pivots" in screen().splitlines()[0]
+    usable = [linkage for linkage in data["linkages"] if linkage["usable"]]
+    assert usable
+    assert not any(linkage["pivot_uncertainty"]["determined"] for linkage in usable)
+    assert run(file) == 1
+    assert run(file, "--accept-uncertain") == 0
+
+
+def run(*arguments):
+    with pytest.raises(SystemExit) as stop:
+        cli.main(["synthesize", *map(str, arguments)])
+    return stop.value.code
+
+
+NEEDED = {
+    "transmission": (["--min-transmission", "89.9"], "transmission"),
+    "type": (["--type", "double-crank"], "type"),
+    "within": (["--within", "1e-6"], "assembly"),
+    "ratio": (["--link-ratio", "1.5", "--kinds", "RR"], "link ratio"),
+}
+
+
+@pytest.mark.parametrize("name", NEEDED)
+def test_nothing_usable_is_told_with_the_reason_and_a_way_that_leads_on(name, capsys):
+    arguments, kind = NEEDED[name]
+    assert run("case:ge2012-exact", *arguments, "--json") == 1
+    data = json.loads(capsys.readouterr().out)
+    jsonschema.Draft202012Validator(SCHEMA).validate(data)
+    outcome = data["outcome"]
+    assert outcome["code"] == "R301"
+    assert not any(linkage["usable"] for linkage in data["linkages"])
+    closest = min(data["linkages"], key=lambda each: each["position_error"]["max"])
+    reasons = {each["kind"] for each in closest["unmet"] + closest["defects"]}
+    assert kind in reasons
+    assert f"the closest one, {closest['id']}, misses by" in outcome["why"]
+    # What the help says is done to the letter, and leads to the linkage that it names.
+    way = re.search(r"with (--.+?) (L\d+) would do", outcome["help"])
+    assert way is not None, outcome["help"]
+    options, named = re.findall(r'"[^"]+"|\S+', way[1]), way[2]
+    options = [option.strip('"') for option in options]
+    kept = []
+    for flag, value in zip(arguments[::2], arguments[1::2], strict=True):
+        kept += [] if flag in options else [flag, value]
+    assert run("case:ge2012-exact", *kept, *options, "--json") == 0
+    again = json.loads(capsys.readouterr().out)
+    promised = next(each for each in data["linkages"] if each["id"] == named)
+    best = again["linkages"][0]
+    assert best["usable"]
+    assert best["position_error"]["max"] <= promised["position_error"]["max"] * (1 + 1e-6)
+
+
+def test_poses_out_of_order_are_told_and_any_order_helps(tmp_path, capsys):
+    table = read_task("case:ge2012-exact")
+    order = [0, 1, 2, 5, 4, 3, 6, 7, 8, 9]
+    file = tmp_path / "shuffled.csv"
+    points, angles = table.poses.translation[order], np.degrees(table.poses.angle[order])
+    file.write_text(
+        "x,y,angle_deg\n"
+        + "".join(f"{x:.4f},{y:.4f},{a:.2f}\n" for (x, y), a in zip(points, angles, strict=True))
+    )
+    run(file, "--json")
+    data = json.loads(capsys.readouterr().out)
+    closest = min(data["linkages"], key=lambda each: each["position_error"]["max"])
+    assert closest["position_error"]["max"] < 1e-4
+    (defect,) = closest["defects"]
+    assert defect["kind"] == "order"
+    assert defect["message"] == "meets the poses in the order 1-2-3-6-5-4-7-8-9-10"
+    assert defect["poses"] == [4, 6]
+    if data["outcome"]["code"] == "R301":
+        assert "with --any-order" in data["outcome"]["help"]
+    assert run(file, "--any-order") == 0
+    assert "Best: L1, a crank-rocker" in capsys.readouterr().out
+
+
+def test_weak_transmission_is_a_warning_unless_it_was_asked_for(cases):
+    synthesis, data, _ = cases("ge2012-exact")
+    (weak,) = [each for each in data["warnings"] if each["code"] == "W210"]
+    least = data["linkages"][0]["min_transmission_angle_deg"]["range"]
+    assert least < 40
+    assert f"falls to {math.floor(10 * least) / 10:g}°" in weak["message"]
+    named = re.search(r"take (L\d+), which has (\S+)° or more", weak["help"])
+    other = next(each for each in data["linkages"] if each["id"] == named[1])
+    assert other["usable"]
+    assert other["min_transmission_angle_deg"]["range"] >= float(named[2]) > least
+    asked = replace(synthesis.task, requirements=Requirements(transmission=math.radians(20)))
+    _, data, _ = synthesized(asked)
+    assert not [each for each in data["warnings"] if each["code"] == "W210"]
+    assert data["task"]["requirements"] == {"transmission_deg": pytest.approx(20)}
+    _, good, _ = cases("motiongen-rrpr")
+    assert good["linkages"][0]["min_transmission_angle_deg"]["range"] > 40
+    assert not [each for each in good["warnings"] if each["code"] == "W210"]
+
+
+def test_pivots_that_are_hardly_determined_are_a_warning():
+    task = read_task("case:ge2012-exact")
+    _, data, screen = synthesized(replace(task, resolution=(2e-3, math.radians(0.2))))
+    warned = [each["message"] for each in data["warnings"] if each["code"] == "W209"]
+    loose = [
+        each["id"]
+        for each in data["linkages"]
+        if each["usable"] and not each["pivot_uncertainty"]["determined"]
+    ]
+    assert loose
+    assert len(loose) < sum(each["usable"] for each in data["linkages"])
+    (message,) = warned
+    assert all(re.search(rf"\b{name}\b", message) for name in loose)
+    best = next(each for each in data["linkages"] if each["id"] == loose[0])
+    widest = max(
+        region[key]["half_width"]
+        for region in best["pivot_uncertainty"]["dyads"]
+        for key in ("fixed_pivot", "moving_pivot")
+        if region[key]
+    )
+    said = float(re.search(r"±(\S+)", message)[1])
+    assert said == pytest.approx(widest, rel=0.05)
+    points = np.array([[pose["x"], pose["y"]] for pose in data["task"]["poses"]])
+    span = float(re.search(r"the poses span (\S+)\)", message)[1])
+    assert span == pytest.approx(np.hypot(*np.ptp(points, axis=0)), rel=0.05)
+    if loose[0] == "L1":
+        assert "Its pivots are uncertain; those of L2 are not" in screen()
+
+
+def test_what_building_makes_of_the_error_is_told_with_its_unit():
+    task = replace(read_task("case:ge2012-exact"), length_unit="mm")
+    _, data, screen = synthesized(task, tolerance=0.01)
+    best = data["linkages"][0]
+    said = re.search(
+        r"Built to ±0\.01 mm: position errors of up to (\S+) mm \(95 % of linkages\), at most "
+        r"(\S+) mm\.",
+        screen(),
+    )
+    assert said is not None
+    # Driven once more, from dimensions that are off by as much.
+    rng = np.random.default_rng(3)
+    wanted = rows(data["task"]["poses"])
+    poses = Displacement(wanted[:, :2], wanted[:, 2])
+    pair, worst = [decoded(dyad) for dyad in best["dyads"]], []
+    for _ in range(6):
+        off = [
+            RR(
+                dyad.fixed_pivot + rng.uniform(-0.01, 0.01, 2),
+                dyad.moving_pivot + rng.uniform(-0.01, 0.01, 2),
+                dyad.radius + rng.uniform(-0.01, 0.01),
+            )
+            for dyad in pair
+        ]
+        size = data["characteristic_length"]
+        worst.append(witness.misses(Linkage(*off), poses, size).max())
+    most, bound = map(float, said.groups())
+    assert most < bound
+    assert bound == pytest.approx(best["tolerance"]["bound"], rel=0.05)
+    assert most == pytest.approx(best["tolerance"]["max_95"], rel=0.05)
+    # Angles count here as well, so these are a little more than positions alone.
+    assert 0.2 * most < np.median(worst) < 2 * bound
+    assert "passes every pose within 2.8e-05 mm and" in screen()
+    assert "L1 in full, in mm" in screen()
+
+
+def test_schema_asks_for_all_that_others_rely_on():
+    for name, keys in CONTRACT.items():
+        assert set(keys.split()) <= set(SCHEMA["$defs"][name]["required"])
+    broken = plain(synthesize(read_task("case:motiongen-prpr")))
+    for key in CONTRACT["linkage"].split():
+        cut = json.loads(json.dumps(broken))
+        del cut["linkages"][0][key]
+        with pytest.raises(jsonschema.ValidationError):
+            jsonschema.Draft202012Validator(SCHEMA).validate(cut)
+
+
+def test_sliders_travel_is_a_length_and_cranks_travel_an_angle(cases):
+    _, data, _ = cases("motiongen-rrrp")
+    best = data["linkages"][0]
+    assert [dyad["kind"] for dyad in best["dyads"]] == ["RR", "PR"]
+    at = rows(best["coupler"])
+    crank, slider = best["dyads"]
+    d, turn = at[:, 0] + 1j * at[:, 1], np.exp(1j * at[:, 2])
+    normal = np.exp(1j * math.radians(slider["line"]["normal_deg"]))
+    along = (np.conj(normal) * (d + turn * complex(*slider["moving_pivot"]))).imag
+    low, high = best["drives"]["second"]["travel"]
+    assert low <= along.min() + 1e-9
+    assert high >= along.max() - 1e-9
+    assert high - low < 1.3 * np.ptp(along)
+    swung = np.angle(d + turn * complex(*crank["moving_pivot"]) - complex(*crank["fixed_pivot"]))
+    first, last = best["drives"]["first"]["travel_deg"]
+    swung = first + np.mod(np.degrees(swung) - first + 1e-6, 360) - 1e-6
+    assert (swung <= last + 1e-6).all()
+    assert [swung.min(), swung.max()] == pytest.approx([first, last], abs=1e-6)
+
+
+def test_names_of_poses_are_used_in_what_is_said():
+    task = read_task("case:motiongen-mixed5")
+    named = Task(task.poses, names=("a", "b", "c", "d", "e"), resolution=task.resolution)
+    _, data, screen = synthesized(named)
+    assert "locks between poses c and d" in screen()
+    closest = min(data["linkages"], key=lambda each: each["position_error"]["max"])
+    assert closest["defects"][0]["poses"] == [3, 4]
+
+
+ASKED_IN_VAIN = Requirements(transmission=math.radians(89.9))
+
+
+@pytest.mark.parametrize("width", [60, 80, 200])
+def test_failures_and_units_fit_the_screen_as_well(width, tmp_path):
+    file = tmp_path / "small.csv"
+    file.write_text(small_turn())
+    base = read_task("case:ge2012-exact")
+    for task in (
+        read_task(str(file)),
+        replace(base, length_unit="mm", requirements=ASKED_IN_VAIN),
+        Task(Displacement(np.random.default_rng(1).normal(size=(8, 2)) * 1e10, np.arange(8.0))),
+    ):
+        _, data, screen = synthesized(task)
+        text = screen(width)
+        assert text.startswith(f"result[{data['outcome']['code']}]: ")
+        assert max(map(len, text.splitlines())) <= width
+        assert "…" not in text
+        assert " ".join(data["outcome"]["help"].split()) in " ".join(text.split())
+        unusable = [each for each in data["linkages"] if not each["usable"]]
+        if not any(each["usable"] for each in data["linkages"]):
+            # The nearest three stand above the tables, with their reasons.
+            nearest = sorted(unusable, key=lambda each: each["position_error"]["max"])[:3]
+            above = text.split("\nDyads")[0]
+            for each in nearest:
+                assert re.search(rf"^{each['id']} +{each['type']}", above, re.MULTILINE)

@@ -1,0 +1,635 @@
+"""The best dyads within limits, against many starts of SciPy's SLSQP, which share no code."""
+
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+import pytest
+from scipy.optimize import minimize
+
+from burmester.dyads.face_descent import Block, Range, descend
+from burmester.dyads.geometric_fit import circle_misses, least_squares
+from burmester.dyads.minima_within_limits import limited_dyads
+from burmester.fourbar.canonical_frames import CanonicalFrames
+from burmester.fourbar.dyad import PR, RP, RR
+from burmester.geometry.displacement import Displacement
+from burmester.geometry.regions import Line, Point, Polygon, Segment, box
+from burmester.synthesis.motion_generation import synthesize
+from burmester.tasks.limits import Limits
+from burmester.tasks.motion_task import Task
+from tests.oracles.witness import misses, random_four_bar, random_poses, span
+
+LONG = 100.0  # spans: beyond this a link is a slider in disguise
+CORNER = np.array([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)], float)  # an L
+ANYWHERE = [(np.zeros(2), np.eye(2), np.full(2, -np.inf), np.full(2, np.inf))]
+
+
+# --- the witness: regions as pieces, distances, and many starts
+
+
+@dataclass
+class Problem:
+    """A task for both: regions as the package takes them, and as pieces origin + basis u.
+
+    rows: poses x, y, angle; fixed, moving: pieces (origin, basis, low, high), low <= u <= high.
+    """
+
+    rows: np.ndarray
+    weights: np.ndarray | None
+    exact: np.ndarray
+    limits: Limits
+    fixed: list
+    moving: list
+
+    @property
+    def poses(self):
+        return Displacement.from_poses(self.rows)
+
+    @property
+    def share(self):
+        share = np.ones(len(self.rows)) if self.weights is None else self.weights
+        return share / share.sum()
+
+
+def circle_distance(z, rows):
+    """Of z = c, m, r: |R m + d - c| - r (N,) and its derivatives (N, 5)."""
+    cos, sin = np.cos(rows[:, 2]), np.sin(rows[:, 2])
+    x = cos * z[2] - sin * z[3] + rows[:, 0] - z[0]
+    y = sin * z[2] + cos * z[3] + rows[:, 1] - z[1]
+    far = np.maximum(np.hypot(x, y), 1e-200)
+    x, y = x / far, y / far
+    slope = np.stack([-x, -y, x * cos + y * sin, y * cos - x * sin, -np.ones_like(x)], axis=-1)
+    return far - z[4], slope
+
+
+def circle_squared(z, rows):
+    """The same for |R m + d - c|² - r²."""
+    miss, slope = circle_distance(z, rows)
+    more = miss + 2 * z[4]
+    total = slope * (miss + z[4])[:, None] * 2
+    total[:, 4] = -2 * z[4]
+    return miss * more, total
+
+
+def line_distance(z, rows):
+    """Of z = (normal angle, offset, m): n . (R m + d) - h and its derivatives (N, 4)."""
+    cos, sin = np.cos(rows[:, 2]), np.sin(rows[:, 2])
+    n1, n2 = np.cos(z[0]), np.sin(z[0])
+    x = cos * z[2] - sin * z[3] + rows[:, 0]
+    y = sin * z[2] + cos * z[3] + rows[:, 1]
+    slope = [n1 * y - n2 * x, -np.ones_like(x), n1 * cos + n2 * sin, n2 * cos - n1 * sin]
+    return n1 * x + n2 * y - z[1], np.stack(slope, axis=-1)
+
+
+def inverse(rows):
+    """The inverse motion: rows x, y, angle of M's fixed plane."""
+    d = -(rows[:, 0] + 1j * rows[:, 1]) * np.exp(-1j * rows[:, 2])
+    return np.column_stack([d.real, d.imag, -rows[:, 2]])
+
+
+def local(distance, problem, rows, start, piece):
+    """SLSQP from one start y; z = zero + basis y within bounds.  Its cost and z, or None."""
+    (zero, basis), bounds = piece
+    held, share = problem.exact, np.where(problem.exact, 0.0, problem.share)
+
+    def cost(y):
+        miss, slope = distance(zero + basis @ y, rows)
+        return share @ miss**2, 2 * (share * miss) @ slope @ basis
+
+    conditions = []
+    if held.any():
+        conditions = [
+            {
+                "type": "eq",
+                "fun": lambda y: distance(zero + basis @ y, rows)[0][held],
+                "jac": lambda y: distance(zero + basis @ y, rows)[1][held] @ basis,
+            }
+        ]
+    with np.errstate(all="ignore"):
+        fit = minimize(
+            cost,
+            start,
+            jac=True,
+            bounds=bounds,
+            constraints=conditions,
+            method="SLSQP",
+            options={"maxiter": 300, "ftol": 1e-15},
+        )
+    z = zero + basis @ np.clip(fit.x, *np.array(bounds).T)
+    if not np.isfinite(z).all() or np.abs(distance(z, rows)[0][held]).max(initial=0) > 1e-9:
+        return None
+    return float(share @ distance(z, rows)[0] ** 2), z
+
+
+def maps(problem, kind):
+    """Every piece of a kind's space: (zero, basis), bounds of y."""
+    endless = (-np.inf, np.inf)
+    if kind is RR:
+        for (c, a, lo, hi), (m, b, low, high) in product(problem.fixed, problem.moving):
+            basis = np.zeros((5, a.shape[1] + b.shape[1] + 1))
+            basis[:2, : a.shape[1]], basis[2:4, a.shape[1] : -1], basis[4, -1] = a, b, 1.0
+            bounds = [*zip(lo, hi, strict=True), *zip(low, high, strict=True)]
+            yield (np.array([*c, *m, 0.0]), basis), [*bounds, problem.limits.length]
+    else:
+        for m, b, low, high in problem.moving if kind is PR else problem.fixed:
+            basis = np.zeros((4, 2 + b.shape[1]))
+            basis[:2, :2], basis[2:, 2:] = np.eye(2), b
+            bounds = [endless, endless, *zip(low, high, strict=True)]
+            yield (np.array([0.0, 0.0, *m]), basis), bounds
+
+
+def by_force(problem, kind, rng, starts):
+    """The least cost that SciPy finds from random starts in every piece, its z, and its piece."""
+    rows = inverse(problem.rows) if kind is RP else problem.rows
+    distance = circle_distance if kind is RR else line_distance
+    size, best = span(problem.rows), (np.inf, None, None)
+    for map_, bounds in maps(problem, kind):
+        for _ in range(starts):
+            y = rng.normal(scale=1.5 * size, size=len(bounds))
+            if kind is not RR:
+                y[0] = rng.uniform(-np.pi, np.pi)
+            low, high = np.array(bounds).T
+            ends = np.isfinite(low) & np.isfinite(high)
+            y[ends] = rng.uniform(low[ends], high[ends])
+            if kind is RR:
+                z = map_[0] + map_[1] @ y
+                y[-1] = (distance(z, rows)[0] + z[4]).mean()
+            else:
+                y[1] += distance(map_[0] + map_[1] @ y, rows)[0].mean()
+            fit = local(distance, problem, rows, np.clip(y, low, high), (map_, bounds))
+            if fit is not None and fit[0] < best[0]:
+                best = (*fit, (map_, bounds))
+    return best
+
+
+# --- random tasks
+
+
+def random_region(rng, what, size):
+    """A region of some sort, and its pieces."""
+    at, turn = rng.normal(scale=0.7 * size, size=2), rng.uniform(-np.pi, np.pi)
+    turned = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
+    wide = size * rng.uniform(0.2, 1.5, 2)
+    if what == "none":
+        return None, ANYWHERE
+    if what == "point":
+        return Point(at), [(at, np.empty((2, 0)), np.empty(0), np.empty(0))]
+    if what == "line":
+        along = turned[:, :1]
+        pieces = [(at, along, np.array([-np.inf]), np.array([np.inf]))]
+        return Line(at, at + 3 * size * along[:, 0]), pieces
+    if what == "segment":
+        along = wide[0] * turned[:, :1]
+        return Segment(at, at + along[:, 0]), [(at, along, np.zeros(1), np.ones(1))]
+    if what == "box":
+        return box(at, at + wide), [(at, np.eye(2), np.zeros(2), wide)]
+    assert what == "concave"
+    turned = turned * wide
+    pieces = [(at, turned, np.zeros(2), np.array(high)) for high in ([2.0, 1.0], [1.0, 2.0])]
+    return Polygon(at + CORNER @ turned.T), pieces
+
+
+SORTS = ["none", "point", "line", "segment", "box", "concave"]
+
+
+def random_problem(rng, sorts=SORTS):
+    """A task of 6 to 13 noisy poses with limits of all sorts, and up to as many exact poses."""
+    count = int(rng.integers(6, 14))
+    rows = random_poses(random_four_bar(rng), rng, count)
+    noise = rng.choice([0.001, 0.01, 0.05])
+    size = span(rows)
+    rows = rows + noise * rng.normal(size=rows.shape) * [size, size, 1.0]
+    a, b = rng.choice(sorts), rng.choice(["none", "none", *sorts])
+    if rng.random() < 0.5:
+        a, b = b, a
+    fixed, in_f = random_region(rng, a, size)
+    moving, in_m = random_region(rng, b, size)
+    length = (0.0, np.inf)
+    if rng.random() < 0.4:
+        least = size * rng.uniform(0.1, 1)
+        length = [(least, np.inf), (0.0, least), (least, least + size * rng.uniform(0.1, 1))][
+            rng.integers(3)
+        ]
+    limits = Limits(fixed, moving, length)
+    exact = np.zeros(count, dtype=bool)
+    most = 5 - limits.conditions
+    exact[rng.permutation(count)[: rng.choice([0, 0, *range(1, most + 1)])]] = True
+    weights = 10 ** rng.uniform(-2, 2, count) if rng.random() < 0.4 else None
+    return Problem(rows, weights, exact, limits, in_f, in_m)
+
+
+# --- the comparison
+
+
+def outside(point, pieces):
+    """How far a point lies outside all of its pieces."""
+    gaps = []
+    for origin, basis, low, high in pieces:
+        u = np.linalg.lstsq(basis, point - origin, rcond=None)[0] if basis.size else np.empty(0)
+        gaps.append(np.abs(origin + basis @ np.clip(u, low, high) - point).max())
+    return min(gaps)
+
+
+def ours(problem, found, kind):
+    """The dyads of a kind as z (k, ...), in the task's own frames."""
+    if kind is RR:
+        d = found.frames.circle_back(found.circles)
+        return np.column_stack([d.fixed_pivot, d.moving_pivot, d.radius])
+    lines = [found.frames.line_back(line) for line in found.sliders if isinstance(line, kind)]
+    pivots = [line.moving_pivot if kind is PR else line.fixed_pivot for line in lines]
+    return np.array(
+        [
+            [line.normal_angle, line.offset, *pivot]
+            for line, pivot in zip(lines, pivots, strict=True)
+        ]
+    ).reshape(-1, 4)
+
+
+def breaches(problem, found, kind):
+    """By how much the dyads found break the limits, or miss the exact poses, in spans."""
+    rows = inverse(problem.rows) if kind is RP else problem.rows
+    distance = circle_distance if kind is RR else line_distance
+    size, worst = span(problem.rows), 0.0
+    for z in ours(problem, found, kind):
+        scale = max(size, np.abs(z).max())  # a far pivot has as many digits as any number
+        gaps = [np.abs(distance(z, rows)[0][problem.exact]).max(initial=0)]
+        if kind is not PR:
+            gaps.append(outside(z[:2] if kind is RR else z[2:], problem.fixed))
+        if kind is not RP:
+            gaps.append(outside(z[2:4], problem.moving))
+        if kind is RR:
+            least, most = problem.limits.length
+            gaps.append(max(least - z[4], z[4] - most, 0.0))
+        worst = max(worst, max(gaps) / scale)
+    return worst
+
+
+def verdict(problem, found, kind, rng, starts):
+    """One of "ours", "same", or where SciPy is better why: "long", "no counterpart" or "bug".
+
+    "no counterpart": a minimum of the true distance at which the squared one leads away.
+    """
+    rows = inverse(problem.rows) if kind is RP else problem.rows
+    distance = circle_distance if kind is RR else line_distance
+    share = np.where(problem.exact, 0.0, problem.share)
+    costs = [share @ distance(z, rows)[0] ** 2 for z in ours(problem, found, kind)]
+    best = min(costs, default=np.inf)
+    least, z, piece = by_force(problem, kind, rng, starts)
+    rounding = (1e-9 * span(problem.rows)) ** 2
+    if best <= least * (1 + 1e-6) + rounding:
+        return ("same" if least <= best * (1 + 1e-6) + rounding else "ours"), best, least, z
+    if kind is RR and z[4] > LONG * span(problem.rows):
+        return "long", best, least, z
+    if kind is RR:
+        zero, basis = piece[0]
+        start = np.linalg.lstsq(basis, z - zero, rcond=None)[0]
+        there = local(circle_squared, problem, rows, start, piece)
+        if there is not None:
+            start = np.linalg.lstsq(basis, there[1] - zero, rcond=None)[0]
+            back = local(distance, problem, rows, start, piece)
+            if back is None or back[0] > least * (1 + 1e-5) + rounding:
+                return "no counterpart", best, least, z
+    return "bug", best, least, z
+
+
+def kinds_of(problem):
+    return [kind for kind in (RR, PR, RP) if kind.__name__ in problem.limits.allowed]
+
+
+def solved(problem, norm="rms"):
+    return limited_dyads(problem.poses, problem.weights, problem.exact, problem.limits, norm)
+
+
+# --- tests
+
+
+def test_no_start_finds_a_better_dyad_within_the_limits():
+    """Where SciPy is better for a reason that is known (see `verdict`), it is so seldom."""
+    told = []
+    for task in range(14):
+        rng = np.random.default_rng([1, task])
+        problem = random_problem(rng)
+        found = solved(problem)
+        assert found.lost == 0
+        for kind in kinds_of(problem):
+            assert breaches(problem, found, kind) < 1e-9
+            what, best, least, z = verdict(problem, found, kind, rng, 6)
+            assert what != "bug", (task, kind, best, least, z)
+            told.append(what)
+    assert sum(what in ("long", "no counterpart") for what in told) <= 1
+    assert sum(what == "same" for what in told) > 0.8 * len(told)
+
+
+def one_sort(rng, fixed, moving, noise=0.03, count=8):
+    rows = random_poses(random_four_bar(rng), rng, count)
+    size = span(rows)
+    rows = rows + noise * rng.normal(size=rows.shape) * [size, size, 1.0]
+    (a, in_f), (b, in_m) = random_region(rng, fixed, size), random_region(rng, moving, size)
+    return Problem(rows, None, np.zeros(count, bool), Limits(a, b), in_f, in_m)
+
+
+@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("sorts", [("concave", "none"), ("segment", "concave"), ("box", "line")])
+def test_no_small_way_within_the_limits_leads_down_from_a_dyad_found(seed, sorts):
+    rng = np.random.default_rng([3, seed])
+    problem = one_sort(rng, *sorts)
+    found = solved(problem)
+    size = span(problem.rows)
+    for z in ours(problem, found, RR):
+        if z[4] > LONG * size:
+            continue
+        here = problem.share @ circle_distance(z, problem.rows)[0] ** 2
+        # Points of the pieces near each pivot; the radius follows.
+        moved = np.tile(z, (400, 1))
+        for at, pieces in ((slice(0, 2), problem.fixed), (slice(2, 4), problem.moving)):
+            for k in range(400):
+                origin, basis, low, high = pieces[k % len(pieces)]
+                if not basis.size:
+                    continue
+                to = z[at] + 1e-4 * size * rng.normal(size=2) * rng.integers(0, 2)
+                u = np.linalg.lstsq(basis, to - origin, rcond=None)[0]
+                near = origin + basis @ np.clip(u, low, high)
+                if np.abs(near - z[at]).max() < 1e-3 * size:
+                    moved[k, at] = near
+        for to in moved:
+            to[4] += problem.share @ circle_distance(to, problem.rows)[0]
+            assert problem.share @ circle_distance(to, problem.rows)[0] ** 2 > here * (1 - 1e-8)
+
+
+def test_every_way_down_in_polygons_that_are_not_convex_comes_to_an_end():
+    rng = np.random.default_rng([2, 20])
+    for sorts in (("concave", "concave"), ("concave", "point")):
+        problem = one_sort(rng, *sorts)
+        found = solved(problem)
+        assert (found.unsettled, found.lost) == (0, 0)
+        assert len(found.circles.radius) > 0
+
+
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("scale", [0.5, 2.0])
+def test_a_way_down_goes_around_a_notch_or_along_it(seed, scale):
+    """From the reflex corner of an L, and from beyond its notch; the best is in the notch."""
+    rng = np.random.default_rng([4, seed])
+    dyad = random_four_bar(rng)[0]
+    c, m = complex(*dyad.fixed_pivot), complex(*dyad.moving_pivot)
+    angle = rng.uniform(-3, 3, 9)
+    d = c + float(dyad.radius) * np.exp(1j * rng.uniform(-3, 3, 9)) - m * np.exp(1j * angle)
+    rows = np.column_stack([d.real, d.imag, angle])
+    turn = rng.uniform(-3, 3)
+    turned = scale * np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
+    at = dyad.fixed_pivot - turned @ [1.3, 1.6]
+    blocks = (
+        Block(slice(0, 2), Polygon(at + CORNER @ turned.T)),
+        Block(slice(2, 4), None),
+        Block(slice(4, 5), Range(0.0, np.inf)),
+    )
+    pieces = [(at, turned, np.zeros(2), np.array(high)) for high in ([2.0, 1.0], [1.0, 2.0])]
+    limits = Limits(Polygon(at + CORNER @ turned.T))
+    problem = Problem(rows, None, np.zeros(9, bool), limits, pieces, ANYWHERE)
+    misses, share = circle_misses(problem.poses), problem.share
+
+    def step(z, basis):
+        return least_squares(misses, z, basis, share, problem.exact, steps=1)
+
+    ends = []
+    for start in ([1.0, 1.0], [1.9, 0.2], [0.2, 1.9], [2.0, 0.5], [1.0, 0.3]):
+        z = np.array([*(at + turned @ start), *dyad.moving_pivot, float(dyad.radius)])
+        end = descend(z, misses, step, blocks)
+        assert end is not None
+        assert outside(end.z[:2], pieces) < 1e-8
+        begun = share @ circle_distance(z, rows)[0] ** 2
+        ends.append(share @ circle_distance(end.z, rows)[0] ** 2)
+        assert ends[-1] <= begun
+        # SciPy, from there and within each part of the L, finds nothing lower nearby.
+        for map_, bounds in maps(problem, RR):
+            origin, basis = map_
+            y = np.linalg.lstsq(basis, end.z - origin, rcond=None)[0]
+            low, high = np.array(bounds).T
+            if np.abs(np.clip(y, low, high) - y).max() > 1e-6:
+                continue
+            y = np.clip(y, low, high)
+            fit = local(circle_distance, problem, rows, y, (map_, bounds))
+            near = fit is not None and np.abs(fit[1] - end.z).max() < 0.1 * scale
+            assert not near or fit[0] >= ends[-1] * (1 - 1e-5) - 1e-14
+    assert min(ends) > 0
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_the_least_worst_dyad_within_limits_cannot_be_improved_by_scipy(seed):
+    rng = np.random.default_rng([6, seed])
+    problem = one_sort(rng, ["box", "segment", "concave", "line", "none"][seed], "none")
+    problem.exact[:1] = seed % 2
+    by_rms, by_worst = solved(problem), solved(problem, "worst")
+    loose = ~problem.exact
+
+    def worst(z):
+        return np.abs(circle_distance(z, problem.rows)[0][loose]).max()
+
+    best = min(ours(problem, by_worst, RR), key=worst)
+    assert worst(best) <= min(map(worst, ours(problem, by_rms, RR))) * (1 + 1e-7)
+    assert breaches(problem, by_worst, RR) < 1e-9
+    for (origin, basis), bounds in maps(problem, RR):
+        y = np.linalg.lstsq(basis, best - origin, rcond=None)[0]
+        low, high = np.array(bounds).T
+        if np.abs(np.clip(y, low, high) - y).max() > 1e-6:
+            continue
+
+        def gaps(x, origin=origin, basis=basis):
+            miss = circle_distance(origin + basis @ x[:-1], problem.rows)[0][loose]
+            return np.concatenate([x[-1] - miss, x[-1] + miss])
+
+        def held(x, origin=origin, basis=basis):
+            return circle_distance(origin + basis @ x[:-1], problem.rows)[0][problem.exact]
+
+        conditions = [{"type": "ineq", "fun": gaps}]
+        conditions += [{"type": "eq", "fun": held}] if problem.exact.any() else []
+        fit = minimize(
+            lambda x: x[-1],
+            np.append(np.clip(y, low, high), worst(best)),
+            bounds=[*bounds, (0, None)],
+            constraints=conditions,
+            method="SLSQP",
+            options={"ftol": 1e-14, "maxiter": 300},
+        )
+        if np.abs(held(fit.x)).max(initial=0) < 1e-9 and gaps(fit.x).min() > -1e-9:
+            assert worst(best) <= fit.fun * (1 + 1e-6) + 1e-8
+
+
+def region_through(rng, point, what):
+    """A region that sets `what` conditions on a pivot, and holds the point."""
+    if what == 2:
+        return Point(point)
+    return Line(point - rng.normal(size=2), point) if what == 1 else None
+
+
+MIXES = [(5, 0, 0), (4, 1, 0), (4, 0, 1), (3, 2, 0), (3, 0, 2), (3, 1, 1), (2, 2, 1), (2, 1, 2)]
+
+
+@pytest.mark.parametrize("mix", [*MIXES, (1, 2, 2)])
+@pytest.mark.parametrize("seed", range(3))
+def test_five_conditions_of_any_mix_are_met_exactly_and_the_generating_linkage_is_found(mix, seed):
+    # One task has two pairs of nearly equal poses and a nearly double root: it says so (W207).
+    rng = np.random.default_rng([9, seed, *mix])
+    count, on_fixed, on_moving = mix
+    dyads = random_four_bar(rng)
+    poses = Displacement.from_poses(random_poses(dyads, rng, count, ordered=True))
+    regions = [
+        (
+            region_through(rng, d.fixed_pivot, on_fixed),
+            region_through(rng, d.moving_pivot, on_moving),
+        )
+        for d in dyads
+    ]
+    limits = tuple(Limits(*pair, kinds=frozenset({"RR", "PR", "RP"})) for pair in regions)
+    # Five poses with limits that set no condition are met only where they are marked exact.
+    exact = np.ones(5, bool) if count == 5 else None
+    synthesis = synthesize(Task(poses, exact=exact, limits=limits))
+    size = max(synthesis.length, float(max(d.radius for d in dyads)))
+    for found in synthesis.dyads:
+        dyad, (on_f, on_m) = found.dyad, regions[found.limits - 1]
+        scale = max(size, float(dyad.radius) if isinstance(dyad, RR) else 0.0)
+        assert np.abs(dyad.residual(poses)).max() < 1e-9 * scale
+        if isinstance(dyad, RR | RP) and on_f is not None:
+            assert np.abs(on_f.equations() @ [1, *dyad.fixed_pivot]).max() < 1e-9 * scale
+        if isinstance(dyad, RR | PR) and on_m is not None:
+            assert np.abs(on_m.equations() @ [1, *dyad.moving_pivot]).max() < 1e-9 * scale
+    for number, d in enumerate(dyads, start=1):
+        gaps = [
+            np.abs(
+                [
+                    *(found.dyad.fixed_pivot - d.fixed_pivot),
+                    *(found.dyad.moving_pivot - d.moving_pivot),
+                    found.dyad.radius - d.radius,
+                ]
+            ).max()
+            for found in synthesis.dyads
+            if found.limits == number and isinstance(found.dyad, RR)
+        ]
+        lost = any(fit.search.lost for fit in synthesis.fits)
+        assert min(gaps) < 1e-6 * size or (lost and (mix, seed) == ((4, 0, 1), 1))
+    assert synthesis.linkages
+    for found in synthesis.linkages:
+        assert [dyad.limits for dyad in found.dyads] == [1, 2]
+    # Where a pair's circuits share the poses, it may come again with all of them on one circuit.
+    closest = {}
+    for found in sorted(synthesis.linkages, key=lambda each: -each.error.worst):
+        closest[tuple(dyad.id for dyad in found.dyads)] = found
+    for found in closest.values():
+        far = max([size] + [float(x.dyad.radius) for x in found.dyads if isinstance(x.dyad, RR)])
+        if found.sought:  # it misses the poses, and by no less than it says
+            assert found.usable
+            ours = np.hypot(found.error.position, synthesis.length * found.error.angle)
+            assert (ours > misses(found.linkage, poses, synthesis.length) - 1e-6 * far).all()
+        elif not any(each.kind == "assembly" for each in found.defects):
+            assert misses(found.linkage, poses, synthesis.length).max() < 1e-5 * far
+    # All pairs meet the poses, be it on two circuits.
+    pairs = {tuple(dyad.id for dyad in found.dyads) for found in synthesis.linkages}
+    met = {
+        tuple(dyad.id for dyad in found.dyads)
+        for found in synthesis.linkages
+        if not found.sought and found.error.worst < 1e-5 * size
+    }
+    assert met == pairs or all(found.sought for found in synthesis.linkages)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_each_dyad_obeys_its_own_of_two_limits(seed):
+    rng = np.random.default_rng([10, seed])
+    one, other = one_sort(rng, "box", "none"), one_sort(rng, "none", "segment")
+    limits = (one.limits, Limits(None, other.limits.moving_pivot, (0.0, 3.0)))
+    exact = np.arange(8) == 3
+    synthesis = synthesize(Task(one.poses, exact=exact, limits=limits))
+    assert {found.limits for found in synthesis.dyads} == {1, 2}
+    for found in synthesis.dyads:
+        assert abs(found.dyad.residual(one.poses[3])) < 1e-9 * span(one.rows)
+        if found.limits == 1:
+            assert outside(found.dyad.fixed_pivot, one.fixed) < 1e-8
+        else:
+            assert outside(found.dyad.moving_pivot, other.moving) < 1e-8
+            assert not isinstance(found.dyad, RR) or found.dyad.radius < 3 + 1e-8
+    for found in synthesis.linkages:
+        assert [dyad.limits for dyad in found.dyads] == [1, 2]
+        if all(isinstance(dyad.dyad, RR) for dyad in found.dyads):
+            # Every pose is as near as the linkage's own figure says.
+            driven = misses(found.linkage, one.poses, synthesis.length)
+            assert driven[3] < 1e-6 * synthesis.length
+
+
+def test_limits_go_along_with_frames_and_units():
+    rng = np.random.default_rng(12)
+    problem = one_sort(rng, "box", "line")
+    turn, unit = 0.7, 1e3
+    fixed = Displacement(np.array([30.0, -20.0]), np.array(turn))
+    moving = Displacement(np.array([-7.0, 11.0]), np.array(-1.1))
+    moved = fixed @ problem.poses @ moving.inverse()
+    moved = Displacement(moved.translation * unit, moved.angle)
+    box_, line = problem.limits.fixed_pivot, problem.limits.moving_pivot
+    limits = Limits(
+        Polygon(fixed.act(box_.vertices) * unit),
+        Line(moving.act(line.start) * unit, moving.act(line.end) * unit),
+    )
+    one, other = solved(problem), limited_dyads(moved, limits=limits)
+    a, b = one.frames.circle_back(one.circles), other.frames.circle_back(other.circles)
+    assert len(a.radius) == len(b.radius) > 0
+    assert np.allclose(b.radius / unit, a.radius, rtol=1e-6)
+    assert np.allclose(b.fixed_pivot / unit, fixed.act(a.fixed_pivot), rtol=1e-6)
+    assert np.allclose(b.moving_pivot / unit, moving.act(a.moving_pivot), rtol=1e-6)
+
+
+def test_a_link_on_its_way_to_a_slider_is_given_up_far_out_on_its_line():
+    """Thirty million spans out a line is met to its last digits, not to a billionth of a span."""
+    problem = random_problem(np.random.default_rng([2, 49]))
+    assert isinstance(problem.limits.fixed_pivot, Line)
+    found = solved(problem)
+    assert found.unsettled == 0  # it is a slider, not a dyad that was missed
+    assert (found.circles.radius < 1e9).all()
+
+
+@pytest.mark.parametrize("mix", [(4, 0, 0), (3, 1, 0), (3, 0, 1), (2, 2, 0), (2, 0, 2), (2, 1, 1)])
+@pytest.mark.parametrize("seed", range(3))
+def test_a_given_length_is_a_condition_like_the_others(mix, seed):
+    """Where poses hardly differ, pivots hundreds of their sizes away get lost: not here."""
+    rng = np.random.default_rng([13, seed, *mix])
+    count, on_fixed, on_moving = mix
+    size = 0.0
+    while size < 0.05:
+        dyads = random_four_bar(rng)
+        d, poses = dyads[0], Displacement.from_poses(random_poses(dyads, rng, count))
+        size = float(CanonicalFrames.of(poses)[0].length) if count > 3 else 1.0
+    regions = [
+        region_through(rng, d.fixed_pivot, on_fixed),
+        region_through(rng, d.moving_pivot, on_moving),
+    ]
+    limits = Limits(*regions, (float(d.radius), float(d.radius)), frozenset({"RR"}))
+    found = limited_dyads(poses, None, np.ones(count, bool), limits)
+    circles = found.frames.circle_back(found.circles)
+    assert np.abs(circles.radius - d.radius).max() < 1e-9
+    gaps = np.hypot(*(circles.fixed_pivot - d.fixed_pivot).T)
+    gaps = gaps + np.hypot(*(circles.moving_pivot - d.moving_pivot).T)
+    assert gaps.min() < 1e-6
+
+
+@pytest.mark.parametrize("kind", [PR, RP])
+@pytest.mark.parametrize(("count", "conditions"), [(4, 0), (3, 1), (2, 2)])
+@pytest.mark.parametrize("seed", range(3))
+def test_a_slider_that_meets_as_many_conditions_as_it_can_is_found(kind, count, conditions, seed):
+    rng = np.random.default_rng([14, seed, count])
+    dyads = random_four_bar(rng, kind)
+    line, poses = dyads[1], Displacement.from_poses(random_poses(dyads, rng, count))
+    pivot = line.moving_pivot if kind is PR else line.fixed_pivot
+    region = region_through(rng, pivot, conditions)
+    limits = Limits(None, region) if kind is PR else Limits(region)
+    found = limited_dyads(poses, None, np.ones(count, bool), limits)
+    lines = [found.frames.line_back(each) for each in found.sliders if isinstance(each, kind)]
+    assert all(np.abs(each.residual(poses)).max() < 1e-9 for each in lines)
+    pivots = [each.moving_pivot if kind is PR else each.fixed_pivot for each in lines]
+    assert min(np.abs(each - pivot).max() for each in pivots) < 1e-6
+
+
+def test_a_corner_where_the_exact_poses_cannot_be_met_is_no_answer():
+    """A way down ends there, for want of freedom: 2 exact poses, both pivots at corners."""
+    problem = random_problem(np.random.default_rng([3, 19]))
+    assert problem.exact.sum() == 2
+    found = solved(problem)
+    assert len(found.circles.radius) > 0
+    assert breaches(problem, found, RR) < 1e-9

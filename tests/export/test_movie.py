@@ -1,0 +1,292 @@
+"""Films, read back with Pillow and ffmpeg: the followed pivot is where the witness has it.
+
+From the pictures alone a map from the linkage's plane to pixels is fitted.  A camera that stands
+still with equal axes leaves one scale, no turn, and next to nothing over.
+"""
+
+import json
+import shutil
+import struct
+import subprocess
+from types import SimpleNamespace
+
+import imageio_ffmpeg
+import numpy as np
+import pytest
+from PIL import Image
+
+from burmester.errors import BurmesterError, InputError
+from burmester.export import movie
+from burmester.export.options import Options
+from burmester.fourbar.dyad import PR, RP, RR
+from tests.export.test_travel import PAPER, paper, saved
+from tests.oracles import witness
+
+SMALL = Options(seconds=1.2, frames_per_second=20, width_px=321)
+
+
+def rocking():
+    """A rail that drives, back and forth between its poses."""
+    first, second = PR(0.4, 30.0, [15.0, -20]), RR([160.0, 60], [90.0, 10], 110.0)
+    where, phi = witness.places(first, second, np.linspace(-35, 25, 5))
+    rows = np.column_stack([where[0].real, where[0].imag, phi[0]])
+    return saved(first, second, rows, unit="mm")
+
+
+def slot():
+    """A slot that drives."""
+    first, second = RP([0.0, 0], 0.3, 1.0), RR([5.0, 1], [2.0, 1.5], 3.0)
+    phi = np.linspace(0.7, 1.3, 4)
+    where = witness.turned(first, second, phi)[0]
+    return saved(first, second, np.column_stack([where.real, where.imag, phi]))
+
+
+@pytest.fixture(scope="module")
+def films(tmp_path_factory):
+    """The paper's linkage in full size as a GIF, and small films of others."""
+    folder = tmp_path_factory.mktemp("films")
+    out = SimpleNamespace(paper=paper(), rocking=rocking(), slot=slot(), folder=folder)
+    movie.write_gif(out.paper, folder / "paper.gif", Options())
+    movie.write_gif(out.paper, folder / "small.gif", SMALL)
+    movie.write_mp4(out.paper, folder / "paper.mp4", SMALL)
+    movie.write_gif(out.rocking, folder / "rocking.gif", SMALL)
+    movie.write_mp4(out.rocking, folder / "rocking.mp4", SMALL)
+    movie.write_gif(out.slot, folder / "slot.gif", SMALL)
+    return out
+
+
+def gif(path):
+    """Pictures (rows, columns, 3), seconds each, and how often it is repeated (0: always)."""
+    pictures, seconds = [], []
+    with Image.open(path) as image:
+        for k in range(image.n_frames):
+            image.seek(k)
+            seconds.append(image.info["duration"] / 1000)
+            pictures.append(np.asarray(image.convert("RGB")))
+        return pictures, np.array(seconds), image.info["loop"]
+
+
+def mp4(path):
+    """Pictures (rows, columns, 3), by ffmpeg as single files."""
+    program = imageio_ffmpeg.get_ffmpeg_exe()
+    out = path.with_suffix(".pictures")
+    if not out.exists():
+        out.mkdir()
+        asked = [program, "-v", "error", "-i", str(path), str(out / "%04d.bmp")]
+        subprocess.run(asked, check=True, timeout=60)
+    return [np.asarray(Image.open(each).convert("RGB")) for each in sorted(out.iterdir())]
+
+
+def yellow(picture):
+    """The middle of what is yellow, column and row."""
+    near = (picture[..., 0] > 190) & (picture[..., 1] > 180) & (picture[..., 2] < 130)
+    rows, columns = np.nonzero(near)
+    spot = np.hypot(rows - np.median(rows), columns - np.median(columns)) < 12
+    assert spot.sum() > 20
+    assert spot.mean() > 0.6  # the rest is single pixels beside lines
+    return complex(columns[spot].mean(), rows[spot].mean())
+
+
+def fitted(points, pixels):
+    """Points a + b z in pixels, rows downwards: a, b, and what is left over."""
+    z, w = np.array(points), np.conj(np.array(pixels))
+    left = np.column_stack([np.ones_like(z), z])
+    (a, b), *_ = np.linalg.lstsq(left, w, rcond=None)
+    return a, b, abs(a + b * z - w)
+
+
+def crank(count):
+    """The crank's pin of the paper's linkage in each picture of a whole turn."""
+    drive = 0.08 + 2 * np.pi * np.arange(count) / count
+    return complex(*PAPER[0].fixed_pivot) + PAPER[0].radius * np.exp(1j * drive)
+
+
+def straight(points, pixels, limit=0.4):
+    """One scale in both directions, not turned, and nothing left over."""
+    _, b, rest = fitted(points, pixels)
+    assert abs(np.angle(b)) < 3e-3
+    assert rest.max() < limit
+    z, w = np.array(points), np.conj(np.array(pixels))
+    for part in (np.real, np.imag):
+        slope = np.polyfit(part(z), part(w), 1)[0]
+        assert slope == pytest.approx(abs(b), rel=5e-3)
+
+
+def test_gif_of_a_crank_goes_round_once(films):
+    pictures, seconds, loop = gif(films.folder / "small.gif")
+    assert loop == 0
+    assert seconds.sum() == pytest.approx(1.2)
+    assert len(pictures) == 24
+    assert all(picture.shape[1] == 320 for picture in pictures)  # even, as an MP4 has it
+    straight(crank(24), [yellow(picture) for picture in pictures])
+
+
+def test_gif_of_the_paper_is_small(films):
+    assert (films.folder / "paper.gif").stat().st_size < 2e6
+    with Image.open(films.folder / "paper.gif") as image:
+        assert image.n_frames == 100
+        assert image.width == Options().width_px
+
+
+def test_the_path_grows_and_nothing_leaves_the_picture(films):
+    pictures, _, _ = gif(films.folder / "small.gif")
+    a, b, _ = fitted(crank(24), [yellow(picture) for picture in pictures])
+    drive = 0.08 + 2 * np.pi * np.arange(24) / 24
+    where, phi = (each[1] for each in witness.places(*PAPER, drive))
+    height, width, _ = pictures[0].shape
+    for dyad in PAPER:
+        pin = where + np.exp(1j * phi) * complex(*dyad.moving_pivot)
+        for z in (pin, complex(*dyad.fixed_pivot)):
+            at = np.conj(a + b * np.atleast_1d(z))
+            assert at.real.min() > 60
+            assert at.real.max() < width - 10
+            assert at.imag.min() > 30
+            assert at.imag.max() < height - 45
+
+    def blue(picture, z):
+        column, row = (round(v) for v in (z.real, z.imag))
+        near = picture[row - 2 : row + 3, column - 2 : column + 3].astype(int)
+        return bool(((near[..., 2] > near[..., 0] + 90) & (near[..., 0] < 90)).any())
+
+    at = np.conj(a + b * where)
+    # A point of the path is drawn once it has been passed, and not before.
+    for k in (4, 8, 15, 20):
+        assert blue(pictures[23], at[k])
+        assert not blue(pictures[0], at[k])
+
+
+def test_mp4_of_a_crank(films):
+    pictures = mp4(films.folder / "paper.mp4")
+    assert len(pictures) == 24
+    assert pictures[0].shape[1] == 320  # even
+    assert pictures[0].shape[0] % 2 == 0
+    straight(crank(24), [yellow(picture) for picture in pictures], 0.6)
+
+
+def test_back_and_forth(films):
+    """From the first pose to the last, and back the same way."""
+    rail = films.rocking.linkage.first
+    of_gif, times, _ = gif(films.folder / "rocking.gif")
+    of_mp4 = mp4(films.folder / "rocking.mp4")
+    for name, pictures, seconds in (("gif", of_gif, times), ("mp4", of_mp4, np.full(24, 0.05))):
+        seen = np.array([yellow(picture) for picture in pictures])
+        way = np.exp(1j * float(rail.normal_angle)) * 1j
+        along = (np.conj(seen) * np.conj(way)).real
+        across = (np.conj(seen) * np.conj(way)).imag
+        assert np.ptp(across) < 1.0, name
+        turn = int(along.argmax())
+        assert (np.diff(along[: turn + 1]) > -0.3).all(), name
+        assert (np.diff(along[turn:]) < 0.3).all(), name
+        assert seconds[:turn].sum() == pytest.approx(0.6, abs=0.1), name
+        assert seconds.sum() == pytest.approx(1.2), name
+        assert abs(seen[0] - seen[-1]) < 3, name
+
+
+def test_scale_of_back_and_forth(films):
+    """The rail's pin travels 60 mm between two fixed things of which one is the other pivot."""
+    pictures = mp4(films.folder / "rocking.mp4")
+    seen = np.array([yellow(picture) for picture in pictures])
+    # The frame's ticks: both axes have the same pixels for a millimetre.
+    drawn = movie._stage(movie._mp4(films.rocking, SMALL)).ax.transData
+    (x0, y0), (x1, y1) = drawn.transform([(0, 0), (60, 60)])
+    assert x1 - x0 == pytest.approx(y1 - y0, rel=1e-9)
+    assert np.ptp(abs(seen - seen[0])) == pytest.approx(x1 - x0, abs=1.5)
+
+
+def test_a_slot_that_drives(films):
+    """The body's origin is followed; it starts at the first pose and turns back at the last."""
+    pictures, _, _ = gif(films.folder / "slot.gif")
+    seen = np.array([yellow(picture) for picture in pictures])
+    phi = np.linspace(0.7, 1.3, 400)
+    where = witness.turned(films.slot.linkage.first, films.slot.linkage.second, phi)[0]
+    # Where each of the pictures is on the way is not told: only that it is on it, in order.
+    last = len(pictures) // 2
+    a, b, _ = fitted(where[[0, -1]], seen[[0, last]])
+    way = np.conj(a + b * where)
+    away = abs(seen[:, None] - way)
+    assert away.min(axis=1).max() < 1.5
+    assert (np.diff(away.argmin(axis=1)[: last + 1]) >= 0).all()
+
+
+def test_the_same_film_has_the_same_bytes(films, tmp_path):
+    for name, write in (("rocking.gif", movie.write_gif), ("rocking.mp4", movie.write_mp4)):
+        write(films.rocking, tmp_path / name, SMALL)
+        assert (tmp_path / name).read_bytes() == (films.folder / name).read_bytes()
+
+
+def boxes(data):
+    """The names of an MP4's outermost boxes in their order."""
+    at, names = 0, []
+    while at < len(data):
+        size, name = struct.unpack_from(">I4s", data, at)
+        names.append(name.decode())
+        at += size
+    return names
+
+
+def test_mp4_starts_at_once(films):
+    names = boxes((films.folder / "paper.mp4").read_bytes())
+    assert names.index("moov") < names.index("mdat")
+
+
+@pytest.mark.skipif(shutil.which("ffprobe") is None, reason="ffprobe is not installed")
+def test_ffprobe(films):
+    asked = ["ffprobe", "-v", "error", "-count_frames", "-show_streams", "-of", "json"]
+    said = subprocess.run(
+        [*asked, str(films.folder / "paper.mp4")], capture_output=True, check=True, timeout=60
+    )
+    (stream,) = json.loads(said.stdout)["streams"]
+    assert stream["codec_name"] == "h264"
+    assert stream["pix_fmt"] == "yuv420p"
+    assert stream["nb_read_frames"] == "24"
+    assert stream["avg_frame_rate"] == "20/1"
+    assert float(stream["duration"]) == pytest.approx(1.2)
+
+
+def refused(check, chosen, path, options):
+    with pytest.raises(BurmesterError) as caught:
+        check(chosen, path, options)
+    assert caught.value.code == "E160"
+    return caught.value.why
+
+
+def test_own_films_pass(films):
+    movie.check_gif(films.paper, films.folder / "paper.gif", Options())
+    movie.check_mp4(films.paper, films.folder / "paper.mp4", SMALL)
+    movie.check_gif(films.rocking, films.folder / "rocking.gif", SMALL)
+    movie.check_mp4(films.rocking, films.folder / "rocking.mp4", SMALL)
+    movie.check_gif(films.slot, films.folder / "slot.gif", SMALL)
+
+
+def test_other_films_are_refused(films, tmp_path):
+    folder = films.folder
+    longer = Options(seconds=2.4, frames_per_second=20, width_px=321)
+    slower = Options(seconds=2.4, frames_per_second=10, width_px=321)
+    assert "lasts" in refused(movie.check_gif, films.rocking, folder / "rocking.gif", longer)
+    assert "pictures" in refused(movie.check_mp4, films.rocking, folder / "rocking.mp4", longer)
+    assert "a second" in refused(movie.check_mp4, films.rocking, folder / "rocking.mp4", slower)
+    # The same film played backwards, from its second picture on.
+    pictures, _, _ = gif(folder / "small.gif")
+    path = tmp_path / "x.gif"
+
+    def check_changed(pictures, **more):
+        frames = [Image.fromarray(picture.astype(np.uint8)) for picture in pictures]
+        frames[0].save(path, save_all=True, append_images=frames[1:], duration=50, **more)
+        return refused(movie.check_gif, films.paper, path, SMALL)
+
+    assert "driver is" in check_changed([pictures[0], *pictures[:0:-1]], loop=0)
+    # Two pixels aside.
+    aside = [np.roll(picture, 2, axis=1) for picture in pictures]
+    assert "pixels off" in check_changed(aside, loop=0)
+    assert "once" in check_changed(pictures)
+
+
+def test_without_ffmpeg(monkeypatch, tmp_path):
+    def gone(name):
+        raise ImportError(name)
+
+    monkeypatch.setattr(movie, "import_module", gone)
+    with pytest.raises(InputError, match="imageio-ffmpeg") as caught:
+        movie.write_mp4(paper(), tmp_path / "x.mp4", SMALL)
+    assert caught.value.code == "E130"
+    assert "burmester[export]" in caught.value.help

@@ -1,0 +1,224 @@
+"""The way through the poses, against linkages driven joint by joint (tests/oracles/witness.py)."""
+
+import sys
+
+import numpy as np
+import pytest
+
+from burmester.errors import InputError
+from burmester.export.travel import Travel
+from burmester.fourbar.dyad import PP, PR, RP, RR
+from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.pose_error import PoseError
+from burmester.geometry.displacement import Displacement
+from burmester.io.saved import SavedLinkage
+from burmester.tasks.motion_task import Task
+from burmester.tasks.requirements import Requirements
+from tests.oracles import tracer, witness
+
+PAPER = (
+    RR([-2.2000733, 0.1000512], [1.2400295, 0.1000499], 1.2377093),
+    RR([1.1476011, 0.382324], [4.5882873, 1.3360019], 4.6638224),
+)
+
+
+def saved(first, second, rows, *, unit=None, any_order=False):
+    """A linkage that passes through poses (N, 3), as a result would hold it."""
+    poses = Displacement.from_poses(rows)
+    task = Task(poses, length_unit=unit, requirements=Requirements(any_order=any_order))
+    linkage, ids = Linkage(first, second), ("D1", "D2")
+    error = PoseError.at(poses, poses)
+    return SavedLinkage("L1", linkage, ids, True, "first", linkage.type, task, error)
+
+
+def paper(**more):
+    """The crank-rocker of the paper at ten crank angles."""
+    where, phi = witness.places(*PAPER, np.linspace(0.08, 5.74, 10))
+    return saved(*PAPER, np.column_stack([where[1].real, where[1].imag, phi[1]]), **more)
+
+
+def driven_places(first, second, drive):
+    """Both ways (2, n) to close, as x + iy and angle, at drives (n,) as `Drive` has them."""
+    if isinstance(first, RP):
+        phi = drive - float(first.normal_angle)
+        where = witness.turned(first, second, phi)
+        return where, np.broadcast_to(phi, where.shape)
+    return witness.places(first, second, drive)
+
+
+def off_witness(linkage, travel):
+    """How far (2, n) the travel's places are from those that the witness has at its drives."""
+    where, phi = driven_places(linkage.first, linkage.second, travel.drive)
+    d = travel.places.translation @ [1, 1j]
+    return np.hypot(abs(where - d), abs(np.exp(1j * phi) - np.exp(1j * travel.places.angle)))
+
+
+def pairs(rng):
+    """A linkage of each pair of kinds that can drive, with poses in the order they are met."""
+    for second in (RR, PR, RP):
+        dyads = witness.random_four_bar(rng, second)
+        rows = witness.random_poses(dyads, rng, 6, ordered=True)
+        yield dyads, rows
+        if second is not RR:
+            yield dyads[::-1], rows  # the slider drives: not always in one go
+
+
+def check_linkage(dyads, rows):
+    """A travel of a random linkage: on it, in small steps, through what it says it reaches."""
+    chosen = saved(*dyads, rows)
+    try:
+        travel = Travel.of(chosen, 400)
+    except InputError:  # "does not move": the slider reaches one pose only
+        return False
+    size = 1 + abs(rows[:, :2]).max() + abs(travel.places.translation).max()
+    at = np.column_stack([travel.places.translation, travel.places.angle])
+    for dyad in dyads:  # the tracer's own equations
+        value, gradient = tracer.constraint(dyad, at)
+        assert (abs(value) <= 1e-8 * size * (1 + abs(gradient).max())).all()
+    off = off_witness(chosen.linkage, travel)
+    assert np.nanmin(off, axis=0).max() < 2e-6 * size
+    # One and the same way to close all along, so no dead point is passed.
+    inner = off[:, 1:-1]
+    apart = np.nanmax(inner, axis=0) > 1e-4 * size
+    assert len(set(np.nanargmin(inner[:, apart], axis=0))) <= 1
+    turn = np.diff(travel.drive)
+    if not isinstance(dyads[0], PR):
+        assert 0 <= travel.drive[0] < 2 * np.pi
+    assert (turn > -1e-12).all() or (turn < 1e-12).all()
+    reached = travel.reached
+    share = travel.at[reached]
+    assert share.min() == 0
+    assert share.max() == pytest.approx(1, abs=1e-12)
+    there = Travel.of(chosen, travel.at[reached]).places
+    np.testing.assert_allclose(there.translation, rows[reached, :2], atol=1e-8 * size)
+    whole = (there.angle - rows[reached, 2]) / (2 * np.pi)
+    np.testing.assert_allclose(whole, np.round(whole), atol=1e-8)
+    assert round(float(whole[0])) == 0  # as the task writes the first one
+    return len(reached) == len(rows)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_the_way_is_the_linkages_own(seed):
+    rng = np.random.default_rng(seed)
+    full = [check_linkage(dyads, rows) for dyads, rows in pairs(rng)]
+    assert full[0]  # driven as the poses were made, all of them are reached
+    assert full[1]
+    assert full[3]
+
+
+def test_the_paper_from_first_to_last():
+    chosen = paper()
+    travel = Travel.of(chosen, 101)
+    # Made at even crank angles, so met at even shares of the way.
+    np.testing.assert_allclose(travel.at, np.linspace(0, 1, 10), atol=1e-9)
+    np.testing.assert_allclose(travel.drive, np.linspace(0.08, 5.74, 101), atol=1e-9)
+    assert travel.turns_fully
+    assert not travel.round
+    np.testing.assert_allclose(
+        travel.places[0].translation, chosen.task.poses.translation[0], atol=1e-12
+    )
+
+
+def test_a_whole_turn_begins_at_the_first_pose_and_ends_there():
+    travel = Travel.of(paper(), 73, whole=True)
+    assert travel.round
+    np.testing.assert_allclose(travel.drive, 0.08 + np.linspace(0, 2 * np.pi, 73), atol=1e-9)
+    np.testing.assert_allclose(travel.at, (np.linspace(0.08, 5.74, 10) - 0.08) / 2 / np.pi)
+    first, last = travel.places.translation[[0, -1]]
+    np.testing.assert_allclose(first, last, atol=1e-12)
+    assert off_witness(paper().linkage, travel)[1].max() < 1e-9
+
+
+def test_the_other_sense():
+    chosen = paper()
+    back = saved(
+        *PAPER, np.column_stack([chosen.task.poses.translation, chosen.task.poses.angle])[::-1]
+    )
+    travel = Travel.of(back, 11, whole=True)
+    np.testing.assert_allclose(travel.drive, 5.74 - np.linspace(0, 2 * np.pi, 11), atol=1e-9)
+    assert (np.diff(travel.at) > 0).all()
+
+
+def test_turns_of_the_coupler_are_counted():
+    # A double crank: its coupler goes round once with the crank.
+    dyads = RR([0, 0], [0, 0], 2.0), RR([1, 0], [2.2, 0], 2.0)
+    where, phi = witness.places(*dyads, np.linspace(0, 5, 6))
+    rows = np.column_stack([where[0].real, where[0].imag, phi[0] + 4 * np.pi])
+    travel = Travel.of(saved(*dyads, rows), 3, whole=True)
+    assert travel.places.angle[0] == pytest.approx(rows[0, 2], abs=1e-9)
+    assert abs(travel.places.angle[-1] - travel.places.angle[0]) == pytest.approx(2 * np.pi)
+
+
+def triple_rocker():
+    return RR([0, 0], [0, 0], 1.0), RR([2.1, 0], [1.3, 0.2], 0.9)
+
+
+def test_of_two_branches_the_one_with_more_poses():
+    dyads = triple_rocker()
+    sweep = np.linspace(-np.pi, np.pi, 721)
+    where, phi = witness.places(*dyads, sweep)
+    sound = np.flatnonzero(np.isfinite(phi[0]))
+    # One stretch of the crank between its dead points.
+    assert (np.diff(sound) == 1).all()
+    drive = sweep[sound[10]], sweep[sound[-10]]
+    drive = np.linspace(*drive, 7)
+    side = np.array([0, 1, 1, 1, 0, 1, 0])
+    where, phi = (both[side, np.arange(7)] for both in witness.places(*dyads, drive))
+    rows = np.column_stack([where.real, where.imag, phi])
+    travel = Travel.of(saved(*dyads, rows), 50)
+    assert travel.reached.tolist() == np.flatnonzero(side == 1).tolist()
+    assert travel.drive[0] == pytest.approx(drive[1] + 2 * np.pi)  # within the first turn
+    assert travel.drive[-1] == pytest.approx(drive[5] + 2 * np.pi)
+    assert off_witness(Linkage(*dyads), travel)[1].max() < 1e-9
+
+
+def test_poses_on_two_circuits():
+    where, phi = witness.places(*PAPER, np.linspace(0.1, 3, 6))
+    side = np.array([0, 1, 1, 0, 1, 1])
+    rows = np.column_stack([each[side, np.arange(6)] for each in (where.real, where.imag, phi)])
+    travel = Travel.of(saved(*PAPER, rows), 50)
+    assert travel.reached.tolist() == [1, 2, 4, 5]
+    assert off_witness(Linkage(*PAPER), travel)[1].max() < 1e-9
+
+
+def test_any_order():
+    chosen = paper()
+    rows = np.column_stack([chosen.task.poses.translation, chosen.task.poses.angle])
+    mixed = [3, 0, 4, 1, 2]
+    travel = Travel.of(saved(*PAPER, rows[mixed], any_order=True), 10)
+    order = np.argsort(travel.at)
+    assert [mixed[k] for k in order] in ([0, 1, 2, 3, 4], [4, 3, 2, 1, 0])
+    # The first pose is met before the last one.
+    assert travel.at[0] < travel.at[-1]
+
+
+def test_a_body_that_only_translates_has_no_way():
+    chosen = paper()
+    other = SavedLinkage(
+        "L9", Linkage(PP(0.0), PAPER[1]), ("D1", "D2"), True, "first", "", chosen.task, chosen.error
+    )
+    with pytest.raises(InputError, match="L9 has no way") as caught:
+        Travel.of(other, 10)
+    assert caught.value.code == "E163"
+
+
+def test_one_pose_is_no_way():
+    chosen = paper()
+    rows = np.column_stack([chosen.task.poses.translation, chosen.task.poses.angle])
+    with pytest.raises(InputError, match="does not move") as caught:
+        Travel.of(saved(*PAPER, np.repeat(rows[:1], 3, axis=0)), 10)
+    assert caught.value.code == "E163"
+
+
+def campaign(count, seed):
+    """Random linkages: `python -m tests.export.test_travel 1000 7`."""
+    rng, full, every = np.random.default_rng(seed), 0, 0
+    for _ in range(count):
+        for dyads, rows in pairs(rng):
+            full += check_linkage(dyads, rows)
+            every += 1
+    print(f"{every} linkages, {full} reach all of their poses")
+
+
+if __name__ == "__main__":
+    campaign(int(sys.argv[1]), int(sys.argv[2]))

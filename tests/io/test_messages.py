@@ -1,0 +1,1228 @@
+"""Every message: triggered, drawn at three widths, told in JSON, and its help followed literally.
+
+`CASES` has one entry a message.  Its files are written to an empty folder, a command is run there
+(or a function called), and the code is expected.  Then somebody does what the help says, which
+`follow` holds, and runs the command again: the code must be gone and the input usable.
+
+The golden messages are in `__snapshots__`; `pytest tests/io/test_messages.py --snapshot-update`
+writes them anew.  `python -m tests.io.test_messages` brings the examples of `io/messages.md` up to
+date, which are these messages.
+"""
+
+import io
+import json
+import os
+import re
+import shlex
+import sys
+import tempfile
+from collections.abc import Callable, Mapping
+from functools import cache
+from importlib import import_module
+from pathlib import Path
+from types import MappingProxyType
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+from rich.cells import cell_len
+from rich.console import Console
+
+import burmester
+from burmester import cli
+from burmester.certificates.ball_arithmetic import flint
+from burmester.dyads.five_poses import dyads_of_five
+from burmester.errors import BurmesterError, InputError
+from burmester.export import Options, pylinkage
+from burmester.fourbar.dyad import PP, RR
+from burmester.geometry.displacement import Displacement
+from burmester.io.explain import pages
+from burmester.io.message import note, place, show
+from burmester.io.reading.poses import read_task
+from burmester.io.result import failure, plain
+from burmester.io.saved import read_result
+from burmester.synthesis.motion_generation import synthesize
+from burmester.tasks.motion_class import fingerprint
+from tests.oracles.ten_poses import ROWS, TEN
+
+WIDTHS = (60, 80, 200)
+ROOT = Path(burmester.__file__).parent
+
+
+class Args(NamedTuple):
+    """Follow the help with another command."""
+
+    line: str
+
+
+class Edit(NamedTuple):
+    """Follow it with an edit of a file; the command stays."""
+
+    file: str
+    old: str
+    new: str
+
+
+class Write(NamedTuple):
+    """Follow it with a new file, and with another command if one is given."""
+
+    file: str
+    text: str | bytes
+    line: str | None = None
+
+
+class Call(NamedTuple):
+    """Follow it with another call."""
+
+    call: Callable[[], object]
+
+
+class Case(NamedTuple):
+    """One message.
+
+    files: what lies in the folder; run: the command, or a call; follow: what its help says, or
+    None where there is no help (or none to follow: a success, a bug).
+    """
+
+    code: str
+    run: str | Callable[[], object]
+    follow: Args | Edit | Write | Call | Callable[[str], object] | None
+    files: Mapping[str, str | bytes | Callable[[], str]] = MappingProxyType({})
+    exit: int = 2
+
+
+FIVE = "x,y,angle_deg\n" + "".join(ROWS.splitlines(keepends=True)[:5])
+FOUR = "\n".join(FIVE.splitlines()[:5])
+TWO_ANGLES = "0.2,2.4,10 2,-4.4,50 1.2,9.4,50 -6.7,-5.2,10 -2.7,-10.5,50 0,5.9,10 3.3,4,50"
+POINTS = "px,py,qx,qy\n0,0,5,0\n3,1,7,4\n4,3,7,7\n5,3,5,8\n6,2,3,6\n"
+GOOD = {"poses.csv": FIVE}
+FEW = {"poses.csv": "\n".join(FIVE.splitlines()[:4])}
+ALL = {"poses.csv": TEN}
+
+
+# Poses of a four-bar of 12, 22 and 30 mm that turn by 1.8 degrees.
+SMALL_TURN = """\
+x_mm,y_mm,angle_deg
+6.4836277,10.0976518,273.9448003
+6.1649618,10.2953021,274.0479477
+5.8402760,10.4828992,274.1895231
+5.5098873,10.6602600,274.3680357
+5.1741182,10.8272111,274.5820078
+4.8332967,10.9835897,274.8299795
+4.4877556,11.1292430,275.1105137
+4.1378322,11.2640288,275.4221993
+3.7838683,11.3878154,275.7636543
+"""
+
+
+def rows(text):
+    """A CSV file of rows with blanks between them."""
+    return "x,y,angle_deg\n" + "\n".join(text.split()) + "\n"
+
+
+def exchanged(text, *numbers):
+    """The rows of a text, two of them in each other's place."""
+    rows = text.splitlines()
+    first, second = (number - 1 for number in numbers)
+    rows[first], rows[second] = rows[second], rows[first]
+    return "\n".join(rows) + "\n"
+
+
+@cache
+def doubled():
+    """Five poses between some with two real dyads and some with four: two are one, to rounding."""
+    rng = np.random.default_rng(0)
+    for _ in range(6):
+        two, four = (
+            np.column_stack([rng.uniform(-5, 5, (5, 2)), rng.uniform(0, 120, 5)]) for _ in "ab"
+        )
+
+    def real(poses):
+        found = dyads_of_five(Displacement(poses[:, :2], np.radians(poses[:, 2])))
+        return int(found.real.sum())
+
+    two, four = sorted((two, four), key=real)
+    assert (real(two), real(four)) == (2, 4)
+    for _ in range(70):
+        middle = (two + four) / 2
+        two, four = (two, middle) if real(middle) == 4 else (middle, four)
+    return "x,y,angle_deg\n" + "".join(",".join(map(repr, row)) + "\n" for row in four.tolist())
+
+
+def json_poses(extra="", rows="[0, 0, 0], [3, 1, 40], [4, 3, 70]"):
+    return f'{{"angle_unit": "deg", {extra}"poses": [{rows}]}}'
+
+
+def toml_poses(extra=""):
+    rows = ", ".join(f"[{row}]" for row in ROWS.splitlines()[:5])
+    return f'angle_unit = "deg"\nposes = [{rows}]\n{extra}'
+
+
+def poses(count, turn=0.3):
+    """So many poses in general position."""
+    k = np.arange(count)
+    return Displacement(np.stack([np.cos(1.7 * k) + k, np.sin(2.3 * k)], axis=-1), turn * k**1.5)
+
+
+START = RR(np.array([1.0, 2.0]), np.array([0.5, 0.0]), np.array(3.0))
+
+
+def api(name):
+    """A function of the package by its full name."""
+    module, _, function = name.rpartition(".")
+    return getattr(import_module(f"burmester.{module}"), function)
+
+
+def made(command, file):
+    """Make the folder that a help wants made, and write into it."""
+    *_, folder = shlex.split(command)
+    os.makedirs(folder)
+    api("io.files.write")(file, "new")
+
+
+def parquet():
+    """Three poses as a Parquet file."""
+    arrow, written = import_module("pyarrow"), io.BytesIO()
+    columns = {"x": [0.0, 3.0, 4.0], "y": [0.0, 1.0, 3.0], "angle_deg": [0.0, 40.0, 70.0]}
+    import_module("pyarrow.parquet").write_table(arrow.table(columns), written)
+    return written.getvalue()
+
+
+def in_backticks(help):
+    """What a help puts in backticks, first."""
+    return re.search(r"`(.+?)`", help)[1]
+
+
+S = "synthesize poses.csv"
+CASES: dict[str, Case] = {
+    # --- usage
+    "argument missing": Case("E100", "synthesize", Args("synthesize --help")),
+    "code unknown": Case(
+        "E100", "explain E1O3", lambda help: Args(in_backticks(help).split(" ", 1)[1])
+    ),
+    # --- files
+    "file missing": Case("E101", "synthesize pose.csv", Args(S), GOOD),
+    "case without its head": Case(
+        "E101",
+        "synthesize motiongen-mixed5",
+        lambda help: Args("synthesize " + re.search(r"case:[\w-]+", help)[0]),
+    ),
+    "case unknown": Case(
+        "E101",
+        "synthesize case:motiongen",
+        lambda help: Args("synthesize " + re.search(r"case:[\w-]+", help)[0]),
+    ),
+    "not text": Case(
+        "E101",
+        S,
+        Write("poses.csv", FIVE.replace("unit", "Grö\xdfe").encode()),
+        {"poses.csv": ("# Gr\xf6\xdfe\n" + FIVE).encode("latin-1")},
+    ),
+    "empty": Case("E102", S, Write("poses.csv", FIVE), {"poses.csv": ""}),
+    "only a header": Case("E102", S, Write("poses.csv", FIVE), {"poses.csv": "x,y,angle_deg\n"}),
+    # --- numbers
+    "not finite": Case(
+        "E103",
+        S,
+        Edit("poses.csv", "-2.6392,0.2920,inf\n", ""),
+        {"poses.csv": TEN.replace("49.90", "inf")},
+    ),
+    "too large": Case(
+        "E103",
+        S,
+        Edit("poses.csv", "1e400", "-12.5"),
+        {"poses.csv": FIVE.replace("-3.5027", "1e400")},
+    ),
+    "not finite in JSON": Case(
+        "E103",
+        "synthesize poses.json",
+        Edit("poses.json", "NaN", "70"),
+        {"poses.json": json_poses().replace("70", "NaN")},
+    ),
+    "not finite in Python": Case(
+        "E103",
+        lambda: api("pencil.fit_pencil")(Displacement(np.full((6, 2), np.inf), np.zeros(6))),
+        Call(lambda: api("pencil.fit_pencil")(poses(6))),
+    ),
+    "text for a number": Case(
+        "E104",
+        S,
+        Edit("poses.csv", "about 3", "3"),
+        {"poses.csv": FIVE.replace("-3.5027", "about 3")},
+    ),
+    "ambiguous comma": Case(
+        "E104",
+        S,
+        Write("poses.csv", "x;y;angle_deg\n1.250;0;0\n3000;1000;40\n4000;3000;70\n"),
+        {"poses.csv": "x;y;angle_deg\n1,250;0;0\n3000;1000;40\n4000;3000;70\n"},
+    ),
+    "text for a mark": Case(
+        "E104",
+        S,
+        Edit("poses.csv", "maybe", "yes"),
+        {"poses.csv": "x,y,angle_deg,exact\n0,0,0,maybe\n3,1,40,\n4,3,70,\n"},
+    ),
+    "quotes in JSON": Case(
+        "E104",
+        "synthesize poses.json",
+        Edit("poses.json", '"40"', "40"),
+        {"poses.json": json_poses().replace("40", '"40"')},
+    ),
+    "no header": Case(
+        "E105",
+        S,
+        lambda help: Write("poses.csv", f"{in_backticks(help)}\n{ROWS}"),
+        {"poses.csv": ROWS},
+    ),
+    "no column y": Case(
+        "E105",
+        S,
+        Edit("poses.csv", "x,z,angle_deg", "x,y,angle_deg"),
+        {"poses.csv": FIVE.replace("x,y,", "x,z,")},
+    ),
+    "no angle in JSON": Case(
+        "E105",
+        "synthesize poses.json",
+        Edit("poses.json", '{"x": 3, "y": 1}', '{"x": 3, "y": 1, "angle_deg": 40}'),
+        {"poses.json": json_poses().replace("[3, 1, 40]", '{"x": 3, "y": 1}')},
+    ),
+    "short row": Case(
+        "E106",
+        S,
+        Edit("poses.csv", "0.3088\n", "0.3088,43.94\n"),
+        {"poses.csv": FIVE.replace("0.3088,43.94", "0.3088")},
+    ),
+    "decimal commas between commas": Case(
+        "E106",
+        S,
+        Edit("poses.csv", "-0,8253,-1,0329,91,91", "-0.8253,-1.0329,91.91"),
+        {"poses.csv": FIVE.replace("-0.8253,-1.0329,91.91", "-0,8253,-1,0329,91,91")},
+    ),
+    "three limits": Case(
+        "E106",
+        "synthesize poses.toml",
+        Edit("poses.toml", '[[limits]]\nkinds = ["RP"]\n', ""),
+        {
+            "poses.toml": toml_poses(
+                '[[limits]]\nkinds = ["RR"]\n[[limits]]\nkinds = ["RR"]\n'
+                '[[limits]]\nkinds = ["RP"]\n'
+            )
+        },
+    ),
+    "column unknown": Case(
+        "E107",
+        S,
+        lambda help: Edit("poses.csv", "notes", re.search(r'"#.+?"', help)[0]),
+        {"poses.csv": "x,y,angle_deg,notes\n0,0,0,start\n3,1,40,\n4,3,70,end\n"},
+    ),
+    "limits beside the poses": Case(
+        "E107",
+        "synthesize poses.toml",
+        Edit("poses.toml", 'kinds = ["RR"]', '[limits]\nkinds = ["RR"]'),
+        {"poses.toml": toml_poses('kinds = ["RR"]\n')},
+    ),
+    "column twice": Case(
+        "E108",
+        S,
+        Write("poses.csv", "x,y,angle_deg\n0,0,0\n3,1,40\n4,3,70\n"),
+        {"poses.csv": "x,y,angle_deg,angle_rad\n0,0,0,0\n3,1,40,0.7\n4,3,70,1.2\n"},
+    ),
+    "two units": Case(
+        "E108",
+        S,
+        Edit("poses.csv", "y_in", "y_mm"),
+        {"poses.csv": FIVE.replace("x,y", "x_mm,y_in")},
+    ),
+    "key twice": Case(
+        "E108",
+        "synthesize poses.json",
+        Edit("poses.json", '"angle_unit": "rad", ', ""),
+        {"poses.json": json_poses('"angle_unit": "rad", ')},
+    ),
+    "limited twice": Case(
+        "E108",
+        "synthesize poses.toml --kinds RR",
+        Args("synthesize poses.toml"),
+        {"poses.toml": toml_poses('[limits]\nkinds = ["RR"]\n')},
+    ),
+    "exact twice": Case(
+        "E108",
+        f"{S} --exact 1",
+        Args(S),
+        {"poses.csv": "x,y,angle_deg,exact\n0,0,0,x\n3,1,40,\n4,3,70,\n"},
+    ),
+    "not JSON": Case(
+        "E109",
+        "synthesize poses.json",
+        Edit("poses.json", '"poses": [[0, 0, 0] [3', '"poses": [[0, 0, 0], [3'),
+        {"poses.json": json_poses().replace("0], [3", "0] [3")},
+    ),
+    "not TOML": Case(
+        "E109",
+        "synthesize poses.toml",
+        Edit("poses.toml", "45.58]", "45.58]]"),
+        {"poses.toml": toml_poses().replace("]]", "]")},
+    ),
+    "no angle unit": Case(
+        "E110",
+        S,
+        Args(f"{S} --angle-unit deg"),
+        {"poses.csv": FIVE.replace("angle_deg", "angle")},
+    ),
+    "two angle units": Case("E110", f"{S} --angle-unit rad", Args(S), GOOD),
+    # --- tasks
+    "two poses": Case(
+        "E120",
+        S,
+        Write("poses.csv", "\n".join(TEN.splitlines()[:4])),
+        {"poses.csv": "\n".join(TEN.splitlines()[:3])},
+    ),
+    "exact method for ten": Case("E121", f"{S} --method exact", Args(S), ALL),
+    "pencil for five": Case("E121", f"{S} --method pencil", Args(S), GOOD),
+    "curve of five": Case(
+        "E121",
+        lambda: api("curve.dyad_curve")(poses(5)),
+        Call(lambda: api("exact.dyads_of_five")(poses(5))),
+    ),
+    "five of four": Case(
+        "E121",
+        lambda: api("exact.dyads_of_five")(poses(4)),
+        Call(lambda: api("exact.dyads_of_five")(poses(5))),
+    ),
+    "best dyads of four": Case(
+        "E121",
+        lambda: api("critical.critical_dyads")(poses(4)),
+        Call(lambda: api("curve.dyad_curve")(poses(4))),
+    ),
+    "distances of four": Case(
+        "E121",
+        lambda: api("normal_distance.algebraic_fit")(poses(4), START),
+        Call(lambda: api("normal_distance.algebraic_fit")(poses(5), START)),
+    ),
+    "pencil of four": Case(
+        "E121",
+        lambda: api("pencil.fit_pencil")(poses(4)),
+        Call(lambda: api("curve.dyad_curve")(poses(4))),
+    ),
+    "quadric of none": Case(
+        "E121",
+        lambda: api("quadric.fit_quadric")(np.empty((0, 4))),
+        Call(lambda: api("quadric.fit_quadric")(poses(9).as_image_point())),
+    ),
+    "pose unknown": Case("E122", f"{S} --exact 11", Args(f"{S} --exact 1,5"), GOOD),
+    "weight of zero": Case(
+        "E122",
+        S,
+        Edit("poses.csv", "4,3,70,0\n", ""),
+        {"poses.csv": "x,y,angle_deg,weight\n0,0,0,1\n3,1,40,1\n4,3,70,0\n5,3,90,1\n"},
+    ),
+    "names that do not fit": Case(
+        "E122",
+        lambda: burmester.Task(poses(3), names=("open", "closed")),
+        Call(lambda: burmester.Task(poses(3), names=("open", "half", "closed"))),
+    ),
+    "raw, but not the pencil": Case(
+        "E123", f"{S} --raw --method complete", Args(f"{S} --raw --method pencil"), ALL
+    ),
+    "pencil with limits": Case(
+        "E123",
+        f"{S} --method pencil --kinds RR",
+        Args(f"{S} --method complete --kinds RR"),
+        ALL,
+    ),
+    "certificate with limits": Case(
+        "E123", f"{S} --certify --kinds RR", Args(f"{S} --kinds RR"), ALL
+    ),
+    "four poses of one turn": Case(
+        "E124",
+        lambda: api("curve.dyad_curve")(Displacement(np.zeros((4, 2)), 0.4 * np.arange(4))),
+        Call(
+            lambda: api("curve.dyad_curve")(
+                Displacement([(0, 0), (0, 0), (3, -1), (1, 2)], 0.4 * np.arange(4))
+            )
+        ),
+    ),
+    "no python-flint": Case("E130", f"{S} --certify", Args(f"{S} --certify"), GOOD),
+    # --- limits
+    "region unknown": Case(
+        "E131",
+        f"{S} --fixed-pivot disc:0,0:1",
+        Args(f"{S} --fixed-pivot box:-3,-1:3,1"),
+        FEW,
+    ),
+    "region with text": Case(
+        "E131", f"{S} --fixed-pivot line:0,0:one,0", Args(f"{S} --fixed-pivot line:0,0:1,0"), FEW
+    ),
+    "no range of lengths": Case("E131", f"{S} --length 5", Args(f"{S} --length :5"), FEW),
+    "limits for three dyads": Case(
+        "E131", f"{S} --kinds RR --kinds PR --kinds RP", Args(f"{S} --kinds RR --kinds PR"), FEW
+    ),
+    "polygon without inside": Case(
+        "E131",
+        f"{S} --fixed-pivot polygon:0,0:1,1:2,2",
+        Args(f"{S} --fixed-pivot polygon:0,0:1,1:2,0"),
+        FEW,
+    ),
+    "polygon that crosses itself": Case(
+        "E131",
+        f"{S} --fixed-pivot polygon:-3,-3:3,3:3,-3:-3,3",
+        Args(f"{S} --fixed-pivot polygon:-3,-3:3,-3:3,3:-3,3"),
+        FEW,
+    ),
+    "segment of one point": Case(
+        "E131",
+        f"{S} --moving-pivot segment:1,1:1,1",
+        Args(f"{S} --moving-pivot 1,1"),
+        FEW,
+    ),
+    "empty box": Case(
+        "E132", f"{S} --fixed-pivot box:3,1:-3,-1", Args(f"{S} --fixed-pivot box:-3,-1:3,1"), FEW
+    ),
+    "length backwards": Case("E132", f"{S} --length 5:2", Args(f"{S} --length 2:5"), FEW),
+    "slider with a pivot": Case(
+        "E132",
+        f"{S} --kinds PR --fixed-pivot 1,2",
+        Args(f"{S} --kinds PR,RR --fixed-pivot 1,2"),
+        FEW,
+    ),
+    "one pivot for both": Case(
+        "E132",
+        f"{S} --fixed-pivot 1,2 --fixed-pivot 1,2",
+        Args(f"{S} --fixed-pivot 1,2 --fixed-pivot any"),
+        FEW,
+    ),
+    "link too short": Case(
+        "E132",
+        f"{S} --fixed-pivot 0,0 --moving-pivot box:0,0:0.1,0.1 --length :0.3",
+        Args(f"{S} --fixed-pivot 0,0 --moving-pivot box:0,0:0.1,0.1 --length :5"),
+        FEW,
+    ),
+    "type without a crank": Case(
+        "E132",
+        f"{S} --type triple-rocker --driver crank",
+        Args(f"{S} --type triple-rocker,crank-rocker --driver crank"),
+        FEW,
+    ),
+    "type of other dyads": Case(
+        "E132",
+        f"{S} --kinds RR --type slider-crank",
+        Args(f"{S} --kinds RR,PR --type slider-crank"),
+        FEW,
+    ),
+    "pivot off the footprint": Case(
+        "E132",
+        f"{S} --fixed-pivot 9,9 --footprint box:-5,-5:5,5",
+        Args(f"{S} --fixed-pivot 9,9 --footprint box:-15,-15:15,15"),
+        FEW,
+    ),
+    "six conditions": Case(
+        "E133",
+        f"{S} --exact 1,2,3,4 --fixed-pivot 1,2",
+        Args(f"{S} --exact 1,2,3 --fixed-pivot 1,2"),
+        ALL,
+    ),
+    # --- requirements
+    "angle too large": Case(
+        "E134", f"{S} --min-transmission 95", Args(f"{S} --min-transmission 40"), FEW
+    ),
+    "type unknown": Case(
+        "E134",
+        f"{S} --type crank-roker",
+        lambda help: Args(f"{S} --type " + re.search(r"mean ([\w-]+)", help)[1]),
+        FEW,
+    ),
+    "first dyad of two alike": Case("E134", f"{S} --driver first", Args(f"{S} --driver any"), FEW),
+    "ratio below one": Case("E134", f"{S} --link-ratio 0.5", Args(f"{S} --link-ratio 5"), FEW),
+    "no error allowed": Case(
+        "E134",
+        f"{S} --within 0",
+        Args(f"{S} --within 0.5 --exact 1,2,3"),
+        FEW,
+    ),
+    "step of zero": Case("E134", f"{S} --round 0", Args(S), FEW),
+    "sigma without angle": Case(
+        "E134", f"{S} --pose-sigma 0.05", Args(f"{S} --pose-sigma 0.05,0.1"), FEW
+    ),
+    # --- tracked points, libraries, files, linkages, bugs
+    "points not on one body": Case(
+        "E111",
+        S,
+        lambda help: Args(f"{S} " + re.search(r"--drop \d+", help)[0]),
+        {"poses.csv": POINTS.replace("5,3,5,8", "5,3,5,13")},
+    ),
+    "two points in one place": Case(
+        "E111",
+        S,
+        Edit("poses.csv", "5,3,5,3\n", ""),
+        {"poses.csv": POINTS.replace("5,3,5,8", "5,3,5,3")},
+    ),
+    "too large to square": Case(
+        "E112", S, Edit("poses.csv", "3e200", "3"), {"poses.csv": rows("0,0,0 3e200,1,40 4,3,70")}
+    ),
+    "too many turns": Case(
+        "E112",
+        S,
+        Edit("poses.csv", "4e10", "40"),
+        {"poses.csv": "x,y,angle_rad\n0,0,0\n3,1,4e10\n4,3,70\n"},
+    ),
+    "no pyarrow": Case(
+        "E130",
+        "synthesize poses.parquet",
+        lambda help: Write("poses.parquet", parquet(), "synthesize poses.parquet"),
+        {"poses.parquet": b"PAR1"},
+    ),
+    "no header, said in an option": Case(
+        "E105", S, Args(f"{S} --columns x,y,angle_deg"), {"poses.csv": ROWS.replace(",", ";")}
+    ),
+    "file there already": Case(
+        "E140",
+        lambda: api("io.files.write")("lid.toml", "new"),
+        Call(lambda: api("io.files.write")("lid.toml", "new", force=True)),
+        {"lid.toml": "old"},
+    ),
+    "folder not there": Case(
+        "E141",
+        lambda: api("io.files.write")("results/lid.toml", "new"),
+        lambda help: Call(lambda: made(in_backticks(help), "results/lid.toml")),
+    ),
+    "a template there already": Case(
+        "E140", "new gripper", Args("new gripper --force"), {"gripper.toml": "old"}
+    ),
+    "no result": Case(
+        "E150",
+        "export poses.json -o a.csv",
+        lambda help: Write("poses.json", result(TEN)),
+        {"poses.json": json_poses()},
+    ),
+    "no such linkage": Case(
+        "E151",
+        "export result.json -o a.csv --linkage L99",
+        lambda help: Args("export result.json -o a.csv " + re.search(r"--linkage \w+", help)[0]),
+        {"result.json": lambda: result(TEN)},
+    ),
+    "a result changed by hand": Case(
+        "E152",
+        "export result.json -o a.csv",
+        lambda help: Write("result.json", result(TEN)),
+        {"result.json": lambda: re.sub(r'"radius": \d', '"radius": 7', result(TEN))},
+    ),
+    "no such format": Case(
+        "E161",
+        "export result.json -o a.xyz",
+        lambda help: Args("export result.json -o a.xyz " + re.search(r"--to \w+", help)[0]),
+        {"result.json": lambda: result(TEN)},
+    ),
+    "holes too wide": Case(
+        "E162",
+        "export result.json -o a.svg --hole 9",
+        lambda help: Args("export result.json -o a.svg " + re.search(r"--hole \S+", help)[0]),
+        {"result.json": lambda: result(TEN)},
+    ),
+    "a file that went wrong": Case(
+        "E160",
+        lambda: checked(lambda text: text.replace("CRANK = 1", "CRANK = 2")),
+        Call(lambda: checked(lambda text: text)),
+        exit=3,
+    ),
+    "a slot for pylinkage": Case(
+        "E163",
+        "export result.json -o a.py --linkage L2",
+        Args("export result.json -o a.csv --linkage L2 --to csv"),
+        {"result.json": lambda: result(TEN)},
+    ),
+    "driver without a joint": Case(
+        "E401",
+        lambda: api("drive.Drive").of(burmester.Linkage(PP(np.array(0.0)), START)),
+        Call(lambda: api("drive.Drive").of(burmester.Linkage(START, PP(np.array(0.0))))),
+    ),
+    "speed without a joint": Case(
+        "E401",
+        lambda: api("motion.velocity")(burmester.Linkage(PP(np.array(0.0)), START), poses(3)),
+        Call(lambda: api("motion.velocity")(burmester.Linkage(START, PP(np.array(0.0))), poses(3))),
+    ),
+    "bug": Case("E900", S, None, GOOD, exit=3),
+    # --- outcomes
+    "usable linkages": Case("R300", S, None, GOOD, exit=0),
+    "none usable": Case(
+        "R301",
+        f"{S} --type double-crank",
+        lambda help: Args(f"{S} " + re.search(r"with (--.+?) L\d+ would do", help)[1]),
+        GOOD,
+        exit=1,
+    ),
+    "one dyad only": Case(
+        "R302",
+        f"{S} --fixed-pivot box:-1,-1:1,1 --kinds RR --length 1:2",
+        Args(f"{S} --fixed-pivot box:-1,-1:1,1 --kinds RR,PR,RP --length 1:2"),
+        {
+            "poses.csv": rows(
+                "0.2,-9.9,-9.3 -1.3,4.8,-47.3 3.7,-5.5,-13.3 "
+                "-4.2,7.2,22.7 12.2,3.2,33.8 4.2,-3,-2.8"
+            )
+        },
+        exit=1,
+    ),
+    "four poses": Case("R303", S, Write("poses.csv", FIVE), {"poses.csv": FOUR}, exit=1),
+    "little rotation": Case(
+        "R305",
+        S,
+        Write("poses.csv", SMALL_TURN),
+        {"poses.csv": re.sub(r"[\d.]{6,}", lambda each: f"{float(each[0]):.3f}", SMALL_TURN)},
+        exit=1,
+    ),
+    "none within the limits": Case("R306", f"{S} --kinds PP", Args(f"{S} --kinds PP,RR"), GOOD, 1),
+    "approximate ones": Case(
+        "R307", S, None, {"poses.csv": rows("0,0,30 1,1,36 2,4,43 3,9,55 4,16,70")}, exit=0
+    ),
+    "no motion": Case(
+        "R310",
+        S,
+        Write("poses.csv", rows("1,2,30 2,2,35 4,3,70")),
+        {"poses.csv": rows("1,2,30 1,2,30 1,2,30")},
+        exit=1,
+    ),
+    "two poses differ": Case(
+        "R311",
+        S,
+        Write("poses.csv", rows("1,2,30 4,3,70 5,5,90")),
+        {"poses.csv": rows("1,2,30 1,2,30 4,3,70")},
+        exit=1,
+    ),
+    "along a line": Case(
+        "R312",
+        S,
+        Write("poses.csv", rows("0,0,30 1,2,35 2,4,42 3,6,50")),
+        {"poses.csv": rows("0,0,30 1,2,30 2,4,30 3,6,30")},
+        exit=1,
+    ),
+    "along a circle": Case(
+        "R313",
+        S,
+        Write("poses.csv", rows("5,0,30 3,4,35 0,5,45 -3,4,60 -5,0,80")),
+        {"poses.csv": rows("5,0,30 3,4,30 0,5,30 -3,4,30 -5,0,30")},
+        exit=1,
+    ),
+    "along a curve": Case(
+        "R314",
+        S,
+        Write("poses.csv", rows("0,0,30 1,1,36 2,4,43 3,9,55")),
+        {"poses.csv": rows("0,0,30 1,1,30 2,4,30 3,9,30 4,16,30")},
+        exit=1,
+    ),
+    "about a point": Case(
+        "R315",
+        S,
+        Write("poses.csv", rows("2,3,0 2,3,20 2,3,45 3,5,80 1,6,100")),
+        {"poses.csv": rows("2,3,0 2,3,20 2,3,45 2,3,80 2,3,100")},
+        exit=1,
+    ),
+    "two sliders": Case(
+        "R316",
+        S,
+        Edit("poses.csv", "1.0,0,120", "1.5,0.5,120"),
+        {"poses.csv": rows("-2.0,0,0 -1.931852,0,15 -1.532089,0,40 -1.0,0,60 0.0,0,90 1.0,0,120")},
+        exit=1,
+    ),
+    "two angles and few digits": Case(
+        "R318",
+        S,
+        Write("poses.csv", rows("0,-0.4,10 -1,6.4,50 -0.9,5.8,10 0.5,4.3,20 -5.8,5.3,35")),
+        {"poses.csv": rows("0.0,-0.4,10 -1.0,6.4,50 -0.9,5.8,10 0.5,4.3,10 -5.8,5.3,10")},
+        exit=1,
+    ),
+    "two angles": Case(
+        "R320",
+        S,
+        Write("poses.csv", rows(TWO_ANGLES.replace("3.3,4,50", "3.3,4,40"))),
+        {"poses.csv": rows(TWO_ANGLES)},
+        exit=1,
+    ),
+    "a general motion": Case("R321", S, None, GOOD, exit=0),
+    # --- warnings
+    "a pose that does not agree": Case(
+        "W201",
+        S,
+        lambda help: Args(f"{S} " + re.search(r"--drop \d+", help)[0]),
+        {"poses.csv": TEN.replace("52.87", "52.67")},
+        exit=0,
+    ),
+    "two poses exchanged": Case(
+        "W202",
+        S,
+        Write("poses.csv", TEN),
+        {"poses.csv": "x,y,angle_deg\n" + exchanged(ROWS, 3, 7)},
+        exit=1,
+    ),
+    "not determined": Case("W203", S, Write("poses.csv", FIVE), {"poses.csv": FOUR}, exit=1),
+    "a very long link": Case(
+        "W204",
+        S,
+        Args(f"{S} --kinds PR,RP"),
+        {
+            "poses.csv": rows(
+                "-5.3,-5.1,0.0 2.2,-2.7,0.2 3.6,1.5,2.6 2.3,2.4,5.5 3.1,0.6,2.1 -4.6,-1.7,2.4"
+            )
+        },
+        exit=1,
+    ),
+    "the same dyad twice": Case(
+        "W205", S, Write("poses.csv", FIVE), {"poses.csv": doubled}, exit=1
+    ),
+    "solutions left out": Case(
+        "W206",
+        S,
+        Write("poses.csv", rows("4.7,1.4,10 -5.9,-3.1,50 8.1,4.7,70 -1.7,0.9,25 1,4.5,50")),
+        {"poses.csv": rows("4.7,1.4,10 -5.9,-3.1,50 8.1,4.7,50 -1.7,0.9,10 1.0,4.5,50")},
+        exit=1,
+    ),
+    "critical points missing": Case(
+        "W207", S, Args(f"{S} --method pencil"), {"poses.csv": rows(TWO_ANGLES)}, exit=1
+    ),
+    "a pose twice": Case(
+        "W208",
+        S,
+        Write("poses.csv", FIVE),
+        {"poses.csv": FIVE + FIVE.splitlines()[2] + "\n"},
+        exit=0,
+    ),
+    "pivots hardly determined": Case(
+        "W209", S, Write("poses.csv", re.sub(r"(\d\.\d+)", r"\g<1>0000", FIVE)), GOOD, exit=0
+    ),
+    "transmits badly": Case(
+        "W210",
+        S,
+        lambda help: Args(f"{S} " + re.search(r"--min-transmission \d+", help)[0]),
+        ALL,
+        exit=0,
+    ),
+    "far from the origin": Case(
+        "W211",
+        S,
+        Write("poses.csv", rows("0,0,0 3,1,40 4,3,70")),
+        {"poses.csv": rows("7e9,0,0 7000000003,1,40 7000000004,3,70")},
+        exit=1,
+    ),
+}
+
+# --- running them
+
+
+class Done(NamedTuple):
+    """What a command printed, and how it ended."""
+
+    exit: int
+    out: str
+    err: str
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name in ("NO_COLOR", "FORCE_COLOR", "CLICOLOR_FORCE", "TTY_COMPATIBLE"):
+        monkeypatch.delenv(name, raising=False)
+    return tmp_path
+
+
+SOLVED = {}  # what came of a command line on the files of a folder
+
+
+@pytest.fixture
+def run(folder, monkeypatch, capsys):
+    """Run a command line in the folder.  What was solved once is not solved again."""
+    synthesis = import_module("burmester.synthesis.motion_generation")
+    solve = synthesis.synthesize
+
+    def run(line, width=80, **environment):
+        arguments = shlex.split(line)
+        files = [(each.name, each.read_bytes()) for each in sorted(folder.iterdir())]
+        lacks = sys.modules.get("flint", 0) is None
+        key = (*(word for word in arguments if word != "--json"), *files, lacks)
+
+        def remembered(*given, **more):
+            if key not in SOLVED:
+                SOLVED[key] = solve(*given, **more)
+            return SOLVED[key]
+
+        with monkeypatch.context() as patch:
+            if synthesis.synthesize is solve:
+                patch.setattr(synthesis, "synthesize", remembered)
+            patch.setenv("COLUMNS", str(width))
+            for name, value in environment.items():
+                patch.setenv(name, value)
+            with pytest.raises(SystemExit) as stop:
+                cli.main(arguments)
+        out, err = capsys.readouterr()
+        return Done(stop.value.code, out, err)
+
+    return run
+
+
+@pytest.fixture
+def hurried(monkeypatch):
+    """Leave out the last search, a long one, for linkages that work where those found do not."""
+
+    def hurried(case):
+        if case.code not in ("R301", "R305", "R307"):
+            monkeypatch.setattr("burmester.linkages.from_dyads.linkages_that_work", lambda *_: None)
+            monkeypatch.setattr("burmester.linkages.from_dyads.links_of_map", lambda *_: [])
+
+    return hurried
+
+
+@cache
+def result(text):
+    """What `synthesize -o` writes for a pose file."""
+    with tempfile.TemporaryDirectory() as folder:
+        poses = Path(folder, "poses.csv")
+        poses.write_text(text)
+        return json.dumps(plain(synthesize(read_task(poses))))
+
+
+def checked(change):
+    """Export a script, change it, and read it back."""
+    Path("result.json").write_text(result(TEN))
+    chosen = read_result("result.json").choose()
+    pylinkage.write(chosen, Path("a.py"), Options())
+    Path("a.py").write_text(change(Path("a.py").read_text()))
+    pylinkage.check(chosen, Path("a.py"), Options())
+
+
+def lay(case):
+    for name, content in case.files.items():
+        data = content() if callable(content) else content
+        Path(name).write_bytes(data if isinstance(data, bytes) else data.encode())
+
+
+@pytest.fixture
+def broken():
+    """Make what a few of the messages need, a missing library or a bug; `broken(None)` mends it."""
+    patch = pytest.MonkeyPatch()
+
+    def broken(name):
+        patch.undo()
+        flint.cache_clear()
+        if name == "no python-flint":
+            patch.setitem(sys.modules, "flint", None)
+        if name == "no pyarrow":
+            patch.setitem(sys.modules, "pyarrow", None)
+            patch.setitem(sys.modules, "pyarrow.parquet", None)
+        if name == "bug":
+            space = {}
+            text = "def synthesize(*given, **more):\n    return 1 / 0\n"
+            exec(compile(text, "synthesis.py", "exec"), space)
+            patch.setattr("burmester.synthesis.motion_generation.synthesize", space["synthesize"])
+            # With the name of a file it would be another message every time.
+            patch.setattr(tempfile, "mkstemp", no_room)
+
+    yield broken
+    broken(None)
+
+
+def no_room(**_):
+    raise OSError
+
+
+def raised(call):
+    with pytest.raises(BurmesterError) as caught:
+        call()
+    return caught.value
+
+
+def drawn(error, width):
+    console = Console(file=io.StringIO(), width=width, highlight=False)
+    show("error", error, console)
+    return console.file.getvalue()
+
+
+def said(case, done, code=None):
+    """Of what a command printed, the message with the code."""
+    code = code or case.code
+    if case.exit > 1:
+        assert done.out == ""
+        return done.err
+    assert done.err == ""
+    out = re.sub(r"(?m) +$", "", done.out)  # tables are filled with blanks
+    if code in TOLD:  # by what was found, without a code
+        return out[: out.index("\nBest:") + 1]
+    found = re.search(rf"(?m)^(warning|result)\[{code}\]: .*\n(?:  .*\n|L\d+ .*\n)*", out)
+    return found[0] if found else ""
+
+
+def codes(data):
+    """All codes in what --json prints."""
+    found = {data["outcome"]["code"], *(each["code"] for each in data["warnings"])}
+    if data.get("motion"):
+        found.add(data["motion"]["code"])
+    return found
+
+
+def field(case, data):
+    """The message in what --json prints."""
+    if data["outcome"]["code"] == case.code:
+        return data["outcome"]
+    if case.code.startswith("W"):
+        return next(each for each in data["warnings"] if each["code"] == case.code)
+    return data["motion"]
+
+
+def whole(text):
+    """A drawn message without its line breaks, its place left out."""
+    lines = text.split("\n")
+    kept = [line for line in lines if not re.match(r"  --> | *\d* \|", line)]
+    return " ".join(" ".join(kept).split())
+
+
+TOLD = ("R300", "R307")
+ONLY_JSON = ("R320", "R321")  # kinds of motion that say no outcome
+SHOWN = [name for name, case in CASES.items() if case.code not in ONLY_JSON]
+
+
+@pytest.mark.parametrize("name", SHOWN)
+def test_a_message_at_three_widths(name, run, broken, hurried, snapshot):
+    case, texts = CASES[name], []
+    lay(case)
+    hurried(case)
+    broken(name)
+    for width in WIDTHS:
+        if callable(case.run):
+            error = raised(case.run)
+            assert (error.code, error.exit_code) == (case.code, case.exit)
+            text = drawn(error, width)
+        else:
+            done = run(case.run, width)
+            assert done.exit == case.exit, done
+            text = said(case, done)
+        head = f"{'error' if case.exit > 1 else 'warning' if case.code[0] == 'W' else 'result'}"
+        assert case.code in TOLD or text.startswith(f"{head}[{case.code}]: "), text
+        assert case.exit < 2 or text.count("error[") == 1
+        assert "Traceback" not in text
+        assert "\x1b" not in text
+        for line in text.splitlines():
+            # Only what cannot be broken is wider: one word behind an indentation.
+            assert cell_len(line) <= width or " " not in line.strip(), line
+        texts.append(text)
+    bare = [whole(text) for text in texts]
+    assert bare[0] == bare[1] == bare[2]  # a width changes nothing but the line breaks
+    rule = "-" * 20
+    golden = "".join(f"{rule} {w} columns\n{text}" for w, text in zip(WIDTHS, texts, strict=True))
+    command = name if callable(case.run) else f"burmester {case.run}"
+    assert f"{command}\n{golden}" == snapshot
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_same_message_in_json(name, run, broken, hurried):
+    case = CASES[name]
+    lay(case)
+    hurried(case)
+    broken(name)
+    if callable(case.run):
+        data = json.loads(json.dumps(failure(raised(case.run)), allow_nan=False))
+        text = drawn(raised(case.run), 10_000)
+    elif case.run.startswith(("new", "export")):  # which have no --json
+        return
+    elif "synthesize" not in case.run:
+        done = run(f"{case.run} --json", 10_000)
+        data, text = json.loads(done.out), done.err
+    else:
+        done = run(f"{case.run} --json", 10_000)
+        assert done.exit == case.exit
+        assert len(done.out.splitlines()) == 1
+        data = json.loads(done.out)
+        shown = done if case.exit > 1 else run(case.run, 10_000)
+        text = shown.err if case.exit > 1 else said(case, shown)
+    assert case.code in codes(data)
+    if case.code in (*TOLD, *ONLY_JSON):
+        return
+    told = field(case, data)
+    if case.exit > 1:
+        found = parts(text.rstrip("\n"))
+        assert set(told) == {"code", "message", "where", "why", "help"}
+        assert {**told, "kind": "error"} == {"where": None, "why": None, "help": None, **found}
+    else:
+        flat = " ".join(text.split())
+        for key in ("code", "message", "help"):
+            assert not told.get(key) or " ".join(told[key].split()) in flat
+
+
+WAY_ON = {"R303": "W203"}  # an outcome whose help is that of a warning beside it
+
+
+def parts(text):
+    """A printed message taken apart: kind, code, message, where, why and help."""
+    head, *lines = text.split("\n")
+    kind, code, said = re.fullmatch(r"(\w+)\[(\w+)\]: (.*)", head).groups()
+    found, key = {"kind": kind, "code": code, "message": said}, None
+    for line in lines:
+        if start := re.match(r"  (-->|why:|help:) ", line):
+            key = {"-->": "where"}.get(start[1], start[1].rstrip(":"))
+            found[key] = line[start.end() :]
+        else:
+            found[key] += f"\n{line}"
+    return found
+
+
+def help_of(case, run):
+    if callable(case.run):
+        return raised(case.run).help
+    if case.run.startswith(("new", "export")):
+        return parts(run(case.run, 10_000).err.rstrip("\n"))["help"]
+    if case.code in ONLY_JSON:
+        return fingerprint(read_task("poses.csv")).motion.help
+    data = json.loads(run(f"{case.run} --json").out)
+    return field(case._replace(code=WAY_ON.get(case.code, case.code)), data).get("help")
+
+
+@pytest.mark.parametrize("name", [name for name, case in CASES.items() if case.follow])
+def test_following_the_help_to_the_letter_works(name, run, broken, hurried):
+    case = CASES[name]
+    lay(case)
+    hurried(case)
+    broken(name)
+    help = help_of(case, run)
+    assert help
+    broken(None)
+    follow, line = case.follow, case.run
+    if not isinstance(follow, Args | Edit | Write | Call):
+        follow = follow(help)
+    match follow:
+        case Args():
+            line = follow.line
+        case Edit():
+            text = Path(follow.file).read_text("utf-8")
+            assert follow.old in text
+            Path(follow.file).write_text(text.replace(follow.old, follow.new), "utf-8")
+        case Write():
+            data = follow.text
+            Path(follow.file).write_bytes(data if isinstance(data, bytes) else data.encode())
+            line = follow.line or line
+        case Call():
+            follow.call()
+            return
+    if "synthesize" not in line or "--help" in line:
+        done = run(line)
+        assert (done.exit, done.err) == (0, "")
+        return
+    done = run(f"{line} --json")
+    assert done.exit in (0, 1), done.err
+    data = json.loads(done.out)
+    assert case.code not in codes(data), done.out[:500]
+    # From one special motion nobody is led into another.
+    assert not data["outcome"]["code"].startswith("R31"), done.out[:500]
+
+
+COLOURED = ("not finite", "transmits badly", "none usable")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="its consoles colour in their own way")
+@pytest.mark.parametrize("name", COLOURED)
+def test_a_message_in_colour(name, run, hurried, snapshot):
+    case = CASES[name]
+    lay(case)
+    hurried(case)
+    done = run(case.run, FORCE_COLOR="1", TERM="xterm", COLORTERM="")
+    text = done.err or done.out
+    plain = re.sub(r"\x1b\[[0-9;]*m", "", text)
+    assert plain != text
+    bare = run(case.run)
+    assert plain == (bare.err or bare.out)
+    found = re.search(rf"(?m)^.*{case.code}.*\n(?:.*  .*\n)*?.*help: .*\n", text)
+    assert found[0].replace("\x1b", "ESC") == snapshot
+    if case.exit > 1:
+        none = run(case.run, FORCE_COLOR="1", TERM="xterm", NO_COLOR="1")
+        assert none.err == bare.err
+
+
+def test_a_message_is_drawn_in_the_same_way_on_a_terminal_without_colour():
+    error = InputError("E103", "what", where="a:1:2\n   1 | abc\n     |  ^ b", why="so", help="do")
+    console = Console(file=io.StringIO(), width=60, force_terminal=True, no_color=True)
+    show("error", error, console)
+    assert console.file.getvalue() == f"{error}\n"
+
+
+def under(lines):
+    """What stands above the carets of a drawn place, a character for every column that it takes."""
+    line, carets = (each.partition(" | ")[2] for each in lines)
+    start = len(carets) - len(carets.lstrip())
+    count = len(re.match(r" *(\^+)", carets)[1])
+    return [char for char in line for _ in range(cell_len(char))][start : start + count]
+
+
+@pytest.mark.parametrize("alphabet", ["abcdefghijklmnopqrstuvwxyz0123456789,.-", "aé長さ,1"])
+def test_carets_stay_below_what_they_mark(alphabet):
+    rng = np.random.default_rng(len(alphabet))
+    cut = 0
+    for _ in range(400):
+        length = int(rng.integers(1, 160))
+        text = "".join(rng.choice(list(alphabet), length))
+        at = int(rng.integers(0, length))
+        count = int(rng.integers(1, min(12, length - at) + 1))
+        remark = str(rng.choice(["", " angle", " a note that is longer than most"]))
+        width = int(rng.choice([40, 60, 80, 200]))
+        where = f"file.csv:7:{at + 1}\n   7 | {text}\n     | {'':>{at}}{'^' * count}{remark}"
+        name, *lines = (line.plain for line in place(where, width, "red"))
+        assert name == f"  --> file.csv:7:{at + 1}"
+        assert len(lines) == 2
+        assert max(map(cell_len, lines)) <= width
+        marked = [char for char in text[at : at + count] for _ in range(cell_len(char))]
+        assert under(lines) == marked
+        shown = lines[0].partition(" | ")[2]
+        if shown != text:
+            cut += 1
+            assert "..." in (shown[:3], shown[-3:])
+        assert remark.rstrip() in lines[1] or cell_len(remark) > (width - 7) // 2
+    assert cut > 50
+
+
+def test_commands_and_options_are_not_broken_where_they_fit():
+    help = (
+        "give it a name, or run `burmester synthesize poses.csv --fixed-pivot box:0,0:10,10` or "
+        "ask for more with --min-transmission 40, or for less"
+    )
+    for width in range(70, 120):
+        lines = [line.plain for line in note("help", help, width)]
+        assert max(map(cell_len, lines)) <= width
+        assert (
+            sum("`burmester synthesize poses.csv --fixed-pivot box" in each for each in lines) == 1
+        )
+        assert sum("--min-transmission 40," in each for each in lines) == 1
+        assert all(line.startswith("        ") for line in lines[1:])
+        assert " ".join(" ".join(lines).split()) == f"help: {help}"
+
+
+def test_a_path_is_never_broken():
+    path = "/".join(["a-folder-with-a-long-name"] * 6) + "/poses.csv:4:16"
+    error = InputError("E103", "what", where=path, help=f"look into {path}")
+    lines = drawn(error, 60).splitlines()
+    assert lines[1] == f"  --> {path}"
+    assert lines[-1].strip() == path
+
+
+EXAMPLES = {case.code: name for name, case in reversed(CASES.items())}
+
+
+@pytest.mark.parametrize("code", sorted(set(EXAMPLES) - set(ONLY_JSON)))
+def test_the_example_on_a_page_is_what_is_printed(code, run, broken, hurried, request):
+    name = EXAMPLES[code]
+    case = CASES[name]
+    lay(case)
+    hurried(case)
+    broken(name)
+    if callable(case.run):
+        text = drawn(raised(case.run), 10_000)
+    else:
+        text = said(case, run(case.run, 10_000))
+    text = text.rstrip()
+    if request.config.getoption("update_snapshots"):
+        pages_of = ROOT / "io" / "messages.md"
+        page = rf"(?s)(\n## {code} (?:(?!\n## ).)*?\n```)\n.*?(```)"
+        source = pages_of.read_text("utf-8")
+        pages_of.write_text(re.sub(page, lambda at: f"{at[1]}\n{text}\n{at[2]}", source), "utf-8")
+        pages.cache_clear()
+    assert pages()[code].example() == text
+
+
+def test_every_code_has_a_message_here():
+    source = "".join(file.read_text("utf-8") for file in sorted(ROOT.rglob("*.py")))
+    known = set(re.findall(r"[\"'`]([EWR][0-9]{3})[\"'`]", source))
+    assert known == {case.code for case in CASES.values()}
+    assert len(CASES) >= 40

@@ -1,0 +1,289 @@
+"""Conditions of the search, against a sweep of the linkage and against rules of their own."""
+
+import itertools
+
+import numpy as np
+import pytest
+
+from burmester.fourbar.canonical_frames import CanonicalFrames
+from burmester.fourbar.dyad import PR, RP, RR
+from burmester.fourbar.instantaneous import transmission_angle
+from burmester.fourbar.linkage import Linkage, Links, grashof
+from burmester.fourbar.linkage_batch import LinkageStack
+from burmester.fourbar.loop_closure import Drive
+from burmester.geometry.displacement import Displacement
+from burmester.geometry.regions import Line, Polygon, Segment
+from burmester.linkages.constraints import (
+    Journey,
+    Kept,
+    Proportions,
+    Together,
+    drive_of,
+    least_between,
+    lever_sine,
+    type_excess,
+)
+from burmester.tasks.limits import Limits
+from burmester.tasks.requirements import Requirements
+from tests.linkages.test_defect_free_search import assembled, sines
+from tests.oracles.witness import random_four_bar
+
+KINDS = (RR, PR, RP)
+PAIRS = list(itertools.product(KINDS, KINDS))
+LENGTH = 0.7  # what a radian counts as
+PLAIN = CanonicalFrames.as_given()
+ANY = Requirements()
+
+
+def a_dyad(kind, rng):
+    a, b, normal = rng.normal(size=2), rng.normal(size=2), rng.uniform(-3, 3)
+    if kind is RR:
+        return RR(a, b, rng.uniform(0.5, 2.0))
+    return PR(normal, rng.normal(), b) if kind is PR else RP(a, normal, rng.normal())
+
+
+def swept(first, second, drive):
+    """Rows (2, n, 3) on both assemblies along drives (n,)."""
+    d, phi = assembled(first, second, drive)
+    return np.stack([d.real, d.imag, LENGTH * phi], axis=-1)
+
+
+def sine_of(linkage, rows, side=0):
+    """`lever_sine` of one linkage at rows (n, 3)."""
+    stack = LinkageStack.of([linkage])
+    return lever_sine(stack, rows[None], LENGTH, np.array([side]))[0]
+
+
+@pytest.mark.parametrize("pair", PAIRS, ids=lambda pair: f"{pair[0].__name__}-{pair[1].__name__}")
+def test_the_lever_is_the_sine_of_the_transmission_angle(pair):
+    rng = np.random.default_rng(0)
+    seen = 0
+    for _ in range(30):
+        linkage = Linkage(a_dyad(pair[0], rng), a_dyad(pair[1], rng))
+        rows = swept(linkage.first, linkage.second, np.sort(rng.uniform(-2.5, 2.5, 25)))
+        for side in (0, 1):
+            own = rows[side][np.isfinite(rows[side]).all(axis=1)]
+            seen += len(own)
+            at = Displacement(own[:, :2], own[:, 2] / LENGTH)
+            angle = transmission_angle(linkage, at)
+            assert np.allclose(np.abs(sine_of(linkage, own)), np.sin(angle), atol=1e-7)
+            other = Linkage(linkage.second, linkage.first)
+            angle = transmission_angle(other, at)
+            assert np.allclose(np.abs(sine_of(linkage, own, 1)), np.sin(angle), atol=1e-7)
+    assert seen > 100
+
+
+@pytest.mark.parametrize(
+    "pair", [(RR, RR), (RR, PR), (RR, RP), (PR, RR), (PR, PR), (PR, RP), (RP, RR)]
+)
+def test_its_sign_tells_the_two_assemblies_apart(pair):
+    rng = np.random.default_rng(1)
+    seen = 0
+    for _ in range(40):
+        linkage = Linkage(a_dyad(pair[0], rng), a_dyad(pair[1], rng))
+        rows = swept(linkage.first, linkage.second, rng.uniform(-2.5, 2.5, 40))
+        sound = np.isfinite(rows).all(axis=(0, 2))
+        if sound.any():
+            seen += 1
+            one, other = (np.sign(sine_of(linkage, rows[side][sound])) for side in (0, 1))
+            assert (one == one[0]).all()
+            assert (other == -one[0]).all()
+    assert seen > 20
+
+
+@pytest.mark.parametrize("pair", PAIRS, ids=lambda pair: f"{pair[0].__name__}-{pair[1].__name__}")
+def test_drives_are_those_the_linkage_is_assembled_at(pair):
+    rng = np.random.default_rng(2)
+    seen = 0
+    for _ in range(20):
+        linkage = Linkage(a_dyad(pair[0], rng), a_dyad(pair[1], rng))
+        drive = rng.uniform(-3, 3, 10)
+        both = Drive.of(linkage).assembled(drive)
+        stack = LinkageStack.of([linkage])
+        for side in (0, 1):
+            at = both.translation[:, side], both.angle[:, side]
+            sound = np.isfinite(at[1])
+            rows = np.column_stack([at[0], LENGTH * at[1]])[sound]
+            told, turns = drive_of(stack, rows[None], LENGTH, np.array([0]))
+            gap = told[0] - drive[sound]
+            assert turns[0] == (pair[0] is not PR)
+            assert np.abs(np.exp(1j * gap) - 1 if turns[0] else gap).max(initial=0) < 1e-7
+            seen += sound.sum()
+    assert seen > 20
+
+
+@pytest.mark.parametrize(
+    "pair", [(RR, RR), (RR, PR), (RR, RP), (PR, RR), (PR, PR), (PR, RP), (RP, RR)]
+)
+def test_the_least_sine_of_a_stretch_is_at_its_ends_or_where_it_is_said(pair):
+    rng = np.random.default_rng(3)
+    seen = inner = 0
+    for _ in range(150):
+        linkage = Linkage(a_dyad(pair[0], rng), a_dyad(pair[1], rng))
+        start, reach = rng.uniform(-3, 3), rng.uniform(0.5, 5)
+        drive = np.linspace(start, start + reach, 2001)
+        rows = swept(linkage.first, linkage.second, drive)[0]
+        at, cosine = (part[0] for part in least_between(LinkageStack.of([linkage]), np.array([0])))
+        if pair[0] is not PR:
+            at = start + (at - start) % (2 * np.pi)
+        within = (at > start) & (at < start + reach) & np.isfinite(cosine)
+        # It closes all along just where it does at the ends and there.
+        closes = np.isfinite(rows).all(axis=1)
+        if not (closes[0] and closes[-1]):
+            continue
+        said = (np.abs(cosine[within]) <= 1).all()
+        clear = (np.abs(np.abs(cosine[within]) - 1) > 1e-3).all()
+        if clear:
+            assert closes.all() == said
+        if closes.all():
+            sine = np.abs(sine_of(linkage, rows))
+            wanted = np.sqrt(1 - cosine[within] ** 2).tolist()
+            least = min([sine[0], sine[-1], *wanted])
+            assert np.isclose(sine.min(), least, atol=2e-3)
+            seen += 1
+            inner += bool(wanted) and least < min(sine[0], sine[-1]) - 5e-3
+    assert seen > 20
+    assert inner or pair == (PR, PR)
+
+
+def journey_of(linkage, rows, sign, asked=ANY, middle=np.nan):
+    stack = LinkageStack.of([linkage])
+    return stack, Journey.of(
+        stack, rows[None], LENGTH, np.array([0]), np.array([sign]), np.array([middle]), asked
+    )
+
+
+def test_a_journey_is_kept_just_where_a_sweep_keeps_to_it():
+    """Random places of 4R linkages in some order: order, branch and clearance by brute force."""
+    rng = np.random.default_rng(4)
+    verdicts = []
+    for number in range(400):
+        first, second = random_four_bar(rng)
+        start, reach = rng.uniform(-3, 3), rng.uniform(0.5, 6)
+        drive = start + np.sort(rng.uniform(0, reach, 5)) * rng.choice([-1, 1])
+        if number % 3 == 0:
+            drive[[1, 2]] = drive[[2, 1]]
+        rows = swept(first, second, drive)[0]
+        if not np.isfinite(rows).all():
+            continue
+        fine = np.linspace(drive.min(), drive.max(), 3001)
+        d, phi = (part[0] for part in assembled(first, second, fine))
+        step = np.diff(drive)
+        around = [(way * step) % (2 * np.pi) for way in (1, -1)]
+        ordered = (step > 0.01).all() or (step < -0.01).all()
+        if not ordered and min(turn.sum() for turn in around) < 2 * np.pi + 0.05:
+            continue  # in order the other way round
+        sine = np.abs(sines(first, second, d, phi)).min() if np.isfinite(phi).all() else 0.0
+        if abs(sine - np.sin(np.radians(5))) < 5e-3 or np.abs(step).min() < 0.02:
+            continue
+        linkage = Linkage(first, second)
+        sign = np.sign(sine_of(linkage, rows)[0])
+        middle = (
+            np.nan
+            if np.isfinite(swept(first, second, np.linspace(-3.2, 3.2, 200))).all()
+            else drive.mean()
+        )
+        stack, journey = journey_of(linkage, rows, sign, middle=middle)
+        value, equal = journey(stack, rows[None], np.array([0]))
+        assert not equal.any()
+        kept = ordered and sine > np.sin(np.radians(5))
+        assert (value <= 0).all() == kept
+        verdicts.append(kept)
+        if np.ptp(drive) < 3.0:  # in any order, only the branch counts
+            stack, loose = journey_of(linkage, rows, sign, Requirements(any_order=True), middle)
+            assert (loose(stack, rows[None], np.array([0]))[0] <= 0).all() == (
+                sine > np.sin(np.radians(5))
+            )
+        # On the other branch nothing is right.
+        stack, other = journey_of(linkage, rows, -sign, middle=middle)
+        assert (other(stack, rows[None], np.array([0]))[0] > 0).any()
+    assert 20 < sum(verdicts) < len(verdicts) - 20
+
+
+def test_types_are_grashofs():
+    rng = np.random.default_rng(5)
+    names = ["double-crank", "crank-rocker", "double-rocker", "rocker-crank", "triple-rocker"]
+    met = set()
+    for _ in range(200):
+        linkage = Linkage(*random_four_bar(rng))
+        ground = np.linalg.norm(linkage.second.fixed_pivot - linkage.first.fixed_pivot)
+        coupler = np.linalg.norm(linkage.second.moving_pivot - linkage.first.moving_pivot)
+        for driver in (0, 1):
+            ends = linkage.first.radius, linkage.second.radius
+            own = Links(ground, ends[driver], coupler, ends[1 - driver])
+            name = grashof(own)
+            met.add(name)
+            stack = LinkageStack.of([linkage] * 5)
+            excess = type_excess(stack, np.full(5, driver), names)
+            assert [names[k] for k in np.flatnonzero((excess <= 0).all(axis=1))] == [name]
+    assert met == set(names)
+
+
+def test_ratio_of_links_and_room_for_the_pivots():
+    rng = np.random.default_rng(6)
+    box = Polygon([[-1.5, -1.5], [1.5, -1.5], [1.5, 1.5], [-1.5, 1.5]])
+    asked = Requirements(link_ratio=2.5, footprint=box)
+    told = []
+    for _ in range(300):
+        linkage = Linkage(*random_four_bar(rng))
+        rows = swept(linkage.first, linkage.second, rng.uniform(-3, 3, 3))[0]
+        if not np.isfinite(rows).all():
+            continue
+        frames = CanonicalFrames(np.array([0.3, -0.2]), np.zeros(2), np.array(2.0))
+        stack = LinkageStack.of([linkage]).seen(frames)
+        seen = (rows - [0.3, -0.2, 0.0]) / 2.0
+        part = Proportions(LENGTH / 2, frames, asked, np.array([0]), np.array([""]))
+        only = {
+            name: Proportions(LENGTH / 2, frames, each, np.array([0]), np.array([""]))
+            for name, each in (
+                ("ratio", Requirements(link_ratio=2.5)),
+                ("room", Requirements(footprint=box)),
+            )
+        }
+        links = [
+            np.linalg.norm(linkage.second.fixed_pivot - linkage.first.fixed_pivot),
+            np.linalg.norm(linkage.second.moving_pivot - linkage.first.moving_pivot),
+            linkage.first.radius,
+            linkage.second.radius,
+        ]
+        pivots = [linkage.first.fixed_pivot, linkage.second.fixed_pivot]
+        for dyad in (linkage.first, linkage.second):
+            pin = rows[:, :2] @ [1, 1j] + np.exp(1j * rows[:, 2] / LENGTH) * (
+                dyad.moving_pivot @ [1, 1j]
+            )
+            pivots += [np.array([p.real, p.imag]) for p in pin]
+        right = max(links) / min(links) <= 2.5, np.abs(pivots).max() <= 1.5
+        here = stack, seen[None], np.array([0])
+        assert (only["ratio"](*here)[0] <= 0).all() == right[0]
+        assert (only["room"](*here)[0] <= 0).all() == right[1]
+        value, equal = Together((part,))(*here)
+        assert (value <= 0).all() == all(right)
+        assert not equal.any()
+        told.append(right)
+    assert {True, False} == {a for a, _ in told} == {b for _, b in told}
+
+
+def test_limits_count_in_the_frames_unit():
+    """A line, a segment and a link's length: each number is the distance from being kept."""
+    frames = CanonicalFrames(np.array([1.0, 2.0]), np.array([-0.5, 0.25]), np.array(4.0))
+    dyad = RR([3.0, 1.0], [0.5, -2.0], 2.5)
+    other = RR([0.0, 0.0], [1.0, 1.0], 1.0)
+    stack = LinkageStack.of([Linkage(dyad, other)]).seen(frames)
+    rows, which = np.zeros((1, 2, 3)), np.array([0])
+
+    def held(side, **limits):
+        return Kept(side, Limits(**limits), frames)(stack, rows, which)
+
+    value, equal = held(0, length=(1.0, 2.0))
+    assert np.allclose(value[0], [(1.0 - 2.5) / 4, (2.5 - 2.0) / 4])
+    assert not equal.any()
+    value, equal = held(0, fixed_pivot=Line((0, 0), (1, 0)))
+    assert np.abs(value[0, equal]) == pytest.approx([1.0 / 4])
+    assert (value[0, ~equal] <= 0).all()
+    value, equal = held(0, fixed_pivot=Segment((0, 0), (2, 0)))
+    assert np.abs(value[0, equal]) == pytest.approx([1.0 / 4])
+    assert max(value[0, ~equal]) == pytest.approx(1.0 / 4)  # one beyond the end
+    value, equal = held(0, moving_pivot=Polygon([[0, -1], [2, -1], [2, 1], [0, 1]]))
+    assert max(value[0]) == pytest.approx(1.0 / 4)
+    value, equal = held(1, moving_pivot=Polygon([[0, 0], [4, 0], [4, 4], [0, 4]]))
+    assert max(value[0]) == pytest.approx(-1.0 / 4)

@@ -1,0 +1,125 @@
+"""What is said of linkages beside their errors: ties, drivers, uncertainty, sizes."""
+
+import numpy as np
+import pytest
+
+from burmester.fourbar.circuits import Circuits
+from burmester.fourbar.dyad import PR, RR
+from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.linkage_batch import LinkageStack
+from burmester.fourbar.pose_error import error_frames
+from burmester.geometry.displacement import Displacement
+from burmester.geometry.regions import box
+from burmester.linkages.uncertainty import covariance, pose_sigma, uncertainties
+from burmester.synthesis.motion_generation import synthesize
+from burmester.tasks.limits import Limits
+from burmester.tasks.motion_task import Task
+from burmester.tasks.requirements import Requirements
+from tests.oracles.witness import misses, random_four_bar, random_poses, span
+
+FREE = Requirements(any_order=True)
+
+
+def four_bar(ground, crank, coupler, follower):
+    return Linkage(RR([0, 0], [0, 0], crank), RR([ground, 0], [coupler, 0], follower))
+
+
+def told(linkage, decimals, first=0.4, last=2.2, count=9):
+    """The linkage that comes nearest to poses of another, given with so many decimals."""
+    place = Circuits.of(linkage, as_given=True)[0].couplers(np.linspace(first, last, count))
+    rows = np.column_stack([place.translation, place.angle]).round(decimals)
+    resolution = (0.5 * 10.0**-decimals,) * 2
+    result = synthesize(Task(Displacement.from_poses(rows), resolution=resolution))
+    return min(result.linkages, key=lambda each: each.error.worst)
+
+
+def test_grashofs_type_is_left_open_where_the_digits_leave_it_open():
+    # Shortest and longest link exceed the others by 1e-3.
+    lengths = np.array([3.0, 1.0, 2.3, 1.7 - 1e-3])
+    assert four_bar(*lengths).type == "triple-rocker"
+    assert told(four_bar(*lengths), 9).type == "triple-rocker"
+    assert told(four_bar(*lengths), 3).type == "change-point"
+    assert told(four_bar(3.0, 1.0, 2.3, 1.9), 5).type == "crank-rocker"
+
+
+def test_uncertainty_stands_with_the_dyad_that_it_is_of():
+    """Whichever dyad comes first: against the covariance of the linkage as it is listed."""
+    rng = np.random.default_rng(5)
+    swapped = 0
+    for second in (RR, RR, PR, PR):
+        rows = random_poses(random_four_bar(rng, second), rng, 9, ordered=True)
+        rows = rows + rng.normal(scale=1e-4, size=rows.shape)
+        task = Task(Displacement.from_poses(rows), resolution=(1e-4, 1e-4))
+        result = synthesize(task)
+        frames = error_frames(task.poses, result.length)
+        unit = float(frames.length)
+        for found in result.linkages[:4]:
+            stack = LinkageStack.of([found.linkage]).seen(frames)
+            places = frames.see(found.error.places)[None]
+            position, angle = pose_sigma(task)
+            spread = covariance(stack, places, result.length / unit, (position / unit, angle))
+            for mine, wanted in zip(
+                found.uncertainty, uncertainties(spread, stack, places, unit)[0], strict=True
+            ):
+                assert mine.half_width == pytest.approx(wanted.half_width, rel=1e-3)
+                assert (mine.fixed is None) == (wanted.fixed is None)
+            ids = [dyad.id for dyad in found.dyads]
+            swapped += ids != sorted(ids)
+    assert swapped
+
+
+def test_a_pose_beyond_reach_is_no_pose_met():
+    """By a tenth of the motion's size, or by what is asked."""
+    place = Circuits.of(four_bar(3.0, 1.0, 2.5, 2.2))[0].couplers(np.linspace(0.5, 2.5, 8))
+    rows = np.column_stack([place.translation, place.angle])
+    rows[3, :2] += [0.35, -0.3]
+    wild = Task(Displacement.from_poses(rows), requirements=FREE)
+    result = synthesize(wild)
+    size = error_frames(wild.poses, result.length).length
+    for found in result.linkages:
+        missed = np.hypot(found.error.position, result.length * found.error.angle)
+        far = {k for k in range(8) if missed[k] > 0.1 * size}
+        said = {k for each in found.verdict.defects if each.kind == "assembly" for k in each.poses}
+        assert said == far
+        # The witness comes no nearer than is said.
+        assert (misses(found.linkage, wild.poses, result.length) > missed * (1 - 0.06) - 1e-9).all()
+    near = min(found.error.worst for found in result.linkages)
+    asked = Requirements(any_order=True, within=near / 2)
+    strict = synthesize(Task(wild.poses, requirements=asked))
+    for found in strict.linkages:
+        assert found.usable == (found.error.worst <= near / 2 and not found.defects)
+
+
+def test_the_driver_of_the_second_limits_drives():
+    """Two limits keep their order in the linkage; which dyad drives is said beside."""
+    crank_rocker = four_bar(3.0, 1.0, 2.5, 2.2)
+    rocker = Circuits.of(Linkage(crank_rocker.second, crank_rocker.first))
+    place = rocker[0].couplers(np.linspace(0.5, 2.5, 8))
+    limits = Limits(box((2, -1), (4, 1))), Limits(box((-1, -1), (1, 1)))
+    for driver, turns in (("first", False), ("second", True)):
+        asked = Requirements(driver=driver)
+        result = synthesize(Task(place, limits=limits, requirements=asked))
+        best = result.linkages[0]
+        assert [dyad.limits for dyad in best.dyads] == [1, 2]
+        assert best.usable
+        assert best.driver == driver
+        assert best.driven.turns_fully == turns
+        lead = best.led.first
+        assert np.allclose(lead.fixed_pivot, [0, 0] if turns else [3, 0], atol=1e-6)
+
+
+@pytest.mark.parametrize("seed", range(25))
+def test_no_link_is_a_point_and_no_linkage_comes_twice(seed):
+    rng = np.random.default_rng([seed, 77])
+    rows = random_poses(random_four_bar(rng), rng, int(rng.integers(5, 9)))
+    if seed % 2:
+        rows = rows + rng.normal(scale=0.1, size=rows.shape)
+    result = synthesize(Task(Displacement.from_poses(rows), requirements=FREE))
+    seen = []
+    for found in result.linkages:
+        links = found.linkage.links
+        if links is not None:
+            assert min(float(links.ground), float(links.coupler)) > 1e-6 * span(rows)
+            key = np.sort([float(length) for length in links])
+            assert not any(np.allclose(key, other, rtol=1e-7) for other in seen)
+            seen.append(key)

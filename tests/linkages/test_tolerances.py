@@ -1,0 +1,225 @@
+"""The spread of built linkages, against linkages driven joint by joint and against all corners.
+
+The independent place (`driven`) is the driver's angle of least distance, by SciPy, on linkages that
+`tests/oracles/witness.py` drives; only the dimensions as built are taken from the code under test.
+"""
+
+from itertools import product
+
+import numpy as np
+import pytest
+from scipy.optimize import minimize_scalar
+
+from burmester.fourbar.dyad import PR, RP, RR
+from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.linkage_batch import LinkageStack
+from burmester.geometry.displacement import Displacement
+from burmester.linkages.tolerances import monte_carlo, sensitivity, spread
+from tests.linkages.test_uncertainty import LENGTH, case, dyads_of, numbers_of
+from tests.oracles.witness import misses, places
+
+KINDS = pytest.mark.parametrize("second", [RR, PR, RP])
+OFF = 0.03  # of the poses from the linkage: their gaps bend the way to the nearest place
+
+
+def driven(dyads, rows, drive):
+    """The nearest places (N, 3) on one assembly, the driver within a fifth of a radian of drive."""
+    out = []
+    for row, angle in zip(rows, drive, strict=True):
+
+        def at(t, row=row):
+            where, phi = places(*dyads, np.array([t]))
+            turned = np.angle(np.exp(1j * (phi[0, 0] - row[2])))
+            return np.array([where[0, 0].real, where[0, 0].imag, row[2] + turned])
+
+        def far(t, row=row):
+            gap = at(t) - row
+            return np.nan_to_num(gap[0] ** 2 + gap[1] ** 2 + (LENGTH * gap[2]) ** 2, nan=1e9)
+
+        bounds = angle - 0.2, angle + 0.2
+        end = minimize_scalar(far, bounds=bounds, method="bounded", options={"xatol": 1e-12}).x
+        # The square of a distance is flat at its least: its slope is zero more exactly.
+        for _ in range(3):
+            h = 1e-4
+            ends = [far(end - h), far(end), far(end + h)]
+            end -= h * (ends[2] - ends[0]) / (2 * (ends[2] - 2 * ends[1] + ends[0]))
+        out.append(at(end))
+    return np.array(out)
+
+
+def problem(seed, second, off=OFF):
+    """Dyads, poses near them, driver angles, and the nearest places."""
+    dyads, rows, drive = case(seed, second, 6)
+    rows = rows + off * np.random.default_rng(seed).normal(size=rows.shape)
+    return dyads, rows, drive, driven(dyads, rows, drive)
+
+
+def asked(dyads, rows, found):
+    stack = LinkageStack.of([Linkage(*dyads)])
+    return stack, Displacement.from_poses(rows), Displacement.from_poses(found[None]), LENGTH
+
+
+def built_amiss(dyads, found):
+    """The numbers of dyads for small errors of what is built, and the slots of the ten."""
+    z, columns, slots = numbers_of(dyads), [], []
+    at = 0
+    for side, dyad in enumerate(dyads):
+        for j in range(len(numbers_of([dyad]))):
+            column = np.zeros(len(z))
+            column[at + j] = 1.0
+            line = {PR: 0, RP: 2}.get(type(dyad))
+            if line == j:
+                # Turned about the middle of its travel: n(angle + a) . X = offset there, still.
+                poses = Displacement.from_poses(found)
+                if line == 0:
+                    point = poses.act(dyad.moving_pivot)
+                else:
+                    point = poses.inverse().act(dyad.fixed_pivot)
+                angle = float(dyad.normal_angle)
+                way = np.array([-np.sin(angle), np.cos(angle)])
+                middle = (point @ way).min() / 2 + (point @ way).max() / 2
+                column[at + j] = 1 / LENGTH
+                column[at + j + 1] = middle / LENGTH
+            columns.append(column)
+            slots.append(5 * side + j)
+        at += len(numbers_of([dyad]))
+    return np.array(columns), slots
+
+
+@KINDS
+def test_places_move_as_those_of_a_linkage_that_is_driven(second):
+    dyads, rows, drive, found = problem(0, second)
+    slope = sensitivity(*asked(dyads, rows, found))[0]
+    columns, slots = built_amiss(dyads, found)
+    z, h = numbers_of(dyads), 1e-4
+    for column, slot in zip(columns, slots, strict=True):
+        ends = [
+            driven(dyads_of([RR, second], z + sign * h * column), rows, drive) for sign in (1, -1)
+        ]
+        told = (ends[0] - ends[1])[:, :2] / (2 * h)
+        assert np.abs(slope[:, :, slot] - told).max() < 1e-5 * max(1, np.abs(told).max())
+    rest = np.setdiff1d(np.arange(10), slots)
+    assert not slope[:, :, rest].any()
+
+
+@KINDS
+def test_built_linkages_come_where_a_witness_finds_them(second):
+    dyads, rows, drive, found = problem(10, second)
+    stack, poses, at, length = asked(dyads, rows, found)
+    built = monte_carlo(stack, poses, at, length, 0.01, draws=4, seed=3)
+    assert not built.lost.any()
+    for k in range(4):
+        one = LinkageStack(stack.kinds, built.dimensions[:, k]).linkage(0)
+        told = driven((one.first, one.second), rows, drive)
+        here = built.places[0, k]
+        assert np.abs(here.translation - told[:, :2]).max() < 1e-7
+        assert np.abs(here.angle - told[:, 2]).max() < 1e-7
+        assert np.allclose(
+            built.position[0, k], np.hypot(*(told[:, :2] - rows[:, :2]).T), atol=1e-7
+        )
+        # The witness that looks on every circuit finds nothing farther away.
+        gap = np.hypot(built.position[0, k], length * (here.angle - poses.angle))
+        assert (misses(one, poses, length) < gap + 1e-7).all()
+
+
+@KINDS
+def test_what_is_built_is_spread_evenly_within_the_tolerance(second):
+    dyads, rows, _, found = problem(2, second)
+    stack, poses, at, length = asked(dyads, rows, found)
+    built = monte_carlo(stack, poses, at, length, 0.01, draws=2000, seed=0)
+    off = (built.dimensions[0] - stack.dimensions[0]).reshape(2000, 10)
+    columns, slots = built_amiss(dyads, found)
+    use = np.zeros((len(slots), 10))
+    use[:, slots] = columns
+    errors = np.linalg.lstsq(use.T, off.T, rcond=None)[0].T / 0.01
+    assert np.allclose(errors @ use * 0.01, off, atol=1e-14)
+    assert np.abs(errors).max() <= 1 + 1e-9
+    assert np.allclose(errors.std(axis=0), 3**-0.5, atol=0.02)
+    assert np.abs(np.corrcoef(errors.T) - np.eye(len(slots))).max() < 0.1
+
+
+@KINDS
+def test_the_greatest_error_is_that_of_the_worst_corner(second):
+    dyads, rows, _, found = problem(3, second)
+    stack, poses, at, length = asked(dyads, rows, found)
+    tolerance = 0.02
+    told = spread(stack, poses, at, length, tolerance)
+    slope = tolerance * sensitivity(stack, poses, at, length)[0]
+    gap = found[:, :2] - rows[:, :2]
+    corners = np.array(list(product((-1, 1), repeat=10)))
+    greatest = np.linalg.norm(gap + np.einsum("sj,ncj->snc", corners, slope), axis=-1).max(axis=0)
+    assert (told.worst[0] >= greatest * (1 - 1e-12)).all()
+    assert (told.worst[0] <= greatest * (1 + 2e-4)).all()
+    assert told.bound[0] == told.worst[0].max()
+
+
+@KINDS
+def test_the_linear_spread_is_that_of_linkages_built(second):
+    dyads, rows, _, found = problem(4, second)
+    stack, poses, at, length = asked(dyads, rows, found)
+    tolerance = 1e-3
+    told = spread(stack, poses, at, length, tolerance)
+    built = monte_carlo(stack, poses, at, length, tolerance, draws=4000, seed=1)
+    moved = np.linalg.norm(built.places.translation[0] - found[:, :2], axis=-1)
+    assert np.allclose(np.sqrt((moved**2).mean(axis=0)), told.deviation[0], rtol=0.04)
+    assert np.isclose(np.sqrt((built.position[0] ** 2).mean()), told.rms[0], rtol=0.01)
+    assert np.isclose(built.greatest_95[0], told.greatest_95[0], rtol=0.02)
+    gap = np.linalg.norm(found[:, :2] - rows[:, :2], axis=-1)
+    above = (built.greatest_95[0] - gap.max()) / (told.greatest_95[0] - gap.max())
+    assert 0.85 < above < 1.15
+    assert (built.position[0].max(axis=0) < told.worst[0] * 1.002).all()
+
+
+def test_a_linkage_that_meets_its_poses_has_only_the_spread():
+    dyads, rows, _, found = problem(5, RR, off=0.0)
+    told = spread(*asked(dyads, rows, found), 0.01)
+    assert np.isclose(told.rms[0] ** 2, (told.deviation[0] ** 2).mean(), rtol=1e-6)
+    assert told.rms[0] < told.greatest_95[0] < told.bound[0]
+
+
+def tenth(dyad):
+    if isinstance(dyad, RR):
+        return RR(dyad.fixed_pivot / 10, dyad.moving_pivot / 10, dyad.radius / 10)
+    return PR(dyad.normal_angle, dyad.offset / 10, dyad.moving_pivot / 10)
+
+
+def test_several_linkages_of_several_kinds_at_once():
+    one, rows, _, found = problem(6, RR)
+    stack = LinkageStack.of([Linkage(*one), Linkage(one[1], one[0])])
+    poses, at = Displacement.from_poses(rows), Displacement.from_poses(np.stack([found, found]))
+    both = sensitivity(stack, poses, at, LENGTH)
+    assert np.allclose(both[0], both[1][..., [5, 6, 7, 8, 9, 0, 1, 2, 3, 4]], atol=1e-9)
+    other, more, _, there = problem(7, PR)
+    alone = spread(*asked(other, more, there), 0.01)
+    mixed = LinkageStack.of([Linkage(*one), Linkage(*other)])
+    at = Displacement.from_poses(np.stack([found, there]))
+    together = spread(mixed, Displacement.from_poses(more), at, LENGTH, 0.01)
+    assert np.isclose(together.rms[1], alone.rms[0])
+    assert np.isclose(together.greatest_95[1], alone.greatest_95[0])
+    # Ten times smaller a unit, and ten times the numbers.
+    tenfold = LinkageStack.of([Linkage(*(tenth(d) for d in other))])
+    small = spread(
+        tenfold,
+        Displacement(more[:, :2] / 10, more[:, 2]),
+        Displacement(there[None, :, :2] / 10, there[None, :, 2]),
+        LENGTH / 10,
+        0.001,
+    ).one(0, 10.0)
+    assert np.allclose(small.worst, together.worst[1])
+    assert np.isclose(small.bound, together.bound[1])
+    assert np.isclose(small.rms, together.rms[1])
+
+
+def test_a_linkage_that_cannot_be_built_so_is_lost():
+    # Its follower can be too short to reach: tolerances as large as the links.
+    dyads, rows, _, found = problem(8, RR, off=0.0)
+    built = monte_carlo(*asked(dyads, rows, found), 2.0, draws=300)
+    lost = built.lost[0]
+    assert 0.05 < lost <= 1
+    assert np.isinf(built.position).any(axis=(1, 2)).all()
+    some = np.isfinite(built.position[0]).all(axis=-1)
+    for k in np.flatnonzero(some)[:3]:
+        miss, *_ = LinkageStack(np.zeros((1, 2), dtype=np.int8), built.dimensions[:, k]).bearing(
+            built.places[:, k]
+        )
+        assert np.abs(miss).max() < 1e-8

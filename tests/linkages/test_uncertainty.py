@@ -1,0 +1,334 @@
+"""The 95 % regions of pivots, against refits that know no Jacobian of ours.
+
+The other fit (`refitted`) has a driver's position for each pose among its unknowns, drives the
+linkage joint by joint (`tests/oracles/witness.py`), and leaves the derivatives to SciPy.
+"""
+
+import numpy as np
+import pytest
+from scipy.linalg import null_space
+from scipy.optimize import least_squares
+
+from burmester.fourbar.canonical_frames import CanonicalFrames
+from burmester.fourbar.dyad import PR, RP, RR
+from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.linkage_batch import LinkageStack
+from burmester.geometry.displacement import Displacement
+from burmester.linkages.uncertainty import (
+    PivotRegion,
+    covariance,
+    line_middle,
+    links_deviation,
+    pose_sigma,
+    uncertainties,
+)
+from burmester.tasks.motion_task import Task
+from tests.oracles.witness import places, random_four_bar, random_poses
+
+LENGTH, STEP = 0.7, 1e-5
+SIGMA = (2e-6, 5e-6)
+USED = {RR: 5, PR: 4, RP: 4}
+
+
+def dyads_of(kinds, z):
+    """Two dyads from their numbers one after the other, those in use only."""
+    found, at = [], 0
+    for kind in kinds:
+        v = z[at : at + USED[kind]]
+        at += USED[kind]
+        if kind is RR:
+            found.append(RR(v[:2], v[2:4], v[4]))
+        else:
+            found.append(PR(v[0], v[1], v[2:4]) if kind is PR else RP(v[:2], v[2], v[3]))
+    return found
+
+
+def numbers_of(dyads):
+    return np.concatenate(
+        [np.concatenate([np.ravel(getattr(d, n)) for n in d.__slots__]) for d in dyads]
+    )
+
+
+def in_use(kinds):
+    """Where the numbers in use are among the ten of a stack."""
+    return np.concatenate([5 * side + np.arange(USED[kind]) for side, kind in enumerate(kinds)])
+
+
+def case(seed, second=RR, count=8):
+    """Dyads, exact poses on one assembly away from dead points, the assembly, driver angles."""
+    rng = np.random.default_rng(seed)
+    while True:
+        dyads = random_four_bar(rng, second)
+        rows = random_poses(dyads, rng, count, side=0)
+        d, turn = rows[:, 0] + 1j * rows[:, 1], np.exp(1j * rows[:, 2])
+        pin = d + complex(*dyads[0].moving_pivot) * turn - complex(*dyads[0].fixed_pivot)
+        drive = np.angle(pin)
+        nudged = [places(*dyads, drive + off) for off in (-0.03, 0, 0.03)]
+        if all(np.isfinite(where[0]).all() for where, _ in nudged):
+            turns = [np.exp(1j * phi[0]) for _, phi in nudged]
+            if max(np.abs(turns[2] - turns[1]).max(), np.abs(turns[1] - turns[0]).max()) < 0.1:
+                return dyads, rows, drive
+
+
+def refitted(dyads, rows, drive, weights=None, free=None):
+    """The numbers of the linkage that is fitted to poses, moving within `free` (m, n) only."""
+    kinds, z0 = [type(d) for d in dyads], numbers_of(dyads)
+    free = np.eye(len(z0)) if free is None else free
+    root = np.sqrt(np.ones(len(rows)) if weights is None else weights)
+
+    def miss(y):
+        first, second = dyads_of(kinds, z0 + free @ y[: free.shape[1]])
+        where, phi = places(first, second, y[free.shape[1] :])
+        gap = where[0] - rows[:, 0] - 1j * rows[:, 1]
+        turned = np.angle(np.exp(1j * (phi[0] - rows[:, 2])))
+        return np.concatenate([root * gap.real, root * gap.imag, root * LENGTH * turned])
+
+    start = np.concatenate([np.zeros(free.shape[1]), drive])
+    end = least_squares(miss, start, method="lm", xtol=1e-15, ftol=1e-15, gtol=1e-15)
+    return z0 + free @ end.x[: free.shape[1]]
+
+
+def slopes(dyads, rows, drive, weights=None, free=None):
+    """How the numbers of the fit move with each number of each pose: (n, N, 3)."""
+    columns = []
+    for at in np.ndindex(rows.shape):
+        off = np.zeros_like(rows)
+        off[at] = STEP
+        ends = [refitted(dyads, rows + sign * off, drive, weights, free) for sign in (1, -1)]
+        columns.append((ends[0] - ends[1]) / (2 * STEP))
+    return np.array(columns).T.reshape(-1, *rows.shape)
+
+
+def ours(dyads, rows, weights=None, held=None, sigma=SIGMA):
+    stack = LinkageStack.of([Linkage(*dyads)])
+    at = Displacement.from_poses(rows[None])
+    return stack, at, covariance(stack, at, LENGTH, sigma, weights, held)
+
+
+@pytest.mark.parametrize(
+    ("seed", "second", "weighted"), [(0, RR, False), (1, RR, True), (2, PR, True), (3, RP, False)]
+)
+def test_the_covariance_is_that_of_refits(seed, second, weighted):
+    dyads, rows, drive = case(seed, second, 7)
+    weights = np.random.default_rng(seed).uniform(0.2, 3, 7) if weighted else None
+    slope = slopes(dyads, rows, drive, weights) * [SIGMA[0], SIGMA[0], SIGMA[1]]
+    told = np.einsum("anc,bnc->ab", slope, slope)
+    _, _, found = ours(dyads, rows, weights)
+    use = in_use([type(d) for d in dyads])
+    assert np.abs(found[0][np.ix_(use, use)] - told).max() < 1e-5 * np.abs(told).max()
+    size = np.sqrt(np.diag(told))
+    assert (
+        np.abs(
+            found[0][np.ix_(use, use)] / np.outer(size, size) - told / np.outer(size, size)
+        ).max()
+        < 1e-3
+    )
+    rest = np.setdiff1d(np.arange(10), use)
+    assert not found[0][rest].any()
+    assert not found[0][:, rest].any()
+
+
+@pytest.mark.parametrize("second", [RR, PR])
+def test_what_is_held_does_not_move(second):
+    dyads, rows, drive = case(4, second, 7)
+    use = in_use([type(d) for d in dyads])
+    held = np.zeros((1, 4, 10))  # the last row says nothing, the third what the first two say
+    held[0, 0, 0] = 3.0
+    held[0, 1, [1, 5]] = 1.0, -2.0
+    held[0, 2, [0, 1, 5]] = 1.0, 1.0, -2.0
+    free = null_space(held[0][:, use])
+    slope = slopes(dyads, rows, drive, None, free) * [SIGMA[0], SIGMA[0], SIGMA[1]]
+    told = np.einsum("anc,bnc->ab", slope, slope)
+    _, _, found = ours(dyads, rows, None, held)
+    assert np.abs(found[0][np.ix_(use, use)] - told).max() < 1e-5 * np.abs(told).max()
+    assert np.abs(held[0] @ found[0]).max() < 1e-14 * np.abs(told).max()
+
+
+def test_a_pose_of_large_weight_passes_its_errors_on():
+    # Met nearly exactly: the fit does not smooth its errors, but they are not gone.
+    dyads, rows, drive = case(5, RR, 7)
+    weights = np.ones(7)
+    weights[2] = 1e6
+    slope = slopes(dyads, rows, drive, weights) * [SIGMA[0], SIGMA[0], SIGMA[1]]
+    told = np.einsum("anc,bnc->ab", slope, slope)
+    _, _, found = ours(dyads, rows, weights)
+    assert np.abs(found[0] - told).max() < 1e-4 * np.abs(told).max()
+
+
+@pytest.mark.parametrize("second", [RR, PR, RP])
+def test_regions_hold_the_truth_in_95_of_100_draws(second):
+    dyads, rows, drive = case({RR: 7, PR: 8, RP: 9}[second], second, 12)
+    rng = np.random.default_rng(0)
+    stack, at, spread = ours(dyads, rows)
+    ((one, other),) = uncertainties(spread, stack, at)
+    hits, draws = [], 120
+    middle = line_middle(stack, at)[0, 1]
+    for _ in range(draws):
+        noise = rng.normal(size=rows.shape) * [SIGMA[0], SIGMA[0], SIGMA[1]]
+        first, last = dyads_of([RR, second], refitted(dyads, rows + noise, drive))
+        hits.append(one.fixed.holds(first.fixed_pivot - dyads[0].fixed_pivot))
+        hits.append(one.moving.holds(first.moving_pivot - dyads[0].moving_pivot))
+        hits.append(abs(first.radius - dyads[0].radius) < one.length)
+        if other.fixed is not None:
+            hits.append(other.fixed.holds(last.fixed_pivot - dyads[1].fixed_pivot))
+        if other.moving is not None:
+            hits.append(other.moving.holds(last.moving_pivot - dyads[1].moving_pivot))
+        if other.line is not None:
+            turned = last.normal_angle - dyads[1].normal_angle
+            hits.append(abs(turned) < other.line.angle)
+            # Where the true line crosses the normal of the fitted one, in the middle of its use.
+            true = dyads[1]
+            point = (true.offset + 1j * middle) * np.exp(1j * true.normal_angle)
+            away = (point * np.exp(-1j * last.normal_angle)).real - last.offset
+            hits.append(abs(away) < other.line.offset)
+    share = np.reshape(hits, (draws, -1)).mean(axis=0)
+    assert (share > 0.88).all()  # 95 % and three and a half deviations of a count of 120
+    assert 0.925 < share.mean() < 0.98
+
+
+def test_an_ellipse_holds_what_it_should():
+    # The 95 % ellipse of a known covariance, against its level set written out.
+    rng = np.random.default_rng(0)
+    root = rng.normal(size=(2, 2))
+    spread = np.zeros((1, 10, 10))
+    spread[0, :2, :2] = root @ root.T
+    stack = LinkageStack.of([Linkage(RR([0, 0], [1, 0], 1.0), RR([2, 0], [0, 1], 1.0))])
+    ((one, other),) = uncertainties(spread, stack, Displacement.identity((1, 3)), unit=3.0)
+    draws = rng.normal(size=(40000, 2)) @ root.T
+    level = np.einsum("ni,ni->n", draws, np.linalg.solve(root @ root.T, draws.T).T)
+    assert np.array_equal(one.fixed.holds(3 * draws), level <= 5.991464547107979)
+    assert abs(one.fixed.holds(3 * draws).mean() - 0.95) < 0.005
+    assert one.half_width == one.fixed.half_width == one.fixed.major > one.fixed.minor
+    assert other.half_width == 0
+    assert PivotRegion(2, 1, np.pi / 2).holds(np.array([0.0, 1.9]))
+
+
+@pytest.mark.parametrize("second", [RR, PR, RP])
+def test_regions_do_not_depend_on_frames_and_units(second):
+    dyads, rows, _ = case(11, second, 9)
+    stack, at, spread = ours(dyads, rows)
+    plain = uncertainties(spread, stack, at)[0]
+    poses = Displacement.from_poses(rows)
+    unit = 0.37
+    frames = CanonicalFrames(np.array([200.0, -50.0]), np.zeros(2), np.array(unit))
+    seen = frames.see(poses)
+    there = stack.seen(frames)
+    spread = covariance(there, seen[None], LENGTH / unit, (SIGMA[0] / unit, SIGMA[1]))
+    for a, b in zip(plain, uncertainties(spread, there, seen[None], unit)[0], strict=True):
+        for region, same in ((a.fixed, b.fixed), (a.moving, b.moving)):
+            if region is not None:
+                assert np.allclose(
+                    [region.major, region.minor], [same.major, same.minor], rtol=1e-8
+                )
+                assert abs(np.sin(region.direction - same.direction)) < 1e-6
+        if a.line is not None:
+            assert np.allclose([a.line.angle, a.line.offset], [b.line.angle, b.line.offset])
+        if a.length is not None:
+            assert np.isclose(a.length, b.length)
+
+
+@pytest.mark.parametrize("second", [RR, PR, RP])
+def test_a_body_that_hardly_moves_leaves_its_pivots_open(second):
+    # The same linkage, its driver turned by half a radian and by a thousandth of one.
+    dyads, _, drive = case(3, second)
+    wide, narrow = [], []
+    for spread, out in ((0.5, wide), (1e-3, narrow)):
+        turned = drive[0] + spread * np.linspace(-0.5, 0.5, 12)
+        where, phi = places(*dyads, turned)
+        rows = np.column_stack([where[0].real, where[0].imag, phi[0]])
+        stack, at, found = ours(dyads, rows, sigma=(1e-4, 1e-4))
+        out += [each.half_width for each in uncertainties(found, stack, at)[0]]
+    assert min(narrow) > 10
+    assert min(narrow) > 100 * max(wide)
+
+
+@pytest.mark.parametrize(
+    ("count", "second", "sides"), [(1, RR, 2), (4, RR, 2), (3, RP, 2), (4, RP, 1), (4, PR, 1)]
+)
+def test_too_few_poses_leave_dyads_open(count, second, sides):
+    # A slider has four dimensions, and four poses determine it.
+    dyads, rows, _ = case(6, second, 8)
+    stack, at, found = ours(dyads, rows[:count])
+    told = uncertainties(found, stack, at)[0]
+    for each in told[:sides]:
+        assert each.half_width > 100
+        assert each.line is None or each.line.angle <= np.pi
+    for each in told[sides:]:
+        assert each.half_width < 1
+
+
+def test_what_exact_poses_do_not_determine_is_unknown_all_the_same():
+    # Errors as small as rounding, but nothing to divide them by.
+    dyads, rows, _ = case(6)
+    sigma = pose_sigma(Task(Displacement.from_poses(rows[:3])))
+    stack, at, found = ours(dyads, rows[:3], sigma=sigma)
+    assert min(each.half_width for each in uncertainties(found, stack, at)[0]) > 100
+    stack, at, found = ours([dyads[0], dyads[0]], rows, sigma=sigma)
+    one, other = uncertainties(found, stack, at)[0]
+    assert one.half_width < 1e-9
+    assert other.half_width > 100
+
+
+def test_a_parallelogram_is_open_along_its_family():
+    # All its poses have one angle: any two pivots with the same link serve.  The link is certain.
+    dyads = [RR([0, 0], [1, 0], 1.3), RR([2, 0], [3, 0], 1.3)]
+    turn = np.linspace(0.2, 2.5, 12)
+    rows = np.column_stack([1.3 * np.cos(turn) - 1, 1.3 * np.sin(turn), 0 * turn])
+    stack, at, found = ours(dyads, rows)
+    for each in uncertainties(found, stack, at)[0]:
+        assert each.fixed.half_width > 100
+        assert each.moving.half_width > 100
+        assert each.length < 1e-4
+
+
+def test_one_dyad_twice_is_one_constraint():
+    dyads, rows, _ = case(7)
+    stack, at, found = ours([dyads[0], dyads[0]], rows)
+    one, other = uncertainties(found, stack, at)[0]
+    assert one.half_width < 1e-3
+    assert other.half_width > 100
+
+
+def test_a_pose_that_is_not_reached_says_nothing():
+    dyads, rows, _ = case(8)
+    _, _, found = ours(dyads, np.vstack([rows, np.full(3, np.nan)]))
+    _, _, told = ours(dyads, rows)
+    assert np.allclose(found, told, rtol=1e-12, atol=0)
+
+
+def test_exact_poses_are_known_to_rounding():
+    dyads, rows, _ = case(9)
+    task = Task(Displacement.from_poses(rows))
+    sigma = pose_sigma(task)
+    assert 1e-16 < sigma[0] < 1e-14 * np.abs(rows).max()
+    stack, at, found = ours(dyads, rows, sigma=sigma)
+    assert max(each.half_width for each in uncertainties(found, stack, at)[0]) < 1e-11
+
+
+def test_the_deviation_of_poses_is_that_of_rounding():
+    values = np.random.default_rng(0).uniform(-3, 3, size=20000)
+    off = np.std(np.round(values, 2) - values)
+    rows = np.arange(9.0).reshape(3, 3)
+    task = Task(Displacement.from_poses(rows), resolution=(0.005, 0.0005))
+    position, angle = pose_sigma(task)
+    assert abs(position / off - 1) < 0.02
+    assert np.isclose(angle, position / 10)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_the_excess_of_grashof_errs_as_its_links_do(seed):
+    rng = np.random.default_rng(seed)
+    pairs = [random_four_bar(rng) for _ in range(3)] + [random_four_bar(rng, PR)]
+    stack = LinkageStack.of([Linkage(*pair) for pair in pairs])
+    root = 1e-7 * rng.normal(size=(4, 10, 10))
+    found = links_deviation(stack, root @ root.swapaxes(1, 2))
+
+    def excess(z):
+        links = [abs(complex(*(z[5:7] - z[:2]))), z[4], abs(complex(*(z[7:9] - z[2:4]))), z[9]]
+        return 2 * (min(links) + max(links)) - sum(links)
+
+    for k, pair in enumerate(pairs[:3]):
+        z = numbers_of(pair)
+        off = np.array([(excess(z + each) - excess(z - each)) / 2 for each in root[k].T])
+        assert np.isclose(found[k], np.linalg.norm(off), rtol=1e-5)
+    assert np.isnan(found[3])
