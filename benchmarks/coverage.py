@@ -27,7 +27,7 @@ from burmester.dyads.local_minima import best_dyads
 from burmester.dyads.selection import characteristic_length, found_dyads
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
-from burmester.fourbar.linkage_batch import LinkageStack
+from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.nearest_places import nearest, on_circuits
 from burmester.fourbar.pose_error import error_frames
 from burmester.geometry.displacement import Displacement
@@ -107,7 +107,7 @@ def by_refining(dyads, rows, length):
         return None
     frames = error_frames(poses, length)
     seen, unit = frames.see(poses), length / float(frames.length)
-    stack = LinkageStack.of(linkages).seen(frames)
+    stack = LinkageBatch.of(linkages).seen(frames)
     refined = refine(stack, nearest(on_circuits(stack, seen, unit), seen, unit), seen, unit)
     fitted, best, least = refined.stack.back(frames), None, np.inf
     for k in np.flatnonzero(np.isfinite(refined.cost)):
@@ -165,7 +165,7 @@ def judged(found, at, rows, sigma, length):
     """Of a fitted linkage the regions of both dyads, in the frames where errors are looked at."""
     frames = error_frames(Displacement.from_poses(rows), length)
     unit = float(frames.length)
-    stack = LinkageStack.of([Linkage(*found)]).seen(frames)
+    stack = LinkageBatch.of([Linkage(*found)]).seen(frames)
     there = frames.see(Displacement.from_poses(at))[None]
     spread = covariance(stack, there, length / unit, (sigma[0] / unit, sigma[1]))
     return uncertainties(spread, stack, there, unit)[0]
@@ -179,7 +179,7 @@ def main():
     parser.add_argument("--second", choices=["RR", "PR", "RP"], default="RR")
     parser.add_argument("--fit", choices=["package", "refine", "scipy"], default="package")
     given = parser.parse_args()
-    from_dyads.linkages_that_work = lambda *_: (
+    from_dyads.defect_free_linkages = lambda *_: (
         None
     )  # only the linkage behind the poses is asked for
     second, bad = {"RR": RR, "PR": PR, "RP": RP}[given.second], False

@@ -49,7 +49,7 @@ def one(family, count, seed):
     return {
         "seed": seed,
         "usable": bool(result.usable),
-        "sought": bool(result.usable) and all(found.sought for found in result.usable),
+        "sought": bool(result.usable) and all(found.from_search for found in result.usable),
         "best": best,
         "known": target,
         "seconds": seconds,

@@ -7,7 +7,7 @@ from scipy.optimize import least_squares
 from scipy.stats import combine_pvalues, f
 
 from burmester import Displacement, Task
-from burmester.diagnosis.leave_one_out import LeftOut
+from burmester.diagnosis.leave_one_out import LeaveOneOut
 from burmester.diagnosis.odd_pose import _chance, _chance_of_number, odd_pose
 from burmester.diagnosis.repairs import Nearness
 from burmester.diagnosis.sampson_fits import Seen
@@ -16,10 +16,10 @@ from burmester.diagnosis.swapped_poses import _best, _distances, _way, out_of_or
 from burmester.diagnosis.unit_errors import _landed, chance_of
 from burmester.dyads.local_minima import best_dyads
 from burmester.fourbar.linkage import Linkage
-from burmester.fourbar.linkage_batch import LinkageStack
+from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.io.cases import load
 from burmester.io.reading.poses import read_task
-from burmester.tasks.motion_class import fingerprint
+from burmester.tasks.motion_class import classify_motion
 from burmester.tasks.requirements import Requirements
 from burmester.tasks.wording import figure
 from tests.oracles.witness import misses, random_four_bar, random_poses
@@ -106,13 +106,13 @@ def test_distances_to_first_order_are_those_of_a_linkage_driven():
     rng = np.random.default_rng(4)
     dyads = random_four_bar(rng)
     rows = random_poses(dyads, rng, 6)
-    stack, share = LinkageStack.of([Linkage(*dyads)]), np.ones((1, 6))
+    stack, share = LinkageBatch.of([Linkage(*dyads)]), np.ones((1, 6))
     off = rows + 1e-3 * rng.normal(size=rows.shape)
     near = np.linalg.norm(tangents(stack, off, share)[0].reshape(6, 2), axis=1)
     assert near == pytest.approx(misses(Linkage(*dyads), Displacement.from_poses(off), 1.0), 0.03)
     miss, slope = tangents(stack, rows, share)  # on the linkage: there they are exact
     step = 1e-7 * rng.normal(size=(2, 5))
-    moved = LinkageStack(stack.kinds, stack.dimensions + step)
+    moved = LinkageBatch(stack.kinds, stack.dimensions + step)
     change = tangents(moved, rows, share)[0] - miss
     assert change[0] == pytest.approx(slope[0] @ step.ravel(), abs=1e-11)
 
@@ -141,12 +141,12 @@ def test_dyads_that_are_given_are_taken_in_their_own_frames():
     dyads = [circles[k] for k in range(len(best.rms_error))] + [line(x) for x in best.sliders]
     for rows in (PRINTED, changed(2, x=-2.6392 * 25.4, y=0.292 * 25.4)):
         task = table(rows)
-        plain, given = odd_pose(task), odd_pose(task, fingerprint(task), dyads)
+        plain, given = odd_pose(task), odd_pose(task, classify_motion(task), dyads)
         assert given.pose == plain.pose
         assert given.error_without == pytest.approx(plain.error_without, rel=1e-6)
     seen = Seen.of(table(PRINTED).poses, None)
-    pairs, _ = LeftOut.whole_of(seen, dyads, table(PRINTED).poses)
-    again, _ = LeftOut.whole_of(seen, (), table(PRINTED).poses)
+    pairs, _ = LeaveOneOut.whole_of(seen, dyads, table(PRINTED).poses)
+    again, _ = LeaveOneOut.whole_of(seen, (), table(PRINTED).poses)
     assert pairs.dimensions == pytest.approx(again.dimensions, rel=1e-6)
 
 
@@ -170,7 +170,7 @@ def test_a_multiple_lands_by_chance_as_often_as_is_told():
     dyads = random_four_bar(rng)
     rows = random_poses(dyads, rng, 200)
     seen = Seen.of(Displacement.from_poses(rows), None)
-    stack = LinkageStack.of([Linkage(*dyads)]).seen(seen.frames)
+    stack = LinkageBatch.of([Linkage(*dyads)]).seen(seen.frames)
     near = Nearness.of(seen, stack, 0, 1e-3)
     low, high = seen.rows.min(axis=0), seen.rows.max(axis=0)
     tries = rng.uniform(low, high, size=(20000, 3))

@@ -516,7 +516,7 @@ def test_five_conditions_of_any_mix_are_met_exactly_and_the_generating_linkage_i
         closest[tuple(dyad.id for dyad in found.dyads)] = found
     for found in closest.values():
         far = max([size] + [float(x.dyad.radius) for x in found.dyads if isinstance(x.dyad, RR)])
-        if found.sought:  # it misses the poses, and by no less than it says
+        if found.from_search:  # it misses the poses, and by no less than it says
             assert found.usable
             ours = np.hypot(found.error.position, synthesis.length * found.error.angle)
             assert (ours > misses(found.linkage, poses, synthesis.length) - 1e-6 * far).all()
@@ -527,9 +527,9 @@ def test_five_conditions_of_any_mix_are_met_exactly_and_the_generating_linkage_i
     met = {
         tuple(dyad.id for dyad in found.dyads)
         for found in synthesis.linkages
-        if not found.sought and found.error.worst < 1e-5 * size
+        if not found.from_search and found.error.worst < 1e-5 * size
     }
-    assert met == pairs or all(found.sought for found in synthesis.linkages)
+    assert met == pairs or all(found.from_search for found in synthesis.linkages)
 
 
 @pytest.mark.parametrize("seed", range(3))

@@ -38,7 +38,7 @@ def paper(**more):
 
 
 def driven_places(first, second, drive):
-    """Both ways (2, n) to close, as x + iy and angle, at drives (n,) as `Drive` has them."""
+    """Both ways (2, n) to close, as x + iy and angle, at drives (n,) as `DrivenLoop` has them."""
     if isinstance(first, RP):
         phi = drive - float(first.normal_angle)
         where = witness.turned(first, second, phi)

@@ -26,7 +26,7 @@ from burmester.fourbar.instantaneous import (
     velocity,
 )
 from burmester.fourbar.linkage import Linkage
-from burmester.fourbar.loop_closure import Drive
+from burmester.fourbar.loop_closure import DrivenLoop
 from burmester.geometry.displacement import Displacement
 from tests.oracles.tracer import FAR, NEAR, TOO_CLOSE, constraint, driven, gap, met_at, walks
 from tests.oracles.witness import places
@@ -311,7 +311,7 @@ def test_assembled_against_a_driven_linkage(pair):
     rng = np.random.default_rng(6)
     for _ in range(20):
         dyads = [random_dyad(kind, rng) for kind in pair]
-        drive = Drive.of(Linkage(*dyads))
+        drive = DrivenLoop.of(Linkage(*dyads))
         if pair[0] is RP:  # the witness drives the slot, and its angle tells our drive
             where, phi = places(*dyads, rng.uniform(-3, 3, 40))
             ours = drive.assembled(phi + dyads[0].normal_angle)
@@ -334,7 +334,7 @@ def test_assembled_against_a_driven_linkage(pair):
 def test_limits_are_where_a_linkage_stops_to_close(pair):
     circuits, linkage, _, _ = circuits_of(pair, 7)
     dead = circuits.branches == 2
-    drive = Drive.of(linkage)
+    drive = DrivenLoop.of(linkage)
     for end, inwards in ((0, 1), (1, -1)):
         limit = circuits.limits[:, end]
         there = dead & np.isfinite(limit)
@@ -511,7 +511,7 @@ def test_a_linkage_that_cannot_be_assembled_has_no_circuit():
     assert not circuits.undecided.any()
     assert np.isnan(circuits.limits).all()
     assert np.isnan(circuits.curve([0.0, 1.0], np.linspace(0, 6, 5))).all()
-    assert np.isnan(rows_of(Drive.of(linkage).assembled(np.linspace(0, 6, 5)))).all()
+    assert np.isnan(rows_of(DrivenLoop.of(linkage).assembled(np.linspace(0, 6, 5)))).all()
     assert np.isnan(rows_of(circuits.couplers(np.linspace(0, 6, 5)))).all()
 
 
@@ -673,7 +673,7 @@ def test_transmission_angle_by_the_cosine_law():
         g, r, a, b = rng.uniform(0.5, 3, 4)
         linkage = four_bar(g, r, a, b)
         x = rng.uniform(-np.pi, np.pi, 20)
-        found = transmission_angle(linkage, Drive.of(linkage).assembled(x))
+        found = transmission_angle(linkage, DrivenLoop.of(linkage).assembled(x))
         squared = g * g + r * r - 2 * g * r * np.cos(x)
         with np.errstate(invalid="ignore"):
             wanted = np.arccos(np.abs((a * a + b * b - squared) / (2 * a * b)))
@@ -687,14 +687,14 @@ def test_transmission_angle_of_a_slider_crank_by_the_book():
     r, a, offset = 1.0, 3.0, 0.4
     linkage = Linkage(RR([0, 0], [0, 0], r), PR(0.5 * np.pi, offset, [a, 0]))
     x = np.linspace(0, 6, 40)
-    found = transmission_angle(linkage, Drive.of(linkage).assembled(x))
+    found = transmission_angle(linkage, DrivenLoop.of(linkage).assembled(x))
     pressure = np.abs(np.arcsin((r * np.sin(x) - offset) / a))
     assert np.allclose(found, (np.pi / 2 - pressure)[:, None])
 
 
 def test_a_slot_through_the_driving_pin_transmits_best():
     linkage = Linkage(RR([0, 0], [0, 0], 1.0), RP([2.0, 0], 0.5, 0.0))
-    place = Drive.of(linkage).assembled(np.linspace(0, 6, 40))
+    place = DrivenLoop.of(linkage).assembled(np.linspace(0, 6, 40))
     assert np.allclose(transmission_angle(linkage, place), np.pi / 2)
 
 

@@ -8,7 +8,7 @@ import pytest
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import PP, PR, RP, RR
 from burmester.fourbar.linkage import Linkage
-from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageStack
+from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.geometry.displacement import Displacement
 
 KINDS = (RR, PR, RP)
@@ -33,7 +33,7 @@ def some_places(rng, count, number):
 
 
 def dyad_of(row, kind):
-    """The dyad that a stack's five numbers stand for, as the docstring of LinkageStack says."""
+    """The dyad that a stack's five numbers stand for, as the docstring of LinkageBatch says."""
     if kind is RR:
         return RR(row[:2], row[2:4], row[4])
     if kind is PR:
@@ -57,7 +57,7 @@ def test_equations_of_every_pair_of_kinds():
     rng = np.random.default_rng(0)
     linkages = all_pairs(rng)
     places = some_places(rng, len(linkages), 7)
-    bearing = LinkageStack.of(linkages).bearing(places)
+    bearing = LinkageBatch.of(linkages).bearing(places)
     for k, linkage in enumerate(linkages):
         for side, dyad in enumerate((linkage.first, linkage.second)):
             assert np.allclose(bearing.miss[k, side], equation(dyad, at(places, k)), atol=1e-13)
@@ -67,7 +67,7 @@ def test_forces_are_gradients_of_the_equations_by_the_place():
     rng = np.random.default_rng(1)
     linkages = all_pairs(rng)
     places = some_places(rng, len(linkages), 5)
-    force = LinkageStack.of(linkages).bearing(places).force
+    force = LinkageBatch.of(linkages).bearing(places).force
     h = 1e-6
     for k, linkage in enumerate(linkages):
         here = at(places, k)
@@ -101,7 +101,7 @@ def test_on_the_linkage_the_force_is_the_dyads_own_gradient():
         rows.append([*place.translation, place.angle])
     rows = np.array(rows)
     places = Displacement(rows[:, None, :2], rows[:, None, 2])
-    bearing = LinkageStack.of(linkages).bearing(places)
+    bearing = LinkageBatch.of(linkages).bearing(places)
     assert np.abs(bearing.miss).max() < 1e-13
     for k, linkage in enumerate(linkages):
         for side, dyad in enumerate((linkage.first, linkage.second)):
@@ -126,7 +126,7 @@ def test_derivatives_by_the_dimensions():
             for side in (0, 1):
                 other = RR([0.3, 0.1], [1.0, 2.0], 1.0)
                 pair = (dyad, other) if side == 0 else (other, dyad)
-                stack = LinkageStack.of([Linkage(*pair)])
+                stack = LinkageBatch.of([Linkage(*pair)])
                 both = Displacement(place.translation[None], place.angle[None])
                 slope = stack.bearing(both).by_dimension[0, side, 0]
                 row = stack.dimensions[0, side]
@@ -146,7 +146,7 @@ def test_bend_is_the_second_derivative_along_a_straight_step():
     v, omega = rng.normal(size=(count, number, 2)), rng.normal(size=(count, number))
     d = places.translation @ [1, 1j]
     turn = np.exp(1j * places.angle)
-    surfaces = LinkageStack.of(linkages).surfaces()
+    surfaces = LinkageBatch.of(linkages).surfaces()
     _, _, swing = surfaces.at(d[:, None], turn[:, None])
     bend = surfaces.bend(turn[:, None], swing, (v @ [1, 1j])[:, None], omega[:, None])
     for k, linkage in enumerate(linkages):
@@ -166,10 +166,10 @@ def test_bend_is_the_second_derivative_along_a_straight_step():
 def test_some_surfaces_are_those_of_the_picked_linkages():
     rng = np.random.default_rng(5)
     linkages = all_pairs(rng, 1)
-    stack, pick = LinkageStack.of(linkages), np.array([7, 0, 4])
+    stack, pick = LinkageBatch.of(linkages), np.array([7, 0, 4])
     some = stack.surfaces().some(pick)
     for k, number in enumerate(pick):
-        one = LinkageStack.of([linkages[number]]).surfaces()
+        one = LinkageBatch.of([linkages[number]]).surfaces()
         for mine, its in zip(some, one, strict=True):
             assert np.allclose(mine[k], its[0])
 
@@ -180,7 +180,7 @@ def test_seen_in_other_frames_and_back():
     linkages = all_pairs(rng)
     frames = CanonicalFrames(np.array([2.0, -1.0]), np.array([0.7, 3.0]), np.array(2.5))
     places = some_places(rng, len(linkages), 6)
-    stack = LinkageStack.of(linkages)
+    stack = LinkageBatch.of(linkages)
     seen = stack.seen(frames)
     there = seen.bearing(frames.see(places)).miss
     assert np.allclose(2.5 * there, stack.bearing(places).miss, atol=1e-12)
@@ -196,7 +196,7 @@ def test_alike_are_all_linkages_once_in_groups_of_one_kind():
     linkages = [linkages[k] for k in order]
     places = some_places(rng, len(linkages), 3)
     met = []
-    for index, group in LinkageStack.of(linkages).alike():
+    for index, group in LinkageBatch.of(linkages).alike():
         met += index.tolist()
         for side in ("first", "second"):
             dyads = getattr(group, side)
@@ -211,7 +211,7 @@ def test_alike_are_all_linkages_once_in_groups_of_one_kind():
 def test_one_linkage_exchanged_picked_and_joined():
     rng = np.random.default_rng(8)
     linkages = all_pairs(rng, 1)
-    stack = LinkageStack.of(linkages)
+    stack = LinkageBatch.of(linkages)
     places = some_places(rng, 1, 4)
     for k, linkage in enumerate(linkages):
         back, swapped = stack.linkage(k), stack.exchanged().linkage(k)
@@ -230,4 +230,4 @@ def test_one_linkage_exchanged_picked_and_joined():
 
 def test_a_coupler_that_cannot_turn_has_no_place_in_a_stack():
     with pytest.raises(TypeError):
-        LinkageStack.of([Linkage(PP(0.3), RR([0, 0], [1, 0], 1.0))])
+        LinkageBatch.of([Linkage(PP(0.3), RR([0, 0], [1, 0], 1.0))])

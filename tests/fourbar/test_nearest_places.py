@@ -15,7 +15,7 @@ import pytest
 
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
-from burmester.fourbar.linkage_batch import LinkageStack
+from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.nearest_places import on_circuits, on_own_circuits
 from burmester.fourbar.pose_error import PoseError, error_frames
 from burmester.geometry.displacement import Displacement
@@ -55,7 +55,7 @@ def rows_at(places):
 def compare(dyads, poses, length, told):
     """Both circuits' nearest places beside the sweep's; counts of those missed go to told."""
     found, which = circuits(*dyads)
-    stack = LinkageStack.of([Linkage(*dyads)])
+    stack = LinkageBatch.of([Linkage(*dyads)])
     places = on_circuits(stack, Displacement.from_poses(poses), length)
     seen = []
     for side in (0, 1):
@@ -236,7 +236,7 @@ def test_a_place_in_another_valley_is_brought_to_the_nearest_of_its_circuit(seco
         start = np.array(
             [swept[k].rows(rng.uniform(swept[k].low, swept[k].high, 1))[0] for k in on]
         )
-        stack = LinkageStack.of([Linkage(*dyads)])
+        stack = LinkageBatch.of([Linkage(*dyads)])
         ours = on_own_circuits(stack, start[None], Displacement.from_poses(poses), 1.0)[0]
         assert on_both(dyads, ours) < 1e-9
         mixed = len(set(on)) > 1
@@ -324,8 +324,8 @@ def test_a_linkage_that_cannot_be_assembled_is_nowhere():
     assert error.worst == error.rms == np.inf
     # Beside others, too, which are where they are alone.
     sound = Linkage(*PARALLELOGRAM)
-    both = on_circuits(LinkageStack.of([open_, sound]), poses, 1.0)
-    alone = on_circuits(LinkageStack.of([sound]), poses, 1.0)
+    both = on_circuits(LinkageBatch.of([open_, sound]), poses, 1.0)
+    alone = on_circuits(LinkageBatch.of([sound]), poses, 1.0)
     assert np.isnan(both.translation[0]).all()
     assert np.array_equal(both.translation[1], alone.translation[0], equal_nan=True)
     assert np.isfinite(alone.translation).any()
@@ -354,9 +354,9 @@ def test_whole_stacks_are_what_their_linkages_are_alone():
     pairs = [PAIRS[k] for k in rng.permutation(27) % 9]
     linkages = [Linkage(*random_task(pair, rng)[0]) for pair in pairs]
     poses = Displacement.from_poses(rng.normal(size=(4, 3)))
-    every = on_circuits(LinkageStack.of(linkages), poses, 1.0)
+    every = on_circuits(LinkageBatch.of(linkages), poses, 1.0)
     for k, linkage in enumerate(linkages):
-        one = on_circuits(LinkageStack.of([linkage]), poses, 1.0)
+        one = on_circuits(LinkageBatch.of([linkage]), poses, 1.0)
         assert np.allclose(every.translation[k], one.translation[0], atol=1e-9, equal_nan=True)
         assert np.allclose(every.angle[k], one.angle[0], atol=1e-9, equal_nan=True)
 

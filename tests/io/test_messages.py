@@ -42,7 +42,7 @@ from burmester.io.reading.poses import read_task
 from burmester.io.result import failure, plain
 from burmester.io.saved import read_result
 from burmester.synthesis.motion_generation import synthesize
-from burmester.tasks.motion_class import fingerprint
+from burmester.tasks.motion_class import classify_motion
 from tests.oracles.ten_poses import ROWS, TEN
 
 WIDTHS = (60, 80, 200)
@@ -863,8 +863,10 @@ def hurried(monkeypatch):
 
     def hurried(case):
         if case.code not in ("R301", "R305", "R307"):
-            monkeypatch.setattr("burmester.linkages.from_dyads.linkages_that_work", lambda *_: None)
-            monkeypatch.setattr("burmester.linkages.from_dyads.links_of_map", lambda *_: [])
+            monkeypatch.setattr(
+                "burmester.linkages.from_dyads.defect_free_linkages", lambda *_: None
+            )
+            monkeypatch.setattr("burmester.linkages.from_dyads.links_of_pivot_map", lambda *_: [])
 
     return hurried
 
@@ -1067,7 +1069,7 @@ def help_of(case, run):
     if case.run.startswith(("new", "export")):
         return parts(run(case.run, 10_000).err.rstrip("\n"))["help"]
     if case.code in ONLY_JSON:
-        return fingerprint(read_task("poses.csv")).motion.help
+        return classify_motion(read_task("poses.csv")).motion.help
     data = json.loads(run(f"{case.run} --json").out)
     return field(case._replace(code=WAY_ON.get(case.code, case.code)), data).get("help")
 

@@ -33,7 +33,7 @@ def test_every_linkage_comes_back(name, tmp_path):
     assert [each.id for each in result.linkages] == [each.id for each in found.linkages]
     for mine, saved in zip(found.linkages, result.linkages, strict=True):
         assert (saved.usable, saved.type) == (mine.usable, mine.type)
-        led = mine.led if mine.usable else mine.linkage
+        led = mine.driver_first if mine.usable else mine.linkage
         for one, other in ((led.first, saved.linkage.first), (led.second, saved.linkage.second)):
             assert type(one) is type(other)
             for a, b in zip(numbers(one), numbers(other), strict=True):

@@ -168,7 +168,7 @@ def test_it_is_solved(name):
     assert misses == pytest.approx(ours, abs=1e-5 * synthesis.length)
     assert misses.max() < 0.02 * synthesis.length
     driven = least_transmission(best.linkage, task.poses)
-    assert driven[best.better == "second"] > 40
+    assert driven[best.preferred_driver == "second"] > 40
 
 
 @pytest.mark.parametrize("name", TRADES)
@@ -195,7 +195,7 @@ def test_it_is_as_its_file_asks(name):
     pins = [dyad.fixed_pivot for dyad in dyads], [dyad.moving_pivot for dyad in dyads]
     links = [dyad.radius for dyad in dyads] + [np.hypot(*(a - b)) for a, b in pins]
     assert max(links) <= asked.get("link_ratio", math.inf) * min(links)
-    assert asked.get("driver", best.better) == best.better
+    assert asked.get("driver", best.preferred_driver) == best.preferred_driver
 
 
 def test_the_knee_turns_about_the_point_it_names():

@@ -9,18 +9,18 @@ from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.instantaneous import transmission_angle
 from burmester.fourbar.linkage import Linkage, Links, grashof
-from burmester.fourbar.linkage_batch import LinkageStack
-from burmester.fourbar.loop_closure import Drive
+from burmester.fourbar.linkage_batch import LinkageBatch
+from burmester.fourbar.loop_closure import DrivenLoop
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Line, Polygon, Segment
 from burmester.linkages.constraints import (
-    Journey,
-    Kept,
-    Proportions,
-    Together,
+    AllConstraints,
+    BranchAndOrder,
+    DyadLimitsConstraint,
+    LinkProportions,
     drive_of,
     least_between,
-    lever_sine,
+    signed_transmission_sine,
     type_excess,
 )
 from burmester.tasks.limits import Limits
@@ -49,9 +49,9 @@ def swept(first, second, drive):
 
 
 def sine_of(linkage, rows, side=0):
-    """`lever_sine` of one linkage at rows (n, 3)."""
-    stack = LinkageStack.of([linkage])
-    return lever_sine(stack, rows[None], LENGTH, np.array([side]))[0]
+    """`signed_transmission_sine` of one linkage at rows (n, 3)."""
+    stack = LinkageBatch.of([linkage])
+    return signed_transmission_sine(stack, rows[None], LENGTH, np.array([side]))[0]
 
 
 @pytest.mark.parametrize("pair", PAIRS, ids=lambda pair: f"{pair[0].__name__}-{pair[1].__name__}")
@@ -98,8 +98,8 @@ def test_drives_are_those_the_linkage_is_assembled_at(pair):
     for _ in range(20):
         linkage = Linkage(a_dyad(pair[0], rng), a_dyad(pair[1], rng))
         drive = rng.uniform(-3, 3, 10)
-        both = Drive.of(linkage).assembled(drive)
-        stack = LinkageStack.of([linkage])
+        both = DrivenLoop.of(linkage).assembled(drive)
+        stack = LinkageBatch.of([linkage])
         for side in (0, 1):
             at = both.translation[:, side], both.angle[:, side]
             sound = np.isfinite(at[1])
@@ -123,7 +123,7 @@ def test_the_least_sine_of_a_stretch_is_at_its_ends_or_where_it_is_said(pair):
         start, reach = rng.uniform(-3, 3), rng.uniform(0.5, 5)
         drive = np.linspace(start, start + reach, 2001)
         rows = swept(linkage.first, linkage.second, drive)[0]
-        at, cosine = (part[0] for part in least_between(LinkageStack.of([linkage]), np.array([0])))
+        at, cosine = (part[0] for part in least_between(LinkageBatch.of([linkage]), np.array([0])))
         if pair[0] is not PR:
             at = start + (at - start) % (2 * np.pi)
         within = (at > start) & (at < start + reach) & np.isfinite(cosine)
@@ -147,8 +147,8 @@ def test_the_least_sine_of_a_stretch_is_at_its_ends_or_where_it_is_said(pair):
 
 
 def journey_of(linkage, rows, sign, asked=ANY, middle=np.nan):
-    stack = LinkageStack.of([linkage])
-    return stack, Journey.of(
+    stack = LinkageBatch.of([linkage])
+    return stack, BranchAndOrder.of(
         stack, rows[None], LENGTH, np.array([0]), np.array([sign]), np.array([middle]), asked
     )
 
@@ -213,7 +213,7 @@ def test_types_are_grashofs():
             own = Links(ground, ends[driver], coupler, ends[1 - driver])
             name = grashof(own)
             met.add(name)
-            stack = LinkageStack.of([linkage] * 5)
+            stack = LinkageBatch.of([linkage] * 5)
             excess = type_excess(stack, np.full(5, driver), names)
             assert [names[k] for k in np.flatnonzero((excess <= 0).all(axis=1))] == [name]
     assert met == set(names)
@@ -230,11 +230,11 @@ def test_ratio_of_links_and_room_for_the_pivots():
         if not np.isfinite(rows).all():
             continue
         frames = CanonicalFrames(np.array([0.3, -0.2]), np.zeros(2), np.array(2.0))
-        stack = LinkageStack.of([linkage]).seen(frames)
+        stack = LinkageBatch.of([linkage]).seen(frames)
         seen = (rows - [0.3, -0.2, 0.0]) / 2.0
-        part = Proportions(LENGTH / 2, frames, asked, np.array([0]), np.array([""]))
+        part = LinkProportions(LENGTH / 2, frames, asked, np.array([0]), np.array([""]))
         only = {
-            name: Proportions(LENGTH / 2, frames, each, np.array([0]), np.array([""]))
+            name: LinkProportions(LENGTH / 2, frames, each, np.array([0]), np.array([""]))
             for name, each in (
                 ("ratio", Requirements(link_ratio=2.5)),
                 ("room", Requirements(footprint=box)),
@@ -256,7 +256,7 @@ def test_ratio_of_links_and_room_for_the_pivots():
         here = stack, seen[None], np.array([0])
         assert (only["ratio"](*here)[0] <= 0).all() == right[0]
         assert (only["room"](*here)[0] <= 0).all() == right[1]
-        value, equal = Together((part,))(*here)
+        value, equal = AllConstraints((part,))(*here)
         assert (value <= 0).all() == all(right)
         assert not equal.any()
         told.append(right)
@@ -268,11 +268,11 @@ def test_limits_count_in_the_frames_unit():
     frames = CanonicalFrames(np.array([1.0, 2.0]), np.array([-0.5, 0.25]), np.array(4.0))
     dyad = RR([3.0, 1.0], [0.5, -2.0], 2.5)
     other = RR([0.0, 0.0], [1.0, 1.0], 1.0)
-    stack = LinkageStack.of([Linkage(dyad, other)]).seen(frames)
+    stack = LinkageBatch.of([Linkage(dyad, other)]).seen(frames)
     rows, which = np.zeros((1, 2, 3)), np.array([0])
 
     def held(side, **limits):
-        return Kept(side, Limits(**limits), frames)(stack, rows, which)
+        return DyadLimitsConstraint(side, Limits(**limits), frames)(stack, rows, which)
 
     value, equal = held(0, length=(1.0, 2.0))
     assert np.allclose(value[0], [(1.0 - 2.5) / 4, (2.5 - 2.0) / 4])

@@ -17,7 +17,7 @@ from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
 from burmester.io.reading.poses import read_task
-from burmester.linkages.defect_free_search import links_of_map
+from burmester.linkages.defect_free_search import links_of_pivot_map
 from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
@@ -116,7 +116,7 @@ def comes_by(found, least=0.0, in_order=True):
     On one side of `witness.places`, which is followed all the way: monotonically, assembled, the
     sine of the transmission angle never below that of `least`.
     """
-    led = found.led
+    led = found.driver_first
     at = found.error.places
     rows = np.column_stack([at.translation, at.angle])
     drive = drives_of(led.first, rows)
@@ -272,7 +272,7 @@ def test_a_linkage_that_works_is_found_where_the_closest_does_not(count, seed):
     assert result.usable
     for found in result.usable:
         assert comes_by(found)
-    sought = [found for found in result.usable if found.sought]
+    sought = [found for found in result.usable if found.from_search]
     assert sought
     for found in sought:
         assert comes_by(found, CLEAR)
@@ -287,8 +287,8 @@ def test_scipy_comes_no_lower_from_there(count, seed):
     rows, _, result = solved("noisy", count, seed)
     compared = 0
     for found in result.usable:
-        led = found.led
-        if not found.sought or not isinstance(led.first, RR) or not isinstance(led.second, RR):
+        led = found.driver_first
+        if not found.from_search or not isinstance(led.first, RR) or not isinstance(led.second, RR):
             continue
         at = found.error.places
         own = np.column_stack([at.translation, at.angle])
@@ -336,7 +336,7 @@ def test_what_is_asked_is_so(asked):
         task = Task(Displacement.from_poses(rows), requirements=requirements)
         for found in synthesize(task).usable:
             had += 1
-            led = found.led
+            led = found.driver_first
             assert comes_by(found, requirements.transmission, not requirements.any_order)
             if not (isinstance(led.first, RR) and isinstance(led.second, RR)):
                 continue
@@ -402,7 +402,7 @@ def test_links_of_the_map_are_as_good_as_their_pivots_allow():
     rng = np.random.default_rng(5)
     rows, _ = rough_task(rng, 6)
     poses = Displacement.from_poses(rows - [*rows[:, :2].mean(axis=0), 0.0])
-    links = links_of_map(poses)
+    links = links_of_pivot_map(poses)
     assert len(links) > 20
 
     def spread(fixed, moving):

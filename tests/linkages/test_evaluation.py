@@ -6,7 +6,7 @@ import pytest
 from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.dyad import PR, RR
 from burmester.fourbar.linkage import Linkage
-from burmester.fourbar.linkage_batch import LinkageStack
+from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.pose_error import error_frames
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import box
@@ -54,7 +54,7 @@ def test_uncertainty_stands_with_the_dyad_that_it_is_of():
         frames = error_frames(task.poses, result.length)
         unit = float(frames.length)
         for found in result.linkages[:4]:
-            stack = LinkageStack.of([found.linkage]).seen(frames)
+            stack = LinkageBatch.of([found.linkage]).seen(frames)
             places = frames.see(found.error.places)[None]
             position, angle = pose_sigma(task)
             spread = covariance(stack, places, result.length / unit, (position / unit, angle))
@@ -104,7 +104,7 @@ def test_the_driver_of_the_second_limits_drives():
         assert best.usable
         assert best.driver == driver
         assert best.driven.turns_fully == turns
-        lead = best.led.first
+        lead = best.driver_first.first
         assert np.allclose(lead.fixed_pivot, [0, 0] if turns else [3, 0], atol=1e-6)
 
 

@@ -13,13 +13,13 @@ from scipy.optimize import least_squares, minimize
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
-from burmester.fourbar.linkage_batch import LinkageStack
+from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.nearest_places import nearest, on_circuits
 from burmester.fourbar.pose_error import error_frames
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Line, Point, Polygon, Segment
 from burmester.io.reading.poses import read_task
-from burmester.linkages.constraints import Kept
+from burmester.linkages.constraints import DyadLimitsConstraint
 from burmester.linkages.refinement import refine
 from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.limits import Limits
@@ -147,7 +147,7 @@ def refined(linkage, rows, wanted, length=1.0, **how):
     own = as_places(rows)
     start = Displacement(own.translation[None], own.angle[None])
     how = {"steps": STEPS, "held_steps": STEPS} | how
-    return refine(LinkageStack.of([linkage]), start, as_places(wanted), length, **how)
+    return refine(LinkageBatch.of([linkage]), start, as_places(wanted), length, **how)
 
 
 # Tests ----------------------------------------------------------------------------------------
@@ -219,7 +219,7 @@ def test_dimensions_that_are_not_free_stay():
     free = np.ones((1, 10), bool)
     free[0, [0, 3, 5]] = False
     ours = refined(linkage, rows, wanted, free=free)
-    before = LinkageStack.of([linkage]).dimensions.reshape(10)
+    before = LinkageBatch.of([linkage]).dimensions.reshape(10)
     after = ours.stack.dimensions.reshape(10)
     assert (before[[0, 3, 5]] == after[[0, 3, 5]]).all()
     theirs = Witness(linkage, rows, wanted, 1.0).least(loose=free[0, :9])
@@ -236,7 +236,7 @@ def test_what_is_found_does_not_depend_on_the_others_beside_it():
         linkages.append(other)
         starts.append(own)
     both = refine(
-        LinkageStack.of([*linkages, linkage]),
+        LinkageBatch.of([*linkages, linkage]),
         as_places(np.array([*starts, lost])),
         as_places(wanted),
         1.0,
@@ -247,7 +247,7 @@ def test_what_is_found_does_not_depend_on_the_others_beside_it():
     assert np.isnan(both.cost[-1])
     assert not both.settled[-1]
     alone = refine(  # nothing is left at all
-        LinkageStack.of([linkage]), as_places(lost[None]), as_places(wanted), 1.0
+        LinkageBatch.of([linkage]), as_places(lost[None]), as_places(wanted), 1.0
     )
     assert np.isnan(alone.cost[0])
     assert not alone.met[0]
@@ -310,7 +310,7 @@ def test_limits_hold_and_scipy_comes_no_lower(what, seed):
     limits, zero, below = WITHIN[what]
     linkage, rows, wanted = a_task((RR, RR), seed)
     frames = CanonicalFrames.as_given()
-    ours = refined(linkage, rows, wanted, conditions=Kept(0, limits, frames))
+    ours = refined(linkage, rows, wanted, conditions=DyadLimitsConstraint(0, limits, frames))
     assert ours.met[0]
     z = ours.stack.dimensions[0, 0]
     if zero:
@@ -362,7 +362,7 @@ def test_the_same_task_in_other_frames_and_units():
     )
     for each, own, unit in ((linkage, here, length), (moved, there, 1000 * length)):
         frames = error_frames(own, unit)
-        stack, seen = LinkageStack.of([each]).seen(frames), frames.see(own)
+        stack, seen = LinkageBatch.of([each]).seen(frames), frames.see(own)
         small = unit / float(frames.length)
         start = nearest(on_circuits(stack, seen, small), seen, small)
         costs.append(refine(stack, start, seen, small))

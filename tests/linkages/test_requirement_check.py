@@ -7,7 +7,7 @@ from burmester.fourbar.dyad import PR, RR
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
-from burmester.linkages.requirement_check import unmet
+from burmester.linkages.requirement_check import violations
 from burmester.tasks.requirements import Requirements
 from tests.linkages.test_defect_free_search import sines
 from tests.oracles.witness import places, random_four_bar
@@ -42,7 +42,7 @@ def _stacked(linkage):
 
 
 def kinds(linkage, driven, **asked):
-    return {each.kind for each in unmet(linkage, driven, Requirements(**asked))}
+    return {each.kind for each in violations(linkage, driven, Requirements(**asked))}
 
 
 def test_every_requirement_is_told_just_where_it_is_not_met():
@@ -91,13 +91,13 @@ def test_what_is_said_has_the_numbers():
     said = 0
     for linkage, driven, d, phi in driven_linkages(rng, 40):
         least = np.degrees(np.arcsin(np.abs(sines(linkage.first, linkage.second, d, phi)).min()))
-        for each in unmet(linkage, driven, Requirements(transmission=np.radians(45))):
+        for each in violations(linkage, driven, Requirements(transmission=np.radians(45))):
             number = float(each.message.split("falls to ")[1].split("°")[0])
             assert np.isclose(number, least, rtol=0.02, atol=0.05)
             assert "45°" in each.message
             said += 1
         small = Polygon([[-0.1, -0.1], [0.1, -0.1], [0.1, 0.1], [-0.1, 0.1]])
-        (room,) = unmet(linkage, driven, Requirements(footprint=small), "mm")
+        (room,) = violations(linkage, driven, Requirements(footprint=small), "mm")
         assert "footprint" in room.message
         assert "mm" in room.message
     assert said > 5

@@ -16,15 +16,15 @@ from scipy.optimize import least_squares, minimize_scalar
 
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
-from burmester.fourbar.linkage_batch import LinkageStack
+from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.nearest_places import on_circuits, rows_of
 from burmester.fourbar.pose_error import error_frames
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
-from burmester.linkages.constraints import Kept
+from burmester.linkages.constraints import DyadLimitsConstraint
 from burmester.linkages.dimension_grid import multiple
 from burmester.linkages.rounding import rounded
-from burmester.linkages.target import Aim
+from burmester.linkages.target import Target
 from burmester.numerics.integer_least_squares import closest_numbers
 from burmester.tasks.limits import Limits
 from burmester.tasks.requirements import Requirements
@@ -40,7 +40,7 @@ def aim_at(rows, length=LENGTH, **how):
     poses = Displacement.from_poses(rows)
     frames = error_frames(poses, length)
     unit = length / float(frames.length)
-    return poses, Aim(frames.see(poses), unit, frames, Requirements(), **how)
+    return poses, Target(frames.see(poses), unit, frames, Requirements(), **how)
 
 
 def problem(seed, second, *, count=8, off=0.02, unit=1.0, shift=0.0):
@@ -51,7 +51,7 @@ def problem(seed, second, *, count=8, off=0.02, unit=1.0, shift=0.0):
         rows = random_poses(dyads, rng, count) + off * rng.normal(size=(count, 3))
         rows[:, :2] = unit * rows[:, :2] + shift
         poses, aim = aim_at(rows, LENGTH * unit)
-        scaled = LinkageStack.of([Linkage(*dyads)])
+        scaled = LinkageBatch.of([Linkage(*dyads)])
         moved = type(aim.frames)(np.full(2, shift), np.zeros(2), np.asarray(unit))
         stack = scaled.back(moved).seen(aim.frames)
         found = rows_of(on_circuits(stack, aim.poses, aim.length), aim.length)
@@ -122,7 +122,7 @@ def all_at_once(stack, aim, step):
     unit = places_in(stack, aim, step)
     own = stack.back(aim.frames).dimensions[0]
     new = np.where(unit > 0, np.rint(own / np.where(unit > 0, unit, 1)) * unit, 0.0)
-    return LinkageStack(stack.kinds, new[None]).linkage(0)
+    return LinkageBatch(stack.kinds, new[None]).linkage(0)
 
 
 def test_multiples_are_the_nearest_doubles():
@@ -210,7 +210,7 @@ def by_brute_force(poses, stack, aim, rows, step):
     for up in product((0, 1), repeat=int(some.sum())):
         z = np.zeros(10)
         z[some] = (low + up) * unit[some]
-        linkage = LinkageStack(stack.kinds, z.reshape(1, 2, 5)).linkage(0)
+        linkage = LinkageBatch(stack.kinds, z.reshape(1, 2, 5)).linkage(0)
         arm = at.act(linkage.first.moving_pivot) - linkage.first.fixed_pivot
         drive = np.arctan2(arm[:, 1], arm[:, 0])[:, None] + np.linspace(-0.5, 0.5, 201)
         where, phi = places(linkage.first, linkage.second, drive)
@@ -231,7 +231,7 @@ def test_it_is_as_good_as_the_best_of_all_floors_and_ceilings(second):
 def stock_fit(kinds, own, lengths, poses):
     """With links of given lengths all else fitted by SciPy: the greatest distance."""
     used = [j for j in range(10) if j % 5 != 4]
-    z = LinkageStack.of([own]).dimensions.reshape(10)
+    z = LinkageBatch.of([own]).dimensions.reshape(10)
     links = np.array(lengths)
     turn = np.exp(1j * poses.angle)
     d = poses.translation @ [1, 1j]
@@ -243,7 +243,7 @@ def stock_fit(kinds, own, lengths, poses):
         def gaps(x, side=side):
             full = np.zeros(10)
             full[used], full[4::5] = x[:8], links
-            dyads = LinkageStack(kinds, full.reshape(1, 2, 5)).linkage(0)
+            dyads = LinkageBatch(kinds, full.reshape(1, 2, 5)).linkage(0)
             where, phi = places(dyads.first, dyads.second, x[8:])
             gap = where[side] - d
             angle = LENGTH * np.angle(np.exp(1j * (phi[side] - poses.angle)))
@@ -319,7 +319,7 @@ def test_pivots_stay_in_their_regions():
         ends = np.where(np.rint(c / 0.1) * 0.1 > c, c + 1e-4, c + 1.0)
         x, y = np.stack([ends - 1.5, ends], axis=1)
         box = Polygon([(x[0], y[0]), (x[1], y[0]), (x[1], y[1]), (x[0], y[1])])
-        aim = replace(aim, kept=(Kept(0, Limits(fixed_pivot=box), aim.frames),))
+        aim = replace(aim, kept=(DyadLimitsConstraint(0, Limits(fixed_pivot=box), aim.frames),))
         own, _ = rounded(stack, rows, aim, 0.1, ())
         new, naive = own.dimensions[0, 0, :2], np.rint(c / 0.1) * 0.1
         left += bool((naive > ends + 1e-9).any())
@@ -345,7 +345,7 @@ def test_poses_stay_in_order():
             arm = at.act(dyad.moving_pivot) - dyad.fixed_pivot
             return np.unwrap(np.arctan2(arm[:, 1], arm[:, 0]))
 
-        linkage = LinkageStack.of([Linkage(first, second)])
+        linkage = LinkageBatch.of([Linkage(first, second)])
         for _ in range(2):  # the poses, put in the order in which they are met
             _, aim = aim_at(rows)
             stack = linkage.seen(aim.frames)
@@ -384,9 +384,9 @@ def test_linkages_together_are_as_one_by_one():
     many = [one]
     for second in (PR, RP):
         dyad = PR(0.3, 0.4, [0.2, 0.9]) if second is PR else RP([0.3, 0.2], 0.4, 0.5)
-        many.append(LinkageStack.of([Linkage(one.linkage(0).first, dyad)]))
+        many.append(LinkageBatch.of([Linkage(one.linkage(0).first, dyad)]))
     kinds = np.concatenate([each.kinds for each in many])
-    stack = LinkageStack(kinds, np.concatenate([each.dimensions for each in many]))
+    stack = LinkageBatch(kinds, np.concatenate([each.dimensions for each in many]))
     found = rows_of(on_circuits(stack, aim.poses, aim.length), aim.length)[:, 0]
     found[0] = rows[0]
     own, new = rounded(stack, found, aim, 0.1, ())

@@ -12,7 +12,7 @@ from scipy.optimize import minimize_scalar
 
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
-from burmester.fourbar.linkage_batch import LinkageStack
+from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.tolerances import monte_carlo, sensitivity, spread
 from tests.linkages.test_uncertainty import LENGTH, case, dyads_of, numbers_of
@@ -55,7 +55,7 @@ def problem(seed, second, off=OFF):
 
 
 def asked(dyads, rows, found):
-    stack = LinkageStack.of([Linkage(*dyads)])
+    stack = LinkageBatch.of([Linkage(*dyads)])
     return stack, Displacement.from_poses(rows), Displacement.from_poses(found[None]), LENGTH
 
 
@@ -109,7 +109,7 @@ def test_built_linkages_come_where_a_witness_finds_them(second):
     built = monte_carlo(stack, poses, at, length, 0.01, draws=4, seed=3)
     assert not built.lost.any()
     for k in range(4):
-        one = LinkageStack(stack.kinds, built.dimensions[:, k]).linkage(0)
+        one = LinkageBatch(stack.kinds, built.dimensions[:, k]).linkage(0)
         told = driven((one.first, one.second), rows, drive)
         here = built.places[0, k]
         assert np.abs(here.translation - told[:, :2]).max() < 1e-7
@@ -185,19 +185,19 @@ def tenth(dyad):
 
 def test_several_linkages_of_several_kinds_at_once():
     one, rows, _, found = problem(6, RR)
-    stack = LinkageStack.of([Linkage(*one), Linkage(one[1], one[0])])
+    stack = LinkageBatch.of([Linkage(*one), Linkage(one[1], one[0])])
     poses, at = Displacement.from_poses(rows), Displacement.from_poses(np.stack([found, found]))
     both = sensitivity(stack, poses, at, LENGTH)
     assert np.allclose(both[0], both[1][..., [5, 6, 7, 8, 9, 0, 1, 2, 3, 4]], atol=1e-9)
     other, more, _, there = problem(7, PR)
     alone = spread(*asked(other, more, there), 0.01)
-    mixed = LinkageStack.of([Linkage(*one), Linkage(*other)])
+    mixed = LinkageBatch.of([Linkage(*one), Linkage(*other)])
     at = Displacement.from_poses(np.stack([found, there]))
     together = spread(mixed, Displacement.from_poses(more), at, LENGTH, 0.01)
     assert np.isclose(together.rms[1], alone.rms[0])
     assert np.isclose(together.greatest_95[1], alone.greatest_95[0])
     # Ten times smaller a unit, and ten times the numbers.
-    tenfold = LinkageStack.of([Linkage(*(tenth(d) for d in other))])
+    tenfold = LinkageBatch.of([Linkage(*(tenth(d) for d in other))])
     small = spread(
         tenfold,
         Displacement(more[:, :2] / 10, more[:, 2]),
@@ -219,7 +219,7 @@ def test_a_linkage_that_cannot_be_built_so_is_lost():
     assert np.isinf(built.position).any(axis=(1, 2)).all()
     some = np.isfinite(built.position[0]).all(axis=-1)
     for k in np.flatnonzero(some)[:3]:
-        miss, *_ = LinkageStack(np.zeros((1, 2), dtype=np.int8), built.dimensions[:, k]).bearing(
+        miss, *_ = LinkageBatch(np.zeros((1, 2), dtype=np.int8), built.dimensions[:, k]).bearing(
             built.places[:, k]
         )
         assert np.abs(miss).max() < 1e-8

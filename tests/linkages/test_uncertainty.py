@@ -12,7 +12,7 @@ from scipy.optimize import least_squares
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
-from burmester.fourbar.linkage_batch import LinkageStack
+from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.uncertainty import (
     PivotRegion,
@@ -100,7 +100,7 @@ def slopes(dyads, rows, drive, weights=None, free=None):
 
 
 def ours(dyads, rows, weights=None, held=None, sigma=SIGMA):
-    stack = LinkageStack.of([Linkage(*dyads)])
+    stack = LinkageBatch.of([Linkage(*dyads)])
     at = Displacement.from_poses(rows[None])
     return stack, at, covariance(stack, at, LENGTH, sigma, weights, held)
 
@@ -192,7 +192,7 @@ def test_an_ellipse_holds_what_it_should():
     root = rng.normal(size=(2, 2))
     spread = np.zeros((1, 10, 10))
     spread[0, :2, :2] = root @ root.T
-    stack = LinkageStack.of([Linkage(RR([0, 0], [1, 0], 1.0), RR([2, 0], [0, 1], 1.0))])
+    stack = LinkageBatch.of([Linkage(RR([0, 0], [1, 0], 1.0), RR([2, 0], [0, 1], 1.0))])
     ((one, other),) = uncertainties(spread, stack, Displacement.identity((1, 3)), unit=3.0)
     draws = rng.normal(size=(40000, 2)) @ root.T
     level = np.einsum("ni,ni->n", draws, np.linalg.solve(root @ root.T, draws.T).T)
@@ -319,7 +319,7 @@ def test_the_deviation_of_poses_is_that_of_rounding():
 def test_the_excess_of_grashof_errs_as_its_links_do(seed):
     rng = np.random.default_rng(seed)
     pairs = [random_four_bar(rng) for _ in range(3)] + [random_four_bar(rng, PR)]
-    stack = LinkageStack.of([Linkage(*pair) for pair in pairs])
+    stack = LinkageBatch.of([Linkage(*pair) for pair in pairs])
     root = 1e-7 * rng.normal(size=(4, 10, 10))
     found = links_deviation(stack, root @ root.swapaxes(1, 2))
 

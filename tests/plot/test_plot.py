@@ -497,8 +497,8 @@ def found():
 
 
 def test_the_transmission_angle_is_that_between_coupler_and_follower(ax, found):
-    drawn = transmission(ax, found.led, driven=found.driven)
-    first, second = found.led.first, found.led.second
+    drawn = transmission(ax, found.driver_first, driven=found.driven)
+    first, second = found.driver_first.first, found.driver_first.second
     for line in (*drawn.branches, drawn.used, drawn.poses):
         drive, got = np.asarray(line.get_xydata(), dtype=float).T
         d, phi = witness.places(first, second, np.radians(drive))
@@ -566,7 +566,7 @@ def test_colours_and_styles_survive_a_black_and_white_printer(ax):
 
 def test_axes_are_equal_and_everything_is_inside_them(found):
     for given, at in (
-        (found.led, found.error.places[2]),
+        (found.driver_first, found.error.places[2]),
         (SLIDER, at_drive(SLIDER, 0.7)),
         (SLOT, at_drive(SLOT, 0.7)),
     ):
@@ -703,10 +703,10 @@ def others(found):
         linkage(ax, given, at_drive(given, drive), names=True)
         legend(ax)
         finish(ax, "mm")
-    transmission(axes[1, 0], found.led, driven=found.driven)
+    transmission(axes[1, 0], found.driver_first, driven=found.driven)
     legend(axes[1, 0])
     pivot_map(axes[1, 1], task.poses, (-5, -4), (3, 6), columns=60)
-    linkage(axes[1, 1], found.led, found.error.places[2])
+    linkage(axes[1, 1], found.driver_first, found.error.places[2])
     finish(axes[1, 1], room=0)
     curve = dyad_curve(task.poses[[0, 3, 6, 9]])
     centre_point_curve(axes[1, 2], curve)

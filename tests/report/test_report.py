@@ -127,7 +127,7 @@ def test_every_frame_is_on_the_linkage_and_the_driver_is_where_it_says(synthesis
     assert len(data["linkages"]) == len(synthesis.linkages) > 8
     kinds = set()
     for found, shown in zip(synthesis.linkages, data["linkages"], strict=True):
-        led = found.led
+        led = found.driver_first
         kinds |= {type(led.first), type(led.second)}
         assert shown["ways"], found.id
         for way in shown["ways"]:
@@ -160,9 +160,9 @@ def test_branches_end_at_dead_points_and_do_not_jump(synthesis, file):
                     assert way["transmission"][end] < 1e-3
                     # The driver cannot go on: beyond, the witness finds no place to close.
                     drive = np.array([way["drive"][end] + (1e-3 if end else -1e-3)])
-                    if not isinstance(found.led.first, PR):
+                    if not isinstance(found.driver_first.first, PR):
                         drive = np.radians(drive)
-                    assert np.isnan(witnessed(found.led, drive).real).all()
+                    assert np.isnan(witnessed(found.driver_first, drive).real).all()
             if way["round"]:
                 assert abs(way["drive"][-1] - way["drive"][0] - 360) < 1e-6
                 gap = tracer.gap(at[-1:].copy(), at[:1])
@@ -173,7 +173,7 @@ def test_branches_end_at_dead_points_and_do_not_jump(synthesis, file):
 def test_transmission_angles_are_those_between_the_links(synthesis, file):
     data = embedded(file)
     found, shown = synthesis.linkages[0], data["linkages"][0]
-    one, other = found.led.first, found.led.second
+    one, other = found.driver_first.first, found.driver_first.second
     for way in shown["ways"]:
         at = places_of(way)
         turn = np.exp(1j * at[:, 2])
@@ -190,7 +190,7 @@ def test_surfaces_hold_the_places_that_their_dyads_allow(synthesis, file):
     for found, shown in zip(synthesis.linkages, data["linkages"], strict=True):
         space = shown["space"]
         for dyad, matrix in zip(
-            (found.led.first, found.led.second), space["quadrics"], strict=True
+            (found.driver_first.first, found.driver_first.second), space["quadrics"], strict=True
         ):
             phi = chart["angle"] + rng.uniform(-1.5, 1.5, 50)
             turn, free = np.exp(1j * phi), rng.uniform(-3, 3, 50)
@@ -220,7 +220,7 @@ def test_surfaces_hold_the_places_that_their_dyads_allow(synthesis, file):
 
 def test_the_dyad_that_drives_is_the_better_one(synthesis):
     found = synthesis.linkages[0]
-    other = replace(found, better="second")
+    other = replace(found, preferred_driver="second")
     data = report_data(replace(synthesis, linkages=(other,)))["linkages"][0]
     assert [dyad["id"] for dyad in data["led"]] == [dyad.id for dyad in found.dyads[::-1]]
     assert data["ways"]
@@ -303,11 +303,11 @@ def test_another_card_changes_the_drawing_to_its_numbers(browser, file, synthesi
         )
         seen = set()
         for found, drawn in zip(synthesis.linkages, every, strict=True):
-            led = found.led
+            led = found.driver_first
             assert drawn["id"] == found.id
             pins = {each["dyad"]: each["at"] for each in drawn["fixed"]}
             seen.add(json.dumps(pins))
-            first, second = found.dyads if found.better == "first" else found.dyads[::-1]
+            first, second = found.dyads if found.preferred_driver == "first" else found.dyads[::-1]
             for one, dyad in ((first, led.first), (second, led.second)):
                 if isinstance(dyad, PR):
                     assert one.id not in pins
@@ -325,7 +325,7 @@ def test_at_every_pose_the_body_is_within_the_reported_error(browser, file, synt
     with browsers.opened(browser, file) as (page, _, _asked):
         for found in (synthesis.linkages[k] for k in (0, 1, 2, 5, 6)):
             page.click(f"[data-linkage={found.id}]")
-            visited, led = [], found.led
+            visited, led = [], found.driver_first
             for drawn in page.evaluate(MANY_DRAWN, ["next", [0] * len(TABLE_2)]):
                 pose = int(re.search(r"at pose (\d+)", drawn["said"])[1]) - 1
                 visited.append(pose)
@@ -366,7 +366,7 @@ def test_scrubbing_keeps_links_and_assembly(browser, tmp_path, monkeypatch, synt
     with browsers.opened(browser, file) as (page, _, _asked):
         for found in (synthesis.linkages[k] for k in (0, 6, 7)):
             page.click(f"[data-linkage={found.id}]")
-            led, sides = found.led, []
+            led, sides = found.driver_first, []
             assemblies = page.locator(".bm-ways input")
             assert assemblies.count() == 2
             for which in range(2):

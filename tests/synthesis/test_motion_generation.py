@@ -61,7 +61,7 @@ def leads_through(found, at, in_order, near):
     By brute force: 2,000 places on every way that there may be.  near: (n - 1,), which poses
     have no order with the next one.
     """
-    first, second = found.led.first, found.led.second
+    first, second = found.driver_first.first, found.driver_first.second
     turns = not isinstance(first, PR)
 
     def bodies(drive):
@@ -177,7 +177,7 @@ def test_published_five_pose_tasks_give_every_pair(name, dyads):
     assert len(exact) == dyads * (dyads - 1) // 2
     pairs = {frozenset(d.id for d in found.dyads) for found in exact}
     assert len(pairs) == len(exact)
-    assert not any(found.sought for found in exact)
+    assert not any(found.from_search for found in exact)
     drive_all(synthesis)
 
 

@@ -12,7 +12,7 @@ from burmester.dyads.five_poses import dyads_of_five
 from burmester.fourbar.dyad import PP, PR, RP, RR
 from burmester.geometry.displacement import Displacement
 from burmester.synthesis.motion_generation import synthesize
-from burmester.tasks.motion_class import fingerprint
+from burmester.tasks.motion_class import classify_motion
 from burmester.tasks.motion_kinds import (
     CircularTranslation,
     FewPoses,
@@ -37,7 +37,7 @@ def task_of(rows, resolution=(0.0, 0.0), **more):
 
 
 def kind_of(rows, resolution=(0.0, 0.0)):
-    return fingerprint(task_of(rows, resolution)).motion
+    return classify_motion(task_of(rows, resolution)).kind
 
 
 def printed(rows, digits=4):
@@ -107,18 +107,18 @@ def trammel(rng, n, kind=PR):
 def test_200_translations_are_named_and_only_sliders_offered(motion, kind, seed):
     rng = np.random.default_rng(seed)
     rows = motion(rng, int(rng.integers(4, 20)))
-    found = fingerprint(task_of(rows))
-    assert type(found.motion) is kind
+    found = classify_motion(task_of(rows))
+    assert type(found.kind) is kind
     assert not found.determined
-    turn = rows[0, 2] - found.motion.angle
+    turn = rows[0, 2] - found.kind.angle
     assert abs(np.angle(np.exp(1j * turn))) < 1e-12
-    *links, guide = found.motion.dyads
+    *links, guide = found.kind.dyads
     assert isinstance(guide, PP)
     assert len(links) == (2 if kind is CircularTranslation else 0)
     if kind is StraightTranslation:
         along = np.diff(rows[:, :2], axis=0) @ [
-            -np.sin(found.motion.direction),
-            np.cos(found.motion.direction),
+            -np.sin(found.kind.direction),
+            np.cos(found.kind.direction),
         ]
         assert np.abs(along).max() < 1e-9 * span(rows)
 
@@ -228,9 +228,9 @@ def test_few_digits_of_the_angle_move_a_far_body():
             rows = moved(make(rng, 9), anywhere(rng), anywhere(rng))
             rows[:, :2] = rows[:, :2].round(6)
             rows[:, 2] = np.radians(np.degrees(rows[:, 2]).round(3))
-            found = fingerprint(task_of(rows, coarse))
+            found = classify_motion(task_of(rows, coarse))
             if found.rotation > 0.7:  # less of it does not tell two sliders from the rest
-                assert isinstance(found.motion, Rotation | TwoSliders)
+                assert isinstance(found.kind, Rotation | TwoSliders)
 
 
 @pytest.mark.parametrize("noise", [1e-15, 1e-14, 1e-13, 3e-12])
@@ -250,8 +250,8 @@ def test_a_turn_computed_with_rounding_is_a_turn(noise):
 def test_a_driven_trammel_is_a_two_slider_motion(kind, seed):
     rng = np.random.default_rng(seed)
     rows, pair = trammel(rng, int(rng.integers(4, 20)), kind)
-    found = fingerprint(task_of(rows))
-    motion = found.motion
+    found = classify_motion(task_of(rows))
+    motion = found.kind
     assert isinstance(motion, TwoSliders)
     assert motion.inverse == (kind is RP)
     assert found.nullity == max(3, 8 - len(rows))
@@ -347,7 +347,7 @@ def test_exact_repeats_are_merged_whole_turns_too(seed):
     which = np.concatenate([np.arange(n), rng.integers(0, n, 7)])
     again = degrees[which] + 360 * np.array([0, 0, 1]) * rng.integers(-3, 4, len(which))[:, None]
     order = rng.permutation(len(which))
-    found = fingerprint(Task.from_degrees(again[order]))
+    found = classify_motion(Task.from_degrees(again[order]))
     assert found.distinct == n
     for i, j in enumerate(found.group):
         assert which[order][found.first[j]] == which[order][i]
@@ -361,41 +361,41 @@ def test_near_repeats_are_different_poses(apart, axis):
     rows = rng.normal(size=(6, 3))
     rows[5] = rows[0]
     rows[5, axis] += apart * span(rows)
-    found = fingerprint(task_of(rows))
+    found = classify_motion(task_of(rows))
     assert found.distinct == 6
     if apart < 1e-11:  # less than what counts as rounding of computed poses
-        assert isinstance(found.motion, FewPoses)
-        kept = rows[list(found.motion.kept)]
+        assert isinstance(found.kind, FewPoses)
+        kept = rows[list(found.kind.kept)]
         assert isinstance(kind_of(kept), General)
         assert synthesize(task_of(kept)).method == "exact"
     else:
-        assert isinstance(found.motion, General)
+        assert isinstance(found.kind, General)
 
 
 def test_turned_either_way_is_different():
     rows = np.array(
         [[1, 2, 0.3], [1, 2, -0.3], [1, 2, np.pi], [1, 2, 2.8], [1, 2, 0.3 + 4 * np.pi]]
     )
-    found = fingerprint(task_of(rows))
+    found = classify_motion(task_of(rows))
     assert found.distinct == 4
     assert found.group.tolist() == [0, 1, 2, 3, 0]
 
 
 def test_the_range_of_rotation_is_the_least_arc():
     rows = np.column_stack([np.eye(4)[:, :2], np.radians([350, 5, 1090, -2])])
-    assert np.isclose(np.degrees(fingerprint(task_of(rows)).rotation), 20)
+    assert np.isclose(np.degrees(classify_motion(task_of(rows)).rotation), 20)
 
 
 def test_five_poses_and_repeats_are_a_five_pose_task():
     rng = np.random.default_rng(1)
     rows = random_poses(random_four_bar(rng), rng, 5)
-    found = fingerprint(task_of(np.vstack([rows, rows[::-1], rows[:2]])))
+    found = classify_motion(task_of(np.vstack([rows, rows[::-1], rows[:2]])))
     assert found.distinct == 5
-    assert isinstance(found.motion, General)
+    assert isinstance(found.kind, General)
     assert found.nullity == 3
     assert (found.five == np.arange(5)).all()
     doubled = np.repeat(rows, 2, axis=0)
-    found = fingerprint(task_of(doubled))
+    found = classify_motion(task_of(doubled))
     assert found.first.tolist() == [0, 2, 4, 6, 8]
     assert (doubled[found.first[found.five]] == rows).all()
 
@@ -404,11 +404,11 @@ def test_five_poses_and_repeats_are_a_five_pose_task():
 def test_few_different_poses(different, kind):
     rng = np.random.default_rng(2)
     rows = rng.normal(size=(different, 3))[rng.permutation(np.arange(9) % different)]
-    found = fingerprint(task_of(rows))
-    assert isinstance(found.motion, kind)
+    found = classify_motion(task_of(rows))
+    assert isinstance(found.kind, kind)
     assert found.distinct == different
     if kind is FewPoses:
-        assert "only 2 of the 9 poses are different" in found.motion.message
+        assert "only 2 of the 9 poses are different" in found.kind.message
 
 
 # --- general motions are never called special
@@ -459,8 +459,8 @@ def test_special_four_bars_have_three_quadrics_and_their_dyads_are_those_of_five
     drive = np.concatenate([0.5 + 1e-6 * np.arange(6), np.linspace(0.3, 2.6, 40)])
     z, phi = (x[0] for x in places(*dyads, drive))
     rows = np.column_stack([z.real, z.imag, phi])[np.isfinite(z)]
-    found = fingerprint(task_of(rows))
-    assert isinstance(found.motion, General)
+    found = classify_motion(task_of(rows))
+    assert isinstance(found.kind, General)
     assert found.nullity == 3
     five = dyads_of_five(Displacement.from_poses(rows[found.first[found.five]]))
     for dyad in dyads:
@@ -471,8 +471,8 @@ def test_special_four_bars_have_three_quadrics_and_their_dyads_are_those_of_five
 
 def test_three_quadrics_for_want_of_digits_are_no_five_poses():
     rows = little_turn(np.random.default_rng(0), 0.5)
-    found = fingerprint(task_of(printed(rows), PRINTED))
-    assert isinstance(found.motion, General)
+    found = classify_motion(task_of(printed(rows), PRINTED))
+    assert isinstance(found.kind, General)
     assert found.nullity == 3
     assert found.five is None
 
@@ -480,8 +480,8 @@ def test_three_quadrics_for_want_of_digits_are_no_five_poses():
 def test_collinear_origins_are_no_special_case():
     rng = np.random.default_rng(0)
     rows = rng.normal(size=(9, 3)) * [1, 0, 1]
-    found = fingerprint(task_of(rows))
-    assert isinstance(found.motion, General)
+    found = classify_motion(task_of(rows))
+    assert isinstance(found.kind, General)
     assert found.nullity == 1  # the line itself: a PR dyad
 
 
@@ -490,11 +490,11 @@ def test_two_orientations(angles):
     rng = np.random.default_rng(0)
     rows = rng.normal(size=(9, 3))
     rows[:, 2] = np.array(angles)[np.arange(9) % 2] + 2 * np.pi * rng.integers(-2, 3, 9)
-    found = fingerprint(task_of(rows))
-    assert isinstance(found.motion, TwoOrientations)
+    found = classify_motion(task_of(rows))
+    assert isinstance(found.kind, TwoOrientations)
     assert found.determined
     assert found.nullity == 1
-    gaps = np.exp(1j * np.array(found.motion.angles))[:, None] - np.exp(1j * np.array(angles))
+    gaps = np.exp(1j * np.array(found.kind.angles))[:, None] - np.exp(1j * np.array(angles))
     assert np.abs(gaps).min(axis=0).max() < 1e-12
 
 
@@ -503,10 +503,10 @@ def test_half_turns_are_a_translation_like_any_other():
     for noise in (0.0, 1e-13):
         rows = rng.normal(size=(8, 3))
         rows[:, 2] = np.pi * (-1.0) ** np.arange(8) + noise * rng.normal(size=8)
-        found = fingerprint(task_of(rows))
-        assert isinstance(found.motion, FreeTranslation)
+        found = classify_motion(task_of(rows))
+        assert isinstance(found.kind, FreeTranslation)
         assert found.nullity == 4
-        assert "180 deg" in found.motion.message
+        assert "180 deg" in found.kind.message
 
 
 def test_the_angle_of_a_translation_is_the_middle_of_those_printed():
@@ -540,12 +540,12 @@ def test_the_kind_does_not_depend_on_frames_units_order(name, seed, unit, offset
     motion, kind = MOTIONS[name]
     n = int(rng.integers(6, 15))
     rows = motion(rng, n)
-    one = fingerprint(task_of(rows))
-    assert isinstance(one.motion, kind)
+    one = classify_motion(task_of(rows))
+    assert isinstance(one.kind, kind)
     seen = moved(rows, anywhere(rng, offset), anywhere(rng, offset), unit)
     seen[:, 2] += 2 * np.pi * rng.integers(-2, 3, n)
-    other = fingerprint(task_of(rng.permutation(seen)))
-    assert isinstance(other.motion, kind)
+    other = classify_motion(task_of(rng.permutation(seen)))
+    assert isinstance(other.kind, kind)
     assert other.nullity == one.nullity
     assert np.isclose(other.rotation, one.rotation, atol=1e-9)
     assert np.allclose(one.singular_values, other.singular_values, rtol=1e-6, atol=1e-9 * offset)
@@ -579,7 +579,7 @@ NULLITIES = {
 def test_the_table_of_nullities(name):
     motion, nullity = NULLITIES[name]
     translation, angle = motion(np.linspace(0.1, 2.5, 9))
-    assert fingerprint(Task(Displacement(translation, angle))).nullity == nullity
+    assert classify_motion(Task(Displacement(translation, angle))).nullity == nullity
 
 
 # --- too little motion

@@ -133,5 +133,5 @@ def degrees(angle: float) -> str:
 def links(synthesis: Synthesis, found: FoundLinkage) -> list[str]:
     """Ground, driver, coupler and follower; dashes where there are sliders."""
     digits = decimals(synthesis, max(dyad.rms_error for dyad in found.dyads))
-    lengths = found.led.links
+    lengths = found.driver_first.links
     return ["-"] * 4 if lengths is None else [f"{length:.{digits}f}" for length in lengths]

@@ -13,7 +13,7 @@ from burmester.diagnosis.odd_pose import odd_pose
 from burmester.diagnosis.swapped_poses import out_of_order
 from burmester.errors import Advice
 from burmester.fourbar.dyad import Dyad
-from burmester.tasks.motion_class import Fingerprint, fingerprint
+from burmester.tasks.motion_class import MotionClass, classify_motion
 from burmester.tasks.motion_task import Task
 from burmester.tasks.repeated_poses import ULPS
 from burmester.tasks.wording import length_of, span
@@ -34,7 +34,7 @@ class Diagnosis:
     """
 
     task: Task
-    motion: Fingerprint | None
+    motion: MotionClass | None
     findings: tuple[Advice, ...]
 
     @property
@@ -45,7 +45,7 @@ class Diagnosis:
 
 def diagnose(task: Task) -> Diagnosis:
     """Look for repeated poses, lost digits and poses out of order; whether all agree costs more."""
-    motion = fingerprint(task) if task.poses.shape[0] > 2 else None
+    motion = classify_motion(task) if task.poses.shape[0] > 2 else None
     checks = [_far_away(task), _exchanged(task)]
     if motion is not None:
         checks.insert(0, _repeats(task, motion))
@@ -53,7 +53,7 @@ def diagnose(task: Task) -> Diagnosis:
 
 
 def disagreement(
-    task: Task, motion: Fingerprint | None, dyads: Sequence[Dyad] = ()
+    task: Task, motion: MotionClass | None, dyads: Sequence[Dyad] = ()
 ) -> Advice | None:
     """W201: one pose that does not agree with all the others.
 
@@ -63,7 +63,7 @@ def disagreement(
     return None if found is None else Advice("W201", found.message, found.help, found.why)
 
 
-def _repeats(task: Task, motion: Fingerprint) -> Advice | None:
+def _repeats(task: Task, motion: MotionClass) -> Advice | None:
     """W208: poses that are given more than once."""
     if motion.distinct == len(motion.group):
         return None

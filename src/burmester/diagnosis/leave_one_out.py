@@ -23,11 +23,11 @@ from burmester.dyads.local_minima import best_dyads
 from burmester.dyads.pencil import fit_pencil
 from burmester.fourbar.dyad import PP, Dyad
 from burmester.fourbar.linkage import Linkage
-from burmester.fourbar.linkage_batch import LinkageStack
+from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["EVERY", "LeftOut", "pencil_pairs"]
+__all__ = ["EVERY", "LeaveOneOut", "pencil_pairs"]
 
 EVERY = 30  # of so few poses each is left out; of more the likeliest
 SAMPLE = 60  # of many poses so many lead to the first fits
@@ -36,7 +36,7 @@ BEST, SHARED = 5, 3  # dyads joined in pairs, of each fit; pairs of the whole fi
 ROUNDS, FAR = 5, 3.0  # of weighing down what is so many times as far as the most
 
 
-class LeftOut(NamedTuple):
+class LeaveOneOut(NamedTuple):
     """The best fits to all poses, and without each of the likeliest.
 
     held: (N,), how far the others are from being held by two quadrics; (0,) for many poses.
@@ -47,12 +47,12 @@ class LeftOut(NamedTuple):
     whole: Fits
     fits: Fits
     held: FloatArray
-    known: dict[int, LinkageStack]
+    known: dict[int, LinkageBatch]
 
     @classmethod
     def whole_of(
         cls, seen: Seen, dyads: Sequence[Dyad], poses: Displacement
-    ) -> tuple[LinkageStack, Fits]:
+    ) -> tuple[LinkageBatch, Fits]:
         """The best dyads of all poses (if given, in their own frames) in pairs, and the fits."""
         given = len(dyads) > 2
         pairs = _paired(dyads, poses).seen(seen.frames) if given else _own_pairs(seen, -1)
@@ -60,7 +60,7 @@ class LeftOut(NamedTuple):
         return pairs, in_two_steps(pairs, none, seen.rows, seen.shares(none))
 
     @classmethod
-    def quickly(cls, seen: Seen, pairs: LinkageStack, whole: Fits) -> LeftOut:
+    def quickly(cls, seen: Seen, pairs: LinkageBatch, whole: Fits) -> LeaveOneOut:
         """Fits from the dyads of all poses, and from the pencils without each."""
         count = len(seen.rows)
         if count <= EVERY:
@@ -75,13 +75,13 @@ class LeftOut(NamedTuple):
         fits = in_two_steps(stack, own, seen.rows, seen.shares(own))
         return cls(seen, _and_again(seen, whole, fits), fits, held, {})
 
-    def own_pairs(self, pose: int) -> LinkageStack:
+    def own_pairs(self, pose: int) -> LinkageBatch:
         """The best dyads without a pose, joined in pairs; looked for once."""
         if pose not in self.known:
             self.known[pose] = _own_pairs(self.seen, pose)
         return self.known[pose]
 
-    def thoroughly(self) -> LeftOut:
+    def thoroughly(self) -> LeaveOneOut:
         """The same without the likeliest from the best dyads without them, too."""
         seen, fits = self.seen, self.fits
         many = len(seen.rows) > EVERY
@@ -117,15 +117,15 @@ def _dyads(poses: Displacement, weights: FloatArray | None) -> list[Dyad]:
     return circles + [best.frames.line_back(line) for line in best.sliders]
 
 
-def _paired(dyads: Sequence[Dyad], poses: Displacement) -> LinkageStack:
+def _paired(dyads: Sequence[Dyad], poses: Displacement) -> LinkageBatch:
     """The best of the dyads, joined in pairs, those of the better ones first."""
     dyads = [each for each in dyads if not isinstance(each, PP)]
     error = [float((each.residual(poses) ** 2).mean()) for each in dyads]
     order = np.argsort(np.nan_to_num(error, nan=np.inf), kind="stable")[:BEST]
-    return LinkageStack.of([Linkage(dyads[a], dyads[b]) for a, b in combinations(order, 2)])
+    return LinkageBatch.of([Linkage(dyads[a], dyads[b]) for a, b in combinations(order, 2)])
 
 
-def _own_pairs(seen: Seen, left_out: int) -> LinkageStack:
+def _own_pairs(seen: Seen, left_out: int) -> LinkageBatch:
     """The best dyads of all poses but one (of many: of a sample), joined in pairs."""
     keep = np.flatnonzero(seen.without(left_out))
     keep = keep[:: max(1, len(keep) // SAMPLE)]
@@ -134,7 +134,7 @@ def _own_pairs(seen: Seen, left_out: int) -> LinkageStack:
 
 def pencil_pairs(
     poses: Displacement, weights: FloatArray | None
-) -> tuple[LinkageStack, FloatArray]:
+) -> tuple[LinkageBatch, FloatArray]:
     """For each of tasks (n, N) the pair of dyads of the paper's pencil, (n,).
 
     With how far (n,) the poses are from being held by two quadrics.
@@ -148,11 +148,11 @@ def pencil_pairs(
     )
     z[lost] = z[:, ::-1][lost] + np.array([0.1, 0.2, 0.3, 0.4, 0.0])
     z = np.where(np.isfinite(z), z, 1.0)
-    pairs = LinkageStack(np.zeros(z.shape[:-1], dtype=np.int8), z)
+    pairs = LinkageBatch(np.zeros(z.shape[:-1], dtype=np.int8), z)
     return pairs, found.noise * found.frames.length
 
 
-def _likely(seen: Seen, pairs: LinkageStack) -> tuple[NDArray[np.intp], LinkageStack]:
+def _likely(seen: Seen, pairs: LinkageBatch) -> tuple[NDArray[np.intp], LinkageBatch]:
     """Of many poses those that may be odd, and linkages that pass the others by.
 
     Fits in which poses far away count less and less.
@@ -175,7 +175,7 @@ def _likely(seen: Seen, pairs: LinkageStack) -> tuple[NDArray[np.intp], LinkageS
     return each, stack[best]
 
 
-def _off(stack: LinkageStack, rows: FloatArray) -> FloatArray:
+def _off(stack: LinkageBatch, rows: FloatArray) -> FloatArray:
     """Distances (k, N) of poses (N, 3) from the motions of linkages (k,)."""
     miss, _ = misses(stack, rows, np.ones((len(stack), len(rows))))
     return np.asarray(np.linalg.norm(miss.reshape(len(stack), -1, 2), axis=-1))

@@ -11,7 +11,7 @@ motion, of errors that are normal and equally large,
 (an F test with 2 and m - 2 degrees of freedom), N times that for the least of N such shares.  If
 one number of a pose may be any, one condition is left: an F test with 1 and m - 1 of them, 3 N
 times that.  The lesser chance counts, times two.  Lengths in another unit have a test of their own
-(`unit_slip`).
+(`unit_error`).
 Poses of which most follow no linkage at all obey it well enough, too (`benchmarks.odd_pose`).
 Not known is how large errors of angles are beside those of positions (`tangent_fits.Seen` says what
 is taken); where they are three times as large or as small, some more false alarms must be expected.
@@ -26,15 +26,15 @@ from typing import final
 
 import numpy as np
 
-from burmester.diagnosis.leave_one_out import LeftOut
+from burmester.diagnosis.leave_one_out import LeaveOneOut
 from burmester.diagnosis.repairs import NUMBERS, Nearness, Repair, repairs_of, unit_repair
 from burmester.diagnosis.sampson_fits import Seen, refined
-from burmester.diagnosis.unit_errors import UnitSlip, apart, unit_slip
+from burmester.diagnosis.unit_errors import UnitError, apart, unit_error
 from burmester.fourbar.dyad import Dyad
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.nearest_places import on_circuits, rows_of
 from burmester.numerics.arrays import ROUNDING
-from burmester.tasks.motion_class import Fingerprint, fingerprint
+from burmester.tasks.motion_class import MotionClass, classify_motion
 from burmester.tasks.motion_task import Task
 from burmester.tasks.wording import figure, length_of
 
@@ -131,14 +131,14 @@ class OddPose:
 
 def odd_pose(
     task: Task,
-    motion: Fingerprint | None = None,
+    motion: MotionClass | None = None,
     dyads: Sequence[Dyad] = (),
     *,
     sure: float = SURE,
 ) -> OddPose | None:
     """The pose of a task that does not agree with the others, if one can be told with certainty.
 
-    motion: the task's fingerprint, dyads: the best dyads of all its poses, where they are known;
+    motion: the task's motion class, dyads: the best dyads of all its poses, where they are known;
     that saves time.  The pose named is the one that leaves the least error when it is left out, or
     agrees with the others in another unit.  sure: the chance of a false alarm that is taken; 1
     names the likeliest pose in any case.
@@ -148,7 +148,7 @@ def odd_pose(
     inverse variances.  Limits, marks for exact poses and requirements are left out: whether poses
     agree is asked of any linkage.  Repeats count once, and the first is named.
     """
-    motion = fingerprint(task) if motion is None else motion
+    motion = classify_motion(task) if motion is None else motion
     fit = motion.determined or (motion.distinct >= LEAST and _is_general(task, motion))
     if not (fit and LEAST <= motion.distinct <= MOST):
         return None
@@ -160,16 +160,16 @@ def odd_pose(
     position, angle = task.resolution
     known = max(max(position / float(seen.frames.length), angle) / math.sqrt(3), ROUNDING)
     count = len(seen.rows)
-    pairs, whole = LeftOut.whole_of(seen, dyads, poses)
+    pairs, whole = LeaveOneOut.whole_of(seen, dyads, poses)
     if whole.cost.min() <= (EXPLAINED * known) ** 2 * (2 * count - 10):
         return None
-    left = LeftOut.quickly(seen, pairs, whole)
+    left = LeaveOneOut.quickly(seen, pairs, whole)
     floor = (2 * count - 12) * known**2
     first = _chance(count, left.fits.cost.min() + floor, left.whole.cost.min() + floor)
     hopeless = first > max(HOPELESS, sure)
     if hopeless and apart(seen) is None:
         return None
-    slip = unit_slip(left, floor, sure)
+    slip = unit_error(left, floor, sure)
     if slip is None and hopeless:
         return None
     if slip is None:
@@ -186,7 +186,12 @@ def odd_pose(
 
 
 def _told(  # noqa: PLR0917
-    task: Task, motion: Fingerprint, left: LeftOut, pose: int, floor: float, slip: UnitSlip | None
+    task: Task,
+    motion: MotionClass,
+    left: LeaveOneOut,
+    pose: int,
+    floor: float,
+    slip: UnitError | None,
 ) -> OddPose | None:
     """What is told of a pose; None where the places of a linkage are lost."""
     seen, fits = left.seen, left.fits
@@ -237,13 +242,13 @@ def _told(  # noqa: PLR0917
     )
 
 
-def _is_general(task: Task, motion: Fingerprint) -> bool:
+def _is_general(task: Task, motion: MotionClass) -> bool:
     """Whether a motion is special only beside one pose that is far, far off."""
     poses = task.poses[motion.first]
     middle = np.median(poses.translation, axis=0)
     far = int(((poses.translation - middle) ** 2).sum(axis=-1).argmax())
     others = poses[np.arange(poses.shape[0]) != far]
-    return fingerprint(Task(others, resolution=task.resolution)).determined
+    return classify_motion(Task(others, resolution=task.resolution)).determined
 
 
 def _chance(count: int, without: float, of_all: float) -> float:

@@ -10,7 +10,7 @@ from typing import NamedTuple, final
 import numpy as np
 
 from burmester.diagnosis.sampson_fits import Seen, misses
-from burmester.fourbar.linkage_batch import LinkageStack
+from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.numerics.arrays import ROUNDING, FloatArray, wrapped_angle
 from burmester.tasks.motion_task import Task
 
@@ -48,12 +48,12 @@ class Repair:
 class Nearness(NamedTuple):
     """The linkage (1,) of the other poses, how exactly they know it, and their error."""
 
-    stack: LinkageStack
+    stack: LinkageBatch
     known: FloatArray
     sigma: float
 
     @classmethod
-    def of(cls, seen: Seen, stack: LinkageStack, pose: int, sigma: float) -> Nearness:
+    def of(cls, seen: Seen, stack: LinkageBatch, pose: int, sigma: float) -> Nearness:
         """To the linkage of all poses but one, whose errors are sigma."""
         share = np.where(seen.without(pose), seen.weights, 0.0)[None]
         _, slope = misses(stack, seen.rows, share)
@@ -136,7 +136,7 @@ def _given(seen: Seen, pose: int) -> FloatArray:
     return np.append(place.translation, place.angle)
 
 
-def _starts(stack: LinkageStack, row: FloatArray, number: int) -> list[FloatArray]:
+def _starts(stack: LinkageBatch, row: FloatArray, number: int) -> list[FloatArray]:
     """Poses (3,) that differ from a row (3,) by one number, near which the linkage (1,) may be."""
     out = [row]
     linkage = stack.linkage(0)

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.fourbar.canonical_frames import CanonicalFrames
-from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageStack
+from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.fourbar.nearest_places import rows_of, settled
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.refinement import refine
@@ -77,7 +77,7 @@ class Seen(NamedTuple):
 class Fits(NamedTuple):
     """Linkages (k,) fitted to weighted poses, sums (k,) of squares, and whose (k,) they are."""
 
-    stack: LinkageStack
+    stack: LinkageBatch
     cost: FloatArray
     own: NDArray[np.intp]
 
@@ -108,7 +108,7 @@ class Fits(NamedTuple):
 
 
 def in_two_steps(
-    starts: LinkageStack, own: NDArray[np.intp], rows: FloatArray, share: FloatArray
+    starts: LinkageBatch, own: NDArray[np.intp], rows: FloatArray, share: FloatArray
 ) -> Fits:
     """Starts (k,) fitted to rows (N, 3) or (k, N, 3) weighed by share (k, N); the best of each own.
 
@@ -129,8 +129,8 @@ def _best(cost: FloatArray, own: NDArray[np.intp], number: int) -> NDArray[np.in
 
 
 def fitted(
-    stack: LinkageStack, rows: FloatArray, share: FloatArray, steps: int
-) -> tuple[LinkageStack, FloatArray]:
+    stack: LinkageBatch, rows: FloatArray, share: FloatArray, steps: int
+) -> tuple[LinkageBatch, FloatArray]:
     """Linkages (k,) nearer to poses (N, 3) or (k, N, 3), weighed by share (k, N).
 
     With their sums (k,) of squares.  Levenberg and Marquardt's method.
@@ -151,7 +151,7 @@ def fitted(
         downhill = (turned @ miss[..., None])[..., 0] / size
         step = -np.linalg.solve(flat, downhill[..., None])[..., 0] / size
         to = z[run] + step
-        there = LinkageStack(kinds[run], to.reshape(-1, 2, DIMENSIONS))
+        there = LinkageBatch(kinds[run], to.reshape(-1, 2, DIMENSIONS))
         new_miss, new_slope = misses(there, rows[run], share[run])
         after = (new_miss * new_miss).sum(axis=-1)
         positive = (to.reshape(-1, 2, DIMENSIONS)[..., -1] > 0) | (kinds[run] > 0)
@@ -165,11 +165,11 @@ def fitted(
         run, miss, slope = run[keep], miss[keep], slope[keep]
         if not len(run):
             break
-    return LinkageStack(kinds, z.reshape(-1, 2, DIMENSIONS)), cost
+    return LinkageBatch(kinds, z.reshape(-1, 2, DIMENSIONS)), cost
 
 
 def misses(
-    stack: LinkageStack, rows: FloatArray, share: FloatArray
+    stack: LinkageBatch, rows: FloatArray, share: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Distances (k, 2 N) of poses (k, N, 3) from the motions of linkages (k,), to first order.
 
@@ -196,8 +196,8 @@ def misses(
 
 
 def refined(
-    seen: Seen, stack: LinkageStack, left_out: int | None, length: float = 1.0
-) -> tuple[float, LinkageStack]:
+    seen: Seen, stack: LinkageBatch, left_out: int | None, length: float = 1.0
+) -> tuple[float, LinkageBatch]:
     """The least sum of squared distances of poses, but for one, and the linkage (1,) that has it.
 
     By true distances, a radian counting as much as `length`; infinite where the places of all

@@ -20,7 +20,7 @@ from typing import NamedTuple, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.diagnosis.leave_one_out import EVERY, LeftOut, pencil_pairs
+from burmester.diagnosis.leave_one_out import EVERY, LeaveOneOut, pencil_pairs
 from burmester.diagnosis.repairs import FACTORS, Nearness
 from burmester.diagnosis.sampson_fits import (
     EVEN,
@@ -32,11 +32,11 @@ from burmester.diagnosis.sampson_fits import (
     misses,
     refined,
 )
-from burmester.fourbar.linkage_batch import LinkageStack
+from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["UnitSlip", "apart", "chance_of", "unit_slip"]
+__all__ = ["UnitError", "apart", "chance_of", "unit_error"]
 
 BY = np.array([by for factor in FACTORS for by in (factor, 1 / factor)])
 USUAL = 0.75  # chance that it is one of the first three factors
@@ -48,7 +48,7 @@ AMONG = 1.0  # times their extent from their middle: here it is
 
 
 @final
-class UnitSlip(NamedTuple):
+class UnitError(NamedTuple):
     """A pose that agrees with the others when its lengths are multiplied.
 
     by: the factor; away: how far it lies from the others' middle, in times their extent.
@@ -62,10 +62,10 @@ class UnitSlip(NamedTuple):
     beside: bool
     chance: float
     miss: float
-    stack: LinkageStack
+    stack: LinkageBatch
 
 
-def unit_slip(left: LeftOut, floor: float, sure: float) -> UnitSlip | None:
+def unit_error(left: LeaveOneOut, floor: float, sure: float) -> UnitError | None:
     """The likeliest pose and factor, if one is likely enough.
 
     floor: what digits alone make of sums of squares; sure: the chance of a false alarm.
@@ -103,7 +103,7 @@ def unit_slip(left: LeftOut, floor: float, sure: float) -> UnitSlip | None:
     return slip if slip.beside or slip.chance < sure else None
 
 
-def _multiples_fitted(left: LeftOut, tried: NDArray[np.intp]) -> tuple[FloatArray, Fits]:
+def _multiples_fitted(left: LeaveOneOut, tried: NDArray[np.intp]) -> tuple[FloatArray, Fits]:
     """The poses (n, N, 3), each time with one multiplied, and the linkages that fit them."""
     seen, own = left.seen, np.arange(len(tried))
     rows = np.tile(seen.rows, (len(tried), 1, 1))
@@ -128,8 +128,8 @@ def _multiples_fitted(left: LeftOut, tried: NDArray[np.intp]) -> tuple[FloatArra
 
 
 def _slip(  # noqa: PLR0917
-    seen: Seen, stack: LinkageStack, pose: int, factor: int, row: FloatArray, costs: FloatArray
-) -> UnitSlip:
+    seen: Seen, stack: LinkageBatch, pose: int, factor: int, row: FloatArray, costs: FloatArray
+) -> UnitError:
     """A pose multiplied, its row (3,), by sums (3,): of all, of all so, and without it."""
     of_all, mended, without = np.maximum(costs, np.finfo(float).tiny).tolist()
     spare, away = 2 * len(seen.rows) - 12, _away(seen, pose)
@@ -139,7 +139,7 @@ def _slip(  # noqa: PLR0917
     chance = chance_of(agreed, min(1.0, landed / LIKELY[factor]))
     beside = bool(away[0] > BESIDE and away[1 + factor] < AMONG)
     miss = math.sqrt((mended - without) * spare / without)
-    return UnitSlip(pose, float(BY[factor]), float(away[0]), beside, chance, miss, stack)
+    return UnitError(pose, float(BY[factor]), float(away[0]), beside, chance, miss, stack)
 
 
 def apart(seen: Seen) -> int | None:
@@ -156,7 +156,7 @@ def chance_of(first: float, second: float) -> float:
     return min(1.0, product * (1 - math.log(product)))
 
 
-def _tried(left: LeftOut) -> NDArray[np.intp]:
+def _tried(left: LeaveOneOut) -> NDArray[np.intp]:
     """Poses and factors (n, 2), by their indices, that may be slips."""
     seen, tried = left.seen, []
     rows, number = _multiplied(seen), len(BY)

@@ -39,7 +39,7 @@ class Travel:
     parameter: (n,) along it, rising or falling as the poses want it; evenly spaced unless shares
         of the way were asked for.
     places: (n,), their angles without jumps.
-    drive: (n,), the driver's coordinate without jumps, a length or radians (see `Drive`); the way
+    drive: (n,), the driver's coordinate without jumps, a length or radians (`DrivenLoop`); the way
         begins within the first turn, from 0 to 2 pi.
     at: (N,), where each pose is met, in shares of the way; nan for poses that the driver does not
         reach.

@@ -15,17 +15,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.fourbar.dyad import PP, PR, RP, RR
-from burmester.fourbar.loop_closure import Drive
+from burmester.fourbar.loop_closure import DrivenLoop
 from burmester.numerics.arrays import ComplexArray, FloatArray
 
 __all__ = [
     "CHANGE_POINT",
     "ONE_SIDED",
-    "Course",
     "Parameter",
+    "RangeType",
     "along",
-    "courses",
     "parameter_of",
+    "range_types",
     "settled",
     "tied",
 ]
@@ -34,7 +34,7 @@ CHANGE_POINT = 1e-9  # of `Drive.margin`, below which the circuits are not told 
 A_POINT = 1e-7  # of a bound's scale: what an impossible bound may be off by at a change point
 
 
-class Course(IntEnum):
+class RangeType(IntEnum):
     """How f runs along a circuit."""
 
     NONE = 0  # there is no such circuit
@@ -46,7 +46,7 @@ class Course(IntEnum):
     HALF = 6  # half a turn with psi of the sign `sign`, from infinity to infinity
 
 
-ONE_SIDED = (Course.BETWEEN, Course.BEYOND, Course.HALF)
+ONE_SIDED = (RangeType.BETWEEN, RangeType.BEYOND, RangeType.HALF)
 
 
 class Parameter(NamedTuple):
@@ -65,12 +65,12 @@ class Parameter(NamedTuple):
         return cls(s, 2 * half_sin * half_cos, np.where(up < down, 1 - up, down - 1), up, down)
 
 
-def tied(drive: Drive) -> NDArray[np.bool_]:
+def tied(drive: DrivenLoop) -> NDArray[np.bool_]:
     """Whether linkages (*,) are within 1e-9 of a change point."""
     return ~(drive.margin > CHANGE_POINT)
 
 
-def settled(drive: Drive) -> Drive:
+def settled(drive: DrivenLoop) -> DrivenLoop:
     """With room for one place, at least, where rounding at a change point has left none."""
 
     def settle(room: FloatArray, scale: FloatArray) -> FloatArray:
@@ -82,7 +82,7 @@ def settled(drive: Drive) -> Drive:
     return replace(drive, high=high, low=low._replace(up=settle(low.up, low.scale)))
 
 
-def _lost(drive: Drive) -> NDArray[np.bool_]:
+def _lost(drive: DrivenLoop) -> NDArray[np.bool_]:
     """Where nothing can be told, even as given; see `Circuits.of`."""
     first, second, change = drive.first, drive.second, tied(drive)
     if isinstance(first, RP):
@@ -95,7 +95,7 @@ def _lost(drive: Drive) -> NDArray[np.bool_]:
     return np.asarray(change & a_point)
 
 
-def courses(drive: Drive, as_given: bool = False) -> tuple[NDArray[np.int8], FloatArray]:
+def range_types(drive: DrivenLoop, as_given: bool = False) -> tuple[NDArray[np.int8], FloatArray]:
     """Course and sign (*, 2) of the circuits of linkages (*,); as given, of settled drives."""
     high, low = drive.high, drive.low
     if as_given:
@@ -108,45 +108,45 @@ def courses(drive: Drive, as_given: bool = False) -> tuple[NDArray[np.int8], Flo
     course = np.select(
         [none, ends_above & ends_below, ends_above, ends_below],
         [
-            Course.NONE,
-            Course.BETWEEN,
-            Course.BELOW,
-            Course.ABOVE if drive.turns else Course.BEYOND,
+            RangeType.NONE,
+            RangeType.BETWEEN,
+            RangeType.BELOW,
+            RangeType.ABOVE if drive.turns else RangeType.BEYOND,
         ],
-        Course.HALF
+        RangeType.HALF
         if isinstance(drive.first, RP) and isinstance(drive.second, PR)
-        else Course.WHOLE,
+        else RangeType.WHOLE,
     )
-    alone = (course == Course.BELOW) | (course == Course.ABOVE)
+    alone = (course == RangeType.BELOW) | (course == RangeType.ABOVE)
     if drive.ways == 1:
-        alone = alone | (course == Course.WHOLE)
-    both = np.stack([course, np.where(alone, Course.NONE, course)], axis=-1).astype(np.int8)
+        alone = alone | (course == RangeType.WHOLE)
+    both = np.stack([course, np.where(alone, RangeType.NONE, course)], axis=-1).astype(np.int8)
     return both, np.broadcast_to(np.array([1.0, -1.0]), both.shape)
 
 
 def along(
-    drive: Drive, course: Course, sign: FloatArray, at: Parameter
+    drive: DrivenLoop, course: RangeType, sign: FloatArray, at: Parameter
 ) -> tuple[FloatArray | ComplexArray, FloatArray]:
     """e^(i psi), or psi of slides, and q at parameters of circuits (*,) of one course."""
     return (_turning if drive.turns else _sliding)(drive, course, sign, at)
 
 
 def _turning(
-    drive: Drive, course: Course, sign: FloatArray, at: Parameter
+    drive: DrivenLoop, course: RangeType, sign: FloatArray, at: Parameter
 ) -> tuple[ComplexArray, FloatArray]:
     high, low = drive.high, drive.low
-    if course == Course.HALF:
+    if course == RangeType.HALF:
         return at.cos + 1j * (sign * at.sin), np.ones_like(at.s)
-    if course == Course.WHOLE:
+    if course == RangeType.WHOLE:
         q = np.sqrt((high.scale * at.up - high.up) * (low.scale * at.down - low.down))
         return at.cos + 1j * at.sin, sign * q
-    if course == Course.BETWEEN:
+    if course == RangeType.BETWEEN:
         least, greatest = low.down / low.scale, high.down / high.scale
         half = (greatest - least) / 2
         down, up = least + half * at.down, high.up / high.scale + half * at.up
         q = np.sqrt(high.scale * low.scale) * half * at.sin
         return (down - up) / 2 + 1j * (sign * np.sqrt(up * down)), q
-    if course == Course.ABOVE:
+    if course == RangeType.ABOVE:
         size = low.up / low.scale
         up = size * at.cos**2
         q = np.sqrt(low.up * (high.scale * up - high.up)) * at.sin
@@ -158,17 +158,17 @@ def _turning(
 
 
 def _sliding(
-    drive: Drive, course: Course, sign: FloatArray, at: Parameter
+    drive: DrivenLoop, course: RangeType, sign: FloatArray, at: Parameter
 ) -> tuple[FloatArray, FloatArray]:
     high, low = drive.high, drive.low
-    if course == Course.WHOLE:
+    if course == RangeType.WHOLE:
         down = at.s * at.s
         q = np.sqrt((high.down - high.scale * down) * (low.scale * down - low.down))
         return at.s, sign * q
-    if course == Course.BEYOND:
+    if course == RangeType.BEYOND:
         return sign * np.sqrt(low.down / low.scale + at.s**2), np.sqrt(high.down * low.scale) * at.s
     size = high.down / high.scale
-    if course == Course.BETWEEN:
+    if course == RangeType.BETWEEN:
         least = low.down / low.scale
         half = (size - least) / 2
         q = np.sqrt(high.scale * low.scale) * half * at.sin
@@ -178,29 +178,33 @@ def _sliding(
 
 
 def parameter_of(
-    drive: Drive, course: Course, sign: FloatArray, w: FloatArray | ComplexArray, q: FloatArray
+    drive: DrivenLoop,
+    course: RangeType,
+    sign: FloatArray,
+    w: FloatArray | ComplexArray,
+    q: FloatArray,
 ) -> FloatArray:
     """What `along` undoes: the parameter, of circuits of one course."""
     high, low = drive.high, drive.low
-    if course == Course.HALF:
+    if course == RangeType.HALF:
         return np.abs(np.angle(w))
-    if course == Course.BEYOND:
+    if course == RangeType.BEYOND:
         return q / np.sqrt(high.down * low.scale)
-    if course == Course.WHOLE:
+    if course == RangeType.WHOLE:
         return np.angle(w) % (2 * np.pi) if drive.turns else w.real
     down, up = (1 + w.real, 1 - w.real) if drive.turns else (w.real**2, w.real)
-    if course == Course.BETWEEN:
+    if course == RangeType.BETWEEN:
         least, greatest = low.down / low.scale, high.down / high.scale
         half = (greatest - least) / 2
         sine, cosine = q / np.sqrt(high.scale * low.scale), down - least - half
-    elif course == Course.ABOVE:
+    elif course == RangeType.ABOVE:
         sine = q / np.sqrt(low.up * np.maximum(high.scale * up - high.up, 0))
         cosine = -w.imag / np.sqrt(low.up / low.scale * down)
     else:
         size = high.down / high.scale
         sine = q / np.sqrt(high.down * np.maximum(low.scale * down - low.down, 0))
         cosine = w.imag / np.sqrt(size * up) if drive.turns else -w.real / np.sqrt(size)
-    if course != Course.BETWEEN and (change := tied(drive)).any():
+    if course != RangeType.BETWEEN and (change := tied(drive)).any():
         # Half way between dead points the root may be lost in rounding, or the circuit a point.
         cosine = np.where(change & np.isnan(cosine), 0.0, cosine)
         middle = change & ~(np.abs(cosine) > 0.5)

@@ -18,17 +18,17 @@ from numpy.typing import NDArray
 
 from burmester.fourbar.circuit_parameter import (
     ONE_SIDED,
-    Course,
     Parameter,
+    RangeType,
     along,
-    courses,
     parameter_of,
+    range_types,
     settled,
     tied,
 )
 from burmester.fourbar.dyad import RP
 from burmester.fourbar.linkage import Linkage
-from burmester.fourbar.loop_closure import NOWHERE, Drive, displacement_of, facing
+from burmester.fourbar.loop_closure import NOWHERE, DrivenLoop, displacement_of, facing
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
 
@@ -43,14 +43,14 @@ BESIDE = 1e-8  # along a circuit, from where it is at a change point and its pla
 class Circuits:
     """Circuits (*,) of linkages driven by their first dyads.
 
-    drive: (*,), the linkage of each circuit; course, sign: (*,), see `Course`.
+    drive: (*,), the linkage of each circuit; course, sign: (*,), see `RangeType`.
 
     A parameter runs along a circuit: an angle in [0, 2 pi) on a closed one, with the branches
     (0, pi) and (pi, 2 pi) where it has two; on an open one an angle in (0, pi) if the drive
     turns, else any length, with the branches below and above 0 where it has two.
     """
 
-    drive: Drive
+    drive: DrivenLoop
     course: NDArray[np.int8]
     sign: FloatArray
 
@@ -69,10 +69,10 @@ class Circuits:
 
         Raises InputError E401 where the first dyad cannot drive.
         """
-        drive = Drive.of(linkage)
+        drive = DrivenLoop.of(linkage)
         if as_given:
             drive = settled(drive)
-        return cls(drive[..., None][..., [0, 0]], *courses(drive, as_given))
+        return cls(drive[..., None][..., [0, 0]], *range_types(drive, as_given))
 
     def __getitem__(self, index: Any) -> Circuits:
         """Pick along the leading axes (indices, slices, masks, new axes)."""
@@ -91,7 +91,7 @@ class Circuits:
     @property
     def exists(self) -> NDArray[np.bool_]:
         """Whether there is such a circuit, (*,)."""
-        return np.asarray(self.course != Course.NONE)
+        return np.asarray(self.course != RangeType.NONE)
 
     @property
     def undecided(self) -> NDArray[np.bool_]:
@@ -107,8 +107,8 @@ class Circuits:
     @property
     def closed(self) -> NDArray[np.bool_]:
         """Whether the circuit comes back to where it began, (*,)."""
-        loop = (self.course >= Course.BELOW) & (self.course <= Course.BETWEEN)
-        return np.asarray(loop | ((self.course == Course.WHOLE) & self.drive.turns))
+        loop = (self.course >= RangeType.BELOW) & (self.course <= RangeType.BETWEEN)
+        return np.asarray(loop | ((self.course == RangeType.WHOLE) & self.drive.turns))
 
     @property
     def limits(self) -> FloatArray:
@@ -128,12 +128,12 @@ class Circuits:
         end = np.full(self.shape, np.pi if turns else np.inf)
         inner, outer = (high, low) if turns else (low, high)
         first = {  # psi at both ends; of a course on one side, of that with psi > 0
-            Course.WHOLE: (-end, end),
-            Course.BELOW: (high, 2 * np.pi - high) if turns else (-high, high),
-            Course.ABOVE: (-low, low),
-            Course.BETWEEN: (inner, outer),
-            Course.BEYOND: (low, end),
-            Course.HALF: (np.zeros_like(end), end),
+            RangeType.WHOLE: (-end, end),
+            RangeType.BELOW: (high, 2 * np.pi - high) if turns else (-high, high),
+            RangeType.ABOVE: (-low, low),
+            RangeType.BETWEEN: (inner, outer),
+            RangeType.BEYOND: (low, end),
+            RangeType.HALF: (np.zeros_like(end), end),
         }
         psi = np.full((2, *self.shape), np.nan)
         for course, ends in first.items():
@@ -212,9 +212,9 @@ class Circuits:
             return np.asarray(drive.centre + w.real)
         course = self.course[..., None]
         # But for whole circuits psi keeps within half a turn of a middle.
-        middle = np.where(course == Course.BELOW, np.pi, 0.0)
+        middle = np.where(course == RangeType.BELOW, np.pi, 0.0)
         swung = middle + np.angle(w * np.exp(-1j * middle))
-        return np.asarray(drive.centre + np.where(course == Course.WHOLE, parameter, swung))
+        return np.asarray(drive.centre + np.where(course == RangeType.WHOLE, parameter, swung))
 
     def curve(self, point: FloatArray, parameter: FloatArray) -> FloatArray:
         """Coupler curves (*, n, 2) of points (2,) or (*, 2) of M, at parameters as above."""
@@ -240,7 +240,7 @@ class Circuits:
         for start in range(0, count, width):
             span = slice(start, start + width)
             common = Parameter.of(parameter[None, span]) if shared else None
-            for course in Course:
+            for course in RangeType:
                 all_rows = np.flatnonzero(flat.course == course)
                 for begin in range(0, len(all_rows) if course else 0, many):
                     rows = all_rows[begin : begin + many]
@@ -257,7 +257,7 @@ def _picked(both: Displacement, which: NDArray[np.bool_]) -> Displacement:
 
 
 _Block: TypeAlias = tuple[
-    Drive, NDArray[np.intp], slice, tuple[FloatArray | ComplexArray, FloatArray]
+    DrivenLoop, NDArray[np.intp], slice, tuple[FloatArray | ComplexArray, FloatArray]
 ]
 
 
@@ -303,7 +303,7 @@ def locate(circuits: Circuits, places: Displacement) -> Location:
     found = [np.full(places.shape, fill) for fill in (-1, 0, np.nan, np.nan, np.nan)]
     with np.errstate(invalid="ignore", divide="ignore"):
         w, closing = own.reading(places)
-        for course in set(np.unique(circuits.course)) - {Course.NONE}:
+        for course in set(np.unique(circuits.course)) - {RangeType.NONE}:
             here = circuits.course[number] == course
             for result, value in zip(
                 found, _located(circuits[number[here]], w[here], closing[here]), strict=True
@@ -324,7 +324,7 @@ def _located(
     if course in ONE_SIDED:
         side = w.imag if drive.turns else w / np.hypot(w, np.sqrt(drive.low.down / drive.low.scale))
     else:
-        side = sine if course == Course.WHOLE and drive.ways == 2 else always
+        side = sine if course == RangeType.WHOLE and drive.ways == 2 else always
     sign = np.where(side < 0, -1.0, 1.0)
     parameter = parameter_of(drive, course, sign, w, q)
     two = circuits.branches == 2

@@ -37,7 +37,7 @@ class Bound(NamedTuple):
 
 
 class Closing(NamedTuple):
-    """How a pair of dyads closes; the fields of `Drive` of the same names."""
+    """How a pair of dyads closes; the fields of `DrivenLoop` of the same names."""
 
     ways: int
     centre: FloatArray

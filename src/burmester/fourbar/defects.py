@@ -77,7 +77,7 @@ class Driven:
         sampled.
     parameter: (N,) along the circuit, see `Circuits`, unwrapped along the journey; nan for poses
         that are not on it.
-    drive: (N,) the drive's coordinate (see `Drive`) along the journey, radians or a length.
+    drive: (N,) the drive's coordinate (see `DrivenLoop`) along the journey, radians or a length.
     travel: (2,) the least and the greatest drive in that range.
 
     Where the poses are met in their order, the range runs through them in that order.  Else it is

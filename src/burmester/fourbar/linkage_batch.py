@@ -20,13 +20,13 @@ from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
 
-__all__ = ["DIMENSIONS", "STACKED", "Bearing", "LinkageStack", "Surfaces"]
+__all__ = ["DIMENSIONS", "STACKED", "ConstraintForms", "ConstraintJacobians", "LinkageBatch"]
 
 STACKED: Final = (RR, PR, RP)  # the kinds, by their number in a stack
 DIMENSIONS: Final = 5  # of a dyad; a slider leaves the last one unused
 
 
-class Bearing(NamedTuple):
+class ConstraintJacobians(NamedTuple):
     """What both dyads of linkages (k,) do at coupler places (k, *).
 
     miss: (k, 2, *), the equation f, near its zero the distance from being met.
@@ -41,7 +41,7 @@ class Bearing(NamedTuple):
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class LinkageStack:
+class LinkageBatch:
     """Linkages (k,) of two dyads each, RR, PR or RP.
 
     kinds: (k, 2), indices in STACKED.
@@ -74,24 +74,24 @@ class LinkageStack:
     def __len__(self) -> int:
         return len(self.kinds)
 
-    def __getitem__(self, index: Any) -> LinkageStack:
+    def __getitem__(self, index: Any) -> LinkageBatch:
         """Pick linkages (slices, masks, index arrays)."""
-        return LinkageStack(self.kinds[index], self.dimensions[index])
+        return LinkageBatch(self.kinds[index], self.dimensions[index])
 
     def linkage(self, index: int) -> Linkage:
         """One of them."""
         return Linkage(*(self._dyads(side, index) for side in (0, 1)))
 
-    def and_(self, other: LinkageStack) -> LinkageStack:
+    def and_(self, other: LinkageBatch) -> LinkageBatch:
         """These linkages, and then others."""
-        return LinkageStack(
+        return LinkageBatch(
             np.concatenate([self.kinds, other.kinds]),
             np.concatenate([self.dimensions, other.dimensions]),
         )
 
-    def exchanged(self) -> LinkageStack:
+    def exchanged(self) -> LinkageBatch:
         """The same with the two dyads exchanged."""
-        return LinkageStack(self.kinds[:, ::-1], self.dimensions[:, ::-1])
+        return LinkageBatch(self.kinds[:, ::-1], self.dimensions[:, ::-1])
 
     def alike(self) -> Iterator[tuple[NDArray[np.intp], Linkage]]:
         """The linkages (n,) of each pair of kinds, with their indices (n,)."""
@@ -110,17 +110,17 @@ class LinkageStack:
             return PR(row[..., 0], row[..., 1], row[..., 2:4])
         return RP(row[..., :2], row[..., 2], row[..., 3])
 
-    def seen(self, frames: CanonicalFrames) -> LinkageStack:
+    def seen(self, frames: CanonicalFrames) -> LinkageBatch:
         """As the frames of one task see them."""
         return self._moved(-frames.fixed_origin, -frames.moving_origin, 1.0, 1 / frames.length)
 
-    def back(self, frames: CanonicalFrames) -> LinkageStack:
+    def back(self, frames: CanonicalFrames) -> LinkageBatch:
         """What `seen` undoes."""
         return self._moved(frames.fixed_origin, frames.moving_origin, frames.length, 1.0)
 
     def _moved(
         self, fixed: FloatArray, moving: FloatArray, before: Any, after: Any
-    ) -> LinkageStack:
+    ) -> LinkageBatch:
         """With lengths times `before`, origins moved by fixed and moving, then times `after`."""
         out = self.dimensions.copy()
         for at, kind, shift in ((0, 1, fixed), (2, 2, moving)):
@@ -132,9 +132,9 @@ class LinkageStack:
             lines[:, at + 1] = (before * lines[:, at + 1] + along) * after
             out[~line], out[line] = points, lines
         out[..., 4] *= before * after
-        return LinkageStack(self.kinds, out)
+        return LinkageBatch(self.kinds, out)
 
-    def surfaces(self) -> Surfaces:
+    def surfaces(self) -> ConstraintForms:
         """The constraint manifolds of both dyads, scaled as in `bearing`."""
         one, two, last = (
             self.dimensions[..., :2],
@@ -142,7 +142,7 @@ class LinkageStack:
             self.dimensions[..., 4],
         )
         c, m = complex_of(one), complex_of(two)
-        out = Surfaces(
+        out = ConstraintForms(
             *(np.zeros(c.shape, dtype) for dtype in (float, complex, complex, complex, float))
         )
         rr, pr, rp = (self.kinds == kind for kind in range(len(STACKED)))
@@ -162,7 +162,7 @@ class LinkageStack:
             out.constant[rp] = -two[rp][:, 1]
         return out
 
-    def bearing(self, places: Displacement) -> Bearing:
+    def bearing(self, places: Displacement) -> ConstraintJacobians:
         """What both dyads do at coupler places (k, *)."""
         d, turn = complex_of(places.translation)[:, None], np.exp(1j * places.angle)[:, None]
         miss, push, swing = self.surfaces().at(d, turn)
@@ -187,10 +187,10 @@ class LinkageStack:
                 slope = [-at.real, -at.imag, -(at.conj() * point).imag, -1.0]
             for k, value in enumerate(slope):
                 by_dimension[row, side, ..., k] = value
-        return Bearing(miss, force, by_dimension)
+        return ConstraintJacobians(miss, force, by_dimension)
 
 
-class Surfaces(NamedTuple):
+class ConstraintForms(NamedTuple):
     """Constraint manifolds in complex numbers, (*,) each: with d and turn = e^(i angle),
 
     f = round |d|² + Re(d* (still + turned turn)) + Re(both turn) + constant = 0.
@@ -204,9 +204,9 @@ class Surfaces(NamedTuple):
     both: ComplexArray
     constant: FloatArray
 
-    def some(self, index: Any) -> Surfaces:
+    def some(self, index: Any) -> ConstraintForms:
         """Pick along the leading axes."""
-        return Surfaces(
+        return ConstraintForms(
             self.round[index],
             self.still[index],
             self.turned[index],

@@ -37,9 +37,9 @@ from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
 
-__all__ = ["NOWHERE", "Drive", "displacement_of", "facing"]
+__all__ = ["NOWHERE", "DrivenLoop", "displacement_of", "facing"]
 
-Drives = TypeVar("Drives", bound="Dyad | Drive")
+Drives = TypeVar("Drives", bound="Dyad | DrivenLoop")
 
 NOWHERE = complex(np.nan, np.nan)
 AT_LIMIT = 1e-14  # relative; a drive beyond its limit by less stands on it
@@ -47,7 +47,7 @@ AT_LIMIT = 1e-14  # relative; a drive beyond its limit by less stands on it
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class Drive:
+class DrivenLoop:
     """Linkages (*,), each driven by its first dyad; see the top of the file.
 
     turns: whether the drive is an angle.  ways: 2, or 1 where the other dyad closes in one way.
@@ -94,9 +94,9 @@ class Drive:
         """The leading axes: () for one linkage."""
         return self.margin.shape
 
-    def __getitem__(self, index: Any) -> Drive:
+    def __getitem__(self, index: Any) -> DrivenLoop:
         """Pick along the leading axes (indices, slices, masks, new axes)."""
-        return Drive(
+        return DrivenLoop(
             self.first[index],
             self.second[index],
             self.turns,
@@ -248,5 +248,5 @@ def displacement_of(d: ComplexArray, turn: ComplexArray) -> Displacement:
 
 def facing(value: Drives, ndim: int) -> Drives:
     """A dyad or drive (*,) with axes added behind, to meet arrays of so many axes."""
-    own = value.shape if isinstance(value, Drive) else shape_of(value)
+    own = value.shape if isinstance(value, DrivenLoop) else shape_of(value)
     return cast(Drives, value[(..., *[None] * (ndim - len(own)))])

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.fourbar.circuits import Circuits, circuit_of, locate
-from burmester.fourbar.linkage_batch import LinkageStack, Surfaces
+from burmester.fourbar.linkage_batch import ConstraintForms, LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray, complex_of, wrapped_angle
 
@@ -74,7 +74,7 @@ class Normal(NamedTuple):
 
 
 def normal(miss: FloatArray, force: FloatArray, length: float) -> Normal:
-    """The same from the equations (k, 2, *) and forces (k, 2, *, 3) of `LinkageStack.bearing`."""
+    """The same from the equations (k, 2, *) and forces (k, 2, *, 3) of `LinkageBatch.bearing`."""
     force = np.moveaxis(force, 1, -2) / np.array([1.0, 1.0, length])
     one, two = force[..., 0, :], force[..., 1, :]
     a, b, c = (np.einsum("...i,...i->...", *pair) for pair in ((one, one), (one, two), (two, two)))
@@ -94,7 +94,7 @@ def wrapped(gap: FloatArray, length: float) -> FloatArray:
     return gap
 
 
-def on_circuits(stack: LinkageStack, poses: Displacement, length: float) -> Displacement:
+def on_circuits(stack: LinkageBatch, poses: Displacement, length: float) -> Displacement:
     """The nearest places (k, 2, N) to poses (N,) on both circuits of linkages (k,).
 
     In frames where lengths are about 1 (`error_frames`).  nan where there is no such circuit.
@@ -124,7 +124,7 @@ def on_circuits(stack: LinkageStack, poses: Displacement, length: float) -> Disp
 
 
 def on_own_circuits(
-    stack: LinkageStack, rows: FloatArray, poses: Displacement, length: float
+    stack: LinkageBatch, rows: FloatArray, poses: Displacement, length: float
 ) -> FloatArray:
     """The nearest places (k, N, 3) to poses (N,), on the circuits where places rows (k, N, 3) are.
 
@@ -167,7 +167,7 @@ class _Search:
     def __init__(
         self,
         index: NDArray[np.intp],
-        stack: LinkageStack,
+        stack: LinkageBatch,
         circuits: Circuits,
         length: float,
         few: bool,
@@ -286,7 +286,7 @@ class _Search:
         return np.where(worse[..., None], near, ends)
 
 
-def _led(stack: LinkageStack, start: FloatArray, target: FloatArray, length: float) -> FloatArray:
+def _led(stack: LinkageBatch, start: FloatArray, target: FloatArray, length: float) -> FloatArray:
     """Places (n, *, 3) of linkages (n,) that Newton's method leads to, in a few steps."""
     flat = (len(stack), math.prod(start.shape[1:-1]), 3)
     ends = settled(stack, start.reshape(flat), target.reshape(flat), length, steps=QUICK)
@@ -317,7 +317,7 @@ def _valleys(
 
 
 def settled(
-    stack: LinkageStack, start: FloatArray, wanted: FloatArray, length: float, steps: int = STEPS
+    stack: LinkageBatch, start: FloatArray, wanted: FloatArray, length: float, steps: int = STEPS
 ) -> FloatArray:
     """The places (k, n, 3) of linkages (k,) nearest to wanted (n, 3) that starts (k, n, 3) lead to.
 
@@ -347,7 +347,7 @@ def settled(
 
 
 def newton_step(
-    surfaces: Surfaces, here: FloatArray, target: FloatArray, length: float
+    surfaces: ConstraintForms, here: FloatArray, target: FloatArray, length: float
 ) -> tuple[FloatArray, FloatArray]:
     """The step (k, n, 3) from rows (k, n, 3) towards the feet of normals, and its size (k, n).
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.linkage import Linkage
-from burmester.fourbar.linkage_batch import LinkageStack
+from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.nearest_places import nearest, on_circuits
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray, wrapped_angle
@@ -42,7 +42,7 @@ class PoseError:
         """The error of the nearest places of a linkage (`nearest`), whatever their circuits."""
         frames = error_frames(poses, length)
         seen, unit = frames.see(poses), length / float(frames.length)
-        stack = LinkageStack.of([linkage]).seen(frames)
+        stack = LinkageBatch.of([linkage]).seen(frames)
         found = nearest(on_circuits(stack, seen, unit), seen, unit)
         return cls.at(frames.unseen(found)[0], poses)
 

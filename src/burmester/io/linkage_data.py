@@ -83,8 +83,8 @@ def linkage_data(found: FoundLinkage, tolerance: float | None = None) -> dict[st
         "position_error": _errors(found.error.position),
         "angle_error_deg": _errors(np.degrees(found.error.angle)),
         "defects": [_defect(each) for each in found.defects],
-        "unmet": [{"kind": each.kind, "message": each.message} for each in found.unmet],
-        "sought": found.sought,
+        "unmet": [{"kind": each.kind, "message": each.message} for each in found.violations],
+        "sought": found.from_search,
         "min_transmission_angle_deg": _transmission(found.driven),
         "drives": {
             "first": _drive(found.dyads[0].dyad, verdict.first),
@@ -92,13 +92,13 @@ def linkage_data(found: FoundLinkage, tolerance: float | None = None) -> dict[st
         },
         "pivot_uncertainty": _uncertainty(found),
     }
-    if (links := found.led.links) is not None:
+    if (links := found.driver_first.links) is not None:
         data["links"] = {name: float(length) for name, length in links._asdict().items()}
     if np.isfinite(found.error.angle).all():
         data["coupler"] = poses_data(found.error.places)
     if found.spread is not None:
         data["tolerance"] = _spread(found.spread, tolerance)
-    if (before := found.exact_error) is not None:
+    if (before := found.error_before_rounding) is not None:
         data["rounded"] = {
             "position_error_before": _errors(before.position),
             "angle_error_before_deg": _errors(np.degrees(before.angle)),

@@ -54,7 +54,7 @@ def best_sentences(synthesis: Synthesis) -> Iterator[Text]:
     article = "an" if kind[0] in "aeiouAEIOU" else "a"
     least = wording.least_angle(best.driven.least_over_range)
     yield Text(
-        f"Best: {best.id}, {article} {kind} driven by {best.in_order[0].id}, "
+        f"Best: {best.id}, {article} {kind} driven by {best.dyads_driver_first[0].id}, "
         f"{_meets(synthesis, best)}, transmission angle {least} or more."
     )
     nearest = explanation.by_nearness(synthesis.linkages, size)[0]
@@ -107,7 +107,7 @@ def _usable(synthesis: Synthesis, usable: Sequence[FoundLinkage], pins: bool, ga
         table.add_row(
             found.id,
             kind,
-            " ".join(dyad.id for dyad in found.in_order),
+            " ".join(dyad.id for dyad in found.dyads_driver_first),
             *(links(synthesis, found) if pins else ()),
             *misses(synthesis, found),
             wording.least_angle(found.driven.least_over_range),
@@ -119,13 +119,14 @@ def unusable(synthesis: Synthesis, found: Sequence[FoundLinkage]) -> Group:
     """Linkages that do not work, each with its reasons under it."""
     rows: list[Text | Padding] = []
     for each in found[:SHOWN]:
-        dyads = " ".join(dyad.id for dyad in each.in_order)
+        dyads = " ".join(dyad.id for dyad in each.dyads_driver_first)
         how = explanation.met(each, synthesis.task, synthesis.length)
         angle = float(each.error.angle.max())
         if math.isfinite(angle) and not explanation.exact(each, synthesis.length):
             how += f" and {degrees(angle)}"
-        if each.exact_error is not None:
-            how += f" (before rounding {wording.length_of(each.exact_error.worst, synthesis.task)})"
+        if each.error_before_rounding is not None:
+            before = wording.length_of(each.error_before_rounding.worst, synthesis.task)
+            how += f" (before rounding {before})"
         head = Text(f"{each.id:<{INDENT - 1}} {each.type}, {dyads}: {how}")
         reasons = "; ".join(explanation.reasons(each, synthesis.task))
         rows += [head, Padding(Text(reasons), (0, 0, 0, INDENT))]
@@ -140,7 +141,9 @@ def dimensions(synthesis: Synthesis) -> Iterator[Text | Table]:
     unit = f", in {task.length_unit}" if task.length_unit else ""
     yield Text(f"\n{best.id} in full{unit}", style="bold")
     table = Table.grid(padding=(0, 2, 0, 0))
-    certain = not any(task.resolution) or best.exact_error is not None  # rounded: as it is said
+    certain = (
+        not any(task.resolution) or best.error_before_rounding is not None
+    )  # rounded: as it is said
     regions: Sequence[DyadUncertainty | None] = best.uncertainty or (None, None)
     for dyad, region in zip(best.dyads, regions, strict=True):
         name = dyad.id
@@ -159,35 +162,34 @@ def dimensions(synthesis: Synthesis) -> Iterator[Text | Table]:
             style="dim",
         )
     if best.spread is not None:
-        wish = getattr(synthesis, "wish", None)
-        within = (
-            f"to ±{wording.length_of(wish.tolerance, task)}" if wish else "within the tolerance"
-        )
+        assert synthesis.options is not None
+        assert synthesis.options.tolerance is not None
+        within = f"to ±{wording.length_of(synthesis.options.tolerance, task)}"
         yield Text(
             f"Built {within}: position errors of up to "
             f"{wording.length_of(float(best.spread.greatest_95), task)} (95 % of linkages), "
             "at most "
             f"{wording.length_of(float(best.spread.bound), task)}."
         )
-    if best.exact_error is not None:
+    if best.error_before_rounding is not None:
         yield Text(_rounded(synthesis, best))
 
 
 def _rounded(synthesis: Synthesis, best: FoundLinkage) -> str:
     """What rounding does to the error."""
-    assert best.exact_error is not None
-    task, wish = synthesis.task, getattr(synthesis, "wish", None)
+    assert best.error_before_rounding is not None
+    task, options = synthesis.task, synthesis.options
     how = []
-    if wish and wish.step is not None:
-        how.append(f"rounded to {wording.length_of(wish.step, task)}")
-    if wish and wish.stock:
+    if options and options.step is not None:
+        how.append(f"rounded to {wording.length_of(options.step, task)}")
+    if options and options.stock:
         how.append("with links from stock")
     text = " and ".join(how) or "rounded"
     before, after = (
         "by nothing but rounding errors"
         if each.worst < ROUNDING * synthesis.length
         else f"by {wording.length_of(each.worst, task)}"
-        for each in (best.exact_error, best.error)
+        for each in (best.error_before_rounding, best.error)
     )
     return f"{text[0].upper()}{text[1:]}: {best.id} misses {after}, instead of {before}."
 

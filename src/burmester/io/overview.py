@@ -49,9 +49,9 @@ def show(diagnosis: Diagnosis, console: Console) -> None:
         for line in wrapped(text, console.width, Text(f"{name:10}", style="bold")):
             console.print(line, soft_wrap=True)
     motion = diagnosis.motion
-    if motion is not None and not isinstance(motion.motion, General):
+    if motion is not None and not isinstance(motion.kind, General):
         console.print()
-        show_message("result", motion.motion, console)
+        show_message("result", motion.kind, console)
     for each in diagnosis.findings:
         console.print()
         show_message("warning", each, console)
@@ -97,8 +97,8 @@ def _facts(diagnosis: Diagnosis) -> Iterator[tuple[str, str]]:
     else:
         yield "known to", "taken as exact"
     if motion is not None:
-        general = isinstance(motion.motion, General)
-        yield "motion", motion.motion.message if general else motion.motion.name
+        general = isinstance(motion.kind, General)
+        yield "motion", motion.kind.message if general else motion.kind.name
         quadrics = {0: "no quadric holds", 1: "1 quadric holds"}.get(
             motion.nullity, f"{motion.nullity} independent quadrics hold"
         )

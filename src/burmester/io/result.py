@@ -22,7 +22,7 @@ from burmester.io.reading.asked import plain as requirements_data
 from burmester.synthesis.motion_generation import Advice, Outcome
 from burmester.synthesis.result import Synthesis
 from burmester.tasks.limits import KINDS, Limits
-from burmester.tasks.motion_class import Fingerprint
+from burmester.tasks.motion_class import MotionClass
 from burmester.tasks.motion_task import Task
 
 __all__ = ["failure", "motion_data", "plain", "task_data", "told"]
@@ -33,7 +33,7 @@ SCHEMA = "burmester.synthesis/1"
 def plain(synthesis: Synthesis) -> dict[str, Any]:
     """The synthesis as an object ready for JSON."""
     task, outcome, motion = synthesis.task, synthesis.outcome, synthesis.motion
-    tolerance = getattr(getattr(synthesis, "wish", None), "tolerance", None)
+    tolerance = None if synthesis.options is None else synthesis.options.tolerance
     return {
         "schema": SCHEMA,
         "outcome": told(outcome),
@@ -102,12 +102,12 @@ def _limits(limits: Limits) -> dict[str, Any]:
     return data
 
 
-def motion_data(motion: Fingerprint) -> dict[str, Any]:
+def motion_data(motion: MotionClass) -> dict[str, Any]:
     """What the poses are, whatever the method."""
     return {
-        "code": motion.motion.code,
-        "name": motion.motion.name,
-        "message": motion.motion.message,
+        "code": motion.kind.code,
+        "name": motion.kind.name,
+        "message": motion.kind.message,
         "distinct_poses": motion.distinct,
         "rotation_deg": math.degrees(motion.rotation),
         "nullity": motion.nullity,

@@ -27,7 +27,7 @@ from burmester.geometry.displacement import Displacement
 from burmester.io.reading.fetched import fetch
 from burmester.io.reading.poses import read_task
 from burmester.io.result import SCHEMA
-from burmester.linkages.found_linkage import Side, led
+from burmester.linkages.found_linkage import Side, with_driver_first
 from burmester.tasks.motion_task import Task
 
 __all__ = ["Result", "SavedLinkage", "read_result"]
@@ -151,7 +151,7 @@ def _linkage(data: dict[str, Any], task: Task) -> SavedLinkage:
     ids = (data["dyads"][0]["id"], data["dyads"][1]["id"])
     return SavedLinkage(
         data["id"],
-        led(own, side),
+        with_driver_first(own, side),
         ids if side == "first" else ids[::-1],
         bool(data["usable"]),
         side,

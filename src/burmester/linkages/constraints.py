@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.fourbar.canonical_frames import CanonicalFrames
-from burmester.fourbar.linkage_batch import LinkageStack
+from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.regions import Polygon, Region
 from burmester.numerics.arrays import FloatArray, complex_of, wrapped_angle
 from burmester.tasks.limits import Limits
@@ -23,14 +23,14 @@ from burmester.tasks.requirements import Requirements
 __all__ = [
     "CLEAR",
     "SHORTEST",
-    "Conditions",
-    "Journey",
-    "Kept",
-    "Proportions",
-    "Together",
+    "AllConstraints",
+    "BranchAndOrder",
+    "Constraints",
+    "DyadLimitsConstraint",
+    "LinkProportions",
     "drive_of",
     "least_between",
-    "lever_sine",
+    "signed_transmission_sine",
     "type_excess",
 ]
 
@@ -42,39 +42,43 @@ SHORTEST: Final = {"double-crank": 0, "crank-rocker": 1, "double-rocker": 2, "ro
 SURE: Final = 1e-6  # relative, by which proportions keep from the border
 
 
-Held: TypeAlias = tuple[FloatArray, NDArray[np.bool_]]
+ConstraintValues: TypeAlias = tuple[FloatArray, NDArray[np.bool_]]
 
 
-class Conditions(Protocol):
+class Constraints(Protocol):
     """Numbers (k, m) of linkages and rows (k, N, 3) of places, to be at most 0.
 
     With them, which of the m are to be 0, (m,).  The indices (k,) say which of the linkages that
     are refined they are.  Those that do not look at the places say so by `placed = False`.
     """
 
-    def __call__(self, stack: LinkageStack, rows: FloatArray, which: NDArray[np.intp]) -> Held: ...
+    def __call__(
+        self, stack: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
+    ) -> ConstraintValues: ...
 
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class Together:
+class AllConstraints:
     """Some conditions, one after the other."""
 
-    parts: tuple[Conditions, ...]
+    parts: tuple[Constraints, ...]
 
     @property
     def placed(self) -> bool:
         """Whether one of them looks at the places."""
         return any(getattr(part, "placed", True) for part in self.parts)
 
-    def __call__(self, stack: LinkageStack, rows: FloatArray, which: NDArray[np.intp]) -> Held:
+    def __call__(
+        self, stack: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
+    ) -> ConstraintValues:
         values, equal = zip(*(part(stack, rows, which) for part in self.parts), strict=True)
         return np.concatenate(values, axis=1), np.concatenate(equal)
 
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class Kept:
+class DyadLimitsConstraint:
     """The limits of one side's dyad, for all linkages."""
 
     side: int
@@ -82,7 +86,9 @@ class Kept:
     frames: CanonicalFrames
     placed: ClassVar[bool] = False
 
-    def __call__(self, stack: LinkageStack, rows: FloatArray, which: NDArray[np.intp]) -> Held:
+    def __call__(
+        self, stack: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
+    ) -> ConstraintValues:
         own = stack.back(self.frames)
         kind, z = own.kinds[:, self.side], own.dimensions[:, self.side]
         least, most = self.limits.length
@@ -118,11 +124,11 @@ def _outside(region: Region, points: FloatArray) -> FloatArray:
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class Journey:
+class BranchAndOrder:
     """The poses met on one branch of a drive, clear of its dead points, and in order.
 
     length: what a radian counts as in rows.  driver: (k,), the side that drives.
-    sign: (k,), of `lever_sine` on the branch; clear: its least size.
+    sign: (k,), of `signed_transmission_sine` on the branch; clear: its least size.
     sense: (k,), +1 or -1, how the drive goes; ways: (k, N - 1), from pose to pose in that sense, to
     know whole turns by.  ordered: whether it goes that way from each pose to the next.
     """
@@ -139,14 +145,14 @@ class Journey:
     @classmethod
     def of(  # noqa: PLR0917
         cls,
-        stack: LinkageStack,
+        stack: LinkageBatch,
         rows: FloatArray,
         length: float,
         driver: NDArray[np.intp],
         sign: FloatArray,
         middle: FloatArray,
         requirements: Requirements,
-    ) -> Journey:
+    ) -> BranchAndOrder:
         """The journey that is nearest to what places rows (k, N, 3) are.
 
         middle: (k,), the drive amid its dead points; nan where it turns fully, or slides.
@@ -169,9 +175,11 @@ class Journey:
         ways = np.where(once[:, None], around, sense[:, None] * step)
         return cls(length, driver, sign, clear, sense, ways, not requirements.any_order)
 
-    def __call__(self, stack: LinkageStack, rows: FloatArray, which: NDArray[np.intp]) -> Held:
+    def __call__(
+        self, stack: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
+    ) -> ConstraintValues:
         driver, sense, ways = self.driver[which], self.sense[which, None], self.ways[which]
-        sine = self.sign[which, None] * lever_sine(stack, rows, self.length, driver)
+        sine = self.sign[which, None] * signed_transmission_sine(stack, rows, self.length, driver)
         out = [self.clear - sine]
         drive, turns = drive_of(stack, rows, self.length, driver)
         more = sense * np.diff(drive, axis=1) - ways
@@ -192,7 +200,7 @@ class Journey:
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class Proportions:
+class LinkProportions:
     """What a designer asks of the links' lengths, and of the room that the pivots take.
 
     driver: (k,), the side that drives; types: (k,), the type to be, "" for any.
@@ -205,7 +213,9 @@ class Proportions:
     types: NDArray[np.str_]
     placed: ClassVar[bool] = True
 
-    def __call__(self, stack: LinkageStack, rows: FloatArray, which: NDArray[np.intp]) -> Held:
+    def __call__(
+        self, stack: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
+    ) -> ConstraintValues:
         out = [np.full((len(stack), 1), -1.0)]
         links = _links(stack, self.driver[which])
         if np.isfinite(self.requirements.link_ratio):
@@ -219,7 +229,7 @@ class Proportions:
         value, equal = _at_most(out)
         return np.where(np.isfinite(value), value, -1.0), equal
 
-    def _footprint(self, footprint: Polygon, stack: LinkageStack, rows: FloatArray) -> FloatArray:
+    def _footprint(self, footprint: Polygon, stack: LinkageBatch, rows: FloatArray) -> FloatArray:
         """How far fixed pivots, and moving pivots at the places, are outside; -1 for lines."""
         unit, origin = float(self.frames.length), self.frames.fixed_origin
         out = []
@@ -234,13 +244,13 @@ class Proportions:
         return np.concatenate(out, axis=1) / unit
 
 
-def _at_most(parts: list[FloatArray]) -> Held:
+def _at_most(parts: list[FloatArray]) -> ConstraintValues:
     value = np.concatenate(parts, axis=1)
     return value, np.zeros(value.shape[1], dtype=bool)
 
 
-def lever_sine(
-    stack: LinkageStack, rows: FloatArray, length: float, driver: NDArray[np.intp]
+def signed_transmission_sine(
+    stack: LinkageBatch, rows: FloatArray, length: float, driver: NDArray[np.intp]
 ) -> FloatArray:
     """The sine (k, n) of the transmission angle at rows (k, n, 3), signed.
 
@@ -271,7 +281,7 @@ def lever_sine(
     return np.where(slot & slot2, 1.0, sine)
 
 
-def least_between(stack: LinkageStack, driver: NDArray[np.intp]) -> tuple[FloatArray, FloatArray]:
+def least_between(stack: LinkageBatch, driver: NDArray[np.intp]) -> tuple[FloatArray, FloatArray]:
     """Drives (k, 2) where a transmission angle may be least between two places, and its cosine.
 
     Where the drive's f turns back, see `drive`; beyond 1 where the linkage does not close there.
@@ -306,7 +316,7 @@ def least_between(stack: LinkageStack, driver: NDArray[np.intp]) -> tuple[FloatA
 
 
 def drive_of(
-    stack: LinkageStack, rows: FloatArray, length: float, driver: NDArray[np.intp]
+    stack: LinkageBatch, rows: FloatArray, length: float, driver: NDArray[np.intp]
 ) -> tuple[FloatArray, NDArray[np.bool_]]:
     """The drive's coordinate (k, n) at rows (k, n, 3), see `drive`, and whether it turns (k,)."""
     every = np.arange(len(stack))
@@ -319,7 +329,7 @@ def drive_of(
     return np.select([kind_ == 0, kind_ == 1], [crank, slide], angle + z[:, 2:3]), kind != 1
 
 
-def _links(stack: LinkageStack, driver: NDArray[np.intp]) -> FloatArray:
+def _links(stack: LinkageBatch, driver: NDArray[np.intp]) -> FloatArray:
     """Ground, driver, coupler and follower (k, 4) of 4R linkages; nan of others."""
     every = np.arange(len(stack))
     z, z2 = stack.dimensions[every, driver], stack.dimensions[every, 1 - driver]
@@ -328,7 +338,7 @@ def _links(stack: LinkageStack, driver: NDArray[np.intp]) -> FloatArray:
     return np.where((stack.kinds == 0).all(axis=1)[:, None], links, np.nan)
 
 
-def type_excess(stack: LinkageStack, driver: NDArray[np.intp], types: Sequence[str]) -> FloatArray:
+def type_excess(stack: LinkageBatch, driver: NDArray[np.intp], types: Sequence[str]) -> FloatArray:
     """By how much 4R linkages (k,) are not of the types (k,): three numbers each, relative."""
     links, names = _links(stack, driver), np.array(types, dtype=str)
     out = np.full((len(links), 3), -1.0)

@@ -17,25 +17,25 @@ from burmester.dyads.pivot_map import fixed_pivot_map, grid
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.circuits import Circuits, circuit_of
 from burmester.fourbar.dyad import RR
-from burmester.fourbar.linkage_batch import LinkageStack
+from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.nearest_places import newton_step, on_circuits, rows_of
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.constraints import (
     CLEAR,
     SHORTEST,
-    Journey,
-    Proportions,
-    Together,
+    AllConstraints,
+    BranchAndOrder,
+    LinkProportions,
     drive_of,
-    lever_sine,
+    signed_transmission_sine,
     type_excess,
 )
 from burmester.linkages.refinement import Refined
-from burmester.linkages.target import Aim
+from burmester.linkages.target import Target
 from burmester.numerics.arrays import FloatArray, complex_of, wrapped_angle
 from burmester.tasks.requirements import Requirements
 
-__all__ = ["Found", "linkages_that_work", "links_of_map", "middle_of"]
+__all__ = ["Found", "defect_free_linkages", "links_of_pivot_map", "middle_of"]
 
 STARTS = 96  # at most
 STAGES = (24, 24), (60, 8), (120, None)  # steps, and how many of the best then go on
@@ -63,7 +63,7 @@ class _Starts(NamedTuple):
     """
 
     pair: NDArray[np.intp]
-    stack: LinkageStack
+    stack: LinkageBatch
     rows: FloatArray
     driver: NDArray[np.intp]
     sign: FloatArray
@@ -81,7 +81,7 @@ class _Starts(NamedTuple):
         )
 
 
-def linkages_that_work(stack: LinkageStack, aim: Aim) -> Found | None:
+def defect_free_linkages(stack: LinkageBatch, aim: Target) -> Found | None:
     """The best linkages under all conditions that pairs (k,) of dyads lead to.
 
     Some steps for all starts, more for the best of them.  None where there is none.
@@ -107,7 +107,7 @@ def linkages_that_work(stack: LinkageStack, aim: Aim) -> Found | None:
     return Found(found, starts.pair)
 
 
-def links_of_map(poses: Displacement, weights: FloatArray | None = None) -> list[RR]:
+def links_of_pivot_map(poses: Displacement, weights: FloatArray | None = None) -> list[RR]:
     """More links to start from: those that come nearest on maps of fixed and of moving pivots.
 
     Poses in the frames of `accuracy.error_frames`.
@@ -132,7 +132,7 @@ def links_of_map(poses: Displacement, weights: FloatArray | None = None) -> list
     return [link for _, link in found[:LINKS]]
 
 
-def _likely(stack: LinkageStack, aim: Aim) -> _Starts:
+def _likely(stack: LinkageBatch, aim: Target) -> _Starts:
     """Of pairs (k,) of dyads the likeliest starts.
 
     The first few pairs also from where they come nearest to the poses, on each of their circuits.
@@ -140,7 +140,7 @@ def _likely(stack: LinkageStack, aim: Aim) -> _Starts:
     starts, score = _at_poses(stack, aim)
     there = _starts(stack[:FEW], aim)
     if len(there.pair):
-        sine = lever_sine(there.stack, there.rows, aim.length, there.driver)
+        sine = signed_transmission_sine(there.stack, there.rows, aim.length, there.driver)
         wrong = (there.sign[:, None] * sine < 0).sum(axis=1)
         score = np.concatenate([score, aim.cost(there.rows) + WRONG * wrong])
         starts = _Starts(
@@ -151,7 +151,7 @@ def _likely(stack: LinkageStack, aim: Aim) -> _Starts:
     return starts.some(np.argsort(score, kind="stable")[:STARTS])
 
 
-def _at_poses(stack: LinkageStack, aim: Aim) -> tuple[_Starts, FloatArray]:
+def _at_poses(stack: LinkageBatch, aim: Target) -> tuple[_Starts, FloatArray]:
     """Starts from pairs (k,) as near to the poses as can be, and how unlikely they are, (k,).
 
     Judged at the poses themselves, as if the pairs met them: by how far they miss them, on which
@@ -166,7 +166,7 @@ def _at_poses(stack: LinkageStack, aim: Aim) -> tuple[_Starts, FloatArray]:
     found = []
     for side in _sides(aim.requirements):
         lead = np.full(count, side)
-        sine = lever_sine(stack, rows, aim.length, lead)
+        sine = signed_transmission_sine(stack, rows, aim.length, lead)
         drive, turns = drive_of(stack, rows, aim.length, lead)
         step = np.diff(drive, axis=1)
         step = np.where(turns[:, None], wrapped_angle(step), step)
@@ -196,7 +196,7 @@ def _at_poses(stack: LinkageStack, aim: Aim) -> tuple[_Starts, FloatArray]:
 
 
 def _projected(
-    stack: LinkageStack, rows: FloatArray, length: float
+    stack: LinkageBatch, rows: FloatArray, length: float
 ) -> tuple[FloatArray, NDArray[np.bool_]]:
     """Places of linkages (k,) straight ahead of rows (k, N, 3), and where there are any, (k,)."""
     surfaces = stack.surfaces()
@@ -224,7 +224,7 @@ def _sides(asked: Requirements) -> tuple[int, ...]:
     return {"first": (0,), "second": (1,)}.get(asked.driver, (0, 1))
 
 
-def _starts(stack: LinkageStack, aim: Aim) -> _Starts:
+def _starts(stack: LinkageBatch, aim: Target) -> _Starts:
     """Each pair on each circuit, with each driver, on each branch on which a pose is."""
     places = on_circuits(stack, aim.poses, aim.length)
     rows = rows_of(places, aim.length)
@@ -233,7 +233,7 @@ def _starts(stack: LinkageStack, aim: Aim) -> _Starts:
         for circuit in (0, 1):
             some = np.flatnonzero(np.isfinite(rows[:, circuit]).all(axis=(1, 2)))
             leads = np.full(len(some), side)
-            sine = lever_sine(stack[some], rows[some, circuit], aim.length, leads)
+            sine = signed_transmission_sine(stack[some], rows[some, circuit], aim.length, leads)
             middle = middle_of(stack[some], places[some, circuit, 0], side)
             for sign in (1.0, -1.0):
                 on = (sign * sine > 0).any(axis=1)
@@ -246,7 +246,7 @@ def _starts(stack: LinkageStack, aim: Aim) -> _Starts:
     return _Starts(pair, stack[pair], rows[pair, on_circuit], driver, table[3], table[4])
 
 
-def middle_of(stack: LinkageStack, places: Displacement, side: int) -> FloatArray:
+def middle_of(stack: LinkageBatch, places: Displacement, side: int) -> FloatArray:
     """The drive (k,) amid the dead points of the circuits on which places (k,) are.
 
     nan where there are none, and for drives that slide.
@@ -262,17 +262,17 @@ def middle_of(stack: LinkageStack, places: Displacement, side: int) -> FloatArra
     return out
 
 
-def _conditions(starts: _Starts, aim: Aim) -> Together:
+def _conditions(starts: _Starts, aim: Target) -> AllConstraints:
     """All that the linkages are to keep to."""
     asked = aim.requirements
     _, stack, rows, driver, sign, middle = starts
-    journey = Journey.of(stack, rows, aim.length, driver, sign, middle, asked)
+    journey = BranchAndOrder.of(stack, rows, aim.length, driver, sign, middle, asked)
     types = np.array([_type_to_be(stack, k, int(side), asked) for k, side in enumerate(driver)])
-    proportions = Proportions(aim.length, aim.frames, asked, driver, types)
-    return Together((journey, proportions, *aim.kept))
+    proportions = LinkProportions(aim.length, aim.frames, asked, driver, types)
+    return AllConstraints((journey, proportions, *aim.kept))
 
 
-def _type_to_be(stack: LinkageStack, index: int, driver: int, asked: Requirements) -> str:
+def _type_to_be(stack: LinkageBatch, index: int, driver: int, asked: Requirements) -> str:
     """Of the 4R types allowed the one nearest to a linkage, "" where it is one of them."""
     if (stack.kinds[index] != 0).any():
         return ""

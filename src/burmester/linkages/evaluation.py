@@ -13,21 +13,21 @@ from burmester.dyads.selection import FoundDyad, same_dyad
 from burmester.fourbar.defects import Defect, Verdict, judge
 from burmester.fourbar.dyad import RR, Dyad
 from burmester.fourbar.linkage import Linkage
-from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageStack
+from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.fourbar.nearest_places import rows_of
 from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
-from burmester.linkages.constraints import Together
-from burmester.linkages.found_linkage import FoundLinkage, Pair, Side, led
-from burmester.linkages.requirement_check import Unmet, unmet
+from burmester.linkages.constraints import AllConstraints
+from burmester.linkages.found_linkage import FoundLinkage, Pair, Side, with_driver_first
+from burmester.linkages.requirement_check import Violation, violations
 from burmester.linkages.rounding import rounded
-from burmester.linkages.target import Aim
+from burmester.linkages.target import Target
 from burmester.linkages.tolerances import spread
 from burmester.linkages.uncertainty import covariance, links_deviation, pose_sigma, uncertainties
 from burmester.numerics.arrays import ROUNDING, FloatArray
 from burmester.tasks.motion_task import Task
 
-__all__ = ["Candidates", "Judging", "Wish"]
+__all__ = ["Candidates", "Evaluation", "SynthesisOptions"]
 
 REACH = 0.1  # sizes of the motion; a pose missed by more is not met at all
 SHORTEST = 1e-6  # sizes; a ground link or a coupler shorter than this is none
@@ -40,7 +40,7 @@ ROUNDED = 5  # linkages are rounded where that is asked, at most
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class Wish:
+class SynthesisOptions:
     """How linkages are made of dyads.
 
     length: what a radian counts as in the task's unit.
@@ -60,37 +60,37 @@ class Wish:
 class Candidates(NamedTuple):
     """Linkages (k,) with the rows (k, N, 3) of their places, and the pairs that they come from.
 
-    sought: (k,), which were looked for under conditions.
+    from_search: (k,), which were looked for under conditions.
     own: the same in the task's own frames, where not a digit is to be lost.
     """
 
-    stack: LinkageStack
+    stack: LinkageBatch
     rows: FloatArray
     pairs: list[Pair]
-    sought: NDArray[np.bool_]
-    own: LinkageStack | None = None
+    from_search: NDArray[np.bool_]
+    own: LinkageBatch | None = None
 
     def some(self, index: NDArray[np.intp]) -> Candidates:
         """Those at the indices."""
         pairs = [self.pairs[k] for k in index]
         own = None if self.own is None else self.own[index]
-        return Candidates(self.stack[index], self.rows[index], pairs, self.sought[index], own)
+        return Candidates(self.stack[index], self.rows[index], pairs, self.from_search[index], own)
 
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class Judging:
+class Evaluation:
     """What linkages are judged by."""
 
     task: Task
-    aim: Aim
-    wish: Wish
+    aim: Target
+    options: SynthesisOptions
     numbers: Sequence[int] | None
 
-    def stacked(self, pairs: Sequence[Pair]) -> LinkageStack:
+    def stacked(self, pairs: Sequence[Pair]) -> LinkageBatch:
         """Pairs of dyads in the frames in which they are judged."""
         linkages = [Linkage(first.dyad, second.dyad) for first, second in pairs]
-        return LinkageStack.of(linkages).seen(self.aim.frames)
+        return LinkageBatch.of(linkages).seen(self.aim.frames)
 
     def told(self, made: Candidates) -> list[FoundLinkage]:
         """The linkages with all that is to be said of them, ranked."""
@@ -111,9 +111,9 @@ class Judging:
             linkage, verdict, better, (one, two) = parts  # noqa: PLW2901
             dyads = self.dyad(one, linkage.first), self.dyad(two, linkage.second)
             said = (dyads, linkage, errors[k], verdict, better, works, missing)
-            out.append(FoundLinkage("", 0, *said, bool(made.sought[k])))
+            out.append(FoundLinkage("", 0, *said, bool(made.from_search[k])))
         rows = np.arange(len(own))[:, None]
-        stack = LinkageStack(made.stack.kinds[rows, sides], made.stack.dimensions[rows, sides])
+        stack = LinkageBatch(made.stack.kinds[rows, sides], made.stack.dimensions[rows, sides])
         return self.ranked(self._measured(out, stack, made.rows))
 
     def ranked(self, found: list[FoundLinkage]) -> list[FoundLinkage]:
@@ -123,7 +123,7 @@ class Judging:
         """
 
         def order(each: FoundLinkage) -> tuple[bool, float]:
-            worst = np.round(each.error.worst / (ROUNDING * self.wish.length))
+            worst = np.round(each.error.worst / (ROUNDING * self.options.length))
             return not each.usable, float(worst)
 
         size = float(self.aim.frames.length)
@@ -142,18 +142,18 @@ class Judging:
     def rounded(self, found: list[FoundLinkage]) -> list[FoundLinkage]:
         """The best of them with lengths and pivots rounded, judged again."""
         out: list[FoundLinkage] = []
-        frames, wish = self.aim.frames, self.wish
+        frames, options = self.aim.frames, self.options
         for each in found[:ROUNDED]:
-            stack = LinkageStack.of([each.linkage]).seen(frames)
+            stack = LinkageBatch.of([each.linkage]).seen(frames)
             rows = rows_of(frames.see(each.error.places), self.aim.length)[None]
-            driver = np.array([int(each.better == "second")])
-            own, rows = rounded(stack, rows, self.aim, wish.step, wish.stock, driver)
-            sought = np.array([each.sought])
-            new = self.told(Candidates(own.seen(frames), rows, [each.dyads], sought, own))
+            driver = np.array([int(each.preferred_driver == "second")])
+            own, rows = rounded(stack, rows, self.aim, options.step, options.stock, driver)
+            from_search = np.array([each.from_search])
+            new = self.told(Candidates(own.seen(frames), rows, [each.dyads], from_search, own))
             if not new:
-                lost = Unmet("rounding", "rounded so coarsely its pivots would fall together")
-                new = [replace(each, usable=False, unmet=(*each.unmet, lost))]
-            out += [replace(one, exact_error=each.error) for one in new]
+                lost = Violation("rounding", "rounded so coarsely its pivots would fall together")
+                new = [replace(each, usable=False, violations=(*each.violations, lost))]
+            out += [replace(one, error_before_rounding=each.error) for one in new]
         return self.ranked(out)
 
     def dyad(self, origin: FoundDyad | str, dyad: Dyad) -> FoundDyad:
@@ -168,13 +168,13 @@ class Judging:
         return Displacement(rows[..., :2], rows[..., 2] / self.aim.length)
 
     def _verdicts(
-        self, own: LinkageStack, places: Displacement, errors: list[PoseError]
+        self, own: LinkageBatch, places: Displacement, errors: list[PoseError]
     ) -> list[Verdict]:
         shape = (len(own), self.task.poses.shape[0])
         position = np.array([error.position for error in errors]).reshape(shape)
         turn = np.array([error.angle for error in errors]).reshape(shape)
         asked, within = self.task.requirements, self.task.requirements.within
-        missed = position if within is not None else np.hypot(position, self.wish.length * turn)
+        missed = position if within is not None else np.hypot(position, self.options.length * turn)
         reach = REACH * float(self.aim.frames.length) if within is None else within
         numbers = list(range(shape[1])) if self.numbers is None else list(self.numbers)
         given = self.task.names or ("",) * len(numbers)
@@ -186,7 +186,7 @@ class Judging:
                 places[index],
                 missed=missed[index],
                 reach=reach,
-                length=self.wish.length,
+                length=self.options.length,
                 names=names,
                 any_order=asked.any_order,
             )
@@ -194,16 +194,20 @@ class Judging:
                 out[k] = _numbered(verdict, numbers)
         return [verdict for verdict in out if verdict is not None]
 
-    def _driver(self, linkage: Linkage, verdict: Verdict) -> tuple[Side, tuple[Unmet, ...], bool]:
+    def _driver(
+        self, linkage: Linkage, verdict: Verdict
+    ) -> tuple[Side, tuple[Violation, ...], bool]:
         """The better driver, what is unmet with it, and whether it leads through the poses."""
         asked = self.task.requirements
         sides: tuple[Side, ...] = ("first", "second")
         if asked.driver in sides:
             sides = (asked.driver,)
 
-        def judged(side: Side) -> tuple[tuple[float, ...], tuple[Unmet, ...]]:
+        def judged(side: Side) -> tuple[tuple[float, ...], tuple[Violation, ...]]:
             driven = verdict.first if side == "first" else verdict.second
-            missing = unmet(led(linkage, side), driven, asked, self.task.length_unit)
+            missing = violations(
+                with_driver_first(linkage, side), driven, asked, self.task.length_unit
+            )
             wrong = len(driven.defects), len(missing)
             weak = -round(float(np.nan_to_num(driven.least_over_range)), 6)  # no rounding decides
             poses = sum(len(each.poses) for each in driven.defects)
@@ -215,7 +219,7 @@ class Judging:
         return best, reasons, not (verdict.defects or defects or missing)
 
     def _measured(
-        self, found: list[FoundLinkage], stack: LinkageStack, rows: FloatArray
+        self, found: list[FoundLinkage], stack: LinkageBatch, rows: FloatArray
     ) -> list[FoundLinkage]:
         """The linkages with what errors of the poses, and of building, do to them."""
         sound = np.flatnonzero(np.isfinite(rows).all(axis=(1, 2)))
@@ -233,11 +237,11 @@ class Judging:
         regions = uncertainties(spreads, stack[sound], places, unit)
         deviation = links_deviation(stack[sound], spreads)
         built = None
-        if self.wish.tolerance is not None:
-            tolerance = self.wish.tolerance / unit
+        if self.options.tolerance is not None:
+            tolerance = self.options.tolerance / unit
             built = spread(stack[sound], self.aim.poses, places, self.aim.length, tolerance)
         span = np.linalg.norm(np.ptp(self.task.poses.translation, axis=0))
-        size = max(float(span), self.wish.length)
+        size = max(float(span), self.options.length)
         out = list(found)
         for at, k in enumerate(sound):
             determined = max(each.half_width for each in regions[at]) <= DETERMINED * size
@@ -248,7 +252,7 @@ class Judging:
         return out
 
 
-def _sizable(stack: LinkageStack) -> NDArray[np.bool_]:
+def _sizable(stack: LinkageBatch) -> NDArray[np.bool_]:
     """Whether ground links and couplers (k,) between pins have a length."""
     kinds, z = stack.kinds, stack.dimensions
     ground, coupler = (np.linalg.norm(z[:, 1, at] - z[:, 0, at], axis=-1) for at in (FIXED, MOVING))
@@ -263,7 +267,7 @@ def _exchanged(
 ) -> tuple[Linkage, Verdict, Side, Pair]:
     """The same with the second dyad first, as the better driver."""
     turned = Verdict(verdict.defects, verdict.second, verdict.first)
-    return led(linkage, "second"), turned, "first", pair[::-1]
+    return with_driver_first(linkage, "second"), turned, "first", pair[::-1]
 
 
 def _excess(z: FloatArray) -> float:
@@ -297,11 +301,11 @@ def _numbered(verdict: Verdict, numbers: Sequence[int]) -> Verdict:
     return Verdict(told(verdict.defects), first, second)
 
 
-def _held_by(aim: Aim, stack: LinkageStack, rows: FloatArray) -> FloatArray | None:
+def _held_by(aim: Target, stack: LinkageBatch, rows: FloatArray) -> FloatArray | None:
     """The limits that hold linkages (k,): their derivatives (k, m, 10), zero where they do not."""
     if not aim.kept:
         return None
-    keep = Together(aim.kept)
+    keep = AllConstraints(aim.kept)
     every = np.arange(len(stack))
     value, equal = keep(stack, rows, every)
     slope = np.zeros((*value.shape, 2 * DIMENSIONS))
@@ -309,6 +313,6 @@ def _held_by(aim: Aim, stack: LinkageStack, rows: FloatArray) -> FloatArray | No
     for j in range(2 * DIMENSIONS):
         moved = flat.copy()
         moved[:, j] += STRIDE
-        nudged = LinkageStack(stack.kinds, moved.reshape(stack.dimensions.shape))
+        nudged = LinkageBatch(stack.kinds, moved.reshape(stack.dimensions.shape))
         slope[..., j] = (keep(nudged, rows, every)[0] - value) / STRIDE
     return np.where((equal | (value > -TOUCHING))[..., None], slope, 0.0)

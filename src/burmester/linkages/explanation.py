@@ -48,7 +48,7 @@ def reasons(found: FoundLinkage, task: Task) -> list[str]:
     said = [_too_far(found, task, each) or each.message for each in found.defects]
     locks = any(each.kind == "branch" for each in found.defects)  # without any transmission there
     return said + [
-        each.message for each in found.unmet if not (locks and each.kind == "transmission")
+        each.message for each in found.violations if not (locks and each.kind == "transmission")
     ]
 
 
@@ -84,13 +84,13 @@ def way_on(linkages: Sequence[FoundLinkage], task: Task, size: float) -> str:
     nearest = sorted(ways.values(), key=lambda each: len(_options(each, task)))
     softer = ways.get(("--min-transmission",))
     if softer is not None:  # the nearest one; and one that transmits best
-        alike = [each for each in near if {way.kind for way in each.unmet} == {"transmission"}]
+        alike = [each for each in near if {way.kind for way in each.violations} == {"transmission"}]
         alike = [each for each in alike if not each.defects]
         best = max(alike, key=lambda each: each.driven.least_over_range)
         if best is not softer:
             nearest.insert(1, best)
     said = [_would_do(each, task, size) for each in nearest[:HINTS]]
-    if near[0].exact_error is not None:
+    if near[0].error_before_rounding is not None:
         said.insert(0, "round less")
     stuck = next((each for each in near[0].defects if each.kind in ("circuit", "branch")), None)
     if stuck is not None and stuck.poses and len(said) < HINTS:
@@ -124,7 +124,7 @@ def _options(found: FoundLinkage, task: Task) -> tuple[str, ...]:
         else:
             return ()
     links = found.linkage.links
-    for each in found.unmet:
+    for each in found.violations:
         if each.kind == "transmission" and np.isfinite(found.driven.least_over_range):
             degrees = math.floor(10 * math.degrees(found.driven.least_over_range)) / 10
             options.append(f"--min-transmission {degrees:g}")
@@ -132,7 +132,7 @@ def _options(found: FoundLinkage, task: Task) -> tuple[str, ...]:
             lengths = [float(length) for length in links]
             options.append(f"--link-ratio {_above(max(lengths) / min(lengths))}")
         elif each.kind == "type":
-            name = found.led.type
+            name = found.driver_first.type
             options.append(f'--type "{name}"' if " " in name else f"--type {name}")
         elif each.kind == "driver":
             options.append("--driver any")

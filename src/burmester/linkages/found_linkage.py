@@ -9,17 +9,17 @@ from burmester.dyads.selection import FoundDyad
 from burmester.fourbar.defects import Defect, Driven, Verdict
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.pose_error import PoseError
-from burmester.linkages.requirement_check import Unmet
+from burmester.linkages.requirement_check import Violation
 from burmester.linkages.tolerances import Spread
 from burmester.linkages.uncertainty import DyadUncertainty
 
-__all__ = ["FoundLinkage", "Pair", "Side", "led"]
+__all__ = ["FoundLinkage", "Pair", "Side", "with_driver_first"]
 
 Pair: TypeAlias = tuple[FoundDyad, FoundDyad]
 Side: TypeAlias = Literal["first", "second"]
 
 
-def led(linkage: Linkage, driver: Side) -> Linkage:
+def with_driver_first(linkage: Linkage, driver: Side) -> Linkage:
     """With the dyad that drives first."""
     return Linkage(linkage.second, linkage.first) if driver == "second" else linkage
 
@@ -34,14 +34,14 @@ class FoundLinkage:
     error: at the places where the coupler is for the poses, all on one circuit unless there is
         a circuit defect.
     verdict: circuit, branch and order for either driver.
-    better: which dyad is the better driver, or the only one allowed.
+    preferred_driver: which dyad is the better driver, or the only one allowed.
     usable: whether it leads through all poses, driven by that dyad, and is as asked.
-    unmet: what is asked of it and not so, driven by that dyad.
-    sought: whether it was looked for under conditions, the closest ones not being usable.
+    violations: what is asked of it and not so, driven by that dyad.
+    from_search: whether it was looked for under conditions, the closest ones not being usable.
     uncertainty: what errors of the poses leave open of both dyads; determined: whether that is
         little against the motion; tie: whether it leaves open which of Grashof's types it is.
     spread: of the error, where links and pivots are built within a tolerance.
-    exact_error: that of the linkage before its dimensions were rounded, where that was asked.
+    error_before_rounding: None where no rounding was asked for.
     """
 
     id: str
@@ -50,30 +50,30 @@ class FoundLinkage:
     linkage: Linkage
     error: PoseError
     verdict: Verdict
-    better: Side
+    preferred_driver: Side
     usable: bool
-    unmet: tuple[Unmet, ...] = ()
-    sought: bool = False
+    violations: tuple[Violation, ...] = ()
+    from_search: bool = False
     uncertainty: tuple[DyadUncertainty, DyadUncertainty] | None = None
     determined: bool = True
     tie: bool = False
     spread: Spread | None = None
-    exact_error: PoseError | None = None
+    error_before_rounding: PoseError | None = None
 
     @property
     def type(self) -> str:
         """The type, the better driver taken for the driver; a change point within what is known."""
-        return "change-point" if self.tie else self.led.type
+        return "change-point" if self.tie else self.driver_first.type
 
     @property
     def driver(self) -> Side | None:
         """Which dyad drives; None where the linkage is not usable."""
-        return self.better if self.usable else None
+        return self.preferred_driver if self.usable else None
 
     @property
     def driven(self) -> Driven:
         """How it does with the better driver."""
-        return self.verdict.first if self.better == "first" else self.verdict.second
+        return self.verdict.first if self.preferred_driver == "first" else self.verdict.second
 
     @property
     def defects(self) -> tuple[Defect, ...]:
@@ -81,11 +81,11 @@ class FoundLinkage:
         return self.verdict.defects + self.driven.defects
 
     @property
-    def in_order(self) -> Pair:
-        """The dyads as `led` has them, the better driver first."""
-        return self.dyads if self.better == "first" else (self.dyads[1], self.dyads[0])
+    def dyads_driver_first(self) -> Pair:
+        """The dyads as `driver_first` has them, the better driver first."""
+        return self.dyads if self.preferred_driver == "first" else (self.dyads[1], self.dyads[0])
 
     @property
-    def led(self) -> Linkage:
+    def driver_first(self) -> Linkage:
         """The linkage with the better driver first."""
-        return led(self.linkage, self.better)
+        return with_driver_first(self.linkage, self.preferred_driver)

@@ -15,19 +15,19 @@ import numpy as np
 
 from burmester.fourbar.dyad import PP
 from burmester.fourbar.linkage import Linkage
-from burmester.fourbar.linkage_batch import STACKED, LinkageStack
+from burmester.fourbar.linkage_batch import STACKED, LinkageBatch
 from burmester.fourbar.nearest_places import nearest, on_circuits, on_own_circuits, rows_of
 from burmester.fourbar.pose_error import error_frames
 from burmester.geometry.displacement import Displacement
-from burmester.linkages.constraints import Conditions, Kept, Together
-from burmester.linkages.defect_free_search import linkages_that_work, links_of_map
-from burmester.linkages.evaluation import Candidates, Judging, Wish
+from burmester.linkages.constraints import AllConstraints, Constraints, DyadLimitsConstraint
+from burmester.linkages.defect_free_search import defect_free_linkages, links_of_pivot_map
+from burmester.linkages.evaluation import Candidates, Evaluation, SynthesisOptions
 from burmester.linkages.found_linkage import FoundLinkage, Pair
-from burmester.linkages.target import Aim
+from burmester.linkages.target import Target
 from burmester.numerics.arrays import ROUNDING
 from burmester.tasks.motion_task import Task
 
-__all__ = ["joined"]
+__all__ = ["linkages_from_dyads"]
 
 TWICE = 2.0  # times the least greatest distance; one circuit may miss by so much for being one
 ROUGH, FINE = 8, 52  # steps of refining, for all linkages and for those that come near
@@ -36,8 +36,11 @@ MANY, ENOUGH = 1000, 60  # poses; of more so many are refined for, or looked for
 FEW = 5  # linkages found under conditions are kept, at most
 
 
-def joined(
-    task: Task, pairs: Sequence[Pair], wish: Wish, numbers: Sequence[int] | None = None
+def linkages_from_dyads(
+    task: Task,
+    pairs: Sequence[Pair],
+    options: SynthesisOptions,
+    numbers: Sequence[int] | None = None,
 ) -> tuple[FoundLinkage, ...]:
     """The linkages of pairs of dyads, those that work first, then by rising worst position error.
 
@@ -50,39 +53,42 @@ def joined(
     if len(task.limits) < 2:  # pairs of the same kinds are looked at together
         kind = {each.id: STACKED.index(type(each.dyad)) for pair in pairs for each in pair}
         pairs = [(b, a) if kind[b.id] < kind[a.id] else (a, b) for a, b in pairs]
-    judging = Judging(task, _aim(task, wish), wish, numbers)
+    judging = Evaluation(task, _aim(task, options), options, numbers)
     start = judging.stacked(pairs)
-    found = judging.told(_of_pairs(start, pairs, judging.aim, wish))
+    found = judging.told(_of_pairs(start, pairs, judging.aim, options))
     closest = min(found, key=lambda each: each.error.worst, default=None)
-    if wish.refine and closest is not None and not closest.usable:
+    if options.refine and closest is not None and not closest.usable:
         found = judging.ranked(found + _sought(start, pairs, judging, found))
-    if wish.step is not None or wish.stock:
+    if options.step is not None or options.stock:
         found = judging.rounded(found)
     return tuple(
         replace(each, id=f"L{rank}", rank=rank) for rank, each in enumerate(found, start=1)
     )
 
 
-def _aim(task: Task, wish: Wish) -> Aim:
-    frames = error_frames(task.poses, wish.length)
-    kept: tuple[Conditions, ...] = ()
+def _aim(task: Task, options: SynthesisOptions) -> Target:
+    frames = error_frames(task.poses, options.length)
+    kept: tuple[Constraints, ...] = ()
     if task.limits:
         kept = tuple(
-            Kept(side, task.limits[min(side, len(task.limits) - 1)], frames) for side in (0, 1)
+            DyadLimitsConstraint(side, task.limits[min(side, len(task.limits) - 1)], frames)
+            for side in (0, 1)
         )
-    return Aim(
+    return Target(
         frames.see(task.poses),
-        wish.length / float(frames.length),
+        options.length / float(frames.length),
         frames,
         task.requirements,
         kept,
         task.weights,
         task.exact,
-        wish.worst,
+        options.worst,
     )
 
 
-def _of_pairs(start: LinkageStack, pairs: list[Pair], aim: Aim, wish: Wish) -> Candidates:
+def _of_pairs(
+    start: LinkageBatch, pairs: list[Pair], aim: Target, options: SynthesisOptions
+) -> Candidates:
     """The pairs with their places, on one circuit where that is nearly as near as any."""
     every = np.arange(len(start))
     rows = rows_of(on_circuits(start, aim.poses, aim.length), aim.length)
@@ -95,24 +101,24 @@ def _of_pairs(start: LinkageStack, pairs: list[Pair], aim: Aim, wish: Wish) -> C
         for each in (one, best)
     )
     apart = away > np.maximum(TWICE * least, ROUNDING)
-    both = apart & np.isfinite(away) & np.isfinite(least) & wish.refine
+    both = apart & np.isfinite(away) & np.isfinite(least) & options.refine
     index = np.concatenate([every, np.flatnonzero(both)])
     rows = np.concatenate([np.where(apart[:, None, None], best, one), one[both]])
     none = np.zeros(len(index), dtype=bool)
     made = Candidates(start[index], rows, [pairs[k] for k in index], none)
-    if wish.refine:
+    if options.refine:
         made = _refined(made, aim)
         if len(made.rows[0]) <= MANY:  # refining leaves some in a valley that is not the nearest
             rows = on_own_circuits(made.stack, made.rows, aim.poses, aim.length)
             made = made._replace(rows=rows)
     # What was not touched keeps its digits.
-    own = LinkageStack.of([Linkage(a.dyad, b.dyad) for a, b in made.pairs]).dimensions
+    own = LinkageBatch.of([Linkage(a.dyad, b.dyad) for a, b in made.pairs]).dimensions
     touched = (made.stack.dimensions != start.dimensions[index]).any(axis=(1, 2), keepdims=True)
     own = np.where(touched, made.stack.back(aim.frames).dimensions, own)
-    return made._replace(own=LinkageStack(made.stack.kinds, own))
+    return made._replace(own=LinkageBatch(made.stack.kinds, own))
 
 
-def _refined(made: Candidates, aim: Aim) -> Candidates:
+def _refined(made: Candidates, aim: Target) -> Candidates:
     """The linkages refined, but for those that meet the poses up to rounding already.
 
     All of them by some steps, and those that come near by as many as it takes.
@@ -124,11 +130,11 @@ def _refined(made: Candidates, aim: Aim) -> Candidates:
     if (thin := aim.thinned(MANY)) is not aim:
         stack = _refined(made._replace(rows=thin.places(made.stack)), thin).stack
         return made._replace(stack=stack, rows=aim.places(stack))
-    kept = Together(aim.kept) if aim.kept else None
+    kept = AllConstraints(aim.kept) if aim.kept else None
     dimensions, rows = made.stack.dimensions.copy(), made.rows.copy()
     plain = not aim.worst and kept is None and aim.exact is None
     for steps in (ROUGH, FINE) if plain else (FINE,):
-        stack = LinkageStack(made.stack.kinds[some], dimensions[some])
+        stack = LinkageBatch(made.stack.kinds[some], dimensions[some])
         refined = aim.refine(stack, rows[some], conditions=kept, worst=aim.worst, steps=steps)
         with np.errstate(invalid="ignore"):
             better = refined.met & (aim.worst | (aim.cost(refined.rows) <= cost[some]))
@@ -140,17 +146,17 @@ def _refined(made: Candidates, aim: Aim) -> Candidates:
         some = some[cost[some] <= max(NEAR * near[0], near[-1])]
         if not len(some):
             break
-    return made._replace(stack=LinkageStack(made.stack.kinds, dimensions), rows=rows)
+    return made._replace(stack=LinkageBatch(made.stack.kinds, dimensions), rows=rows)
 
 
 def _sought(
-    start: LinkageStack, pairs: list[Pair], judging: Judging, plain: list[FoundLinkage]
+    start: LinkageBatch, pairs: list[Pair], judging: Evaluation, plain: list[FoundLinkage]
 ) -> list[FoundLinkage]:
     """Linkages that work and come nearer to the poses than the plain ones that do."""
     best = min((each.error.worst for each in plain if each.usable), default=np.inf)
     aim = judging.aim.thinned(ENOUGH)
     stack, origin = _more(start, pairs, judging)
-    found = linkages_that_work(stack, aim)
+    found = defect_free_linkages(stack, aim)
     if found is None:
         return []
     index = np.flatnonzero(found.refined.met)
@@ -163,12 +169,12 @@ def _sought(
 
 
 def _more(
-    start: LinkageStack, pairs: list[Pair], judging: Judging
-) -> tuple[LinkageStack, list[Pair]]:
+    start: LinkageBatch, pairs: list[Pair], judging: Evaluation
+) -> tuple[LinkageBatch, list[Pair]]:
     """Where the search starts from: the pairs, and links that are low in the pivot maps."""
     if judging.task.limits:
         return start, pairs
-    links = links_of_map(judging.aim.poses, judging.task.weights)
+    links = links_of_pivot_map(judging.aim.poses, judging.task.weights)
     own = {each.id: each for pair in pairs for each in pair}
     map_ = [
         judging.dyad(f"M{number}", judging.aim.frames.circle_back(link[None])[0])

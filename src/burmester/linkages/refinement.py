@@ -14,7 +14,7 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageStack
+from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.fourbar.nearest_places import rows_of
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.constrained_refinement import (
@@ -28,7 +28,7 @@ from burmester.linkages.constrained_refinement import (
     SETTLED,
     held,
 )
-from burmester.linkages.constraints import Conditions
+from burmester.linkages.constraints import Constraints
 from burmester.linkages.residuals import SIZE, Problem, State, free_part, rescaled, secant
 from burmester.numerics.arrays import FloatArray
 
@@ -49,7 +49,7 @@ class Refined:
     settled: (k,), whether the steps came to an end; met: whether all conditions hold.
     """
 
-    stack: LinkageStack
+    stack: LinkageBatch
     rows: FloatArray
     cost: FloatArray
     settled: NDArray[np.bool_]
@@ -57,14 +57,14 @@ class Refined:
 
 
 def refine(
-    stack: LinkageStack,
+    stack: LinkageBatch,
     places: Displacement,
     poses: Displacement,
     length: float,
     *,
     weights: FloatArray | None = None,
     exact: NDArray[np.bool_] | None = None,
-    conditions: Conditions | None = None,
+    conditions: Constraints | None = None,
     free: NDArray[np.bool_] | None = None,
     worst: bool = False,
     steps: int = STEPS,

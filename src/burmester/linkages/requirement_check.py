@@ -16,9 +16,9 @@ from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.requirements import Requirements
 
-__all__ = ["Unmet", "UnmetKind", "unmet"]
+__all__ = ["Violation", "ViolationKind", "violations"]
 
-UnmetKind: TypeAlias = Literal[
+ViolationKind: TypeAlias = Literal[
     "transmission", "type", "driver", "footprint", "link ratio", "rounding"
 ]
 
@@ -29,24 +29,24 @@ PLACES = 181  # looked at on the way between the poses, for the footprint
 
 @final
 @dataclass(frozen=True, slots=True)
-class Unmet:
+class Violation:
     """A requirement that a linkage does not meet, and by how much."""
 
-    kind: UnmetKind
+    kind: ViolationKind
     message: str
 
 
-def unmet(
+def violations(
     linkage: Linkage, driven: Driven, asked: Requirements, unit: str | None = None
-) -> tuple[Unmet, ...]:
+) -> tuple[Violation, ...]:
     """What a linkage, driven by its first dyad, lacks of what is asked."""
     if not asked.asked:
         return ()
-    found: list[Unmet] = []
+    found: list[Violation] = []
     least = driven.least_over_range
     if not least >= asked.transmission - ROUNDING:
         found.append(
-            Unmet(
+            Violation(
                 "transmission",
                 f"the transmission angle falls to {_degrees(least)} between the poses; "
                 f"{_degrees(asked.transmission)} is asked",
@@ -55,15 +55,15 @@ def unmet(
     kind = linkage.type
     if not asked.allows(kind):
         article = "an" if kind[0] in "aeiouAEIOU" else "a"
-        found.append(Unmet("type", f"it is {article} {kind}"))
+        found.append(Violation("type", f"it is {article} {kind}"))
     if asked.driver == "crank" and not driven.turns_fully:
-        found.append(Unmet("driver", "its driver does not turn fully"))
+        found.append(Violation("driver", "its driver does not turn fully"))
     if (links := linkage.links) is not None:
         lengths = [float(length) for length in links]
         ratio = max(lengths) / min(lengths)
         if ratio > asked.link_ratio * (1 + ROUNDING):
             found.append(
-                Unmet(
+                Violation(
                     "link ratio",
                     f"its longest link is {ratio:.3g} times its shortest; "
                     f"{asked.link_ratio:g} at most is asked",
@@ -73,7 +73,7 @@ def unmet(
         out, what = _outside(linkage, driven, asked.footprint)
         if out > ROUNDING * float(np.ptp(asked.footprint.vertices, axis=0).max()):
             length = f"{out:.2g}{f' {unit}' if unit else ''}"
-            found.append(Unmet("footprint", f"{what} leaves the footprint by {length}"))
+            found.append(Violation("footprint", f"{what} leaves the footprint by {length}"))
     return tuple(found)
 
 

@@ -13,10 +13,10 @@ from typing import Any, NamedTuple, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageStack
+from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.fourbar.nearest_places import Normal, newton_step, normal
 from burmester.geometry.displacement import Displacement
-from burmester.linkages.constraints import Conditions
+from burmester.linkages.constraints import Constraints
 from burmester.numerics.arrays import FloatArray
 
 __all__ = ["SIZE", "Problem", "State", "all_conditions", "free_part", "rescaled", "secant"]
@@ -64,12 +64,12 @@ class Problem:
     length: float
     share: FloatArray
     exact: NDArray[np.bool_]
-    conditions: Conditions | None
+    conditions: Constraints | None
     free: NDArray[np.bool_]
 
-    def stack(self, which: NDArray[np.intp], z: FloatArray) -> LinkageStack:
+    def stack(self, which: NDArray[np.intp], z: FloatArray) -> LinkageBatch:
         """The linkages at the indices with dimensions z."""
-        return LinkageStack(self.kinds[which], z.reshape(-1, 2, DIMENSIONS))
+        return LinkageBatch(self.kinds[which], z.reshape(-1, 2, DIMENSIONS))
 
     def state(self, which: NDArray[np.intp], z: FloatArray, rows: FloatArray) -> State:
         """The linkages z (k, 10) with the places nearest to the poses that rows lead to."""
@@ -78,7 +78,7 @@ class Problem:
             return State(z, rows, *_normal_part(at, rows - self.wanted, partial))
 
     def _brought(
-        self, stack: LinkageStack, rows: FloatArray, target: FloatArray | None
+        self, stack: LinkageBatch, rows: FloatArray, target: FloatArray | None
     ) -> tuple[FloatArray, Normal, FloatArray]:
         """Rows brought to where target is nearest (None: straight ahead), nan where they are lost.
 

@@ -23,21 +23,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.fourbar.circuits import circuit_of
-from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageStack
+from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.fourbar.nearest_places import on_circuits, rows_of, settled
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.constraints import (
     SHORTEST,
-    Conditions,
-    Held,
-    Journey,
-    Proportions,
-    Together,
-    lever_sine,
+    AllConstraints,
+    BranchAndOrder,
+    Constraints,
+    ConstraintValues,
+    LinkProportions,
+    signed_transmission_sine,
 )
 from burmester.linkages.defect_free_search import middle_of
 from burmester.linkages.dimension_grid import Grid
-from burmester.linkages.target import Aim
+from burmester.linkages.target import Target
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.integer_least_squares import closest_numbers, firmest_last
 
@@ -60,13 +60,13 @@ ALIKE = 1e-12  # lengths; distances that differ by less are the same
 
 
 def rounded(  # noqa: PLR0917
-    stack: LinkageStack,
+    stack: LinkageBatch,
     rows: FloatArray,
-    aim: Aim,
+    aim: Target,
     step: float | None,
     stock: Sequence[float],
     driver: NDArray[np.intp] | None = None,
-) -> tuple[LinkageStack, FloatArray]:
+) -> tuple[LinkageBatch, FloatArray]:
     """Linkages (k,) with rounded dimensions, in the task's own frames and unit.
 
     stack, and rows (k, N, 3) of places near the poses, in the frames of `aim`; the rows returned
@@ -88,7 +88,7 @@ def rounded(  # noqa: PLR0917
         one = _Rounding.of(stack[k : k + 1], rows[k], aim, step, stock, side)
         own, places[k] = one.best(out[k].reshape(SIZE))
         out[k] = own.reshape(2, DIMENSIONS)
-    return LinkageStack(stack.kinds, out), places
+    return LinkageBatch(stack.kinds, out), places
 
 
 @final
@@ -96,10 +96,12 @@ def rounded(  # noqa: PLR0917
 class _AsBefore:
     """Conditions of one linkage, of those only that it kept to before, (m,)."""
 
-    inner: Conditions
+    inner: Constraints
     before: NDArray[np.bool_]
 
-    def __call__(self, stack: LinkageStack, rows: FloatArray, which: NDArray[np.intp]) -> Held:
+    def __call__(
+        self, stack: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
+    ) -> ConstraintValues:
         value, equal = self.inner(stack, rows, np.zeros(len(which), dtype=np.intp))
         return np.where(self.before, value, np.where(equal, 0.0, -1.0)), equal
 
@@ -159,7 +161,7 @@ class _Rounding:
 
     kinds: NDArray[np.int8]
     rows: FloatArray
-    aim: Aim
+    aim: Target
     grid: Grid
     keep: _AsBefore
     touched: bool
@@ -168,9 +170,9 @@ class _Rounding:
     @classmethod
     def of(  # noqa: PLR0917
         cls,
-        stack: LinkageStack,
+        stack: LinkageBatch,
         rows: FloatArray,
-        aim: Aim,
+        aim: Target,
         step: float | None,
         stock: Sequence[float],
         driver: int,
@@ -185,12 +187,12 @@ class _Rounding:
         lead, here = np.array([driver]), rows[None]
         sine = _sign(stack, here, aim.length, lead)
         middle = middle_of(stack, aim.places_of(rows[None, 0]), driver)
-        journey = Journey.of(stack, here, aim.length, lead, sine, middle, aim.requirements)
+        journey = BranchAndOrder.of(stack, here, aim.length, lead, sine, middle, aim.requirements)
         clear = max(CLEAR, float(np.sin(aim.requirements.transmission)))
         journey = replace(journey, clear=clear)
         types = np.array([_type_kept(stack, driver, aim)])
-        links = Proportions(aim.length, aim.frames, aim.requirements, lead, types)
-        inner = Together((journey, links, *aim.kept))
+        links = LinkProportions(aim.length, aim.frames, aim.requirements, lead, types)
+        inner = AllConstraints((journey, links, *aim.kept))
         value, equal = inner(stack, here, np.zeros(1, dtype=np.intp))
         with np.errstate(invalid="ignore"):
             before = (np.where(equal, np.abs(value), value) < KEPT)[0]
@@ -226,10 +228,10 @@ class _Rounding:
             return self._somewhere(naive)
         return first.own[0], first.rows[0]
 
-    def _stack(self, own: FloatArray) -> LinkageStack:
+    def _stack(self, own: FloatArray) -> LinkageBatch:
         """Dimensions (n, 10) in the task's frames, as those of `aim` see them."""
         kinds = np.broadcast_to(self.kinds, (len(own), 2))
-        return LinkageStack(kinds, own.reshape(-1, 2, DIMENSIONS)).seen(self.aim.frames)
+        return LinkageBatch(kinds, own.reshape(-1, 2, DIMENSIONS)).seen(self.aim.frames)
 
     def _tried(self, own: FloatArray, rows: FloatArray | None = None) -> _Tried:
         """Dimensions (n, 10), with the places that rows (N, 3) or (n, N, 3) lead to."""
@@ -337,7 +339,7 @@ class _Rounding:
     def _on_circuits(self, tried: _Tried) -> NDArray[np.bool_]:
         """Whether all places (n,) are on one circuit, if they were before."""
 
-        def on_one(stack: LinkageStack, rows: FloatArray) -> NDArray[np.bool_]:
+        def on_one(stack: LinkageBatch, rows: FloatArray) -> NDArray[np.bool_]:
             out = np.zeros(len(stack), dtype=bool)
             places = Displacement(rows[..., :2], rows[..., 2] / self.aim.length)
             for index, linkage in stack.alike():
@@ -370,15 +372,15 @@ def _moves(some: NDArray[np.bool_], pairs: bool) -> FloatArray:
 
 
 def _sign(
-    stack: LinkageStack, rows: FloatArray, length: float, driver: NDArray[np.intp]
+    stack: LinkageBatch, rows: FloatArray, length: float, driver: NDArray[np.intp]
 ) -> FloatArray:
     """The sign (k,) of the transmission angle at most of the places (k, N, 3)."""
     with np.errstate(invalid="ignore"):
-        positive = (lever_sine(stack, rows, length, driver) > 0).mean(axis=1)
+        positive = (signed_transmission_sine(stack, rows, length, driver) > 0).mean(axis=1)
     return np.where(positive >= 0.5, 1.0, -1.0)
 
 
-def _type_kept(stack: LinkageStack, driver: int, aim: Aim) -> str:
+def _type_kept(stack: LinkageBatch, driver: int, aim: Target) -> str:
     """The type of a 4R linkage if something is asked of types, else ""."""
     asked = aim.requirements
     if (stack.kinds != 0).any() or (asked.types is None and asked.driver != "crank"):

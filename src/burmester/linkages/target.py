@@ -9,22 +9,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.fourbar.canonical_frames import CanonicalFrames
-from burmester.fourbar.linkage_batch import LinkageStack
+from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.nearest_places import on_circuits, rows_of
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.constraints import (
-    Conditions,
+    Constraints,
 )
 from burmester.linkages.refinement import Refined, refine
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.requirements import Requirements
 
-__all__ = ["Aim"]
+__all__ = ["Target"]
 
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class Aim:
+class Target:
     """What linkages are looked for: near poses (N,), in the frames of `accuracy.error_frames`.
 
     kept: the limits of the dyads.  The rest as in `refine`.
@@ -34,12 +34,12 @@ class Aim:
     length: float
     frames: CanonicalFrames
     requirements: Requirements
-    kept: tuple[Conditions, ...] = ()
+    kept: tuple[Constraints, ...] = ()
     weights: FloatArray | None = None
     exact: NDArray[np.bool_] | None = None
     worst: bool = False
 
-    def refine(self, stack: LinkageStack, rows: FloatArray, **how: Any) -> Refined:
+    def refine(self, stack: LinkageBatch, rows: FloatArray, **how: Any) -> Refined:
         """Linkages (k,) from where they are to the least error."""
         return refine(
             stack,
@@ -51,7 +51,7 @@ class Aim:
             **how,
         )
 
-    def thinned(self, most: int) -> Aim:
+    def thinned(self, most: int) -> Target:
         """The same with so many poses at most, evenly chosen; exact ones all stay."""
         count = self.poses.shape[0]
         if count <= most:
@@ -66,7 +66,7 @@ class Aim:
             exact=None if self.exact is None else self.exact[index],
         )
 
-    def places(self, stack: LinkageStack) -> FloatArray:
+    def places(self, stack: LinkageBatch) -> FloatArray:
         """Rows (k, N, 3) of the places nearest to the poses, on the circuit nearest to all."""
         rows = rows_of(on_circuits(stack, self.poses, self.length), self.length)
         cost = np.nan_to_num(self.cost(rows), nan=np.inf)

@@ -18,7 +18,7 @@ from typing import final
 import numpy as np
 
 from burmester.fourbar.dyad import PR, RP, RR
-from burmester.fourbar.linkage_batch import DIMENSIONS, STACKED, LinkageStack
+from burmester.fourbar.linkage_batch import DIMENSIONS, STACKED, LinkageBatch
 from burmester.fourbar.nearest_places import newton_step, normal, rows_of
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.uncertainty import line_middle
@@ -86,7 +86,7 @@ class Built:
 
 
 def spread(  # noqa: PLR0917
-    stack: LinkageStack,
+    stack: LinkageBatch,
     poses: Displacement,
     places: Displacement,
     length: float,
@@ -118,7 +118,7 @@ def spread(  # noqa: PLR0917
 
 
 def sensitivity(
-    stack: LinkageStack, poses: Displacement, places: Displacement, length: float
+    stack: LinkageBatch, poses: Displacement, places: Displacement, length: float
 ) -> FloatArray:
     """How the places nearest to poses (N,) move with what is built amiss: (k, N, 2, 10).
 
@@ -155,7 +155,7 @@ def sensitivity(
 
 
 def monte_carlo(  # noqa: PLR0917
-    stack: LinkageStack,
+    stack: LinkageBatch,
     poses: Displacement,
     places: Displacement,
     length: float,
@@ -174,7 +174,7 @@ def monte_carlo(  # noqa: PLR0917
     dimensions = stack.dimensions[:, None] + np.einsum("ksji,knsi->knsj", made, off)
     rows = np.empty((len(stack), draws, poses.shape[0], 3))
     for k in range(len(stack)):
-        built = LinkageStack(np.broadcast_to(stack.kinds[k], (draws, 2)), dimensions[k])
+        built = LinkageBatch(np.broadcast_to(stack.kinds[k], (draws, 2)), dimensions[k])
         for at in _blocks(poses):
             rows[k, :, at] = _nearest(built, poses[at], places[k, at], length)
     reached = _places(rows, length)
@@ -184,7 +184,7 @@ def monte_carlo(  # noqa: PLR0917
 
 
 def _nearest(
-    built: LinkageStack, poses: Displacement, start: Displacement, length: float
+    built: LinkageBatch, poses: Displacement, start: Displacement, length: float
 ) -> FloatArray:
     """The places (n, N, 3) of linkages (n,) nearest to poses (N,), by Newton's steps from (N,)."""
     shape = (len(built), poses.shape[0], 3)
@@ -200,7 +200,7 @@ def _nearest(
     return np.where((size <= SETTLED)[..., None], rows, np.nan)
 
 
-def _made(stack: LinkageStack, middle: FloatArray, length: float) -> FloatArray:
+def _made(stack: LinkageBatch, middle: FloatArray, length: float) -> FloatArray:
     """How what is built amiss, as lengths, changes the dimensions of each dyad: (k, 2, 5, 5)."""
     made = np.zeros((*stack.kinds.shape, DIMENSIONS, DIMENSIONS))
     made[:] = np.eye(DIMENSIONS)

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
-from burmester.fourbar.linkage_batch import DIMENSIONS, STACKED, LinkageStack
+from burmester.fourbar.linkage_batch import DIMENSIONS, STACKED, LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.motion_task import Task
@@ -151,7 +151,7 @@ def pose_sigma(task: Task) -> tuple[float, float]:
 
 
 def covariance(  # noqa: PLR0917
-    stack: LinkageStack,
+    stack: LinkageBatch,
     places: Displacement,
     length: float,
     sigma: tuple[float, float],
@@ -167,8 +167,8 @@ def covariance(  # noqa: PLR0917
         weight is met nearly exactly, and its errors are passed on whole.
     held: (k, m, 10), derivatives of quantities that do not change, such as limits that hold; zero
         rows mean nothing.  An exact pose whose own errors count is one of large weight instead.
-    Order of the dimensions: dyad by dyad as in `LinkageStack`; slots not in use are zero.  All in
-    one frame and unit, where lengths are about 1: `accuracy.error_frames` with `LinkageStack.seen`,
+    Order of the dimensions: dyad by dyad as in `LinkageBatch`; slots not in use are zero.  All in
+    one frame and unit, where lengths are about 1: `accuracy.error_frames` with `LinkageBatch.seen`,
     and sigma in that unit; M must be as it is given, for pose errors are those of its origin.
     What the poses do not determine has a standard deviation of 1e3 lengths at least.
     """
@@ -209,7 +209,7 @@ def covariance(  # noqa: PLR0917
     return np.asarray(root @ root.swapaxes(1, 2))
 
 
-def _held(stack: LinkageStack, held: FloatArray | None) -> FloatArray:
+def _held(stack: LinkageBatch, held: FloatArray | None) -> FloatArray:
     """Projectors (k, 10, 10) on the directions of what is held, unused slots among them."""
     unused = np.zeros((len(stack), 2, 2, DIMENSIONS))
     for side in (0, 1):
@@ -224,7 +224,7 @@ def _held(stack: LinkageStack, held: FloatArray | None) -> FloatArray:
 
 
 def uncertainties(
-    covariance: FloatArray, stack: LinkageStack, places: Displacement, unit: float = 1.0
+    covariance: FloatArray, stack: LinkageBatch, places: Displacement, unit: float = 1.0
 ) -> list[tuple[DyadUncertainty, DyadUncertainty]]:
     """The 95 % regions of both dyads of linkages (k,), from `covariance` of the same stack.
 
@@ -267,7 +267,7 @@ def _ellipse(spread: FloatArray, unit: float) -> PivotRegion:
     return PivotRegion(float(major), float(minor), direction)
 
 
-def line_middle(stack: LinkageStack, places: Displacement) -> FloatArray:
+def line_middle(stack: LinkageBatch, places: Displacement) -> FloatArray:
     """For each dyad (k, 2) that is a slider, where along its line the middle of its travel is.
 
     From the foot of the normal through the origin, towards a quarter turn ahead of it; 0 for an RR.
@@ -291,7 +291,7 @@ def line_middle(stack: LinkageStack, places: Displacement) -> FloatArray:
     return middle
 
 
-def links_deviation(stack: LinkageStack, covariance: FloatArray) -> FloatArray:
+def links_deviation(stack: LinkageBatch, covariance: FloatArray) -> FloatArray:
     """Standard deviations (k,) of Grashof's excess s + l - p - q; nan where a dyad is a slider.
 
     An excess not beyond twice that is a change point as far as the poses can tell.

@@ -6,7 +6,7 @@ from typing import Literal, TypeAlias
 
 from burmester.dyads.minima_within_limits import Norm
 from burmester.errors import InputError
-from burmester.tasks.motion_class import Fingerprint
+from burmester.tasks.motion_class import MotionClass
 from burmester.tasks.motion_task import CONDITIONS, Task
 
 __all__ = ["Method", "chosen_method"]
@@ -16,7 +16,7 @@ Method: TypeAlias = Literal["auto", "pencil", "exact", "complete"]
 
 def chosen_method(  # noqa: PLR0917
     task: Task,
-    motion: Fingerprint | None,
+    motion: MotionClass | None,
     method: Method,
     normalise: bool,
     norm: Norm,

@@ -20,14 +20,14 @@ from burmester.dyads.selection import Fit, FoundDyad, characteristic_length, fou
 from burmester.errors import Advice
 from burmester.fourbar.dyad import Dyad
 from burmester.fourbar.pose_error import PoseError
-from burmester.linkages.evaluation import Wish
+from burmester.linkages.evaluation import SynthesisOptions
 from burmester.linkages.found_linkage import FoundLinkage, Pair
-from burmester.linkages.from_dyads import joined
+from burmester.linkages.from_dyads import linkages_from_dyads
 from burmester.synthesis.method import Method, chosen_method
 from burmester.synthesis.outcome import advice, family, linkage_advice, told
 from burmester.synthesis.result import Outcome, Synthesis
 from burmester.tasks.feasibility import require_feasible
-from burmester.tasks.motion_class import Fingerprint
+from burmester.tasks.motion_class import MotionClass
 from burmester.tasks.motion_kinds import FewPoses, Rest, Undetermined
 from burmester.tasks.motion_task import CONDITIONS, Task
 
@@ -71,7 +71,7 @@ def synthesize(
     diagnosis = diagnose(task)
     motion, warnings = diagnosis.motion, list(diagnosis.findings)
     whole, size = task, characteristic_length(task)
-    wish = Wish(
+    options = SynthesisOptions(
         size if length is None else length,
         refine=normalise and method != "pencil",
         worst=norm == "worst",
@@ -81,11 +81,11 @@ def synthesize(
     )
     if motion is not None:
         # Pivots at points or on lines may settle what too few or too small motions leave open.
-        kind, settled = motion.motion, any(each.conditions for each in task.limits)
+        kind, settled = motion.kind, any(each.conditions for each in task.limits)
         few = isinstance(kind, FewPoses) and (settled or (kind.repeats and motion.distinct > 2))
         small = isinstance(kind, Undetermined) and settled
         if not (motion.determined or few or small):
-            return _special(task, method, motion, size, wish, warnings)
+            return _special(task, method, motion, size, options, warnings)
         if motion.distinct < task.poses.shape[0]:
             task = _merged(task, motion)
     free = max(_freedom(task))
@@ -93,10 +93,10 @@ def synthesize(
         return _family(whole, task, method, motion, size, warnings)
     chosen = chosen_method(task, motion, method, normalise, norm, certify, free)
     fits = _fits(task, motion, chosen, normalise, norm)
-    return _finish(whole, task, chosen, motion, size, fits, warnings, certify, wish)
+    return _finish(whole, task, chosen, motion, size, fits, warnings, certify, options)
 
 
-def _merged(task: Task, motion: Fingerprint) -> Task:
+def _merged(task: Task, motion: MotionClass) -> Task:
     """The task with every repeated pose once; weights add up."""
     size, first, exact, weights = motion.distinct, motion.first, task.exact, task.weights
     if weights is not None:
@@ -120,7 +120,7 @@ def _family(  # noqa: PLR0917
     whole: Task,
     task: Task,
     method: Method,
-    motion: Fingerprint | None,
+    motion: MotionClass | None,
     length: float,
     warnings: list[Advice],
 ) -> Synthesis:
@@ -140,13 +140,13 @@ def _family(  # noqa: PLR0917
 def _special(  # noqa: PLR0917
     task: Task,
     method: Method,
-    motion: Fingerprint,
+    motion: MotionClass,
     length: float,
-    wish: Wish,
+    options: SynthesisOptions,
     warnings: list[Advice],
 ) -> Synthesis:
     """A special motion: what is certain of it is the whole answer."""
-    kind = motion.motion
+    kind = motion.kind
     found = []
     for number, dyad in enumerate(kind.dyads, start=1):
         miss = np.abs(dyad.residual(task.poses))
@@ -155,17 +155,19 @@ def _special(  # noqa: PLR0917
     pairs = list(combinations(found, 2))
     linkages: tuple[FoundLinkage, ...] = ()
     if pairs:
-        once = replace(wish, refine=False)
+        once = replace(options, refine=False)
         linkages = _joined(task, _merged(task, motion), pairs, once, motion)
     said = Outcome(kind.code, kind.message, kind.help)
     if isinstance(kind, Rest | FewPoses):  # which say themselves what repeats
         warnings = [each for each in warnings if each.code != "W208"]
     advised = (*warnings, *linkage_advice(task, linkages, said.code))
-    return Synthesis(task, method, said, motion, length, tuple(found), linkages, advised, wish=wish)
+    return Synthesis(
+        task, method, said, motion, length, tuple(found), linkages, advised, options=options
+    )
 
 
 def _fits(
-    task: Task, motion: Fingerprint | None, method: Method, normalise: bool, norm: Norm
+    task: Task, motion: MotionClass | None, method: Method, normalise: bool, norm: Norm
 ) -> tuple[Fit, ...]:
     """What the method makes of the poses, once for each of the task's limits."""
     if method == "pencil":
@@ -186,12 +188,12 @@ def _finish(  # noqa: PLR0917
     whole: Task,
     task: Task,
     method: Method,
-    motion: Fingerprint | None,
+    motion: MotionClass | None,
     length: float,
     fits: tuple[Fit, ...],
     warnings: list[Advice],
     certify: bool,
-    wish: Wish,
+    options: SynthesisOptions,
 ) -> Synthesis:
     """Join the dyads of the fits to linkages, rank them, and say what came of it."""
     lists, left_out = [], 0
@@ -233,7 +235,7 @@ def _finish(  # noqa: PLR0917
                     "only one constraint was found; give more poses, or more different ones",
                 )
             )
-    linkages = _joined(whole, task, different, wish, motion)
+    linkages = _joined(whole, task, different, options, motion)
     said = told(whole, method, fits, dyads, real, linkages)
     warnings += linkage_advice(whole, linkages, said.code)
     certificate = _proved(task, fits[0], dyads) if certify else None
@@ -248,17 +250,21 @@ def _finish(  # noqa: PLR0917
         tuple(warnings),
         fits,
         certificate,
-        wish,
+        options,
     )
 
 
 def _joined(
-    whole: Task, task: Task, pairs: Sequence[Pair], wish: Wish, motion: Fingerprint | None
+    whole: Task,
+    task: Task,
+    pairs: Sequence[Pair],
+    options: SynthesisOptions,
+    motion: MotionClass | None,
 ) -> tuple[FoundLinkage, ...]:
     """The linkages of pairs of dyads, with their errors at all poses, repeated ones too."""
     if motion is None or motion.distinct == whole.poses.shape[0]:
-        return joined(task, pairs, wish)
-    found = joined(task, pairs, wish, [int(i) for i in motion.first])
+        return linkages_from_dyads(task, pairs, options)
+    found = linkages_from_dyads(task, pairs, options, [int(i) for i in motion.first])
     group = motion.group
     return tuple(
         replace(each, error=PoseError.at(each.error.places[group], whole.poses)) for each in found

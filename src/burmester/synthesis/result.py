@@ -11,10 +11,10 @@ from burmester.dyads.selection import (
     FoundDyad,
 )
 from burmester.errors import Advice
-from burmester.linkages.evaluation import Wish
+from burmester.linkages.evaluation import SynthesisOptions
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.synthesis.method import Method
-from burmester.tasks.motion_class import Fingerprint
+from burmester.tasks.motion_class import MotionClass
 from burmester.tasks.motion_task import Task
 
 __all__ = ["Outcome", "Synthesis"]
@@ -55,14 +55,14 @@ class Synthesis:
     task: Task
     method: Method
     outcome: Outcome
-    motion: Fingerprint | None
+    motion: MotionClass | None
     length: float
     dyads: tuple[FoundDyad, ...] = ()
     linkages: tuple[FoundLinkage, ...] = ()
     warnings: tuple[Advice, ...] = ()
     fits: tuple[Fit, ...] = ()
     certificate: Certificate | None = None
-    wish: Wish | None = None
+    options: SynthesisOptions | None = None
 
     @property
     def usable(self) -> tuple[FoundLinkage, ...]:

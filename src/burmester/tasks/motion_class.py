@@ -1,4 +1,4 @@
-"""The fingerprint of a task: what its motion is, known before any dyad is looked for.
+"""The class of a task: what its motion is, known before any dyad is looked for.
 
 How many independent quadrics hold the poses (the nullity of the design matrix) says how
 special a motion is; which special one it is, a model says that is fitted to the poses: the
@@ -33,7 +33,13 @@ from burmester.tasks.motion_kinds import (
     Undetermined,
 )
 from burmester.tasks.motion_task import COARSE, Task
-from burmester.tasks.repeated_poses import ULPS, different, rotation_range, spanning, told_apart
+from burmester.tasks.repeated_poses import (
+    ULPS,
+    different,
+    distinguishable,
+    rotation_range,
+    spanning,
+)
 from burmester.tasks.special_motions import (
     CircularTranslation,
     FreeTranslation,
@@ -42,7 +48,7 @@ from burmester.tasks.special_motions import (
     TwoSliders,
 )
 
-__all__ = ["Fingerprint", "fingerprint"]
+__all__ = ["MotionClass", "classify_motion"]
 
 ComplexArray = NDArray[np.complex128]
 
@@ -54,7 +60,7 @@ ENOUGH = 6  # poses told apart; how many more there are says nothing
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class Fingerprint:
+class MotionClass:
     """What the motion of a task is.
 
     motion: its kind, with its numbers.
@@ -70,7 +76,7 @@ class Fingerprint:
     rotation: the least arc that holds all orientations, in radians.
     """
 
-    motion: MotionKind
+    kind: MotionKind
     first: NDArray[np.int_]
     group: NDArray[np.int_]
     singular_values: FloatArray
@@ -87,10 +93,10 @@ class Fingerprint:
     @property
     def determined(self) -> bool:
         """Whether a fit is of use; else the kind of motion is the whole answer."""
-        return isinstance(self.motion, General | TwoOrientations)
+        return isinstance(self.kind, General | TwoOrientations)
 
 
-def fingerprint(task: Task) -> Fingerprint:
+def classify_motion(task: Task) -> MotionClass:
     """What the motion of a task is, and how many of its poses differ."""
     first, group = different(task.poses)
     motion = _Motion.of(task.poses[first], task.resolution)
@@ -105,7 +111,7 @@ def fingerprint(task: Task) -> Fingerprint:
     few = nullity == as_given == 3 and isinstance(kind, General | TwoOrientations)
     five = spanning(design, 5) if few else None
     rotation = rotation_range(task.poses.angle)
-    return Fingerprint(kind, first, group, values, tolerance, nullity, five, rotation)
+    return MotionClass(kind, first, group, values, tolerance, nullity, five, rotation)
 
 
 # --- the poses in complex numbers, and how exactly they are known
@@ -186,7 +192,7 @@ def _kind(
     task: Task, first: NDArray[np.int_], motion: _Motion, nullity: int, as_given: int
 ) -> MotionKind:
     count, unit, distinct = task.poses.shape[0], task.length_unit, len(first)
-    apart = told_apart(task.poses[first], motion.error(0.0), motion.angle_error, ENOUGH)
+    apart = distinguishable(task.poses[first], motion.error(0.0), motion.angle_error, ENOUGH)
     kept = tuple(int(i) for i in first[apart])
     kind: MotionKind = General(nullity)
     if len(kept) == 1:

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["ULPS", "different", "rotation_range", "spanning", "told_apart"]
+__all__ = ["ULPS", "different", "distinguishable", "rotation_range", "spanning"]
 
 Indices = NDArray[np.int_]
 
@@ -48,7 +48,7 @@ def different(poses: Displacement) -> tuple[Indices, Indices]:
     return first, np.searchsorted(first, same_as)
 
 
-def told_apart(poses: Displacement, position: float, angle: float, enough: int) -> Indices:
+def distinguishable(poses: Displacement, position: float, angle: float, enough: int) -> Indices:
     """At most `enough` poses of (N,), each the farthest from those before, that are not one.
 
     position, angle: bounds on the errors of a pose; two poses within both are as good as one.

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from burmester.errors import InputError
-from burmester.fourbar.circuit_parameter import Course
+from burmester.fourbar.circuit_parameter import RangeType
 from burmester.fourbar.circuits import Circuits, circuit_of
 from burmester.fourbar.instantaneous import transmission_angle
 from burmester.fourbar.linkage import Linkage
@@ -57,7 +57,7 @@ def motion_of(found: FoundLinkage, poses: Displacement, scene: float, frames: in
     No ways where the linkage cannot be driven, or nothing can be told of it.
     """
     none: list[tuple[int, float] | None] = [None] * poses.shape[0]
-    led, places = found.led, found.error.places
+    led, places = found.driver_first, found.error.places
     try:
         circuits = Circuits.of(led, as_given=True)
     except InputError:
@@ -71,7 +71,7 @@ def motion_of(found: FoundLinkage, poses: Displacement, scene: float, frames: in
         on = (here.circuit == stretch.circuit) & (here.branch == stretch.branch)
         on &= np.isfinite(here.parameter)
         ends = stretch.ends
-        endless = own.course == Course.HALF or not all(map(math.isfinite, ends))
+        endless = own.course == RangeType.HALF or not all(map(math.isfinite, ends))
         if endless:
             reach = (REACH if on.any() else FARTHER) * scene
             within = _within(own, ends, middle, reach, here.parameter[on])

@@ -68,9 +68,9 @@ def report_data(synthesis: Synthesis) -> dict[str, Any]:
         "motion": None
         if synthesis.motion is None
         else {
-            "code": synthesis.motion.motion.code,
-            "name": synthesis.motion.motion.name,
-            "message": synthesis.motion.motion.message,
+            "code": synthesis.motion.kind.code,
+            "name": synthesis.motion.kind.name,
+            "message": synthesis.motion.kind.message,
         },
         "dyads": [_dyad(synthesis, each) for each in synthesis.dyads],
         "linkages": linkages,
@@ -120,10 +120,10 @@ def _linkage(
 ) -> dict[str, Any]:
     """A linkage with all that is said of it, how it moves, and its image space."""
     task = synthesis.task
-    tolerance = getattr(synthesis.wish, "tolerance", None)
+    tolerance = None if synthesis.options is None else synthesis.options.tolerance
     motion = motion_of(found, task.poses, scene, frames)
     worst, turned = digits.misses(synthesis, found)
-    first, second = found.dyads if found.better == "first" else found.dyads[::-1]
+    first, second = found.dyads if found.preferred_driver == "first" else found.dyads[::-1]
     data = linkage_data(found, tolerance)
     return {
         **data,
@@ -147,7 +147,7 @@ def _linkage(
         },
         "pose_errors": _pose_errors(synthesis, found, motion),
         "ways": motion.ways,
-        "space": space_of(found.led, task.poses, _all_places(motion), chart),
+        "space": space_of(found.driver_first, task.poses, _all_places(motion), chart),
     }
 
 
@@ -160,7 +160,7 @@ def _links(synthesis: Synthesis, found: FoundLinkage) -> dict[str, str] | None:
 
 def _dimensions(synthesis: Synthesis, found: FoundLinkage) -> list[dict[str, str]]:
     """Every dimension of both dyads: what it is, its value, and how certain it is."""
-    certain = not any(synthesis.task.resolution) or found.exact_error is not None
+    certain = not any(synthesis.task.resolution) or found.error_before_rounding is not None
     regions = found.uncertainty or (None, None)
     rows = []
     for dyad, region in zip(found.dyads, regions, strict=True):
