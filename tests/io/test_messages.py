@@ -241,8 +241,8 @@ CASES: dict[str, Case] = {
     ),
     "not finite in Python": Case(
         "E103",
-        lambda: api("pencil.fit_pencil")(Displacement(np.full((6, 2), np.inf), np.zeros(6))),
-        Call(lambda: api("pencil.fit_pencil")(poses(6))),
+        lambda: api("dyads.pencil.fit_pencil")(Displacement(np.full((6, 2), np.inf), np.zeros(6))),
+        Call(lambda: api("dyads.pencil.fit_pencil")(poses(6))),
     ),
     "text for a number": Case(
         "E104",
@@ -381,33 +381,33 @@ CASES: dict[str, Case] = {
     "pencil for five": Case("E121", f"{S} --method pencil", Args(S), GOOD),
     "curve of five": Case(
         "E121",
-        lambda: api("curve.dyad_curve")(poses(5)),
-        Call(lambda: api("exact.dyads_of_five")(poses(5))),
+        lambda: api("dyads.burmester_curve.dyad_curve")(poses(5)),
+        Call(lambda: api("dyads.five_poses.dyads_of_five")(poses(5))),
     ),
     "five of four": Case(
         "E121",
-        lambda: api("exact.dyads_of_five")(poses(4)),
-        Call(lambda: api("exact.dyads_of_five")(poses(5))),
+        lambda: api("dyads.five_poses.dyads_of_five")(poses(4)),
+        Call(lambda: api("dyads.five_poses.dyads_of_five")(poses(5))),
     ),
     "best dyads of four": Case(
         "E121",
-        lambda: api("critical.critical_dyads")(poses(4)),
-        Call(lambda: api("curve.dyad_curve")(poses(4))),
+        lambda: api("dyads.critical_points.critical_dyads")(poses(4)),
+        Call(lambda: api("dyads.burmester_curve.dyad_curve")(poses(4))),
     ),
     "distances of four": Case(
         "E121",
-        lambda: api("normal_distance.algebraic_fit")(poses(4), START),
-        Call(lambda: api("normal_distance.algebraic_fit")(poses(5), START)),
+        lambda: api("dyads.image_space_fits.algebraic_fit")(poses(4), START),
+        Call(lambda: api("dyads.image_space_fits.algebraic_fit")(poses(5), START)),
     ),
     "pencil of four": Case(
         "E121",
-        lambda: api("pencil.fit_pencil")(poses(4)),
-        Call(lambda: api("curve.dyad_curve")(poses(4))),
+        lambda: api("dyads.pencil.fit_pencil")(poses(4)),
+        Call(lambda: api("dyads.burmester_curve.dyad_curve")(poses(4))),
     ),
     "quadric of none": Case(
         "E121",
-        lambda: api("quadric.fit_quadric")(np.empty((0, 4))),
-        Call(lambda: api("quadric.fit_quadric")(poses(9).as_image_point())),
+        lambda: api("geometry.quadric.fit_quadric")(np.empty((0, 4))),
+        Call(lambda: api("geometry.quadric.fit_quadric")(poses(9).as_image_point())),
     ),
     "pose unknown": Case("E122", f"{S} --exact 11", Args(f"{S} --exact 1,5"), GOOD),
     "weight of zero": Case(
@@ -435,9 +435,11 @@ CASES: dict[str, Case] = {
     ),
     "four poses of one turn": Case(
         "E124",
-        lambda: api("curve.dyad_curve")(Displacement(np.zeros((4, 2)), 0.4 * np.arange(4))),
+        lambda: api("dyads.burmester_curve.dyad_curve")(
+            Displacement(np.zeros((4, 2)), 0.4 * np.arange(4))
+        ),
         Call(
-            lambda: api("curve.dyad_curve")(
+            lambda: api("dyads.burmester_curve.dyad_curve")(
                 Displacement([(0, 0), (0, 0), (3, -1), (1, 2)], 0.4 * np.arange(4))
             )
         ),
@@ -632,13 +634,25 @@ CASES: dict[str, Case] = {
     ),
     "driver without a joint": Case(
         "E401",
-        lambda: api("drive.Drive").of(burmester.Linkage(PP(np.array(0.0)), START)),
-        Call(lambda: api("drive.Drive").of(burmester.Linkage(START, PP(np.array(0.0))))),
+        lambda: api("fourbar.loop_closure.DrivenLoop").of(
+            burmester.Linkage(PP(np.array(0.0)), START)
+        ),
+        Call(
+            lambda: api("fourbar.loop_closure.DrivenLoop").of(
+                burmester.Linkage(START, PP(np.array(0.0)))
+            )
+        ),
     ),
     "speed without a joint": Case(
         "E401",
-        lambda: api("motion.velocity")(burmester.Linkage(PP(np.array(0.0)), START), poses(3)),
-        Call(lambda: api("motion.velocity")(burmester.Linkage(START, PP(np.array(0.0))), poses(3))),
+        lambda: api("fourbar.instantaneous.velocity")(
+            burmester.Linkage(PP(np.array(0.0)), START), poses(3)
+        ),
+        Call(
+            lambda: api("fourbar.instantaneous.velocity")(
+                burmester.Linkage(START, PP(np.array(0.0))), poses(3)
+            )
+        ),
     ),
     "bug": Case("E900", S, None, GOOD, exit=3),
     # --- outcomes
@@ -1069,7 +1083,7 @@ def help_of(case, run):
     if case.run.startswith(("new", "export")):
         return parts(run(case.run, 10_000).err.rstrip("\n"))["help"]
     if case.code in ONLY_JSON:
-        return classify_motion(read_task("poses.csv")).motion.help
+        return classify_motion(read_task("poses.csv")).kind.help
     data = json.loads(run(f"{case.run} --json").out)
     return field(case._replace(code=WAY_ON.get(case.code, case.code)), data).get("help")
 
