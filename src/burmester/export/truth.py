@@ -18,6 +18,7 @@ from burmester.fourbar.dyad import PP, PR, RP, RR
 from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import FloatArray
+from burmester.wording import with_article
 
 __all__ = ["PRECISION", "Truth", "about", "agree", "as_rows"]
 
@@ -153,7 +154,7 @@ def about(chosen: SavedLinkage, options: Options, unit: str | None) -> list[str]
     worst = float(chosen.error.position.max())
     named = f" {own}" if unit is not None or chosen.unit or options.unit else ""
     told = [
-        f"Linkage {chosen.id}, {_article(chosen.type)}, for {number} poses.",
+        f"Linkage {chosen.id}, {with_article(chosen.type)}, for {number} poses.",
         f"Its driver is {chosen.ids[0]} ({type(chosen.linkage.first).__name__}), and "
         f"{chosen.ids[1]} ({type(chosen.linkage.second).__name__}) follows.",
         f"The coupler comes within {worst:.3g}{named} of every pose.",
@@ -174,7 +175,3 @@ def about(chosen: SavedLinkage, options: Options, unit: str | None) -> list[str]
             + (f", as asked for with --unit {own}." if options.unit else "; --unit says another.")
         )
     return told
-
-
-def _article(text: str) -> str:
-    return f"{'an' if text[0] in 'aeiouAEIO' else 'a'} {text}"

@@ -32,6 +32,7 @@ from burmester.fourbar.traversal import (
 )
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
+from burmester.wording import listed, shortened
 
 __all__ = [
     "Defect",
@@ -237,24 +238,13 @@ class _Names(NamedTuple):
         return str(pose + 1) if self.given is None else self.given[pose]
 
     def listed(self, poses: Sequence[int]) -> str:
-        return _listed(_some([self.one(pose) for pose in poses]))
+        return listed(shortened([self.one(pose) for pose in poses], MOST))
 
     def __call__(self, poses: Sequence[int]) -> str:
         return ("pose " if len(poses) == 1 else "poses ") + self.listed(poses)
 
     def between(self, pairs: Sequence[tuple[int, int]]) -> str:
-        return _listed(_some([f"between {self(pair)}" for pair in pairs], "times"))
-
-
-def _some(words: list[str], more: str = "others") -> list[str]:
-    """The first of them, and how many more there are."""
-    if len(words) <= MOST:
-        return words
-    return [*words[: MOST - 2], f"{len(words) - MOST + 2} {more}"]
-
-
-def _listed(words: Sequence[str]) -> str:
-    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
+        return listed(shortened([f"between {self(pair)}" for pair in pairs], MOST, "times"))
 
 
 def _numbers(mask: BoolArray) -> tuple[int, ...]:

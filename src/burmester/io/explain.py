@@ -21,6 +21,7 @@ from burmester.io.message import PLACE, STYLES, draw, place, wrapped
 
 if TYPE_CHECKING:
     from rich.console import Console
+from burmester.wording import listed
 
 __all__ = ["Page", "page", "pages", "show_all", "show_page"]
 
@@ -85,7 +86,9 @@ def page(code: str) -> Page:
     if plain in known:
         return known[plain]
     near = _nearest(plain, known)
-    guess = f"try {_either([f'`burmester explain {each}`' for each in near])}, or " if near else ""
+    guess = (
+        f"try {listed([f'`burmester explain {each}`' for each in near], 'or')}, or " if near else ""
+    )
     raise InputError(
         "E100",
         f"there is no code {code!r}",
@@ -161,8 +164,3 @@ def _marked(text: str, width: int, head: str = "") -> Iterator[Text]:
     bold = _MARK.match(text)
     lead = Text.assemble(head, (f"{bold[1]} ", "bold") if bold else "")
     yield from wrapped(text[bold.end() :] if bold else text, width, lead, len(head))
-
-
-def _either(names: list[str]) -> str:
-    *most, last = names
-    return f"{', '.join(most)} or {last}" if most else last

@@ -18,6 +18,7 @@ from burmester.linkages.uncertainty import DyadUncertainty, pose_sigma
 from burmester.numerics.arrays import ROUNDING
 from burmester.synthesis.result import Synthesis
 from burmester.tasks import wording
+from burmester.wording import with_article
 
 __all__ = [
     "best_sentences",
@@ -51,10 +52,9 @@ def best_sentences(synthesis: Synthesis) -> Iterator[Text]:
     """What the best usable linkage does, and why it is not another one."""
     best, task, size = synthesis.usable[0], synthesis.task, synthesis.length
     kind = best.type.replace("change-point", "change-point linkage")
-    article = "an" if kind[0] in "aeiouAEIOU" else "a"
     least = wording.least_angle(best.driven.least_over_range)
     yield Text(
-        f"Best: {best.id}, {article} {kind} driven by {best.dyads_driver_first[0].id}, "
+        f"Best: {best.id}, {with_article(kind)} driven by {best.dyads_driver_first[0].id}, "
         f"{_meets(synthesis, best)}, transmission angle {least} or more."
     )
     nearest = explanation.by_nearness(synthesis.linkages, size)[0]

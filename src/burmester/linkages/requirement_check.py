@@ -15,6 +15,7 @@ from burmester.fourbar.linkage import Linkage
 from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.requirements import Requirements
+from burmester.wording import with_article
 
 __all__ = ["Violation", "ViolationKind", "violations"]
 
@@ -54,8 +55,7 @@ def violations(
         )
     kind = linkage.type
     if not asked.allows(kind):
-        article = "an" if kind[0] in "aeiouAEIOU" else "a"
-        found.append(Violation("type", f"it is {article} {kind}"))
+        found.append(Violation("type", f"it is {with_article(kind)}"))
     if asked.driver == "crank" and not driven.turns_fully:
         found.append(Violation("driver", "its driver does not turn fully"))
     if (links := linkage.links) is not None:

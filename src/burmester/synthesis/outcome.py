@@ -18,7 +18,8 @@ from burmester.synthesis.method import Method
 from burmester.synthesis.result import Outcome
 from burmester.tasks.motion_task import CONDITIONS, Task
 from burmester.tasks.repeated_poses import rotation_range
-from burmester.tasks.wording import count, figure, least_angle, length_of, span
+from burmester.tasks.wording import figure, least_angle, length_of, span
+from burmester.wording import count, listed
 
 __all__ = ["advice", "family", "linkage_advice", "told"]
 
@@ -224,11 +225,10 @@ def linkage_advice(task: Task, linkages: Sequence[FoundLinkage], code: str) -> l
     # Of special motions the outcome itself says how free the pivots are.
     if loose and code != "R305" and not code.startswith("R31"):
         ids = [each.id for each in loose]
-        listed = ids[0] if len(ids) == 1 else f"{', '.join(ids[:-1])} and {ids[-1]}"
         warnings.append(
             Advice(
                 "W209",
-                f"the poses hardly determine the pivots of {listed}, uncertain by "
+                f"the poses hardly determine the pivots of {listed(ids)}, uncertain by "
                 f"{_uncertain(loose[0], task)}"
                 + ("" if len(ids) == 1 else f" in the case of {ids[0]}"),
                 "give more digits, or poses with more rotation between them",

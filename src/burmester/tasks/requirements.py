@@ -14,6 +14,7 @@ import numpy as np
 from burmester.errors import InputError
 from burmester.geometry.regions import Line, Polygon, Region
 from burmester.tasks.limits import Kind, Limits
+from burmester.wording import listed, with_article
 
 __all__ = ["DRIVERS", "GROUPS", "TYPES", "Driver", "Requirements", "require_possible"]
 
@@ -129,8 +130,8 @@ class Requirements:
             raise InputError(
                 "E132",
                 "the requirements contradict each other: a driver that turns fully, and "
-                f"linkages of type {_listed(self.types, 'or')} only",
-                why=f"no driver of a {_listed(allowed, 'or')} turns fully",
+                f"linkages of type {_either(self.types)} only",
+                why=f"no driver of a {_either(allowed)} turns fully",
                 help=f"allow another type as well, such as {turning[0]}, or any driver",
             )
 
@@ -201,14 +202,14 @@ def _require_a_type(requirements: Requirements, first: Limits, second: Limits) -
         return
     name = min(wanted, key=list(TYPES).index)
     crank = " with a driver that turns fully" if requirements.driver == "crank" else ""
-    why = f"{_with_article(name)} is made of {_made_of(TYPES[name])}"
+    why = f"{with_article(name)} is made of {_made_of(TYPES[name])}"
     if kinds != (first.kinds, second.kinds):
         why += "; where a fixed pivot is limited there is no PR, and where a moving one is no RP"
-    others = f"ask for {_listed(here, 'or')}" if here else "ask for no type"
+    others = f"ask for {_either(here)}" if here else "ask for no type"
     raise InputError(
         "E132",
         "the limits and the requirements contradict each other: "
-        f"{_said(kinds)}, and linkages of type {_listed(requirements.types, 'or')} only{crank}",
+        f"{_said(kinds)}, and linkages of type {_either(requirements.types)} only{crank}",
         why=why,
         help=f"{others}, or let the limits allow other dyads",
     )
@@ -278,11 +279,9 @@ def _unknown(what: str, name: object, known: tuple[str, ...]) -> InputError:
     return InputError("E134", f"there is no {what} {name!r}", help=help)
 
 
-def _listed(names: Iterable[str] | None, last: str) -> str:
+def _either(types: Iterable[str] | None) -> str:
     """Names of types in one phrase, in the order of `TYPES`."""
-    order = [*TYPES, *GROUPS]
-    *most, end = sorted(names or (), key=order.index)
-    return f"{', '.join(most)} {last} {end}" if most else end
+    return listed(sorted(types or (), key=[*TYPES, *GROUPS].index), "or")
 
 
 def _said(kinds: tuple[frozenset[Kind], frozenset[Kind]]) -> str:
@@ -295,7 +294,3 @@ def _said(kinds: tuple[frozenset[Kind], frozenset[Kind]]) -> str:
 
 def _made_of(pair: tuple[Kind, Kind]) -> str:
     return f"two {pair[0]} dyads" if pair[0] == pair[1] else f"dyads {pair[0]} and {pair[1]}"
-
-
-def _with_article(name: str) -> str:
-    return f"{'an' if name[0] in 'aeiouAEIOU' else 'a'} {name}"

@@ -8,13 +8,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from burmester.tasks.motion_task import Task
+from burmester.wording import listed
 
-__all__ = ["called", "count", "figure", "least_angle", "length_of", "span"]
-
-
-def count(number: int, noun: str) -> str:
-    """A number of things in words: "no dyads", "1 dyad", "2 dyads"."""
-    return f"{number or 'no'} {noun}{'' if number == 1 else 's'}"
+__all__ = ["called", "figure", "least_angle", "length_of", "span"]
 
 
 def figure(value: float) -> str:
@@ -40,9 +36,7 @@ def called(task: Task, poses: Sequence[int], last: str = "and") -> str:
     """Poses (numbers from 0) by their names or numbers: "pose 3", "poses 2, 3 and 7"."""
     given = task.names or ("",) * task.poses.shape[0]
     names = [given[pose] or str(pose + 1) for pose in poses]
-    if len(names) == 1:
-        return f"pose {names[0]}"
-    return f"poses {', '.join(names[:-1])} {last} {names[-1]}"
+    return f"pose{'' if len(names) == 1 else 's'} {listed(names, last)}"
 
 
 def span(task: Task) -> float:

@@ -26,6 +26,7 @@ from burmester.io.reading.asked import FILE_KEYS
 from burmester.io.reading.places import Document, Path, meant
 from burmester.io.reading.wanted import LIMIT_KEYS, SHAPES, TOP_KEYS, Length, Wanted, WantedRegion
 from burmester.tasks.limits import KINDS, Limits
+from burmester.wording import listed
 
 __all__ = ["Model", "Number", "Pair", "Two", "read", "unfit"]
 
@@ -83,7 +84,7 @@ _HELP = {
     "length": "a length has the keys least and most, or one of them, with a number each",
     "kinds": 'kinds is a list of some of "RR", "PR", "RP" and "PP"',
 }
-_TABLE = f"a table of limits has {', '.join(_KEYS[:-1])} and {_KEYS[-1]}, or some of them"
+_TABLE = f"a table of limits has {listed(_KEYS)}, or some of them"
 
 
 def read(tree: dict[str, Any], document: Document) -> Wanted:

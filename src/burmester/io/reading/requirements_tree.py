@@ -18,6 +18,7 @@ from burmester.io.reading.limits_tree import Model, Number, Pair, Two, unfit
 from burmester.io.reading.places import Document, meant
 from burmester.io.reading.wanted import LIMIT_KEYS, SHAPES
 from burmester.tasks.requirements import DRIVERS
+from burmester.wording import listed
 
 __all__ = ["read"]
 
@@ -50,7 +51,7 @@ _HELP = {
     "within": "within is one length in the unit of the poses, such as 0.5",
     "any_order": "write true or false",
 }
-_TABLE = f"a table of requirements has {', '.join(_KEYS[:-1])} and {_KEYS[-1]}, or some of them"
+_TABLE = f"a table of requirements has {listed(_KEYS)}, or some of them"
 
 
 def read(tree: dict[str, Any], document: Document) -> tuple[Asked, ...]:
