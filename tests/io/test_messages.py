@@ -444,6 +444,11 @@ CASES: dict[str, Case] = {
             )
         ),
     ),
+    "two columns in Python": Case(
+        "E125",
+        lambda: api("values.real_numbers")([[0, 0], [3, 1]], (None, 3), "poses"),
+        Call(lambda: api("values.real_numbers")([[0, 0, 0], [3, 1, 40]], (None, 3), "poses")),
+    ),
     "no python-flint": Case("E130", f"{S} --certify", Args(f"{S} --certify"), GOOD),
     # --- limits
     "region unknown": Case(

@@ -8,16 +8,13 @@ from itertools import pairwise
 from typing import Final, NamedTuple, TypeAlias, final
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from burmester.errors import InputError
 from burmester.numerics.arrays import FloatArray
+from burmester.values import Shape, real_numbers
 
 __all__ = [
-    "FLAT",
-    "MOST_CORNERS",
     "PLANE",
-    "STRAIGHT",
     "Face",
     "Line",
     "Point",
@@ -27,9 +24,10 @@ __all__ = [
     "box",
 ]
 
-MOST_CORNERS = 100  # of a polygon: a second or two of search
-FLAT = 1e-12  # of a polygon's length: no width
-STRAIGHT = 1e-9  # sine of the angle by which a corner that is none may turn
+MAX_CORNERS = 100  # of a polygon; every edge and corner is searched, a second or two for as many
+MAX_COORDINATE = 1e60  # length; fourth powers of greater ones overflow, refused with E112
+MIN_WIDTH = 1e-12  # share of a polygon's length; a narrower polygon has no inside
+STRAIGHT_CORNER_SINE = 1e-9  # of the turn at a corner; below it both edges count as one line
 
 
 class Face(NamedTuple):
@@ -51,12 +49,28 @@ PLANE: Final = Face(np.zeros(2), np.eye(2), np.empty((0, 2)))
 @final
 @dataclass(frozen=True, slots=True, eq=False)
 class Point:
-    """One point, (2,)."""
+    """One point of the plane.
+
+    Parameters
+    ----------
+    at : array_like, (2,)
+        X, Y; kept as a read-only copy.
+
+    Raises
+    ------
+    InputError
+        E131 (not two finite real numbers), E112 (too large).
+
+    Examples
+    --------
+    >>> print(Point([1, -2]))
+    at (1, -2)
+    """
 
     at: FloatArray
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "at", _points(self.at, 1, "a point")[0])
+        object.__setattr__(self, "at", _coordinates(self.at, (2,), "a point"))
 
     def __str__(self) -> str:
         return f"at {_shown(self.at)}"
@@ -82,13 +96,30 @@ class Point:
 @final
 @dataclass(frozen=True, slots=True, eq=False)
 class Line:
-    """The endless line through two points, start and end (2,) each."""
+    """The endless line through two points.
+
+    Parameters
+    ----------
+    start, end : array_like, (2,)
+        Two different points; kept as read-only copies.
+
+    Raises
+    ------
+    InputError
+        E131 (not two finite real numbers each, or twice the same point), E112 (too large, or too
+        close together).
+
+    Examples
+    --------
+    >>> print(Line([0, 0], [1, 1]))
+    on the line through (0, 0) and (1, 1)
+    """
 
     start: FloatArray
     end: FloatArray
 
     def __post_init__(self) -> None:
-        _take_two(self, "a line")
+        _keep_two_points(self, "line")
 
     def __str__(self) -> str:
         return f"on the line through {_shown(self.start)} and {_shown(self.end)}"
@@ -113,13 +144,29 @@ class Line:
 @final
 @dataclass(frozen=True, slots=True, eq=False)
 class Segment:
-    """The straight piece from start to end, (2,) each."""
+    """The straight piece between two points.
+
+    Parameters
+    ----------
+    start, end : array_like, (2,)
+        Two different points; kept as read-only copies.
+
+    Raises
+    ------
+    InputError
+        As for `Line`.
+
+    Examples
+    --------
+    >>> print(Segment([0, 0], [1, 1]))
+    on the segment from (0, 0) to (1, 1)
+    """
 
     start: FloatArray
     end: FloatArray
 
     def __post_init__(self) -> None:
-        _take_two(self, "a segment")
+        _keep_two_points(self, "segment")
 
     def __str__(self) -> str:
         return f"on the segment from {_shown(self.start)} to {_shown(self.end)}"
@@ -147,23 +194,42 @@ class Segment:
 @final
 @dataclass(frozen=True, slots=True, eq=False)
 class Polygon:
-    """The inside and the edge of a polygon, convex or not: vertices (n, 2), n >= 3."""
+    """The inside and the edge of a polygon, convex or not.
+
+    Parameters
+    ----------
+    vertices : array_like, (n, 2)
+        At least three corners, in order around the polygon in either sense; repeats of the corner
+        before are left out.  Kept counterclockwise, as a read-only copy.
+
+    Raises
+    ------
+    InputError
+        E131 (not rows of two finite real numbers, no inside, edges that cross, more than 100
+        corners), E112 (too large).
+
+    Examples
+    --------
+    >>> triangle = Polygon([(0, 0), (2, 0), (0, 2)])
+    >>> triangle.distance(np.array([[0.5, 0.5], [-3.0, 0.0]]))
+    array([0., 3.])
+    """
 
     vertices: FloatArray
 
     def __post_init__(self) -> None:
-        v = _points(self.vertices, None, "a polygon")
+        v = _coordinates(self.vertices, (None, 2), "the corners of a polygon")
         v = v[np.any(v != np.roll(v, 1, axis=0), axis=1)]
-        if len(v) > MOST_CORNERS:
+        if len(v) > MAX_CORNERS:
             raise InputError(
                 "E131",
                 f"a polygon of {len(v)} corners",
                 why="every edge and every corner is searched by itself",
-                help=f"take {MOST_CORNERS} of its corners at most",
+                help=f"take {MAX_CORNERS} of its corners at most",
             )
         rounding = np.finfo(float).eps * len(v) * np.abs(v).max(initial=0)
         values = np.linalg.svd(v - v[:1], compute_uv=False) if len(v) > 2 else np.zeros(2)
-        if values[1] <= FLAT * values[0] + rounding:
+        if values[1] <= MIN_WIDTH * values[0] + rounding:
             raise InputError(
                 "E131",
                 "a polygon has no inside",
@@ -178,7 +244,9 @@ class Polygon:
             )
         x, y = (v - v[0]).T
         area = (x * np.roll(y, -1) - y * np.roll(x, -1)).sum()
-        object.__setattr__(self, "vertices", v if area > 0 else v[::-1])
+        v = v if area > 0 else v[::-1]
+        v.setflags(write=False)
+        object.__setattr__(self, "vertices", v)
 
     def __str__(self) -> str:
         low, high = self.vertices.min(axis=0), self.vertices.max(axis=0)
@@ -201,7 +269,9 @@ class Polygon:
             yield Face(at, edge[:, None], inside[None])
         for k, at in enumerate(v):
             ways = [along[k], -along[k - 1]]
-            if along[k] @ inward[k - 1] < STRAIGHT:  # straight, or pointing into the polygon
+            if (
+                along[k] @ inward[k - 1] < STRAIGHT_CORNER_SINE
+            ):  # straight, or pointing into the polygon
                 ways.append(_unit(inward[k] + inward[k - 1]))
             yield Face(at, np.empty((2, 0)), np.stack(ways))
 
@@ -229,11 +299,30 @@ Region: TypeAlias = Point | Line | Segment | Polygon
 
 
 def box(low: Sequence[float], high: Sequence[float]) -> Polygon:
-    """The box from one corner (2,) to the opposite one, the second above and right of the first.
+    """The box between two opposite corners, with sides along X and Y.
 
-    Raises InputError E132 where it is not.
+    Parameters
+    ----------
+    low, high : array_like, (2,)
+        The lower left and the upper right corner.
+
+    Returns
+    -------
+    Polygon
+
+    Raises
+    ------
+    InputError
+        E131 (not two finite real numbers each), E132 (`high` not above and right of `low`), E112
+        (too large).
+
+    Examples
+    --------
+    >>> print(box((0, 0), (4, 2.5)))
+    in the box from (0, 0) to (4, 2.5)
     """
-    ((x0, y0), (x1, y1)) = _points([low, high], 2, "a box")
+    x0, y0 = _coordinates(low, (2,), "the lower left corner of a box")
+    x1, y1 = _coordinates(high, (2,), "the upper right corner of a box")
     for name, least, most in (("x", x0, x1), ("y", y0, y1)):
         if not least < most:
             raise InputError(
@@ -245,31 +334,34 @@ def box(low: Sequence[float], high: Sequence[float]) -> Polygon:
     return Polygon(np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)]))
 
 
-def _points(values: ArrayLike, count: int | None, what: str) -> FloatArray:
-    """Points (n, 2), finite, `count` of them."""
-    try:
-        points = np.array(values, dtype=np.float64)
-    except (TypeError, ValueError):  # ragged, or no numbers
-        points = np.empty(0)
-    points = points[None] if points.shape == (2,) else points
-    right = points.ndim == 2 and points.shape[1] == 2 and count in (None, len(points))
-    if not right or not np.isfinite(points).all():
+def _coordinates(values: object, shape: Shape, what: str) -> FloatArray:
+    """A read-only copy of points that can be computed with, or E131 and E112."""
+    points = real_numbers(values, shape, what, code="E131")
+    if np.abs(points).max(initial=0.0) > MAX_COORDINATE:
         raise InputError(
-            "E131",
-            f"{what} does not fit",
-            why=f"it takes {'points' if count is None else count} X, Y with finite numbers",
-            help="write every point as X,Y",
+            "E112",
+            f"{what} is too far away",
+            why=f"the fourth power of {np.abs(points).max():g} is beyond what a number can hold",
+            help="write the lengths in another unit",
         )
     return points
 
 
-def _take_two(region: Line | Segment, what: str) -> None:
-    start, end = _points([region.start, region.end], 2, what)
+def _keep_two_points(region: Line | Segment, kind: str) -> None:
+    start = _coordinates(region.start, (2,), f"the start of a {kind}")
+    end = _coordinates(region.end, (2,), f"the end of a {kind}")
     if (start == end).all():
         raise InputError(
             "E131",
-            f"{what} needs two different points, not {_shown(start)} twice",
+            f"a {kind} needs two different points, not {_shown(start)} twice",
             help="give another second point, or limit the pivot to that point",
+        )
+    if not (apart := float(np.hypot(*(end - start)))) > 1 / MAX_COORDINATE:
+        raise InputError(
+            "E112",
+            f"the two points of a {kind} are too close together",
+            why=f"the fourth power of {apart:g} is beyond what a number can hold",
+            help="write the lengths in another unit",
         )
     object.__setattr__(region, "start", start)
     object.__setattr__(region, "end", end)

@@ -7,16 +7,18 @@ is a stationary point on one of them, from which no way into the region leads do
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
-from typing import Final, Literal, TypeAlias, final
+from typing import Final, Literal, TypeAlias, final, get_args
 
 from burmester.errors import InputError
 from burmester.geometry.regions import Region
+from burmester.values import real_numbers, require_instance, shown
 
 __all__ = ["KINDS", "Kind", "Limits"]
 
 Kind: TypeAlias = Literal["RR", "PR", "RP", "PP"]
-KINDS: Final[tuple[Kind, ...]] = ("RR", "PR", "RP", "PP")
+KINDS: Final[tuple[Kind, ...]] = get_args(Kind)
 
 
 @final
@@ -24,12 +26,34 @@ KINDS: Final[tuple[Kind, ...]] = ("RR", "PR", "RP", "PP")
 class Limits:
     """What one dyad is allowed to be.
 
-    fixed_pivot: where in F, moving_pivot: where in M; None anywhere.  A slider's line has no
-        pivot: a dyad whose pivot is limited has that pivot (no PR where the fixed one is, no RP
-        where the moving one is).
-    length: least and greatest length of an RR dyad's link, in the task's unit.
-    kinds: which of RR, PR, RP and PP.
-    Raises InputError E131 (malformed) and E132 (limits that contradict each other).
+    Parameters
+    ----------
+    fixed_pivot : Point, Line, Segment, Polygon or None
+        Where the fixed pivot may lie, in F; None is anywhere.  A dyad whose pivot is limited has
+        that pivot: no PR, for the line of a slider on the ground has none.
+    moving_pivot : Point, Line, Segment, Polygon or None
+        The same for the moving pivot, in M; no RP where it is limited.
+    length : (float, float)
+        Least and greatest length of an RR dyad's link, in the task's unit.
+    kinds : set of str
+        Which of RR, PR, RP and PP.
+
+    Raises
+    ------
+    InputError
+        E131 (malformed), E132 (limits that contradict each other).
+
+    Examples
+    --------
+    >>> from burmester.geometry.regions import Line
+    >>> limits = Limits(fixed_pivot=Line([0, 0], [1, 0]), length=(10, 200))
+    >>> sorted(limits.allowed)
+    ['RP', 'RR']
+    >>> Limits(kinds={"RRR"})
+    Traceback (most recent call last):
+        ...
+    burmester.errors.InputError: error[E131]: there is no dyad kind RRR
+      help: choose among RR, PR, RP, PP
     """
 
     fixed_pivot: Region | None = None
@@ -38,7 +62,12 @@ class Limits:
     kinds: frozenset[Kind] = field(default=frozenset(KINDS))
 
     def __post_init__(self) -> None:
-        least, most = (float(bound) for bound in self.length)
+        for name in ("fixed_pivot", "moving_pivot"):
+            if (region := getattr(self, name)) is not None:
+                help = "give a region such as Point((1, 2)), or None for any place"
+                require_instance(region, get_args(Region), name, help, code="E131")
+        bounds = real_numbers(self.length, (2,), "length", code="E131", finite=False)
+        least, most = (float(bound) for bound in bounds)
         if not (least >= 0 and most > 0 and least < float("inf")):
             raise InputError(
                 "E131",
@@ -52,17 +81,9 @@ class Limits:
                 f"a link at least {least:.15g} long and at most {most:.15g} long",
                 help="exchange the two, or give up one of them",
             )
-        unknown = set(self.kinds) - set(KINDS)
-        if unknown or not self.kinds:
-            raise InputError(
-                "E131",
-                f"there is no dyad kind {', '.join(sorted(unknown))}"
-                if unknown
-                else "no dyad kind is left",
-                help=f"choose among {', '.join(KINDS)}",
-            )
+        kinds = _dyad_kinds(self.kinds)
         object.__setattr__(self, "length", (least, most))
-        object.__setattr__(self, "kinds", frozenset(self.kinds))
+        object.__setattr__(self, "kinds", kinds)
         if not self.allowed:
             pivots = {"fixed": self.fixed_pivot, "moving": self.moving_pivot}
             limited = [f"{name} pivot {at}" for name, at in pivots.items() if at is not None]
@@ -105,3 +126,21 @@ class Limits:
         return sum(
             len(region.equations()) for region in (self.fixed_pivot, self.moving_pivot) if region
         )
+
+
+def _dyad_kinds(given: object) -> frozenset[Kind]:
+    """A set of dyad kinds, or E131."""
+    help = f"choose among {', '.join(KINDS)}"
+    if isinstance(given, str) or not isinstance(given, Iterable):
+        raise InputError("E131", f"kinds is {shown(given)}, not a set of dyad kinds", help=help)
+    names = list(given)
+    kinds: frozenset[Kind] = frozenset(
+        kind for kind in KINDS if any(isinstance(name, str) and name == kind for name in names)
+    )
+    unknown = [name for name in names if not (isinstance(name, str) and name in kinds)]
+    if unknown:
+        written = sorted(name if isinstance(name, str) else shown(name) for name in unknown)
+        raise InputError("E131", f"there is no dyad kind {', '.join(written)}", help=help)
+    if not kinds:
+        raise InputError("E131", "no dyad kind is left", help=help)
+    return kinds

@@ -14,6 +14,7 @@ import numpy as np
 from burmester.errors import InputError
 from burmester.geometry.regions import Line, Polygon, Region
 from burmester.tasks.limits import Kind, Limits
+from burmester.values import shown
 from burmester.wording import listed, with_article
 
 __all__ = ["DRIVERS", "GROUPS", "TYPES", "Driver", "Requirements", "require_possible"]
@@ -51,19 +52,44 @@ MARGIN = 1e-9  # of a footprint's size: what rounding may put outside it
 class Requirements:
     """What a linkage must be to be usable, beyond meeting the poses in one piece and in order.
 
-    transmission: the least transmission angle over the range that the poses use, in radians, of
-        0 to below pi/2.
-    types: the types allowed, by the names in `TYPES` (in any case, with hyphens or spaces), or
-        the words in `GROUPS` for some 4R types together; None allows all.
-    driver: which dyad drives. "first" and "second" are those of the task's first and second
-        limits, "crank" is one that turns fully, "any" leaves it open.
-    footprint: the polygon, in F, that holds the fixed pivots, and the moving pivots wherever they
-        come between the poses.
-    link_ratio: the longest of the four links is at most this many times the shortest; linkages
-        with sliders have no four links, and pass.
-    within: the greatest acceptable position error at any pose, in the task's unit.
-    any_order: the poses need not be met in the order in which they are given.
-    Raises InputError E134 (malformed) and E132 (requirements that contradict each other).
+    Parameters
+    ----------
+    transmission : float
+        The least transmission angle over the range that the poses use, in radians, from 0 to
+        below pi/2.
+    types : set of str or None
+        The types allowed, by the names in `TYPES` (in any case, with hyphens or spaces), or the
+        words in `GROUPS` for some 4R types together; None allows all.
+    driver : {"any", "first", "second", "crank"}
+        Which dyad drives: that of the task's first or second limits, one that turns fully, or
+        any.
+    footprint : Polygon or None
+        An area, in F, that holds the fixed pivots, and the moving pivots wherever they come
+        between the poses.
+    link_ratio : float
+        The longest of the four links is at most this many times the shortest; linkages with
+        sliders have no four links, and pass.
+    within : float or None
+        The greatest acceptable position error at any pose, in the task's unit.
+    any_order : bool
+        Whether the poses may be met in another order than that of the task.
+
+    Raises
+    ------
+    InputError
+        E134 (malformed), E132 (requirements that contradict each other).
+
+    Examples
+    --------
+    >>> wanted = Requirements(transmission=math.radians(40), types={"Crank Rocker"})
+    >>> wanted.types
+    frozenset({'crank-rocker'})
+    >>> Requirements(link_ratio=0.5)
+    Traceback (most recent call last):
+        ...
+    burmester.errors.InputError: error[E134]: a link ratio of at most 0.5 is impossible
+      why: the longest of the four links is never shorter than the shortest
+      help: give a ratio of 1 or more, such as 5
     """
 
     transmission: float = 0.0
@@ -79,14 +105,14 @@ class Requirements:
         if not 0 <= angle < math.pi / 2:
             raise InputError(
                 "E134",
-                f"a least transmission angle of {math.degrees(angle):g}° cannot be asked for",
+                f"a least transmission angle of {math.degrees(angle):g}° is impossible",
                 why="a transmission angle is between 0° and 90°",
                 help="give an angle from 0° to below 90° (below 1.57 in radians)",
             )
         object.__setattr__(self, "transmission", angle)
         if self.types is not None:
             object.__setattr__(self, "types", frozenset(_type_names(self.types)))
-        if self.driver not in DRIVERS:
+        if not isinstance(self.driver, str) or self.driver not in DRIVERS:
             raise _unknown("driver", self.driver, DRIVERS)
         if self.footprint is not None and not isinstance(self.footprint, Polygon):
             what = type(self.footprint).__name__.lower()
@@ -96,23 +122,21 @@ class Requirements:
                 why="the pivots must have room in it",
                 help="give a box by two corners, or a polygon by three or more",
             )
-        ratio = self.link_ratio
-        if ratio != math.inf:
-            ratio = _number(ratio, "the greatest link ratio")
+        ratio = _number(self.link_ratio, "the greatest link ratio", infinite=True)
         if ratio < 1:
             raise InputError(
                 "E134",
-                f"a link ratio of at most {ratio:g} cannot be asked for",
+                f"a link ratio of at most {ratio:g} is impossible",
                 why="the longest of the four links is never shorter than the shortest",
                 help="give a ratio of 1 or more, such as 5",
             )
-        object.__setattr__(self, "link_ratio", float(ratio))
+        object.__setattr__(self, "link_ratio", ratio)
         if self.within is not None:
             within = _number(self.within, "the greatest acceptable error")
             if within <= 0:
                 raise InputError(
                     "E134",
-                    f"an error of at most {within:g} cannot be asked for",
+                    f"an error of at most {within:g} is impossible",
                     why="no pose is met better than rounding allows",
                     help="give a length above zero, and mark poses that must be met exactly",
                 )
@@ -120,7 +144,7 @@ class Requirements:
         if not isinstance(self.any_order, bool | np.bool_):
             raise InputError(
                 "E134",
-                f"any_order is {self.any_order!r}, neither true nor false",
+                f"any_order is {shown(self.any_order)}, neither true nor false",
                 help="give True where the poses need not be met in their order, else False",
             )
         object.__setattr__(self, "any_order", bool(self.any_order))
@@ -237,17 +261,21 @@ def _apart(footprint: Polygon, region: Region) -> bool:
     return bool(beyond.any())
 
 
-def _number(value: object, what: str) -> float:
-    """A finite number, or E134."""
+def _number(value: object, what: str, *, infinite: bool = False) -> float:
+    """A finite number (or infinity, where that is one), or E134."""
     if not isinstance(value, Real) or isinstance(value, bool):
         raise InputError(
-            "E134", f"{what} is {value!r}, not a number", help="give a number, such as 0.5"
+            "E134", f"{what} is {shown(value)}, not a number", help="give a number, such as 0.5"
         )
-    if not math.isfinite(value):
+    try:
+        number = float(value)
+    except OverflowError:
+        number = math.nan
+    if not math.isfinite(number) and not (infinite and number == math.inf):
         raise InputError(
-            "E134", f"{what} is {value}, not a finite number", help="give a finite number"
+            "E134", f"{what} is {shown(value)}, not a finite number", help="give a finite number"
         )
-    return float(value)
+    return number
 
 
 def _type_names(given: Iterable[str]) -> Iterator[str]:
@@ -257,7 +285,9 @@ def _type_names(given: Iterable[str]) -> Iterator[str]:
     if not names:
         raise InputError(
             "E134",
-            "no linkage type is left" if names == [] else f"types is {given!r}, not a set of names",
+            "no linkage type is left"
+            if names == []
+            else f"types is {shown(given)}, not a set of names",
             help=f"name one type or more: {', '.join(known.values())}; or leave types out",
         )
     for name in names:
@@ -276,7 +306,7 @@ def _unknown(what: str, name: object, known: tuple[str, ...]) -> InputError:
     near = difflib.get_close_matches(_plain(str(name)), plain, n=1)
     guess = f"did you mean {plain[near[0]]}? " if near else ""
     help = f"{guess}choose among {', '.join(known)}"
-    return InputError("E134", f"there is no {what} {name!r}", help=help)
+    return InputError("E134", f"there is no {what} {shown(name)}", help=help)
 
 
 def _either(types: Iterable[str] | None) -> str:
