@@ -1,6 +1,5 @@
 """The command as its users meet it: as a process of its own."""
 
-import doctest
 import json
 import os
 import re
@@ -9,7 +8,6 @@ import subprocess
 import sys
 import time
 from importlib import resources
-from pathlib import Path
 
 import jsonschema
 import numpy as np
@@ -555,24 +553,3 @@ def test_a_closed_pipe_is_not_an_error(poses):
     )
     assert "Traceback" not in done.stderr
     assert "error" not in done.stderr
-
-
-def test_the_readme_shows_what_happens(tmp_path, monkeypatch):
-    """Its Python session is run, and what it says of the command is what the command prints."""
-    root = Path(__file__).parents[2]
-    failed, tried = doctest.testfile(str(root / "README.md"), module_relative=False)
-    assert (failed, tried) == (0, 6)
-    listed = run("--help").stdout
-    for command in ("new", "check", "synthesize", "explain", "cases", "reproduce"):
-        assert command in listed
-    example = run("synthesize", root / "examples" / "poses.csv")
-    shown = "\n".join(line.rstrip() for line in example.stdout.rstrip().splitlines())
-    text = (root / "README.md").read_text()
-    assert shown in text
-    monkeypatch.chdir(tmp_path)
-    rows = (root / "examples" / "poses.csv").read_text().splitlines()
-    rows = [row for row in rows if not row.startswith("#")]
-    Path("poses.csv").write_text("\n".join([rows[0].replace("angle_deg", "angle"), *rows[1:]]))
-    assert run("synthesize", "poses.csv").stderr in text
-    Path("table2.csv").write_text("\n".join(rows).replace("52.87", "52.67"))
-    assert "warning" + run("check", "table2.csv").stdout.partition("warning")[2] in text
