@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from burmester.geometry.regions import Segment as Segment
     from burmester.geometry.regions import box as box
     from burmester.io.reading.poses import read_task as read_task
-    from burmester.synthesis.motion_generation import FoundLinkage as FoundLinkage
+    from burmester.linkages.found_linkage import FoundLinkage as FoundLinkage
     from burmester.synthesis.motion_generation import synthesize as synthesize
     from burmester.synthesis.result import Synthesis as Synthesis
     from burmester.tasks.limits import Limits as Limits
@@ -145,10 +145,8 @@ _ROOMS = {
         "box",
     ),
     "io.reading.poses": ("read_task",),
-    "synthesis.motion_generation": (
-        "FoundLinkage",
-        "synthesize",
-    ),
+    "linkages.found_linkage": ("FoundLinkage",),
+    "synthesis.motion_generation": ("synthesize",),
     "synthesis.result": ("Synthesis",),
     "tasks.limits": ("Limits",),
     "tasks.motion_task": ("Task",),

@@ -201,6 +201,7 @@ FOUND: tuple[Decorator, ...] = (
     ),
     _found(
         "--angle-weight",
+        "length_per_radian",
         metavar="LENGTH",
         help="The length that weighs as much as one radian of angle error; by default the size of "
         "the motion.",
@@ -217,17 +218,19 @@ FOUND: tuple[Decorator, ...] = (
 MADE: tuple[Decorator, ...] = (
     _made(
         "--tolerance",
+        "manufacturing_tolerance",
         metavar="LENGTH",
         help="How exactly pivots and lengths are made; tells the error that comes of it.",
     ),
     _made(
         "--round",
-        "step",
+        "rounding_step",
         metavar="STEP",
         help="Round lengths and pivots to multiples of STEP, and judge the linkage again.",
     ),
     _made(
         "--stock",
+        "stock_lengths",
         metavar="L1,L2,...",
         multiple=True,
         help="The link lengths that are to be had; the nearest ones are taken, and judged again.",
@@ -266,25 +269,29 @@ def synthesis(poses: str, **given: Any) -> Synthesis:
     """What the options of all groups make of POSES."""
     from burmester.io.reading import requirements_text as text
     from burmester.synthesis.motion_generation import synthesize
+    from burmester.tasks.options import SynthesisOptions
 
     further: dict[str, Any] = {}
     for keyword, option in _LENGTHS.items():
         if given[keyword] is not None:
-            name = "length" if keyword == "angle_weight" else keyword
-            further[name] = text.above_zero(option, given[keyword])
-    if given["stock"]:
-        further["stock"] = text.lengths("--stock", given["stock"])
-    return synthesize(
-        task(poses, **given),
+            further[keyword] = text.above_zero(option, given[keyword])
+    if given["stock_lengths"]:
+        further["stock_lengths"] = text.lengths("--stock", given["stock_lengths"])
+    options = SynthesisOptions(
         given["method"],
+        given["norm"],
         normalise=not given["raw"],
-        norm=given["norm"],
         certify=given["certify"],
         **further,
     )
+    return synthesize(task(poses, **given), options)
 
 
-_LENGTHS = {"angle_weight": "--angle-weight", "tolerance": "--tolerance", "step": "--round"}
+_LENGTHS = {
+    "length_per_radian": "--angle-weight",
+    "manufacturing_tolerance": "--tolerance",
+    "rounding_step": "--round",
+}
 _ASKED = (
     "min_transmission",
     "types",

@@ -10,13 +10,14 @@ from numpy.typing import NDArray
 
 from burmester.dyads.critical_points import CriticalDyads, critical_dyads
 from burmester.dyads.geometric_fit import SURE, circle_terms
-from burmester.dyads.minima_within_limits import LimitedDyads, Norm, limited_dyads
+from burmester.dyads.minima_within_limits import LimitedDyads, limited_dyads
 from burmester.dyads.sliders import fixed_lines, moving_lines
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.limits import Limits
+from burmester.tasks.options import Norm
 
 __all__ = ["BestDyads", "best_dyads"]
 

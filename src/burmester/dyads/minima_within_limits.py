@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from itertools import product
-from typing import Any, Literal, TypeAlias, final
+from typing import Any, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,10 +41,10 @@ from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Face, Region
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.limits import Limits
+from burmester.tasks.options import Norm
 
-__all__ = ["LimitedDyads", "Norm", "limited_dyads"]
+__all__ = ["LimitedDyads", "limited_dyads"]
 
-Norm: TypeAlias = Literal["rms", "worst"]
 
 SAME = 1e-7
 MET = 1e-9  # relative: an exact pose missed by less is met

@@ -12,13 +12,12 @@ from burmester.dyads.local_minima import BestDyads
 from burmester.dyads.minima_within_limits import LimitedDyads
 from burmester.dyads.pencil import LEAST_POSES, Pencil, fit_pencil
 from burmester.dyads.sliders import straightened
-from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.geometry import constraint_manifold
 from burmester.numerics.arrays import ROUNDING, FloatArray
-from burmester.tasks.motion_task import COARSE, Task
+from burmester.tasks.motion_task import COARSE, Task, characteristic_length
 
-__all__ = ["LONG", "Fit", "FoundDyad", "characteristic_length", "found_dyads", "known", "same_dyad"]
+__all__ = ["LONG", "Fit", "FoundDyad", "found_dyads", "known", "same_dyad"]
 
 Fit: TypeAlias = Pencil | FivePoseDyads | BestDyads
 Candidate: TypeAlias = tuple[Dyad, float, float]  # with its rms and greatest error
@@ -132,11 +131,6 @@ def _two_angles(p: FloatArray) -> bool:
     is a double root, and so known to half the digits only.
     """
     return bool(np.linalg.norm(p[[0, 2, 3, 4, 5]]) < SAME * constraint_manifold.size(p))
-
-
-def characteristic_length(task: Task) -> float:
-    """The size of a task in its unit, the same in all frames (see `frames`)."""
-    return float(CanonicalFrames.of(task.poses, task.weights)[0].length)
 
 
 def known(task: Task, length: float) -> float:

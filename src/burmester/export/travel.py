@@ -14,7 +14,6 @@ from typing import Final, Self, final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from burmester.dyads.selection import characteristic_length
 from burmester.errors import InputError
 from burmester.fourbar.circuits import Circuits, circuit_of
 from burmester.fourbar.defects import Driven, judge
@@ -23,6 +22,7 @@ from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import FloatArray
+from burmester.tasks.motion_task import characteristic_length
 
 __all__ = ["Travel"]
 

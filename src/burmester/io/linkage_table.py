@@ -162,9 +162,8 @@ def dimensions(synthesis: Synthesis) -> Iterator[Text | Table]:
             style="dim",
         )
     if best.spread is not None:
-        assert synthesis.options is not None
-        assert synthesis.options.tolerance is not None
-        within = f"to ±{wording.length_of(synthesis.options.tolerance, task)}"
+        assert synthesis.options.manufacturing_tolerance is not None
+        within = f"to ±{wording.length_of(synthesis.options.manufacturing_tolerance, task)}"
         yield Text(
             f"Built {within}: position errors of up to "
             f"{wording.length_of(float(best.spread.greatest_95), task)} (95 % of linkages), "
@@ -180,9 +179,9 @@ def _rounded(synthesis: Synthesis, best: FoundLinkage) -> str:
     assert best.error_before_rounding is not None
     task, options = synthesis.task, synthesis.options
     how = []
-    if options and options.step is not None:
-        how.append(f"rounded to {wording.length_of(options.step, task)}")
-    if options and options.stock:
+    if options.rounding_step is not None:
+        how.append(f"rounded to {wording.length_of(options.rounding_step, task)}")
+    if options.stock_lengths:
         how.append("with links from stock")
     text = " and ".join(how) or "rounded"
     before, after = (

@@ -15,12 +15,11 @@ from burmester.dyads.five_poses import FivePoseDyads
 from burmester.dyads.local_minima import BestDyads
 from burmester.dyads.pencil import Pencil
 from burmester.dyads.selection import Fit
-from burmester.errors import BurmesterError
+from burmester.errors import Advice, BurmesterError
 from burmester.geometry.regions import Line, Point, Polygon, Segment
 from burmester.io.linkage_data import dyad_data, linkage_data, number, poses_data
 from burmester.io.reading.asked import plain as requirements_data
-from burmester.synthesis.motion_generation import Advice, Outcome
-from burmester.synthesis.result import Synthesis
+from burmester.synthesis.result import Outcome, Synthesis
 from burmester.tasks.limits import KINDS, Limits
 from burmester.tasks.motion_class import MotionClass
 from burmester.tasks.motion_task import Task
@@ -33,7 +32,7 @@ SCHEMA = "burmester.synthesis/1"
 def plain(synthesis: Synthesis) -> dict[str, Any]:
     """The synthesis as an object ready for JSON."""
     task, outcome, motion = synthesis.task, synthesis.outcome, synthesis.motion
-    tolerance = None if synthesis.options is None else synthesis.options.tolerance
+    tolerance = synthesis.options.manufacturing_tolerance
     return {
         "schema": SCHEMA,
         "outcome": told(outcome),

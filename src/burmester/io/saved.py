@@ -18,7 +18,6 @@ from typing import Any, NamedTuple, final
 
 import numpy as np
 
-from burmester.dyads.selection import characteristic_length
 from burmester.errors import InputError
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.fourbar.linkage import Linkage
@@ -28,7 +27,7 @@ from burmester.io.reading.fetched import fetch
 from burmester.io.reading.poses import read_task
 from burmester.io.result import SCHEMA
 from burmester.linkages.found_linkage import Side, with_driver_first
-from burmester.tasks.motion_task import Task
+from burmester.tasks.motion_task import Task, characteristic_length
 
 __all__ = ["Result", "SavedLinkage", "read_result"]
 

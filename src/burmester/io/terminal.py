@@ -13,7 +13,7 @@ from burmester.describe.digits import decimals, miss, sides
 from burmester.io import linkage_table
 from burmester.io.linkage_table import new_table
 from burmester.io.message import draw, message, note, show
-from burmester.synthesis.motion_generation import FoundLinkage
+from burmester.linkages.found_linkage import FoundLinkage
 from burmester.synthesis.result import Synthesis
 
 if TYPE_CHECKING:

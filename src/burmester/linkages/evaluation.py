@@ -26,8 +26,9 @@ from burmester.linkages.tolerances import spread
 from burmester.linkages.uncertainty import covariance, links_deviation, pose_sigma, uncertainties
 from burmester.numerics.arrays import ROUNDING, FloatArray
 from burmester.tasks.motion_task import Task
+from burmester.tasks.problem import SynthesisProblem
 
-__all__ = ["Candidates", "Evaluation", "SynthesisOptions"]
+__all__ = ["Candidates", "Evaluation"]
 
 REACH = 0.1  # sizes of the motion; a pose missed by more is not met at all
 SHORTEST = 1e-6  # sizes; a ground link or a coupler shorter than this is none
@@ -36,25 +37,6 @@ EXACT = 1e8  # weights: what an exact pose counts as, to say what its errors do
 STRIDE, TOUCHING = 1e-7, 1e-9  # of difference quotients; of a limit that is touched
 FIXED, MOVING = slice(0, 2), slice(2, 4)
 ROUNDED = 5  # linkages are rounded where that is asked, at most
-
-
-@final
-@dataclass(frozen=True, slots=True, eq=False)
-class SynthesisOptions:
-    """How linkages are made of dyads.
-
-    length: what a radian counts as in the task's unit.
-    refine: whether all dimensions are refined; worst: for the greatest distance, not squares.
-    tolerance: to which links and pivots are built, in the task's unit; None says nothing of it.
-    step: to which lengths and pivots are rounded; stock: the lengths that links come in.
-    """
-
-    length: float
-    refine: bool = True
-    worst: bool = False
-    tolerance: float | None = None
-    step: float | None = None
-    stock: tuple[float, ...] = ()
 
 
 class Candidates(NamedTuple):
@@ -82,10 +64,13 @@ class Candidates(NamedTuple):
 class Evaluation:
     """What linkages are judged by."""
 
-    task: Task
+    problem: SynthesisProblem
     aim: Target
-    options: SynthesisOptions
-    numbers: Sequence[int] | None
+
+    @property
+    def task(self) -> Task:
+        """The task, with every pose once."""
+        return self.problem.task
 
     def stacked(self, pairs: Sequence[Pair]) -> LinkageBatch:
         """Pairs of dyads in the frames in which they are judged."""
@@ -123,7 +108,7 @@ class Evaluation:
         """
 
         def order(each: FoundLinkage) -> tuple[bool, float]:
-            worst = np.round(each.error.worst / (ROUNDING * self.options.length))
+            worst = np.round(each.error.worst / (ROUNDING * self.problem.length_per_radian))
             return not each.usable, float(worst)
 
         size = float(self.aim.frames.length)
@@ -142,12 +127,14 @@ class Evaluation:
     def rounded(self, found: list[FoundLinkage]) -> list[FoundLinkage]:
         """The best of them with lengths and pivots rounded, judged again."""
         out: list[FoundLinkage] = []
-        frames, options = self.aim.frames, self.options
+        frames, options = self.aim.frames, self.problem.options
         for each in found[:ROUNDED]:
             stack = LinkageBatch.of([each.linkage]).seen(frames)
             rows = rows_of(frames.see(each.error.places), self.aim.length)[None]
             driver = np.array([int(each.preferred_driver == "second")])
-            own, rows = rounded(stack, rows, self.aim, options.step, options.stock, driver)
+            own, rows = rounded(
+                stack, rows, self.aim, options.rounding_step, options.stock_lengths, driver
+            )
             from_search = np.array([each.from_search])
             new = self.told(Candidates(own.seen(frames), rows, [each.dyads], from_search, own))
             if not new:
@@ -174,9 +161,13 @@ class Evaluation:
         position = np.array([error.position for error in errors]).reshape(shape)
         turn = np.array([error.angle for error in errors]).reshape(shape)
         asked, within = self.task.requirements, self.task.requirements.within
-        missed = position if within is not None else np.hypot(position, self.options.length * turn)
+        missed = (
+            position
+            if within is not None
+            else np.hypot(position, self.problem.length_per_radian * turn)
+        )
         reach = REACH * float(self.aim.frames.length) if within is None else within
-        numbers = list(range(shape[1])) if self.numbers is None else list(self.numbers)
+        numbers = self.problem.pose_numbers
         given = self.task.names or ("",) * len(numbers)
         names = [name or str(number + 1) for name, number in zip(given, numbers, strict=True)]
         out: list[Verdict | None] = [None] * len(own)
@@ -186,7 +177,7 @@ class Evaluation:
                 places[index],
                 missed=missed[index],
                 reach=reach,
-                length=self.options.length,
+                length=self.problem.length_per_radian,
                 names=names,
                 any_order=asked.any_order,
             )
@@ -237,11 +228,11 @@ class Evaluation:
         regions = uncertainties(spreads, stack[sound], places, unit)
         deviation = links_deviation(stack[sound], spreads)
         built = None
-        if self.options.tolerance is not None:
-            tolerance = self.options.tolerance / unit
+        if self.problem.options.manufacturing_tolerance is not None:
+            tolerance = self.problem.options.manufacturing_tolerance / unit
             built = spread(stack[sound], self.aim.poses, places, self.aim.length, tolerance)
         span = np.linalg.norm(np.ptp(self.task.poses.translation, axis=0))
-        size = max(float(span), self.options.length)
+        size = max(float(span), self.problem.length_per_radian)
         out = list(found)
         for at, k in enumerate(sound):
             determined = max(each.half_width for each in regions[at]) <= DETERMINED * size

@@ -21,11 +21,11 @@ from burmester.fourbar.pose_error import error_frames
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.constraints import AllConstraints, Constraints, DyadLimitsConstraint
 from burmester.linkages.defect_free_search import defect_free_linkages, links_of_pivot_map
-from burmester.linkages.evaluation import Candidates, Evaluation, SynthesisOptions
+from burmester.linkages.evaluation import Candidates, Evaluation
 from burmester.linkages.found_linkage import FoundLinkage, Pair
 from burmester.linkages.target import Target
 from burmester.numerics.arrays import ROUNDING
-from burmester.tasks.motion_task import Task
+from burmester.tasks.problem import SynthesisProblem
 
 __all__ = ["linkages_from_dyads"]
 
@@ -37,37 +37,36 @@ FEW = 5  # linkages found under conditions are kept, at most
 
 
 def linkages_from_dyads(
-    task: Task,
-    pairs: Sequence[Pair],
-    options: SynthesisOptions,
-    numbers: Sequence[int] | None = None,
+    problem: SynthesisProblem, pairs: Sequence[Pair], *, refine: bool = True
 ) -> tuple[FoundLinkage, ...]:
     """The linkages of pairs of dyads, those that work first, then by rising worst position error.
 
-    task: with every pose once; numbers: what its poses are called (from 0), where some were left
-    out as repeats.  Pairs with a PP dyad are passed over: they have no one drive.
+    refine: False leaves the dimensions as the dyads have them, whatever the options say.  Pairs
+    with a PP dyad are passed over: no single joint drives them.
     """
+    options, refine = problem.options, refine and problem.options.refines
     pairs = [pair for pair in pairs if not any(isinstance(each.dyad, PP) for each in pair)]
     if not pairs:
         return ()
-    if len(task.limits) < 2:  # pairs of the same kinds are looked at together
+    if len(problem.task.limits) < 2:  # pairs of the same kinds are looked at together
         kind = {each.id: STACKED.index(type(each.dyad)) for pair in pairs for each in pair}
         pairs = [(b, a) if kind[b.id] < kind[a.id] else (a, b) for a, b in pairs]
-    judging = Evaluation(task, _aim(task, options), options, numbers)
+    judging = Evaluation(problem, _aim(problem))
     start = judging.stacked(pairs)
-    found = judging.told(_of_pairs(start, pairs, judging.aim, options))
+    found = judging.told(_of_pairs(start, pairs, judging.aim, refine))
     closest = min(found, key=lambda each: each.error.worst, default=None)
-    if options.refine and closest is not None and not closest.usable:
+    if refine and closest is not None and not closest.usable:
         found = judging.ranked(found + _sought(start, pairs, judging, found))
-    if options.step is not None or options.stock:
+    if options.rounds:
         found = judging.rounded(found)
     return tuple(
         replace(each, id=f"L{rank}", rank=rank) for rank, each in enumerate(found, start=1)
     )
 
 
-def _aim(task: Task, options: SynthesisOptions) -> Target:
-    frames = error_frames(task.poses, options.length)
+def _aim(problem: SynthesisProblem) -> Target:
+    task, length = problem.task, problem.length_per_radian
+    frames = error_frames(task.poses, length)
     kept: tuple[Constraints, ...] = ()
     if task.limits:
         kept = tuple(
@@ -76,19 +75,17 @@ def _aim(task: Task, options: SynthesisOptions) -> Target:
         )
     return Target(
         frames.see(task.poses),
-        options.length / float(frames.length),
+        length / float(frames.length),
         frames,
         task.requirements,
         kept,
         task.weights,
         task.exact,
-        options.worst,
+        problem.options.norm == "worst",
     )
 
 
-def _of_pairs(
-    start: LinkageBatch, pairs: list[Pair], aim: Target, options: SynthesisOptions
-) -> Candidates:
+def _of_pairs(start: LinkageBatch, pairs: list[Pair], aim: Target, refine: bool) -> Candidates:
     """The pairs with their places, on one circuit where that is nearly as near as any."""
     every = np.arange(len(start))
     rows = rows_of(on_circuits(start, aim.poses, aim.length), aim.length)
@@ -101,12 +98,12 @@ def _of_pairs(
         for each in (one, best)
     )
     apart = away > np.maximum(TWICE * least, ROUNDING)
-    both = apart & np.isfinite(away) & np.isfinite(least) & options.refine
+    both = apart & np.isfinite(away) & np.isfinite(least) & refine
     index = np.concatenate([every, np.flatnonzero(both)])
     rows = np.concatenate([np.where(apart[:, None, None], best, one), one[both]])
     none = np.zeros(len(index), dtype=bool)
     made = Candidates(start[index], rows, [pairs[k] for k in index], none)
-    if options.refine:
+    if refine:
         made = _refined(made, aim)
         if len(made.rows[0]) <= MANY:  # refining leaves some in a valley that is not the nearest
             rows = on_own_circuits(made.stack, made.rows, aim.poses, aim.length)
@@ -172,9 +169,9 @@ def _more(
     start: LinkageBatch, pairs: list[Pair], judging: Evaluation
 ) -> tuple[LinkageBatch, list[Pair]]:
     """Where the search starts from: the pairs, and links that are low in the pivot maps."""
-    if judging.task.limits:
+    if judging.problem.task.limits:
         return start, pairs
-    links = links_of_pivot_map(judging.aim.poses, judging.task.weights)
+    links = links_of_pivot_map(judging.aim.poses, judging.problem.task.weights)
     own = {each.id: each for pair in pairs for each in pair}
     map_ = [
         judging.dyad(f"M{number}", judging.aim.frames.circle_back(link[None])[0])

@@ -1,4 +1,4 @@
-"""What came of a task, in words: the outcome, the warnings, and the method that it got."""
+"""What came of a task, in words: the outcome and the warnings."""
 
 from __future__ import annotations
 
@@ -9,41 +9,40 @@ from burmester.dyads.critical_points import COUNT, CriticalDyads
 from burmester.dyads.five_poses import FivePoseDyads
 from burmester.dyads.local_minima import BestDyads
 from burmester.dyads.minima_within_limits import LimitedDyads
-from burmester.dyads.selection import LONG, Fit, FoundDyad, characteristic_length
+from burmester.dyads.selection import LONG
 from burmester.errors import Advice
 from burmester.fourbar.dyad import RR
 from burmester.linkages.explanation import by_nearness, in_short, met, way_on
 from burmester.linkages.found_linkage import FoundLinkage
-from burmester.synthesis.method import Method
+from burmester.synthesis.dyad_search import DyadSearch
 from burmester.synthesis.result import Outcome
-from burmester.tasks.motion_task import CONDITIONS, Task
+from burmester.tasks.motion_task import CONDITIONS, Task, characteristic_length
+from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.repeated_poses import rotation_range
 from burmester.tasks.wording import figure, least_angle, length_of, span
 from burmester.wording import count, listed
 
-__all__ = ["advice", "family", "linkage_advice", "told"]
+__all__ = ["dyad_advice", "family", "linkage_advice", "summary"]
 
-BETTER = 1.2  # times the transmission angle, for another linkage to be named
-LITTLE = math.radians(30)  # of rotation
+BETTER = 1.2  # ratio of two least transmission angles; from it on the better linkage is named
+LITTLE = math.radians(30)  # rotation of the body below which the outcome says "only"
 GOOD_TRANSMISSION = math.radians(40)  # least angle over the range; below it friction may lock
 
 
-def advice(
-    task: Task, fits: Sequence[Fit], dyads: Sequence[FoundDyad], left_out: int, length: float
-) -> list[Advice]:
+def dyad_advice(problem: SynthesisProblem, found: DyadSearch) -> list[Advice]:
     """What a user should know about the dyads."""
     warnings = [
         Advice(
             "W204",
-            f"{item.id} has a link of {item.dyad.radius / length:.0f} times the motion's size: "
-            "nearly a slider",
+            f"{each.id} has a link of {each.dyad.radius / problem.length:.0f} times the motion's "
+            "size: nearly a slider",
             "if a link that long cannot be built, allow sliders only with --kinds PR,RP, or say "
             "how long it may be with --length :MAX",
         )
-        for item in dyads
-        if isinstance(item.dyad, RR) and item.dyad.radius > LONG * length
+        for each in found.dyads
+        if isinstance(each.dyad, RR) and each.dyad.radius > LONG * problem.length
     ]
-    for fit in fits:
+    for fit in found.fits:
         search = fit.search if isinstance(fit, BestDyads) else None
         if isinstance(search, CriticalDyads) and (known := _accounted(search)) < COUNT:
             warnings.append(
@@ -64,11 +63,11 @@ def advice(
                     "move a limit a little and compare",
                 )
             )
-    if left_out:
+    if found.left_out:
         warnings.append(
             Advice(
                 "W206",
-                f"{count(left_out, 'solution')} left out as no dyad: an endless link with no "
+                f"{count(found.left_out, 'solution')} left out as no dyad: an endless link with no "
                 "slider in its place, poses with two different angles only, or all digits lost",
                 "give poses that differ more, above all in their angles",
             )
@@ -76,16 +75,15 @@ def advice(
     return warnings
 
 
-def family(task: Task, whole: int, freedom: Sequence[int]) -> tuple[Outcome, Advice]:
-    """What to say of a task with too few conditions, by how many for each limit.
-
-    whole: how many poses it had before the repeated ones were merged.
-    """
-    distinct, free = task.poses.shape[0], max(freedom)
+def family(problem: SynthesisProblem) -> tuple[Outcome, Advice]:
+    """What to say of a task with too few conditions."""
+    task, whole = problem.task, problem.given.poses.shape[0]
+    distinct, missing = task.poses.shape[0], problem.missing_conditions
+    free = max(missing)
     poses = count(whole, "pose") + (f", {distinct} of them different," if distinct < whole else "")
     on_pivots = CONDITIONS - free - distinct
     given = poses + (f" and {count(on_pivots, 'condition')} on a pivot" if on_pivots else "")
-    which = "the other dyad: " if free > min(freedom) <= 0 else ""
+    which = "the other dyad: " if free > min(missing) <= 0 else ""
     parameter = {1: "one", 2: "two", 3: "three"}.get(free, str(free))
     help = (
         f"add {count(free, 'more pose')} to get all that pass exactly, or put pivots on lines "
@@ -105,76 +103,67 @@ def family(task: Task, whole: int, freedom: Sequence[int]) -> tuple[Outcome, Adv
     )
 
 
-def told(  # noqa: PLR0917
-    task: Task,
-    method: Method,
-    fits: Sequence[Fit],
-    found: Sequence[FoundDyad],
-    real: int,
-    linkages: Sequence[FoundLinkage],
+def summary(
+    problem: SynthesisProblem, search: DyadSearch, linkages: Sequence[FoundLinkage]
 ) -> Outcome:
-    """What came of a task, in one sentence; `real`: how many dyads are no mere neighbours.
-
-    task: with all its poses, repeated ones too, as the linkages have them.
-    """
-    dyads, aside = _dyads(task, method, fits, found, real)
+    """What came of a task, in one sentence."""
+    dyads, aside = _dyads(problem, search)
     if not linkages:
-        return _none(task, found, dyads + aside)
-    size = characteristic_length(task)
+        return _none(problem.given, search, dyads + aside)
     usable = [each for each in linkages if each.usable]
     all_of_them = f"{count(len(linkages), 'four-bar')} from {dyads}"
     if not usable:
-        return _none_usable(task, linkages, all_of_them, aside, size)
+        return _none_usable(problem, linkages, all_of_them, aside)
     if not any(each.determined for each in usable):
-        return _undetermined(task, usable)
+        return _undetermined(problem, usable)
     if len(usable) < len(linkages):
         share = f"{len(usable)} of them usable"
     else:
         share = "usable" if len(usable) == 1 else "all of them usable"
-    code = "R307" if isinstance(fits[0], FivePoseDyads) and real < 2 else "R300"
-    return Outcome(code, f"{all_of_them}, {share}{aside}")
+    approximate = isinstance(search.fits[0], FivePoseDyads) and search.meeting < 2
+    return Outcome("R307" if approximate else "R300", f"{all_of_them}, {share}{aside}")
 
 
-def _dyads(
-    task: Task, method: Method, fits: Sequence[Fit], found: Sequence[FoundDyad], real: int
-) -> tuple[str, str]:
-    """The dyads found and how they were looked for, in words; and what is to be said aside."""
-    first = fits[0]
+def _dyads(problem: SynthesisProblem, search: DyadSearch) -> tuple[str, str]:
+    """The dyads with the reach of the search, in words; and a remark that ends the sentence."""
+    first, found, task = search.fits[0], search.dyads, problem.given
     if isinstance(first, FivePoseDyads):
         aside = ""
-        if real < len(found):
-            miss = length_of(found[real].rms_error, task)
-            aside = f"; the nearest other one misses the poses by {miss} rms"
-        return count(real, "real dyad") + " (of the 4 that five poses have)", aside
+        if search.meeting < len(found):
+            error = length_of(found[search.meeting].rms_error, task)
+            aside = f"; the nearest other one misses the poses by {error} rms"
+        return count(search.meeting, "real dyad") + " (of the 4 that five poses have)", aside
     if isinstance(first, BestDyads) and isinstance(first.search, CriticalDyads):
         known = f"({_accounted(first.search)} of {COUNT} critical points accounted for)"
         return f"{count(len(found), 'locally best dyad')} {known}", ""
     if isinstance(first, BestDyads):
         faces = sum(
-            f.search.systems
-            for f in fits
-            if isinstance(f, BestDyads) and isinstance(f.search, LimitedDyads)
+            fit.search.systems
+            for fit in search.fits
+            if isinstance(fit, BestDyads) and isinstance(fit.search, LimitedDyads)
         )
-        dyads = count(len(found), "dyad" if method == "exact" else "locally best dyad")
+        exact = problem.options.method == "exact"
+        dyads = count(len(found), "dyad" if exact else "locally best dyad")
         if task.limits:
             dyads += f" within the limits ({count(faces, 'face')} of these searched)"
         return dyads, ""
     return count(len(found), "dyad"), ""
 
 
-def _none(task: Task, found: Sequence[FoundDyad], dyads: str) -> Outcome:
+def _none(task: Task, search: DyadSearch, dyads: str) -> Outcome:
     """No linkage at all."""
     wider = "widen a limit, or allow another kind of dyad"
-    if task.limits and not found:
+    if task.limits and not search.dyads:
         return Outcome("R306", f"no four-bar: {dyads}", wider)
-    message = f"no four-bar: {dyads}, and it takes two different ones"
+    message = f"no four-bar: {dyads}, and a four-bar needs two different ones"
     return Outcome("R302", message, wider if task.limits else "change a pose, or drop one")
 
 
 def _none_usable(
-    task: Task, linkages: Sequence[FoundLinkage], all_of_them: str, aside: str, size: float
+    problem: SynthesisProblem, linkages: Sequence[FoundLinkage], all_of_them: str, aside: str
 ) -> Outcome:
     """Linkages, and none that works."""
+    task, size = problem.given, problem.length
     nearest = by_nearness(linkages, size)[0]
     works = "works as asked" if task.requirements.asked else "works"
     if len(linkages) == 1:
@@ -191,8 +180,9 @@ def _none_usable(
     )
 
 
-def _undetermined(task: Task, usable: Sequence[FoundLinkage]) -> Outcome:
+def _undetermined(problem: SynthesisProblem, usable: Sequence[FoundLinkage]) -> Outcome:
     """Linkages that work, and pivots that could be elsewhere as well."""
+    task = problem.given
     rotation = rotation_range(task.poses.angle)
     only = "only " if rotation < LITTLE else ""
     best = usable[0]

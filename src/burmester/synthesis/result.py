@@ -6,16 +6,13 @@ from dataclasses import dataclass
 from typing import final
 
 from burmester.certificates.certificate import Certificate
-from burmester.dyads.selection import (
-    Fit,
-    FoundDyad,
-)
+from burmester.dyads.selection import Fit, FoundDyad
 from burmester.errors import Advice
-from burmester.linkages.evaluation import SynthesisOptions
 from burmester.linkages.found_linkage import FoundLinkage
-from burmester.synthesis.method import Method
 from burmester.tasks.motion_class import MotionClass
 from burmester.tasks.motion_task import Task
+from burmester.tasks.options import Method, SynthesisOptions
+from burmester.tasks.problem import SynthesisProblem
 
 __all__ = ["Outcome", "Synthesis"]
 
@@ -25,9 +22,10 @@ __all__ = ["Outcome", "Synthesis"]
 class Outcome:
     """What came of a task: a stable code, a sentence, and what to do where nothing came.
 
-    R300 usable linkages; R301 none of them usable; R302 too few dyads for one; R303 infinitely
-    many; R305 usable ones, but no pivots determined; R306 none within the limits; R307 approximate
-    ones, for want of two real dyads; R310 and above: see `motion_kind`.  why: with numbers.
+    R300 usable linkages; R301 linkages, none of them usable; R302 too few dyads for a linkage;
+    R303 infinitely many linkages; R305 usable linkages, but no pivots determined; R306 no dyad
+    within the limits; R307 approximate linkages, as two real dyads do not exist; R310 and above:
+    a special motion, see `motion_kinds` and `special_motions`.  why: with numbers.
     """
 
     code: str
@@ -36,33 +34,52 @@ class Outcome:
     why: str | None = None
 
 
-@final
 @dataclass(frozen=True, slots=True, eq=False)
 class Synthesis:
     """All that came of a task, nothing thrown away.
 
-    motion: what the poses are, known before any fit; None for one or two of them.
-    length: the characteristic length of the task (see `frames`), in its unit; it weighs
-        angles against positions in `FoundLinkage.error`.
+    problem: the task, the class of its motion, its characteristic length, and the options, with
+        the method that was chosen.
     dyads: every dyad found, by rising rms error (shorter links first among exact ones).
-    linkages: every pair of them, refined as a whole; those that work first, then by rising worst
-        position error.  Where the closest one does not work, linkages looked for under the
-        conditions that they do.
+    linkages: every pair of them, refined as a whole; usable ones first, then by rising worst
+        position error.  Where the closest one is not usable, with linkages that a search under
+        the conditions of use has found.
     fits: what the method learnt (singular values, all roots); two where the task has two limits.
-    certificate: what of it is proved, where that was asked for.
+    certificate: what of it is proved, if a certificate was asked for.
     """
 
-    task: Task
-    method: Method
+    problem: SynthesisProblem
     outcome: Outcome
-    motion: MotionClass | None
-    length: float
     dyads: tuple[FoundDyad, ...] = ()
     linkages: tuple[FoundLinkage, ...] = ()
     warnings: tuple[Advice, ...] = ()
     fits: tuple[Fit, ...] = ()
     certificate: Certificate | None = None
-    options: SynthesisOptions | None = None
+
+    @property
+    def task(self) -> Task:
+        """The task as it was given."""
+        return self.problem.given
+
+    @property
+    def motion(self) -> MotionClass | None:
+        """What the poses are, known before any fit; None for one or two of them."""
+        return self.problem.motion
+
+    @property
+    def length(self) -> float:
+        """The characteristic length of the task, in its unit (`CanonicalFrames`)."""
+        return self.problem.length
+
+    @property
+    def options(self) -> SynthesisOptions:
+        """How the task was solved."""
+        return self.problem.options
+
+    @property
+    def method(self) -> Method:
+        """The method that was used."""
+        return self.problem.options.method
 
     @property
     def usable(self) -> tuple[FoundLinkage, ...]:

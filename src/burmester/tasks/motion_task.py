@@ -9,12 +9,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from burmester.errors import InputError, printable
+from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.limits import Limits
 from burmester.tasks.requirements import Requirements, require_possible
 
-__all__ = ["COARSE", "CONDITIONS", "Task"]
+__all__ = ["COARSE", "CONDITIONS", "Task", "characteristic_length"]
 
 COARSE = 1e-3  # coarser digits than this count as meant exactly, not as measured
 
@@ -136,6 +137,11 @@ class Task:
         if rows.ndim != 2 or rows.shape[1] != 3:
             raise ValueError(f"poses need shape (N, 3): x, y, angle in degrees; not {rows.shape}")
         return cls(Displacement(rows[:, :2], np.radians(rows[:, 2])), length_unit=length_unit)
+
+
+def characteristic_length(task: Task) -> float:
+    """The size of a task in its unit, the same in all frames (`CanonicalFrames`)."""
+    return float(CanonicalFrames.of(task.poses, task.weights)[0].length)
 
 
 def _require_computable(poses: Displacement) -> None:

@@ -120,7 +120,7 @@ def _linkage(
 ) -> dict[str, Any]:
     """A linkage with all that is said of it, how it moves, and its image space."""
     task = synthesis.task
-    tolerance = None if synthesis.options is None else synthesis.options.tolerance
+    tolerance = synthesis.options.manufacturing_tolerance
     motion = motion_of(found, task.poses, scene, frames)
     worst, turned = digits.misses(synthesis, found)
     first, second = found.dyads if found.preferred_driver == "first" else found.dyads[::-1]

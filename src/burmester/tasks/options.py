@@ -1,0 +1,115 @@
+"""How a task is solved: the method, what is least, and how the linkages are to be made."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final, Literal, TypeAlias, final, get_args
+
+import numpy as np
+
+from burmester.errors import InputError
+from burmester.wording import listed
+
+__all__ = ["Method", "Norm", "SynthesisOptions"]
+
+Method: TypeAlias = Literal["auto", "pencil", "exact", "complete"]
+Norm: TypeAlias = Literal["rms", "worst"]
+
+_LENGTHS: Final = ("length_per_radian", "manufacturing_tolerance", "rounding_step")
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class SynthesisOptions:
+    """What a synthesis is to do with a task.
+
+    Attributes
+    ----------
+    method
+        "complete" finds every locally best dyad of six poses or more, and of any task with
+        limits; "exact" meets five conditions: five poses, or fewer with pivots at points or on
+        lines; "pencil" is the paper's, for six poses or more; "auto" is exact where there are
+        five conditions and complete where there are more.
+    norm
+        What is least: "rms", the sum of squared distances, or "worst", the greatest distance.
+    normalise
+        False lets the pencil fit the numbers as they come, as the paper does.
+    certify
+        Whether a certificate is made, of a task without limits.
+    length_per_radian
+        The length, in the task's unit, that counts as much as one radian of angle error; None for
+        the characteristic length of the task.
+    manufacturing_tolerance
+        How exactly links and pivots are built, in the task's unit: the spread of the errors is
+        reported.  None for no report.
+    rounding_step
+        Lengths and pivots are rounded to multiples of this length, in the task's unit.
+    stock_lengths
+        The link lengths that are available, in the task's unit; the nearest ones are used.
+
+    Raises
+    ------
+    InputError
+        E134, where a word is unknown or a length is not a number above zero.
+    """
+
+    method: Method = "auto"
+    norm: Norm = "rms"
+    normalise: bool = True
+    certify: bool = False
+    length_per_radian: float | None = None
+    manufacturing_tolerance: float | None = None
+    rounding_step: float | None = None
+    stock_lengths: tuple[float, ...] = ()
+
+    def __post_init__(self) -> None:
+        _require_word("method", self.method, get_args(Method))
+        _require_word("norm", self.norm, get_args(Norm))
+        for name in ("normalise", "certify"):
+            if not isinstance(getattr(self, name), bool | np.bool_):
+                raise InputError(
+                    "E134",
+                    f"{name} is {getattr(self, name)!r}, neither True nor False",
+                    help=f"give {name}=True or {name}=False",
+                )
+        for name in _LENGTHS:
+            if (value := getattr(self, name)) is not None:
+                object.__setattr__(self, name, _length(name, value))
+        stock: Sequence[object] = self.stock_lengths
+        if isinstance(stock, str) or not np.iterable(stock):
+            stock = (stock,)
+        lengths = tuple(_length("stock_lengths", value) for value in stock)
+        object.__setattr__(self, "stock_lengths", lengths)
+
+    @property
+    def refines(self) -> bool:
+        """Whether linkages are refined as a whole; those of the pencil are the paper's."""
+        return self.normalise and self.method != "pencil"
+
+    @property
+    def rounds(self) -> bool:
+        """Whether dimensions are rounded."""
+        return self.rounding_step is not None or bool(self.stock_lengths)
+
+
+def _require_word(name: str, value: object, known: tuple[str, ...]) -> None:
+    if not isinstance(value, str) or value not in known:
+        raise InputError(
+            "E134",
+            f"there is no {name} {value!r}",
+            help=f"choose {listed([repr(each) for each in known], 'or')}",
+        )
+
+
+def _length(name: str, value: object) -> float:
+    """A length above zero, or E134."""
+    real = isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool)
+    if not (real and math.isfinite(value) and value > 0):  # type: ignore[arg-type, operator]
+        raise InputError(
+            "E134",
+            f"{name} is {value!r}, not a length above zero",
+            help="give a length above zero, in the unit of the poses, or leave it out",
+        )
+    return float(value)  # type: ignore[arg-type]

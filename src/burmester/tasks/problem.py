@@ -1,0 +1,90 @@
+"""A task on its way to linkages: what travels from room to room."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Self, final
+
+import numpy as np
+
+from burmester.tasks.motion_class import MotionClass
+from burmester.tasks.motion_kinds import FewPoses, Undetermined
+from burmester.tasks.motion_task import CONDITIONS, Task, characteristic_length
+from burmester.tasks.options import SynthesisOptions
+
+__all__ = ["SynthesisProblem"]
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class SynthesisProblem:
+    """A task with all that is known of it before any fit.
+
+    given: the task as its user gave it.
+    task: the same, but every repeated pose once where dyads are looked for; weights add up.
+    motion: the class of its motion; None for one or two poses.
+    length: its characteristic length, in its unit.
+    """
+
+    given: Task
+    task: Task
+    motion: MotionClass | None
+    length: float
+    options: SynthesisOptions
+
+    @classmethod
+    def of(cls, task: Task, motion: MotionClass | None, options: SynthesisOptions) -> Self:
+        """A task of a known class of motion, and how it is to be solved."""
+        problem = cls(task, task, motion, characteristic_length(task), options)
+        return problem if problem.is_special else problem.merged()
+
+    @property
+    def length_per_radian(self) -> float:
+        """What a radian of angle error counts as, in the task's unit."""
+        return self.options.length_per_radian or self.length
+
+    @property
+    def is_special(self) -> bool:
+        """Whether the motion itself says which dyads there are, and none is to be fitted.
+
+        Pivots at points or on lines may settle what too few or too small motions leave open.
+        """
+        if self.motion is None or self.motion.determined:
+            return False
+        kind = self.motion.kind
+        settled = any(each.conditions for each in self.given.limits)
+        few = isinstance(kind, FewPoses) and (
+            settled or (kind.repeats and self.motion.distinct > 2)
+        )
+        small = isinstance(kind, Undetermined) and settled
+        return not (few or small)
+
+    @property
+    def missing_conditions(self) -> list[int]:
+        """How many more conditions leave finitely many dyads, for each of the task's limits."""
+        conditions = [limits.conditions for limits in self.task.limits] or [0]
+        return [CONDITIONS - each - self.task.poses.shape[0] for each in conditions]
+
+    @property
+    def pose_numbers(self) -> list[int]:
+        """The numbers (from 0) that the poses of `task` have in the task as given."""
+        if self.task is self.given or self.motion is None:
+            return list(range(self.task.poses.shape[0]))
+        return [int(number) for number in self.motion.first]
+
+    def merged(self) -> Self:
+        """The same problem, its task with every repeated pose once."""
+        motion, task = self.motion, self.given
+        if motion is None or motion.distinct == task.poses.shape[0]:
+            return self
+        size, first, exact, weights = motion.distinct, motion.first, task.exact, task.weights
+        if weights is not None:
+            weights = np.bincount(motion.group, weights, size).astype(np.float64)
+        once = replace(
+            task,
+            poses=task.poses[first],
+            weights=weights,
+            names=None if task.names is None else tuple(task.names[i] for i in first),
+            exact=None if exact is None else np.bincount(motion.group, exact, size) > 0,
+        )
+        return replace(self, task=once)
