@@ -13,8 +13,6 @@ from burmester.web.data import report_data
 
 __all__ = ["page"]
 
-EXPORT = "export default {"  # what the widget's module ends with; a page has no one to export to
-
 
 def page(synthesis: Synthesis, title: str) -> str:
     """The report of a synthesis: a whole HTML document, scripts, styles and data within.
@@ -22,9 +20,8 @@ def page(synthesis: Synthesis, title: str) -> str:
     Its content security policy allows its own script and style, by their hashes, and nothing else.
     """
     data = {**report_data(synthesis), "title": title}
-    module = _text("widget.mjs")
-    assert module.count(EXPORT) == 1
-    script = f"{module.replace(EXPORT, 'const widget = {')}\n{_text('start.mjs')}"
+    # The widget's module exports itself to no one here, and is called by its own name.
+    script = _text("widget.mjs") + _text("start.mjs")
     style = _text("widget.css") + _text("page.css")
     policy = "; ".join(
         [

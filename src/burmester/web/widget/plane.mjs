@@ -1,0 +1,216 @@
+// The linkage in its plane: grid, paths, ground, wanted and achieved poses, and the moving parts.
+
+import { s } from "./dom.mjs";
+import { AXIS, BLOCK, axes, boundsOf, foot, pathOf, polyline, transform, viewOf } from "./drawing.mjs";
+import { normalOf } from "./kinematics.mjs";
+import { Labels } from "./labels.mjs";
+import { mechanism } from "./mechanism.mjs";
+import { clamp, px, radians, ticks } from "./numbers.mjs";
+
+/** Magnifications of the error arrows; 0 draws none. */
+export const FACTORS = [0, 1, 10, 100, 1000, 10000, 100000];
+
+/** The greatest magnification at which no error arrow is longer than a third of the scene. */
+export function factorFor(data, linkage) {
+  const worst = Math.max(0, ...linkage.pose_errors.map((row) => row.position ?? 0));
+  if (!(worst > 1e-9 * data.scene)) return 0;
+  const fits = FACTORS.filter((factor) => factor >= 1 && factor * worst < 0.3 * data.scene);
+  return fits.length ? fits[fits.length - 1] : 1;
+}
+
+/** An SVG element in `parent`: `build` draws a linkage on one of its ways, `show` moves it. */
+export class Plane {
+  constructor(data, parent) {
+    this.data = data;
+    this.svg = s("svg", { class: "bm-plane", role: "img", tabindex: "0" });
+    this.parent = parent;
+    parent.append(this.svg);
+  }
+
+  /** Draw what stands still.  factor: of the error arrows; fill: the height to fill, 0 for the picture's own. */
+  build(linkage, way, factor, fill) {
+    const { data, svg } = this;
+    const box = boundsOf(data, linkage);
+    const width = Math.max(260, this.parent.clientWidth);
+    const shape = (box[3] - box[1]) / (box[2] - box[0]);
+    const own = clamp(width * clamp(shape, 0.45, 1), 260, clamp(0.62 * window.innerHeight, 340, 680));
+    const height = Math.round(fill ? clamp(fill, own, 1.15 * width) : own);
+    const view = viewOf(box, width, height, width < 500 ? 34 : 42);
+    this.view = view;
+    this.linkage = linkage;
+    this.way = way;
+    svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    svg.setAttribute("height", height);
+    svg.dataset.scale = view.scale;
+    svg.dataset.left = view.left;
+    svg.dataset.top = view.top;
+    svg.replaceChildren();
+    svg.append(this.grid());
+    if (linkage) svg.append(this.paths());
+    const labels = new Labels(view);
+    this.names = s("g", { class: "bm-names" });
+    if (linkage) svg.append(this.ground(labels));
+    for (const pose of data.poses) {
+      const x = view.X(pose.x), y = view.Y(pose.y), angle = radians(pose.angle_deg);
+      const c = AXIS * Math.cos(angle), d = AXIS * Math.sin(angle);
+      labels.block(x, y, 12, 12);
+      for (const share of [0.35, 0.65, 1]) {
+        labels.block(x + share * c, y - share * d, 6, 6);
+        labels.block(x - 0.6 * share * d, y - 0.6 * share * c, 6, 6);
+      }
+    }
+    svg.append(this.poses(linkage, factor, labels));
+    this.moving = linkage?.ways.length ? mechanism(linkage, view) : null;
+    if (this.moving) svg.append(this.moving.group);
+    svg.append(this.names);
+  }
+
+  grid() {
+    const { view } = this, group = s("g", { class: "bm-grid", "aria-hidden": "true" });
+    const unit = this.data.unit ? ` ${this.data.unit}` : "";
+    const across = ticks(-view.left / view.scale, (view.width - view.left) / view.scale, view.width / 110);
+    const up = ticks((view.top - view.height) / view.scale, view.top / view.scale, view.height / 80);
+    for (const { at, text } of across) {
+      const x = px(view.X(at));
+      group.append(s("path", { d: `M${x} 0V${view.height}` }));
+      if (x > 46 && x < view.width - 30) {
+        group.append(s("text", { x, y: view.height - 6, "text-anchor": "middle" }, text));
+      }
+    }
+    for (const { at, text } of up) {
+      const y = px(view.Y(at));
+      group.append(s("path", { d: `M0 ${y}H${view.width}` }));
+      if (y > 26 && y < view.height - 24) group.append(s("text", { x: 6, y: y - 4 }, text));
+    }
+    group.append(
+      s("text", { x: 6, y: 14 }, `y${unit}`),
+      s("text", { x: view.width - 6, y: view.height - 6, "text-anchor": "end" }, `x${unit}`),
+    );
+    return group;
+  }
+
+  paths() {
+    const { view, linkage } = this, group = s("g", { class: "bm-paths" });
+    linkage.ways.forEach((way, k) => {
+      const here = k === this.way;
+      const same = way.circuit === linkage.ways[this.way]?.circuit;
+      const kind = here ? "bm-here" : same ? "bm-same" : "bm-other";
+      if (here) {
+        for (const [side, dyad] of linkage.led.entries()) {
+          if (!dyad.moving_pivot || dyad.kind === "PR") continue;
+          const d = polyline(pathOf(way, dyad.moving_pivot), view);
+          group.append(s("path", { class: `bm-pivot-path bm-side${side}`, d }));
+        }
+      }
+      const d = polyline(way.x.map((x, i) => [x, way.y[i]]), view);
+      group.append(s("path", { class: `bm-curve ${kind}`, d }));
+    });
+    return group;
+  }
+
+  /** Feet of fixed pivots and rails of sliders, with the names of their dyads. */
+  ground(labels) {
+    const group = s("g", { class: "bm-grounds" });
+    this.linkage.led.forEach((dyad, side) => {
+      if (dyad.kind === "PR") this.rail(group, labels, dyad, side);
+      else if (dyad.fixed_pivot) this.fixedPivot(group, labels, dyad, side);
+    });
+    return group;
+  }
+
+  /** A rail as long as all ways need, three scenes to either side at most. */
+  rail(group, labels, dyad, side) {
+    const { view } = this, [nx, ny] = normalOf(dyad), { offset } = dyad.line;
+    let low = Infinity, high = -Infinity;
+    for (const way of this.linkage.ways) {
+      for (const [x, y] of pathOf(way, dyad.moving_pivot)) {
+        const along = -ny * x + nx * y;
+        low = Math.min(low, along);
+        high = Math.max(high, along);
+      }
+    }
+    if (!(high >= low)) return;
+    const limit = 3 * this.data.scene, middle = (low + high) / 2;
+    [low, high] = [Math.max(low, middle - limit), Math.min(high, middle + limit)];
+    const half = (view.scale * (high - low)) / 2 + BLOCK[0], edge = BLOCK[1] / 2 + 1;
+    const x = view.X(offset * nx - middle * ny), y = view.Y(offset * ny + middle * nx);
+    let hatch = "";
+    for (let k = -half + 4; k < half - 2; k += 8) hatch += `M${px(k + 4)} ${edge}l-6 7`;
+    group.append(
+      s(
+        "g",
+        { class: `bm-rail bm-side${side}`, transform: transform(x, y, Math.atan2(nx, -ny)) },
+        s("path", { class: "bm-ground", d: `M${px(-half)} ${edge}H${px(half)}${hatch}` }),
+        s("path", { class: "bm-ground bm-thin", d: `M${px(-half)} ${-edge}H${px(half)}` }),
+      ),
+    );
+    for (let k = -half; k <= half; k += 14) labels.block(x - k * ny, y - k * nx, 22, 22);
+    this.names.append(labels.put(x, y, dyad.id, 26, { class: `bm-name bm-side${side}` }));
+  }
+
+  fixedPivot(group, labels, dyad, side) {
+    const x = this.view.X(dyad.fixed_pivot[0]), y = this.view.Y(dyad.fixed_pivot[1]);
+    labels.block(x, y + 10, 32, 34);
+    if (!side) labels.block(x, y, 40, 40);
+    const at = foot();
+    at.setAttribute("transform", `translate(${px(x)} ${px(y)})`);
+    group.append(at);
+    this.names.append(labels.put(x, y + 4, dyad.id, 27, { class: `bm-name bm-side${side}` }));
+  }
+
+  /** Wanted poses, the places that the linkage takes instead, and the errors between them, enlarged. */
+  poses(linkage, factor, labels) {
+    const { data, view } = this, group = s("g", { class: "bm-poses" });
+    const small = data.poses.length > 24 ? 0.6 : 1;
+    const arrows = this.errors(linkage, factor, labels);
+    const names = s("g", { class: "bm-pose-names" });
+    data.poses.forEach((pose, k) => {
+      const x = view.X(pose.x), y = view.Y(pose.y);
+      group.append(
+        s(
+          "g",
+          { class: "bm-wanted", transform: transform(x, y, radians(pose.angle_deg)), "data-pose": k + 1 },
+          s("path", { d: axes(AXIS * small) }),
+          s("circle", { r: 4.5 * small }),
+        ),
+      );
+      if (data.poses.length <= 60) names.append(labels.put(x, y, pose.label, 13, {}));
+      const row = linkage?.pose_errors[k];
+      if (!row || row.x === null) return;
+      const elsewhere = row.way === this.way ? "" : " bm-elsewhere";
+      group.append(
+        s(
+          "g",
+          { class: `bm-achieved${elsewhere}`, transform: transform(view.X(row.x), view.Y(row.y), radians(row.angle_deg)) },
+          s("path", { d: axes(0.72 * AXIS * small) }),
+          s("circle", { r: 2.2 * small }),
+        ),
+      );
+    });
+    group.append(arrows, names);
+    return group;
+  }
+
+  errors(linkage, factor, labels) {
+    const { data, view } = this, arrows = s("g", { class: "bm-errors" });
+    if (!linkage || !factor) return arrows;
+    linkage.pose_errors.forEach((row, k) => {
+      if (row.x === null) return;
+      const pose = data.poses[k], x = view.X(pose.x), y = view.Y(pose.y);
+      const dx = factor * view.scale * (row.x - pose.x), dy = -factor * view.scale * (row.y - pose.y);
+      const size = Math.hypot(dx, dy);
+      if (size < 1.5) return;
+      const head = Math.min(7, 0.5 * size), ux = dx / size, uy = dy / size;
+      const tip = `${px(x + dx)} ${px(y + dy)}`;
+      const barb = (sign) =>
+        `L${px(x + dx - head * (ux - sign * 0.5 * uy))} ${px(y + dy - head * (uy + sign * 0.5 * ux))}`;
+      arrows.append(s("path", { d: `M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}` }));
+      for (let share = 0; share <= 1; share += 0.2) labels.block(x + share * dx, y + share * dy, 8, 8);
+    });
+    return arrows;
+  }
+
+  show(place) {
+    this.moving?.show(place);
+  }
+}

@@ -1,0 +1,149 @@
+// Errors at the poses and the transmission angle, over the drive, with one cursor through all.
+
+import { s } from "./dom.mjs";
+import { frameAt, linear } from "./kinematics.mjs";
+import { angleTicks, clamp, figure, px, ticks } from "./numbers.mjs";
+
+const LEFT = 62, RIGHT = 14, TOP = 22, BOTTOM = 44; // pixels around the panels
+const PANEL = 84, GAP = 28; // pixels: height of a panel, distance between two
+const USUAL_LIMIT = 40; // degrees: the transmission angle below which designers hesitate
+const MANY_POSES = 40; // above this number only the three greatest errors are named
+
+/** An SVG element in `parent`; a pointer on it calls `scrub` with a frame of the way. */
+export class Plots {
+  constructor(data, parent, scrub) {
+    this.data = data;
+    this.parent = parent;
+    this.svg = s("svg", { class: "bm-plots", role: "img" });
+    parent.append(this.svg);
+    const go = (event) => {
+      if (!this.way) return;
+      const box = this.svg.getBoundingClientRect();
+      const at = (event.clientX - box.left - LEFT) / (this.width - LEFT - RIGHT);
+      scrub(frameAt(this.way.drive, this.low + clamp(at, 0, 1) * (this.high - this.low)));
+    };
+    this.svg.addEventListener("pointerdown", (event) => {
+      this.svg.setPointerCapture(event.pointerId);
+      go(event);
+    });
+    this.svg.addEventListener("pointermove", (event) => event.buttons & 1 && go(event));
+  }
+
+  /** Draw the panels of a linkage on its way `index`. */
+  build(linkage, index) {
+    const { data, svg } = this, way = linkage.ways[index];
+    this.way = way;
+    svg.replaceChildren();
+    this.cursor = null;
+    if (!way) return;
+    const width = (this.width = Math.max(260, this.parent.clientWidth));
+    const height = TOP + 3 * PANEL + 2 * GAP + BOTTOM;
+    svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    svg.setAttribute("height", height);
+    const [driver] = linkage.led, slides = driver.kind === "PR";
+    this.low = way.drive[0];
+    this.high = way.drive[way.drive.length - 1];
+    this.X = (drive) => LEFT + ((drive - this.low) / (this.high - this.low)) * (width - LEFT - RIGHT);
+    this.across = slides
+      ? ticks(this.low, this.high, width / 90)
+      : angleTicks(this.low, this.high, Math.max(3, width / 70));
+    const rows = linkage.pose_errors
+      .map((row, k) => ({ ...row, name: data.poses[k].label }))
+      .filter((row) => row.way === index)
+      .map((row) => ({ ...row, drive: linear(way.drive, row.frame) }));
+    const unit = data.unit ?? "unit of the poses";
+    this.errors(0, `position error (${unit})`, rows, (row) => row.position, 1e-11 * data.scene);
+    this.errors(1, "angle error (°)", rows, (row) => row.turned_deg, 1e-9);
+    const base = this.transmission(2, rows);
+    const title = slides ? `place of the driver ${driver.id} along its line (${unit})` : `driver angle (${driver.id})`;
+    svg.append(s("text", { class: "bm-title", x: (LEFT + width - RIGHT) / 2, y: height - 6, "text-anchor": "middle" }, title));
+    this.cursor = s("g", { class: "bm-cursor" }, s("path", { d: `M0 ${TOP}V${base}` }));
+    this.mark = s("circle", { r: 4.5 });
+    this.cursor.append(this.mark);
+    svg.append(this.cursor);
+  }
+
+  /** The errors of the poses as stems; below `rounding` they are zero. */
+  errors(k, title, rows, value, rounding) {
+    const { svg, X } = this, y0 = TOP + k * (PANEL + GAP), base = y0 + PANEL;
+    const greatest = Math.max(1e-300, ...rows.map((row) => value(row) ?? 0));
+    const visible = greatest > rounding;
+    const high = visible ? 1.15 * greatest : 1;
+    const Y = (v) => base - (v / high) * PANEL;
+    this.panel(title, y0, base);
+    if (!visible) {
+      svg.append(s("text", { class: "bm-note", x: LEFT + 8, y: y0 + PANEL / 2 }, rows.length ? "exact, up to rounding" : "no pose is on this assembly"));
+    } else {
+      for (const { at } of ticks(0, high, 3).slice(1)) this.rule(Y(at), figure(at));
+      svg.append(s("text", { class: "bm-tick", x: LEFT - 6, y: base + 4, "text-anchor": "end" }, "0"));
+    }
+    const greatestThree = new Set([...rows].sort((a, b) => value(b) - value(a)).slice(0, 3));
+    let last = -99;
+    for (const row of [...rows].sort((a, b) => a.drive - b.drive)) {
+      const x = px(X(row.drive)), y = px(visible ? Y(value(row)) : base);
+      svg.append(
+        s("path", { class: "bm-stem", d: `M${x} ${base}V${y}` }),
+        s("circle", { class: "bm-dot", cx: x, cy: y, r: 3.5 }, s("title", {}, `pose ${row.name}: ${figure(value(row))}`)),
+      );
+      if (x - last > 6 + 6.5 * row.name.length && (rows.length <= MANY_POSES || greatestThree.has(row))) {
+        svg.append(s("text", { class: "bm-dot-name", x, y: y - 7, "text-anchor": "middle" }, row.name));
+        last = x;
+      }
+    }
+  }
+
+  /** The transmission angle along the way, and at its poses.  Returns the panel's base. */
+  transmission(k, rows) {
+    const { svg, way, width, X } = this, y0 = TOP + k * (PANEL + GAP), base = y0 + PANEL;
+    const Y = (this.Y = (v) => base - (v / 90) * PANEL);
+    this.panel("transmission angle (°)", y0, base, true);
+    for (const at of [0, 30, 60, 90]) this.rule(Y(at), at);
+    svg.append(
+      s("path", { class: "bm-usual", d: `M${LEFT} ${px(Y(USUAL_LIMIT))}H${width - RIGHT}` }),
+      s("text", { class: "bm-tick", x: width - RIGHT - 4, y: px(Y(USUAL_LIMIT)) - 4, "text-anchor": "end" }, `${USUAL_LIMIT}°, a usual limit`),
+    );
+    let line = "", pen = "M";
+    way.transmission.forEach((angle, i) => {
+      if (angle === null) return;
+      line += `${pen}${px(X(way.drive[i]))} ${px(Y(angle))}`;
+      pen = "L";
+    });
+    svg.append(s("path", { class: "bm-line", d: line }));
+    for (const row of rows) {
+      if (row.transmission_deg === null) continue;
+      svg.append(s("circle", { class: "bm-dot", cx: px(X(row.drive)), cy: px(Y(row.transmission_deg)), r: 3 }));
+    }
+    return base;
+  }
+
+  /** An empty panel with its title and the lines of the drive. */
+  panel(title, y0, base, labelled = false) {
+    const { svg, width } = this;
+    svg.append(
+      s("rect", { class: "bm-panel", x: LEFT, y: y0, width: width - LEFT - RIGHT, height: base - y0 }),
+      s("text", { class: "bm-title", x: LEFT, y: y0 - 7 }, title),
+    );
+    let last = -99;
+    for (const { at, text } of this.across) {
+      const x = px(this.X(at));
+      svg.append(s("path", { class: "bm-rule", d: `M${x} ${y0}V${base}` }));
+      if (labelled && x - last > 34) {
+        svg.append(s("text", { class: "bm-tick", x, y: base + 15, "text-anchor": "middle" }, text));
+        last = x;
+      }
+    }
+  }
+
+  rule(y, text) {
+    this.svg.append(
+      s("path", { class: "bm-rule", d: `M${LEFT} ${px(y)}H${this.width - RIGHT}` }),
+      s("text", { class: "bm-tick", x: LEFT - 6, y: px(y) + 4, "text-anchor": "end" }, text),
+    );
+  }
+
+  show(drive, transmission) {
+    if (!this.cursor) return;
+    this.cursor.setAttribute("transform", `translate(${px(this.X(drive))} 0)`);
+    if (transmission !== null) this.mark.setAttribute("cy", px(this.Y(transmission)));
+  }
+}

@@ -1,0 +1,17 @@
+// On paper there is nothing to fold out: all details are open while a report is printed.
+
+/** Open the details of a report before it is printed, and close them afterwards, until the signal. */
+export function unfoldForPrint(root, signal) {
+  window.addEventListener("beforeprint", () => {
+    for (const part of root.querySelectorAll("details:not([open])")) {
+      part.open = true;
+      part.dataset.opened = "";
+    }
+  }, { signal });
+  window.addEventListener("afterprint", () => {
+    for (const part of root.querySelectorAll("details[data-opened]")) {
+      part.open = false;
+      delete part.dataset.opened;
+    }
+  }, { signal });
+}

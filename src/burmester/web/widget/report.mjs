@@ -1,0 +1,216 @@
+// The report of a synthesis: ranked linkages, the chosen one moving, its errors and its image space.
+
+import { Assemblies } from "./assemblies.mjs";
+import { Cards } from "./cards.mjs";
+import { h } from "./dom.mjs";
+import { header } from "./header.mjs";
+import { ImageSpace } from "./image_space.mjs";
+import { listenToKeys } from "./keyboard.mjs";
+import { PivotMap } from "./pivot_map.mjs";
+import { FACTORS, Plane, factorFor } from "./plane.mjs";
+import { Player } from "./player.mjs";
+import { Plots } from "./plots.mjs";
+import { unfoldForPrint } from "./printing.mjs";
+import { dimensionTable, dyadTable, imageTables, linkageTable, poseTable } from "./tables.mjs";
+import { factsOf, keyOf, spaceStory, storyOf } from "./words.mjs";
+
+const REDUCED_MOTION = "(prefers-reduced-motion: reduce)";
+const DARK_SCHEME = "(prefers-color-scheme: dark)";
+const LONGEST_NAME = 5; // characters of a pose's name that a drawing has room for
+const KINDS = " RR: a link with two pins; PR: a slider on the ground; RP: a pin on the ground in a slot of the body.";
+
+const section = (name, title, ...content) =>
+  h("section", { class: `bm-card bm-${name}`, "aria-label": title }, h("h2", {}, title), ...content);
+
+export class Report {
+  constructor(data, el, options) {
+    this.data = data;
+    this.el = el;
+    this.options = options;
+    this.ended = new AbortController();
+    // Where names are long, drawings have numbers instead, and tables both.
+    const short = data.poses.every((pose) => pose.name.length <= LONGEST_NAME);
+    data.poses.forEach((pose, k) => (pose.label = short ? pose.name : String(k + 1)));
+    this.linkages = data.linkages.map((linkage) => ({
+      ...linkage,
+      pose_errors: linkage.pose_errors.map((row) => ({ ...row, at: row.way === null ? null : linkage.ways[row.way] })),
+    }));
+    this.root = h("div", { class: "bm" });
+    el.replaceChildren(this.root);
+    this.frame();
+    if (this.linkages.length) this.choose(0);
+    else this.rebuild();
+    this.listen();
+  }
+
+  /** Everything that is there whichever linkage is chosen, with the places for the rest. */
+  frame() {
+    const { data, linkages } = this;
+    const main = h("div", { class: "bm-main" }), body = h("div", { class: "bm-body" });
+    this.root.append(header(data, linkages.some((each) => each.usable)), body);
+    if (linkages.length) {
+      this.player = new Player(data, (...now) => this.show(...now), () => this.rebuild());
+      this.assemblies = new Assemblies(data, (index) => this.player.take(index));
+      this.cards = new Cards(data, linkages, (index) => this.choose(index));
+      body.append(this.cards.element);
+    }
+    body.append(main);
+    main.append(this.stage());
+    if (linkages.length) main.append(this.numbersAndPlots());
+    main.append(this.imageSpace());
+    if (data.pivot_map) main.append(this.pivotMap());
+    this.poses = section("pose-box", "Pose by pose");
+    main.append(this.poses);
+    if (linkages.length) main.append(section("all", "All linkages", linkageTable(data), this.everyDimension()));
+    if (data.dyads.length) main.append(section("dyads", "Dyads", dyadTable(data)));
+    this.root.append(h("footer", { class: "bm-foot-notes" }, data.footnotes, KINDS));
+  }
+
+  /** The drawing with what moves it. */
+  stage() {
+    const { data, player } = this;
+    const drawing = h("div", { class: "bm-drawing" });
+    this.plane = new Plane(data, drawing);
+    this.title = h("h2", { class: "bm-stage-title" }, "The poses");
+    this.story = h("p", { class: "bm-story" });
+    return h(
+      "section",
+      { class: "bm-card bm-stage", "aria-label": "The linkage moving" },
+      this.title,
+      this.story,
+      player ? [this.assemblies.element, player.element] : null,
+      drawing,
+      h("div", { class: "bm-under" }, keyOf(Boolean(player)), player ? this.magnification() : null),
+    );
+  }
+
+  magnification() {
+    this.factor = h(
+      "select",
+      { onchange: () => this.draw() },
+      FACTORS.map((factor) => h("option", { value: factor }, factor ? `× ${factor.toLocaleString("en").replaceAll(",", " ")}` : "not drawn")),
+    );
+    return h("label", { class: "bm-factor" }, "Error arrows ", this.factor);
+  }
+
+  numbersAndPlots() {
+    this.numbers = h("div", { class: "bm-fill" });
+    const plots = h("div", { class: "bm-fill" });
+    this.plots = new Plots(this.data, plots, (u) => this.player.go(u));
+    this.aside = h(
+      "div",
+      { class: "bm-aside" },
+      section("numbers", "Numbers", this.numbers),
+      section("plotted", "Errors and transmission", plots),
+    );
+    return this.aside;
+  }
+
+  imageSpace() {
+    const picture = h("div", { class: "bm-fill" });
+    this.spaceStory = h("p", { class: "bm-story" });
+    this.spaceNumbers = h("details", { class: "bm-every" }, h("summary", {}, "In numbers"));
+    this.space = new ImageSpace(this.data, picture, this.options.webgl !== false);
+    return section("image", "Image space", this.spaceStory, picture, this.spaceNumbers);
+  }
+
+  pivotMap() {
+    const picture = h("div", { class: "bm-fill" });
+    this.map = new PivotMap(this.data, picture);
+    return section(
+      "pivots", "Where to put a fixed pivot",
+      h("p", { class: "bm-story" }, "How well the best link with its fixed pivot at a place meets the poses: the stronger the colour, the better."),
+      picture,
+    );
+  }
+
+  /** For print, and for those who read: the dimensions of every linkage. */
+  everyDimension() {
+    const parts = this.linkages.map((each) => h("div", { class: "bm-every-one" }, dimensionTable(this.data, each)));
+    return h("details", { class: "bm-every" }, h("summary", {}, "Dimensions of every linkage"), h("div", { class: "bm-every-all" }, parts));
+  }
+
+  choose(index) {
+    this.linkage = this.linkages[index];
+    this.cards.mark(index);
+    this.factor.value = String(factorFor(this.data, this.linkage));
+    this.player.load(this.linkage);
+  }
+
+  /** Everything that depends on the linkage and on its way. */
+  rebuild() {
+    const { linkage, data, player } = this;
+    if (linkage) {
+      player.rebuild();
+      this.title.textContent = `${linkage.id}: ${linkage.type}`;
+      this.story.textContent = storyOf(linkage);
+      this.assemblies.build(linkage, player.way);
+      this.numbers.replaceChildren(factsOf(data, linkage), dimensionTable(data, linkage), ...linkage.said.notes.map((note) => h("p", { class: "bm-note-text" }, note)));
+    }
+    this.poses.replaceChildren(this.poses.querySelector("h2"), poseTable(data, linkage));
+    this.rows = [...this.poses.querySelectorAll("tbody tr")];
+    this.spaceStory.replaceChildren(...spaceStory(linkage));
+    this.spaceNumbers.replaceChildren(this.spaceNumbers.firstChild, ...imageTables(data, linkage));
+    this.draw();
+  }
+
+  /** Draw what stands still anew, and then what moves. */
+  draw() {
+    const { linkage, player } = this, way = player?.way ?? 0;
+    this.plots?.build(linkage, way);
+    this.plane.build(linkage, way, Number(this.factor?.value ?? 0), this.room());
+    this.plane.svg.setAttribute("aria-label", linkage ? `${linkage.id}, a ${linkage.type}, at the poses. Space plays, arrow keys move the driver.` : "The poses");
+    this.space.build(linkage, way);
+    this.map?.build(linkage);
+    if (!player?.path) this.space.hide();
+    player?.drawStops();
+    player?.show();
+  }
+
+  /** The height that is left for the drawing where the numbers stand beside it. */
+  room() {
+    if (!this.aside) return 0;
+    const stage = this.plane.parent.parentElement;
+    if (this.aside.offsetLeft <= stage.offsetLeft) return 0;
+    return this.aside.offsetHeight - (stage.offsetHeight - this.plane.parent.clientHeight);
+  }
+
+  /** What moves, at a place of the body; near: the index of the nearest pose. */
+  show(place, drive, transmission, near) {
+    this.plane.show(place);
+    this.space.show(place);
+    this.plots.show(drive, transmission);
+    const row = this.rows[near];
+    if (row === this.current) return;
+    this.current?.classList.remove("bm-current");
+    row.classList.add("bm-current");
+    this.current = row;
+  }
+
+  listen() {
+    const { root, player } = this, { signal } = this.ended;
+    window.matchMedia(DARK_SCHEME).addEventListener("change", () => this.draw(), { signal });
+    let width = root.clientWidth;
+    this.sizes = new ResizeObserver(() => {
+      if (root.clientWidth === width) return;
+      width = root.clientWidth;
+      cancelAnimationFrame(this.fitting);
+      this.fitting = requestAnimationFrame(() => this.draw());
+    });
+    this.sizes.observe(root);
+    unfoldForPrint(root, signal);
+    if (!player) return;
+    listenToKeys(root, this.plane.svg, player, signal);
+    window.addEventListener("beforeprint", () => player.play(false), { signal });
+    player.play(false);
+    if (!window.matchMedia(REDUCED_MOTION).matches) player.playOnce();
+  }
+
+  close() {
+    this.ended.abort();
+    this.sizes.disconnect();
+    cancelAnimationFrame(this.fitting);
+    this.player?.play(false);
+    this.el.replaceChildren();
+  }
+}

@@ -1,0 +1,148 @@
+// Numbers in tables, and the short phrases that tables and cards share.
+
+import { h } from "./dom.mjs";
+import { clamp, fixed } from "./numbers.mjs";
+
+/** A table that scrolls sideways.  heads: names, or { name, text } for columns of words. */
+function table(caption, heads, rows, attributes) {
+  return h(
+    "div",
+    { class: "bm-scroll", tabindex: "0", role: "region", "aria-label": caption },
+    h(
+      "table",
+      attributes,
+      h("caption", {}, caption),
+      h("thead", {}, h("tr", {}, heads.map((head) => h("th", { scope: "col", class: head.text ? "bm-words" : null }, head.name ?? head)))),
+      h("tbody", {}, rows),
+    ),
+  );
+}
+
+/** The cells of a row, the first one its head; words: columns of words. */
+const cells = (values, words = []) =>
+  values.map((value, k) =>
+    k === 0
+      ? h("th", { scope: "row" }, value)
+      : h("td", { class: words.includes(k) ? "bm-words" : null }, value ?? "–"),
+  );
+
+/** The unit of lengths in brackets, for a head. */
+const unitOf = (data) => (data.unit ? ` (${data.unit})` : "");
+
+/** Decimals of a position: the last one is between a thousandth and a ten-thousandth of the scene. */
+export const decimalsOf = (data) => clamp(4 - Math.ceil(Math.log10(data.scene)), 0, 12);
+
+/** A position error and an angle error in one phrase. */
+export function missOf(position, angle, unit) {
+  if (position === "exact" && angle === "exact") return "exact";
+  if (position === "-") return "–";
+  return `${position}${position === "exact" ? "" : unit} and ${angle}`;
+}
+
+export function verdictOf(linkage) {
+  return linkage.usable ? "✓ usable" : "✕ not usable";
+}
+
+export function dyadTable(data) {
+  const heads = ["", { name: "kind", text: true }, "on the ground (F)", "on the body (M)", `length${unitOf(data)}`, "rms miss", "worst miss"];
+  const rows = data.dyads.map((dyad) =>
+    h("tr", {}, cells([dyad.id, dyad.kind, dyad.said.ground, dyad.said.body, dyad.said.length, dyad.said.rms, dyad.said.worst], [1])),
+  );
+  return table("Dyads", heads, rows);
+}
+
+export function linkageTable(data) {
+  const names = ["ground", "driver", "coupler", "follower"];
+  const heads = [
+    "", { name: "verdict", text: true }, { name: "type", text: true }, { name: "dyads", text: true }, { name: "driver", text: true }, ...names.map((name) => `${name} link`),
+    "worst miss", "worst angle", "least transm.", { name: "why not", text: true },
+  ];
+  const rows = data.linkages.map((each) =>
+    h(
+      "tr",
+      {},
+      cells(
+        [
+          each.id, verdictOf(each), each.type, each.dyads.map((dyad) => dyad.id).join(" "), each.led[0].id,
+          ...names.map((name) => each.said.links?.[name] ?? "–"),
+          each.said.worst, each.said.angle, each.said.transmission, each.said.reasons.join("; ") || "–",
+        ],
+        [1, 2, 3, 4, 12],
+      ),
+    ),
+  );
+  return table(`All linkages${unitOf(data)}`, heads, rows, { class: "bm-linkages" });
+}
+
+function dimensionRows(linkage) {
+  const uncertain = linkage.said.dimensions.some((row) => row.give);
+  let last = null;
+  return linkage.said.dimensions.map((row) => {
+    const name = row.dyad === last ? "" : row.dyad;
+    last = row.dyad;
+    const side = linkage.led.findIndex((dyad) => dyad.id === row.dyad);
+    return h(
+      "tr",
+      {},
+      h("th", { scope: "row", class: name ? `bm-side${side}` : null }, name),
+      h("td", { class: "bm-words" }, row.what),
+      h("td", {}, row.value),
+      uncertain ? h("td", {}, row.give) : null,
+    );
+  });
+}
+
+export function dimensionTable(data, linkage) {
+  return table(
+    `Dimensions of ${linkage.id}${data.unit ? `, in ${data.unit}` : ""}`,
+    ["", { name: "", text: true }, "value", ...(linkage.said.dimensions.some((row) => row.give) ? ["± (95 %)"] : [])],
+    dimensionRows(linkage),
+    { class: "bm-dimensions" },
+  );
+}
+
+export function poseTable(data, linkage) {
+  const digits = decimalsOf(data), unit = unitOf(data);
+  const heads = ["pose", `wanted x`, `y${unit}`, "angle"];
+  if (linkage) heads.push("coupler x", `y${unit}`, "angle", "off by", "turned by", "transm.", { name: "where", text: true });
+  const rows = data.poses.map((pose, k) => {
+    const values = [
+      (pose.label === pose.name ? "" : `${pose.label}: `) + pose.name + (pose.exact ? " (exact)" : ""), fixed(pose.x, digits), fixed(pose.y, digits), `${fixed(pose.angle_deg, 2)}°`,
+    ];
+    if (linkage) {
+      const row = linkage.pose_errors[k];
+      values.push(
+        fixed(row.x, digits), fixed(row.y, digits), row.angle_deg === null ? "–" : `${fixed(row.angle_deg, 2)}°`,
+        row.said.position, row.said.turned, row.said.transmission,
+        row.way === null ? "–" : wayName(linkage.ways[row.way], linkage),
+      );
+    }
+    return h("tr", { "data-pose": k + 1 }, cells(values, [10]));
+  });
+  return table(linkage ? `Poses, and where ${linkage.id} takes the body` : "Poses", heads, rows, { class: "bm-pose-table" });
+}
+
+/** The image points of the poses, Z3² + Z4² = 1, and the manifolds' eight coefficients. */
+export function imageTables(data, linkage) {
+  const digits = decimalsOf(data);
+  const rows = data.poses.map((pose) => {
+    const c = Math.cos((pose.angle_deg * Math.PI) / 360), d = Math.sin((pose.angle_deg * Math.PI) / 360);
+    const z = [(pose.x * d - pose.y * c) / 2, (pose.x * c + pose.y * d) / 2, d, c];
+    return h("tr", {}, cells([pose.label, ...z.map((value, k) => fixed(value, k < 2 ? digits : 5))]));
+  });
+  const points = table(`Image points of the poses${unitOf(data)}, Z3² + Z4² = 1`, ["pose", "Z1", "Z2", "Z3", "Z4"], rows);
+  if (!linkage) return [points];
+  const surfaces = linkage.led.map((dyad, k) => h("tr", {}, cells([dyad.id, ...linkage.said.manifolds[k]])));
+  const heads = ["", ...[1, 2, 3, 4, 5, 6, 7, 8].map((k) => `p${k}`)];
+  const caption = "Surfaces: p1 (Z1² + Z2²) + p2 Z3² + p3 Z1 Z3 + p4 Z2 Z3 + p5 Z1 Z4 + p6 Z2 Z4 + p7 Z3 Z4 + p8 Z4² = 0";
+  return [points, table(caption, heads, surfaces)];
+}
+
+/** The name of a way: as short as it stays different from the others. */
+export function wayName(way, linkage) {
+  const circuits = new Set(linkage.ways.map((each) => each.circuit)).size;
+  const parts = [];
+  if (circuits > 1 || way.branches < 2) parts.push(`assembly ${way.circuit}`);
+  if (way.branches > 1) parts.push(`branch ${way.branch}`);
+  return parts.join(", ");
+}

@@ -1,0 +1,24 @@
+// The report as a widget, in anywidget's module format: `render({ model, el })` fills the element
+// and returns what takes it away again; model.get("data") is what `burmester.web.data.report_data`
+// makes.  Nothing else is needed, and nothing is loaded.  Angles are radians unless a name says
+// degrees; lengths are in the task's unit; F is the ground, M the body.
+
+import { Report } from "./report.mjs";
+
+const widget = {
+  render({ model, el }) {
+    const options = { webgl: model.get("webgl") ?? true };
+    let report = new Report(model.get("data"), el, options);
+    const anew = () => {
+      report.close();
+      report = new Report(model.get("data"), el, options);
+    };
+    model.on?.("change:data", anew);
+    return () => {
+      model.off?.("change:data", anew);
+      report.close();
+    };
+  },
+};
+
+export { widget as default };

@@ -1,0 +1,66 @@
+// What the page says of the chosen linkage: in sentences, in facts, and in the key of its drawing.
+
+import { h, s } from "./dom.mjs";
+import { axes } from "./drawing.mjs";
+import { runs } from "./numbers.mjs";
+import { missOf, verdictOf } from "./tables.mjs";
+
+/** The sentence under the linkage's name. */
+export function storyOf(linkage) {
+  const { said } = linkage;
+  const met = `${linkage.usable ? "Usable" : "Not usable"}: it ${said.met}`;
+  if (!linkage.ways.length) return `${met}. It cannot be shown moving: ${said.reasons.join("; ") || "its motion is not known"}.`;
+  if (linkage.type === "change-point") {
+    return `${met}, driven by ${linkage.led[0].id}. At a change point, where all links lie in one line, it may go on either way.`;
+  }
+  return linkage.usable ? `${met}, driven by ${linkage.led[0].id}.` : `Not usable: it ${said.in_short}.`;
+}
+
+/** The poses of a way and how it ends, behind its name. */
+export function wayStory(way, poses) {
+  const names = poses.map((pose) => pose.label);
+  const all = way.poses.length === names.length;
+  const here = all ? "all poses" : way.poses.length ? `pose${way.poses.length > 1 ? "s" : ""} ${runs(way.poses, names)}` : "no pose";
+  const dead = way.dead.filter(Boolean).length;
+  const ends = way.round ? "turns round" : dead === 2 ? "between two dead points" : dead ? "up to a dead point" : "open";
+  return `${here}; ${ends}`;
+}
+
+/** Verdict, links, errors, transmission angle and driver. */
+export function factsOf(data, linkage) {
+  const { said } = linkage, unit = data.unit ? ` ${data.unit}` : "";
+  const rows = [
+    ["verdict", verdictOf(linkage)],
+    ...Object.entries(said.links ?? {}).map(([name, value]) => [`${name} link`, `${value}${unit}`]),
+    ["worst miss", missOf(said.worst, said.angle, unit)],
+    ["rms miss", missOf(said.rms, said.rms_angle, unit)],
+    ["least transmission angle", said.transmission === "-" ? "–" : said.transmission],
+    ["driver", `${linkage.led[0].id}${said.turns_fully ? ", turns fully" : ""}`],
+  ];
+  return h("dl", { class: "bm-facts" }, rows.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value))));
+}
+
+/** What image space shows. */
+export function spaceStory(linkage) {
+  const plain = "Every place of the body is one point of this space; numbered points are the poses.";
+  if (!linkage) return [plain];
+  const surface = (side) => h("b", { class: `bm-side${side}` }, linkage.led[side].id);
+  return [plain, " The surfaces are all places that dyad ", surface(0), " (driver) and dyad ", surface(1), " (follower) allow; where they meet, the line, the coupler moves."];
+}
+
+/** The signs of the drawing, and what they mean. */
+export function keyOf(hasLinkages) {
+  const one = (sign, text) => h("li", {}, s("svg", { width: 34, height: 20, viewBox: "-4 -13 34 20", "aria-hidden": "true", class: "bm-key" }, sign), text);
+  const link = (side) => s("g", { class: `bm-link bm-side${side}` }, s("path", { class: "bm-bar", d: "M0 -3H22" }), s("path", { class: "bm-core", d: "M0 -3H22" }));
+  const items = [one(s("g", { class: "bm-wanted" }, s("path", { d: axes(22) }), s("circle", { r: 4 })), "wanted pose")];
+  if (hasLinkages) {
+    items.push(
+      one(s("g", { class: "bm-achieved" }, s("path", { d: axes(17) }), s("circle", { r: 2.2 })), "achieved pose"),
+      one(s("g", { class: "bm-errors" }, s("path", { d: "M0 0L22 -6L15 -7.5M22 -6L17 -0.8" })), "error, enlarged"),
+      one(link(0), "driver (filled)"),
+      one(link(1), "follower (hollow)"),
+      one(s("path", { class: "bm-curve bm-here", d: "M-2 2C6 -16 18 -10 28 -4" }), "path of the origin of M"),
+    );
+  }
+  return h("ul", { class: "bm-keys" }, items);
+}
