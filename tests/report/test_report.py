@@ -20,7 +20,7 @@ from burmester.report.page import as_script
 from burmester.report.page import page as page_of
 from burmester.synthesis.result import Synthesis
 from burmester.web import data as report_data_module
-from burmester.web.branches import Motion
+from burmester.web.branches import Branches
 from burmester.web.data import report_data
 from tests.oracles import browser as browsers
 from tests.oracles import tracer, witness
@@ -360,7 +360,7 @@ def test_scrubbing_keeps_links_and_assembly(browser, tmp_path, monkeypatch, synt
     With so few frames that what lies between them would miss the linkage, were it not put on it.
     """
     monkeypatch.setattr("burmester.web.data.FRAMES", 0)
-    monkeypatch.setattr("burmester.web.data.LEAST", 25)
+    monkeypatch.setattr("burmester.web.data.LEAST_FRAMES", 25)
     file = tmp_path / "few.html"
     file.write_text(page_of(synthesis, "Few frames"), encoding="utf-8")
     with browsers.opened(browser, file) as (page, _, _asked):
@@ -677,11 +677,11 @@ def test_a_page_for_every_outcome(browser, tmp_path, code):
 def test_a_linkage_that_cannot_be_driven_is_told_and_not_drawn_moving(
     browser, tmp_path, monkeypatch, synthesis
 ):
-    still = Motion([], [None] * len(TABLE_2))
-    own = report_data_module.motion_of
+    still = Branches([], [None] * len(TABLE_2))
+    own = report_data_module.branches_of
     monkeypatch.setattr(
         report_data_module,
-        "motion_of",
+        "branches_of",
         lambda found, *rest: still if found.id == "L2" else own(found, *rest),
     )
     path = tmp_path / "still.html"

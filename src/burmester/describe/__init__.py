@@ -1,1 +1,1 @@
-"""Words and digits, for any screen."""
+"""Words and digits, for any screen: plain strings, no library of a terminal or a page."""

@@ -1,8 +1,8 @@
-"""The motion of a linkage as plain data: every branch as frames along it, and where the poses are.
+"""The branches of a linkage as plain data: frames along each of them, and the poses among these.
 
-A way is what the driver reaches without the linkage being taken apart and without passing a dead
-point: a branch of a circuit.  Its frames lie along the circuit's own parameter, so that nothing
-jumps at a dead point; the drive rises along them.
+A way is a branch of a circuit, or the stretch of it in the scene: all that the driver reaches
+without the linkage being taken apart and without passing a dead point.  Its frames lie along the
+circuit's own parameter, so that nothing jumps at a dead point; the drive rises along them.
 """
 
 from __future__ import annotations
@@ -22,110 +22,111 @@ from burmester.geometry.displacement import Displacement
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["Motion", "motion_of"]
+__all__ = ["Branches", "branches_of"]
 
-REACH, FARTHER = 1.2, 3.0  # of the scene: how far endless ways are followed, without poses too
-LOOKS = 2001  # places looked at to find where an endless way leaves the scene
-FAR = 0.999  # of a quarter turn, the last of them
-EDGE = 1e-3  # of half a turn, left out where a way runs to infinity at its ends
-DIGITS = 12  # of the scene's size, that places keep
+REACH = 1.2  # scenes from the middle of the poses: how far an endless way is followed
+REACH_WITHOUT_POSES = 3.0  # the same for a way on which no pose is
+SAMPLES = 2001  # along an endless way, to find where it leaves the scene
+WIDEST_ANGLE = 0.999  # quarter turns: the last sample of a way that runs to infinity
+EDGE = 1e-3  # radians left out at either end of a way that runs to infinity at its ends
+DIGITS = 12  # significant digits of a place, counted from the size of the scene
 
 
 @dataclass(frozen=True)
-class Motion:
-    """ways: each as plain data; at: (N,) which of them a pose is on (-1: none) and where along it,
+class Branches:
+    """The ways of a linkage, each as plain data; at: for each pose its pair (way, frame) or None.
 
-    counted in frames, as pairs (way, frame).
+    A frame is counted from 0 and may be a fraction.
     """
 
     ways: list[dict[str, Any]]
     at: list[tuple[int, float] | None]
 
 
-class _Stretch(NamedTuple):
+class _Branch(NamedTuple):
     circuit: int
-    branch: int
-    ends: tuple[float, float]
-    round: bool  # it comes back to where it began
+    number: int  # on its circuit: 0 or 1
+    ends: tuple[float, float]  # of the circuit's parameter
+    round: bool  # it closes: the end is the start
     dead: tuple[bool, bool]  # whether its ends are dead points
 
 
-def motion_of(found: FoundLinkage, poses: Displacement, scene: float, frames: int) -> Motion:
-    """The ways of a linkage led by its better driver, each as so many frames.
+def branches_of(found: FoundLinkage, poses: Displacement, scene: float, frames: int) -> Branches:
+    """The ways of a linkage moved by its better driver; frames: the number of them on each way.
 
-    poses: (N,); scene: the size of what is drawn, in the task's unit.
-    No ways where the linkage cannot be driven, or nothing can be told of it.
+    poses: (N,); scene: the size of the drawing, in the task's unit.
+    No ways where the linkage cannot be driven, or its circuits cannot be determined.
     """
     none: list[tuple[int, float] | None] = [None] * poses.shape[0]
-    led, places = found.driver_first, found.error.places
+    linkage, places = found.driver_first, found.error.places
     try:
-        circuits = Circuits.of(led, as_given=True)
+        circuits = Circuits.of(linkage, as_given=True)
     except InputError:
-        return Motion([], none)
-    here = circuit_of(led, places, as_given=True)
+        return Branches([], none)
+    here = circuit_of(linkage, places, as_given=True)
     middle = poses.translation.mean(axis=0)
     ways: list[dict[str, Any]] = []
     at = list(none)
-    for stretch in _stretches(circuits, here.circuit, here.parameter):
-        own = circuits[stretch.circuit]
-        on = (here.circuit == stretch.circuit) & (here.branch == stretch.branch)
+    for branch in _branches(circuits, here.circuit, here.parameter):
+        own = circuits[branch.circuit]
+        on = (here.circuit == branch.circuit) & (here.branch == branch.number)
         on &= np.isfinite(here.parameter)
-        ends = stretch.ends
+        ends = branch.ends
         endless = own.course == RangeType.HALF or not all(map(math.isfinite, ends))
         if endless:
-            reach = (REACH if on.any() else FARTHER) * scene
+            reach = (REACH if on.any() else REACH_WITHOUT_POSES) * scene
             within = _within(own, ends, middle, reach, here.parameter[on])
             if within is None:
                 continue
             ends = within
         s = _evenly(own, ends, frames, scene) if endless else np.linspace(*ends, frames)
         with np.errstate(invalid="ignore", divide="ignore"):
-            way, falls = _way(led, own, s, scene)
+            way, falls = _way(linkage, own, s, scene)
         if way is None:
             continue
         for pose in np.flatnonzero(on).tolist():
             along = float(here.parameter[pose])
-            if stretch.round:
+            if branch.round:
                 along = ends[0] + (along - ends[0]) % (2 * np.pi)
             place = float(np.interp(along, s, np.arange(frames)))
             at[pose] = (len(ways), round(frames - 1 - place if falls else place, 9))
-        dead = stretch.dead[::-1] if falls else stretch.dead
+        dead = branch.dead[::-1] if falls else branch.dead
         ways.append(
             {
-                "circuit": stretch.circuit + 1,
-                "branch": stretch.branch + 1,
+                "circuit": branch.circuit + 1,
+                "branch": branch.number + 1,
                 "branches": int(own.branches),
-                "round": stretch.round,
+                "round": branch.round,
                 "dead": list(dead),
                 "poses": [pose + 1 for pose in np.flatnonzero(on).tolist()],
                 **way,
             }
         )
-    return Motion(ways, at)
+    return Branches(ways, at)
 
 
-def _stretches(circuits: Circuits, circuit: np.ndarray, parameter: FloatArray) -> list[_Stretch]:
+def _branches(circuits: Circuits, circuit: np.ndarray, parameter: FloatArray) -> list[_Branch]:
     """Every branch of both circuits, with its ends along the parameter."""
     found = []
     for number in np.flatnonzero(circuits.exists).tolist():
         own = circuits[number]
         if own.branches == 1 and own.closed:
             start = _widest_gap(parameter[(circuit == number) & np.isfinite(parameter)])
-            found.append(_Stretch(number, 0, (start, start + 2 * np.pi), True, (False, False)))
+            found.append(_Branch(number, 0, (start, start + 2 * np.pi), True, (False, False)))
         elif own.branches == 1:
             ends = (0.0, np.pi) if own.drive.turns else (-np.inf, np.inf)
-            found.append(_Stretch(number, 0, ends, False, (False, False)))
+            found.append(_Branch(number, 0, ends, False, (False, False)))
         elif own.closed:
-            found.append(_Stretch(number, 0, (0.0, np.pi), False, (True, True)))
-            found.append(_Stretch(number, 1, (np.pi, 2 * np.pi), False, (True, True)))
+            found.append(_Branch(number, 0, (0.0, np.pi), False, (True, True)))
+            found.append(_Branch(number, 1, (np.pi, 2 * np.pi), False, (True, True)))
         else:
-            found.append(_Stretch(number, 0, (0.0, np.inf), False, (True, False)))
-            found.append(_Stretch(number, 1, (-np.inf, 0.0), False, (False, True)))
+            found.append(_Branch(number, 0, (0.0, np.inf), False, (True, False)))
+            found.append(_Branch(number, 1, (-np.inf, 0.0), False, (False, True)))
     return found
 
 
 def _widest_gap(parameter: FloatArray) -> float:
-    """Where to cut a whole turn open: farthest from the poses."""
+    """The parameter at which a whole turn is cut open: farthest from the poses."""
     if not len(parameter):
         return 0.0
     s = np.sort(parameter % (2 * np.pi))
@@ -137,11 +138,11 @@ def _widest_gap(parameter: FloatArray) -> float:
 def _within(
     own: Circuits, ends: tuple[float, float], middle: FloatArray, reach: float, poses: FloatArray
 ) -> tuple[float, float] | None:
-    """The stretch of an endless way that stays in the scene, around the poses if there are any."""
+    """The part of an endless way that stays in the scene, around the poses if there are any."""
     if own.drive.turns:
-        s = np.linspace(ends[0] + EDGE, ends[1] - EDGE, LOOKS)
+        s = np.linspace(ends[0] + EDGE, ends[1] - EDGE, SAMPLES)
     else:
-        share = np.linspace(-FAR, FAR, LOOKS) * np.pi / 2
+        share = np.linspace(-WIDEST_ANGLE, WIDEST_ANGLE, SAMPLES) * np.pi / 2
         s = reach * np.tan(share)
         s = np.unique(np.clip(s, *ends))
     if len(poses):
@@ -164,21 +165,21 @@ def _within(
 
 
 def _evenly(own: Circuits, ends: tuple[float, float], frames: int, scene: float) -> FloatArray:
-    """Parameters between two ends whose places are about as far from each other."""
-    s = np.linspace(*ends, LOOKS)
+    """Parameters between two ends, at places about equally far from each other."""
+    s = np.linspace(*ends, SAMPLES)
     for _ in range(2):  # where places run fast, the first parameters are far apart
         with np.errstate(invalid="ignore", divide="ignore"):
             places = own.couplers(s)
         rows = np.column_stack([places.translation, scene * np.unwrap(places.angle)])
         length = np.cumsum(np.linalg.norm(np.diff(rows, axis=0, prepend=rows[:1]), axis=1))
-        s = np.interp(np.linspace(0, length[-1], LOOKS), length, s)
-    return np.asarray(s[np.linspace(0, LOOKS - 1, frames).round().astype(int)])
+        s = np.interp(np.linspace(0, length[-1], SAMPLES), length, s)
+    return np.asarray(s[np.linspace(0, SAMPLES - 1, frames).round().astype(int)])
 
 
 def _way(
-    led: Linkage, own: Circuits, s: FloatArray, scene: float
+    linkage: Linkage, own: Circuits, s: FloatArray, scene: float
 ) -> tuple[dict[str, Any] | None, bool]:
-    """Frames at parameters s, and whether they had to be turned round for the drive to rise."""
+    """Frames at parameters s; the flag: reversed, for the drive to rise along them."""
     places = own.couplers(s)
     angle = np.unwrap(places.angle)
     places = Displacement(places.translation, angle)
@@ -192,7 +193,7 @@ def _way(
     falls = bool(drive[-1] < drive[0])
     if falls:
         drive, places = drive[::-1], Displacement(places.translation[::-1], angle[::-1])
-    passed = np.degrees(transmission_angle(led, places))
+    passed = np.degrees(transmission_angle(linkage, places))
     digits = DIGITS - math.floor(math.log10(scene))
     x, y = places.translation.T
     return {

@@ -1,49 +1,39 @@
-"""What the report shows of a synthesis, as plain JSON data: numbers, and the words for them.
+"""A synthesis as plain JSON data for a page: numbers, and the words for them.
 
-Numbers that the page computes with keep all the digits that mean something; numbers that it shows
-come as text, to the digits that the errors leave.  Angles in degrees where the name says so, else
-in radians; lengths in the task's unit.
+Numbers that the page computes with keep all their significant digits; numbers that it shows come
+as text, to the digits that the errors leave.  Angles in degrees where the name says so, else in
+radians; lengths in the task's unit.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from rich.text import Text
 
-from burmester.describe import digits
-from burmester.dyads.pivot_map import fixed_pivot_map, grid
+from burmester.describe import digits, sentences
+from burmester.describe.dimensions import dimensions
 from burmester.dyads.selection import FoundDyad
-from burmester.fourbar.dyad import PP, RP, RR, Dyad
+from burmester.fourbar.dyad import Dyad
 from burmester.geometry.displacement import Displacement
-from burmester.io import linkage_table
 from burmester.io.linkage_data import dyad_data, linkage_data, number, poses_data
 from burmester.io.result import told
 from burmester.linkages import explanation
 from burmester.linkages.found_linkage import FoundLinkage
-from burmester.numerics.arrays import ROUNDING
 from burmester.synthesis.result import Synthesis
 from burmester.tasks import wording
 from burmester.tasks.motion_task import Task
-from burmester.web.branches import Motion, motion_of
+from burmester.web.branches import Branches, branches_of
 from burmester.web.image_space import chart_of, space_of
+from burmester.web.pivot_map import pivot_map
 
 __all__ = ["report_data"]
 
 SCHEMA = "burmester.report/1"
-FRAMES = 24_000  # of all linkages together
-MOST, LEAST = 361, 61  # frames along a way
-WAYS = 3  # of a linkage, for sharing the frames out
-COLUMNS, ROWS = 96, 72  # of the pivot map
-AROUND = 0.6  # of the scene, that the map reaches beyond it
-PIVOTS = 2.0  # of the scene, beyond which a pivot does not widen the map
-EXACT = 1e-9  # of the scene: an error below it is rounding
-MOSTLY = 0.5  # of the map
-MAPPED = 4  # poses that a pivot map takes
+FRAMES = 24_000  # frames of all linkages together
+MOST_FRAMES, LEAST_FRAMES = 361, 61  # frames along a way
+WAYS = 3  # ways of a linkage, when frames are shared out; most have no more
 
 
 def report_data(synthesis: Synthesis) -> dict[str, Any]:
@@ -52,14 +42,12 @@ def report_data(synthesis: Synthesis) -> dict[str, Any]:
     scene = _scene(synthesis)
     chart = chart_of(task.poses, synthesis.length or scene)
     count = max(1, len(synthesis.linkages))
-    frames = int(np.clip(FRAMES // (WAYS * count), LEAST, MOST))
+    frames = int(np.clip(FRAMES // (WAYS * count), LEAST_FRAMES, MOST_FRAMES))
     linkages = [_linkage(synthesis, each, scene, frames, chart) for each in synthesis.linkages]
     return {
         "schema": SCHEMA,
         "outcome": told(outcome),
-        "best": [text.plain for text in linkage_table.best_sentences(synthesis)]
-        if synthesis.usable
-        else [],
+        "best": list(sentences.best_sentences(synthesis)),
         "warnings": list(map(told, synthesis.warnings)),
         "method": synthesis.method,
         "unit": task.length_unit,
@@ -76,13 +64,13 @@ def report_data(synthesis: Synthesis) -> dict[str, Any]:
         "linkages": linkages,
         "chart": chart,
         "space": space_of(None, task.poses, None, chart),
-        "pivot_map": _pivot_map(synthesis, scene),
-        "footnotes": linkage_table.footnotes(synthesis),
+        "pivot_map": pivot_map(synthesis, scene),
+        "footnotes": sentences.footnotes(synthesis),
     }
 
 
 def _scene(synthesis: Synthesis) -> float:
-    """The size of what is drawn, in the task's unit: that of the motion."""
+    """The size of the drawing, in the task's unit: that of the motion."""
     size = max(wording.span(synthesis.task), synthesis.length)
     return size if size > 0 and math.isfinite(size) else 1.0
 
@@ -100,7 +88,7 @@ def _poses(task: Task) -> list[dict[str, Any]]:
 
 
 def _dyad(synthesis: Synthesis, found: FoundDyad) -> dict[str, Any]:
-    """A dyad on its own, and how it is written."""
+    """A dyad alone: its numbers, and the words for them."""
     places = digits.decimals(synthesis, found.rms_error)
     ground, body, length = digits.sides(found.dyad, places)
     return {
@@ -109,8 +97,8 @@ def _dyad(synthesis: Synthesis, found: FoundDyad) -> dict[str, Any]:
             "ground": ground.replace("\n", " "),
             "body": body.replace("\n", " "),
             "length": length,
-            "rms": digits.miss(synthesis, found.rms_error),
-            "worst": digits.miss(synthesis, found.max_error),
+            "rms": digits.dyad_error(synthesis, found.rms_error),
+            "worst": digits.dyad_error(synthesis, found.max_error),
         },
     }
 
@@ -118,12 +106,12 @@ def _dyad(synthesis: Synthesis, found: FoundDyad) -> dict[str, Any]:
 def _linkage(
     synthesis: Synthesis, found: FoundLinkage, scene: float, frames: int, chart: dict[str, Any]
 ) -> dict[str, Any]:
-    """A linkage with all that is said of it, how it moves, and its image space."""
+    """A linkage: its numbers, the words for them, its motion and its image space."""
     task = synthesis.task
     tolerance = synthesis.options.manufacturing_tolerance
-    motion = motion_of(found, task.poses, scene, frames)
-    worst, turned = digits.misses(synthesis, found)
-    first, second = found.dyads if found.preferred_driver == "first" else found.dyads[::-1]
+    branches = branches_of(found, task.poses, scene, frames)
+    worst, angle = digits.worst_errors(synthesis, found)
+    first, second = found.dyads_driver_first
     data = linkage_data(found, tolerance)
     return {
         **data,
@@ -135,19 +123,19 @@ def _linkage(
             "in_short": explanation.in_short(found, task, synthesis.length),
             "reasons": [] if found.usable else explanation.reasons(found, task),
             "worst": worst,
-            "angle": turned,
-            "rms": _off(synthesis, found.error.rms),
-            "rms_angle": _turned(float(np.sqrt((found.error.angle**2).mean()))),
+            "angle": angle,
+            "rms": digits.position_error(synthesis, found.error.rms),
+            "rms_angle": digits.angle_error(float(np.sqrt((found.error.angle**2).mean()))),
             "transmission": wording.least_angle(found.driven.least_over_range),
             "turns_fully": found.driven.turns_fully,
             "links": _links(synthesis, found),
-            "dimensions": _dimensions(synthesis, found),
-            "notes": _notes(synthesis, found),
+            "dimensions": [each._asdict() for each in dimensions(synthesis, found)],
+            "notes": sentences.notes(synthesis, found),
             "manifolds": [_manifold(each.dyad) for each in (first, second)],
         },
-        "pose_errors": _pose_errors(synthesis, found, motion),
-        "ways": motion.ways,
-        "space": space_of(found.driver_first, task.poses, _all_places(motion), chart),
+        "pose_errors": _pose_errors(synthesis, found, branches),
+        "ways": branches.ways,
+        "space": space_of(found.driver_first, task.poses, _places(branches), chart),
     }
 
 
@@ -158,39 +146,18 @@ def _links(synthesis: Synthesis, found: FoundLinkage) -> dict[str, str] | None:
     return dict(zip(names, digits.links(synthesis, found), strict=True))
 
 
-def _dimensions(synthesis: Synthesis, found: FoundLinkage) -> list[dict[str, str]]:
-    """Every dimension of both dyads: what it is, its value, and how certain it is."""
-    certain = not any(synthesis.task.resolution) or found.error_before_rounding is not None
-    regions = found.uncertainty or (None, None)
-    rows = []
-    for dyad, region in zip(found.dyads, regions, strict=True):
-        known = None if certain else region
-        if isinstance(dyad.dyad, PP):
-            angle = f"{math.degrees(dyad.dyad.angle):.2f}°"
-            rows.append({"dyad": dyad.id, "what": "angle kept", "value": angle, "give": ""})
-        for what, value, plus_minus in digits.parts(synthesis, found, dyad.dyad, known):
-            give = "" if known is None else plus_minus
-            rows.append({"dyad": dyad.id, "what": what, "value": value, "give": give})
-    return rows
-
-
 def _manifold(dyad: Dyad) -> list[str]:
-    """The eight coefficients, as they come from the dimensions."""
+    """The eight coefficients p1 to p8, on the scale that the dimensions give them."""
     return [f"{value:.6g}" for value in np.asarray(dyad.coefficients()).tolist()]
 
 
-def _notes(synthesis: Synthesis, found: FoundLinkage) -> list[str]:
-    """What is to be said under the dimensions: of uncertainty, tolerance and rounding."""
-    alone = replace(synthesis, linkages=(replace(found, usable=True),))
-    parts = list(linkage_table.dimensions(alone))[1:]
-    return [part.plain for part in parts if isinstance(part, Text)]
-
-
-def _pose_errors(synthesis: Synthesis, found: FoundLinkage, motion: Motion) -> list[dict[str, Any]]:
-    """At each pose: the place of the coupler, how far it is from it, and where that is."""
+def _pose_errors(
+    synthesis: Synthesis, found: FoundLinkage, branches: Branches
+) -> list[dict[str, Any]]:
+    """At each pose: the place of the coupler, its errors, and the frame of a way where it is."""
     error, transmission = found.error, found.driven.transmission
     rows = []
-    for pose, at in enumerate(motion.at):
+    for pose, at in enumerate(branches.at):
         x, y = error.places.translation[pose]
         row: dict[str, Any] = {
             "x": number(x),
@@ -203,8 +170,8 @@ def _pose_errors(synthesis: Synthesis, found: FoundLinkage, motion: Motion) -> l
             "frame": None if at is None else at[1],
         }
         row["said"] = {
-            "position": _off(synthesis, float(error.position[pose])),
-            "turned": _turned(float(error.angle[pose])),
+            "position": digits.position_error(synthesis, float(error.position[pose])),
+            "turned": digits.angle_error(float(error.angle[pose])),
             "transmission": f"{math.degrees(transmission[pose]):.1f}°"
             if math.isfinite(transmission[pose])
             else "-",
@@ -213,58 +180,9 @@ def _pose_errors(synthesis: Synthesis, found: FoundLinkage, motion: Motion) -> l
     return rows
 
 
-def _off(synthesis: Synthesis, error: float) -> str:
-    return "exact" if error < ROUNDING * (synthesis.length or 1.0) else wording.figure(error)
-
-
-def _turned(angle: float) -> str:
-    if angle < ROUNDING:
-        return "exact"
-    return f"{wording.figure(math.degrees(angle))}°" if math.isfinite(angle) else "-"
-
-
-def _all_places(motion: Motion) -> Displacement | None:
-    """The coupler's places along the way with most poses."""
-    if not motion.ways:
+def _places(branches: Branches) -> Displacement | None:
+    """Places of the coupler along the way with most poses."""
+    if not branches.ways:
         return None
-    way = max(motion.ways, key=lambda each: len(each["poses"]))
+    way = max(branches.ways, key=lambda each: len(each["poses"]))
     return Displacement(np.stack([way["x"], way["y"]], axis=-1), np.array(way["angle"]))
-
-
-def _pivot_map(synthesis: Synthesis, scene: float) -> dict[str, Any] | None:
-    """For fixed pivots all around: log10 of the least rms error of a link."""
-    task = synthesis.task
-    if task.poses.shape[0] < MAPPED:
-        return None
-    at = task.poses.translation
-    low, high = at.min(axis=0), at.max(axis=0)
-    middle = (low + high) / 2
-    pivots = _fixed_pivots(synthesis.linkages, synthesis.dyads)
-    near = pivots[(np.abs(pivots - middle) <= PIVOTS * scene).all(axis=-1)]
-    if len(near):
-        low, high = np.minimum(low, near.min(axis=0)), np.maximum(high, near.max(axis=0))
-    low, high = low - AROUND * scene / 2, high + AROUND * scene / 2
-    # As wide as the picture is.
-    centre, half = (low + high) / 2, (high - low) / 2
-    half = np.maximum(half, half[::-1] * np.array([COLUMNS / ROWS, ROWS / COLUMNS]))
-    low, high = centre - half, centre + half
-    points = grid(low, high, COLUMNS, ROWS)
-    rms = fixed_pivot_map(task.poses, points, task.weights).rms_error
-    if (~(rms >= EXACT * scene)).mean() > MOSTLY:
-        return None  # most places will do, or nothing is told of them: a translation, a turn
-    levels = np.log10(np.maximum(rms, EXACT * scene))
-    flat = [None if math.isnan(each) else round(each, 3) for each in levels.ravel().tolist()]
-    return {
-        "low": low.tolist(),
-        "high": high.tolist(),
-        "columns": COLUMNS,
-        "rows": ROWS,
-        "log10_rms": flat,
-    }
-
-
-def _fixed_pivots(linkages: Sequence[FoundLinkage], dyads: Sequence[FoundDyad]) -> np.ndarray:
-    """Those of all dyads (n, 2)."""
-    every = [*dyads, *(dyad for found in linkages for dyad in found.dyads)]
-    points = [each.dyad.fixed_pivot for each in every if isinstance(each.dyad, RR | RP)]
-    return np.array(points).reshape(-1, 2)

@@ -19,10 +19,10 @@ from burmester.numerics.arrays import FloatArray
 
 __all__ = ["chart_of", "space_of"]
 
-MARGIN = 1.3  # of the box, around what it holds
-WIDEST = 2.0  # of the poses' own box, that the motion's curve may widen it to
-STEEPEST = np.tan(np.radians(80))  # Z3 beyond which a place is not shown
-THIN = 0.15  # of the widest side, the least another has
+MARGIN = 1.3  # size of the box, in sizes of what it holds
+WIDEST = 2.0  # sizes of the poses' own box: the motion's curve widens it no further
+STEEPEST = np.tan(np.radians(80))  # Z3 = tan(half the angle): a place beyond it is not shown
+THIN = 0.15  # widest sides of the box: the least size of another side
 
 
 def chart_of(poses: Displacement, length: float) -> dict[str, Any]:
@@ -90,7 +90,7 @@ def _quadric(dyad: Dyad, chart: dict[str, Any], centre: FloatArray, half: FloatA
         seen = RP(pivot, dyad.normal_angle + turn, dyad.offset / unit)
         c = constraint_manifold.matrix(seen.coefficients())
     else:
-        # The doubled plane of PP would have no sides; taken once it has.
+        # The coefficients of PP are those of a double plane, whose gradient vanishes on it.
         angle = (float(dyad.angle) - turn) / 2
         c = np.zeros((4, 4))
         c[2, 3] = c[3, 2] = np.cos(angle) / 2

@@ -1,0 +1,133 @@
+"""A synthesis in words: sentences and notes as plain strings, for any screen."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from burmester.describe.digits import degrees
+from burmester.describe.dimensions import certain
+from burmester.linkages import explanation
+from burmester.linkages.found_linkage import FoundLinkage
+from burmester.linkages.uncertainty import pose_sigma
+from burmester.numerics.arrays import ROUNDING
+from burmester.synthesis.result import Synthesis
+from burmester.tasks import wording
+from burmester.wording import with_article
+
+__all__ = [
+    "best_sentences",
+    "footnotes",
+    "notes",
+    "rounding_note",
+    "tolerance_note",
+    "uncertainty_note",
+]
+
+
+def best_sentences(synthesis: Synthesis) -> Iterator[str]:
+    """What the best usable linkage does, and why it is not another one; none without it."""
+    if not synthesis.usable:
+        return
+    best, task, size = synthesis.usable[0], synthesis.task, synthesis.length
+    kind = best.type.replace("change-point", "change-point linkage")
+    least = wording.least_angle(best.driven.least_over_range)
+    yield (
+        f"Best: {best.id}, {with_article(kind)} driven by {best.dyads_driver_first[0].id}, "
+        f"{_passes(synthesis, best)}, transmission angle {least} or more."
+    )
+    nearest = explanation.by_nearness(synthesis.linkages, size)[0]
+    if not nearest.usable and _nearer(nearest, best, size):
+        yield (
+            f"This one works and {explanation.met(best, task, size)}; "
+            f"the closest one, {nearest.id}, "
+            f"{explanation.in_short(nearest, task, size)}."
+        )
+    if not best.determined:
+        better = next((each for each in synthesis.usable if each.determined), None)
+        if better is not None:
+            yield (
+                f"Its pivots are uncertain; those of {better.id} are not, and it "
+                f"{explanation.met(better, task, size)}."
+            )
+
+
+def _passes(synthesis: Synthesis, best: FoundLinkage) -> str:
+    if explanation.exact(best, synthesis.length):
+        return "passes every pose exactly, up to rounding"
+    worst = wording.length_of(best.error.worst, synthesis.task)
+    return f"passes every pose within {worst} and {degrees(float(best.error.angle.max()))}"
+
+
+def _nearer(one: FoundLinkage, other: FoundLinkage, size: float) -> bool:
+    return one.error.worst < other.error.worst - ROUNDING * size
+
+
+def notes(synthesis: Synthesis, found: FoundLinkage) -> list[str]:
+    """What stands under the dimensions: of uncertainty, tolerance and rounding."""
+    every = (uncertainty_note, tolerance_note, rounding_note)
+    return [text for note in every if (text := note(synthesis, found)) is not None]
+
+
+def uncertainty_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
+    """What the half-widths of the dimensions are."""
+    if certain(synthesis, found):
+        return None
+    task = synthesis.task
+    position, angle = pose_sigma(task)
+    given = wording.length_of(position, task) if task.resolution[0] else "0"
+    turned = degrees(angle) if task.resolution[1] else "0°"
+    return (
+        "±: 95 % regions, of a pivot in its worst direction, if the poses err by "
+        f"{given} and {turned} "
+        "(standard deviations: from their digits, or --pose-sigma)."
+    )
+
+
+def tolerance_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
+    """What a tolerance of the dimensions does to the error."""
+    if found.spread is None:
+        return None
+    assert synthesis.options.manufacturing_tolerance is not None
+    task = synthesis.task
+    return (
+        f"Built to ±{wording.length_of(synthesis.options.manufacturing_tolerance, task)}: "
+        "position errors of up to "
+        f"{wording.length_of(float(found.spread.greatest_95), task)} (95 % of linkages), "
+        f"at most {wording.length_of(float(found.spread.bound), task)}."
+    )
+
+
+def rounding_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
+    """What rounding does to the error."""
+    if found.error_before_rounding is None:
+        return None
+    task, options = synthesis.task, synthesis.options
+    how = []
+    if options.rounding_step is not None:
+        how.append(f"rounded to {wording.length_of(options.rounding_step, task)}")
+    if options.stock_lengths:
+        how.append("with links from stock")
+    text = " and ".join(how) or "rounded"
+    before, after = (
+        "by nothing but rounding errors"
+        if each.worst < ROUNDING * synthesis.length
+        else f"by {wording.length_of(each.worst, task)}"
+        for each in (found.error_before_rounding, found.error)
+    )
+    return f"{text[0].upper()}{text[1:]}: {found.id} misses {after}, instead of {before}."
+
+
+def footnotes(synthesis: Synthesis) -> str:
+    """What the columns of the tables are, and the order of their rows."""
+    unit = synthesis.task.length_unit or "the unit of the poses"
+    text = f"Lengths in {unit}; F is the ground, M the body."
+    if synthesis.linkages:
+        text += " Usable linkages come first, then those that miss least."
+    if any(dyad.id[0] == "M" for found in synthesis.linkages for dyad in found.dyads):
+        text += " Dyads M come from the pivot map."
+    if synthesis.usable:
+        text += (
+            " The first of two dyads drives; worst and angle: the greatest misses at a pose; "
+            "transm.: the least transmission angle between the poses."
+        )
+    return text
