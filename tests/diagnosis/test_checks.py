@@ -146,7 +146,7 @@ def test_the_object_holds_the_poses_as_they_are_read(check):
 )
 def test_numbers_that_cannot_be_computed_with_are_refused(row, words):
     with pytest.raises(InputError, match=words) as caught:
-        Task.from_degrees([(0, 0, 0), row, (1, 1, 50)])
+        Task.from_rows([(0, 0, 0), row, (1, 1, 50)], angle_unit="deg")
     assert caught.value.code == "E112"
 
 
@@ -161,16 +161,16 @@ def test_a_pose_that_is_lost_beside_another_is_refused():
 
 def test_lengths_that_vanish_are_refused():
     with pytest.raises(InputError, match="too small"):
-        Task.from_degrees([(0, 0, 0), (1e-61, 0, 20), (0, 2e-61, 50)])
-    at_one_place = Task.from_degrees([(0, 0, 0), (0, 0, 20), (0, 0, 50)])
+        Task.from_rows([(0, 0, 0), (1e-61, 0, 20), (0, 2e-61, 50)], angle_unit="deg")
+    at_one_place = Task.from_rows([(0, 0, 0), (0, 0, 20), (0, 0, 50)], angle_unit="deg")
     assert synthesize(at_one_place).outcome.code == "R315"
 
 
 @pytest.mark.parametrize("size", [1e-55, 1e55])
 def test_the_answer_at_the_edges_of_what_is_taken_is_the_same(size):
     rows = np.array([list(map(float, line.split(","))) for line in GOOD.splitlines()[1:]])
-    usual = synthesize(Task.from_degrees(rows))
-    scaled = synthesize(Task.from_degrees(rows * [size, size, 1]))
+    usual = synthesize(Task.from_rows(rows, angle_unit="deg"))
+    scaled = synthesize(Task.from_rows(rows * [size, size, 1], angle_unit="deg"))
     assert scaled.outcome.message == usual.outcome.message
     ratio = scaled.linkages[0].error.worst / usual.linkages[0].error.worst
     assert math.isclose(ratio, size, rel_tol=1e-3)

@@ -71,7 +71,7 @@ CARDAN = Linkage(
     PR(np.array(0.3), np.array(0.2), np.array([1.0, 0.0])),
     PR(np.array(1.9), np.array(-0.1), np.array([-1.0, 0.4])),
 )
-TABLE2 = Task.from_degrees(load("ge2012-exact")["poses"])
+TABLE2 = Task.from_rows(load("ge2012-exact")["poses"], angle_unit="deg")
 
 
 @pytest.fixture(autouse=True)
@@ -416,7 +416,7 @@ def test_dead_points_are_where_coupler_and_follower_are_in_line(ax):
 
 
 def test_errors_are_drawn_as_long_as_the_note_says(ax):
-    task = Task.from_degrees(load("ge2012-approximate")["poses"])
+    task = Task.from_rows(load("ge2012-approximate")["poses"], angle_unit="deg")
     shift = np.array([0.004, -0.003])
     moved = Displacement(task.poses.translation + shift, task.poses.angle + 0.01)
     drawn = achieved(ax, moved, task.poses)
@@ -454,7 +454,7 @@ def test_centrodes_are_the_points_that_stand_still(ax):
 
 
 def test_the_pivot_map_has_the_colours_of_the_least_errors(ax):
-    task = Task.from_degrees(load("ge2012-approximate")["poses"])
+    task = Task.from_rows(load("ge2012-approximate")["poses"], angle_unit="deg")
     drawn = pivot_map(ax, task.poses, (-4, -3), (2, 2), columns=13, rows=11)
     rows = np.array(load("ge2012-approximate")["poses"])
     d, turn = rows[:, 0] + 1j * rows[:, 1], np.exp(1j * np.radians(rows[:, 2]))
@@ -493,7 +493,9 @@ def test_burmester_curves_are_circles_through_four_poses(ax):
 
 @pytest.fixture(scope="module")
 def found():
-    return synthesize(Task.from_degrees(load("ge2012-approximate")["poses"])).linkages[0]
+    return synthesize(
+        Task.from_rows(load("ge2012-approximate")["poses"], angle_unit="deg")
+    ).linkages[0]
 
 
 def test_the_transmission_angle_is_that_between_coupler_and_follower(ax, found):
@@ -697,7 +699,7 @@ def others(found):
     drawing = figure(11, 8, DPI)
     axes = drawing.subplots(2, 3)
     drawing.subplots_adjust(0.07, 0.07, 0.97, 0.92, 0.3, 0.3)
-    task = Task.from_degrees(load("ge2012-approximate")["poses"])
+    task = Task.from_rows(load("ge2012-approximate")["poses"], angle_unit="deg")
     for ax, given, drive in zip(axes[0], (SLIDER, SLOT, ROCKER), (0.7, 0.7, 1.2), strict=True):
         coupler_curve(ax, given, (0.5, 0.8))
         linkage(ax, given, at_drive(given, drive), names=True)
@@ -771,5 +773,5 @@ if __name__ == "__main__":
     BASELINES.mkdir(exist_ok=True)
     with house_style():
         write_figures(BASELINES, ("png",), force=True)
-        task_ = Task.from_degrees(load("ge2012-approximate")["poses"])
+        task_ = Task.from_rows(load("ge2012-approximate")["poses"], angle_unit="deg")
         others(synthesize(task_).linkages[0]).savefig(BASELINES / "plane.png")

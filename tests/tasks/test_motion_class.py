@@ -347,7 +347,7 @@ def test_exact_repeats_are_merged_whole_turns_too(seed):
     which = np.concatenate([np.arange(n), rng.integers(0, n, 7)])
     again = degrees[which] + 360 * np.array([0, 0, 1]) * rng.integers(-3, 4, len(which))[:, None]
     order = rng.permutation(len(which))
-    found = classify_motion(Task.from_degrees(again[order]))
+    found = classify_motion(Task.from_rows(again[order], angle_unit="deg"))
     assert found.distinct == n
     for i, j in enumerate(found.group):
         assert which[order][found.first[j]] == which[order][i]

@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike
 
 from burmester.errors import InputError
 from burmester.numerics.arrays import FloatArray
+from burmester.values import Shape, real_numbers
 
 __all__ = ["Displacement", "image_multiply"]
 
@@ -37,12 +38,10 @@ class Displacement:
     angle: FloatArray
 
     def __post_init__(self) -> None:
-        translation = np.asarray(self.translation, dtype=np.float64)
-        angle = np.asarray(self.angle, dtype=np.float64)
-        if translation.ndim == 0 or translation.shape[-1] != 2:
-            raise ValueError(f"translation needs shape (*, 2), not {translation.shape}")
+        translation = _numbers(self.translation, (..., 2), "translations")
+        angle = _numbers(self.angle, (...,), "angles")
         if translation.shape[:-1] != angle.shape:
-            shape = np.broadcast_shapes(translation.shape[:-1], angle.shape)
+            shape = _broadcast(translation.shape[:-1], angle.shape)
             translation = np.broadcast_to(translation, (*shape, 2))
             angle = np.broadcast_to(angle, shape)
         object.__setattr__(self, "translation", translation)
@@ -51,9 +50,7 @@ class Displacement:
     @classmethod
     def from_poses(cls, poses: ArrayLike) -> Self:
         """Displacements from rows (x, y, angle in radians), shape (*, 3)."""
-        rows = np.asarray(poses, dtype=np.float64)
-        if rows.ndim == 0 or rows.shape[-1] != 3:
-            raise ValueError(f"poses need shape (*, 3): x, y, angle; not {rows.shape}")
+        rows = _numbers(poses, (..., 3), "rows of x, y, angle")
         return cls(rows[..., :2], rows[..., 2])
 
     @classmethod
@@ -146,6 +143,28 @@ class Displacement:
                 f"finite number: x = {x:g}, y = {y:g}, angle = {self.angle[index]:g} rad",
                 help="give finite numbers, or delete the pose",
             )
+
+
+def _numbers(value: object, shape: Shape, what: str) -> FloatArray:
+    """Real numbers of a shape, finite or not; arrays of doubles are taken without a copy."""
+    if type(value) is not np.ndarray or value.dtype != np.float64:
+        return real_numbers(value, shape, what, finite=False)
+    if shape == (...,) or value.shape[-1:] == shape[-1:]:
+        return value
+    return real_numbers(value, shape, what, finite=False)
+
+
+def _broadcast(one: tuple[int, ...], other: tuple[int, ...]) -> tuple[int, ...]:
+    """The common leading axes, or E125."""
+    try:
+        return np.broadcast_shapes(one, other)
+    except ValueError:
+        raise InputError(
+            "E125",
+            "translations and angles: not as many of one as of the other",
+            why=f"their leading axes are {one} and {other}",
+            help="give one angle for every translation",
+        ) from None
 
 
 def image_multiply(left: ArrayLike, right: ArrayLike) -> FloatArray:

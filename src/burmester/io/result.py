@@ -6,6 +6,7 @@ a number that does not exist (the error of a linkage that reaches no pose) is nu
 
 from __future__ import annotations
 
+import json
 import math
 from typing import Any
 
@@ -24,7 +25,7 @@ from burmester.tasks.limits import KINDS, Limits
 from burmester.tasks.motion_class import MotionClass
 from burmester.tasks.motion_task import Task
 
-__all__ = ["failure", "motion_data", "plain", "task_data", "told"]
+__all__ = ["failure", "json_line", "motion_data", "plain", "task_data", "told"]
 
 SCHEMA = "burmester.synthesis/1"
 
@@ -178,3 +179,13 @@ def failure(error: BurmesterError) -> dict[str, Any]:
         "linkages": [],
         "warnings": [],
     }
+
+
+def json_line(data: dict[str, Any], encoding: str = "utf-8") -> str:
+    """A line of JSON with all digits; what the encoding does not have is escaped."""
+    line = json.dumps(data, ensure_ascii=False, allow_nan=False) + "\n"
+    try:
+        line.encode(encoding)
+    except UnicodeEncodeError:  # half a character too, of a name or a path
+        line = json.dumps(data, allow_nan=False) + "\n"
+    return line

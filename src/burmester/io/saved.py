@@ -14,7 +14,7 @@ import json
 import math
 import os
 from dataclasses import dataclass
-from typing import Any, NamedTuple, final
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -27,6 +27,7 @@ from burmester.io.reading.fetched import fetch
 from burmester.io.reading.poses import read_task
 from burmester.io.result import SCHEMA
 from burmester.linkages.found_linkage import Side, with_driver_first
+from burmester.synthesis.result import Outcome
 from burmester.tasks.motion_task import Task, characteristic_length
 
 __all__ = ["Result", "SavedLinkage", "read_result"]
@@ -34,14 +35,14 @@ __all__ = ["Result", "SavedLinkage", "read_result"]
 AGREES = 1e-6  # of the motion's size; by how much errors computed anew may differ from those told
 
 
-@final
 @dataclass(frozen=True, slots=True, eq=False)
 class SavedLinkage:
     """A linkage of a result: its driver first, and its places for the poses.
 
-    unit: of lengths, as the task has it; error: of the places at the poses.
+    error: of the places at the poses.
     driver: which of the two dyads of the file is first here; it is None in the file where the
     linkage is not usable, and then the first one.
+    least_transmission: the least transmission angle between the poses, in radians.
     """
 
     id: str
@@ -52,6 +53,7 @@ class SavedLinkage:
     type: str
     task: Task
     error: PoseError
+    least_transmission: float = math.nan
 
     @property
     def unit(self) -> str | None:
@@ -60,11 +62,12 @@ class SavedLinkage:
 
 
 class Result(NamedTuple):
-    """A result: where it came from, its task, and its linkages by rank."""
+    """A result: where it came from, its task, its linkages by rank, and its outcome."""
 
     label: str
     task: Task
     linkages: tuple[SavedLinkage, ...]
+    outcome: Outcome
 
     def choose(self, id: str | None = None) -> SavedLinkage:
         """A linkage by its id, or the first; raises E151."""
@@ -121,7 +124,12 @@ def read_result(source: str | os.PathLike[str]) -> Result:
         except InputError as error:
             error.where = label
             raise
-    return Result(label, task, tuple(linkages))
+    try:
+        outcome = Outcome(**{key: tree["outcome"].get(key) for key in Outcome.__slots__})
+    except (KeyError, AttributeError) as error:
+        message = "the outcome of this result cannot be read"
+        raise InputError("E150", message, where=label, why=repr(error), help=help) from None
+    return Result(label, task, tuple(linkages), outcome)
 
 
 def _linkage(data: dict[str, Any], task: Task) -> SavedLinkage:
@@ -148,6 +156,7 @@ def _linkage(data: dict[str, Any], task: Task) -> SavedLinkage:
     else:
         error = PoseError.of(own, task.poses, size)
     ids = (data["dyads"][0]["id"], data["dyads"][1]["id"])
+    least = data.get("min_transmission_angle_deg", {}).get("range")
     return SavedLinkage(
         data["id"],
         with_driver_first(own, side),
@@ -157,6 +166,7 @@ def _linkage(data: dict[str, Any], task: Task) -> SavedLinkage:
         data["type"],
         task,
         error,
+        math.nan if least is None else math.radians(least),
     )
 
 

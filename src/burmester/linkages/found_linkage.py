@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal, TypeAlias, final
+from typing import Literal, TypeAlias
 
 from burmester.dyads.selection import FoundDyad
 from burmester.fourbar.defects import Defect, Driven, Verdict
@@ -24,7 +24,6 @@ def with_driver_first(linkage: Linkage, driver: Side) -> Linkage:
     return Linkage(linkage.second, linkage.first) if driver == "second" else linkage
 
 
-@final
 @dataclass(frozen=True, slots=True, eq=False)
 class FoundLinkage:
     """A linkage made of two of the dyads found, refined as a whole, and what is to be said of it.

@@ -32,7 +32,7 @@ def side_by_side(starts: int = 100, seed: int = 2012) -> tuple[SideBySide, ...]:
     tasks = {"Table 2 (pose 6 at 52.87 deg)": "ge2012-exact", "Table 5": "ge2012-approximate"}
     result = []
     for title, case in tasks.items():
-        poses = Task.from_degrees(load(case)["poses"]).poses
+        poses = Task.from_rows(load(case)["poses"], angle_unit="deg").poses
         result.append(SideBySide(title, case, by_every_method(poses, starts, seed)))
     return tuple(result)
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
-from typing import final
+from typing import Literal, TypeAlias, final, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,10 +15,20 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.limits import Limits
 from burmester.tasks.requirements import Requirements, require_possible
+from burmester.values import real_numbers, require_instance, shown
 
-__all__ = ["COARSE", "CONDITIONS", "Task", "characteristic_length"]
+__all__ = [
+    "COARSE",
+    "CONDITIONS",
+    "AngleUnit",
+    "Task",
+    "characteristic_length",
+    "require_angle_unit",
+]
 
 COARSE = 1e-3  # coarser digits than this count as meant exactly, not as measured
+
+AngleUnit: TypeAlias = Literal["deg", "rad"]
 
 CONDITIONS = 5  # that a dyad can meet exactly: it has five dimensions
 MOST = 1e60  # beyond it, or all below its inverse, fourth powers leave a double's range
@@ -31,24 +42,45 @@ LEAST_POSES = 3  # two poses are met by every moving pivot with a whole line of 
 class Task:
     """What a synthesis is asked for; whatever gets past here can be computed with.
 
-    poses: (N,) displacements, N >= 3.
-    weights: (N,) positive, or None for equal ones; a pose of weight 2 counts as if it were
-        given twice.
-    names: one name a pose, or None.
-    length_unit: the unit of x and y as its user writes it ("mm"), or None.
-    resolution: how exactly a pose is known, (length in the task's unit, angle in radians); the
+    Attributes
+    ----------
+    poses : Displacement
+        Shape (N,), N >= 3.  Fewer are enough where a limit puts a pivot at a point or on a line.
+    weights : (N,) array, optional
+        Above zero; None for equal ones.  A pose of weight 2 counts as if it were given twice.
+    names : tuple of str, optional
+        One name a pose.
+    length_unit : str, optional
+        The unit of x and y as its user writes it ("mm").
+    resolution : (float, float)
+        How exactly a pose is known: a length in the task's unit and an angle in radians.  The
         errors of poses are taken to be spread evenly up to it.  Half of the last digit that a
         file gives; sqrt(3) times the standard deviation where that is given instead
         (--pose-sigma), which is as wide a spread; 0 for exact numbers.
-    exact: (N,), which poses must be met exactly, or None for none of them.
-    limits: none; one for both dyads of a linkage; or two, one for each.
-    requirements: what is asked of the whole linkage, nothing by default.
-    Fewer than 3 poses are enough where a limit puts a pivot at a point or on a line.
-    Raises InputError: E103 (a number that is not finite), E112 (one too large or too small to
-    compute with, or weights too far apart), E120 (too few poses), E122
-    (weights, names or marks that do not fit the poses), E132 (requirements that the limits
-    contradict), E133 (more exact conditions than a dyad can meet), E134 (a driver named by limits
-    that are not two).
+    exact : (N,) array of bool, optional
+        The poses that must be met exactly.
+    limits : tuple of Limits
+        None; one for both dyads of a linkage; or two, one for each.
+    requirements : Requirements
+        The conditions on the whole linkage, none by default.
+
+    A task keeps its own copy of its numbers, which cannot be written to.
+
+    Raises
+    ------
+    InputError
+        E103 (a number that is not finite), E112 (one too large or too small to compute with, or
+        weights too far apart), E120 (too few poses), E122 (weights, names or marks that do not
+        fit the poses), E125 (values of a wrong type or shape), E132 (requirements that the limits
+        contradict), E133 (more exact conditions than a dyad can meet), E134 (a driver named by
+        limits that are not two).
+
+    Examples
+    --------
+    >>> rows = [(-3.97, -2.63, 37.2), (-0.22, -0.32, 27.5), (3.33, 3.96, 8.2), (7.72, 10.01, -14.9)]
+    >>> task = Task.from_rows(rows, angle_unit="deg", length_unit="mm")
+    >>> task.poses.shape
+    (4,)
     """
 
     poses: Displacement
@@ -61,13 +93,8 @@ class Task:
     requirements: Requirements = field(default=Requirements())
 
     def __post_init__(self) -> None:
-        if len(self.poses.shape) != 1:
-            raise ValueError(f"a task takes poses of shape (N,), not {self.poses.shape}")
+        self._own_values()
         count = self.poses.shape[0]
-        if len(self.limits) > 2:
-            raise ValueError(
-                f"a linkage has two dyads, and so at most two limits, not {len(self.limits)}"
-            )
         conditions = max((limits.conditions for limits in self.limits), default=0)
         if count < (1 if conditions else LEAST_POSES):
             raise InputError(
@@ -78,9 +105,8 @@ class Task:
             )
         self.poses.require_finite()
         _require_computable(self.poses)
-        if self.weights is not None:
-            weights = np.asarray(self.weights, dtype=np.float64)
-            if weights.shape != (count,) or not (np.isfinite(weights) & (weights > 0)).all():
+        if (weights := self.weights) is not None:
+            if weights.shape != (count,) or not (weights > 0).all():
                 raise InputError(
                     "E122",
                     "the weights do not fit the poses",
@@ -95,9 +121,7 @@ class Task:
                     why=f"the greatest is {most:.3g}, the least {least:.3g}",
                     help="mark the heavy poses exact, or leave out the light ones",
                 )
-            object.__setattr__(self, "weights", weights)
-        if self.exact is not None:
-            exact = np.asarray(self.exact, dtype=np.bool_)
+        if (exact := self.exact) is not None:
             if exact.shape != (count,):
                 raise InputError(
                     "E122",
@@ -105,7 +129,6 @@ class Task:
                     why=f"{count} poses need {count} marks, true or false",
                     help="mark every pose, or none",
                 )
-            object.__setattr__(self, "exact", exact)
             if (marked := int(exact.sum())) + conditions > CONDITIONS:
                 raise InputError(
                     "E133",
@@ -124,19 +147,144 @@ class Task:
                 f"{len(self.names)} names for {count} poses",
                 help="give one name a pose, or none",
             )
-        if self.names is not None:
-            object.__setattr__(self, "names", tuple(map(printable, self.names)))
-        if self.length_unit is not None:
-            object.__setattr__(self, "length_unit", printable(self.length_unit))
         require_possible(self.requirements, self.limits)
 
+    def _own_values(self) -> None:
+        """Refuse values of a wrong type or shape, and keep a copy of the others."""
+        require_instance(
+            self.poses,
+            Displacement,
+            "the poses of a task",
+            'give a Displacement, or make the task by Task.from_rows(rows, angle_unit="deg")',
+        )
+        if len(self.poses.shape) != 1:
+            raise InputError(
+                "E125",
+                "the poses of a task: not of shape (N,)",
+                why=f"the shape is {self.poses.shape}",
+                help="give one row of poses, and a task for each of several rows",
+            )
+        own: dict[str, object] = {"poses": Displacement(*map(_kept, _parts(self.poses)))}
+        if self.weights is not None:
+            own["weights"] = real_numbers(self.weights, (None,), "the weights", code="E122")
+        if self.exact is not None:
+            own["exact"] = _marks(self.exact)
+        if self.names is not None:
+            own["names"] = _names(self.names)
+        if self.length_unit is not None:
+            require_instance(self.length_unit, str, "the length unit", 'give a text such as "mm"')
+            own["length_unit"] = printable(self.length_unit)
+        position, angle = real_numbers(self.resolution, (2,), "the resolution").tolist()
+        if min(position, angle) < 0:
+            raise InputError(
+                "E122",
+                "the resolution of the poses is negative",
+                why=f"it is {position:g} for lengths and {angle:g} rad for angles",
+                help="give two numbers of zero or more",
+            )
+        own["resolution"] = (position, angle)
+        limits = (self.limits,) if isinstance(self.limits, Limits) else self.limits
+        require_instance(limits, tuple, "the limits of a task", "give a tuple of Limits")
+        for each in limits:
+            require_instance(each, Limits, "the limits of a task", "give a tuple of Limits")
+        if len(limits) > 2:
+            raise InputError(
+                "E125",
+                f"the limits of a task: {len(limits)} of them",
+                why="a linkage has two dyads",
+                help="give one for both dyads, or two, one for each",
+            )
+        own["limits"] = limits
+        require_instance(
+            self.requirements, Requirements, "the requirements of a task", "give a Requirements"
+        )
+        for name, value in own.items():
+            object.__setattr__(self, name, value)
+
     @classmethod
-    def from_degrees(cls, poses: ArrayLike, length_unit: str | None = None) -> Task:
-        """A task from rows (x, y, angle in degrees), shape (N, 3)."""
-        rows = np.array(poses, dtype=np.float64)
-        if rows.ndim != 2 or rows.shape[1] != 3:
-            raise ValueError(f"poses need shape (N, 3): x, y, angle in degrees; not {rows.shape}")
-        return cls(Displacement(rows[:, :2], np.radians(rows[:, 2])), length_unit=length_unit)
+    def from_rows(
+        cls,
+        rows: ArrayLike,
+        *,
+        angle_unit: AngleUnit | None = None,
+        length_unit: str | None = None,
+        limits: tuple[Limits, ...] = (),
+        requirements: Requirements = Requirements(),  # noqa: B008  frozen
+    ) -> Task:
+        """A task from rows of numbers.
+
+        Parameters
+        ----------
+        rows : (N, 3) array_like
+            x, y and angle of the body's frame M, seen in F.
+        angle_unit : {"deg", "rad"}
+            The unit of the angles; it is never guessed.
+        length_unit, limits, requirements
+            As in `Task`.
+
+        Raises
+        ------
+        InputError
+            E110 (no such angle unit) and what `Task` raises.
+        """
+        require_angle_unit(angle_unit)
+        table = real_numbers(rows, (None, 3), "the poses")
+        angle = np.radians(table[:, 2]) if angle_unit == "deg" else table[:, 2]
+        poses = Displacement(table[:, :2], angle)
+        return cls(poses, length_unit=length_unit, limits=limits, requirements=requirements)
+
+
+def require_angle_unit(unit: object) -> None:
+    """Refuse an angle unit that is neither "deg" nor "rad": E110."""
+    if isinstance(unit, str) and unit in get_args(AngleUnit):
+        return
+    message = "the angle unit is not stated" if unit is None else f"there is no angle unit {unit!r}"
+    raise InputError(
+        "E110",
+        message,
+        why="the unit of angles is never guessed",
+        help='say angle_unit="deg" or angle_unit="rad"',
+    )
+
+
+def _parts(poses: Displacement) -> tuple[FloatArray, FloatArray]:
+    return poses.translation, poses.angle
+
+
+def _kept(values: FloatArray) -> FloatArray:
+    """A copy that cannot be written to."""
+    own = np.array(values)
+    own.setflags(write=False)
+    return own
+
+
+def _marks(value: object) -> NDArray[np.bool_]:
+    """Marks, each true or false: E122 for anything else."""
+    marks = np.asarray(value)
+    if isinstance(value, np.ma.MaskedArray) or marks.ndim != 1 or marks.dtype != np.bool_:
+        raise InputError(
+            "E122",
+            "the marks for exact poses are not a row of true and false",
+            why=f"they are {shown(value)}",
+            help="mark every pose True or False, or give no marks",
+        )
+    own: NDArray[np.bool_] = np.array(marks)
+    own.setflags(write=False)
+    return own
+
+
+def _names(value: object) -> tuple[str, ...]:
+    """Names of poses, without what a terminal would obey: E122 for anything but texts."""
+    if not isinstance(value, str) and isinstance(value, Iterable):
+        names = tuple(value)
+        if all(isinstance(name, str) for name in names):
+            return tuple(map(printable, names))
+    raise InputError(
+        "E122",
+        "the names of the poses are not texts",
+        why=f"they are {shown(value)}",
+        help='give one text a pose, such as ("shut", "open")',
+    )
 
 
 def characteristic_length(task: Task) -> float:

@@ -62,7 +62,7 @@ class SynthesisOptions:
     length_per_radian: float | None = None
     manufacturing_tolerance: float | None = None
     rounding_step: float | None = None
-    stock_lengths: tuple[float, ...] = ()
+    stock_lengths: Sequence[float] = ()
 
     def __post_init__(self) -> None:
         _require_word("method", self.method, get_args(Method))

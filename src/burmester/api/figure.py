@@ -1,0 +1,39 @@
+"""A linkage at its poses, drawn by Matplotlib."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from burmester import plot
+from burmester.fourbar.dyad import PP
+from burmester.io.saved import SavedLinkage
+from burmester.plot.plane import span_of
+from burmester.web.still import own_circuit
+
+__all__ = ["linkage_figure"]
+
+
+def linkage_figure(saved: SavedLinkage, ax: Axes | None = None) -> Figure:
+    """The linkage at the middle one of its places, faintly at the others, over the poses."""
+    linkage, places, poses = saved.linkage, saved.error.places, saved.task.poses
+    with plot.house_style():
+        if ax is None:
+            ax = plot.figure(7.0, 6.0).add_axes((0.1, 0.08, 0.86, 0.82))
+        there = np.flatnonzero(np.isfinite(places.angle))
+        travel = tuple(places[int(k)] for k in there)
+        if not isinstance(linkage.first, PP) and not isinstance(linkage.second, PP):
+            own = own_circuit(linkage, places[there])
+            plot.coupler_curve(ax, linkage, only=own, size=span_of(poses))
+        for k in there:
+            middle = k == there[len(there) // 2]
+            plot.linkage(
+                ax, linkage, places[int(k)], travel=travel, faint=not middle, names=bool(middle)
+            )
+        plot.poses(ax, poses)
+        plot.legend(ax)
+        plot.finish(ax, saved.unit)
+    drawing = ax.get_figure(root=True)
+    assert drawing is not None
+    return drawing

@@ -1,0 +1,193 @@
+"""A linkage of a result: its numbers, and its way into a drawing, a film or another program."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, field, fields
+from html import escape
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any, Self, final
+
+from burmester.api.moving_picture import MovingPicture
+from burmester.api.table import as_line
+from burmester.errors import InputError
+from burmester.io.saved import SavedLinkage
+from burmester.linkages.found_linkage import FoundLinkage
+from burmester.tasks.motion_task import Task
+from burmester.web.still import still
+from burmester.wording import with_article
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+__all__ = ["ReadLinkage", "ResultLinkage"]
+
+
+class _Shown:
+    """What can be done with a linkage, wherever it comes from."""
+
+    __slots__ = ()
+
+    def saved(self) -> SavedLinkage:
+        """The linkage as it is handed to other programs, its driver first."""
+        raise NotImplementedError
+
+    def export(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        to: str | None = None,
+        force: bool = False,
+        **dimensions: Any,
+    ) -> Path:
+        """Write the linkage for another program, read the file back and compare it.
+
+        Parameters
+        ----------
+        path : str or path
+            The file.  Its ending names the format: .dxf, .svg, .step, .stl, .scad, .xml (MuJoCo),
+            .urdf, .py (pylinkage), .csv, .json, .gif, .mp4.
+        to : str, optional
+            The format, one of `burmester.export.FORMATS`, where the ending does not say it.
+        force : bool
+            Whether a file that exists is replaced.
+        **dimensions
+            Fields of `burmester.export.Options`: unit, hole, width, thickness, gap, pose,
+            seconds, frames_per_second, width_px.
+
+        Returns
+        -------
+        Path
+            The file that was written.
+
+        Raises
+        ------
+        InputError
+            E130 (a library is missing), E140 (the file exists), E141 (it cannot be written), E161
+            (no such format), E162 and E163 (dimensions that cannot be made).
+        """
+        from burmester.export import FORMATS, Options, export, format_of  # noqa: PLC0415
+
+        name = to or format_of(path)
+        if name is None:
+            raise InputError(
+                "E161",
+                f"the name {os.fspath(path)} does not say which format is wanted",
+                why=f"known are {', '.join(FORMATS)}",
+                help='say to="dxf", or another of these',
+            )
+        known = [each.name for each in fields(Options)]
+        for each in dimensions:
+            if each not in known:
+                raise InputError(
+                    "E162",
+                    f"an export has no option {each!r}",
+                    help=f"choose among {', '.join(known)}",
+                )
+        (written,) = export(self.saved(), name, path, Options(**dimensions), force)
+        return written
+
+    def plot(self, ax: Axes | None = None) -> Figure:
+        """The linkage at its poses, with the curve of the body's origin, by Matplotlib.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Axes to draw on; a new figure if not given.
+
+        Raises
+        ------
+        InputError
+            E130, where Matplotlib is missing.
+        """
+        from burmester.api.figure import linkage_figure  # noqa: PLC0415
+
+        return linkage_figure(self.saved(), ax)
+
+    def animate(self, *, seconds: float = 4.0, width_px: int = 640) -> MovingPicture:
+        """The linkage on its way through the poses, as a GIF that a notebook shows.
+
+        Parameters
+        ----------
+        seconds : float
+            How long it takes.
+        width_px : int
+            The width of the picture.
+
+        Raises
+        ------
+        InputError
+            E130, where Matplotlib or Pillow is missing.
+        """
+        with TemporaryDirectory() as folder:
+            path = Path(folder) / "linkage.gif"
+            self.export(path, seconds=seconds, width_px=width_px)
+            return MovingPicture(path.read_bytes(), self._title())
+
+    def _title(self) -> str:
+        saved = self.saved()
+        return f"{saved.id}, {with_article(saved.type)}, and {len(saved.task.poses.angle)} poses"
+
+    def _repr_html_(self) -> str:
+        saved = self.saved()
+        drawing = still(saved.linkage, saved.error.places, saved.task.poses, self._title())
+        return f"<figure>{drawing}<figcaption>{escape(self._title())}</figcaption></figure>"
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class ResultLinkage(_Shown, FoundLinkage):
+    """A `FoundLinkage` that knows its task, so that it can be drawn and handed over.
+
+    Examples
+    --------
+    >>> import burmester
+    >>> best = burmester.synthesize(burmester.read_task("case:motiongen-shoulder")).best
+    >>> best
+    L1: crank-rocker of D2 and D3, misses by 1.1e-14 and 2.4e-14°, transmission angle 26.3° or more
+    """
+
+    task: Task = field(kw_only=True)
+
+    @classmethod
+    def of(cls, found: FoundLinkage, task: Task) -> Self:
+        """A linkage with the task that it belongs to."""
+        return cls(**{each.name: getattr(found, each.name) for each in fields(found)}, task=task)
+
+    def saved(self) -> SavedLinkage:
+        """The linkage as it is handed to other programs, its driver first."""
+        ids = [dyad.id for dyad in self.dyads_driver_first]
+        return SavedLinkage(
+            self.id,
+            self.driver_first,
+            (ids[0], ids[1]),
+            self.usable,
+            self.preferred_driver,
+            self.type,
+            self.task,
+            self.error,
+            self.driven.least_over_range,
+        )
+
+    def __repr__(self) -> str:
+        return as_line(self.saved())
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class ReadLinkage(_Shown, SavedLinkage):
+    """A `SavedLinkage` that can be drawn and handed over again."""
+
+    @classmethod
+    def of(cls, saved: SavedLinkage) -> Self:
+        """The same linkage."""
+        return cls(**{each.name: getattr(saved, each.name) for each in fields(saved)})
+
+    def saved(self) -> SavedLinkage:
+        """The linkage itself."""
+        return self
+
+    def __repr__(self) -> str:
+        return as_line(self.saved())

@@ -1,0 +1,216 @@
+"""What came of a task, as a person holds it: to look at, to choose from, to save and hand over."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, fields
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar, final
+
+from burmester.api.linkage import ReadLinkage, ResultLinkage
+from burmester.api.moving_picture import MovingPicture
+from burmester.api.table import as_html, as_text
+from burmester.describe.sentences import best_sentences
+from burmester.errors import InputError
+from burmester.io import files, saved
+from burmester.io.result import json_line, plain
+from burmester.synthesis.result import Outcome, Synthesis
+from burmester.tasks.motion_task import Task
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+__all__ = ["ReadResult", "Result", "read_result"]
+
+LINES = 12  # of a `repr`, at most
+
+AnyLinkage = TypeVar("AnyLinkage", ResultLinkage, ReadLinkage)
+
+
+class _Shown(Generic[AnyLinkage]):
+    """What can be done with linkages by rank, wherever they come from."""
+
+    __slots__ = ()
+
+    def _parts(self) -> tuple[Outcome, tuple[AnyLinkage, ...]]:
+        """The outcome, and the linkages by rank."""
+        raise NotImplementedError
+
+    def __iter__(self) -> Iterator[AnyLinkage]:
+        return iter(self._parts()[1])
+
+    def __len__(self) -> int:
+        return len(self._parts()[1])
+
+    def __bool__(self) -> bool:
+        return True
+
+    def __getitem__(self, which: int | str) -> AnyLinkage:
+        """A linkage by its id ("L2") or by its place in the ranking (from 0); raises E151."""
+        outcome, linkages = self._parts()
+        known = [each.id for each in linkages]
+        if isinstance(which, str) and which.upper() in known:
+            return linkages[known.index(which.upper())]
+        if isinstance(which, int) and -len(linkages) <= which < len(linkages):
+            return linkages[which]
+        raise InputError(
+            "E151",
+            f"there is no linkage {which} in this result",
+            why=f"it has {', '.join(known)}" if known else outcome.message,
+            help=f"choose one of them, such as {known[0]}"
+            if known
+            else outcome.help or "give other poses",
+        )
+
+    @property
+    def usable(self) -> tuple[AnyLinkage, ...]:
+        """The linkages that work, the best one first."""
+        return tuple(each for each in self._parts()[1] if each.usable)
+
+    @property
+    def best(self) -> AnyLinkage | None:
+        """The best linkage that works; None where none does."""
+        return next(iter(self.usable), None)
+
+    def export(
+        self,
+        path: str | os.PathLike[str],
+        linkage: int | str | None = None,
+        *,
+        to: str | None = None,
+        force: bool = False,
+        **dimensions: Any,
+    ) -> Path:
+        """Write one linkage for another program: the first by rank, or the one that is named.
+
+        The rest is as in `ResultLinkage.export`.  Raises E151, too.
+        """
+        chosen = self[0 if linkage is None else linkage]
+        return chosen.export(path, to=to, force=force, **dimensions)
+
+    def plot(self, linkage: int | str | None = None, ax: Axes | None = None) -> Figure:
+        """Draw one linkage at its poses by Matplotlib: the first by rank, or the one named."""
+        return self[0 if linkage is None else linkage].plot(ax)
+
+    def animate(self, linkage: int | str | None = None, **how: Any) -> MovingPicture:
+        """One linkage on its way through the poses: the first by rank, or the one named."""
+        return self[0 if linkage is None else linkage].animate(**how)
+
+    def _text(self, sentences: Sequence[str] = ()) -> str:
+        """The result in `LINES` lines at most."""
+        outcome, linkages = self._parts()
+        lines = [outcome.message, *sentences]
+        lines += as_text([each.saved() for each in linkages], LINES - len(lines) - 1)
+        return "\n".join(lines)
+
+    def _html(self, sentences: Sequence[str] = ()) -> str:
+        outcome, linkages = self._parts()
+        first: str = "".join(f"<p>{escape(each)}</p>" for each in (outcome.message, *sentences))
+        if not linkages:
+            return f"<div>{first}</div>"
+        table: str = as_html([each.saved() for each in linkages])
+        return f"<div>{first}{table}{linkages[0]._repr_html_()}</div>"
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Result(_Shown[ResultLinkage], Synthesis):
+    """A `Synthesis` that can be looked at, saved and handed over.
+
+    Iterate over its linkages, ask for one by its id (`result["L2"]`) or by rank (`result[0]`).
+    Beside what is listed here it has all of `Synthesis`: task, outcome, dyads, warnings, fits,
+    certificate, motion, method, options.
+    """
+
+    linkages: tuple[ResultLinkage, ...] = ()
+
+    @classmethod
+    def of(cls, synthesis: Synthesis) -> Self:
+        """A synthesis whose linkages know their task."""
+        values = {each.name: getattr(synthesis, each.name) for each in fields(Synthesis)}
+        linkages = tuple(ResultLinkage.of(each, synthesis.task) for each in synthesis.linkages)
+        return cls(**{**values, "linkages": linkages})
+
+    def _parts(self) -> tuple[Outcome, tuple[ResultLinkage, ...]]:
+        return self.outcome, self.linkages
+
+    def to_json(self) -> str:
+        """All of it as one JSON object, as `burmester synthesize --json` prints it."""
+        return json_line(plain(self))
+
+    def save(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:
+        """Write it as JSON, for `burmester.read_result` and `burmester export`.
+
+        Raises InputError E140 (the file exists, and force is not set) and E141 (it cannot be
+        written).
+        """
+        files.write(path, self.to_json(), force=force)
+        return Path(path)
+
+    def report(
+        self, path: str | os.PathLike[str], *, title: str | None = None, force: bool = False
+    ) -> Path:
+        """Write the page on which the linkages move, one HTML file that needs no network.
+
+        title: the heading, the file's name if not given.  Raises InputError E140 and E141.
+        """
+        from burmester.report import page  # noqa: PLC0415
+
+        files.require_free(path, force=force)
+        files.write(path, page(self, title or Path(path).stem), force=force)
+        return Path(path)
+
+    def __repr__(self) -> str:
+        warned = [f"{each.code}: {each.message}" for each in self.warnings]
+        return self._text([*best_sentences(self), *warned][:4])
+
+    def _repr_html_(self) -> str:
+        return self._html([*best_sentences(self), *(each.message for each in self.warnings)])
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class ReadResult(_Shown[ReadLinkage]):
+    """A result that was saved: where, its task, its outcome, and its linkages by rank."""
+
+    label: str
+    task: Task
+    outcome: Outcome
+    linkages: tuple[ReadLinkage, ...]
+
+    def _parts(self) -> tuple[Outcome, tuple[ReadLinkage, ...]]:
+        return self.outcome, self.linkages
+
+    def __repr__(self) -> str:
+        return self._text()
+
+    def _repr_html_(self) -> str:
+        return self._html()
+
+
+def read_result(source: str | os.PathLike[str]) -> ReadResult:
+    """What `Result.save` or `burmester synthesize -o` wrote.
+
+    Parameters
+    ----------
+    source : str or path
+        The file, "-" for standard input.
+
+    Returns
+    -------
+    ReadResult
+        Its linkages are not taken on trust: each is driven anew, and has to come as near to the
+        poses as the file says.
+
+    Raises
+    ------
+    InputError
+        E101 (not readable), E109 (not JSON), E150 (not of a synthesis), E152 (a linkage that does
+        not do what the file says).
+    """
+    read = saved.read_result(source)
+    linkages = tuple(map(ReadLinkage.of, read.linkages))
+    return ReadResult(read.label, read.task, read.outcome, linkages)

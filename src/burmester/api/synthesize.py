@@ -1,0 +1,122 @@
+"""From poses to linkages in one call."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from numpy.typing import ArrayLike
+
+from burmester.api.result import Result
+from burmester.errors import InputError
+from burmester.geometry.displacement import Displacement
+from burmester.synthesis import motion_generation
+from burmester.tasks.motion_task import AngleUnit, Task
+from burmester.tasks.options import Method, Norm, SynthesisOptions
+
+__all__ = ["synthesize"]
+
+
+def synthesize(
+    poses: Task | Displacement | ArrayLike,
+    method: Method = "auto",
+    *,
+    angle_unit: AngleUnit | None = None,
+    length_unit: str | None = None,
+    norm: Norm = "rms",
+    normalise: bool = True,
+    certify: bool = False,
+    length_per_radian: float | None = None,
+    manufacturing_tolerance: float | None = None,
+    rounding_step: float | None = None,
+    stock_lengths: Sequence[float] = (),
+) -> Result:
+    """Every four-bar that guides a body through or near poses, judged and ranked.
+
+    Parameters
+    ----------
+    poses : Task, Displacement or (N, 3) array_like
+        The motion.  Rows are x, y and angle of the body's frame M, seen in F.  Limits,
+        requirements, weights and exact poses are parts of a `Task`.
+    method : {"auto", "complete", "exact", "pencil"}
+        "complete" finds every locally best dyad of six poses or more; "exact" all dyads through
+        five; "pencil" is the paper's, for six or more; "auto" is exact for five conditions and
+        complete for more.
+    angle_unit : {"deg", "rad"}
+        The unit of the angles of rows; it is never guessed.  A `Displacement` has radians.
+    length_unit : str, optional
+        The unit of x and y, such as "mm".  It is shown, and decides the scale of drawings.
+    norm : {"rms", "worst"}
+        What is least: the sum of squared distances, or the greatest distance.
+    normalise : bool
+        False lets the pencil fit the numbers as they come, as the paper does.
+    certify : bool
+        Whether the completeness of the answer is proved, in ball arithmetic.
+    length_per_radian : float, optional
+        The length, in the task's unit, that counts as much as one radian of angle error; the
+        characteristic length of the task if not given.
+    manufacturing_tolerance : float, optional
+        How exactly links and pivots are built, a length: the spread of the errors is reported.
+    rounding_step : float, optional
+        Lengths and pivots are rounded to multiples of this length.
+    stock_lengths : sequence of float
+        The link lengths that are available.
+
+    Returns
+    -------
+    Result
+        Linkages by rank, with drawings, files and everything learnt on the way.
+
+    Raises
+    ------
+    InputError
+        E103 (not finite), E110 (rows without an angle unit), E112 (too large), E120 (too few
+        poses), E121 and E123 (the method does not take this task), E125 (no numbers, or of a
+        wrong shape), E130 (a library is missing), E132 (limits that no link can meet), E134 (an
+        option that makes no sense).
+
+    Examples
+    --------
+    >>> import burmester
+    >>> rows = [(-3.9696, -2.6338, 37.23), (-0.2223, -0.3211, 27.48), (3.3279, 3.9568, 8.17),
+    ...         (7.7225, 10.0149, -14.86), (5.7615, 18.8535, -25.64)]
+    >>> result = burmester.synthesize(rows, angle_unit="deg")
+    >>> print(result.outcome.message)
+    6 four-bars from 4 real dyads (of the 4 that five poses have), 3 of them usable
+    >>> [(linkage.id, linkage.type) for linkage in result.usable]
+    [('L1', 'crank-rocker'), ('L2', 'crank-rocker'), ('L3', 'rocker-crank')]
+    """
+    options = SynthesisOptions(
+        method,
+        norm,
+        normalise=normalise,
+        certify=certify,
+        length_per_radian=length_per_radian,
+        manufacturing_tolerance=manufacturing_tolerance,
+        rounding_step=rounding_step,
+        stock_lengths=stock_lengths,
+    )
+    task = _task(poses, angle_unit, length_unit)
+    return Result.of(motion_generation.synthesize(task, options))
+
+
+def _task(
+    poses: Task | Displacement | ArrayLike, angle_unit: AngleUnit | None, length_unit: str | None
+) -> Task:
+    """The task that poses of any kind make; E110 where the unit of angles is open or said twice."""
+    if not isinstance(poses, Task | Displacement):
+        return Task.from_rows(poses, angle_unit=angle_unit, length_unit=length_unit)
+    if angle_unit is not None:
+        raise InputError(
+            "E110",
+            f"the angles of a {type(poses).__name__} are radians, and need no angle_unit",
+            help="leave angle_unit out, or give rows of x, y and angle",
+        )
+    if isinstance(poses, Displacement):
+        return Task(poses, length_unit=length_unit)
+    if length_unit is not None:
+        raise InputError(
+            "E125",
+            "a Task has its length unit already",
+            help="leave length_unit out, or make the task with it",
+        )
+    return poses

@@ -1,0 +1,85 @@
+"""Linkages as lines of a table: for a prompt as text, for a notebook as HTML."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from html import escape
+
+from burmester.describe.digits import angle_error, degrees
+from burmester.io.saved import SavedLinkage
+from burmester.numerics.arrays import ROUNDING
+from burmester.tasks.motion_task import Task, characteristic_length
+from burmester.tasks.wording import least_angle, length_of
+
+__all__ = ["as_html", "as_line", "as_text"]
+
+HEADS = ("", "type", "dyads", "worst", "angle", "transm.", "")
+NUMBERS = range(3, 6)  # columns of numbers, set to the right
+
+
+def as_line(linkage: SavedLinkage) -> str:
+    """A linkage in one line: "L1: crank-rocker of D1 and D2, misses by ..."."""
+    first, second = linkage.ids
+    _, _, _, worst, angle, least, verdict = _cells(linkage)
+    if "-" in (worst, angle):
+        how = "cannot be assembled near every pose"
+    elif worst == angle == "exact":
+        how = "passes every pose exactly"
+    else:
+        how = f"misses by {worst} and {angle}"
+    sure = f", transmission angle {least} or more" if linkage.usable else f", {verdict}"
+    return f"{linkage.id}: {linkage.type} of {first} and {second}, {how}{sure}"
+
+
+def as_text(linkages: Sequence[SavedLinkage], most: int) -> list[str]:
+    """A line of heads and at most `most` lines of linkages, the last one a count of the rest."""
+    shown = linkages if len(linkages) <= most else linkages[: most - 1]
+    if not shown:
+        return []
+    rows = [HEADS, *map(_cells, shown)]
+    widths = [max(len(row[k]) for row in rows) for k in range(len(HEADS))]
+    lines = [
+        "  ".join(
+            cell.rjust(width) if k in NUMBERS else cell.ljust(width)
+            for k, (cell, width) in enumerate(zip(row, widths, strict=True))
+        ).rstrip()
+        for row in rows
+    ]
+    if len(shown) < len(linkages):
+        lines.append(f"and {len(linkages) - len(shown)} more")
+    return lines
+
+
+def as_html(linkages: Sequence[SavedLinkage]) -> str:
+    """A table element; the linkages that are not usable are paler."""
+
+    def row(cells: Sequence[str], tag: str, faint: bool = False) -> str:
+        inner = ""
+        for k, cell in enumerate(cells):
+            side = "right" if k in NUMBERS else "left"
+            inner += f'<{tag} style="text-align:{side}">{escape(cell)}</{tag}>'
+        return f'<tr style="opacity:.6">{inner}</tr>' if faint else f"<tr>{inner}</tr>"
+
+    body = "".join(row(_cells(each), "td", faint=not each.usable) for each in linkages)
+    return f"<table><thead>{row(HEADS, 'th')}</thead><tbody>{body}</tbody></table>"
+
+
+def _cells(linkage: SavedLinkage) -> tuple[str, ...]:
+    """One linkage by columns."""
+    error, task = linkage.error, linkage.task
+    return (
+        linkage.id,
+        linkage.type,
+        " ".join(linkage.ids),
+        _position(error.worst, task),
+        angle_error(float(error.angle.max())) if math.isfinite(error.worst) else degrees(math.nan),
+        least_angle(linkage.least_transmission),
+        "" if linkage.usable else "not usable",
+    )
+
+
+def _position(worst: float, task: Task) -> str:
+    if worst < ROUNDING * characteristic_length(task):
+        return "exact"
+    return length_of(worst, task)

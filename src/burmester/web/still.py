@@ -1,0 +1,167 @@
+"""A linkage at one of its poses as a still drawing: SVG as text, without any library.
+
+Ground and links are dark, the body is blue, the poses are red frames, the way of the body's origin
+is dashed.  Colours are chosen for light and dark pages alike.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from html import escape
+
+import numpy as np
+
+from burmester.fourbar.circuits import Circuits, circuit_of
+from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
+from burmester.fourbar.linkage import Linkage
+from burmester.geometry.displacement import Displacement
+from burmester.numerics.arrays import FloatArray
+
+__all__ = ["own_circuit", "still"]
+
+SIZE_PX = 420.0  # the longer side of the picture
+MARGIN = 0.07  # share of the drawing's size that stays free on each side
+SAMPLES = 361  # points of the coupler curve
+REACH = 1.2  # sizes of what is drawn beside it, from which on the coupler curve is cut off
+LINK, BODY, POSE, CURVE = "#5d6b7a", "#3f86d8", "#d0493c", "#8796a8"
+
+
+def still(linkage: Linkage, places: Displacement, poses: Displacement, title: str) -> str:
+    """An SVG of a linkage (its driver first) at the middle one of its places (N,) for poses (N,).
+
+    Places that do not exist are nan; where there is none at all only the poses are drawn.
+    """
+    there = np.flatnonzero(np.isfinite(places.angle))
+    shapes: list[tuple[str, FloatArray]] = [
+        _frame(poses[k], poses) for k in range(len(poses.angle))
+    ]
+    if len(there):
+        place = places[int(there[len(there) // 2])]
+        travel = places[there]
+        guides = [_guide(dyad, place, travel) for dyad in (linkage.first, linkage.second)]
+        corners = [place.translation, *(pin for _, pin in guides)]
+        shapes = [
+            (
+                f'fill="{BODY}" fill-opacity=".15" stroke="{BODY}" stroke-width="2"',
+                np.array(corners),
+            ),
+            *shapes,
+            *((f'fill="none" stroke="{LINK}" stroke-width="4"', ends) for ends, _ in guides),
+        ]
+        pins = [*_pivots(linkage, place)]
+        seen = np.concatenate([points for _, points in shapes])
+        shapes[:0] = [
+            (f'fill="none" stroke="{CURVE}" stroke-width="1.5" stroke-dasharray="2 4"', piece)
+            for piece in _curve(linkage, travel, seen)
+        ]
+    else:
+        pins = []
+    return _svg(shapes, pins, title)
+
+
+def _frame(pose: Displacement, poses: Displacement) -> tuple[str, FloatArray]:
+    """The axes of M at a pose, the x axis the longer one."""
+    size = max(0.08 * float(np.ptp(poses.translation, axis=0).max()), np.finfo(float).tiny)
+    axes = pose.act(np.array([[size, 0.0], [0.0, 0.0], [0.0, 0.6 * size]]))
+    return f'fill="none" stroke="{POSE}" stroke-width="2"', axes
+
+
+def _guide(dyad: Dyad, place: Displacement, travel: Displacement) -> tuple[FloatArray, FloatArray]:
+    """The ends (2, 2) of a link, rail or slot with the coupler at a place, and its corner there."""
+    match dyad:
+        case RR():
+            pin = place.act(dyad.moving_pivot)
+            return np.stack([dyad.fixed_pivot, pin]), pin
+        case PR():
+            along, foot = _line(dyad)
+            way = travel.act(dyad.moving_pivot) @ along
+            return foot + np.array([[way.min()], [way.max()]]) * along, place.act(dyad.moving_pivot)
+        case RP():
+            along, foot = _line(dyad)
+            way = travel.inverse().act(dyad.fixed_pivot) @ along
+            ends = place.act(foot + np.array([[way.min()], [way.max()]]) * along)
+            return ends, ends[0]
+        case PP():
+            here = place.translation
+            return np.stack([here, here]), here
+
+
+def _line(dyad: PR | RP) -> tuple[FloatArray, FloatArray]:
+    """The direction (2,) of a line and its foot (2,), the point nearest to the origin."""
+    c, s = float(np.cos(dyad.normal_angle)), float(np.sin(dyad.normal_angle))
+    return np.array([-s, c]), float(dyad.offset) * np.array([c, s])
+
+
+def _pivots(linkage: Linkage, place: Displacement) -> Iterable[tuple[FloatArray, bool]]:
+    """Pins and blocks in F, and whether they stand on the ground."""
+    for dyad in (linkage.first, linkage.second):
+        if isinstance(dyad, RR | RP):
+            yield dyad.fixed_pivot, True
+        if isinstance(dyad, RR | PR):
+            yield place.act(dyad.moving_pivot), False
+
+
+def own_circuit(linkage: Linkage, places: Displacement) -> int:
+    """The circuit, 0 or 1, on which most of the places (N,) are."""
+    on = circuit_of(linkage, places, as_given=True).circuit
+    return int(np.bincount(on[on >= 0], minlength=1).argmax())
+
+
+def _curve(linkage: Linkage, places: Displacement, near: FloatArray) -> list[FloatArray]:
+    """The way of the body's origin on the circuit of the places, in pieces near what is drawn."""
+    if isinstance(linkage.first, PP) or isinstance(linkage.second, PP):
+        return []
+    own = Circuits.of(linkage, as_given=True)[own_circuit(linkage, places)]
+    if not own.exists:
+        return []
+    low, high = near.min(axis=0), near.max(axis=0)
+    size = REACH * float((high - low).max())
+    if own.closed:
+        parameter = np.linspace(0.0, 2 * np.pi, SAMPLES)
+    elif own.drive.turns:
+        parameter = np.linspace(0.0, np.pi, SAMPLES)
+    else:
+        parameter = np.linspace(-2 * size, 2 * size, SAMPLES)
+    points = own.curve(np.zeros(2), parameter)
+    inside = np.isfinite(points).all(axis=-1) & (np.abs(points - (low + high) / 2) < size).all(
+        axis=-1
+    )
+    pieces = np.split(points, np.flatnonzero(np.diff(inside)) + 1)
+    first = bool(inside[0])
+    return [piece for k, piece in enumerate(pieces) if (k % 2 == 0) == first and len(piece) > 1]
+
+
+def _svg(
+    shapes: list[tuple[str, FloatArray]], pins: list[tuple[FloatArray, bool]], title: str
+) -> str:
+    every = np.concatenate([points for _, points in shapes] + [at[None] for at, _ in pins])
+    low, high = every.min(axis=0), every.max(axis=0)
+    size = max(float((high - low).max()), np.finfo(float).tiny)
+    scale = SIZE_PX / size / (1 + 2 * MARGIN)
+    low, high = low - MARGIN * size, high + MARGIN * size
+    width, height = scale * (high - low)
+
+    def at(point: FloatArray) -> tuple[float, float]:
+        x, y = scale * (point - low)
+        return float(x), float(height - y)
+
+    parts = []
+    for style, points in shapes:
+        steps = " ".join("{:.1f},{:.1f}".format(*at(point)) for point in points)
+        shape = "polygon" if "fill-opacity" in style else "polyline"
+        parts.append(f'<{shape} points="{steps}" {style} stroke-linejoin="round"/>')
+    for point, ground in pins:
+        x, y = at(point)
+        if ground:
+            foot = f"{x:.1f},{y:.1f} {x - 8:.1f},{y + 14:.1f} {x + 8:.1f},{y + 14:.1f}"
+            parts.append(f'<polygon points="{foot}" fill="{LINK}"/>')
+        parts.append(
+            f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4.5" fill="#fff" stroke="{LINK}" '
+            'stroke-width="2"/>'
+        )
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:.0f} {height:.0f}" '
+        f'width="{width:.0f}" height="{height:.0f}" role="img"><title>{escape(title)}</title>'
+        + "".join(parts)
+        + "</svg>"
+    )
