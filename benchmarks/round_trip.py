@@ -167,7 +167,7 @@ def random_linkage(rng, kind):
         if kind in ("slider-crank", "slider-rocker", "slot-crank"):
             linkage = Linkage(linkage.second, linkage.first)
         circuits = Circuits.of(linkage)
-        if circuits.exists.any() and circuits.drive.margin.flat[0] > AWAY:
+        if circuits.exists.any() and circuits.loop.margin.flat[0] > AWAY:
             return linkage
     raise RuntimeError(f"no {kind} has a circuit")
 

@@ -139,12 +139,12 @@ def compare(pair, rng, count):
     for k in range(count):
         if not len(rows[k]):
             # A sweep may step over a circuit that is nearly a point.
-            tiny = circuits.drive.margin[k, 0] < 1e-3
+            tiny = circuits.loop.margin[k, 0] < 1e-3
             none = tiny or not circuits.exists[k].any()
             verdicts[
                 "out of sight" if closes[k] else "cannot be assembled" if none else "MISSED"
             ] += 1
-    some = [k for k in range(count) if len(rows[k]) and circuits.drive.margin[k, 0] > 1e-3]
+    some = [k for k in range(count) if len(rows[k]) and circuits.loop.margin[k, 0] > 1e-3]
     verdicts["near a change point"] += count - len(some) - sum(not len(r) for r in rows)
     part = Linkage(linkage.first[some], linkage.second[some])
     number, branch, least, doubtful = cut_into_circuits(part, [rows[k] for k in some])
@@ -168,9 +168,9 @@ def compare(pair, rng, count):
 
 def limits_agree(circuit, walked):
     """Whether exact limits are those of a walk, whose ends are rounded off by its steps."""
-    exact = circuit.limits
+    exact = circuit.input_range
     shift = 0.0
-    if circuit.drive.turns:
+    if circuit.loop.turns:
         turn = 2 * np.pi
         shift = turn * np.round((np.mean(walked) - np.mean(exact)) / turn)
     miss = np.abs(exact + shift - walked)
@@ -192,11 +192,11 @@ def circuits_of(pair, seed, count=60):
     rng = np.random.default_rng([seed, PAIRS.index(pair)])
     linkage = random_linkages(pair, rng, count)
     every = Circuits.of(linkage)
-    which, number = np.nonzero(every.exists & (every.drive.margin > 1e-4))
+    which, number = np.nonzero(every.exists & (every.loop.margin > 1e-4))
     circuits = every[which, number]
     s = rng.uniform(0.3, 2.8, (len(which), 30))
     s = np.where(circuits.closed[:, None] & (rng.random(s.shape) < 0.5), s + np.pi, s)
-    s = np.where((circuits.closed | (circuits.course == HALF))[:, None], s, 2 * s - 3)
+    s = np.where((circuits.closed | (circuits.range_type == HALF))[:, None], s, 2 * s - 3)
     return circuits, Linkage(linkage.first[which], linkage.second[which]), s, number
 
 
@@ -242,7 +242,7 @@ def test_nothing_jumps_along_a_circuit(pair):
     """Second differences are small as squares, also at dead points and where a loop closes."""
     circuits, _, s, _ = circuits_of(pair, 3)
     middle = np.where(circuits.closed[:, None], np.array([0, np.pi, 2 * np.pi]), [-1, 0, 1])
-    middle = np.where((circuits.course == HALF)[:, None], [1, 1.5, 2], middle)
+    middle = np.where((circuits.range_type == HALF)[:, None], [1, 1.5, 2], middle)
     middle = np.concatenate([middle, s], axis=1)
     bends = []
     for h in (1e-3, 5e-4):
@@ -282,7 +282,7 @@ def test_long_curves_and_many_linkages_are_the_same_as_one_by_one():
 
 
 def test_every_course_is_met_here():
-    met = {int(course) for pair in PAIRS for course in circuits_of(pair, 1)[0].course}
+    met = {int(course) for pair in PAIRS for course in circuits_of(pair, 1)[0].range_type}
     assert met == set(range(1, 7))
 
 
@@ -297,7 +297,7 @@ def test_the_unit_of_length_does_not_matter(pair, unit):
     linkage = random_linkages(pair, np.random.default_rng(15), 40)
     mine = Circuits.of(linkage)
     other = Circuits.of(Linkage(in_unit(linkage.first), in_unit(linkage.second)))
-    assert np.array_equal(mine.course, other.course)
+    assert np.array_equal(mine.range_type, other.range_type)
     s = np.linspace(0.1, 3, 5)
     point = np.array([1.0, 2.0])
     mine, other = mine[mine.closed], other[other.closed]  # of open ones the parameter is a length
@@ -314,11 +314,11 @@ def test_assembled_against_a_driven_linkage(pair):
         drive = DrivenLoop.of(Linkage(*dyads))
         if pair[0] is RP:  # the witness drives the slot, and its angle tells our drive
             where, phi = places(*dyads, rng.uniform(-3, 3, 40))
-            ours = drive.assembled(phi + dyads[0].normal_angle)
+            ours = drive.closed_at(phi + dyads[0].normal_angle)
         else:
             x = rng.uniform(-3, 3, 40)
             where, phi = places(*dyads, x)
-            ours = drive.assembled(np.stack([x, x]))
+            ours = drive.closed_at(np.stack([x, x]))
         open_ = np.isnan(rows_of(ours))
         assert np.array_equal(open_.any(axis=-1), open_.all(axis=-1))
         both = np.isfinite(phi)
@@ -336,11 +336,11 @@ def test_limits_are_where_a_linkage_stops_to_close(pair):
     dead = circuits.branches == 2
     drive = DrivenLoop.of(linkage)
     for end, inwards in ((0, 1), (1, -1)):
-        limit = circuits.limits[:, end]
+        limit = circuits.input_range[:, end]
         there = dead & np.isfinite(limit)
         step = inwards * 1e-9 * (1 + np.abs(limit))[there]
         inside, on, outside = (
-            drive[there].assembled(limit[there] + k * step).angle for k in (1, 0, -1)
+            drive[there].closed_at(limit[there] + k * step).angle for k in (1, 0, -1)
         )
         assert np.isfinite(inside).all()
         assert np.isfinite(on).all()
@@ -359,7 +359,7 @@ def test_circuits_are_the_same_from_either_ground_link(pair):
     mine = Circuits.of(linkage)
     assert np.array_equal(mine.exists.sum(-1), other.exists.sum(-1))
     if pair not in ((PR, PR), (RP, RP)):
-        assert np.allclose(mine.drive.margin, other.drive.margin, rtol=1e-9, atol=1e-14)
+        assert np.allclose(mine.loop.margin, other.loop.margin, rtol=1e-9, atol=1e-14)
     twins = mine.exists.all(axis=-1)
     for k in np.flatnonzero(twins[:-1] & (number[:-1] == 0) & (number[1:] == 1)):
         assert found.circuit[k, 0] != found.circuit[k + 1, 0]
@@ -397,7 +397,7 @@ def test_a_change_point_is_said_and_nothing_guessed(name):
     linkage = CHANGE[name]
     for either in (linkage, Linkage(linkage.second, linkage.first)):
         circuits = Circuits.of(either)
-        assert circuits.undecided.all()
+        assert circuits.near_change_point.all()
         assert not circuits.exists.any()
         place = Displacement.from_poses(np.zeros((3, 3)))
         assert (circuit_of(either, place).circuit == -1).all()
@@ -425,7 +425,7 @@ def test_a_change_point_as_given_has_places_with_no_gaps(name):
     linkage = Linkage(first, second)
     for either in (CHANGE[name], linkage, Linkage(linkage.second, linkage.first)):
         every = Circuits.of(either, as_given=True)
-        assert every.undecided.all()
+        assert every.near_change_point.all()
         assert every.exists[0] == (name not in NOTHING_AS_GIVEN)
         for number in np.flatnonzero(every.exists):
             circuit = every[number]
@@ -470,7 +470,7 @@ def test_elsewhere_as_given_is_the_same():
     for index, pair in enumerate(PAIRS):
         linkage = random_linkages(pair, np.random.default_rng([16, index]), 40)
         one, other = Circuits.of(linkage), Circuits.of(linkage, as_given=True)
-        assert np.array_equal(one.course, other.course)
+        assert np.array_equal(one.range_type, other.range_type)
         s = np.linspace(0.1, 3, 5)
         assert np.array_equal(rows_of(one.couplers(s)), rows_of(other.couplers(s)), equal_nan=True)
         place = one[:, 0].couplers(s)
@@ -484,8 +484,8 @@ def test_a_tie_does_not_flip_by_the_last_digit(seed):
     s, p, q = rng.uniform(0.5, 2, 3)
     lengths = np.array([s, p, q, abs(p + q - s)])[rng.permutation(4)]
     nudged = np.nextafter(lengths, rng.choice([-9, 9], 4))
-    assert Circuits.of(four_bar(*lengths)).undecided.all()
-    assert Circuits.of(four_bar(*nudged)).undecided.all()
+    assert Circuits.of(four_bar(*lengths)).near_change_point.all()
+    assert Circuits.of(four_bar(*nudged)).near_change_point.all()
 
 
 def test_links_changed_by_less_than_the_margin_keep_the_number_of_circuits():
@@ -493,7 +493,7 @@ def test_links_changed_by_less_than_the_margin_keep_the_number_of_circuits():
     for _ in range(100):
         lengths = rng.uniform(0.2, 3, 4)
         before = Circuits.of(four_bar(*lengths))
-        room = before.drive.margin[0] * lengths.sum()
+        room = before.loop.margin[0] * lengths.sum()
         change = rng.normal(size=4)
         change *= room / np.abs(change).sum()
         inside, outside = (Circuits.of(four_bar(*(lengths + k * change))) for k in (0.999, -0.999))
@@ -501,17 +501,18 @@ def test_links_changed_by_less_than_the_margin_keep_the_number_of_circuits():
         # By so much in the worst direction, there is a change point, or a link is no more.
         signs = np.array(list(product((-1, 1), repeat=4)))
         worst = lengths + signs * room / 4
-        assert Circuits.of(four_bar(*worst.T)).undecided.any() or np.isclose(room, lengths.min())
+        tied = Circuits.of(four_bar(*worst.T)).near_change_point.any()
+        assert tied or np.isclose(room, lengths.min())
 
 
 def test_a_linkage_that_cannot_be_assembled_has_no_circuit():
     linkage = four_bar(10.0, 1.0, 1.0, 1.0)
     circuits = Circuits.of(linkage)
     assert not circuits.exists.any()
-    assert not circuits.undecided.any()
-    assert np.isnan(circuits.limits).all()
+    assert not circuits.near_change_point.any()
+    assert np.isnan(circuits.input_range).all()
     assert np.isnan(circuits.curve([0.0, 1.0], np.linspace(0, 6, 5))).all()
-    assert np.isnan(rows_of(DrivenLoop.of(linkage).assembled(np.linspace(0, 6, 5)))).all()
+    assert np.isnan(rows_of(DrivenLoop.of(linkage).closed_at(np.linspace(0, 6, 5)))).all()
     assert np.isnan(rows_of(circuits.couplers(np.linspace(0, 6, 5)))).all()
 
 
@@ -531,7 +532,7 @@ def test_grashofs_classes_and_their_circuits():
 
 
 def test_dead_points_of_a_triple_rocker_by_the_cosine_law():
-    low, high = Circuits.of(four_bar(5.0, 2.0, 2.0, 2.5)).limits[0]
+    low, high = Circuits.of(four_bar(5.0, 2.0, 2.0, 2.5)).input_range[0]
     reach = 2.0 + 2.5  # the coupler and the follower in one line
     angle = np.arccos((25 + 4 - reach**2) / 20)
     assert np.allclose(np.sort(np.cos([low, high])), np.cos(angle))
@@ -543,11 +544,11 @@ def test_dragged_at_random_it_never_flips(pair):
     """Any jump of the drive: the loop stays closed, on the same circuit and branch."""
     circuits, linkage, _, number = circuits_of(pair, 21)
     rng = np.random.default_rng(21)
-    low, high = (np.nan_to_num(circuits.limits[:, k], neginf=-5, posinf=5) for k in (0, 1))
+    low, high = (np.nan_to_num(circuits.input_range[:, k], neginf=-5, posinf=5) for k in (0, 1))
     width = (high - low)[:, None]
     drive = rng.uniform(low[:, None] - width / 2, high[:, None] + width / 2, (len(low), 60))
     for branch in (0, 1):
-        place = circuits.held(drive, branch)
+        place = circuits.at_inputs(drive, branch)
         rows = rows_of(place)
         for k in range(len(rows)):
             one = Linkage(linkage.first[k], linkage.second[k])
@@ -557,7 +558,7 @@ def test_dragged_at_random_it_never_flips(pair):
             # It goes to where it is asked to, or stops at a limit.
             reached = driven(one.first, rows[k])
             off = reached - drive[k]
-            if circuits.drive.turns:
+            if circuits.loop.turns:
                 off = (off + np.pi) % (2 * np.pi) - np.pi
             stopped = np.minimum(
                 *(
@@ -596,7 +597,7 @@ def test_velocity_against_differences(pair):
     step = gap(rows_of(two[1]), rows_of(two[0]))
     x = [np.stack([driven(linkage.first[k], r) for k, r in enumerate(rows_of(p))]) for p in two]
     speed = x[1] - x[0]
-    if circuits.drive.turns:
+    if circuits.loop.turns:
         speed = (speed + np.pi) % (2 * np.pi) - np.pi
     wanted = step / speed[..., None]
     size = np.linalg.norm(wanted, axis=-1, keepdims=True)
@@ -673,7 +674,7 @@ def test_transmission_angle_by_the_cosine_law():
         g, r, a, b = rng.uniform(0.5, 3, 4)
         linkage = four_bar(g, r, a, b)
         x = rng.uniform(-np.pi, np.pi, 20)
-        found = transmission_angle(linkage, DrivenLoop.of(linkage).assembled(x))
+        found = transmission_angle(linkage, DrivenLoop.of(linkage).closed_at(x))
         squared = g * g + r * r - 2 * g * r * np.cos(x)
         with np.errstate(invalid="ignore"):
             wanted = np.arccos(np.abs((a * a + b * b - squared) / (2 * a * b)))
@@ -687,14 +688,14 @@ def test_transmission_angle_of_a_slider_crank_by_the_book():
     r, a, offset = 1.0, 3.0, 0.4
     linkage = Linkage(RR([0, 0], [0, 0], r), PR(0.5 * np.pi, offset, [a, 0]))
     x = np.linspace(0, 6, 40)
-    found = transmission_angle(linkage, DrivenLoop.of(linkage).assembled(x))
+    found = transmission_angle(linkage, DrivenLoop.of(linkage).closed_at(x))
     pressure = np.abs(np.arcsin((r * np.sin(x) - offset) / a))
     assert np.allclose(found, (np.pi / 2 - pressure)[:, None])
 
 
 def test_a_slot_through_the_driving_pin_transmits_best():
     linkage = Linkage(RR([0, 0], [0, 0], 1.0), RP([2.0, 0], 0.5, 0.0))
-    place = DrivenLoop.of(linkage).assembled(np.linspace(0, 6, 40))
+    place = DrivenLoop.of(linkage).closed_at(np.linspace(0, 6, 40))
     assert np.allclose(transmission_angle(linkage, place), np.pi / 2)
 
 
@@ -761,7 +762,7 @@ def test_parallel_rails_carry_the_body_in_two_circuits_or_not_at_all():
     assert (np.ptp(place.angle, axis=-1) < 1e-12).all()
     too_far = Circuits.of(Linkage(PR(0.3, 1.0, [0, 0]), PR(0.3, 4.0, [2.0, 0])))
     assert not too_far.exists.any()
-    assert not too_far.undecided.any()
+    assert not too_far.near_change_point.any()
 
 
 @pytest.mark.parametrize("second", [RR([0, 0], [1, 0], 1.0), RP([0, 0], 0.0, 1.0), PP(0.0)])
@@ -780,7 +781,7 @@ def test_margins_fall_to_nothing_at_a_dead_point():
     assert (np.diff(found.branch_margin) < 0).all()
     assert found.branch_margin[-1] < 1e-7
     assert (found.branch == 0).all()
-    assert np.allclose(found.circuit_margin, Circuits.of(linkage).drive.margin[0])
+    assert np.allclose(found.circuit_margin, Circuits.of(linkage).loop.margin[0])
 
 
 @all_pairs
@@ -792,7 +793,7 @@ def test_the_drive_along_a_circuit_is_the_joint_s_own_coordinate_and_never_jumps
         low, high = (0.3, 2 * np.pi - 0.3) if own.closed else (0.05, np.pi - 0.05)
         s = np.linspace(low, high, 4001)
         where = own.couplers(s)
-        drive = own.drives(s, where)
+        drive = own.inputs(s, where)
         if isinstance(first, PR):  # n . X = offset, and the drive runs along n turned
             pin = where.act(first.moving_pivot)
             n = np.array([np.cos(first.normal_angle), np.sin(first.normal_angle)])

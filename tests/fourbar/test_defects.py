@@ -22,7 +22,8 @@ from burmester.fourbar.defects import judge
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.pose_error import PoseError
-from burmester.fourbar.traversal import REPEATED, STEP_BACK, TOO_CLOSE
+from burmester.fourbar.pose_order import CERTAIN_STEP_BACK, REPEATED_POSE_STEP
+from burmester.fourbar.traversal import DEAD_POINT_ANGLE
 from burmester.geometry.displacement import Displacement
 from tests.fourbar.test_circuits import (
     CHANGE,
@@ -237,7 +238,7 @@ def agree(found, poses, verdict, side):
     branch = [d for d in mine.defects if d.kind == "branch"]
     order = [d for d in mine.defects if d.kind == "order"]
     u, turns = walk.drives[side], not isinstance(dyads[0], PR)
-    miss = mine.drive[on] - u[at]
+    miss = mine.inputs[on] - u[at]
     if turns:
         miss = (miss + np.pi) % (2 * np.pi) - np.pi
     travel = np.ptp(np.unwrap(u[stretch]) if turns else u[stretch])
@@ -250,9 +251,9 @@ def agree(found, poses, verdict, side):
         "ORDER": bool(order) != good,
         "SEQUENCE": not order or order[0].message.endswith(" " + met),
         "FULL TURN": mine.turns_fully == full,
-        "DRIVE": np.abs(miss).max() < 1e-6 and np.isfinite(mine.drive).sum() == len(on),
-        "TRAVEL": locks or abs(np.ptp(mine.travel) - travel) < 1e-6 * (1 + travel),
-        "FIRST": locks or np.isclose(mine.travel[0], np.nanmin(mine.drive), atol=1e-9),
+        "DRIVE": np.abs(miss).max() < 1e-6 and np.isfinite(mine.inputs).sum() == len(on),
+        "TRAVEL": locks or abs(np.ptp(mine.input_range) - travel) < 1e-6 * (1 + travel),
+        "FIRST": locks or np.isclose(mine.input_range[0], np.nanmin(mine.inputs), atol=1e-9),
         # A step of a walk is 0.05 at the most, and the least may be within one.
         "LEAST": least - 5e-3 < mine.least_over_range < least + (1e-6 if locks else 1e-9),
         "AT POSES": np.isclose(mine.least_at_poses, force_at(found, poses, side).min()),
@@ -265,7 +266,7 @@ def _excused(mine, u, least):
     branch = [d for d in mine.defects if d.kind == "branch" and not d.certain]
     order = [d for d in mine.defects if d.kind == "order" and not d.certain]
     apart = np.abs(np.subtract.outer(u, u)) + np.eye(len(u))
-    good = (not branch or least < TOO_CLOSE + 5e-3) and (not order or apart.min() < 1e-4)
+    good = (not branch or least < DEAD_POINT_ANGLE + 5e-3) and (not order or apart.min() < 1e-4)
     return "too close" if good else "CALLED TOO CLOSE FOR NOTHING"
 
 
@@ -282,7 +283,7 @@ def compare(pair, rng, count):
     """Hold the verdicts on `count` random linkages of a pair against walks; what came of each."""
     linkage = random_linkages(pair, rng, count)
     rows = [some_places(linkage.first[k], linkage.second[k], rng)[0] for k in range(count)]
-    margin = Circuits.of(linkage).drive.margin[:, 0]
+    margin = Circuits.of(linkage).loop.margin[:, 0]
     some = [k for k in range(count) if len(rows[k]) and margin[k] > 1e-3]
     linkage = Linkage(linkage.first[some], linkage.second[some])
     every = walks_of(linkage, [rows[k] for k in some])
@@ -485,13 +486,13 @@ def test_order_round_a_crank():
 def test_the_range_goes_the_way_of_the_poses():
     way = at_parameters(CRANK, [5, 6, 1, 2]).first
     assert np.allclose(way.parameter, [5, 6, 1 + 2 * np.pi, 2 + 2 * np.pi])
-    assert np.isclose(np.ptp(way.travel), 2 * np.pi - 3)
+    assert np.isclose(np.ptp(way.input_range), 2 * np.pi - 3)
     back = at_parameters(CRANK, [0.5, 4.5, 2.5]).first  # the long way, though a shorter holds all
-    assert np.isclose(np.ptp(back.travel), 2 * np.pi - 2)
+    assert np.isclose(np.ptp(back.input_range), 2 * np.pi - 2)
     assert back.parameter[0] > back.parameter[1] > back.parameter[2]
     smallest = at_parameters(CRANK, [0.5, 4.5, 1.5, 5.5], any_order=True).first
-    assert np.isclose(np.ptp(smallest.travel), 2 * np.pi - 3)
-    assert np.isclose(np.ptp(at_parameters(CRANK, [1, 3, 5, 1]).first.travel), 2 * np.pi)
+    assert np.isclose(np.ptp(smallest.input_range), 2 * np.pi - 3)
+    assert np.isclose(np.ptp(at_parameters(CRANK, [1, 3, 5, 1]).first.input_range), 2 * np.pi)
 
 
 def test_order_on_a_branch_and_past_a_dead_point():
@@ -518,7 +519,8 @@ def test_the_same_pose_twice_has_no_order():
             poses = rows_of(Circuits.of(linkage)[0].couplers(s))
             poses = poses + 1e-9 * rng.normal(size=poses.shape)
             assert not one_verdict(linkage.first, linkage.second, poses).first.defects
-    for step, certain in ((REPEATED / 2, None), (STEP_BACK / 2, False), (2 * STEP_BACK, True)):
+    steps = (REPEATED_POSE_STEP / 2, CERTAIN_STEP_BACK / 2, 2 * CERTAIN_STEP_BACK)
+    for step, certain in zip(steps, (None, False, True), strict=True):
         for linkage in (CRANK, ROCKER):
             found = said(at_parameters(linkage, [0.7, 1.0, 1.0 - step, 2]).first.defects)
             assert [c for _, _, c in found] == ([] if certain is None else [certain])
@@ -547,9 +549,9 @@ def test_a_crank_goes_the_other_way_round_where_that_is_allowed():
         way = at_parameters(tight, s, **options).first
         assert not way.defects
         assert way.least_over_range > 0.1
-        assert np.isclose(np.ptp(way.travel), 6 - room)
+        assert np.isclose(np.ptp(way.input_range), 6 - room)
     short = at_parameters(CRANK, [6, 0.5]).first
-    assert np.isclose(np.ptp(short.travel), 2 * np.pi - 5.5)
+    assert np.isclose(np.ptp(short.input_range), 2 * np.pi - 5.5)
 
 
 # Assembly -----------------------------------------------------------------------------------------
@@ -783,7 +785,7 @@ def test_many_linkages_are_judged_as_one_by_one():
             assert said(kinds_of(one)) == said(kinds_of(verdict))
             for a, b in ((one.first, verdict.first), (one.second, verdict.second)):
                 assert np.array_equal(a.parameter, b.parameter, equal_nan=True)
-                assert np.array_equal(a.travel, b.travel, equal_nan=True)
+                assert np.array_equal(a.input_range, b.input_range, equal_nan=True)
                 assert np.array_equal(a.least_over_range, b.least_over_range, equal_nan=True)
 
 

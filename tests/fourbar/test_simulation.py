@@ -81,7 +81,7 @@ def test_the_motor_stalls_at_the_dead_points(kind):
     rng = np.random.default_rng([5, LOCKED.index(kind)])
     linkage, poses, where = driven_case(kind, rng)
     rows = rows_of(poses)
-    limits = Circuits.of(linkage)[int(where.circuit[0])].limits
+    limits = Circuits.of(linkage)[int(where.circuit[0])].input_range
     start, unit = coordinates(linkage.first, rows[0])[0], 1.0
     if isinstance(linkage.first, PR):
         unit = np.hypot(*np.ptp(poses.translation, axis=0))
@@ -112,7 +112,7 @@ def test_poses_beyond_a_dead_point_are_not_met(kind):
     # Straight from pose to pose, within the range that a branch has.
     targets = np.array([coordinates(case.linkage.first, row)[0] for row in rows])
     if not isinstance(case.linkage.first, PR):
-        middle = Circuits.of(case.linkage)[int(where.circuit[0])].limits.mean()
+        middle = Circuits.of(case.linkage)[int(where.circuit[0])].input_range.mean()
         targets = np.angle(np.exp(1j * (targets - middle)))
         targets += coordinates(case.linkage.first, rows[0])[0] - targets[0]
     run = driven(case.linkage, rows, targets)

@@ -98,7 +98,7 @@ def test_drives_are_those_the_linkage_is_assembled_at(pair):
     for _ in range(20):
         linkage = Linkage(a_dyad(pair[0], rng), a_dyad(pair[1], rng))
         drive = rng.uniform(-3, 3, 10)
-        both = DrivenLoop.of(linkage).assembled(drive)
+        both = DrivenLoop.of(linkage).closed_at(drive)
         stack = LinkageBatch.of([linkage])
         for side in (0, 1):
             at = both.translation[:, side], both.angle[:, side]

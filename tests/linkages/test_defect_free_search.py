@@ -355,7 +355,7 @@ def test_what_is_asked_is_so(asked):
                 assert sums < 0
                 assert links.argmin() in {1, 2}
             if asked == "footprint":
-                sweep = np.linspace(*found.driven.travel, 500)
+                sweep = np.linspace(*found.driven.input_range, 500)
                 spots = [led.first.fixed_pivot, led.second.fixed_pivot]
                 at = found.error.places
                 for side in (0, 1):

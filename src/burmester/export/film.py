@@ -71,7 +71,7 @@ class Film:
         """Where the driver is in a picture."""
         travel = self.travel
         value = float(travel.drive[number])
-        if not travel.circuit.drive.turns:
+        if not travel.circuit.loop.turns:
             return with_unit(f"driver {value:.4g}".replace("-", "−"), self.chosen.unit)
         return f"driver {math.degrees(value) % 360 if travel.round else math.degrees(value):5.1f}°"
 

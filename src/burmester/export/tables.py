@@ -42,7 +42,7 @@ def write_csv(chosen: SavedLinkage, path: Path, options: Options) -> None:
     marked += [(share, number + 1) for number, share in poses.items()]
     marked.sort()
     way = Travel.of(chosen, np.array([share for share, _ in marked]))
-    turns = way.circuit.drive.turns
+    turns = way.circuit.loop.turns
     drive = np.degrees(way.drive) if turns else way.drive
     unit = _unit(chosen, options)
     in_unit = f"_{unit}" if unit else ""

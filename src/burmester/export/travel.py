@@ -105,7 +105,7 @@ class Travel:
             driven.circuit,
             parameter,
             Displacement(places.translation, angle),
-            own.drives(parameter, places) - TURN * _turns(own, start),
+            own.inputs(parameter, places) - TURN * _turns(own, start),
             sense * (s - start) / length,
             driven.turns_fully,
             bool(whole and driven.turns_fully),
@@ -155,10 +155,10 @@ def _driven(chosen: SavedLinkage) -> Driven:
 
 def _turns(own: Circuits, start: float) -> float:
     """The whole turns of the driver at a parameter."""
-    if not own.drive.turns:
+    if not own.loop.turns:
         return 0.0
     at = np.array([start])
-    return float(np.floor(own.drives(at, own.couplers(at))[0] / TURN))
+    return float(np.floor(own.inputs(at, own.couplers(at))[0] / TURN))
 
 
 def _poses(count: int) -> str:

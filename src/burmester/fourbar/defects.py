@@ -1,38 +1,44 @@
-"""What keeps a linkage from leading its coupler through the poses: a verdict, and its reasons.
+"""Defects: the reasons why a linkage does not lead its coupler through the poses.
 
 Chase and Mirth's defects (Circuits and branches of single-degree-of-freedom planar linkages,
-Journal of Mechanical Design 115, 1993): it cannot be assembled at a pose; the poses are on
-different circuits; between two poses a drive locks at a dead point; they are met in another
-order.  Everything comes from the exact circuits (see `passage`), nothing from sampling.
+Journal of Mechanical Design 115, 1993): assembly (the linkage cannot be assembled at a pose),
+circuit (the poses are on different circuits), branch (the driver locks at a dead point between
+two poses), order (the poses come in another order).  All verdicts come from the exact circuits
+(see `traversal`), none from sampling.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
-from typing import Final, Literal, NamedTuple, final
+from typing import final
 
 import numpy as np
-from numpy.typing import NDArray
 
+from burmester.fourbar.defect_messages import (
+    Defect,
+    DefectKind,
+    PoseNames,
+    assembly_defects,
+    branch_defect,
+    circuit_defect,
+    near_dead_point_defect,
+    order_defect,
+    undetermined_defect,
+)
 from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.pose_order import REPEATED_POSE_STEP, BoolArray, OrderTolerance
 from burmester.fourbar.traversal import (
-    REPEATED,
-    STEP_BACK,
-    TOO_CLOSE,
-    BoolArray,
-    Passage,
-    Range,
-    Seen,
-    detour,
-    first_of,
-    passage,
-    range_of,
+    DEAD_POINT_ANGLE,
+    DrivenView,
+    Traversal,
+    first_where,
+    other_way_round,
+    pose_range,
+    traversal_of,
 )
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
-from burmester.wording import listed, shortened
 
 __all__ = [
     "Defect",
@@ -42,48 +48,29 @@ __all__ = [
     "judge",
 ]
 
-DefectKind = Literal["assembly", "circuit", "branch", "order"]
-
-MOST: Final = 12  # poses, or ways between them, that a message lists
-
-
-@final
-@dataclass(frozen=True, slots=True, eq=False)
-class Defect:
-    """Why a linkage does not lead through the poses.
-
-    poses: the numbers, from 0, of those that it is about: missed; on the lesser circuit; on both
-    sides of a dead point; met out of turn.
-    certain: False where it is too close to call.
-    """
-
-    kind: DefectKind
-    message: str
-    poses: tuple[int, ...]
-    certain: bool = True
-
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
 class Driven:
-    """How a linkage does when one of its dyads drives, between the first and the last pose.
+    """The motion of a linkage between the first and the last pose, driven by one of its dyads.
 
     defects: branch and order.
-    circuit: the number, in `Circuits.of` of this drive and as given, of the circuit with the most
-        poses (of two with as many, the one met first); -1 where nothing can be told.
-    turns_fully: whether the drive turns round and round there, without dead points.
-    transmission: (N,), at the poses, on whichever circuit; nan where there is no place.
+    circuit: the number, in `Circuits.of` of this driver and as given, of the circuit with the most
+        poses (of two with the same number, the one with the first pose); -1 if undetermined.
+    turns_fully: whether the driver turns through full turns there, without dead points.
+    transmission: (N,), transmission angles at the poses, radians, on either circuit; nan where
+        there is no place.
     least_at_poses: the least of these.
     least_over_range: the least over the range between the poses of that circuit: exact, not
         sampled.
-    parameter: (N,) along the circuit, see `Circuits`, unwrapped along the journey; nan for poses
-        that are not on it.
-    drive: (N,) the drive's coordinate (see `DrivenLoop`) along the journey, radians or a length.
-    travel: (2,) the least and the greatest drive in that range.
+    parameter: (N,), of the poses along the circuit (see `Circuits`), unwrapped; nan for poses off
+        the circuit.
+    inputs: (N,), of the driver (see `loop_closure`) at the poses, unwrapped, radians or a length.
+    input_range: (2,), the least and the greatest input in that range.
 
-    Where the poses are met in their order, the range runs through them in that order.  Else it is
-    the smallest that holds them all.  Where it can be had in either sense, or in any order, another
-    is taken instead of one that comes too close to locking.
+    Where the poses come in their order, the range runs through them in that order.  Else it is
+    the smallest range that contains them all.  Where either sense, or any order, is allowed, a
+    range that stays clear of dead points is preferred.
     """
 
     defects: tuple[Defect, ...]
@@ -92,8 +79,8 @@ class Driven:
     transmission: FloatArray
     least_at_poses: float
     least_over_range: float
-    drive: FloatArray
-    travel: FloatArray
+    inputs: FloatArray
+    input_range: FloatArray
     parameter: FloatArray
 
 
@@ -102,8 +89,8 @@ class Driven:
 class Verdict:
     """The defects of one linkage.
 
-    defects: assembly and circuit, whichever dyad drives.
-    first, second: the rest, driven by the first and by the second dyad.
+    defects: assembly and circuit, which do not depend on the driver.
+    first, second: the motion driven by the first and by the second dyad.
     """
 
     defects: tuple[Defect, ...]
@@ -121,236 +108,109 @@ def judge(
     names: Sequence[str] | None = None,
     any_order: bool = False,
 ) -> list[Verdict]:
-    """The verdicts on linkages (k,) of one pair of kinds, RR, PR or RP, from either driver.
+    """The verdicts on linkages (k,) of one pair of kinds, RR, PR or RP, for either driver.
 
     places: (k, N), the coupler's places nearest to the poses, in their order; nan where there is
         none: such poses are left out of the other verdicts.
-    missed: (k, N), how far each pose is from its place; by more than `reach` is an assembly
-        defect.  Both in the unit in which distances between poses are taken.
-    length: what a radian counts as in `missed`; None takes the poses as met, whatever they are
-        missed by.
-    names: what messages call the poses, instead of their numbers from 1.
+    missed: (k, N), the distances of the poses from their places; a distance above `reach` is an
+        assembly defect.  Both in the unit in which distances between poses are measured.
+    length: the length that a radian counts as in `missed`; None: the poses have an order however
+        far they are missed.
+    names: names of the poses in messages, instead of their numbers from 1.
     any_order: whether the poses may be met in any order.
 
-    A branch defect is certain, but within TOO_CLOSE of a dead point: there, and wherever a
-    linkage is within 1e-9 of a change point and passes it, it is called with certain=False.  Such
-    a linkage is taken as given (see `Circuits.of`); its poses on one piece between change points
-    make no defect.  Order is judged along the branch or, where a drive turns fully, in either
-    sense within one turn; with a branch defect, along the circuit, as it would be with help over
-    the dead point.  Poses that lie less than REPEATED apart have no order, nor do those that lie
-    nearer to each other along the circuit than twice the greatest miss: met half way between, each
-    would be missed along the circuit by no more than some pose is across it.  A step back of less
-    than STEP_BACK is an order defect that is not certain.
+    A branch defect is certain except within DEAD_POINT_ANGLE of a dead point, and where a linkage
+    within 1e-9 of a change point passes it.  Such a linkage is taken as given (see `Circuits.of`);
+    poses on one piece of it between change points make no defect.
+
+    Order is judged along the branch or, where the driver turns fully, in either sense within one
+    turn; with a branch defect, along the circuit, as if the linkage were helped over the dead
+    point.  Poses less than REPEATED_POSE_STEP apart have no order.  Nor do poses nearer to each
+    other along the circuit than twice the greatest distance by which a pose is missed: at the place
+    half way between them each would be missed by no more than that.  A step back of less than
+    CERTAIN_STEP_BACK is an order defect that is not certain.
     """
     sides = (linkage, Linkage(linkage.second, linkage.first))
-    seen = [Seen.of(side, places) for side in sides]
-    change = seen[0].circuits.undecided[:, 0]
-    found = np.isfinite(places.angle) & np.isfinite(places.translation).all(axis=-1)
-    one, other = (side.location.circuit for side in seen)
+    views = [DrivenView.of(side, places) for side in sides]
+    change = views[0].circuits.near_change_point[:, 0]
+    assembled = np.isfinite(places.angle) & np.isfinite(places.translation).all(axis=-1)
+    one, other = (view.location.circuit for view in views)
     labels = np.where(one < 0, other, one)
-    least = np.fmin(seen[0].transmission, seen[1].transmission)
-    weak = change[:, None] & (least < TOO_CLOSE)
-    clear = found & (labels >= 0) & ~weak
+    least = np.fmin(views[0].transmission, views[1].transmission)
+    weak = change[:, None] & (least < DEAD_POINT_ANGLE)
+    clear = assembled & (labels >= 0) & ~weak
     count = np.stack([(clear & (labels == number)).sum(axis=1) for number in (0, 1)])
-    first_met = np.take_along_axis(labels, first_of(clear, found)[:, None], axis=1)[:, 0]
+    first_met = np.take_along_axis(labels, first_where(clear, assembled)[:, None], axis=1)[:, 0]
     main = np.where(count[0] == count[1], first_met, count[1] > count[0])
-    on = found & ((labels == main[:, None]) | weak)
+    on = assembled & ((labels == main[:, None]) | weak)
 
-    called = _Names(names)
-    common: list[list[Defect]] = [[] for _ in found]
-    far = ~(missed <= reach) | ~found
+    pose_names = PoseNames(names)
+    common: list[list[Defect]] = [[] for _ in assembled]
+    far = ~(missed <= reach) | ~assembled
     for k in np.flatnonzero(far.any(axis=1)):
-        common[k] += _assembly(far[k], found[k], missed[k], called)
+        common[k] += assembly_defects(far[k], assembled[k], missed[k], pose_names)
     for k in np.flatnonzero((count > 0).all(axis=0)):
-        defect = _circuit(clear[k], labels[k], change[k], any_order, called)
-        lesser = _numbers(clear[k] & (labels[k] != main[k]))
-        common[k].append(Defect("circuit", defect, lesser, not change[k]))
-    loose = np.zeros(len(found))
+        common[k].append(
+            circuit_defect(
+                clear[k],
+                labels[k],
+                int(main[k]),
+                change=bool(change[k]),
+                any_order=any_order,
+                names=pose_names,
+            )
+        )
+    distance = np.zeros(len(assembled))
     if length is not None:
-        loose = 2 * np.where(found, np.minimum(missed, reach), 0.0).max(axis=1)
+        distance = 2 * np.where(assembled, np.minimum(missed, reach), 0.0).max(axis=1)
+    tolerance = OrderTolerance(distance, length or 0.0)
     first, second = (
-        _driven(side, each, on, (loose, length or 0.0), any_order, called)
-        for side, each in zip(sides, seen, strict=True)
+        _driven(traversal_of(side, view, on, tolerance, any_order), view, on, any_order, pose_names)
+        for side, view in zip(sides, views, strict=True)
     )
     return [
         Verdict(tuple(defects), a, b) for defects, a, b in zip(common, first, second, strict=True)
     ]
 
 
-def _driven(  # noqa: PLR0917
-    linkage: Linkage,
-    seen: Seen,
+def _driven(
+    traversal: Traversal,
+    view: DrivenView,
     on: BoolArray,
-    loose: tuple[FloatArray, float],
     any_order: bool,
-    called: _Names,
+    names: PoseNames,
 ) -> list[Driven]:
-    """The verdicts on linkages (k,) with one driver, from the poses (k, N) on their circuit.
+    """The motions of linkages (k,) with one driver; on: the poses (k, N) that are judged."""
+    traversal, ranged = other_way_round(traversal, pose_range(traversal, view), view, any_order)
+    on_circuit, circuits, order = traversal.on_circuit, traversal.circuits, traversal.order
+    parameter = np.where(on_circuit, order.along, np.nan)
+    some = on_circuit.any(axis=1)
+    turns_fully = circuits.closed & (circuits.branches == 1) & some
+    lowest = np.fmin.reduce(view.transmission, axis=1)
 
-    loose: the distances (k,) within which poses have no order, and what a radian counts as there.
-    """
-    journey = passage(linkage, seen, on, loose, any_order)
-    journey, ranged = detour(journey, range_of(journey, seen), seen, any_order)
-    told, along, circuits = journey.told, journey.order.along, journey.circuits
-    parameter = np.where(told, along, np.nan)
-    some = told.any(axis=1)
-    turns = circuits.closed & (circuits.branches == 1) & some
-    lowest = np.fmin.reduce(seen.transmission, axis=1)
-
-    defects: list[list[Defect]] = [[] for _ in range(len(told))]
-    close = some & (ranged.least < TOO_CLOSE)
-    for k in np.flatnonzero(journey.crossing | close).tolist():
-        if journey.crossing[k]:
-            defects[k].append(_branch(journey, k, any_order, called))
+    defects: list[list[Defect]] = [[] for _ in range(len(on_circuit))]
+    close = some & (ranged.least_transmission < DEAD_POINT_ANGLE)
+    for k in np.flatnonzero(traversal.crosses_branches | close).tolist():
+        if traversal.crosses_branches[k]:
+            defects[k].append(branch_defect(traversal, k, any_order, names))
         else:
-            defects[k].append(_close(journey, ranged, k, called))
-    for k in np.flatnonzero(
-        some & (journey.order.back > np.maximum(REPEATED, journey.order.slack))
-    ).tolist():
-        defects[k].append(_order(journey, ranged, k, called))
+            defects[k].append(near_dead_point_defect(traversal, ranged, k, names))
+    out_of_order = some & (order.back > np.maximum(REPEATED_POSE_STEP, order.slack))
+    for k in np.flatnonzero(out_of_order).tolist():
+        defects[k].append(order_defect(traversal, ranged, k, names))
     for k in np.flatnonzero(on.any(axis=1) & ~some).tolist():
-        defects[k].append(_untold(on[k]))
+        defects[k].append(undetermined_defect(on[k]))
     return [
         Driven(
             tuple(defects[k]),
-            int(journey.circuit[k]),
-            bool(turns[k]),
-            seen.transmission[k],
+            int(traversal.circuit[k]),
+            bool(turns_fully[k]),
+            view.transmission[k],
             float(lowest[k]),
-            float(ranged.least[k]),
-            ranged.drive[k],
-            ranged.travel[k],
+            float(ranged.least_transmission[k]),
+            ranged.inputs[k],
+            ranged.input_range[k],
             parameter[k],
         )
-        for k in range(len(told))
+        for k in range(len(on_circuit))
     ]
-
-
-# Words --------------------------------------------------------------------------------------------
-
-
-class _Names(NamedTuple):
-    """What messages call poses."""
-
-    given: Sequence[str] | None
-
-    def one(self, pose: int) -> str:
-        return str(pose + 1) if self.given is None else self.given[pose]
-
-    def listed(self, poses: Sequence[int]) -> str:
-        return listed(shortened([self.one(pose) for pose in poses], MOST))
-
-    def __call__(self, poses: Sequence[int]) -> str:
-        return ("pose " if len(poses) == 1 else "poses ") + self.listed(poses)
-
-    def between(self, pairs: Sequence[tuple[int, int]]) -> str:
-        return listed(shortened([f"between {self(pair)}" for pair in pairs], MOST, "times"))
-
-
-def _numbers(mask: BoolArray) -> tuple[int, ...]:
-    return tuple(np.flatnonzero(mask).tolist())
-
-
-UNSURE = ": too close to call"
-
-
-def _assembly(far: BoolArray, found: BoolArray, missed: FloatArray, called: _Names) -> list[Defect]:
-    nowhere, near = _numbers(~found), _numbers(far & found)
-    defects = []
-    if nowhere:
-        text = f"it cannot be assembled near {called(nowhere)}"
-        defects.append(Defect("assembly", text, nowhere))
-    if near:
-        worst = max(near, key=lambda pose: missed[pose])
-        text = f"the coupler comes no nearer to pose {called.one(worst)} than {missed[worst]:.2g}"
-        others = [pose for pose in near if pose != worst]
-        if others:
-            text += f", and misses {called(others)} by {min(missed[others]):.2g} or more"
-        defects.append(Defect("assembly", text, near))
-    return defects
-
-
-def _changes(key: NDArray[np.int8], clear: BoolArray) -> list[tuple[int, int]]:
-    """The poses, one after the other, between which the key changes."""
-    return [(a, b) for a, b in pairwise(_numbers(clear)) if key[a] != key[b]]
-
-
-def _parts(key: NDArray[np.int8], clear: BoolArray, called: _Names) -> tuple[str, str]:
-    """The poses that are with the first, and the others."""
-    same = clear & (key == key[clear.argmax()])
-    return called(_numbers(same)), called.listed(_numbers(clear & ~same))
-
-
-def _circuit(
-    clear: BoolArray, labels: NDArray[np.int8], change: bool, any_order: bool, called: _Names
-) -> str:
-    one, other = _parts(labels, clear, called)
-    verb = "is" if one.startswith("pose ") else "are"
-    text = f"{one} {verb} on one assembly, {other} on the other"
-    if change:
-        return f"{text}, and both meet at a change point{UNSURE}"
-    if any_order:
-        return f"{text}: it must be taken apart between them"
-    return f"{text}: it must be taken apart {called.between(_changes(labels, clear))}"
-
-
-def _branch(journey: Passage, k: int, any_order: bool, called: _Names) -> Defect:
-    clear, key, change = journey.clear[k], journey.key[k], bool(journey.circuits.undecided[k])
-    pairs = _changes(key, clear)
-    poses = tuple(sorted({pose for pair in pairs for pose in pair}))
-    if any_order:
-        one, other = _parts(key, clear, called)
-        verb, point = ("passes", "change") if change else ("locks at", "dead")
-        text = f"{verb} a {point} point between {one} and {other}"
-    elif change:
-        text = f"passes a change point {called.between(pairs)}"
-    else:
-        points = "at a dead point" if len(pairs) == 1 else "at dead points"
-        text = f"locks {called.between(pairs)}, {points}"
-    return Defect("branch", text + UNSURE * change, poses, not change)
-
-
-def _close(journey: Passage, ranged: Range, k: int, called: _Names) -> Defect:
-    """A range that comes too near to where the drive may lock."""
-    at, worst, count = ranged.along[k], ranged.worst[k], journey.told.shape[1]
-    least = np.degrees(ranged.least[k])
-    if worst < count:
-        poses: tuple[int, ...] = (int(worst),)
-        place = f"at {called(poses)}"
-    else:
-        along = at[:count]
-        before = int(np.nanargmax(np.where(along <= at[worst], along, np.nan)))
-        after = int(np.nanargmin(np.where(along >= at[worst], along, np.nan)))
-        poses = tuple(sorted((before, after)))
-        place = called.between([(poses[0], poses[1])])
-    if journey.circuits.undecided[k]:
-        text = f"{'is at' if worst < count else 'passes'} a change point {place}"
-    else:
-        within = f"within {least:.1g}° of" if least > 1e-4 else "to"
-        text = f"comes {within} a dead point {place}"
-    return Defect("branch", text + UNSURE, poses, certain=False)
-
-
-def _order(journey: Passage, ranged: Range, k: int, called: _Names) -> Defect:
-    told = journey.told[k]
-    # Which way a change point leads is not known.
-    passed = journey.circuits.undecided[k] and ranged.least[k] < TOO_CLOSE
-    certain = journey.order.back[k] > STEP_BACK and not journey.doubtful[k] and not passed
-    poses = np.flatnonzero(told)
-    steps = np.round(journey.order.along[k][told] / (REPEATED * journey.size[k]))
-    # Of both senses, the one with the lower number first.
-    ways = []
-    for sense in (1, -1):
-        way = poses[np.lexsort((poses, sense * steps))].tolist()
-        start = way.index(poses[0]) if journey.round[k] else 0
-        ways.append(way[start:] + way[:start])
-    met = min(ways)
-    moved = tuple(a for a, b in zip(poses.tolist(), met, strict=True) if a != b)
-    shown = [called.one(pose) for pose in met[:MOST]] + ["..."] * (len(met) > MOST)
-    text = f"meets the poses in the order {'-'.join(shown)}"
-    return Defect("order", text + UNSURE * (not certain), moved, bool(certain))
-
-
-def _untold(on: BoolArray) -> Defect:
-    text = "has parallel guides, or a link of no length, but for rounding: its motion is not known"
-    return Defect("branch", text, _numbers(on), certain=False)

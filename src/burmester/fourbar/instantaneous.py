@@ -15,7 +15,7 @@ import numpy as np
 from burmester.errors import InputError
 from burmester.fourbar.dyad import PP, PR, RP, RR
 from burmester.fourbar.linkage import Linkage
-from burmester.fourbar.loop_closure import facing
+from burmester.fourbar.loop_closure import with_trailing_axes
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
 
@@ -41,7 +41,8 @@ def twist(linkage: Linkage, places: Displacement) -> FloatArray:
     at a change point: there the coupler can move in two ways.
     """
     first, second = (
-        facing(dyad, len(places.shape)).gradient(places) for dyad in (linkage.first, linkage.second)
+        with_trailing_axes(dyad, len(places.shape)).gradient(places)
+        for dyad in (linkage.first, linkage.second)
     )
     return np.cross(first, second)
 
@@ -52,7 +53,7 @@ def velocity(linkage: Linkage, places: Displacement) -> FloatArray:
     (v1, v2, omega) as in `twist`; not finite at dead points of that drive.
     Raises InputError E401 where the first dyad is PP, which has no one drive.
     """
-    motion, driver = twist(linkage, places), facing(linkage.first, len(places.shape))
+    motion, driver = twist(linkage, places), with_trailing_axes(linkage.first, len(places.shape))
     v, omega = complex_of(motion[..., :2]), motion[..., 2]
     if isinstance(driver, RP):
         speed = omega
@@ -102,7 +103,10 @@ def transmission_angle(linkage: Linkage, places: Displacement) -> FloatArray:
     couple on: pi/2.  nan for PP.
     """
     ndim = len(places.shape)
-    first, second = facing(linkage.first, ndim), facing(linkage.second, ndim)
+    first, second = (
+        with_trailing_axes(linkage.first, ndim),
+        with_trailing_axes(linkage.second, ndim),
+    )
     turn = np.exp(1j * places.angle)
     if isinstance(first, PP) or isinstance(second, PP):
         return np.full(places.shape, np.nan)

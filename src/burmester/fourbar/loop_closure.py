@@ -1,18 +1,18 @@
-"""A linkage as its first dyad drives it: where the drive can be, and where the coupler is then.
+"""Loop closure: the coupler's places as functions of the input, where the first dyad drives.
 
-The drive is the coordinate of the first dyad's joint with the ground: the angle of an RR's link
-(from the fixed to the moving pivot), the place of a PR's pivot along its line (n · X = offset
-plus drive times n turned by +90 degrees), the angle in F of the normal of an RP's line.  With
-psi = drive - centre, for a centre that depends on the dimensions only, everything depends on
+The input is the coordinate of the first dyad's joint with the ground: the angle of an RR's link
+(from the fixed to the moving pivot), the position of a PR's pivot along its line (n · X = offset
+plus input times n turned by +90 degrees), the angle in F of the normal of an RP's line.  With
+psi = input - centre, where the centre depends on the dimensions only, everything depends on
 
-    f = cos psi (drives that turn)   or   f = psi² (drives that slide).
+    f = cos psi (turning inputs)   or   f = psi² (sliding inputs).
 
-The coupler closes in two ways, told apart by the sign of a root q with
+The loop has two closures, which differ by the sign of a root q with
 
     q² = const (high - f) (f - low),
 
-so f = low and f = high are the dead points (see `dead_points`).  A pair may lack either bound, or
-close in one way only.
+so f = low and f = high are the dead points (see `dead_points`).  A pair of dyads may lack either
+bound, or have one closure only.
 """
 
 from __future__ import annotations
@@ -37,12 +37,13 @@ from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
 
-__all__ = ["NOWHERE", "DrivenLoop", "displacement_of", "facing"]
+__all__ = ["NO_PLACE", "DrivenLoop", "displacement_of", "with_trailing_axes"]
 
-Drives = TypeVar("Drives", bound="Dyad | DrivenLoop")
+DyadOrLoop = TypeVar("DyadOrLoop", bound="Dyad | DrivenLoop")
 
-NOWHERE = complex(np.nan, np.nan)
-AT_LIMIT = 1e-14  # relative; a drive beyond its limit by less stands on it
+NO_PLACE = complex(np.nan, np.nan)
+# Relative.  An input that passes a dead point by less than this counts as the dead point.
+DEAD_POINT_ROUNDING = 1e-14
 
 
 @final
@@ -50,17 +51,19 @@ AT_LIMIT = 1e-14  # relative; a drive beyond its limit by less stands on it
 class DrivenLoop:
     """Linkages (*,), each driven by its first dyad; see the top of the file.
 
-    turns: whether the drive is an angle.  ways: 2, or 1 where the other dyad closes in one way.
-    centre: (*,), the drive where psi = 0.  high, low: the dead points.
-    margin: (*,), the least length by which the linkage misses a change point (or a link misses
-    being a point), in shares of the sum of its lengths; of two rails or two slots, the sine
-    between them.
+    turns: whether the input is an angle.
+    closures: 2, or 1 for pairs of dyads that close in one way only.
+    centre: (*,), the input where psi = 0.
+    high, low: the dead points.
+    margin: (*,), the smallest length by which the linkage is off a change point or a link is
+        longer than a point, as a fraction of the sum of the lengths; of two rails or two slots,
+        the sine of the angle between them.
     """
 
     first: RR | PR | RP
     second: Dyad
     turns: bool
-    ways: int
+    closures: int
     centre: FloatArray
     high: Bound
     low: Bound
@@ -68,7 +71,7 @@ class DrivenLoop:
 
     @classmethod
     def of(cls, linkage: Linkage) -> Self:
-        """The drive of linkages whose dyads broadcast against each other.
+        """The driven loops of linkages whose dyads broadcast against each other.
 
         Raises InputError E401 where the first dyad cannot drive: PP, or RP with PP.
         """
@@ -100,38 +103,38 @@ class DrivenLoop:
             self.first[index],
             self.second[index],
             self.turns,
-            self.ways,
+            self.closures,
             self.centre[index],
             Bound(*(room[index] for room in self.high)),
             Bound(*(room[index] for room in self.low)),
             self.margin[index],
         )
 
-    def assembled(self, drive: FloatArray) -> Displacement:
-        """Coupler places (*, 2) at drives (*,): the two ways to close, q > 0 first.
+    def closed_at(self, inputs: FloatArray) -> Displacement:
+        """Coupler places (*, 2) at inputs (*,): the two closures, q > 0 first.
 
-        The drives' leading axes are those of the linkages.  nan where the linkage does not
-        close, and in the second place where there is one way only.
+        The inputs' leading axes are those of the linkages.  nan where the loop does not close,
+        and for the second closure where there is one only.
         """
-        drive = np.asarray(drive, dtype=np.float64)
-        at = facing(self, drive.ndim)
-        psi = drive - at.centre
+        inputs = np.asarray(inputs, dtype=np.float64)
+        at = with_trailing_axes(self, inputs.ndim)
+        psi = inputs - at.centre
         if self.turns:
             down, up, slope = 2 * np.cos(psi / 2) ** 2, 2 * np.sin(psi / 2) ** 2, np.sin(psi)
             w: FloatArray | ComplexArray = np.exp(1j * psi)
         else:
             down, up, slope, w = psi * psi, np.zeros_like(psi), 2 * psi, psi
-        # What the rounding of the drive itself changes f by.
-        slack = np.abs(slope) * (np.abs(drive) + np.abs(at.centre))
-        q = np.sqrt(np.prod([_settled(*parts, slack) for parts in at.factors(down, up)], axis=0))
-        if self.ways == 1:
-            ways = np.stack([q, np.full_like(q, np.nan)], axis=-1)
-        else:
-            ways = np.stack([q, -q], axis=-1)
+        # The change of f by the rounding of the input itself.
+        slack = np.abs(slope) * (np.abs(inputs) + np.abs(at.centre))
+        q = np.sqrt(
+            np.prod([_without_rounding(*parts, slack) for parts in at.factors(down, up)], axis=0)
+        )
+        other = np.full_like(q, np.nan) if self.closures == 1 else -q
+        roots = np.stack([q, other], axis=-1)
         with np.errstate(invalid="ignore", divide="ignore"):
-            d, turn = at[..., None].place(w[..., None], ways)
-        open_ = np.isnan(ways)
-        return displacement_of(np.where(open_, NOWHERE, d), np.where(open_, NOWHERE, turn))
+            d, turn = at[..., None].place(w[..., None], roots)
+        open_ = np.isnan(roots)
+        return displacement_of(np.where(open_, NO_PLACE, d), np.where(open_, NO_PLACE, turn))
 
     def factors(self, down: FloatArray, up: FloatArray) -> _Factors:
         """The two factors of q², each as (scale, a, b) for a - b.
@@ -143,7 +146,7 @@ class DrivenLoop:
         return (high.scale, *above), (low.scale, low.scale * down, low.down)
 
     def place(self, w: FloatArray | ComplexArray, q: FloatArray) -> tuple[ComplexArray, ...]:
-        """Coupler places from e^(i psi), or psi of slides, and q: d and e^(i angle), complex."""
+        """Coupler places (d, e^(i angle)), complex, from e^(i psi) (or psi of slides) and q."""
         first, second = self.first, self.second
         if isinstance(first, RP):
             return self._place_of_slot(first, cast(RR | PR | RP, second), w, q)
@@ -186,20 +189,20 @@ class DrivenLoop:
             return c2 + j * (across - hand + 1j * q), j * back
         if isinstance(second, PR):
             n, hand = np.exp(1j * second.normal_angle), complex_of(second.moving_pivot) * back
-            miss = (n.conj() * (c + j * (hand - first.offset))).real - second.offset
-            along = -miss / (n.conj() * j).imag
+            off = (n.conj() * (c + j * (hand - first.offset))).real - second.offset
+            along = -off / (n.conj() * j).imag
         else:
             between = np.exp(1j * second.normal_angle) * back
             to = (complex_of(second.fixed_pivot) - c) * j.conj() + first.offset
             along = (second.offset - (between.conj() * to).real) / between.imag
         return c - j * (first.offset + 1j * along), j * back
 
-    def reading(self, pose: Displacement) -> tuple[FloatArray | ComplexArray, ComplexArray]:
-        """What `place` undoes, for coupler places (*,): e^(i psi) or psi, and e + iq.
+    def closure_at(self, pose: Displacement) -> tuple[FloatArray | ComplexArray, ComplexArray]:
+        """e^(i psi) (or psi) and e + iq at coupler places (*,): the inverse of `place`.
 
-        e + iq is z e^(i angle) of the closing equation or, after an RP, the second link seen
-        across and along the slot; the sine of its argument is what decides between the two
-        ways.  i for pairs that close in one way.
+        e + iq is z e^(i angle) of the closing equation or, after an RP, the second link's
+        components across and along the slot; the sign of the sine of its argument tells the
+        closure.  i for pairs with one closure.
         """
         first, second = self.first, self.second
         d, turn = complex_of(pose.translation), np.exp(1j * pose.angle)
@@ -232,12 +235,12 @@ class DrivenLoop:
 _Factors: TypeAlias = tuple[tuple[FloatArray, FloatArray, FloatArray], ...]
 
 
-def _settled(
+def _without_rounding(
     scale: FloatArray, more: FloatArray, less: FloatArray, slack: FloatArray
 ) -> FloatArray:
-    """A factor of q²: 0 where it is rounding, nan where it is negative."""
+    """A factor `more - less` of q²: 0 where it is rounding, nan where it is negative."""
     room = more - less
-    rounding = AT_LIMIT * (np.abs(more) + scale * slack)
+    rounding = DEAD_POINT_ROUNDING * (np.abs(more) + scale * slack)
     return np.where(np.abs(room) <= rounding, 0.0, np.where(room < 0, np.nan, room))
 
 
@@ -246,7 +249,7 @@ def displacement_of(d: ComplexArray, turn: ComplexArray) -> Displacement:
     return Displacement(np.stack([d.real, d.imag], axis=-1), np.angle(turn))
 
 
-def facing(value: Drives, ndim: int) -> Drives:
-    """A dyad or drive (*,) with axes added behind, to meet arrays of so many axes."""
+def with_trailing_axes(value: DyadOrLoop, ndim: int) -> DyadOrLoop:
+    """A dyad or loop (*,) with axes of size 1 added behind, `ndim` axes in all."""
     own = value.shape if isinstance(value, DrivenLoop) else shape_of(value)
-    return cast(Drives, value[(..., *[None] * (ndim - len(own)))])
+    return cast(DyadOrLoop, value[(..., *[None] * (ndim - len(own)))])

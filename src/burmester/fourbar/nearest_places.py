@@ -243,7 +243,7 @@ class _Search:
     def _at(self, circuits: Circuits, share: FloatArray) -> FloatArray:
         """Places (*, s, 3) where shares (s,) or (*, s) of circuits (*,) are passed."""
         closed = circuits.closed[..., None]
-        if circuits.drive.turns:
+        if circuits.loop.turns:
             at = np.where(closed, 2 * np.pi * (share % 1), np.pi * np.clip(share, 0, 1))
         else:
             inside = np.clip(share, EDGE, 1 - EDGE)

@@ -1,17 +1,17 @@
-"""How a linkage comes through the poses: where on a circuit they are, in which order, how far.
+"""How a linkage traverses the poses: on which circuit and branch, in which order, how far.
 
-What the verdicts (`defects`) rest on, in numbers.  Everything comes from the exact circuits (see
-`circuit`), nothing from sampling.
+The numbers on which the verdicts (`defects`) rest.  All of them come from the exact circuits (see
+`circuits`), none from sampling.
 
-The least transmission angle over a stretch is exact, too.  Within half a turn of the parameter
-between two multiples of pi/2 (or on one side of 0, where the parameter is a length) the drive's f
-runs one way, and along f a transmission angle only rises, then only falls.  So it is least at an
-end of the stretch or at one of those multiples inside.
+The least transmission angle over a range is exact, too.  Between two neighbouring multiples of
+pi/2 of the parameter (or on one side of 0, where the parameter is a length) f (see `loop_closure`)
+is monotonic, and along f a transmission angle rises first and falls then.  So its minimum is at an
+end of the range or at one of those multiples inside.
 """
 
 from __future__ import annotations
 
-from typing import Final, NamedTuple, Self, TypeAlias
+from typing import Final, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,37 +20,46 @@ from burmester.fourbar.circuits import Circuits, Location, locate
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.instantaneous import transmission_angle
 from burmester.fourbar.linkage import Linkage
-from burmester.fourbar.loop_closure import facing
+from burmester.fourbar.loop_closure import with_trailing_axes
+from burmester.fourbar.pose_order import (
+    CERTAIN_STEP_BACK,
+    FULL_TURN,
+    REPEATED_POSE_STEP,
+    BoolArray,
+    OrderTolerance,
+    PoseOrder,
+    along_interval,
+    around_circuit,
+    smallest_arc,
+    step_back,
+    tolerated_step,
+)
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray, complex_of, wrapped_angle
 
 __all__ = [
-    "REPEATED",
-    "STEP_BACK",
-    "TOO_CLOSE",
-    "BoolArray",
-    "Passage",
-    "Range",
-    "Seen",
-    "detour",
-    "first_of",
-    "passage",
-    "range_of",
+    "DEAD_POINT_ANGLE",
+    "DrivenView",
+    "PoseRange",
+    "Traversal",
+    "first_where",
+    "other_way_round",
+    "pose_range",
+    "traversal_of",
 ]
 
-TOO_CLOSE: Final = 1e-3  # radians (0.06°): of a transmission angle, below which nothing is certain
-STEP_BACK: Final = 1e-5  # along the circuit, in radians or shares of the linkage: the same of order
-REPEATED: Final = 1e-7  # along the circuit, below which poses are the same twice
-STRAY: Final = 1e-5  # radians and shares of the places; at a change point, twice 1e-8 is rounding
-QUARTER: Final = np.pi / 2
-TURN: Final = 2 * np.pi
-QUARTERS: Final = 5  # multiples of a quarter turn inside a turn, at most
+# Radians (0.06°).  A place with a smaller transmission angle is beside a dead point: whether the
+# linkage locks there is uncertain.
+DEAD_POINT_ANGLE: Final = 1e-3
+# Radians, and fractions of the greatest coordinate.  A place farther off the circuit than this is
+# not on it; near a change point rounding reaches 2e-8.
+OFF_CIRCUIT: Final = 1e-5
+QUARTER_TURN: Final = np.pi / 2  # radians
+MAX_QUARTER_TURNS: Final = 5  # number of multiples of a quarter turn inside one turn, at most
 
-BoolArray: TypeAlias = NDArray[np.bool_]
 
-
-class Seen(NamedTuple):
-    """What one driver makes of the places (k, N)."""
+class DrivenView(NamedTuple):
+    """Coupler places (k, N) in terms of one driver: its circuits, and the transmission angles."""
 
     places: Displacement
     circuits: Circuits
@@ -59,23 +68,26 @@ class Seen(NamedTuple):
 
     @classmethod
     def of(cls, linkage: Linkage, places: Displacement) -> Self:
+        """The view of places (k, N) of linkages (k,) that their first dyads drive."""
         circuits = Circuits.of(linkage, as_given=True)
         location = locate(circuits, places)
         transmission = transmission_angle(linkage, places)
-        # At a change point the coupler may move while the drive cannot: it is not driven there.
-        change = np.flatnonzero(circuits.undecided[:, 0] & (location.circuit >= 0).any(axis=1))
+        # At a change point the coupler may move while the input cannot: it is not driven there.
+        change = np.flatnonzero(
+            circuits.near_change_point[:, 0] & (location.circuit >= 0).any(axis=1)
+        )
         if len(change):
-            loose = _stray(
+            off = _off_circuit(
                 circuits[change],
                 location.circuit[change],
                 location.parameter[change],
                 places[change],
             )
-            transmission[change] = np.where(loose, 0.0, transmission[change])
+            transmission[change] = np.where(off, 0.0, transmission[change])
         return cls(places, circuits, location, transmission)
 
 
-def _stray(
+def _off_circuit(
     circuits: Circuits, number: NDArray[np.int8], parameter: FloatArray, places: Displacement
 ) -> BoolArray:
     """Which places (k, N) are not where the circuits (k, 2) are at their parameters."""
@@ -87,232 +99,175 @@ def _stray(
     away = np.abs(d - complex_of(places.translation))
     size = np.abs(places.translation)
     size = np.fmax.reduce(size.reshape(len(size), -1), axis=1)[:, None]
-    on = (np.abs(wrapped_angle(angle)) < STRAY) & (away <= STRAY * size)
+    on = (np.abs(wrapped_angle(angle)) < OFF_CIRCUIT) & (away <= OFF_CIRCUIT * size)
     return np.asarray(~on & np.isfinite(places.angle))
 
 
-class Order(NamedTuple):
-    """How poses (k, N) are met.
+class Traversal(NamedTuple):
+    """The poses (k, N) along the one circuit of each linkage on which they are judged.
 
-    along: their parameters, unwrapped.  back: (k,) by how much the journey steps back on its way,
-    in radians or shares of the linkage, at the most.  slack: (k,), the same for steps that are
-    within what the poses are missed by.
+    on_circuit: the poses on that circuit; clear: those of them that are not beside a dead point.
+    branch_key: (k, N), circuit and branch as one number.
+    crosses_branches: (k,), whether clear poses are on more than one branch.
+    circuit: (k,), its number or -1; circuits: (k,).
+    all_round: (k,), whether the poses are judged round the whole circuit, not along a branch.
+    step_unit: (k,), the length (or 1) by which steps along the circuit are measured.
+    order_doubtful: (k,), whether a change point makes the order uncertain.
     """
 
-    along: FloatArray
-    back: FloatArray
-    slack: FloatArray
-
-
-class Passage(NamedTuple):
-    """The poses (k, N) along the circuit of each linkage that they are judged on.
-
-    told: those that are on it; clear: and not beside a dead point.  key: circuit and branch;
-    crossing: (k,), whether there is more than one.  circuit: (k,), its number or -1.
-    round: (k,), whether it is judged all round, not along a branch.
-    size: (k,), what steps along it are measured by.
-    doubtful: (k,), whether the order is uncertain for a change point.
-    """
-
-    told: BoolArray
+    on_circuit: BoolArray
     clear: BoolArray
-    key: NDArray[np.int8]
-    crossing: BoolArray
+    branch_key: NDArray[np.int8]
+    crosses_branches: BoolArray
     circuit: NDArray[np.int8]
     circuits: Circuits
-    round: BoolArray
-    order: Order
-    size: FloatArray
-    doubtful: BoolArray
+    all_round: BoolArray
+    order: PoseOrder
+    step_unit: FloatArray
+    order_doubtful: BoolArray
 
 
-class Range(NamedTuple):
-    """The stretch between the poses: (k, N) poses, then (k, 5) parameters where f turns back.
+class PoseRange(NamedTuple):
+    """The range of the circuit between the poses of each linkage (k,).
 
-    drive: (k, N), travel: (k, 2), least: (k,), see `Driven`.
-    along: (k, N + 5), nan for those that do not count.  worst: (k,), the number of the least.
+    inputs: (k, N), at the poses; input_range: (k, 2), the least and the greatest in the range.
+    least_transmission: (k,), the least transmission angle in the range.
+    along: (k, N + 5), the parameters of the poses, then those inside where f turns back; nan for
+        those that are not in use.
+    worst: (k,), the index of the least transmission angle among these.
     """
 
-    drive: FloatArray
-    travel: FloatArray
-    least: FloatArray
+    inputs: FloatArray
+    input_range: FloatArray
+    least_transmission: FloatArray
     along: FloatArray
     worst: NDArray[np.intp]
 
 
-def passage(
+def traversal_of(
     linkage: Linkage,
-    seen: Seen,
+    view: DrivenView,
     on: BoolArray,
-    loose: tuple[FloatArray, float],
+    tolerance: OrderTolerance,
     any_order: bool,
-) -> Passage:
-    location = seen.location
-    told = on & (location.circuit >= 0) & np.isfinite(location.parameter)
-    clear = told & (seen.transmission >= TOO_CLOSE)
-    key = (2 * location.circuit + location.branch).astype(np.int8)
-    own = np.take_along_axis(key, first_of(clear, told)[:, None], axis=1)
-    crossing = np.asarray((clear & (key != own)).any(axis=1))
-    some = np.asarray(told.any(axis=1))
-    circuit = np.where(some, own[:, 0] // 2, -1).astype(np.int8)
-    circuits = seen.circuits[np.arange(len(circuit)), np.maximum(circuit, 0)]
+) -> Traversal:
+    """The traversal of linkages (k,), with one driver.
 
-    # Poses that are left out stand where the one before does, or the first.
-    last = np.maximum.accumulate(np.where(told, np.arange(told.shape[1]), -1), axis=1)
-    last = np.where(last < 0, told.argmax(axis=1)[:, None], last)
+    on: (k, N), the poses that are judged.
+    """
+    location = view.location
+    on_circuit = on & (location.circuit >= 0) & np.isfinite(location.parameter)
+    clear = on_circuit & (view.transmission >= DEAD_POINT_ANGLE)
+    key = (2 * location.circuit + location.branch).astype(np.int8)
+    own = np.take_along_axis(key, first_where(clear, on_circuit)[:, None], axis=1)
+    crosses = np.asarray((clear & (key != own)).any(axis=1))
+    some = np.asarray(on_circuit.any(axis=1))
+    circuit = np.where(some, own[:, 0] // 2, -1).astype(np.int8)
+    circuits = view.circuits[np.arange(len(circuit)), np.maximum(circuit, 0)]
+
+    # A pose off the circuit takes the parameter of the pose before it, or of the first one on it.
+    last = np.maximum.accumulate(np.where(on_circuit, np.arange(on_circuit.shape[1]), -1), axis=1)
+    last = np.where(last < 0, on_circuit.argmax(axis=1)[:, None], last)
     s = np.where(some[:, None], np.take_along_axis(location.parameter, last, axis=1), np.nan)
-    all_round = np.asarray(circuits.closed & (crossing | (circuits.branches == 1)))
-    middle = QUARTER + np.pi * (own % 2)
+    all_round = np.asarray(circuits.closed & (crosses | (circuits.branches == 1)))
+    middle = QUARTER_TURN + np.pi * (own % 2)
     one_branch = circuits.closed & ~all_round
     s = np.where(one_branch[:, None], middle + wrapped_angle(s - middle), s)
-    size = _size(linkage, circuits, seen.places, told, s)
+    unit = _step_unit(linkage, circuits, view.places, on_circuit, s)
     doubtful = np.zeros(len(s), dtype=bool)
     if any_order:
         none = np.zeros(len(s))
-        order = Order(np.where(all_round[:, None], _smallest_arc(s), s), none, none)
+        order = PoseOrder(np.where(all_round[:, None], smallest_arc(s), s), none, none)
     else:
-        slack = _slack(seen.places, told, s, *loose)
-        straight, turned = _straight(s, size, slack), _turned(s, slack)
-        order = Order(
-            *(
-                np.where(all_round.reshape(-1, *[1] * (one.ndim - 1)), one, other)
-                for one, other in zip(turned, straight, strict=True)
-            )
+        slack = tolerated_step(view.places, on_circuit, s, tolerance)
+        interval, circle = along_interval(s, unit, slack), around_circuit(s, slack)
+        order = PoseOrder(
+            *(_merged(all_round, *both) for both in zip(circle, interval, strict=True))
         )
-        elsewhere = (np.isfinite(seen.places.angle) & ~on).any(axis=1)
-        doubtful = elsewhere | (circuits.closed & (turned.back <= STEP_BACK))
-        doubtful = doubtful & circuits.undecided
-    return Passage(told, clear, key, crossing, circuit, circuits, all_round, order, size, doubtful)
+        elsewhere = (np.isfinite(view.places.angle) & ~on).any(axis=1)
+        doubtful = elsewhere | (circuits.closed & (circle.back <= CERTAIN_STEP_BACK))
+        doubtful = doubtful & circuits.near_change_point
+    return Traversal(
+        on_circuit, clear, key, crosses, circuit, circuits, all_round, order, unit, doubtful
+    )
 
 
-def range_of(journey: Passage, seen: Seen) -> Range:
-    told, along, circuits = journey.told, journey.order.along, journey.circuits
+def pose_range(traversal: Traversal, view: DrivenView) -> PoseRange:
+    """The range between the poses of each linkage, in their order."""
+    on_circuit, along, circuits = traversal.on_circuit, traversal.order.along, traversal.circuits
     quarters, inside = _quarters(along, circuits)
-    counts = np.concatenate([told, inside], axis=1)
+    counts = np.concatenate([on_circuit, inside], axis=1)
     with np.errstate(invalid="ignore", divide="ignore"):
         between = circuits.couplers(quarters)
-        # nan, if there is any, is where all links fold.
-        passed = np.nan_to_num(_transmission(seen, between))
-    every = np.where(counts, np.concatenate([seen.transmission, passed], axis=1), np.inf)
-    least = np.where(told.any(axis=1), every.min(axis=1), np.nan)
+        # nan occurs only where all links fold into one line.
+        passed = np.nan_to_num(_transmission(view, between))
+    every = np.where(counts, np.concatenate([view.transmission, passed], axis=1), np.inf)
+    least = np.where(on_circuit.any(axis=1), every.min(axis=1), np.nan)
     # A pose beside a dead point is named before the dead point.
-    count = told.shape[1]
-    first = every[:, :count].min(axis=1) < TOO_CLOSE
-    worst = np.where(first, every[:, :count].argmin(axis=1), every.argmin(axis=1))
+    count = on_circuit.shape[1]
+    pose_first = every[:, :count].min(axis=1) < DEAD_POINT_ANGLE
+    worst = np.where(pose_first, every[:, :count].argmin(axis=1), every.argmin(axis=1))
     both = np.concatenate([along, quarters], axis=1)
     places = Displacement(
-        np.concatenate([seen.places.translation, between.translation], axis=1),
-        np.concatenate([seen.places.angle, between.angle], axis=1),
+        np.concatenate([view.places.translation, between.translation], axis=1),
+        np.concatenate([view.places.angle, between.angle], axis=1),
     )
-    drive = np.where(counts, circuits.drives(both, places), np.nan)
-    travel = np.stack([end.reduce(drive, axis=1) for end in (np.fmin, np.fmax)], axis=-1)
+    inputs = np.where(counts, circuits.inputs(both, places), np.nan)
+    input_range = np.stack([end.reduce(inputs, axis=1) for end in (np.fmin, np.fmax)], axis=-1)
     both = np.where(counts, both, np.nan)
-    return Range(drive[:, :count], travel, least, both, worst)
+    return PoseRange(inputs[:, :count], input_range, least, both, worst)
 
 
-def detour(journey: Passage, ranged: Range, seen: Seen, any_order: bool) -> tuple[Passage, Range]:
-    """The other way round, where the order allows it and this one comes too close to locking."""
-    count = journey.told.shape[1]
-    close = journey.round & ~journey.crossing & (ranged.least < TOO_CLOSE) & (ranged.worst >= count)
+def other_way_round(
+    traversal: Traversal, ranged: PoseRange, view: DrivenView, any_order: bool
+) -> tuple[Traversal, PoseRange]:
+    """The traversals, the other way round a closed circuit where that avoids a dead point.
+
+    Only where the order of the poses allows it, and the way so far comes too close to locking.
+    """
+    count = traversal.on_circuit.shape[1]
+    close = traversal.all_round & ~traversal.crosses_branches
+    close &= (ranged.least_transmission < DEAD_POINT_ANGLE) & (ranged.worst >= count)
     if not close.any():
-        return journey, ranged
+        return traversal, ranged
     away = np.take_along_axis(ranged.along, ranged.worst[:, None], axis=1)
-    along, back, slack = journey.order
-    other = away + np.mod(along - away, TURN)
-    steps = np.minimum(_back(other), _back(-other))
-    allowed = (
-        close if any_order else close & (steps <= np.maximum(np.maximum(back, slack), REPEATED))
-    )
+    along, back, slack = traversal.order
+    other = away + np.mod(along - away, FULL_TURN)
+    allowed = close
+    if not any_order:
+        steps = np.minimum(step_back(other), step_back(-other))
+        allowed = close & (steps <= np.maximum(np.maximum(back, slack), REPEATED_POSE_STEP))
     other = np.where(allowed[:, None], other, along)
-    there = range_of(journey._replace(order=Order(other, back, slack)), seen)
-    better = ~(there.least < TOO_CLOSE) & allowed
+    there = pose_range(traversal._replace(order=PoseOrder(other, back, slack)), view)
+    better = ~(there.least_transmission < DEAD_POINT_ANGLE) & allowed
     along = np.where(better[:, None], other, along)
-    merged = (
-        np.where(better.reshape(-1, *[1] * (new.ndim - 1)), new, old)
-        for new, old in zip(there, ranged, strict=True)
-    )
-    return journey._replace(order=Order(along, back, slack)), Range(*merged)
+    merged = (_merged(better, new, old) for new, old in zip(there, ranged, strict=True))
+    return traversal._replace(order=PoseOrder(along, back, slack)), PoseRange(*merged)
 
 
-def _transmission(seen: Seen, places: Displacement) -> FloatArray:
-    drive = seen.circuits.drive[:, 0]
-    return transmission_angle(Linkage(drive.first, drive.second), places)
+def _merged(use: BoolArray, one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """Rows (k, ...) of one array where `use` (k,) holds, else of the other."""
+    return np.where(use.reshape(-1, *[1] * (one.ndim - 1)), one, other)
 
 
-def first_of(better: BoolArray, good: BoolArray) -> NDArray[np.intp]:
-    """The first along rows (k, N) that is better or, where there is none, good."""
+def _transmission(view: DrivenView, places: Displacement) -> FloatArray:
+    loop = view.circuits.loop[:, 0]
+    return transmission_angle(Linkage(loop.first, loop.second), places)
+
+
+def first_where(better: BoolArray, good: BoolArray) -> NDArray[np.intp]:
+    """The first index (k,) in rows (k, N) where `better` holds, or if nowhere where `good` does."""
     return np.asarray(np.where(better.any(axis=1), better.argmax(axis=1), good.argmax(axis=1)))
 
 
-# Order --------------------------------------------------------------------------------------------
-
-
-def _back(x: FloatArray) -> FloatArray:
-    """How far rows (k, N) that should not fall do fall."""
-    return np.asarray((np.maximum.accumulate(x, axis=1) - x).max(axis=1))
-
-
-def _slack(
-    places: Displacement, told: BoolArray, s: FloatArray, loose: FloatArray, length: float
+def _step_unit(
+    linkage: Linkage, circuits: Circuits, places: Displacement, on_circuit: BoolArray, s: FloatArray
 ) -> FloatArray:
-    """The steps (k,) along circuits, parameters s (k, N), that take the coupler as far as `loose`.
-
-    By the mean speed between neighbours.
-    """
-    if not loose.any():
-        return np.zeros(len(s))
-    rows = np.concatenate([places.translation, length * places.angle[..., None]], axis=-1)
-    order = np.argsort(s, axis=1)
-    rows, s = np.take_along_axis(rows, order[..., None], axis=1), np.take_along_axis(s, order, 1)
-    gap = np.diff(rows, axis=1)
-    gap[..., 2] = length * wrapped_angle(gap[..., 2] / length)
-    far = np.where(np.take_along_axis(told, order, 1)[:, 1:], np.linalg.norm(gap, axis=-1), 0.0)
-    way, steps = np.nansum(far, axis=1), np.ptp(s, axis=1)
-    return np.asarray(np.where(way > 0, loose * steps / np.where(way > 0, way, 1.0), 0.0))
-
-
-def _straight(s: FloatArray, size: FloatArray, slack: FloatArray) -> Order:
-    """Poses along an interval, in either sense."""
-    return Order(s, np.minimum(_back(s), _back(-s)) / size, slack / size)
-
-
-def _turned(s: FloatArray, slack: FloatArray) -> Order:
-    """Poses round a closed circuit: in the sense that meets them in order within one turn.
-
-    If both do, in the one that turns less; if neither, along the smallest arc.
-    """
-    tries, least = [], np.maximum(STEP_BACK, slack)
-    for sense in (1.0, -1.0):
-        step = np.mod(sense * np.diff(s, axis=1), TURN)
-        step = np.where(step > TURN - least[:, None], step - TURN, step)
-        x = np.concatenate([np.zeros_like(s[:, :1]), np.cumsum(step, axis=1)], axis=1)
-        extent = np.ptp(x, axis=1)
-        tries.append((s[:, :1] + sense * x, np.maximum(_back(x), extent - TURN), extent))
-    (up, back_up, wide_up), (down, back_down, wide_down) = tries
-    good_up, good_down = back_up <= least, back_down <= least
-    use_up = good_up & ~(good_down & (wide_down < wide_up))
-    along = np.where(use_up[:, None], up, down)
-    along = np.where((good_up | good_down)[:, None], along, _smallest_arc(s))
-    return Order(along, np.where(use_up, back_up, back_down), slack)
-
-
-def _smallest_arc(s: FloatArray) -> FloatArray:
-    """Angles (k, N) by whole turns such that they span the least."""
-    ordered = np.sort(np.mod(s, TURN), axis=1)
-    gaps = np.diff(ordered, axis=1, append=ordered[:, :1] + TURN)
-    after = (gaps.argmax(axis=1) + 1) % s.shape[1]
-    start = np.take_along_axis(ordered, after[:, None], axis=1)
-    return np.asarray(start + np.mod(s - start + REPEATED, TURN) - REPEATED)
-
-
-def _size(
-    linkage: Linkage, circuits: Circuits, places: Displacement, told: BoolArray, s: FloatArray
-) -> FloatArray:
-    """What steps back along intervals are measured by, (k,): a length where they are lengths."""
-    one = np.ones(len(told))
-    if circuits.drive.turns or circuits.closed.all():
+    """The unit (k,) of steps along intervals: 1, or a length of the linkage for lengths."""
+    one = np.ones(len(on_circuit))
+    if circuits.loop.turns or circuits.closed.all():
         return one
-    first, second = facing(linkage.first, 2), facing(linkage.second, 2)
+    first, second = with_trailing_axes(linkage.first, 2), with_trailing_axes(linkage.second, 2)
     assert isinstance(first, PR)
     pin = complex_of(places.act(first.moving_pivot))
     if isinstance(second, RR | PR):
@@ -320,17 +275,14 @@ def _size(
     else:
         assert isinstance(second, RP)
         other = complex_of(second.fixed_pivot)
-    arm = np.where(told, np.abs(pin - other), 0.0).max(axis=1)
-    return np.where(circuits.closed | ~told.any(axis=1), 1.0, arm + np.ptp(s, axis=1))
-
-
-# The range ----------------------------------------------------------------------------------------
+    arm = np.where(on_circuit, np.abs(pin - other), 0.0).max(axis=1)
+    return np.where(circuits.closed | ~on_circuit.any(axis=1), 1.0, arm + np.ptp(s, axis=1))
 
 
 def _quarters(along: FloatArray, circuits: Circuits) -> tuple[FloatArray, BoolArray]:
-    """The parameters (k, 5) inside the range where f turns back, and which of them there are."""
+    """The parameters (k, 5) inside the range where f turns back, and which of them exist."""
     low, high = along.min(axis=1, keepdims=True), along.max(axis=1, keepdims=True)
-    at = QUARTER * (np.floor(low / QUARTER) + np.arange(1, 1 + QUARTERS))
-    angle = circuits.closed[:, None] | circuits.drive.turns
+    at = QUARTER_TURN * (np.floor(low / QUARTER_TURN) + np.arange(1, 1 + MAX_QUARTER_TURNS))
+    angle = circuits.closed[:, None] | circuits.loop.turns
     inside = np.where(angle, at < high, (low < 0) & (high > 0))
     return np.where(inside, np.where(angle, at, 0.0), low), inside

@@ -129,7 +129,7 @@ def _transmission(driven: Driven) -> dict[str, float | None]:
 def _drive(dyad: Dyad, driven: Driven) -> dict[str, Any]:
     """What comes of it when this dyad drives; travel: the range of its drive between the poses."""
     slides = isinstance(dyad, PR)
-    travel = driven.travel if slides else np.degrees(driven.travel)
+    travel = driven.input_range if slides else np.degrees(driven.input_range)
     return {
         "defects": [_defect(each) for each in driven.defects],
         "turns_fully": driven.turns_fully,

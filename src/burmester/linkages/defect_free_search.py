@@ -255,9 +255,9 @@ def middle_of(stack: LinkageBatch, places: Displacement, side: int) -> FloatArra
     for index, linkage in (stack.exchanged() if side else stack).alike():
         circuits = Circuits.of(linkage, as_given=True)
         own = circuit_of(linkage, places[index], as_given=True).circuit
-        if not circuits.drive.turns:
+        if not circuits.loop.turns:
             continue
-        middle = np.where(circuits.branches == 2, circuits.limits.mean(axis=-1), np.nan)
+        middle = np.where(circuits.branches == 2, circuits.input_range.mean(axis=-1), np.nan)
         out[index] = np.where(own < 0, np.nan, middle[np.arange(len(index)), np.maximum(own, 0)])
     return out
 

@@ -103,7 +103,7 @@ def transmission(
             label="range of the poses",
         )
         at = own.couplers(driven.parameter[met])
-        x = turn * (driven.drive[met] - _turns(driven, slides))
+        x = turn * (driven.inputs[met] - _turns(driven, slides))
         y = np.degrees(transmission_angle(linkage, at))
         (marks,) = ax.plot(x, y, "o", ms=5, mfc="white", mec=BLACK, mew=1.2, zorder=4)
         labels = [
@@ -126,10 +126,10 @@ def _wound(
     slides: bool,
 ) -> FloatArray:
     """The drive at places (n,), the turns counted so that it meets the driven range."""
-    drive = own.drives(parameter, places)
-    if slides or driven is None or not np.isfinite(driven.drive).any():
+    drive = own.inputs(parameter, places)
+    if slides or driven is None or not np.isfinite(driven.inputs).any():
         return drive
-    middle = (np.nanmin(driven.drive) + np.nanmax(driven.drive)) / 2 - _turns(driven, slides)
+    middle = (np.nanmin(driven.inputs) + np.nanmax(driven.inputs)) / 2 - _turns(driven, slides)
     centre = (np.nanmin(drive) + np.nanmax(drive)) / 2
     return np.asarray(drive + 2 * np.pi * np.round((middle - centre) / (2 * np.pi)))
 
@@ -138,7 +138,7 @@ def _turns(driven: Driven, slides: bool) -> float:
     """Whole turns to take off, so that the poses' range begins within the first."""
     if slides:
         return 0.0
-    return float(2 * np.pi * np.floor(np.nanmin(driven.drive) / (2 * np.pi)))
+    return float(2 * np.pi * np.floor(np.nanmin(driven.inputs) / (2 * np.pi)))
 
 
 def pose_errors(ax: Axes, error: PoseError, unit: str | None = None) -> DrawnErrors:

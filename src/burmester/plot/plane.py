@@ -122,7 +122,7 @@ def parameters(circuits: Circuits, samples: int = 721, reach: float = 1.0) -> li
     closed, two = bool(circuits.closed), int(circuits.branches) == 2
     if closed:
         ends = [(0.0, np.pi), (np.pi, 2 * np.pi)] if two else [(0.0, 2 * np.pi)]
-    elif circuits.drive.turns:
+    elif circuits.loop.turns:
         ends = [(0.0, np.pi / 2), (np.pi / 2, np.pi)] if two else [(0.0, np.pi)]
     else:
         ends = [(-reach, 0.0), (0.0, reach)] if two else [(-reach, reach)]

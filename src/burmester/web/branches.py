@@ -72,7 +72,7 @@ def branches_of(found: FoundLinkage, poses: Displacement, scene: float, frames: 
         on = (here.circuit == branch.circuit) & (here.branch == branch.number)
         on &= np.isfinite(here.parameter)
         ends = branch.ends
-        endless = own.course == RangeType.HALF or not all(map(math.isfinite, ends))
+        endless = own.range_type == RangeType.HALF or not all(map(math.isfinite, ends))
         if endless:
             reach = (REACH if on.any() else REACH_WITHOUT_POSES) * scene
             within = _within(own, ends, middle, reach, here.parameter[on])
@@ -114,7 +114,7 @@ def _branches(circuits: Circuits, circuit: np.ndarray, parameter: FloatArray) ->
             start = _widest_gap(parameter[(circuit == number) & np.isfinite(parameter)])
             found.append(_Branch(number, 0, (start, start + 2 * np.pi), True, (False, False)))
         elif own.branches == 1:
-            ends = (0.0, np.pi) if own.drive.turns else (-np.inf, np.inf)
+            ends = (0.0, np.pi) if own.loop.turns else (-np.inf, np.inf)
             found.append(_Branch(number, 0, ends, False, (False, False)))
         elif own.closed:
             found.append(_Branch(number, 0, (0.0, np.pi), False, (True, True)))
@@ -139,7 +139,7 @@ def _within(
     own: Circuits, ends: tuple[float, float], middle: FloatArray, reach: float, poses: FloatArray
 ) -> tuple[float, float] | None:
     """The part of an endless way that stays in the scene, around the poses if there are any."""
-    if own.drive.turns:
+    if own.loop.turns:
         s = np.linspace(ends[0] + EDGE, ends[1] - EDGE, SAMPLES)
     else:
         share = np.linspace(-WIDEST_ANGLE, WIDEST_ANGLE, SAMPLES) * np.pi / 2
@@ -185,8 +185,8 @@ def _way(
     places = Displacement(places.translation, angle)
     if not (np.isfinite(places.translation).all() and np.isfinite(angle).all()):
         return None, False
-    drive = own.drives(s, places)
-    turns = own.drive.turns
+    drive = own.inputs(s, places)
+    turns = own.loop.turns
     if turns:
         middle = (drive[0] + drive[-1]) / 2
         drive = drive - 2 * np.pi * np.round(middle / (2 * np.pi))

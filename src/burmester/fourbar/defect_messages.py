@@ -1,0 +1,206 @@
+"""Defects as values, each with its message and the poses concerned."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Final, Literal, NamedTuple, TypeAlias, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burmester.fourbar.pose_order import CERTAIN_STEP_BACK, REPEATED_POSE_STEP, BoolArray
+from burmester.fourbar.traversal import DEAD_POINT_ANGLE, PoseRange, Traversal
+from burmester.numerics.arrays import FloatArray
+from burmester.wording import listed, shortened
+
+__all__ = [
+    "Defect",
+    "DefectKind",
+    "PoseNames",
+    "assembly_defects",
+    "branch_defect",
+    "circuit_defect",
+    "near_dead_point_defect",
+    "order_defect",
+    "undetermined_defect",
+]
+
+DefectKind: TypeAlias = Literal["assembly", "circuit", "branch", "order"]
+
+MAX_NAMES: Final = 12  # number of poses, or of pairs of poses, that one message lists at most
+# Degrees.  A smaller distance from a dead point is not worth a number in a message.
+SHOWN_ANGLE: Final = 1e-4
+UNSURE: Final = ": too close to call"  # the end of messages on defects that are not certain
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Defect:
+    """A reason why a linkage does not lead through the poses.
+
+    poses: the numbers, from 0, of the poses concerned: those missed (assembly), on the circuit with
+        fewer poses (circuit), on both sides of a dead point (branch), out of order (order).
+    certain: False where rounding or a nearby dead point leaves the verdict open.
+    """
+
+    kind: DefectKind
+    message: str
+    poses: tuple[int, ...]
+    certain: bool = True
+
+
+class PoseNames(NamedTuple):
+    """The names of poses in messages: those given, else their numbers from 1."""
+
+    given: Sequence[str] | None
+
+    def one(self, pose: int) -> str:
+        """The name of one pose: "3"."""
+        return str(pose + 1) if self.given is None else self.given[pose]
+
+    def listed(self, poses: Sequence[int]) -> str:
+        """The names of poses in one phrase: "1, 2 and 5"."""
+        return listed(shortened([self.one(pose) for pose in poses], MAX_NAMES))
+
+    def phrase(self, poses: Sequence[int]) -> str:
+        """The same with the noun: "pose 3", "poses 1, 2 and 5"."""
+        return ("pose " if len(poses) == 1 else "poses ") + self.listed(poses)
+
+    def between(self, pairs: Sequence[tuple[int, int]]) -> str:
+        """Pairs of poses in one phrase: "between poses 1 and 2"."""
+        between = [f"between {self.phrase(pair)}" for pair in pairs]
+        return listed(shortened(between, MAX_NAMES, "times"))
+
+
+def assembly_defects(
+    far: BoolArray, assembled: BoolArray, missed: FloatArray, names: PoseNames
+) -> list[Defect]:
+    """The assembly defects of one linkage that is too far from poses `far` (N,)."""
+    nowhere, near = _numbers(~assembled), _numbers(far & assembled)
+    defects = []
+    if nowhere:
+        text = f"it cannot be assembled near {names.phrase(nowhere)}"
+        defects.append(Defect("assembly", text, nowhere))
+    if near:
+        worst = max(near, key=lambda pose: missed[pose])
+        text = f"the coupler comes no nearer to pose {names.one(worst)} than {missed[worst]:.2g}"
+        others = [pose for pose in near if pose != worst]
+        if others:
+            text += f", and misses {names.phrase(others)} by {min(missed[others]):.2g} or more"
+        defects.append(Defect("assembly", text, near))
+    return defects
+
+
+def circuit_defect(
+    clear: BoolArray,
+    labels: NDArray[np.int8],
+    main: int,
+    *,
+    change: bool,
+    any_order: bool,
+    names: PoseNames,
+) -> Defect:
+    """The defect of one linkage with clear poses (N,) on both circuits.
+
+    labels: (N,), the circuits of the poses; main: the circuit with most of them.
+    change: whether the linkage is at a change point.
+    """
+    one, other = _parts(labels, clear, names)
+    verb = "is" if one.startswith("pose ") else "are"
+    text = f"{one} {verb} on one assembly, {other} on the other"
+    if change:
+        text += f", and both meet at a change point{UNSURE}"
+    elif any_order:
+        text += ": it must be taken apart between them"
+    else:
+        text += f": it must be taken apart {names.between(_changes(labels, clear))}"
+    return Defect("circuit", text, _numbers(clear & (labels != main)), not change)
+
+
+def branch_defect(traversal: Traversal, k: int, any_order: bool, names: PoseNames) -> Defect:
+    """The defect of linkage k, whose poses are on two branches."""
+    clear, key = traversal.clear[k], traversal.branch_key[k]
+    change = bool(traversal.circuits.near_change_point[k])
+    pairs = _changes(key, clear)
+    poses = tuple(sorted({pose for pair in pairs for pose in pair}))
+    if any_order:
+        one, other = _parts(key, clear, names)
+        verb, point = ("passes", "change") if change else ("locks at", "dead")
+        text = f"{verb} a {point} point between {one} and {other}"
+    elif change:
+        text = f"passes a change point {names.between(pairs)}"
+    else:
+        points = "at a dead point" if len(pairs) == 1 else "at dead points"
+        text = f"locks {names.between(pairs)}, {points}"
+    return Defect("branch", text + UNSURE * change, poses, not change)
+
+
+def near_dead_point_defect(
+    traversal: Traversal, ranged: PoseRange, k: int, names: PoseNames
+) -> Defect:
+    """The uncertain defect of linkage k, whose range comes too near to a dead point."""
+    at, worst, count = ranged.along[k], ranged.worst[k], traversal.on_circuit.shape[1]
+    least = np.degrees(ranged.least_transmission[k])
+    if worst < count:
+        poses: tuple[int, ...] = (int(worst),)
+        place = f"at {names.phrase(poses)}"
+    else:
+        along = at[:count]
+        before = int(np.nanargmax(np.where(along <= at[worst], along, np.nan)))
+        after = int(np.nanargmin(np.where(along >= at[worst], along, np.nan)))
+        poses = tuple(sorted((before, after)))
+        place = names.between([(poses[0], poses[1])])
+    if traversal.circuits.near_change_point[k]:
+        text = f"{'is at' if worst < count else 'passes'} a change point {place}"
+    else:
+        within = f"within {least:.1g}° of" if least > SHOWN_ANGLE else "to"
+        text = f"comes {within} a dead point {place}"
+    return Defect("branch", text + UNSURE, poses, certain=False)
+
+
+def order_defect(traversal: Traversal, ranged: PoseRange, k: int, names: PoseNames) -> Defect:
+    """The defect of linkage k, which meets its poses in another order."""
+    on_circuit, order = traversal.on_circuit[k], traversal.order
+    # At a change point the linkage may go either way.
+    passed = traversal.circuits.near_change_point[k]
+    passed = passed and ranged.least_transmission[k] < DEAD_POINT_ANGLE
+    certain = order.back[k] > CERTAIN_STEP_BACK and not traversal.order_doubtful[k] and not passed
+    poses = np.flatnonzero(on_circuit)
+    steps = np.round(order.along[k][on_circuit] / (REPEATED_POSE_STEP * traversal.step_unit[k]))
+    # Of both senses, the one that meets the lower number first.
+    sequences = []
+    for sense in (1, -1):
+        sequence = poses[np.lexsort((poses, sense * steps))].tolist()
+        start = sequence.index(poses[0]) if traversal.all_round[k] else 0
+        sequences.append(sequence[start:] + sequence[:start])
+    met = min(sequences)
+    moved = tuple(a for a, b in zip(poses.tolist(), met, strict=True) if a != b)
+    shown = [names.one(pose) for pose in met[:MAX_NAMES]] + ["..."] * (len(met) > MAX_NAMES)
+    text = f"meets the poses in the order {'-'.join(shown)}"
+    return Defect("order", text + UNSURE * (not certain), moved, bool(certain))
+
+
+def undetermined_defect(on: BoolArray) -> Defect:
+    """The uncertain defect of a linkage whose motion rounding leaves open; on: its poses (N,)."""
+    text = (
+        "its guides are parallel or a link has zero length, within rounding, "
+        "so its motion cannot be determined"
+    )
+    return Defect("branch", text, _numbers(on), certain=False)
+
+
+def _numbers(mask: BoolArray) -> tuple[int, ...]:
+    return tuple(np.flatnonzero(mask).tolist())
+
+
+def _changes(key: NDArray[np.int8], clear: BoolArray) -> list[tuple[int, int]]:
+    """The pairs of successive poses between which the key changes."""
+    return [(a, b) for a, b in pairwise(_numbers(clear)) if key[a] != key[b]]
+
+
+def _parts(key: NDArray[np.int8], clear: BoolArray, names: PoseNames) -> tuple[str, str]:
+    """The poses with the key of the first one, and the others."""
+    same = clear & (key == key[clear.argmax()])
+    return names.phrase(_numbers(same)), names.listed(_numbers(clear & ~same))
