@@ -26,6 +26,7 @@ from burmester.io.result import plain
 from burmester.io.terminal import show_synthesis
 from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.motion_task import Task
+from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.requirements import Requirements
 from tests.oracles import witness
 
@@ -43,7 +44,7 @@ CASES = names()
 
 def synthesized(task, **options):
     """The synthesis, what --json prints of it, and the screen, `width` columns wide."""
-    synthesis = synthesize(task, **options)
+    synthesis = synthesize(task, SynthesisOptions(**options))
     data = json.loads(json.dumps(plain(synthesis), allow_nan=False))
     jsonschema.Draft202012Validator(SCHEMA).validate(data)
 
@@ -442,7 +443,7 @@ def test_pivots_that_are_hardly_determined_are_a_warning():
 
 def test_what_building_makes_of_the_error_is_told_with_its_unit():
     task = replace(read_task("case:ge2012-exact"), length_unit="mm")
-    _, data, screen = synthesized(task, tolerance=0.01)
+    _, data, screen = synthesized(task, manufacturing_tolerance=0.01)
     best = data["linkages"][0]
     said = re.search(
         r"Built to ±0\.01 mm: position errors of up to (\S+) mm \(95 % of linkages\), at most "

@@ -13,19 +13,15 @@ export function fixed(value, digits) {
   return Number(text) === 0 ? text.replace("-", "") : text;
 }
 
-/** A figure with two digits, as `figure` of burmester/tasks/wording.py writes it. */
+/** A figure with two digits, as `figure` of burmester/tasks/wording.py writes it, but for exact ties. */
 export function figure(value) {
   if (value === null || !Number.isFinite(value)) return "–";
   if (value === 0) return "0";
-  const size = Math.abs(value);
-  if (size >= 99.5 && size < 1e6) return value.toFixed(0);
-  if (size >= 1e-4 && size < 99.5) {
-    const places = Math.max(0, 1 - Math.floor(Math.log10(size)));
-    return String(Number(value.toFixed(places)));
-  }
-  const [digits, power] = value.toExponential(1).split("e");
-  const places = String(Math.abs(Number(power))).padStart(2, "0");
-  return `${Number(digits)}e${Number(power) < 0 ? "-" : "+"}${places}`;
+  if (Math.abs(value) >= 99.5 && Math.abs(value) < 1e6) return value.toFixed(0);
+  const rounded = value.toExponential(1), [digits, power] = rounded.split("e");
+  if (power >= -4 && power < 2) return String(Number(rounded));
+  const places = String(Math.abs(power)).padStart(2, "0");
+  return `${Number(digits)}e${power < 0 ? "-" : "+"}${places}`;
 }
 
 /** Round numbers between two ends for an axis, `about` of them. */

@@ -1,0 +1,96 @@
+"""Dimensions and notes in words, of usable and unusable linkages alike, against their numbers."""
+
+import math
+import re
+
+import pytest
+
+from burmester.describe.dimensions import dimensions
+from burmester.describe.sentences import notes
+from burmester.fourbar.dyad import PR, RP, RR
+from burmester.io.reading.poses import read_task
+from burmester.synthesis.motion_generation import synthesize
+from burmester.tasks.options import SynthesisOptions
+
+NUMBER = re.compile(r"-?\d+(?:\.(\d+))?")
+FIGURE = 0.051  # relative error of a figure of two digits, at most
+CASES = ["ge2012-approximate", "motiongen-rrpr"]  # both have usable and unusable linkages
+
+
+@pytest.fixture(scope="module", params=CASES)
+def synthesis(request):
+    options = SynthesisOptions(manufacturing_tolerance=0.002)
+    found = synthesize(read_task(f"case:{request.param}"), options)
+    assert {each.usable for each in found.linkages} == {True, False}
+    return found
+
+
+def numbers_of(dyad):
+    """All dimensions of a dyad, in the order in which people read them."""
+    if isinstance(dyad, RR):
+        return [*dyad.fixed_pivot, *dyad.moving_pivot, dyad.radius]
+    pivot = dyad.fixed_pivot if isinstance(dyad, RP) else dyad.moving_pivot
+    return [*pivot, math.degrees(dyad.normal_angle), dyad.offset]
+
+
+def test_every_dimension_is_its_number_rounded(synthesis):
+    kinds = set()
+    for found in synthesis.linkages:
+        rows = dimensions(synthesis, found)
+        assert {row.dyad for row in rows} == {dyad.id for dyad in found.dyads}
+        for dyad in found.dyads:
+            kinds.add(type(dyad.dyad))
+            shown = [m for row in rows if row.dyad == dyad.id for m in NUMBER.finditer(row.value)]
+            for match, value in zip(shown, numbers_of(dyad.dyad), strict=True):
+                last = 10.0 ** -len(match[1] or "")
+                assert abs(float(match[0]) - float(value)) <= 0.5001 * last, (found.id, match[0])
+    assert kinds == {RR, PR, RP}
+
+
+def test_half_widths_are_those_of_the_regions(synthesis):
+    for found in synthesis.linkages:
+        given = {(row.dyad, row.what): row.give for row in dimensions(synthesis, found)}
+        for dyad, region in zip(found.dyads, found.uncertainty, strict=True):
+            for what, pivot in (("fixed pivot", region.fixed), ("moving pivot", region.moving)):
+                if pivot is None:
+                    assert (dyad.id, what) not in given
+                    continue
+                text, width = given[dyad.id, what], pivot.half_width
+                if not math.isfinite(width):
+                    assert text == "-"
+                    continue
+                match = NUMBER.search(text)
+                last = 10.0 ** -len(match[1] or "")
+                if text.startswith("± under "):
+                    assert width < float(match[0])
+                else:
+                    assert float(match[0]) == pytest.approx(width, abs=0.5001 * last), found.id
+
+
+def test_unusable_linkages_have_notes_of_their_own(synthesis):
+    for found in synthesis.linkages:
+        uncertainty, built = notes(synthesis, found)
+        assert uncertainty.startswith("±: 95 % regions")
+        errors = re.fullmatch(
+            r"Built to ±0\.002: position errors of up to ([^ ]+) \(95 % of linkages\), "
+            r"at most ([^ ]+)\.",
+            built.replace(f" {synthesis.task.length_unit}", ""),
+        )
+        expected = [float(found.spread.greatest_95), float(found.spread.bound)]
+        assert [float(each) for each in errors.groups()] == pytest.approx(expected, rel=FIGURE)
+
+
+def test_rounded_dimensions_have_no_half_widths():
+    task = read_task("case:ge2012-approximate")
+    synthesis = synthesize(task, SynthesisOptions(rounding_step=0.1))
+    rounded = [each for each in synthesis.linkages if each.error_before_rounding is not None]
+    assert {each.usable for each in rounded} == {True, False}
+    for found in rounded:
+        assert {row.give for row in dimensions(synthesis, found)} == {""}
+        (note,) = notes(synthesis, found)
+        errors = re.fullmatch(
+            rf"Rounded to 0\.1: {found.id} misses by ([^ ]+), instead of by ([^ ]+)\.",
+            note.replace(f" {task.length_unit}", ""),
+        )
+        expected = [found.error.worst, found.error_before_rounding.worst]
+        assert [float(each) for each in errors.groups()] == pytest.approx(expected, rel=FIGURE)
