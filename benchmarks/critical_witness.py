@@ -12,7 +12,7 @@ import sys
 import time
 
 import numpy as np
-from tests.dyads.test_critical_points import against_the_paths
+from tests.oracles.critical_paths import against_the_paths
 from tests.oracles.homotopy import LostError
 
 from benchmarks.critical_points import random_task

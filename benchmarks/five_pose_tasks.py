@@ -13,7 +13,7 @@ import argparse
 import sys
 
 import numpy as np
-from tests.dyads.test_five_poses import as_rows, in_fifty_digits
+from tests.oracles.conics import as_rows, in_fifty_digits
 from tests.oracles.witness import random_four_bar, random_poses, span
 
 from burmester import Displacement, dyads_of_five

@@ -2,7 +2,7 @@
 
     python -m benchmarks.fuzz_bytes csv -max_total_time=180 [CORPUS FOLDER]
 
-Each input is read as a file of that kind: it must be refused well (`tests.io.test_fuzzed_files`),
+Each input is read as a file of that kind: it must be refused well (`tests.oracles.file_verdicts`),
 or be taken with every number as `tests/oracles/plain_reader.py` reads it, where that one is sure.
 """
 
@@ -20,7 +20,7 @@ with atheris.instrument_imports(include=["burmester.io", "tomllib", "json"]):
     import burmester.io.reading.poses
     import burmester.io.reading.requirements_tree  # noqa: F401
 
-from tests.io.test_fuzzed_files import judged
+from tests.oracles.file_verdicts import judged
 from tests.oracles.fuzzed_files import STRANGE_WORDS, File, any_file
 
 SUFFIXES = {"csv": ".csv", "json": ".json", "toml": ".toml", "parquet": ".parquet"}

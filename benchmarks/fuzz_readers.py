@@ -21,7 +21,7 @@ import tempfile
 import time
 from collections import Counter
 
-from tests.io.test_fuzzed_files import judged
+from tests.oracles.file_verdicts import judged
 from tests.oracles.fuzzed_files import any_file
 from tests.oracles.plain_reader import read
 

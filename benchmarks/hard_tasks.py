@@ -20,7 +20,7 @@ import sys
 import time
 
 import numpy as np
-from tests.linkages.test_defect_free_search import (
+from tests.oracles.hard_tasks import (
     comes_by,
     known_cost,
     noisy_task,

@@ -2,7 +2,7 @@
 
     python -m benchmarks.limits_campaign --tasks 150 --starts 40 --seed 1
 
-The tasks and the comparison are those of `tests/dyads/test_minima_within_limits.py`: poses of a
+The tasks and the comparison are those of `tests/oracles/limits_problems.py`: poses of a
 random four-bar with noise of 0.1 to 5 % of their span, pivots in points, on lines and segments, in
 boxes and concave polygons, links of limited length, up to as many exact poses as a dyad can meet,
 weights. Exit code 1 if SciPy found a better dyad that ours should have led to, or a dyad breaks its
@@ -15,7 +15,7 @@ import time
 from collections import Counter
 
 import numpy as np
-from tests.dyads.test_minima_within_limits import (
+from tests.oracles.limits_problems import (
     breaches,
     kinds_of,
     random_problem,

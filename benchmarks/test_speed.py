@@ -12,7 +12,7 @@ import time
 import numpy as np
 import pytest
 from scipy.optimize import fsolve, least_squares
-from tests.dyads.test_five_poses import as_rows, circle_equations
+from tests.oracles.conics import as_rows, circle_equations
 from tests.oracles.witness import span
 
 from benchmarks.many_poses import TABLE_5, design, in_one_task, near_table_5

@@ -19,7 +19,7 @@ from burmester.dyads.sliders import fixed_lines, moving_lines
 from burmester.errors import InputError
 from burmester.fourbar.dyad import PP, PR, RP, RR
 from burmester.geometry.displacement import Displacement
-from tests.dyads.test_critical_points import poses_of
+from tests.oracles.cases import poses_of
 from tests.oracles.witness import random_four_bar, random_poses
 
 flint = pytest.importorskip("flint", reason="certificates need python-flint")

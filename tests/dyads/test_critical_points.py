@@ -1,8 +1,5 @@
 """Every locally best RR dyad: nothing missed, nothing invented."""
 
-import json
-from importlib import resources
-
 import numpy as np
 import pytest
 from hypothesis import given
@@ -14,16 +11,11 @@ from burmester.dyads.five_poses import dyads_of_five
 from burmester.errors import InputError
 from burmester.fourbar.dyad import PR, RP
 from burmester.geometry.displacement import Displacement
+from tests.oracles.cases import poses_of
+from tests.oracles.critical_paths import against_the_paths
 from tests.oracles.elsewhere import judged
-from tests.oracles.homotopy import critical_points
 from tests.oracles.random_starts import local_fits, squared
 from tests.oracles.witness import random_four_bar, random_poses
-
-
-def poses_of(name):
-    case = json.loads(resources.files("burmester").joinpath(f"cases/{name}.json").read_text())
-    rows = np.array(case["poses"])
-    return case, Displacement(rows[:, :2], np.radians(rows[:, 2]))
 
 
 def circle_residual(v, rows):
@@ -134,27 +126,6 @@ def test_dyads_go_along_with_frames_and_units(seed, turn, unit):
         ]
     )
     assert np.abs(gaps).max(axis=1).min() < 1e-6 * (1 + float(best.radius) ** 2)
-
-
-def against_the_paths(rows):
-    """How many points were found, how far the paths' ends are from them, and if the same are real.
-
-    The gap is relative, and infinite where two paths end nearest to one point.
-    """
-    ends, real = critical_points(rows)
-    found = critical_dyads(Displacement.from_poses(rows))
-    length, frames = found.frames.length, found.frames
-    origin = np.concatenate([frames.fixed_origin, frames.moving_origin])
-    c1, c2, m1, m2 = (found.points[: found.found] * length + origin).T
-    points = np.column_stack([c1 + 1j * c2, c1 - 1j * c2, m1 + 1j * m2, m1 - 1j * m2])
-    distance = np.linalg.norm(ends[:, None] - points, axis=2)
-    middle = origin[[0, 0, 2, 2]] + 1j * origin[[1, 1, 3, 3]] * [1, -1, 1, -1]
-    size = np.maximum(length, np.linalg.norm(ends - middle, axis=1))
-    nearest = distance.argmin(axis=1)
-    gap = np.max(distance.min(axis=1) / size)
-    each_once = len(set(nearest)) == len(points)
-    same = bool((found.real[nearest] == real).all())
-    return int(found.found), float(gap) if each_once else np.inf, same
 
 
 @pytest.mark.parametrize("seed", range(20))

@@ -14,7 +14,7 @@ from burmester.dyads.geometric_fit import (
 )
 from burmester.dyads.local_minima import best_dyads
 from burmester.geometry.displacement import Displacement
-from tests.dyads.test_minima_within_limits import circle_distance, line_distance
+from tests.oracles.limits_problems import circle_distance, line_distance
 from tests.oracles.witness import random_four_bar, random_poses
 
 KINDS = {"circle": (circle_misses, circle_distance, 5), "line": (line_misses, line_distance, 4)}

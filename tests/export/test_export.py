@@ -19,7 +19,6 @@ import pytest
 from burmester import export as exported
 from burmester.errors import BurmesterError, InputError
 from burmester.export import FORMATS, Options, export, format_of, mjcf
-from burmester.export.options import MILLIMETRES
 from burmester.export.outlines import convex_hull
 from burmester.export.plates import assembly_of, outline_points
 from burmester.fourbar.dyad import PP
@@ -27,27 +26,21 @@ from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.io import templates
 from burmester.io.saved import read_result
-from tests.oracles.handed_over import GIVEN, NAMES, complex_places, joints, rp, saved
+from tests.oracles.handed_over import (
+    GIVEN,
+    NAMES,
+    complex_places,
+    joints,
+    rp,
+    saved,
+    scale_of,
+    span_of,
+    written,
+)
 
 SPANS = 1e-9
-PLAIN = Options()
 MERE = "visual|inerti|geom|site size|statistic|light|text|svg|desc|style|position"
 FLAT = ("dxf", "svg", "csv", "json", "mjcf", "urdf", "openscad", "pylinkage")
-
-
-def scale_of(chosen):
-    return MILLIMETRES[chosen.unit or "mm"]
-
-
-def span_of(chosen, scale=1.0):
-    every = [z for k in range(6) for z in joints(chosen, k, scale).values()]
-    return float(np.hypot(np.ptp(np.real(every)), np.ptp(np.imag(every))))
-
-
-def written(name, to, folder, options=PLAIN):
-    chosen = saved(name)
-    (path,) = export(chosen, to, folder / f"out{FORMATS[to].suffix}", options)
-    return chosen, path
 
 
 def nearest(points, point):

@@ -19,8 +19,8 @@ from burmester.errors import BurmesterError, InputError
 from burmester.export import movie
 from burmester.export.options import Options
 from burmester.fourbar.dyad import PR, RP, RR
-from tests.export.test_travel import PAPER, paper, saved
 from tests.oracles import witness
+from tests.oracles.saved_linkages import PAPER, paper, saved
 
 SMALL = Options(seconds=1.2, frames_per_second=20, width_px=321)
 

@@ -9,8 +9,7 @@ from burmester.export import Options
 from burmester.export.joints import ground_joint
 from burmester.export.truth import Truth
 from burmester.fourbar.dyad import PR
-from tests.export.test_export import scale_of, span_of, written
-from tests.oracles.handed_over import NAMES, complex_places, joints
+from tests.oracles.handed_over import NAMES, complex_places, joints, scale_of, span_of, written
 
 mujoco = pytest.importorskip("mujoco")
 

@@ -21,8 +21,8 @@ from burmester.export.stl import read_stl, shells_of
 from burmester.fourbar.dyad import PP, PR, RP, RR
 from burmester.fourbar.linkage import Linkage
 from burmester.io.saved import SavedLinkage
-from tests.export.test_travel import PAPER, paper, saved
 from tests.oracles import witness
+from tests.oracles.saved_linkages import PAPER, paper, saved
 
 cad = pytest.importorskip("build123d")
 

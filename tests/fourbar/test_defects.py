@@ -25,7 +25,7 @@ from burmester.fourbar.pose_error import PoseError
 from burmester.fourbar.pose_order import CERTAIN_STEP_BACK, REPEATED_POSE_STEP
 from burmester.fourbar.traversal import DEAD_POINT_ANGLE
 from burmester.geometry.displacement import Displacement
-from tests.fourbar.test_circuits import (
+from tests.oracles.random_dyads import (
     CHANGE,
     NAMES,
     PAIRS,

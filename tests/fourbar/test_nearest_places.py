@@ -19,7 +19,7 @@ from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.nearest_places import on_circuits, on_own_circuits
 from burmester.fourbar.pose_error import PoseError, error_frames
 from burmester.geometry.displacement import Displacement
-from tests.fourbar.test_circuits import PAIRS, all_pairs, random_dyad
+from tests.oracles.random_dyads import PAIRS, all_pairs, random_dyad
 from tests.oracles.swept import TooFineError, circuits, on_both
 from tests.oracles.witness import misses, places, random_four_bar, random_poses
 

@@ -25,7 +25,7 @@ from burmester.linkages.constraints import (
 )
 from burmester.tasks.limits import Limits
 from burmester.tasks.requirements import Requirements
-from tests.linkages.test_defect_free_search import assembled, sines
+from tests.oracles.hard_tasks import assembled, sines
 from tests.oracles.witness import random_four_bar
 
 KINDS = (RR, PR, RP)

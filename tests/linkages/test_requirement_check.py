@@ -9,7 +9,7 @@ from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
 from burmester.linkages.requirement_check import violations
 from burmester.tasks.requirements import Requirements
-from tests.linkages.test_defect_free_search import sines
+from tests.oracles.hard_tasks import sines
 from tests.oracles.witness import places, random_four_bar
 
 BOX = Polygon([[-2, -2], [2, -2], [2, 2], [-2, 2]])

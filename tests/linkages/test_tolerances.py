@@ -15,7 +15,7 @@ from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.tolerances import monte_carlo, sensitivity, spread
-from tests.linkages.test_uncertainty import LENGTH, case, dyads_of, numbers_of
+from tests.oracles.refits import LENGTH, case, dyads_of, numbers_of
 from tests.oracles.witness import misses, places
 
 KINDS = pytest.mark.parametrize("second", [RR, PR, RP])

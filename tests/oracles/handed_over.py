@@ -6,6 +6,8 @@ known little.
 
 import numpy as np
 
+from burmester.export import FORMATS, Options, export
+from burmester.export.options import MILLIMETRES
 from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
@@ -85,3 +87,21 @@ def joints(chosen, number, scale=1.0):
         if not isinstance(dyad, RP):
             found[f"moving{k}"] = d + complex(*dyad.moving_pivot) * scale * turn
     return found
+
+
+PLAIN = Options()
+
+
+def scale_of(chosen):
+    return MILLIMETRES[chosen.unit or "mm"]
+
+
+def span_of(chosen, scale=1.0):
+    every = [z for k in range(6) for z in joints(chosen, k, scale).values()]
+    return float(np.hypot(np.ptp(np.real(every)), np.ptp(np.imag(every))))
+
+
+def written(name, to, folder, options=PLAIN):
+    chosen = saved(name)
+    (path,) = export(chosen, to, folder / f"out{FORMATS[to].suffix}", options)
+    return chosen, path

@@ -26,8 +26,8 @@ from burmester.tasks.motion_kinds import (
     Undetermined,
 )
 from burmester.tasks.motion_task import Task
+from tests.oracles.strange_poses import STRANGE
 from tests.oracles.witness import places, random_four_bar, random_poses, span
-from tests.synthesis.test_strange_poses import STRANGE
 
 PRINTED = (5e-5, np.radians(5e-5))  # half of the last digit of rows with four decimals
 

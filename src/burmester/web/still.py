@@ -118,7 +118,7 @@ def _curve(linkage: Linkage, places: Displacement, near: FloatArray) -> list[Flo
     size = REACH * float((high - low).max())
     if own.closed:
         parameter = np.linspace(0.0, 2 * np.pi, SAMPLES)
-    elif own.drive.turns:
+    elif own.loop.turns:
         parameter = np.linspace(0.0, np.pi, SAMPLES)
     else:
         parameter = np.linspace(-2 * size, 2 * size, SAMPLES)
