@@ -23,6 +23,7 @@ import numpy as np
 from scipy.optimize import least_squares
 from tests.oracles.witness import places, random_four_bar, random_poses, span
 
+from burmester import synthesize
 from burmester.dyads.local_minima import best_dyads
 from burmester.dyads.selection import characteristic_length, found_dyads
 from burmester.fourbar.dyad import PR, RP, RR
@@ -34,7 +35,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.linkages import from_dyads
 from burmester.linkages.refinement import refine
 from burmester.linkages.uncertainty import covariance, uncertainties
-from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.motion_task import Task
 
 LEVELS = 1e-5, 1e-4, 1e-3  # of the span, and in radians

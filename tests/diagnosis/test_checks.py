@@ -6,12 +6,11 @@ import math
 import numpy as np
 import pytest
 
-from burmester import cli
+from burmester import cli, synthesize
 from burmester.diagnosis.checks import diagnose, disagreement
 from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
 from burmester.io.reading.poses import read_task
-from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.motion_task import Task
 from tests.oracles.ten_poses import TEN as GOOD
 

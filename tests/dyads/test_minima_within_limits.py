@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize
 
+from burmester import synthesize
 from burmester.dyads.face_descent import Block, Range, descend
 from burmester.dyads.geometric_fit import circle_misses, least_squares
 from burmester.dyads.minima_within_limits import limited_dyads
@@ -11,7 +12,6 @@ from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Line, Point, Polygon
-from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
 from tests.oracles.limits_problems import (

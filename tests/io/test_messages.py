@@ -29,7 +29,7 @@ from rich.cells import cell_len
 from rich.console import Console
 
 import burmester
-from burmester import cli
+from burmester import cli, synthesize
 from burmester.certificates.ball_arithmetic import flint
 from burmester.dyads.five_poses import dyads_of_five
 from burmester.errors import BurmesterError, InputError
@@ -41,7 +41,6 @@ from burmester.io.message import note, place, show
 from burmester.io.reading.poses import read_task
 from burmester.io.result import failure, plain
 from burmester.io.saved import read_result
-from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.motion_class import classify_motion
 from tests.oracles.ten_poses import ROWS, TEN
 

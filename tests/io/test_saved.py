@@ -5,12 +5,12 @@ import json
 import numpy as np
 import pytest
 
+from burmester import synthesize
 from burmester.errors import InputError
 from burmester.io import templates
 from burmester.io.reading.poses import read_task
 from burmester.io.result import plain
 from burmester.io.saved import read_result
-from burmester.synthesis.motion_generation import synthesize
 from tests.oracles.witness import places
 
 

@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
+from burmester import synthesize
 from burmester.cli.new import new
 from burmester.errors import InputError
 from burmester.fourbar.dyad import RR
@@ -22,7 +23,6 @@ from burmester.fourbar.linkage import Linkage
 from burmester.io import templates
 from burmester.io.reading.asked import FILE_KEYS
 from burmester.io.reading.poses import read_task
-from burmester.synthesis.motion_generation import synthesize
 from tests.oracles import witness
 
 TRADES = (

@@ -11,13 +11,13 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize
 
+from burmester import synthesize
 from burmester.fourbar.dyad import RR
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
 from burmester.io.reading.poses import read_task
 from burmester.linkages.defect_free_search import links_of_pivot_map
-from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.requirements import Requirements

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from burmester import synthesize
 from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.dyad import PR, RR
 from burmester.fourbar.linkage import Linkage
@@ -11,7 +12,6 @@ from burmester.fourbar.pose_error import error_frames
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import box
 from burmester.linkages.uncertainty import covariance, pose_sigma, uncertainties
-from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.requirements import Requirements

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from scipy.optimize import least_squares, minimize
 
+from burmester import synthesize
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
@@ -21,7 +22,6 @@ from burmester.geometry.regions import Line, Point, Polygon, Segment
 from burmester.io.reading.poses import read_task
 from burmester.linkages.constraints import DyadLimitsConstraint
 from burmester.linkages.refinement import refine
-from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.limits import Limits
 from tests.oracles.witness import places
 
@@ -341,10 +341,10 @@ def test_limits_hold_and_scipy_comes_no_lower(what, seed):
 
 def test_the_papers_ten_poses():
     """Table 5, with a radian as a length of 1: printed 0.216 and 0.114."""
-    best = synthesize(read_task("case:ge2012-approximate"), length=1.0).linkages[0]
+    best = synthesize(read_task("case:ge2012-approximate"), length_per_radian=1.0).linkages[0]
     assert best.error.worst <= 0.0065
     assert best.error.rms <= 0.0037
-    exact = synthesize(read_task("case:ge2012-exact"), length=1.0).linkages[0]
+    exact = synthesize(read_task("case:ge2012-exact"), length_per_radian=1.0).linkages[0]
     assert exact.error.worst <= 1e-4
 
 

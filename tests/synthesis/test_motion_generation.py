@@ -6,11 +6,11 @@ from importlib import resources
 import numpy as np
 import pytest
 
+from burmester import synthesize
 from burmester.errors import InputError
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.geometry.displacement import Displacement
 from burmester.io.reading.poses import read_task
-from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.motion_task import Task
 from tests.oracles.swept import TooFineError, circuits
 from tests.oracles.tracer import driven

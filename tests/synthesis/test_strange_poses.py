@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from rich.console import Console
 
+from burmester import synthesize
 from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
 from burmester.io.result import plain
 from burmester.io.terminal import show_synthesis
-from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.motion_task import Task
 from tests.oracles.strange_poses import STRANGE
 

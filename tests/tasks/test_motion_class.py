@@ -8,10 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import least_squares
 
+from burmester import synthesize
 from burmester.dyads.five_poses import dyads_of_five
 from burmester.fourbar.dyad import PP, PR, RP, RR
 from burmester.geometry.displacement import Displacement
-from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.motion_class import classify_motion
 from burmester.tasks.motion_kinds import (
     CircularTranslation,
