@@ -10,6 +10,7 @@ from burmester.fourbar.dyad import PP, PR, RP, RR
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.geometry.displacement import Displacement
+from burmester.numerics.bundles import concatenate, take
 
 KINDS = (RR, PR, RP)
 PAIRS = list(itertools.product(KINDS, KINDS))
@@ -167,7 +168,7 @@ def test_some_surfaces_are_those_of_the_picked_linkages():
     rng = np.random.default_rng(5)
     linkages = all_pairs(rng, 1)
     stack, pick = LinkageBatch.of(linkages), np.array([7, 0, 4])
-    some = stack.surfaces().some(pick)
+    some = take(stack.surfaces(), pick)
     for k, number in enumerate(pick):
         one = LinkageBatch.of([linkages[number]]).surfaces()
         for mine, its in zip(some, one, strict=True):
@@ -221,7 +222,7 @@ def test_one_linkage_exchanged_picked_and_joined():
             assert np.allclose(mine.residual(places), its.residual(places), atol=1e-14)
     picked = stack[np.array([5, 2])]
     assert (picked.dimensions == stack.dimensions[[5, 2]]).all()
-    both = picked.and_(stack[:1])
+    both = concatenate([picked, stack[:1]])
     assert [type(both.linkage(k).first) for k in range(3)] == [
         type(linkages[k].first) for k in (5, 2, 0)
     ]

@@ -42,7 +42,7 @@ def test_it_ends_where_scipy_ends(name):
 @pytest.mark.parametrize("limit", [2, 5, 10])
 @pytest.mark.parametrize("name", CASES)
 def test_it_stays_at_the_lowest_that_it_has_seen(name, limit, monkeypatch):
-    monkeypatch.setattr("burmester.numerics.least_squares.STEPS", limit)
+    monkeypatch.setattr("burmester.numerics.least_squares.MAX_STEPS", limit)
     kernel, size = CASES[name]
     for x in np.random.default_rng(4).uniform(-3, 3, (10, 1, size)):
         seen = []

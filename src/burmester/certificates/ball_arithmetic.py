@@ -18,6 +18,7 @@ from burmester.errors import InputError
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
+from burmester.numerics.weights import weights_or_ones
 
 __all__ = [
     "Ball",
@@ -81,7 +82,7 @@ class Motion(NamedTuple):
             d1 = (arb(float(x)) + cos * moving[0] - sin * moving[1] - fixed[0]) / length
             d2 = (arb(float(y)) + sin * moving[0] + cos * moving[1] - fixed[1]) / length
             places.append((d1, d2, cos, sin))
-        share = [arb(float(w)) for w in (np.ones(len(angles)) if weights is None else weights)]
+        share = [arb(float(w)) for w in weights_or_ones(weights, (len(angles),))]
         return cls(places, angles, share, fixed, moving, length)
 
     def inverse(self) -> Motion:

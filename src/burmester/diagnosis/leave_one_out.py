@@ -26,6 +26,7 @@ from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
+from burmester.numerics.bundles import concatenate, take
 
 __all__ = ["EVERY", "LeaveOneOut", "pencil_pairs"]
 
@@ -64,14 +65,14 @@ class LeaveOneOut(NamedTuple):
         """Fits from the dyads of all poses, and from the pencils without each."""
         count = len(seen.rows)
         if count <= EVERY:
-            each, starts = np.arange(count), pairs[:SHARED].and_(whole.stack)
+            each, starts = np.arange(count), concatenate([pairs[:SHARED], whole.stack])
             others = np.array([np.delete(each, k) for k in each])
             more, held = pencil_pairs(seen.poses[others], seen.weights[others])
         else:
             each, starts = _likely(seen, whole.stack)
             more, held = whole.stack[:0], np.empty(0)
         own = np.concatenate([np.repeat(each, len(starts)), each[: len(more)]])
-        stack = starts[np.tile(np.arange(len(starts)), len(each))].and_(more)
+        stack = concatenate([starts[np.tile(np.arange(len(starts)), len(each))], more])
         fits = in_two_steps(stack, own, seen.rows, seen.shares(own))
         return cls(seen, _and_again(seen, whole, fits), fits, held, {})
 
@@ -91,12 +92,12 @@ class LeaveOneOut(NamedTuple):
         stack, own = fits.stack, fits.own
         for pose in likely:
             new = self.own_pairs(pose)
-            stack, own = stack.and_(new), np.append(own, np.full(len(new), pose))
+            stack, own = concatenate([stack, new]), np.append(own, np.full(len(new), pose))
         # What leads to the best fit without one pose may do so without another.
         for pose in likely:
             best = fits.of(pose).stack[:1]
             for other in likely:
-                stack, own = stack.and_(best), np.append(own, other)
+                stack, own = concatenate([stack, best]), np.append(own, other)
         fits = in_two_steps(stack, own, seen.rows, seen.shares(own))
         return self._replace(fits=fits, whole=_and_again(seen, self.whole, fits))
 
@@ -104,10 +105,10 @@ class LeaveOneOut(NamedTuple):
 def _and_again(seen: Seen, whole: Fits, fits: Fits) -> Fits:
     """The fits to all poses, and from those without the likeliest: they may be the best of all."""
     best = fits.best(1)
-    best = best.some(np.argsort(best.cost, kind="stable")[:LIKELY])
+    best = take(best, np.argsort(best.cost, kind="stable")[:LIKELY])
     none = np.full(len(best.cost), -1)
     stack, cost = fitted(best.stack, seen.rows, seen.shares(none), LONG)
-    return whole.and_(Fits(stack, cost, none)).best(KEPT)
+    return concatenate([whole, Fits(stack, cost, none)]).best(KEPT)
 
 
 def _dyads(poses: Displacement, weights: FloatArray | None) -> list[Dyad]:
@@ -159,7 +160,7 @@ def _likely(seen: Seen, pairs: LinkageBatch) -> tuple[NDArray[np.intp], LinkageB
     """
     away = np.linalg.norm(seen.rows[:, :2] - np.median(seen.rows[:, :2], axis=0), axis=-1)
     farthest = int(away.argmax())
-    stack = pairs.and_(_own_pairs(seen, farthest))
+    stack = concatenate([pairs, _own_pairs(seen, farthest)])
     some = np.arange(len(seen.rows))[:: max(1, len(seen.rows) // SAMPLE)]
     rows, weights = seen.rows[some], seen.weights[some]
     share = np.tile(weights, (len(stack), 1))

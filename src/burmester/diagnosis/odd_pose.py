@@ -34,6 +34,7 @@ from burmester.fourbar.dyad import Dyad
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.nearest_places import on_circuits, rows_of
 from burmester.numerics.arrays import ROUNDING
+from burmester.numerics.bundles import concatenate
 from burmester.tasks.motion_class import MotionClass, classify_motion
 from burmester.tasks.motion_task import Task
 from burmester.tasks.wording import figure, length_of
@@ -197,9 +198,9 @@ def _told(  # noqa: PLR0917
     seen, fits = left.seen, left.fits
     count, length = len(seen.rows), float(seen.frames.length)
     spare = 2 * count - 12
-    own = fits.of(pose).stack if slip is None else slip.stack.and_(fits.of(pose).stack)
+    own = fits.of(pose).stack if slip is None else concatenate([slip.stack, fits.of(pose).stack])
     without, stack = refined(seen, own, pose)
-    of_all, _ = refined(seen, left.whole.stack.and_(stack), None)
+    of_all, _ = refined(seen, concatenate([left.whole.stack, stack]), None)
     if not np.isfinite(without):
         return None
     place = on_circuits(stack, seen.poses[[pose]], 1.0)

@@ -12,6 +12,7 @@ import numpy as np
 from burmester.diagnosis.sampson_fits import Seen, misses
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.numerics.arrays import ROUNDING, FloatArray, wrapped_angle
+from burmester.numerics.differences import DifferenceQuotients
 from burmester.tasks.motion_task import Task
 
 __all__ = ["FACTORS", "NUMBERS", "Nearness", "Repair", "repairs_of", "unit_repair"]
@@ -22,7 +23,8 @@ NUMBERS = ("x", "y", "angle")
 AGREES, MENDED = (16.0, 40.0), 0.03
 FACTORS = (10.0, 25.4, 1000.0, 12.0, 100.0, 2.54, 304.8)  # between units, or a decimal point away
 SWEEP = 720  # coupler angles looked at for a place
-NUDGE, NEWTON = 1e-6, 20
+QUOTIENTS = DifferenceQuotients(stride=1e-6)  # of misses, by one number of a pose
+NEWTON = 20
 
 
 @final
@@ -64,6 +66,10 @@ class Nearness(NamedTuple):
         axes = axes[open_] / spread[open_, None] / size
         return cls(stack, axes.T @ axes, sigma)
 
+    def residual(self, rows: FloatArray) -> FloatArray:
+        """The misses (n, 2) of poses (n, 3)."""
+        return misses(self.stack, rows, np.ones((1, len(rows))))[0].reshape(-1, 2)
+
     def spread(self, row: FloatArray) -> tuple[FloatArray, FloatArray]:
         """The misses (2,) of a pose (3,), and their covariance (2, 2) in sigma squared."""
         miss, slope = misses(self.stack, row[None], np.ones((1, 1)))
@@ -86,9 +92,8 @@ class Nearness(NamedTuple):
         power = 0.0
         for _ in range(NEWTON):
             miss, weight = self.at(row)
-            ahead = row.copy()
-            ahead[number] += NUDGE
-            slope = (self.at(ahead)[0] - miss) / NUDGE
+            beside = QUOTIENTS.points(row, np.eye(3)[[number]])
+            slope = QUOTIENTS.jacobian(self.residual(beside))[:, 0]
             power = float(slope @ weight @ slope)
             if not power > 0:
                 return np.inf, row, np.inf

@@ -20,6 +20,10 @@ from burmester.geometry.displacement import Displacement
 from burmester.linkages.refinement import refine
 from burmester.linkages.residuals import SIZE
 from burmester.numerics.arrays import FloatArray
+from burmester.numerics.bundles import take
+from burmester.numerics.least_squares import Attempt, damped_descent
+from burmester.numerics.linear_algebra import matvec, solve
+from burmester.numerics.weights import weights_of_mean_one
 
 __all__ = [
     "EVEN",
@@ -37,6 +41,7 @@ __all__ = [
 SHORT, LONG, KEPT = 6, 30, 3  # steps for all starts, and for so many of each fit
 EVEN = 12.0  # squares of an extent to a variance
 CONVERGED, STIFF = 1e-4, 1e6  # of the steps: the last gain, and the last damping
+START_DAMPING, MIN_DAMPING = 1e-3, 1e-10  # relative, of the normal equations
 
 
 class Seen(NamedTuple):
@@ -54,7 +59,7 @@ class Seen(NamedTuple):
     @classmethod
     def of(cls, poses: Displacement, weights: FloatArray | None) -> Seen:
         """Poses (N,); the one that is farthest off is not to set the frames."""
-        share = np.ones(poses.shape) if weights is None else weights / weights.mean()
+        share = weights_of_mean_one(weights, poses.shape)
         middle = np.median(poses.translation, axis=0)
         away = np.sort(((poses.translation - middle) ** 2).sum(axis=-1))[:-1]
         length = np.sqrt(EVEN * away.mean())
@@ -81,22 +86,10 @@ class Fits(NamedTuple):
     cost: FloatArray
     own: NDArray[np.intp]
 
-    def some(self, index: NDArray[np.intp]) -> Fits:
-        """Those at the indices."""
-        return Fits(self.stack[index], self.cost[index], self.own[index])
-
-    def and_(self, other: Fits) -> Fits:
-        """These, and then others."""
-        return Fits(
-            self.stack.and_(other.stack),
-            np.append(self.cost, other.cost),
-            np.append(self.own, other.own),
-        )
-
     def of(self, own: int) -> Fits:
         """Those of one task, the best first."""
         index = np.flatnonzero(self.own == own)
-        return self.some(index[np.argsort(self.cost[index], kind="stable")])
+        return take(self, index[np.argsort(self.cost[index], kind="stable")])
 
     def by_cost(self) -> list[int]:
         """Whose they are, by the least cost of each."""
@@ -104,7 +97,7 @@ class Fits(NamedTuple):
 
     def best(self, number: int) -> Fits:
         """The best of each, so many at most."""
-        return self.some(_best(self.cost, self.own, number))
+        return take(self, _best(self.cost, self.own, number))
 
 
 def in_two_steps(
@@ -135,37 +128,44 @@ def fitted(
 
     With their sums (k,) of squares.  Levenberg and Marquardt's method.
     """
-    z, kinds, count = stack.dimensions.reshape(-1, SIZE).copy(), stack.kinds, len(stack)
-    rows = np.broadcast_to(rows, (count, *rows.shape[-2:]))
-    damping = np.full(count, 1e-3)
-    miss, slope = misses(stack, rows, share)
-    cost = (miss * miss).sum(axis=-1)
-    run = np.arange(count)
-    for _ in range(steps):
-        turned = np.swapaxes(slope, -1, -2)
-        flat = turned @ slope
-        size = np.sqrt(np.einsum("kii->ki", flat))
+    kinds, z = stack.kinds, stack.dimensions.reshape(-1, SIZE)
+    rows = np.broadcast_to(rows, (len(stack), *rows.shape[-2:]))
+
+    def point(which: NDArray[np.intp], z: FloatArray) -> _Point:
+        linkages = LinkageBatch(kinds[which], z.reshape(-1, 2, DIMENSIONS))
+        residual, jacobian = misses(linkages, rows[which], share[which])
+        return _Point(z, residual, jacobian, (residual * residual).sum(axis=-1))
+
+    def attempt(which: NDArray[np.intp], here: _Point, damping: FloatArray) -> Attempt[_Point]:
+        transposed = np.swapaxes(here.jacobian, -1, -2)
+        normal = transposed @ here.jacobian
+        size = np.sqrt(np.einsum("kii->ki", normal))
         size = np.where(size > 1e-9 * size.max(axis=-1, keepdims=True), size, 1.0)
-        flat /= size[:, :, None] * size[:, None]
-        flat[:, range(SIZE), range(SIZE)] += damping[run, None]
-        downhill = (turned @ miss[..., None])[..., 0] / size
-        step = -np.linalg.solve(flat, downhill[..., None])[..., 0] / size
-        to = z[run] + step
-        there = LinkageBatch(kinds[run], to.reshape(-1, 2, DIMENSIONS))
-        new_miss, new_slope = misses(there, rows[run], share[run])
-        after = (new_miss * new_miss).sum(axis=-1)
-        positive = (to.reshape(-1, 2, DIMENSIONS)[..., -1] > 0) | (kinds[run] > 0)
-        better = (after < cost[run]) & positive.all(axis=-1)
-        done = better & (after > cost[run] * (1 - CONVERGED))
-        z[run[better]], cost[run[better]] = to[better], after[better]
-        miss = np.where(better[:, None], new_miss, miss)
-        slope = np.where(better[:, None, None], new_slope, slope)
-        damping[run] = np.maximum(damping[run] * np.where(better, 0.1, 10.0), 1e-10)
-        keep = ~(done | (damping[run] > STIFF))
-        run, miss, slope = run[keep], miss[keep], slope[keep]
-        if not len(run):
-            break
-    return LinkageBatch(kinds, z.reshape(-1, 2, DIMENSIONS)), cost
+        normal /= size[:, :, None] * size[:, None]
+        normal[:, range(SIZE), range(SIZE)] += damping[:, None]
+        step = -solve(normal, matvec(transposed, here.residual) / size) / size
+        there = point(which, here.z + step)
+        radius = there.z.reshape(-1, 2, DIMENSIONS)[..., -1]
+        positive = ((radius > 0) | (kinds[which] > 0)).all(axis=-1)
+        better = (there.cost < here.cost) & positive
+        damping = np.maximum(damping * np.where(better, 0.1, 10.0), MIN_DAMPING)
+        idle = better & (there.cost > here.cost * (1 - CONVERGED))
+        return Attempt(there, better, damping, idle | (damping > STIFF))
+
+    every = np.arange(len(stack))
+    ends, _ = damped_descent(
+        attempt, point(every, z), every, damping=START_DAMPING, max_steps=steps
+    )
+    return LinkageBatch(kinds, ends.z.reshape(-1, 2, DIMENSIONS)), ends.cost
+
+
+class _Point(NamedTuple):
+    """Linkages with dimensions z (k, 10), residuals, their Jacobian, and the sum of squares."""
+
+    z: FloatArray
+    residual: FloatArray
+    jacobian: FloatArray
+    cost: FloatArray
 
 
 def misses(

@@ -35,6 +35,7 @@ from burmester.diagnosis.sampson_fits import (
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
+from burmester.numerics.bundles import concatenate
 
 __all__ = ["UnitError", "apart", "chance_of", "unit_error"]
 
@@ -94,7 +95,7 @@ def unit_error(left: LeaveOneOut, floor: float, sure: float) -> UnitError | None
     places = Displacement(row[:, :2], row[:, 2])
     mended, _ = refined(seen._replace(rows=row, poses=places), stack, None)
     without, stack = refined(seen, slip.stack, slip.pose)
-    of_all, _ = refined(seen, left.whole.stack.and_(stack), None)
+    of_all, _ = refined(seen, concatenate([left.whole.stack, stack]), None)
     of_all, without = min(of_all, whole), min(without, mended)
     if not mended < of_all:
         return None
@@ -112,17 +113,17 @@ def _multiples_fitted(left: LeaveOneOut, tried: NDArray[np.intp]) -> tuple[Float
     if len(seen.rows) > EVERY:  # one of many hardly moves a linkage
         starts = {k: left.fits.of(k).stack[:1] for k in poses}
     else:
-        starts = {k: left.fits.of(k).stack[:2].and_(left.whole.stack[:2]) for k in poses}
+        starts = {k: concatenate([left.fits.of(k).stack[:2], left.whole.stack[:2]]) for k in poses}
         for k in poses[:FITTED]:
-            starts[k] = starts[k].and_(left.own_pairs(k))
+            starts[k] = concatenate([starts[k], left.own_pairs(k)])
     stack, each = left.whole.stack[:0], np.empty(0, dtype=np.intp)
     for k in own:
         new = starts[int(tried[k, 0])]
-        stack, each = stack.and_(new), np.append(each, np.full(len(new), k))
+        stack, each = concatenate([stack, new]), np.append(each, np.full(len(new), k))
     if len(seen.rows) <= EVERY:
         weights = np.broadcast_to(seen.weights, rows.shape[:2])
         pencils, _ = pencil_pairs(Displacement(rows[..., :2], rows[..., 2]), weights)
-        stack, each = stack.and_(pencils), np.append(each, own)
+        stack, each = concatenate([stack, pencils]), np.append(each, own)
     share = np.broadcast_to(seen.weights, (len(stack), len(seen.rows)))
     return rows, in_two_steps(stack, each, rows[each], share)
 

@@ -17,6 +17,7 @@ import numpy as np
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
+from burmester.numerics.weights import shares
 
 __all__ = ["CanonicalFrames"]
 
@@ -47,8 +48,7 @@ class CanonicalFrames:
         cls, poses: Displacement, weights: FloatArray | None = None
     ) -> tuple[Self, Displacement]:
         """The canonical frames of poses (*, N), and the poses seen in them."""
-        share = np.ones(poses.shape) if weights is None else np.broadcast_to(weights, poses.shape)
-        share = share / share.sum(axis=-1, keepdims=True)
+        share = shares(weights, poses.shape)
         d = poses.translation[..., 0] + 1j * poses.translation[..., 1]
         turn = np.exp(1j * poses.angle)
         mean_d = (share * d).sum(axis=-1, keepdims=True)

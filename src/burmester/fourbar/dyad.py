@@ -16,6 +16,7 @@ import numpy as np
 from burmester.geometry import constraint_manifold
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
+from burmester.numerics.weights import weights_or_ones
 
 __all__ = ["PP", "PR", "RP", "RR", "Dyad", "refitted_circles"]
 
@@ -185,11 +186,8 @@ def refitted_circles(
     centred = RR(fixed_pivot, moving_pivot, np.zeros(fixed_pivot.shape[:-1]))
     with np.errstate(invalid="ignore"):
         distance = centred[..., None].residual(poses[..., None, :])
-    if weights is None:
-        radius = distance.mean(axis=-1)
-    else:
-        share = weights[..., None, :]
-        radius = (distance * share).sum(axis=-1) / share.sum(axis=-1)
+    share = weights_or_ones(weights, poses.shape)[..., None, :]
+    radius = (distance * share).sum(axis=-1) / share.sum(axis=-1)
     miss = distance - radius[..., None]
     rms = np.sqrt((miss**2).mean(axis=-1))
     return RR(fixed_pivot, moving_pivot, radius), rms, np.abs(miss).max(axis=-1)

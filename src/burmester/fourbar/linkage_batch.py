@@ -19,6 +19,7 @@ from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
+from burmester.numerics.bundles import take
 
 __all__ = ["DIMENSIONS", "STACKED", "ConstraintForms", "ConstraintJacobians", "LinkageBatch"]
 
@@ -76,18 +77,11 @@ class LinkageBatch:
 
     def __getitem__(self, index: Any) -> LinkageBatch:
         """Pick linkages (slices, masks, index arrays)."""
-        return LinkageBatch(self.kinds[index], self.dimensions[index])
+        return take(self, index)
 
     def linkage(self, index: int) -> Linkage:
         """One of them."""
         return Linkage(*(self._dyads(side, index) for side in (0, 1)))
-
-    def and_(self, other: LinkageBatch) -> LinkageBatch:
-        """These linkages, and then others."""
-        return LinkageBatch(
-            np.concatenate([self.kinds, other.kinds]),
-            np.concatenate([self.dimensions, other.dimensions]),
-        )
 
     def exchanged(self) -> LinkageBatch:
         """The same with the two dyads exchanged."""
@@ -203,16 +197,6 @@ class ConstraintForms(NamedTuple):
     turned: ComplexArray
     both: ComplexArray
     constant: FloatArray
-
-    def some(self, index: Any) -> ConstraintForms:
-        """Pick along the leading axes."""
-        return ConstraintForms(
-            self.round[index],
-            self.still[index],
-            self.turned[index],
-            self.both[index],
-            self.constant[index],
-        )
 
     def at(
         self, d: ComplexArray, turn: ComplexArray

@@ -16,6 +16,7 @@ from burmester.fourbar.circuits import Circuits, circuit_of, locate
 from burmester.fourbar.linkage_batch import ConstraintForms, LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray, complex_of, wrapped_angle
+from burmester.numerics.bundles import take
 
 __all__ = [
     "Normal",
@@ -330,7 +331,7 @@ def settled(
     met = np.zeros(len(ends), dtype=bool)
     every = stack.surfaces()
     for _ in range(steps):
-        surfaces = every.some(which[run])
+        surfaces = take(every, which[run])
         step, moved = newton_step(surfaces, ends[run, None], target[run, None], length)
         ends[run] += step[:, 0]
         still = moved[:, 0] > SETTLED * (1 + np.abs(ends[run]).max(axis=-1))
@@ -340,7 +341,7 @@ def settled(
             break
     if len(run):  # slow ones are kept where they are on the linkage
         d, turn = complex_of(ends[run, None]), np.exp(1j * ends[run, None, 2] / length)
-        miss, _, _ = every.some(which[run]).at(d[:, None], turn[:, None])
+        miss, _, _ = take(every, which[run]).at(d[:, None], turn[:, None])
         met[run] = (np.abs(miss) < 1e-9).all(axis=(1, 2))
     ends[~met] = np.nan
     return ends.reshape(shape)

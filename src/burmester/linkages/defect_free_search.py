@@ -33,6 +33,7 @@ from burmester.linkages.constraints import (
 from burmester.linkages.refinement import Refined
 from burmester.linkages.target import Target
 from burmester.numerics.arrays import FloatArray, complex_of, wrapped_angle
+from burmester.numerics.bundles import concatenate, take
 from burmester.tasks.requirements import Requirements
 
 __all__ = ["Found", "defect_free_linkages", "links_of_pivot_map", "middle_of"]
@@ -69,17 +70,6 @@ class _Starts(NamedTuple):
     sign: FloatArray
     middle: FloatArray
 
-    def some(self, index: NDArray[np.intp]) -> _Starts:
-        """Those at the indices."""
-        return _Starts(
-            self.pair[index],
-            self.stack[index],
-            self.rows[index],
-            self.driver[index],
-            self.sign[index],
-            self.middle[index],
-        )
-
 
 def defect_free_linkages(stack: LinkageBatch, aim: Target) -> Found | None:
     """The best linkages under all conditions that pairs (k,) of dyads lead to.
@@ -103,7 +93,7 @@ def defect_free_linkages(stack: LinkageBatch, aim: Target) -> Found | None:
         order = _apart(found.rows, order[np.isfinite(found.cost[order])], best)
         if not len(order):  # all were lost
             return None
-        starts = starts.some(order)._replace(stack=found.stack[order], rows=found.rows[order])
+        starts = take(starts, order)._replace(stack=found.stack[order], rows=found.rows[order])
     return Found(found, starts.pair)
 
 
@@ -143,12 +133,8 @@ def _likely(stack: LinkageBatch, aim: Target) -> _Starts:
         sine = signed_transmission_sine(there.stack, there.rows, aim.length, there.driver)
         wrong = (there.sign[:, None] * sine < 0).sum(axis=1)
         score = np.concatenate([score, aim.cost(there.rows) + WRONG * wrong])
-        starts = _Starts(
-            np.concatenate([starts.pair, there.pair]),
-            starts.stack.and_(there.stack),
-            *(np.concatenate(both) for both in zip(starts[2:], there[2:], strict=True)),
-        )
-    return starts.some(np.argsort(score, kind="stable")[:STARTS])
+        starts = concatenate([starts, there])
+    return take(starts, np.argsort(score, kind="stable")[:STARTS])
 
 
 def _at_poses(stack: LinkageBatch, aim: Target) -> tuple[_Starts, FloatArray]:

@@ -25,6 +25,9 @@ from burmester.linkages.target import Target
 from burmester.linkages.tolerances import spread
 from burmester.linkages.uncertainty import covariance, links_deviation, pose_sigma, uncertainties
 from burmester.numerics.arrays import ROUNDING, FloatArray
+from burmester.numerics.bundles import take
+from burmester.numerics.differences import DifferenceQuotients
+from burmester.numerics.weights import weights_or_ones
 from burmester.tasks.motion_task import Task
 from burmester.tasks.problem import SynthesisProblem
 
@@ -34,7 +37,8 @@ REACH = 0.1  # sizes of the motion; a pose missed by more is not met at all
 SHORTEST = 1e-6  # sizes; a ground link or a coupler shorter than this is none
 DETERMINED = 0.05  # spans; pivots known worse than this are not determined
 EXACT = 1e8  # weights: what an exact pose counts as, to say what its errors do
-STRIDE, TOUCHING = 1e-7, 1e-9  # of difference quotients; of a limit that is touched
+QUOTIENTS = DifferenceQuotients(stride=1e-7)  # of limits, by the dimensions
+TOUCHING = 1e-9  # lengths; a limit that is nearer than this is touched
 FIXED, MOVING = slice(0, 2), slice(2, 4)
 ROUNDED = 5  # linkages are rounded where that is asked, at most
 
@@ -51,12 +55,6 @@ class Candidates(NamedTuple):
     pairs: list[Pair]
     from_search: NDArray[np.bool_]
     own: LinkageBatch | None = None
-
-    def some(self, index: NDArray[np.intp]) -> Candidates:
-        """Those at the indices."""
-        pairs = [self.pairs[k] for k in index]
-        own = None if self.own is None else self.own[index]
-        return Candidates(self.stack[index], self.rows[index], pairs, self.from_search[index], own)
 
 
 @final
@@ -79,7 +77,7 @@ class Evaluation:
 
     def told(self, made: Candidates) -> list[FoundLinkage]:
         """The linkages with all that is to be said of them, ranked."""
-        made = made.some(np.flatnonzero(_sizable(made.stack)))
+        made = take(made, np.flatnonzero(_sizable(made.stack)))
         own = made.stack.back(self.aim.frames) if made.own is None else made.own
         places = self.aim.frames.unseen(self._places(made.rows))
         errors = [PoseError.at(places[k], self.task.poses) for k in range(len(own))]
@@ -220,7 +218,8 @@ class Evaluation:
         position, angle = pose_sigma(self.task)
         weights = self.task.weights
         if self.task.exact is not None:
-            weights = np.where(self.task.exact, EXACT, 1.0 if weights is None else weights)
+            weights = weights_or_ones(weights, self.task.exact.shape)
+            weights = np.where(self.task.exact, EXACT, weights)
         held = _held_by(self.aim, stack[sound], rows[sound])
         spreads = covariance(
             stack[sound], places, self.aim.length, (position / unit, angle), weights, held
@@ -297,13 +296,11 @@ def _held_by(aim: Target, stack: LinkageBatch, rows: FloatArray) -> FloatArray |
     if not aim.kept:
         return None
     keep = AllConstraints(aim.kept)
-    every = np.arange(len(stack))
-    value, equal = keep(stack, rows, every)
-    slope = np.zeros((*value.shape, 2 * DIMENSIONS))
-    flat = stack.dimensions.reshape(len(stack), -1)
-    for j in range(2 * DIMENSIONS):
-        moved = flat.copy()
-        moved[:, j] += STRIDE
-        nudged = LinkageBatch(stack.kinds, moved.reshape(stack.dimensions.shape))
-        slope[..., j] = (keep(nudged, rows, every)[0] - value) / STRIDE
-    return np.where((equal | (value > -TOUCHING))[..., None], slope, 0.0)
+    count, size = len(stack), 2 * DIMENSIONS
+    z = QUOTIENTS.points(stack.dimensions.reshape(count, size), np.eye(size)[:, None])
+    every, times = np.tile(np.arange(count), len(z)), (len(z), 1, 1)
+    beside = LinkageBatch(stack.kinds[every], z.reshape(-1, 2, DIMENSIONS))
+    value, equal = keep(beside, np.tile(rows, times), every)
+    value = value.reshape(len(z), count, -1)
+    jacobian = QUOTIENTS.jacobian(value)
+    return np.where((equal | (value[0] > -TOUCHING))[..., None], jacobian, 0.0)

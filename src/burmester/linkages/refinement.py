@@ -9,7 +9,7 @@ and under conditions (limits, a branch to be kept, exact poses) by quadratic pro
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import final
+from typing import NamedTuple, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,8 +20,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.linkages.constrained_refinement import (
     CURVED,
     DAMPING,
-    FAR,
-    FARTHEST,
     GAIN,
     LEAST,
     MOST,
@@ -29,8 +27,20 @@ from burmester.linkages.constrained_refinement import (
     held,
 )
 from burmester.linkages.constraints import Constraints
-from burmester.linkages.residuals import SIZE, Problem, State, free_part, rescaled, secant
+from burmester.linkages.residuals import (
+    SIZE,
+    Linearisation,
+    Problem,
+    State,
+    free_part,
+    rescaled,
+    secant,
+)
 from burmester.numerics.arrays import FloatArray
+from burmester.numerics.bundles import take
+from burmester.numerics.least_squares import Attempt, damped_descent
+from burmester.numerics.linear_algebra import matvec, solve
+from burmester.numerics.weights import weights_of_mean_one
 
 __all__ = ["Refined", "refine"]
 
@@ -81,8 +91,7 @@ def refine(
     """
     count, number = len(stack), poses.shape[0]
     exact = np.zeros(number, dtype=bool) if exact is None else exact
-    weights = np.ones(number) if weights is None else weights / weights.mean()
-    share = np.where(exact, 0.0, np.sqrt(weights))
+    share = np.where(exact, 0.0, np.sqrt(weights_of_mean_one(weights, (number,))))
     slots = np.ones((count, 2, DIMENSIONS), dtype=bool)
     slots[..., -1] = stack.kinds == 0
     used = slots.reshape(count, SIZE) & (True if free is None else free)
@@ -105,87 +114,85 @@ def refine(
     return Refined(problem.stack(np.arange(count), state.z), rows, cost, done & ~lost, met & ~lost)
 
 
+class _Point(NamedTuple):
+    """Linkages (k,) with their places, and the residuals that a step makes less."""
+
+    state: State
+    model: Linearisation
+
+
 def _descend(
     problem: Problem, state: State, power: float, steps: int
 ) -> tuple[State, NDArray[np.bool_]]:
     """Levenberg and Marquardt's method without conditions."""
-    z, rows = state.z.copy(), state.rows.copy()
-    parts = [np.array(part) for part in (state.miss, state.slope, state.moved)]
-    count = len(z)
-    run = np.flatnonzero(np.isfinite(rows).all(axis=(1, 2)))
-    bent, trust = np.zeros((count, SIZE, SIZE)), np.zeros(count, dtype=int)
-    done, damping = np.zeros(count, dtype=bool), np.full(count, DAMPING)
-    here = State(z, rows, *parts).some(run)
-    residual, slope = free_part(problem, run, here, power)
-    for _ in range(steps):
-        if not len(run):
-            break
-        cost = (residual * residual).sum(axis=-1)
-        step = _step(residual, slope, damping[run], problem.free[run])
-        curved = trust[run] >= CURVED
-        if curved.any():
-            step[curved] = _curved_step(
-                residual[curved], slope[curved], bent[run[curved]], damping[run[curved]]
+    count = len(state.z)
+    start = _Point(state, free_part(problem, np.arange(count), state, power))
+    hessian_estimate, good_steps = np.zeros((count, SIZE, SIZE)), np.zeros(count, dtype=int)
+
+    def attempt(rows: NDArray[np.intp], here: _Point, damping: FloatArray) -> Attempt[_Point]:
+        free = problem.free[rows]
+        step = _step(here.model, damping, free)
+        use_curvature = good_steps[rows] >= CURVED
+        if use_curvature.any():
+            step[use_curvature] = _curved_step(
+                take(here.model, use_curvature),
+                hessian_estimate[rows[use_curvature]],
+                damping[use_curvature],
             )
-        step = np.where(problem.free[run], step, 0.0)  # but for rounding it is so
-        shift = (here.moved @ step[:, None, :, None])[..., 0]
-        part = np.minimum(1.0, FAR / np.maximum(np.abs(shift).max(axis=(1, 2)), FAR))
-        step, shift = part[:, None] * step, part[:, None, None] * shift
-        to, start = here.z + step, here.rows + shift
-        there = problem.state(run, to, start)
-        next_residual, next_slope = free_part(problem, run, there, power)
+        step = np.where(free, step, 0.0)  # but for rounding it is so
+        step, shift = problem.limited(here.state, step)
+        z = here.state.z + step
+        state = problem.state(rows, z, here.state.rows + shift)
+        there = _Point(state, free_part(problem, rows, state, power))
         with np.errstate(invalid="ignore", over="ignore"):
-            after = (next_residual * next_residual).sum(axis=-1)
+            before, after = (
+                (point.model.residual * point.model.residual).sum(axis=-1)
+                for point in (here, there)
+            )
         if power != 2.0:  # measured in the top distance of before
-            after = after * rescaled(problem, here, there, power)
-        radius = to.reshape(-1, 2, DIMENSIONS)[..., -1]
-        sound = ((radius > 0) | (problem.kinds[run] > 0)).all(axis=-1)
-        sound &= np.abs(to).max(axis=-1) < FARTHEST
-        better = sound & (after <= cost * (1 + GAIN))
-        small = np.abs(step).max(axis=-1) < SETTLED * (1 + np.abs(here.z).max(axis=-1))
-        idle = better & (cost - after < GAIN * cost)
-        trust[run] = np.where(better, trust[run] + 1, np.where(curved, 0, trust[run]))
-        go = np.flatnonzero(better)
-        bent[run[go]] = secant(
-            bent[run[go]], step[go], residual[go], slope[go], next_residual[go], next_slope[go]
+            after = after * rescaled(problem, here.state, state, power)
+        better = problem.sound(rows, z) & (after <= before * (1 + GAIN))
+        refused = np.where(use_curvature, 0, good_steps[rows])
+        good_steps[rows] = np.where(better, good_steps[rows] + 1, refused)
+        taken = rows[better]
+        hessian_estimate[taken] = secant(
+            hessian_estimate[taken],
+            step[better],
+            take(here.model, better),
+            take(there.model, better),
         )
-        here = here.but(better, there)
-        residual = np.where(better[:, None], next_residual, residual)
-        slope = np.where(better[:, None, None], next_slope, slope)
-        damping[run] = np.clip(np.where(better, damping[run] / 10, damping[run] * 10), LEAST, None)
-        for whole, part in zip((z, rows, *parts), here, strict=True):
-            whole[run] = part
-        end = small | idle | (damping[run] > MOST)
-        done[run[end]] = True
-        here, residual, slope, run = here.some(~end), residual[~end], slope[~end], run[~end]
-    return State(z, rows, *parts), done
+        damping = np.clip(np.where(better, damping / 10, damping * 10), LEAST, None)
+        small = np.abs(step).max(axis=-1) < SETTLED * (1 + np.abs(here.state.z).max(axis=-1))
+        idle = better & (before - after < GAIN * before)
+        return Attempt(there, better, damping, small | idle | (damping > MOST))
+
+    rows = np.flatnonzero(np.isfinite(state.rows).all(axis=(1, 2)))
+    ends, done = damped_descent(attempt, start, rows, damping=DAMPING, max_steps=steps)
+    return ends.state, done
 
 
-def _step(
-    residual: FloatArray, slope: FloatArray, damping: FloatArray, free: NDArray[np.bool_]
-) -> FloatArray:
+def _step(model: Linearisation, damping: FloatArray, free: NDArray[np.bool_]) -> FloatArray:
     """Levenberg and Marquardt's step (k, 10)."""
-    size = np.sqrt((slope * slope).sum(axis=1))
+    residual, jacobian = model
+    size = np.sqrt((jacobian * jacobian).sum(axis=1))
     top = size.max(axis=-1, keepdims=True) + np.finfo(float).tiny
     size = np.where(free, np.maximum(size, 1e-12 * top), top)
-    whole = np.concatenate([slope / size[:, None], residual[..., None]], axis=-1)
+    whole = np.concatenate([jacobian / size[:, None], residual[..., None]], axis=-1)
     low = np.zeros((len(residual), SIZE, SIZE + 1))
     low[:, range(SIZE), range(SIZE)] = np.sqrt(damping)[:, None]
     upper = np.asarray(np.linalg.qr(np.concatenate([whole, low], axis=1), mode="r"))
-    return np.asarray(
-        -np.linalg.solve(upper[:, :SIZE, :SIZE], upper[:, :SIZE, SIZE:])[..., 0] / size
-    )
+    return np.asarray(-solve(upper[:, :SIZE, :SIZE], upper[:, :SIZE, SIZE]) / size)
 
 
 def _curved_step(
-    residual: FloatArray, slope: FloatArray, bent: FloatArray, damping: FloatArray
+    model: Linearisation, hessian_estimate: FloatArray, damping: FloatArray
 ) -> FloatArray:
     """Newton's step (k, 10), with what is known of the curvature of the residuals."""
-    flat = np.swapaxes(slope, -1, -2) @ slope
+    flat = np.swapaxes(model.jacobian, -1, -2) @ model.jacobian
     size = np.sqrt(np.maximum(np.einsum("kii->ki", flat), np.finfo(float).tiny))
     size = np.maximum(size, 1e-12 * size.max(axis=-1, keepdims=True))
-    downhill = (np.swapaxes(slope, -1, -2) @ residual[..., None])[..., 0] / size
-    values, axes = np.linalg.eigh((flat + bent) / (size[:, None] * size[..., None]))
+    gradient = model.gradient(model.residual) / size
+    values, axes = np.linalg.eigh((flat + hessian_estimate) / (size[:, None] * size[..., None]))
     values = np.maximum(np.abs(values), 1e-8) + damping[:, None]
-    along = (np.swapaxes(axes, -1, -2) @ downhill[..., None])[..., 0] / values
-    return np.asarray(-(axes @ along[..., None])[..., 0] / size)
+    along = matvec(np.swapaxes(axes, -1, -2), gradient) / values
+    return np.asarray(-matvec(axes, along) / size)

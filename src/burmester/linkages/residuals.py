@@ -8,7 +8,7 @@ Where places need not be the nearest ones, the ways along the motion are unknown
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple, final
+from typing import NamedTuple, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,14 +18,27 @@ from burmester.fourbar.nearest_places import Normal, newton_step, normal
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.constraints import Constraints
 from burmester.numerics.arrays import FloatArray
+from burmester.numerics.differences import DifferenceQuotients
+from burmester.numerics.linear_algebra import matvec
 
-__all__ = ["SIZE", "Problem", "State", "all_conditions", "free_part", "rescaled", "secant"]
+__all__ = [
+    "SIZE",
+    "Linearisation",
+    "Problem",
+    "State",
+    "all_conditions",
+    "free_part",
+    "rescaled",
+    "secant",
+]
 
 SIZE = 2 * DIMENSIONS
 NEARER, CLOSE = 6, 1e-6  # Newton's steps to the nearest place; a step whose next is rounding
 OFF = 1e-6  # a place farther off its linkage is lost
 FEW = 64  # places that may be unknowns
-STRIDE = 1e-7  # of the difference quotients of conditions
+QUOTIENTS = DifferenceQuotients(stride=1e-7)  # of the constraints, by all unknowns
+MAX_SHIFT = 0.25  # lengths that a place may move in a step
+MAX_DIMENSION = 1e4  # lengths; a linkage with a longer one is on its way to infinity
 
 
 class State(NamedTuple):
@@ -37,17 +50,16 @@ class State(NamedTuple):
     slope: FloatArray
     moved: FloatArray
 
-    def some(self, index: NDArray[Any]) -> State:
-        """Those at the indices, or where a mask says so."""
-        return State(*(part[index] for part in self))
 
-    def but(self, where: NDArray[np.bool_], other: State) -> State:
-        """The same, but where a mask (k,) says so the other."""
+class Linearisation(NamedTuple):
+    """Residuals (k, m) of linkages, and their Jacobians (k, m, n) by what may change."""
 
-        def merged(old: FloatArray, new: FloatArray) -> FloatArray:
-            return np.where(where.reshape(-1, *[1] * (new.ndim - 1)), new, old)
+    residual: FloatArray
+    jacobian: FloatArray
 
-        return State(*(merged(old, new) for old, new in zip(self, other, strict=True)))
+    def gradient(self, residual: FloatArray) -> FloatArray:
+        """The Jacobian's transpose times residuals (k, m): (k, n)."""
+        return matvec(np.swapaxes(self.jacobian, -1, -2), residual)
 
 
 @final
@@ -126,23 +138,34 @@ class Problem:
         if self.conditions is None:
             none = np.empty((len(which), 0, unknowns))
             return none[..., 0], none, np.empty(0, dtype=bool)
-        nudge = STRIDE * np.eye(unknowns)[:, None, :SIZE]
-        z = np.concatenate([state.z[None], state.z + nudge])
-        steps = STRIDE * np.moveaxis(state.moved, -1, 0)
-        rows = np.concatenate([state.rows[None], state.rows + steps])
+        z = QUOTIENTS.points(state.z, np.eye(unknowns)[:, None, :SIZE])
+        rows = QUOTIENTS.points(state.rows, np.moveaxis(state.moved, -1, 0))
         count, number = len(which), state.rows.shape[1]
         every = np.tile(which, unknowns + 1)
         value, equal = self.conditions(
             self.stack(every, z.reshape(-1, SIZE)), rows.reshape(-1, number, 3), every
         )
         value = value.reshape(unknowns + 1, count, -1)
-        slope = np.moveaxis((value[1:] - value[0]) / STRIDE, 0, -1)
+        slope = QUOTIENTS.jacobian(value)
         return value[0], np.where(self.may(which)[:, None], slope, 0.0), equal
 
     def may(self, which: NDArray[np.intp]) -> NDArray[np.bool_]:
         """Which unknowns (k, n) may change."""
         ways = np.ones((len(which), len(self.wanted) if self.loose else 0), dtype=bool)
         return np.concatenate([self.free[which], ways], axis=1)
+
+    def limited(self, state: State, step: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Steps (k, n) that move no place by more than `MAX_SHIFT`, and the shifts (k, N, 3)."""
+        shift = matvec(state.moved, step[:, None])
+        longest = np.abs(shift).max(axis=(1, 2))
+        part = np.minimum(1.0, MAX_SHIFT / np.maximum(longest, MAX_SHIFT))
+        return part[:, None] * step, part[:, None, None] * shift
+
+    def sound(self, which: NDArray[np.intp], z: FloatArray) -> NDArray[np.bool_]:
+        """Whether dimensions z (k, 10) are those of linkages: radii positive, nothing endless."""
+        radius = z.reshape(-1, 2, DIMENSIONS)[..., -1]
+        positive = ((radius > 0) | (self.kinds[which] > 0)).all(axis=-1)
+        return np.asarray(positive & (np.abs(z).max(axis=-1) < MAX_DIMENSION))
 
     def rooted(self, state: State, power: float) -> tuple[FloatArray, FloatArray]:
         """Residuals (k, *) and their derivatives (k, *, n) whose squares are to be least."""
@@ -193,10 +216,10 @@ def rescaled(problem: Problem, here: State, there: State, power: float) -> Float
 
 def free_part(
     problem: Problem, which: NDArray[np.intp], state: State, power: float
-) -> tuple[FloatArray, FloatArray]:
+) -> Linearisation:
     """Residuals (k, *) and derivatives (k, *, n) by what may change."""
     residual, slope = problem.rooted(state, power)
-    return residual, np.where(problem.may(which)[:, None], slope, 0.0)
+    return Linearisation(residual, np.where(problem.may(which)[:, None], slope, 0.0))
 
 
 def all_conditions(
@@ -212,33 +235,25 @@ def all_conditions(
     return np.concatenate([exact, value], axis=1), np.concatenate([turn, slope], axis=1), equal
 
 
-def secant(  # noqa: PLR0917
-    bent: FloatArray,
-    step: FloatArray,
-    residual: FloatArray,
-    slope: FloatArray,
-    next_residual: FloatArray,
-    next_slope: FloatArray,
+def secant(
+    estimate: FloatArray, step: FloatArray, here: Linearisation, there: Linearisation
 ) -> FloatArray:
-    """The residuals' own curvature (k, 10, 10), learnt from a step.
+    """The residuals' part of the Hessian (k, n, n), learnt from a step (k, n) from here to there.
 
     Dennis, Gay and Welsch, An adaptive nonlinear least-squares algorithm, ACM TOMS 7, 1981.
     """
-
-    def against(rows: FloatArray, values: FloatArray) -> FloatArray:
-        return np.asarray((np.swapaxes(rows, -1, -2) @ values[..., None])[..., 0])
-
-    ahead = against(next_slope, next_residual)
-    own, gained = ahead - against(slope, next_residual), ahead - against(slope, residual)
+    ahead = there.gradient(there.residual)
+    own = ahead - here.gradient(there.residual)
+    gained = ahead - here.gradient(here.residual)
     curve = (gained * step).sum(axis=-1)
-    guess = (bent @ step[..., None])[..., 0]
+    guess = matvec(estimate, step)
     with np.errstate(divide="ignore", invalid="ignore"):
         shrink = np.minimum(np.abs((step * own).sum(-1) / (step * guess).sum(-1)), 1.0)
         shrink = np.where(np.isfinite(shrink), shrink, 1.0)[:, None]
         rest = (own - shrink * guess) / curve[:, None]
         lean = (step * rest).sum(axis=-1) / curve
         mixed = rest[..., None] * gained[:, None]
-        new = shrink[..., None] * bent + mixed + np.swapaxes(mixed, -1, -2)
+        new = shrink[..., None] * estimate + mixed + np.swapaxes(mixed, -1, -2)
         new = new - lean[:, None, None] * gained[..., None] * gained[:, None]
     sound = (curve > 0) & np.isfinite(new).all(axis=(1, 2))
-    return np.where(sound[:, None, None], new, bent)
+    return np.where(sound[:, None, None], new, estimate)

@@ -39,12 +39,15 @@ from burmester.linkages.defect_free_search import middle_of
 from burmester.linkages.dimension_grid import Grid
 from burmester.linkages.target import Target
 from burmester.numerics.arrays import FloatArray
+from burmester.numerics.bundles import concatenate, take
+from burmester.numerics.differences import DifferenceQuotients
 from burmester.numerics.integer_least_squares import closest_numbers, firmest_last
+from burmester.numerics.weights import weights_of_mean_one, weights_or_ones
 
 __all__ = ["rounded"]
 
 SIZE = 2 * DIMENSIONS
-NUDGE = 1e-4  # steps, of difference quotients
+QUOTIENTS = DifferenceQuotients(stride=1e-4, central=True)  # of places, by rounding steps
 NEAR = 0.01  # of a dimension's usual effect, what a step away from the start counts as
 MOST, LEAST = 256, 16  # roundings that go on from number to number
 PLACES = 25600  # of their couplers, that are looked at
@@ -118,24 +121,10 @@ class _Tried(NamedTuple):
     broken: FloatArray
     worst: FloatArray
 
-    def some(self, index: NDArray[np.intp] | slice) -> _Tried:
-        """Those at the indices."""
-        return _Tried(self.own[index], self.rows[index], self.broken[index], self.worst[index])
-
-    def and_(self, *others: _Tried) -> _Tried:
-        """Those of others after its own."""
-        every = (self, *others)
-        return _Tried(
-            np.concatenate([each.own for each in every]),
-            np.concatenate([each.rows for each in every]),
-            np.concatenate([each.broken for each in every]),
-            np.concatenate([each.worst for each in every]),
-        )
-
-    def often(self, count: int) -> _Tried:
-        """As many as that, the first one repeated where there are fewer."""
+    def filled(self, count: int) -> _Tried:
+        """The first `count` of them, the first one repeated where there are fewer."""
         index = np.arange(count)
-        return self.some(np.where(index < len(self.worst), index, 0))
+        return take(self, np.where(index < len(self.worst), index, 0))
 
     def order(self) -> NDArray[np.intp]:
         """The best first; of equals that which was tried first."""
@@ -216,14 +205,15 @@ class _Rounding:
             ends = starts
         else:
             near = [self._near(start) for start in starts]
-            every = near[0].and_(*near[1:])
+            every = concatenate(near)
+            number = [self.grid.number(start.own[0]) for start in starts]
             ends = [
-                self._moved(every.some(slice(k, k + 1)), self.grid.number(starts[k // BEST].own[0]))
+                self._moved(take(every, slice(k, k + 1)), number[k // BEST])
                 for k in every.order()[:BEST]
             ]
-        pool = naive.and_(*ends)
+        pool = concatenate([naive, *ends])
         pool = pool._replace(broken=pool.broken + ~self._on_circuits(pool))
-        first = pool.some(pool.order()[:1])
+        first = take(pool, pool.order()[:1])
         if not np.isfinite(first.worst[0]):
             return self._somewhere(naive)
         return first.own[0], first.rows[0]
@@ -243,8 +233,7 @@ class _Rounding:
             at = Displacement(rows[..., :2], rows[..., 2] / self.aim.length)
             rows[~(np.abs(stack.bearing(at).miss) < OFF).all(axis=(1, 2))] = np.nan
             away = np.sqrt(((rows - wanted) ** 2).sum(axis=-1))
-            if self.aim.weights is not None:
-                away = away * np.sqrt(self.aim.weights / self.aim.weights.mean())
+            away = away * np.sqrt(weights_of_mean_one(self.aim.weights, rows.shape[1:2]))
             value, equal = self.keep(stack, rows, np.arange(len(own)))
             off = np.where(equal, np.abs(value), value) - self.slack
             broken = np.where(off > 0, off, 0.0).max(axis=1, initial=0.0)
@@ -260,7 +249,7 @@ class _Rounding:
         for k, choice in enumerate(choices := self.grid.beside(number)):
             made[k, links] = self.grid.stock[np.array(choice, dtype=int)]
         fitted = self._fitted(made[: len(choices)], links)
-        return [fitted.some(slice(k, k + 1)) for k in range(len(fitted.worst))]
+        return [take(fitted, slice(k, k + 1)) for k in range(len(fitted.worst))]
 
     def _near(self, start: _Tried) -> _Tried:
         """The best roundings of a linkage (1,), in place order: those near by a linear estimate.
@@ -273,13 +262,11 @@ class _Rounding:
         stride = grid.stride()
         some = np.flatnonzero(stride)
         if not (np.isfinite(rows).all() and len(some)):
-            return self._tried(grid.values(grid.nearest(grid.number(own)), own)[None]).often(BEST)
-        nudge = NUDGE * np.eye(SIZE)[some] * stride[some, None]
-        ends = self._tried(np.concatenate([own + nudge, own - nudge]), rows).rows
-        share = np.ones(len(rows)) if self.aim.weights is None else self.aim.weights
-        root = np.sqrt(share)[:, None]
-        slope = root * (ends[: len(some)] - ends[len(some) :]) / (2 * NUDGE)
-        slope = np.nan_to_num(slope.reshape(len(some), -1).T)
+            return self._tried(grid.values(grid.nearest(grid.number(own)), own)[None]).filled(BEST)
+        beside = QUOTIENTS.points(own, np.eye(SIZE)[some] * stride[some, None])
+        root = np.sqrt(weights_or_ones(self.aim.weights, rows.shape[:1]))[:, None]
+        slope = root[..., None] * QUOTIENTS.jacobian(self._tried(beside, rows).rows)
+        slope = np.nan_to_num(slope.reshape(-1, len(some)))
         gap = (root * (rows - rows_of(self.aim.poses, self.aim.length))).ravel()
         # Far from where the estimate was made it is worth less: what is loose stays near.
         short = NEAR * np.sqrt((slope**2).sum(axis=0).mean()) + np.finfo(float).tiny
@@ -294,7 +281,7 @@ class _Rounding:
         number = number[grid.possible(number, grid.number(own))]
         nearest = grid.nearest(grid.number(own))[None]
         tried = self._tried(grid.values(np.concatenate([number, nearest]), own), rows)
-        return tried.some(tried.order()).often(BEST)
+        return take(tried, tried.order()).filled(BEST)
 
     def _fitted(self, own: FloatArray, held: NDArray[np.bool_]) -> _Tried:
         """Dimensions (n, 10) with the free ones fitted again, (10,) being held."""
@@ -319,7 +306,7 @@ class _Rounding:
         # Fitting may lose its way; then what was there before is kept.
         fitted = np.flatnonzero(np.isfinite(after.worst))
         others = np.setdiff1d(np.arange(len(own)), sound[fitted])
-        return after.some(fitted).and_(before.some(others))
+        return concatenate([take(after, fitted), take(before, others)])
 
     def _moved(self, here: _Tried, middle: FloatArray) -> _Tried:
         """One rounding (1,) improved by moves of single dimensions and pairs, a step each."""
@@ -330,7 +317,7 @@ class _Rounding:
             own = self.grid.values(number, here.own[0])
             lost = np.isnan(here.rows[0]).any()
             there = self._tried(own, self.rows if lost else here.rows[0])
-            there = there.some(there.order()[:1])
+            there = take(there, there.order()[:1])
             if not there.beats(here):
                 break
             here = there

@@ -23,6 +23,7 @@ from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import DIMENSIONS, STACKED, LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
+from burmester.numerics.weights import weights_or_ones
 from burmester.tasks.motion_task import Task
 
 __all__ = [
@@ -183,7 +184,7 @@ def covariance(  # noqa: PLR0917
     a = a.reshape(len(stack), count, 2, 2 * DIMENSIONS)
     noise = plane.normals * [sigma[0], sigma[0], length * sigma[1]]
     known = np.asarray(np.isfinite(a).all(axis=(-2, -1)))
-    share = np.sqrt(np.ones(count) if weights is None else weights) * known
+    share = np.sqrt(weights_or_ones(weights, (count,))) * known
     share = share[..., None, None]
     a, noise = (share * np.where(known[..., None, None], each, 0.0) for each in (-a, noise))
     a = a.reshape(len(stack), 2 * count, -1)

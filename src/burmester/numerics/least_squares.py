@@ -1,25 +1,70 @@
-"""Levenberg-Marquardt: least sums of squares from many start values at once."""
+"""Damped least squares (Levenberg-Marquardt), from many start values at once."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TypeAlias, final
+from typing import Generic, NamedTuple, TypeAlias, final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from burmester.numerics.arrays import FloatArray
+from burmester.numerics.bundles import Bundle, row_count, where
+from burmester.numerics.iteration import iterate
+from burmester.numerics.linear_algebra import solve
 
-__all__ = ["Descent", "Kernel", "levenberg_marquardt"]
+__all__ = ["Attempt", "Descent", "Kernel", "damped_descent", "levenberg_marquardt"]
 
-STEPS = 200  # at most, taken or refused
-DAMPING = 1e-3  # of a first step, in units of the squared columns of derivatives
-LEAST_DAMPING, MOST_DAMPING = 1e-13, 1e13
-SETTLED = 1e-14  # share of the cost that a free step may still promise at the end
-ROUNDING = 1e-15  # of the terms of a residual; a cost does not show less
+MAX_STEPS = 200  # of `levenberg_marquardt`, taken or refused
+START_DAMPING = 1e-3  # of its first step, in units of the squared columns of the Jacobian
+MIN_DAMPING, MAX_DAMPING = 1e-13, 1e13  # the same; beyond the second no step helps any more
+SETTLED_COST_SHARE = 1e-14  # a Gauss-Newton step that promises less of the cost is none
+RESIDUAL_ROUNDING = 1e-15  # rounding of a residual, as a share of its terms; a cost hides less
 
-# Residuals (k, m) and their derivatives (k, m, n) at x (k, n).
+
+class Attempt(NamedTuple, Generic[Bundle]):
+    """A damped step of rows (r,), tried.
+
+    there: the points that it leads to; better: (r,), whether it is taken; damping: (r,), of the
+    next step; ended: (r,), which rows make no further step.
+    """
+
+    there: Bundle
+    better: NDArray[np.bool_]
+    damping: FloatArray
+    ended: NDArray[np.bool_]
+
+
+def damped_descent(
+    attempt: Callable[[NDArray[np.intp], Bundle, FloatArray], Attempt[Bundle]],
+    start: Bundle,
+    rows: NDArray[np.intp],
+    *,
+    damping: float,
+    max_steps: int,
+) -> tuple[Bundle, NDArray[np.bool_]]:
+    """Damped steps of the rows of a bundle at the given indices, each until its own end.
+
+    attempt: a step from the indices (r,) of rows, their points and their damping (r,); points
+    hold all that the step needs, residuals and Jacobians in particular.
+    damping: of the first step.
+    Returns the points of all rows (k,), and which (k,) came to an end within `max_steps`.
+    """
+
+    def advance(
+        rows: NDArray[np.intp], here: tuple[Bundle, FloatArray]
+    ) -> tuple[tuple[Bundle, FloatArray], NDArray[np.bool_]]:
+        point, damping = here
+        tried = attempt(rows, point, damping)
+        return (where(tried.better, tried.there, point), tried.damping), tried.ended
+
+    damped = (start, np.full(row_count(start), damping))
+    (points, _), ended_at = iterate(advance, damped, rows, max_steps)
+    return points, ended_at > 0
+
+
+# Residuals (k, m) and their Jacobians (k, m, n) at x (k, n).
 Kernel: TypeAlias = Callable[[FloatArray], tuple[FloatArray, FloatArray]]
 
 
@@ -30,8 +75,8 @@ class Descent:
 
     x: (k, n); cost: (k,), the sum of squares, inf where the start value has none;
     steps: (k,), taken; evaluations: (k,), of the kernel.
-    converged: (k,), a free (Gauss-Newton) step promises to take no more than 1e-14 of the
-        cost off, or what rounding hides; a slope that sinks to infinity is not at its end.
+    converged: (k,), a Gauss-Newton step promises to take no more than 1e-14 of the cost off, or
+        what rounding hides; a valley that sinks to infinity is not at its end.
     """
 
     x: FloatArray
@@ -41,55 +86,74 @@ class Descent:
     converged: NDArray[np.bool_]
 
 
+class _Point(NamedTuple):
+    """Values x (k, n), their cost (k,), and the normal equations there, in units `scale` (k, n).
+
+    scale: the greatest columns of the Jacobian on the way here; normal: (k, n, n), JᵀJ; gradient:
+    (k, n), half that of the cost; sound: (k,), whether cost and Jacobian are finite.
+    """
+
+    x: FloatArray
+    cost: FloatArray
+    scale: FloatArray
+    normal: FloatArray
+    gradient: FloatArray
+    sound: NDArray[np.bool_]
+    converged: NDArray[np.bool_]
+
+    @classmethod
+    def at(cls, kernel: Kernel, x: FloatArray, scale: FloatArray) -> _Point:
+        """The point at x, its Jacobian's columns in units no smaller than `scale`."""
+        with np.errstate(all="ignore"):
+            residual, jacobian = kernel(x)
+            cost = (residual**2).sum(axis=-1)
+            columns = np.linalg.norm(jacobian, axis=-2)
+            sound = np.isfinite(cost) & np.isfinite(columns).all(axis=-1)
+            jacobian = np.where(sound[:, None, None], jacobian, 0.0)
+            scale = np.maximum(scale, columns)
+            scaled = jacobian / np.where(scale > 0, scale, 1.0)[:, None, :]
+            gradient = (residual[:, None, :] @ scaled)[:, 0]
+            normal = np.swapaxes(scaled, -1, -2) @ scaled
+            gauss_newton = _damped_step(normal, gradient, np.full(len(x), MIN_DAMPING))
+            terms = (columns * np.abs(x)).sum(axis=-1)
+            least = SETTLED_COST_SHARE * cost + RESIDUAL_ROUNDING * terms * np.sqrt(cost)
+            converged = sound & (-(gauss_newton * gradient).sum(axis=-1) <= least)
+            cost = np.where(np.isfinite(cost), cost, np.inf)
+        return cls(x, cost, scale, normal, gradient, sound, converged)
+
+
 def levenberg_marquardt(kernel: Kernel, x: FloatArray) -> Descent:
     """The least sums of squares that lie downhill from each x (k, n).
 
     Steps are damped in units of the greatest columns of derivatives met so far (Moré 1978), by
     a damping that follows the gain of the last step (Nielsen 1999).
     """
-    x = x.copy()
-    miss, slope = kernel(x)
-    cost = (miss**2).sum(axis=-1)
-    cost = np.where(np.isfinite(cost), cost, np.inf)
-    size = np.linalg.norm(slope, axis=-2)
-    damping, raised = np.full(len(x), DAMPING), np.full(len(x), 2.0)
+    start = _Point.at(kernel, x, np.zeros(x.shape))
+    growth = np.full(len(x), 2.0)  # of the damping, after a refused step
     steps, evaluations = np.zeros(len(x), dtype=int), np.ones(len(x), dtype=int)
-    converged = np.zeros(len(x), dtype=bool)
-    going = np.flatnonzero(np.isfinite(cost) & np.isfinite(size).all(axis=-1))
-    for _ in range(STEPS):
-        unit = np.where(size[going] > 0, size[going], 1.0)
-        j = slope[going] / unit[:, None, :]
-        pull = (miss[going][:, None, :] @ j)[:, 0]
-        square = np.swapaxes(j, -1, -2) @ j
-        free = _damped(square, pull, np.full(len(going), LEAST_DAMPING))
-        terms = (np.linalg.norm(slope[going], axis=-2) * np.abs(x[going])).sum(axis=-1)
-        least = SETTLED * cost[going] + ROUNDING * terms * np.sqrt(cost[going])
-        converged[going] = -(free * pull).sum(axis=-1) <= least
-        keep = ~converged[going] & (damping[going] < MOST_DAMPING)
-        going, unit, pull, square = going[keep], unit[keep], pull[keep], square[keep]
-        if not len(going):
-            break
-        step = _damped(square, pull, damping[going])
-        promise = (step * (damping[going, None] * step - pull)).sum(axis=-1)
-        trial = x[going] + step / unit
+
+    def attempt(rows: NDArray[np.intp], here: _Point, damping: FloatArray) -> Attempt[_Point]:
+        step = _damped_step(here.normal, here.gradient, damping)
+        promise = (step * (damping[:, None] * step - here.gradient)).sum(axis=-1)
+        unit = np.where(here.scale > 0, here.scale, 1.0)
+        there = _Point.at(kernel, here.x + step / unit, here.scale)
         with np.errstate(all="ignore"):
-            new_miss, new_slope = kernel(trial)
-            new_cost = (new_miss**2).sum(axis=-1)
-            gain = (cost[going] - new_cost) / promise
-        evaluations[going] += 1
-        better = (gain > 0) & np.isfinite(new_slope).all(axis=(-1, -2))
-        at, factor = going[better], 1 - (2 * gain[better] - 1) ** 3
-        x[at], miss[at], slope[at] = trial[better], new_miss[better], new_slope[better]
-        cost[at], steps[at] = new_cost[better], steps[at] + 1
-        size[at] = np.maximum(size[at], np.linalg.norm(slope[at], axis=-2))
-        damping[at] = np.maximum(damping[at] * np.maximum(1 / 3, factor), LEAST_DAMPING)
-        raised[at] = 2.0
-        at = going[~better]
-        damping[at], raised[at] = damping[at] * raised[at], 2 * raised[at]
-    return Descent(x, cost, steps, evaluations, converged)
+            gain = (here.cost - there.cost) / promise
+            factor = np.maximum(1 / 3, 1 - (2 * gain - 1) ** 3)
+        better = (gain > 0) & there.sound
+        raised = damping * growth[rows]
+        damping = np.where(better, np.maximum(damping * factor, MIN_DAMPING), raised)
+        growth[rows] = np.where(better, 2.0, 2 * growth[rows])
+        steps[rows] += better
+        evaluations[rows] += 1
+        ended = (better & there.converged) | (damping >= MAX_DAMPING)
+        return Attempt(there, better, damping, ended)
+
+    rows = np.flatnonzero(start.sound & ~start.converged)
+    ends, _ = damped_descent(attempt, start, rows, damping=START_DAMPING, max_steps=MAX_STEPS)
+    return Descent(ends.x, ends.cost, steps, evaluations, ends.converged)
 
 
-def _damped(square: FloatArray, pull: FloatArray, damping: FloatArray) -> FloatArray:
-    """The steps (k, n) downhill from gradients `pull`, in a bowl `square` made rounder."""
-    bowl = square + damping[:, None, None] * np.eye(pull.shape[-1])
-    return -np.asarray(np.linalg.solve(bowl, pull[..., None])[..., 0])
+def _damped_step(normal: FloatArray, gradient: FloatArray, damping: FloatArray) -> FloatArray:
+    """The steps (k, n) downhill for normal equations (k, n, n) with a multiple of 1 added."""
+    return -solve(normal + damping[:, None, None] * np.eye(gradient.shape[-1]), gradient)

@@ -1,8 +1,8 @@
-"""Quadratic programs with soft conditions, many at once: the step of a descent under conditions.
+"""Quadratic programs with soft constraints, many at once: the step of a constrained descent.
 
 min over s of  s · H s / 2 + c · s + sum of rho |w_i| over equalities + rho max(0, w_i) over the
-others, with w = g + G s.  It always has a solution; for rho large enough it keeps all conditions
-that can be kept together.
+inequalities, with w = g + G s.  It always has a solution; for rho large enough it keeps all
+constraints that can be kept together.
 
 Solved in its multipliers y, each within 0 and rho (-rho and rho for equalities), by a primal-dual
 interior-point method (Wright, Primal-dual interior-point methods, SIAM 1997).
@@ -10,69 +10,72 @@ interior-point method (Wright, Primal-dual interior-point methods, SIAM 1997).
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from burmester.numerics.arrays import FloatArray
+from burmester.numerics.linear_algebra import matvec, solve
 
-__all__ = ["soft_step"]
+__all__ = ["SoftProgram"]
 
-STEPS = 14
-CENTRED = 0.1  # of the gap, that is aimed at in a step
-SHORT = 0.99  # of the way to the nearest bound
-TINY = 1e-15  # of the width, that a multiplier keeps off its bounds
-STIFFEST = 1e12  # of a condition against a multiplier's room
-ROUNDING = 1e-14  # relative
+STEPS = 14  # of the interior-point method; each takes about a digit off the gap
+CENTRING = 0.1  # share of the complementarity gap that a step aims at
+BOUNDARY_SHARE = 0.99  # of the way to the nearest bound; a step goes no farther
+MIN_ROOM = 1e-15  # of the range of a multiplier, which it keeps off its bounds
+MAX_STIFFNESS = 1e12  # of a constraint, as the change of its multiplier with its value
+ROUNDING = 1e-14  # share of the trace that is added to the Hessian's diagonal
 
 
-def soft_step(  # noqa: PLR0917
-    bowl: FloatArray,
-    pull: FloatArray,
-    value: FloatArray,
-    slope: FloatArray,
-    low: FloatArray,
-    high: FloatArray,
-) -> tuple[FloatArray, FloatArray]:
-    """The solutions s (k, n) and multipliers y (k, m) of programs (k,).
+class SoftProgram(NamedTuple):
+    """Programs (k,) in n unknowns with m soft constraints.
 
-    bowl: (k, n, n), H, positive definite; pull: (k, n), c; value: (k, m), g; slope: (k, m, n), G;
-    low, high: (k, m), the bounds of the multipliers.
+    hessian: (k, n, n), H, positive definite; gradient: (k, n), c; value: (k, m), g, and jacobian:
+    (k, m, n), G, of the constraints; low, high: (k, m), the bounds of the multipliers.
     """
-    back = np.swapaxes(slope, -1, -2)
-    if not value.shape[1]:
-        return _solved(bowl, -pull), np.zeros_like(value)
 
-    def best(y: FloatArray) -> FloatArray:
-        return -_solved(bowl, pull + _times(back, y))
+    hessian: FloatArray
+    gradient: FloatArray
+    value: FloatArray
+    jacobian: FloatArray
+    low: FloatArray
+    high: FloatArray
 
-    width, eye = high - low, np.eye(bowl.shape[-1])
-    y = np.where(low < 0, 0.0, 0.1 * high)
-    w = value + _times(slope, best(y))
-    # u - v = w all along: what presses a multiplier against its upper and its lower bound.
-    start = 0.01 + 0.1 * np.abs(w)
-    u = np.maximum(w, 0.0) + start
-    v = u - w
-    for _ in range(STEPS):
-        u, v = np.maximum(u, TINY), np.maximum(v, TINY)
-        top, bottom = (np.maximum(room, TINY * width) for room in (high - y, y - low))
-        aim = CENTRED * (u * top + v * bottom).mean(axis=1, keepdims=True) / 2
-        loose = np.minimum(1 / (u / top + v / bottom), STIFFEST)
-        free = loose * (u - v - aim / top + aim / bottom)
-        inner = bowl + back @ (loose[..., None] * slope)
-        inner = inner + (ROUNDING * np.einsum("kii->k", inner))[:, None, None] * eye
-        dy = free - loose * _times(slope, _solved(inner, _times(back, free)))
-        du, dv = (aim + u * dy) / top - u, (aim - v * dy) / bottom - v
-        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-            ways = [top / np.maximum(dy, 0.0), bottom / np.maximum(-dy, 0.0)]
-            ways += [u / np.maximum(-du, 0.0), v / np.maximum(-dv, 0.0)]
-        reach = np.min(ways, axis=(0, 2))
-        part = np.minimum(1.0, SHORT * reach)[:, None]
-        y, u, v = y + part * dy, u + part * du, v + part * dv
-    return best(y), y
+    def solved(self) -> tuple[FloatArray, FloatArray]:
+        """The solutions.
 
+        Returns the steps s (k, n) and the multipliers y (k, m).
+        """
+        hessian, gradient, value, jacobian, low, high = self
+        if not value.shape[1]:
+            return solve(hessian, -gradient), np.zeros_like(value)
+        transposed = np.swapaxes(jacobian, -1, -2)
 
-def _times(matrix: FloatArray, vector: FloatArray) -> FloatArray:
-    return np.asarray((matrix @ vector[..., None])[..., 0])
+        def step(y: FloatArray) -> FloatArray:
+            return -solve(hessian, gradient + matvec(transposed, y))
 
-
-def _solved(matrix: FloatArray, right: FloatArray) -> FloatArray:
-    return np.asarray(np.linalg.solve(matrix, right[..., None])[..., 0])
+        width, eye = high - low, np.eye(hessian.shape[-1])
+        y = np.where(low < 0, 0.0, 0.1 * high)
+        w = value + matvec(jacobian, step(y))
+        # u - v = w all along: u belongs to the multiplier's upper bound, v to its lower one.
+        start = 0.01 + 0.1 * np.abs(w)
+        u = np.maximum(w, 0.0) + start
+        v = u - w
+        for _ in range(STEPS):
+            u, v = np.maximum(u, MIN_ROOM), np.maximum(v, MIN_ROOM)
+            above, below = (np.maximum(room, MIN_ROOM * width) for room in (high - y, y - low))
+            target = CENTRING * (u * above + v * below).mean(axis=1, keepdims=True) / 2
+            stiffness = np.minimum(1 / (u / above + v / below), MAX_STIFFNESS)
+            unopposed = stiffness * (u - v - target / above + target / below)
+            reduced = hessian + transposed @ (stiffness[..., None] * jacobian)
+            reduced = reduced + (ROUNDING * np.einsum("kii->k", reduced))[:, None, None] * eye
+            back = solve(reduced, matvec(transposed, unopposed))
+            dy = unopposed - stiffness * matvec(jacobian, back)
+            du, dv = (target + u * dy) / above - u, (target - v * dy) / below - v
+            with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+                reaches = [above / np.maximum(dy, 0.0), below / np.maximum(-dy, 0.0)]
+                reaches += [u / np.maximum(-du, 0.0), v / np.maximum(-dv, 0.0)]
+            reach = np.min(reaches, axis=(0, 2))
+            share = np.minimum(1.0, BOUNDARY_SHARE * reach)[:, None]
+            y, u, v = y + share * dy, u + share * du, v + share * dv
+        return step(y), y

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.numerics.arrays import FloatArray
+from burmester.numerics.bundles import take
 from burmester.plot.camera import Camera
 
 __all__ = ["Extent", "Scene", "Surface", "cast", "render"]
@@ -59,15 +60,10 @@ class Scene:
 class _Hit(NamedTuple):
     """Where rays (n,) meet a surface: directions and gradients, three (n,) each, d . g and t."""
 
-    d: list[FloatArray]
-    g: list[FloatArray]
+    d: tuple[FloatArray, ...]
+    g: tuple[FloatArray, ...]
     toward: FloatArray
     t: FloatArray
-
-    def some(self, index: NDArray[np.intp]) -> _Hit:
-        """Those with these numbers."""
-        d, g = ([v[index] for v in three] for three in self[:2])
-        return _Hit(d, g, self.toward[index], self.t[index])
 
 
 class Extent(NamedTuple):
@@ -224,7 +220,7 @@ def _paint(scene: Scene, surface: Surface, pixel: float, rays: FloatArray) -> Fl
     size = np.where(size > 0, size, 1.0)
     far = np.sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2])
     toward = g[0] * d[0] + g[1] * d[1] + g[2] * d[2]
-    hit = _Hit(d, g, toward, t)
+    hit = _Hit(tuple(d), tuple(g), toward, t)
     cosine = np.abs(toward) / (size * far)
     side = -np.sign(toward) / size  # the normal turned to the eye
     forward = ahead / np.sqrt(ahead @ ahead)
@@ -271,7 +267,7 @@ def _lines(
         edge = scene.half[axis] - np.abs(p[axis])
         close = np.flatnonzero(edge < 60 * pixel)
         if close.size:
-            own = _slope(scene.camera, axis, hit.some(close)) * pixel
+            own = _slope(scene.camera, axis, take(hit, close)) * pixel
             with np.errstate(divide="ignore", invalid="ignore"):
                 line = np.clip(EDGE + 0.5 - edge[close] / own, 0, 1)
             dark[close] = np.maximum(dark[close], 0.8 * np.nan_to_num(line))

@@ -1,0 +1,89 @@
+"""Bundles: values whose arrays share their first axis, handled row by row.
+
+A bundle is an array, a list (one item a row), None, or a tuple, NamedTuple or dataclass of bundles.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import fields, is_dataclass
+from typing import Any, TypeVar, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["Bundle", "concatenate", "copied", "put", "row_count", "take", "where"]
+
+Bundle = TypeVar("Bundle")
+
+
+def take(bundle: Bundle, index: Any) -> Bundle:
+    """The rows at the indices, or where a mask is true."""
+
+    def rows(part: Any) -> Any:
+        if isinstance(part, list):
+            return [part[k] for k in np.arange(len(part))[index]]
+        return part[index]
+
+    return _for_each_array(rows, bundle)
+
+
+def concatenate(bundles: Sequence[Bundle]) -> Bundle:
+    """The rows of all bundles, in their order."""
+
+    def joined(*parts: Any) -> Any:
+        if isinstance(parts[0], list):
+            return [item for part in parts for item in part]
+        return np.concatenate(parts)
+
+    return _for_each_array(joined, *bundles)
+
+
+def where(mask: NDArray[np.bool_], chosen: Bundle, other: Bundle) -> Bundle:
+    """The rows of `chosen` where a mask (k,) is true, else those of `other`."""
+
+    def merged(one: Any, two: Any) -> Any:
+        return np.where(mask.reshape(-1, *[1] * (two.ndim - 1)), one, two)
+
+    return _for_each_array(merged, chosen, other)
+
+
+def put(bundle: Bundle, index: Any, rows: Bundle) -> None:
+    """Write rows over those at the indices, in place."""
+
+    def written(whole: Any, part: Any) -> Any:
+        whole[index] = part
+        return whole
+
+    _for_each_array(written, bundle, rows)
+
+
+def copied(bundle: Bundle) -> Bundle:
+    """The same rows in arrays of their own."""
+    return _for_each_array(np.array, bundle)
+
+
+def row_count(bundle: Any) -> int:
+    """How many rows a bundle has."""
+    counts: list[int] = []
+    _for_each_array(lambda part: counts.append(len(part)), bundle)
+    return counts[0]
+
+
+def _for_each_array(function: Callable[..., Any], *bundles: Bundle) -> Bundle:
+    """A bundle of what a function makes of the arrays (or lists) that bundles of one type hold."""
+    first: Any = bundles[0]
+    made: Any
+    if first is None:
+        made = None
+    elif isinstance(first, tuple):
+        columns = zip(*cast(Any, bundles), strict=True)
+        parts = [_for_each_array(function, *column) for column in columns]
+        made = tuple(parts) if type(first) is tuple else type(first)(*parts)
+    elif is_dataclass(first):
+        names = [field.name for field in fields(first)]
+        parts = [_for_each_array(function, *(getattr(b, n) for b in bundles)) for n in names]
+        made = type(bundles[0])(*parts)
+    else:
+        made = function(*bundles)
+    return cast(Bundle, made)

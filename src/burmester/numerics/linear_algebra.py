@@ -1,0 +1,33 @@
+"""Matrices times vectors and linear systems, many at once."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["matvec", "solve", "solve_or_shortest", "unit_vectors"]
+
+
+def matvec(matrix: NDArray[Any], vector: NDArray[Any]) -> NDArray[Any]:
+    """Matrices (*, m, n) times vectors (*, n): (*, m)."""
+    return np.asarray((matrix @ vector[..., None])[..., 0])
+
+
+def solve(matrix: NDArray[Any], right: NDArray[Any]) -> NDArray[Any]:
+    """The solutions (*, n) of systems with matrices (*, n, n) and right sides (*, n)."""
+    return np.asarray(np.linalg.solve(matrix, right[..., None])[..., 0])
+
+
+def solve_or_shortest(matrix: NDArray[Any], right: NDArray[Any]) -> NDArray[Any]:
+    """The same; where one of the matrices is exactly singular, the shortest least-squares ones."""
+    try:
+        return solve(matrix, right)
+    except np.linalg.LinAlgError:
+        return matvec(np.linalg.pinv(matrix), right)
+
+
+def unit_vectors(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Vectors (*, n) divided by their lengths."""
+    return np.asarray(vectors / np.linalg.norm(vectors, axis=-1, keepdims=True))

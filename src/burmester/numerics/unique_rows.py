@@ -1,0 +1,25 @@
+"""Each row of several once."""
+
+from __future__ import annotations
+
+from typing import Any, Literal, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["unique_rows"]
+
+Rows = TypeVar("Rows", bound=NDArray[Any])
+
+
+def unique_rows(rows: Rows, tolerance: float, norm: Literal["euclidean", "maximum"]) -> Rows:
+    """Rows (k, n), real or complex, without those that repeat an earlier one.
+
+    A row repeats an earlier one if their difference is smaller than `tolerance` times 1 + the
+    earlier one's norm.
+    """
+    order = 2 if norm == "euclidean" else np.inf
+    size = 1 + np.linalg.norm(rows, order, axis=-1)
+    apart = np.linalg.norm(rows[:, None] - rows, order, axis=-1)
+    unique: Rows = rows[~np.tril(apart < tolerance * size, -1).any(axis=1)]
+    return unique
