@@ -200,6 +200,24 @@ def test_a_journey_is_kept_just_where_a_sweep_keeps_to_it():
     assert 20 < sum(verdicts) < len(verdicts) - 20
 
 
+@pytest.mark.parametrize("sense", [1, -1])
+@pytest.mark.parametrize("step", [80.0, 100.0])
+def test_a_crank_meets_all_poses_within_one_turn(step, sense):
+    """Five poses at even crank angles, all in order: 400 degrees are 40 too many, 320 are none."""
+    first, second = RR([0, 0], [0, 0], 1.0), RR([4, 0], [4, 0], 3.0)  # a crank-rocker
+    drive = sense * np.radians(step) * np.arange(5)
+    rows = swept(first, second, drive)[0]
+    stack, journey = journey_of(
+        Linkage(first, second), rows, np.sign(sine_of(Linkage(first, second), rows)[0])
+    )
+    value, equal = journey(stack, rows[None], np.array([0]))
+    assert not equal.any()
+    if step == 80.0:
+        assert (value <= 0).all()
+    else:
+        assert value.max() == pytest.approx(np.radians(40.0), abs=0.01)
+
+
 def test_types_are_grashofs():
     rng = np.random.default_rng(5)
     names = ["double-crank", "crank-rocker", "double-rocker", "rocker-crank", "triple-rocker"]
