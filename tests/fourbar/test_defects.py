@@ -724,6 +724,22 @@ def test_passing_a_change_point_is_a_defect_but_not_a_certain_one(name):
                 assert 2 in passing[0].poses
 
 
+@pytest.mark.parametrize("name", ["parallelogram", "tie of four lengths", "Rapson slide"])
+def test_the_order_is_not_certain_where_a_pose_is_beyond_the_change_point(name):
+    """Four poses on one assembly out of order, a fifth on the other that meets it: which way?"""
+    circuits = Circuits.of(CHANGE[name], as_given=True)
+    one = rows_of(circuits[0].couplers(np.array([0.2, 0.9, 0.5, 1.3])))
+    beyond = rows_of(circuits[1].couplers(np.array([0.7])))
+    dyads = CHANGE[name].first, CHANGE[name].second
+    for poses, certain in ((one, True), (np.concatenate([one, beyond]), False)):
+        verdict = one_verdict(*dyads, poses)
+        assert [d.kind for d in verdict.defects] == ([] if certain else ["circuit"])
+        (defect,) = verdict.first.defects
+        assert (defect.kind, defect.certain) == ("order", certain)
+        doubt = "" if certain else ": too close to call"
+        assert defect.message == f"meets the poses in the order 1-3-2-4{doubt}"
+
+
 def test_a_pose_on_a_change_point_is_on_no_other_assembly():
     linkage, rng = CHANGE["parallelogram"], np.random.default_rng(7)
     poses = rows_of(Circuits.of(linkage, as_given=True)[0].couplers(np.array([0.0, 0.4, 0.9])))
