@@ -1,0 +1,86 @@
+"""Draw docs/floors.svg: the rooms of ARCHITECTURE.md on the floors of pyproject.toml.
+
+Run it from the project's root: .venv/bin/python docs/floors.py
+"""
+
+import re
+import tomllib
+from pathlib import Path
+
+WIDTH, MARGIN, FLOOR, GAP = 820, 16, 38, 5  # pixels
+ROOF, SIDE = 46, 150  # pixels: the height of the roof, the width of the column beside the house
+PARTS = (  # topmost room, name, what holds there, fill, ink
+    ("cli", "faces and media", "screens, files, drawings", "#dbe7fb", "#1d4f9e"),
+    ("synthesis", "science", "no screen, no file, no plot", "#e0f0e4", "#22633a"),
+    ("values", "ground", "no mechanism", "#f1e8d3", "#6b5213"),
+)
+
+
+def floors(pyproject):
+    """The floors from the top, each a list of its rooms."""
+    contracts = tomllib.loads(pyproject)["tool"]["importlinter"]["contracts"]
+    layers = next(each for each in contracts if each["type"] == "layers")["layers"]
+    return [[room.strip() for room in layer.split("|")] for layer in layers]
+
+
+def nouns(architecture):
+    """What each room is: the headings of its tables, and the rows of the ground."""
+    named = dict(re.findall(r"^### `(\w+)`: (.+)$", architecture, re.MULTILINE))
+    ground = architecture.partition("### `burmester`")[2].partition("\n## ")[0]
+    return {**dict(re.findall(r"^\| `(\w+)` \| (.+) \|$", ground, re.MULTILINE)), **named}
+
+
+def drawn(pyproject, architecture):
+    """The picture as SVG."""
+    storeys, says = floors(pyproject), nouns(architecture)
+    house = WIDTH - 2 * MARGIN - SIDE
+    tops = [MARGIN + ROOF + GAP + number * (FLOOR + GAP) for number in range(len(storeys))]
+    height = tops[-1] + FLOOR + MARGIN
+    starts = [next(k for k, rooms in enumerate(storeys) if part[0] in rooms) for part in PARTS]
+    parts = [
+        f'<path d="M{MARGIN} {MARGIN + ROOF}h{house}L{MARGIN + house / 2} {MARGIN}z" '
+        f'fill="{PARTS[0][4]}" stroke="{PARTS[0][4]}" stroke-width="4" stroke-linejoin="round"/>',
+        f'<text x="{MARGIN + house / 2}" y="{MARGIN + ROOF - 10}" fill="#ffffff" font-size="15" '
+        'font-weight="600" text-anchor="middle">burmester</text>',
+    ]
+    for number, rooms in enumerate(storeys):
+        fill, ink = PARTS[sum(start <= number for start in starts) - 1][3:]
+        wide = (house - GAP * (len(rooms) - 1)) / len(rooms)
+        size = 13 if len(rooms) < 3 else 11
+        for place, room in enumerate(rooms):
+            x, y = MARGIN + place * (wide + GAP), tops[number]
+            parts.append(
+                f'<rect x="{x:.1f}" y="{y}" width="{wide:.1f}" height="{FLOOR}" rx="4" '
+                f'fill="{fill}"/>\n<text x="{x + 12:.1f}" y="{y + 24}" fill="{ink}">'
+                f'<tspan font-weight="600">{room}</tspan>'
+                f'<tspan dx="10" fill="#3d4650" font-size="{size}">{says[room]}</tspan></text>'
+            )
+    x = MARGIN + house + 12
+    for (_, name, rule, _, ink), start, end in zip(
+        PARTS, starts, [*starts[1:], len(storeys)], strict=True
+    ):
+        top, bottom = tops[start], tops[end - 1] + FLOOR
+        middle = (top + bottom) / 2
+        parts.append(
+            f'<path d="M{x} {top + 2}v{bottom - top - 4}" stroke="{ink}" stroke-width="2.5" '
+            f'stroke-linecap="round"/>\n<text x="{x + 11}" y="{middle - 2}" fill="{ink}" '
+            f'font-size="14" font-weight="600">{name}</text>\n'
+            f'<text x="{x + 11}" y="{middle + 14}" fill="#3d4650" font-size="10">{rule}</text>'
+        )
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" width="{WIDTH}" '
+        f'height="{height}" role="img" font-family="system-ui, sans-serif" font-size="15">\n'
+        "<title>The rooms of burmester on their floors</title>\n"
+        f'<rect width="{WIDTH}" height="{height}" rx="10" fill="#ffffff"/>\n'
+        + "\n".join(parts)
+        + "\n</svg>\n"
+    )
+
+
+def main():
+    picture = drawn(Path("pyproject.toml").read_text(), Path("ARCHITECTURE.md").read_text())
+    Path("docs/floors.svg").write_text(picture)
+
+
+if __name__ == "__main__":
+    main()
