@@ -24,10 +24,10 @@ def floors(pyproject):
 
 
 def nouns(architecture):
-    """What each room is: the headings of its tables, and the rows of the ground."""
+    """What each room is: the heading of its list, and the list of the ground."""
     named = dict(re.findall(r"^### `(\w+)`: (.+)$", architecture, re.MULTILINE))
     ground = architecture.partition("### `burmester`")[2].partition("\n## ")[0]
-    return {**dict(re.findall(r"^\| `(\w+)` \| (.+) \|$", ground, re.MULTILINE)), **named}
+    return {**dict(re.findall(r"^- `(\w+)`: (.+)$", ground, re.MULTILINE)), **named}
 
 
 def drawn(pyproject, architecture):

@@ -22,7 +22,7 @@ def in_rooms(text):
     named = Counter()
     for room, table in zip(parts[1::2], parts[2::2], strict=True):
         front = "" if room == "burmester" else f"{room}/"
-        named.update(front + row for row in re.findall(r"^\| `(\w+)` \|", table, re.MULTILINE))
+        named.update(front + row for row in re.findall(r"^- `(\w+)`: \S", table, re.MULTILINE))
     return named
 
 
@@ -89,6 +89,6 @@ def test_the_picture_shows_the_floors_of_the_contract():
 
 
 def test_the_map_reader_can_fail():
-    text = "\n## The rooms\n### `io/reading`: x\n| `a` | b |\n### `burmester`: y\n| `c` | d |\n\n"
+    text = "\n## The rooms\n### `io/reading`: x\n\n- `a`: b\n### `burmester`: y\n- `c`: d\n\n"
     assert in_rooms(text) == {"io/reading/a": 1, "c": 1}
     assert unknown_paths("`fourbar/dyad`, `fourbar/no_such_noun`") == {"fourbar/no_such_noun"}
