@@ -97,7 +97,7 @@ def one_turn(linkage, poses):
     meets = np.unwrap(np.arctan2(pins[:, 1], pins[:, 0]))
     sense = np.sign(meets[-1] - meets[0])
     angle = meets[0] + sense * np.linspace(0, 2 * np.pi, STEPS + 1)
-    both = loop.assembled(angle[:, None])
+    both = loop.closed_at(angle[:, None])
     ways = both.translation.reshape(STEPS + 1, 2, 2)
     away = np.hypot(*np.moveaxis(ways - poses.translation[0], -1, 0)).min(axis=0)
     way = int(away.argmin())
@@ -188,10 +188,15 @@ def picture(linkage, poses, colour):
     )
 
 
+def pictures(poses="examples/poses.csv"):
+    """Both pictures by their names."""
+    result = synthesize(read_task(poses))
+    linkage = result.linkages[0].linkage
+    return {name: picture(linkage, result.task.poses, colour) for name, colour in COLOURS.items()}
+
+
 def main():
-    result = synthesize(read_task("examples/poses.csv"))
-    for name, colour in COLOURS.items():
-        drawn = picture(result.linkages[0].linkage, result.task.poses, colour)
+    for name, drawn in pictures().items():
         Path("docs", name).write_text(drawn)
 
 

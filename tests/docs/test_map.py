@@ -1,7 +1,6 @@
 """ARCHITECTURE.md is a map of what is: rooms, modules and floors; and links lead somewhere."""
 
 import re
-import runpy
 from collections import Counter
 from pathlib import Path
 
@@ -80,12 +79,6 @@ def test_links_lead_somewhere(page):
         target = page.parent / path if path else page
         assert target.exists(), link
         assert not anchor or anchor in anchors(target), link
-
-
-def test_the_picture_shows_the_floors_of_the_contract():
-    drawn = runpy.run_path(str(ROOT / "docs" / "floors.py"))["drawn"]
-    picture = drawn((ROOT / "pyproject.toml").read_text(), MAP.read_text(encoding="utf-8"))
-    assert (ROOT / "docs" / "floors.svg").read_text() == picture
 
 
 def test_the_map_reader_can_fail():
