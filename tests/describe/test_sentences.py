@@ -22,7 +22,7 @@ from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.io.cases import names
 from burmester.io.reading.poses import read_task
-from burmester.io.result import plain
+from burmester.io.result import synthesis_data
 from burmester.io.terminal import show_synthesis
 from burmester.tasks.motion_task import Task
 from burmester.tasks.options import SynthesisOptions
@@ -44,7 +44,7 @@ CASES = names()
 def synthesized(task, **options):
     """The synthesis, what --json prints of it, and the screen, `width` columns wide."""
     synthesis = synthesize(task, SynthesisOptions(**options))
-    data = json.loads(json.dumps(plain(synthesis), allow_nan=False))
+    data = json.loads(json.dumps(synthesis_data(synthesis), allow_nan=False))
     jsonschema.Draft202012Validator(SCHEMA).validate(data)
 
     def screen(width=200):
@@ -479,7 +479,7 @@ def test_what_building_makes_of_the_error_is_told_with_its_unit():
 def test_schema_asks_for_all_that_others_rely_on():
     for name, keys in CONTRACT.items():
         assert set(keys.split()) <= set(SCHEMA["$defs"][name]["required"])
-    broken = plain(synthesize(read_task("case:motiongen-prpr")))
+    broken = synthesis_data(synthesize(read_task("case:motiongen-prpr")))
     for key in CONTRACT["linkage"].split():
         cut = json.loads(json.dumps(broken))
         del cut["linkages"][0][key]

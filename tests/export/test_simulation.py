@@ -7,7 +7,7 @@ import pytest
 
 from burmester.export import Options
 from burmester.export.joints import ground_joint
-from burmester.export.truth import Truth
+from burmester.export.reference import Reference
 from burmester.fourbar.dyad import PR
 from tests.oracles.handed_over import NAMES, complex_places, joints, scale_of, span_of, written
 
@@ -96,10 +96,10 @@ def test_urdf_is_the_linkage_with_its_loop_open(name, tmp_path):
     for moved in (False, True):
         k = 5 if moved else 2
         if moved:
-            truth = Truth.of(chosen, Options(), "m")
+            reference = Reference.of(chosen, Options(), "m")
             for side, joint in ((0, "driver"), (1, "follower")):
-                if truth.kinds[side] != "RP":
-                    q = ground_joint(truth, side, truth.places)
+                if reference.kinds[side] != "RP":
+                    q = ground_joint(reference, side, reference.places)
                     data.joint(joint).qpos[0] = q[5] - q[2]
             carried = moved_by(chosen, scale)
             for joint, value in carried.items():

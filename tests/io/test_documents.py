@@ -17,7 +17,7 @@ from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Line, Point, Polygon, Segment
 from burmester.io import cases
 from burmester.io.reading.poses import read_task
-from burmester.io.reading.slips import slip
+from burmester.io.reading.syntax_faults import syntax_fault
 from burmester.io.result import task_data
 from burmester.tasks.limits import KINDS, Limits
 from burmester.tasks.motion_task import Task
@@ -195,8 +195,8 @@ def test_a_file_of_another_format_is_told_to_be_renamed(read, text, suffix, othe
     ],
 )
 def test_parsers_of_other_versions_lead_to_the_same_place(text, at, said, newer_at, newer):
-    assert slip("JSON", text, at, said) == slip("JSON", text, newer_at, newer)
-    assert text[slip("JSON", text, at, said).start] == ","
+    assert syntax_fault("JSON", text, at, said) == syntax_fault("JSON", text, newer_at, newer)
+    assert text[syntax_fault("JSON", text, at, said).start] == ","
 
 
 def test_lines_of_objects_are_put_into_one_list(read):

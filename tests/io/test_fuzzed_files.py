@@ -200,14 +200,14 @@ TEXTS = st.one_of(
 def test_texts_of_options_are_taken_or_refused(text):
     """Every option of `synthesize` with a text of its own."""
     readers = [
-        lambda: limits_text.wanted(fixed_pivot=[text]).limits(),
-        lambda: limits_text.wanted(length=[text]).limits(),
-        lambda: limits_text.wanted(kinds=[text]).limits(),
-        lambda: requirements_text.asked(min_transmission=text),
-        lambda: requirements_text.asked(types=[text]),
-        lambda: requirements_text.asked(footprint=text),
-        lambda: requirements_text.asked(link_ratio=text),
-        lambda: requirements_text.asked(within=text),
+        lambda: limits_text.limits_from_options(fixed_pivot=[text]).limits(),
+        lambda: limits_text.limits_from_options(length=[text]).limits(),
+        lambda: limits_text.limits_from_options(kinds=[text]).limits(),
+        lambda: requirements_text.requirements_from_options(min_transmission=text),
+        lambda: requirements_text.requirements_from_options(types=[text]),
+        lambda: requirements_text.requirements_from_options(footprint=text),
+        lambda: requirements_text.requirements_from_options(link_ratio=text),
+        lambda: requirements_text.requirements_from_options(within=text),
         lambda: requirements_text.pose_sigma(text),
         lambda: requirements_text.lengths("--stock", [text]),
         lambda: requirements_text.above_zero("--round", text),

@@ -9,7 +9,7 @@ import pytest
 from burmester.errors import InputError
 from burmester.geometry.regions import Line, Point, Polygon, Segment
 from burmester.io.reading import csv_poses
-from burmester.io.reading.limits_text import wanted
+from burmester.io.reading.limits_text import limits_from_options
 from burmester.io.reading.poses import read_task
 from burmester.tasks.limits import Limits
 from tests.oracles.marked import carets, marked
@@ -193,9 +193,9 @@ def test_exact_poses_in_the_file_and_in_the_option_are_refused(read):
 def test_too_many_exact_conditions_are_refused(read):
     rows = "x,y,angle_deg\n" + "".join(f"{i},0,{i}\n" for i in range(7))
     assert refused(lambda: read(rows, exact=["1,2,3,4,5,6"])).code == "E133"
-    at = wanted(fixed_pivot=["0,0"])
-    assert refused(lambda: read(rows, exact=["1,2,3,4"], wanted=at)).code == "E133"
-    assert read(rows, exact=["1,2,3"], wanted=at).exact.sum() == 3
+    at = limits_from_options(fixed_pivot=["0,0"])
+    assert refused(lambda: read(rows, exact=["1,2,3,4"], specification=at)).code == "E133"
+    assert read(rows, exact=["1,2,3"], specification=at).exact.sum() == 3
 
 
 # Limits in a file -----------------------------------------------------------------------------
@@ -277,7 +277,7 @@ def test_numbers_of_limits_come_back_bit_by_bit(read):
         tree = json.loads(as_json(""))
         tree["limits"] = {"fixed_pivot": {"point": [x, y]}}
         assert read(json.dumps(tree), ".json").limits[0].fixed_pivot.at.tolist() == [x, y]
-        text = wanted(fixed_pivot=[f"{x!r},{y!r}"])
+        text = limits_from_options(fixed_pivot=[f"{x!r},{y!r}"])
         assert text.fixed_pivot[0].at.tolist() == [x, y]
 
 
@@ -407,9 +407,9 @@ def test_the_help_on_regions_and_lengths_can_be_followed(read):
     ],
 )
 def test_regions_as_text(text, expected):
-    (found,) = wanted(fixed_pivot=[text]).fixed_pivot
+    (found,) = limits_from_options(fixed_pivot=[text]).fixed_pivot
     assert region(found) == expected
-    (found,) = wanted(moving_pivot=[text]).moving_pivot
+    (found,) = limits_from_options(moving_pivot=[text]).moving_pivot
     assert region(found) == expected
 
 
@@ -418,12 +418,12 @@ def test_regions_as_text(text, expected):
     [("10:200", (10, 200)), ("10:", (10, INF)), (":2e2", (0, 200)), ("5:5", (5, 5))],
 )
 def test_lengths_as_text(text, expected):
-    assert wanted(length=[text]).length == (expected,)
+    assert limits_from_options(length=[text]).length == (expected,)
 
 
 def test_kinds_as_text():
-    assert wanted(kinds=["RR, pr"]).kinds == (frozenset({"RR", "PR"}),)
-    assert wanted(kinds=["any", "RP"]).kinds == (None, frozenset({"RP"}))
+    assert limits_from_options(kinds=["RR, pr"]).kinds == (frozenset({"RR", "PR"}),)
+    assert limits_from_options(kinds=["any", "RP"]).kinds == (None, frozenset({"RP"}))
 
 
 TEXT_FAULTS = [  # option, text, column and width of the caret, what is said
@@ -455,7 +455,7 @@ TEXT_FAULTS = [  # option, text, column and width of the caret, what is said
 @pytest.mark.parametrize("fault", TEXT_FAULTS, ids=lambda fault: f"{fault[0]}-{fault[1]}")
 def test_text_that_is_no_limit_is_refused_with_a_caret(fault):
     option, text, column, width, said = fault
-    error = refused(lambda: wanted(**{option: [text]}))
+    error = refused(lambda: limits_from_options(**{option: [text]}))
     assert error.code == "E131"
     assert said in error.message
     place, *lines = error.where.splitlines()
@@ -466,18 +466,18 @@ def test_text_that_is_no_limit_is_refused_with_a_caret(fault):
 
 
 def test_an_empty_box_is_e132():
-    assert refused(lambda: wanted(fixed_pivot=["box:0,0:-1,2"])).code == "E132"
+    assert refused(lambda: limits_from_options(fixed_pivot=["box:0,0:-1,2"])).code == "E132"
 
 
 @pytest.mark.parametrize("option", ["fixed_pivot", "moving_pivot", "length", "kinds"])
 def test_a_linkage_has_two_dyads(option):
-    error = refused(lambda: wanted(**{option: ["any"] * 3}))
+    error = refused(lambda: limits_from_options(**{option: ["any"] * 3}))
     assert error.code == "E131"
     assert "3 times" in error.message
 
 
 def limits_of(**options):
-    return [plain(limits) for limits in wanted(**options).limits()]
+    return [plain(limits) for limits in limits_from_options(**options).limits()]
 
 
 def test_once_is_for_both_and_twice_for_each():
@@ -510,23 +510,24 @@ def test_a_point_given_once_is_for_the_first_dyad():
 
 
 def test_contradictions_on_the_command_line_say_so():
-    error = refused(wanted(fixed_pivot=["1,2"], kinds=["PR"]).limits)
+    error = refused(limits_from_options(fixed_pivot=["1,2"], kinds=["PR"]).limits)
     assert error.code == "E132"
     assert error.where == "--fixed-pivot 1,2, and --kinds PR"
 
 
 def test_file_and_command_line_add_up_but_not_on_the_same_thing(read):
     text = POSES + "[limits]\nlength.most = 3\n"
-    task = read(text, ".toml", wanted=wanted(fixed_pivot=["1,2"]))
+    task = read(text, ".toml", specification=limits_from_options(fixed_pivot=["1,2"]))
     assert [plain(limits) for limits in task.limits] == [
         (("point", 1, 2), None, (0, 3), FREE[3]),
         (None, None, (0, 3), FREE[3]),
     ]
     for again in ("1:2", "any"):
-        error = refused(lambda: read(text, ".toml", wanted=wanted(length=[again])))  # noqa: B023
+        twice = limits_from_options(length=[again])
+        error = refused(lambda: read(text, ".toml", specification=twice))  # noqa: B023
         assert error.code == "E108"
         assert "length" in error.message
         assert error.where.endswith(f"poses.toml:4:1, and --length {again}")
-    error = refused(lambda: read(text, ".toml", wanted=wanted(kinds=["PR"])))
+    error = refused(lambda: read(text, ".toml", specification=limits_from_options(kinds=["PR"])))
     assert error.code == "E132"
     assert error.where.endswith("poses.toml:4:1, and --kinds PR")

@@ -37,9 +37,9 @@ from burmester.export import Options, pylinkage
 from burmester.fourbar.dyad import PP, RR
 from burmester.geometry.displacement import Displacement
 from burmester.io.explain import pages
-from burmester.io.message import note, place, show
+from burmester.io.message import location_lines, note, show
 from burmester.io.reading.poses import read_task
-from burmester.io.result import failure, plain
+from burmester.io.result import failure, synthesis_data
 from burmester.io.saved import read_result
 from burmester.tasks.motion_class import classify_motion
 from tests.oracles.ten_poses import ROWS, TEN
@@ -895,7 +895,7 @@ def result(text):
     with tempfile.TemporaryDirectory() as folder:
         poses = Path(folder, "poses.csv")
         poses.write_text(text)
-        return json.dumps(plain(synthesize(read_task(poses))))
+        return json.dumps(synthesis_data(synthesize(read_task(poses))))
 
 
 def checked(change):
@@ -1179,7 +1179,7 @@ def test_carets_stay_below_what_they_mark(alphabet):
         remark = str(rng.choice(["", " angle", " a note that is longer than most"]))
         width = int(rng.choice([40, 60, 80, 200]))
         where = f"file.csv:7:{at + 1}\n   7 | {text}\n     | {'':>{at}}{'^' * count}{remark}"
-        name, *lines = (line.plain for line in place(where, width, "red"))
+        name, *lines = (line.plain for line in location_lines(where, width, "red"))
         assert name == f"  --> file.csv:7:{at + 1}"
         assert len(lines) == 2
         assert max(map(cell_len, lines)) <= width

@@ -9,7 +9,7 @@ from burmester import synthesize
 from burmester.errors import InputError
 from burmester.io import templates
 from burmester.io.reading.poses import read_task
-from burmester.io.result import plain
+from burmester.io.result import synthesis_data
 from burmester.io.saved import read_result
 from tests.oracles.witness import places
 
@@ -18,7 +18,7 @@ def written(task, folder):
     """A synthesis, and the file that it is written to."""
     found = synthesize(task)
     path = folder / "result.json"
-    path.write_text(json.dumps(plain(found)))
+    path.write_text(json.dumps(synthesis_data(found)))
     return found, path
 
 

@@ -385,7 +385,7 @@ def test_the_spread_of_the_distance_measures_the_noise(read: Read) -> None:
     exact = np.angle(q - p - noise[2] - 1j * noise[3] + noise[0] + 1j * noise[1])
     seen = np.angle(np.exp(1j * (task.poses.angle - exact)))
     assert angle == pytest.approx(float(np.std(seen)), rel=0.05)
-    stated = read(as_points(p, q, "{:.4f}".format), sigma=(0.5, 0.25))
+    stated = read(as_points(p, q, "{:.4f}".format), pose_sigma=(0.5, 0.25))
     assert stated.resolution == pytest.approx((math.sqrt(3) * 0.5, math.sqrt(3) * 0.25))
 
 

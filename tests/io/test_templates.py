@@ -21,8 +21,8 @@ from burmester.errors import InputError
 from burmester.fourbar.dyad import RR
 from burmester.fourbar.linkage import Linkage
 from burmester.io import templates
-from burmester.io.reading.asked import FILE_KEYS
 from burmester.io.reading.poses import read_task
+from burmester.io.reading.stated_requirements import FILE_KEYS
 from tests.oracles import witness
 
 TRADES = (

@@ -191,7 +191,7 @@ def sheet(rng):
     if rng.random() < 0.05 and "exact" not in extra:
         options["exact"] = [rng.choice(("1", "1,2", "3", f"{count}"))]
     if rng.random() < 0.05:
-        options["sigma"] = (rng.choice((0.0, 0.05, 1e-300)), rng.choice((0.0, 1e-3)))
+        options["pose_sigma"] = (rng.choice((0.0, 0.05, 1e-300)), rng.choice((0.0, 1e-3)))
     exact = [e.lower() in ("x", "yes", "true", "1") for e in columns.get("exact", [])] or None
     plain = Plain(key, weights, unit if stated and not points else None, length, names, exact)
     return Sheet(order, rows, separator, mark), plain, options

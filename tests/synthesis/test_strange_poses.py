@@ -10,7 +10,7 @@ from rich.console import Console
 from burmester import synthesize
 from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
-from burmester.io.result import plain
+from burmester.io.result import synthesis_data
 from burmester.io.terminal import show_synthesis
 from burmester.tasks.motion_task import Task
 from tests.oracles.strange_poses import STRANGE
@@ -42,7 +42,7 @@ def test_strange_poses(name, method, monkeypatch):
             assert method != "auto"
             assert len(np.unique(task.poses.as_matrix().round(9), axis=0)) < 6
             continue
-        data = json.loads(json.dumps(plain(synthesis), allow_nan=False))
+        data = json.loads(json.dumps(synthesis_data(synthesis), allow_nan=False))
         code = data["outcome"]["code"]
         told = code in {"R302", "R303"} or "R310" <= code <= "R319"
         made = {"R300", "R301", "R305", "R307"}

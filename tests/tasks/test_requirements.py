@@ -16,10 +16,10 @@ from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Line, Point, Polygon, Segment, box
-from burmester.io.reading.asked import plain, requirements
-from burmester.io.reading.limits_text import wanted
+from burmester.io.reading.limits_text import limits_from_options
 from burmester.io.reading.poses import read_task
-from burmester.io.reading.requirements_text import asked
+from burmester.io.reading.requirements_text import requirements_from_options
+from burmester.io.reading.stated_requirements import combined_requirements, requirements_data
 from burmester.tasks.limits import KINDS, Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.requirements import DRIVERS, GROUPS, TYPES, Requirements
@@ -134,7 +134,7 @@ def test_words_stand_for_groups_of_types_by_the_link_lengths():
 )
 def test_names_in_any_case_with_hyphens_or_spaces(said, name):
     assert Requirements(types=frozenset({said})).types == {name}
-    assert requirements(asked(types=[said])).types == {name}
+    assert combined_requirements(requirements_from_options(types=[said])).types == {name}
 
 
 # From Python ----------------------------------------------------------------------------------
@@ -580,12 +580,12 @@ def test_what_is_written_for_a_file_is_read_again(read):
             any_order=bool(rng.integers(2)),
         )
         document = tomllib.loads(POSES) | {"limits": [{"length": {"least": 0.1}}, {}]}
-        document["requirements"] = plain(given)
+        document["requirements"] = requirements_data(given)
         found = values(read(json.dumps(document), ".json").requirements)
         expected = values(given)
         assert found.pop("transmission") == pytest.approx(expected.pop("transmission"), rel=1e-15)
         assert found == expected
-    assert plain(Requirements()) == {}
+    assert requirements_data(Requirements()) == {}
 
 
 # On the command line --------------------------------------------------------------------------
@@ -690,10 +690,10 @@ def test_a_standard_deviation_replaces_what_the_digits_say(run, read):
     assert position * spread == pytest.approx(0.02, rel=5e-3)
     assert math.degrees(angle) * spread == pytest.approx(0.3, rel=5e-3)
     assert run("--pose-sigma", "0,1").task.resolution[0] == 0
-    task = read(CSV, ".csv", sigma=(1.0, 2.0))
+    task = read(CSV, ".csv", pose_sigma=(1.0, 2.0))
     assert task.resolution == pytest.approx((math.sqrt(3), 2 * math.sqrt(3)))
     radians = CSV.replace("deg", "rad")
-    assert read(radians, ".csv", sigma=(1.0, 2.0)).resolution == task.resolution
+    assert read(radians, ".csv", pose_sigma=(1.0, 2.0)).resolution == task.resolution
 
 
 TEXT_FAULTS = [  # option, text, code, column and width of the caret, what is said
@@ -853,7 +853,7 @@ def test_limits_and_requirements_of_file_and_command_line_add_up(run):
     done = run("--fixed-pivot", "0,1", "--driver", "first", text=content, suffix=".toml").task
     assert done.requirements == Requirements(within=5, driver="first")
     assert [limits.length for limits in done.limits] == [(0, 3), (0, 3)]
-    assert wanted(length=["1:2"]).asked == ()
+    assert limits_from_options(length=["1:2"]).requirements == ()
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,7 @@ from burmester.api.table import as_html, as_text
 from burmester.describe.sentences import best_sentences
 from burmester.errors import InputError
 from burmester.io import files, saved
-from burmester.io.result import json_line, plain
+from burmester.io.result import json_line, synthesis_data
 from burmester.synthesis.result import Outcome, Synthesis
 from burmester.tasks.motion_task import Task
 
@@ -139,7 +139,7 @@ class Result(_Shown[ResultLinkage], Synthesis):
 
     def to_json(self) -> str:
         """All of it as one JSON object, as `burmester synthesize --json` prints it."""
-        return json_line(plain(self))
+        return json_line(synthesis_data(self))
 
     def save(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:
         """Write it as JSON, for `burmester.read_result` and `burmester export`.

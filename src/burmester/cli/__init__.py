@@ -18,7 +18,7 @@ from burmester.cli.explain import explain
 from burmester.cli.export import export
 from burmester.cli.known import cases, reproduce
 from burmester.cli.new import new
-from burmester.cli.out import EXIT_FOUND, EXIT_INTERRUPT, console, print_json
+from burmester.cli.output import EXIT_FOUND, EXIT_INTERRUPT, console, print_json
 from burmester.cli.report import report
 from burmester.cli.synthesize import synthesize
 from burmester.errors import BurmesterError, InputError

@@ -7,7 +7,7 @@ from typing import Any
 import click
 
 from burmester.cli.options import READ, Sectioned, takes, task
-from burmester.cli.out import EXIT_FOUND, EXIT_NOTHING, console, print_json
+from burmester.cli.output import EXIT_FOUND, EXIT_NOTHING, console, print_json
 
 __all__ = ["check"]
 
@@ -30,7 +30,7 @@ def check(poses: str, *, as_json: bool, **given: Any) -> int:
     if (odd := disagreement(found.task, found.motion)) is not None:
         found = replace(found, findings=(odd, *found.findings))
     if as_json:
-        print_json(overview.plain(found))
+        print_json(overview.check_data(found))
     else:
         overview.show(found, console())
         if found.sound:

@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from burmester.cli.out import EXIT_FOUND
+from burmester.cli.output import EXIT_FOUND
 from burmester.errors import InputError
 
 __all__ = ["export"]

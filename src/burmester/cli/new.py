@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from burmester.cli.out import EXIT_FOUND
+from burmester.cli.output import EXIT_FOUND
 
 __all__ = ["new"]
 

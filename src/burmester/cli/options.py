@@ -247,19 +247,22 @@ def takes(*groups: tuple[Decorator, ...]) -> Decorator:
 def task(poses: str, **given: Any) -> Task:
     """The task that the options of READ, and of WANTED if there are any, make of POSES."""
     from burmester.io.reading import requirements_text as text
-    from burmester.io.reading.limits_text import wanted
+    from burmester.io.reading.limits_text import limits_from_options
     from burmester.io.reading.poses import read_task
 
     further: dict[str, Any] = {}
     if "length" in given:
         limits = (given[name] for name in ("fixed_pivot", "moving_pivot", "length", "kinds"))
-        asked = text.asked(**{name: given[name] for name in _ASKED})
-        further = {"wanted": wanted(*limits)._replace(asked=asked), "exact": given["exact"]}
+        requirements = text.requirements_from_options(
+            **{name: given[name] for name in _REQUIREMENTS}
+        )
+        specification = limits_from_options(*limits)._replace(requirements=requirements)
+        further = {"specification": specification, "exact": given["exact"]}
     sigma = given["pose_sigma"]
     return read_task(
         poses,
         angle_unit=given["angle_unit"],
-        sigma=None if sigma is None else text.pose_sigma(sigma),
+        pose_sigma=None if sigma is None else text.pose_sigma(sigma),
         **{name: given[name] for name in ("columns", "drop") if given[name]},
         **further,
     )
@@ -274,7 +277,7 @@ def synthesis(poses: str, **given: Any) -> Synthesis:
     further: dict[str, Any] = {}
     for keyword, option in _LENGTHS.items():
         if given[keyword] is not None:
-            further[keyword] = text.above_zero(option, given[keyword])
+            further[keyword] = text.positive_length(option, given[keyword])
     if given["stock_lengths"]:
         further["stock_lengths"] = text.lengths("--stock", given["stock_lengths"])
     options = SynthesisOptions(
@@ -292,7 +295,7 @@ _LENGTHS = {
     "manufacturing_tolerance": "--tolerance",
     "rounding_step": "--round",
 }
-_ASKED = (
+_REQUIREMENTS = (
     "min_transmission",
     "types",
     "driver",

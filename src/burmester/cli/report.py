@@ -8,7 +8,7 @@ from typing import Any
 import click
 
 from burmester.cli.options import FOUND, MADE, READ, WANTED, Sectioned, synthesis, takes
-from burmester.cli.out import EXIT_FOUND, EXIT_NOTHING
+from burmester.cli.output import EXIT_FOUND, EXIT_NOTHING
 
 __all__ = ["report"]
 

@@ -7,7 +7,7 @@ from typing import Any
 import click
 
 from burmester.cli.options import FOUND, MADE, POSES_HELP, READ, WANTED, Sectioned, synthesis, takes
-from burmester.cli.out import EXIT_FOUND, EXIT_NOTHING, console, print_json
+from burmester.cli.output import EXIT_FOUND, EXIT_NOTHING, console, print_json
 
 __all__ = ["synthesize"]
 
@@ -33,16 +33,16 @@ def synthesize(
 ) -> int:
     """Find four-bars that guide a body through POSES."""
     from burmester.io import files
-    from burmester.io.result import json_line, plain
+    from burmester.io.result import json_line, synthesis_data
 
     if output is not None:
         files.require_free(output, force=force)
     found = synthesis(poses, **given)
     if output is not None:
-        files.write(output, json_line(plain(found)), force=force)
+        files.write(output, json_line(synthesis_data(found)), force=force)
         click.echo(f"wrote {output}", err=True)
     if as_json:
-        print_json(plain(found))
+        print_json(synthesis_data(found))
     else:
         from burmester.io.terminal import show_synthesis
 

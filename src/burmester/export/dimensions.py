@@ -1,4 +1,4 @@
-"""Widths, holes and thicknesses of plates: those asked for, or such as suit the linkage.
+"""Widths, holes and thicknesses of plates: those stated for, or such as suit the linkage.
 
 E162 dimensions that cannot be made        E163 a linkage that plates cannot hold
 """
@@ -40,7 +40,7 @@ class Dimensions:
 
 
 def dimensions_of(features: Features, options: Options, scale: float, unit: str) -> Dimensions:
-    """The dimensions asked for or chosen, in millimetres; raises E162."""
+    """The dimensions stated for or chosen, in millimetres; raises E162."""
     near = distance(*features.of_link("coupler"))
     lengths = [float(dyad.radius) for dyad in features.dyads if isinstance(dyad, RR)]
     between = {
@@ -66,7 +66,7 @@ def dimensions_of(features: Features, options: Options, scale: float, unit: str)
             else f"the {least_name} has no length",
             help="choose another linkage, or a table of its places: --to csv",
         )
-    asked = {
+    stated = {
         name: None if value is None else value * scale
         for name, value in (
             ("hole", options.hole),
@@ -75,7 +75,7 @@ def dimensions_of(features: Features, options: Options, scale: float, unit: str)
             ("gap", options.gap),
         )
     }
-    for name, value in asked.items():
+    for name, value in stated.items():
         if value is not None and not (math.isfinite(value) and value > 0):
             if name == "gap" and value == 0:
                 continue
@@ -85,7 +85,7 @@ def dimensions_of(features: Features, options: Options, scale: float, unit: str)
                 why="it has to be a number above 0",
                 help=f"leave --{name} out, and it is chosen from the linkage's size",
             )
-    width, hole = asked["width"], asked["hole"]
+    width, hole = stated["width"], stated["hole"]
     if width is None:
         most = min(SHARE * size, OF_SHORTEST * least)
         width = _rounded(most if hole is None else hole / HOLE)
@@ -110,8 +110,8 @@ def dimensions_of(features: Features, options: Options, scale: float, unit: str)
             why=f"{what} are {least / scale:.6g} {unit} apart",
             help=f"say --hole {_down(most_hole / scale)}",
         )
-    thickness = asked["thickness"] if asked["thickness"] is not None else _rounded(THICK * width)
-    gap = asked["gap"] if asked["gap"] is not None else _rounded(AIR * thickness)
+    thickness = stated["thickness"] if stated["thickness"] is not None else _rounded(THICK * width)
+    gap = stated["gap"] if stated["gap"] is not None else _rounded(AIR * thickness)
     return Dimensions(hole, width, thickness, gap)
 
 

@@ -19,8 +19,8 @@ import numpy as np
 from burmester.errors import BurmesterError
 from burmester.export.options import Options
 from burmester.export.plates import Assembly, assembly_of, slot_outline
+from burmester.export.reference import Reference, description, require_equal
 from burmester.export.sheet import Sheet, beside, moved, notes_on, sheet_of
-from burmester.export.truth import Truth, about, agree
 from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import FloatArray
@@ -48,8 +48,8 @@ LAYERS = {  # and their colours by the index of AutoCAD
 def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
     """Write the drawing."""
     assembly = assembly_of(chosen, options)
-    poses = Truth.of(chosen, options).poses
-    notes = about(chosen, options, "mm") + notes_on(assembly)
+    poses = Reference.of(chosen, options).poses
+    notes = description(chosen, options, "mm") + notes_on(assembly)
     sheet = sheet_of(assembly, poses, len(notes))
     fixed = ezdxf.options.write_fixed_meta_data_for_testing
     try:
@@ -133,59 +133,59 @@ def _point(at: FloatArray) -> tuple[float, float]:
 
 def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
     """Read the drawing back, audit it and compare it; raises E160."""
-    truth = Truth.of(chosen, options)
+    reference = Reference.of(chosen, options)
     assembly = assembly_of(chosen, options)
-    poses = truth.poses
+    poses = reference.poses
     document = ezdxf.readfile(path)
     auditor = document.audit()
     if auditor.has_errors or auditor.has_fixes:
-        found = [str(each.message) for each in (*auditor.errors, *auditor.fixes)]
+        faults = [str(each.message) for each in (*auditor.errors, *auditor.fixes)]
         raise BurmesterError(
             "E160",
             "what was written is no sound DXF file, so nothing was kept",
-            why="; ".join(found[:3]),
+            why="; ".join(faults[:3]),
             help="this is a fault of burmester: report it, with the result file",
         )
-    agree("the unit of the drawing", document.header["$INSUNITS"], MM, 0)
+    require_equal("the unit of the drawing", document.header["$INSUNITS"], MM, 0)
     # The assembly holds a hole or a slot's middle line where the dyads have their pivots.
     block = document.blocks.get("ASSEMBLY")
     assert block is not None
     (insert,) = document.modelspace().query("INSERT")
-    agree("the place of the assembly", tuple(insert.dxf.insert)[:2], (0, 0), 0)
+    require_equal("the place of the assembly", tuple(insert.dxf.insert)[:2], (0, 0), 0)
     circles = np.array([tuple(each.dxf.center)[:2] for each in block.query("CIRCLE")])
     circles = circles.reshape(-1, 2)
-    place = truth.places[options.pose - 1]
-    wanted = _pivots(truth, place)
-    for name, point in wanted:
+    place = reference.places[options.pose - 1]
+    expected = _pivots(reference, place)
+    for name, point in expected:
         gap = np.linalg.norm(circles - point, axis=1)
-        agree(f"{name} in the assembly", gap.min(initial=np.inf), 0, TOLERANCE)
+        require_equal(f"{name} in the assembly", gap.min(initial=np.inf), 0, TOLERANCE)
     for point in circles:
-        gap = min(float(np.linalg.norm(point - each)) for _, each in wanted)
-        agree("a hole in the assembly", gap, 0, TOLERANCE)
+        gap = min(float(np.linalg.norm(point - each)) for _, each in expected)
+        require_equal("a hole in the assembly", gap, 0, TOLERANCE)
     drawn = iter(block.query("LWPOLYLINE"))
     for plate in assembly.plates:
         outline, _, slots, _ = moved(plate, plate.at(assembly.drawn))
         for rows in (outline, *map(slot_outline, slots)):
-            agree(f"{plate.name} in the assembly", _rows(next(drawn)), rows, TOLERANCE)
+            require_equal(f"{plate.name} in the assembly", _rows(next(drawn)), rows, TOLERANCE)
     _check_plates(document, assembly)
     axes = document.modelspace().query('LINE[layer=="POSES"]')
     starts = np.array([tuple(each.dxf.start)[:2] for each in axes])
-    agree("the poses", starts, np.repeat(poses.translation, 2, axis=0), TOLERANCE)
+    require_equal("the poses", starts, np.repeat(poses.translation, 2, axis=0), TOLERANCE)
     ends = np.array([tuple(each.dxf.end)[:2] for each in axes])[::2] - starts[::2]
     turned = np.exp(1j * (np.arctan2(ends[:, 1], ends[:, 0]) - poses.angle))
-    agree("the angles of the poses", np.abs(turned - 1), np.zeros(len(turned)), 1e-6)
+    require_equal("the angles of the poses", np.abs(turned - 1), np.zeros(len(turned)), 1e-6)
 
 
-def _pivots(truth: Truth, place: Displacement) -> list[tuple[str, FloatArray]]:
+def _pivots(reference: Reference, place: Displacement) -> list[tuple[str, FloatArray]]:
     """Every joint that has a hole, in F, with its name."""
-    found = []
+    pivots = []
     for k, side in enumerate(("driver", "follower")):
-        fixed, moving = truth.fixed[k], truth.moving[k]
+        fixed, moving = reference.fixed[k], reference.moving[k]
         if fixed is not None:
-            found.append((f"the {side}'s fixed pivot", fixed))
+            pivots.append((f"the {side}'s fixed pivot", fixed))
         if moving is not None:
-            found.append((f"the {side}'s moving pivot", place.act(moving)))
-    return found
+            pivots.append((f"the {side}'s moving pivot", place.act(moving)))
+    return pivots
 
 
 def _check_plates(document: Any, assembly: Assembly) -> None:
@@ -199,25 +199,29 @@ def _check_plates(document: Any, assembly: Assembly) -> None:
         [(*tuple(each.dxf.center)[:2], 2 * each.dxf.radius) for each in space.query("CIRCLE")]
     ).reshape(-1, 3)
     slots = list(space.query('LWPOLYLINE[layer=="SLOTS"]'))
-    agree("the number of holes", len(circles), sum(len(p.holes) for p in assembly.plates), 0)
-    agree("the number of slots", len(slots), sum(len(p.slots) for p in assembly.plates), 0)
+    require_equal(
+        "the number of holes", len(circles), sum(len(p.holes) for p in assembly.plates), 0
+    )
+    require_equal("the number of slots", len(slots), sum(len(p.slots) for p in assembly.plates), 0)
     for plate in assembly.plates:
         own = outlines[plate.owner.upper()].pop(0)
-        agree(f"whether the outline of {plate.name} is closed", own.closed, True, 0)
+        require_equal(f"whether the outline of {plate.name} is closed", own.closed, True, 0)
         points = _rows(own)
         shift = points[0, :2] - plate.outline[0, :2]
-        agree(f"the outline of {plate.name}", points - [*shift, 0], plate.outline, TOLERANCE)
+        require_equal(
+            f"the outline of {plate.name}", points - [*shift, 0], plate.outline, TOLERANCE
+        )
         if len(plate.holes):
             local = circles - [*shift, 0]
             gaps = np.abs(local[:, None] - plate.holes).max(axis=-1).min(axis=0)
-            agree(f"the holes of {plate.name}", gaps, np.zeros(len(gaps)), TOLERANCE)
+            require_equal(f"the holes of {plate.name}", gaps, np.zeros(len(gaps)), TOLERANCE)
         for slot in plate.slots:
             gaps_of = [
                 float(np.abs(rows - [*shift, 0] - slot_outline(slot)).max())
                 for rows in map(_rows, slots)
                 if rows.shape == slot_outline(slot).shape
             ]
-            agree(f"the slot of {plate.name}", min(gaps_of, default=np.inf), 0, TOLERANCE)
+            require_equal(f"the slot of {plate.name}", min(gaps_of, default=np.inf), 0, TOLERANCE)
 
 
 def _rows(polyline: Any) -> FloatArray:

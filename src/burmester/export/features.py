@@ -31,15 +31,15 @@ class Features:
     def of_link(self, on: Literal["ground", "coupler"]) -> list[FloatArray]:
         """What each dyad has on the ground or the coupler: ends (1, 2) of a hole, (2, 2) a slot."""
         slotted = PR if on == "ground" else RP
-        found: list[FloatArray] = []
+        ends: list[FloatArray] = []
         for dyad, reach in zip(self.dyads, self.reach, strict=True):
             if isinstance(dyad, slotted):
                 assert reach is not None
-                found.append(reach)
+                ends.append(reach)
             else:
                 pivot = dyad.fixed_pivot if on == "ground" else dyad.moving_pivot  # type: ignore[union-attr]
-                found.append(pivot[None])
-        return found
+                ends.append(pivot[None])
+        return ends
 
 
 def _reach(dyad: RR | PR | RP, motion: Displacement) -> FloatArray | None:

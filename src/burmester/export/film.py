@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.export.travel import Travel
+from burmester.export.coupler_motion import CouplerMotion
 from burmester.fourbar.dyad import PR, RR
 from burmester.fourbar.linkage import Linkage
 from burmester.io.saved import SavedLinkage
@@ -31,20 +31,23 @@ HOLD: Final = 0.08  # of a film that goes back and forth, spent at each end
 
 @dataclass(frozen=True)
 class Film:
-    """A film that is to be drawn: its travel, picture by picture, and the size of the pictures."""
+    """A film that is to be drawn: its motion, picture by picture, and the size of the pictures."""
 
     chosen: SavedLinkage
     width: int
     count: int
 
     @cached_property
-    def travel(self) -> Travel:
+    def motion(self) -> CouplerMotion:
         """The place of the coupler in each picture."""
-        share, whole = np.arange(self.count) / self.count, Travel.of(self.chosen, 2).turns_fully
+        share, whole = (
+            np.arange(self.count) / self.count,
+            CouplerMotion.of(self.chosen, 2).turns_fully,
+        )
         if not whole:
             there = np.clip((1 - np.abs(2 * share - 1)) * (1 + 2 * HOLD) - HOLD, 0.0, 1.0)
             share = (1 - np.cos(np.pi * there)) / 2
-        return Travel.of(self.chosen, share, whole)
+        return CouplerMotion.of(self.chosen, share, whole)
 
     @property
     def linkage(self) -> Linkage:
@@ -54,12 +57,14 @@ class Film:
     @cached_property
     def grown(self) -> NDArray[np.intp]:
         """How many pictures' points (count,) the path has."""
-        s, many = self.travel.parameter, np.arange(1, self.count + 1)
-        return np.minimum(many, self.count if self.travel.round else np.abs(s - s[0]).argmax() + 1)
+        s, many = self.motion.parameter, np.arange(1, self.count + 1)
+        return np.minimum(
+            many, self.count if self.motion.full_turn else np.abs(s - s[0]).argmax() + 1
+        )
 
     def followed(self, number: NDArray[np.intp]) -> FloatArray:
         """The driver's moving pivot (n, 2) in F, or the body's origin after an RP, in pictures."""
-        places, first = self.travel.places[number], self.linkage.first
+        places, first = self.motion.places[number], self.linkage.first
         return places.act(first.moving_pivot) if isinstance(first, RR | PR) else places.translation
 
     @property
@@ -69,11 +74,13 @@ class Film:
 
     def drive_text(self, number: int) -> str:
         """Where the driver is in a picture."""
-        travel = self.travel
-        value = float(travel.drive[number])
-        if not travel.circuit.loop.turns:
+        motion = self.motion
+        value = float(motion.driver_coordinate[number])
+        if not motion.circuit.loop.turns:
             return with_unit(f"driver {value:.4g}".replace("-", "−"), self.chosen.unit)
-        return f"driver {math.degrees(value) % 360 if travel.round else math.degrees(value):5.1f}°"
+        return (
+            f"driver {math.degrees(value) % 360 if motion.full_turn else math.degrees(value):5.1f}°"
+        )
 
 
 def blob(picture: Picture) -> tuple[float, float]:

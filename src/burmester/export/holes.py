@@ -10,7 +10,7 @@ from typing import Any, Final
 import numpy as np
 
 from burmester.export.plates import Assembly
-from burmester.export.truth import Truth
+from burmester.export.reference import Reference
 from burmester.numerics.arrays import FloatArray
 
 __all__ = ["Joint", "axes_of", "axis_away", "joints_of", "rim_away"]
@@ -31,14 +31,14 @@ class Joint:
     line: tuple[FloatArray, float] | None = None
 
 
-def joints_of(truth: Truth, made: Assembly, pose: int) -> list[Joint]:
+def joints_of(reference: Reference, made: Assembly, pose: int) -> list[Joint]:
     """Where the linkage itself, at a pose from 1, wants holes and slots of plates; millimetres."""
-    place = truth.places[pose - 1]
+    place = reference.places[pose - 1]
     names = [plate.name for plate in made.plates]
     ground = tuple(name for name in names if name.startswith("ground"))
     joints = list[Joint]()
     for side, name in enumerate(("driver", "follower")):
-        fixed, moving, line = truth.fixed[side], truth.moving[side], truth.line[side]
+        fixed, moving, line = reference.fixed[side], reference.moving[side], reference.line[side]
         link = [(name,)] if name in names else []
         if fixed is not None:
             joints += [Joint(each, fixed) for each in (ground, *link)]
@@ -59,7 +59,7 @@ def joints_of(truth: Truth, made: Assembly, pose: int) -> list[Joint]:
 def axes_of(part: Any, radius: float) -> FloatArray:
     """Where the axes (n, 2) of a part's hollow cylinders of a radius go through z = 0."""
     gp, adaptor = import_module("OCP.GeomAbs"), import_module("OCP.BRepAdaptor")
-    found = []
+    centres = []
     for face in part.faces():
         surface = adaptor.BRepAdaptor_Surface(face.wrapped)
         if surface.GetType() != gp.GeomAbs_SurfaceType.GeomAbs_Cylinder:
@@ -69,12 +69,12 @@ def axes_of(part: Any, radius: float) -> FloatArray:
             continue
         at, along = cylinder.Axis().Location(), cylinder.Axis().Direction()
         share = at.Z() / along.Z()
-        found.append((at.X() - share * along.X(), at.Y() - share * along.Y()))
-    return np.reshape(np.array(found), (-1, 2))
+        centres.append((at.X() - share * along.X(), at.Y() - share * along.Y()))
+    return np.reshape(np.array(centres), (-1, 2))
 
 
 def axis_away(joint: Joint, axes: FloatArray) -> float:
-    """How far a joint's axis is from the nearest one found; both of a slot from their line."""
+    """How far a joint's axis is from the nearest one centres; both of a slot from their line."""
     if joint.point is not None:
         away = np.linalg.norm(axes - joint.point, axis=1)
         return float(away.min()) if len(away) else math.inf

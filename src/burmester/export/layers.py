@@ -66,7 +66,9 @@ def _built(
     names = {layer: "ground" if layer == 0 else "ground-2" for layer in grounds}
     for layer in sorted(names):
         own = [each for each, of in zip(on_ground, grounds, strict=True) if of == layer]
-        plates.append(plate_of(names[layer], "ground", own, layer, radius, hole))
+        plates.append(
+            plate_of(own, name=names[layer], owner="ground", layer=layer, radius=radius, hole=hole)
+        )
     for k, (dyad, layer) in enumerate(zip(features.dyads, links, strict=True)):
         name: Owner = "follower" if k else "driver"
         ground = names[grounds[k]]
@@ -74,12 +76,12 @@ def _built(
             far = np.array([[float(dyad.radius), 0.0]])
             plates.append(
                 plate_of(
-                    name,
-                    name,
                     [np.zeros((1, 2)), far],
-                    layer,
-                    radius,
-                    hole,
+                    name=name,
+                    owner=name,
+                    layer=layer,
+                    radius=radius,
+                    hole=hole,
                     fixed=dyad.fixed_pivot,
                     moving=dyad.moving_pivot,
                 )
@@ -95,7 +97,15 @@ def _built(
             on = "coupler" if isinstance(dyad, PR) else ground
             x, y = (dyad.moving_pivot if isinstance(dyad, PR) else dyad.fixed_pivot).tolist()
             pins.append(Pin(on, x, y, hole, span[0], span[1], (ground, "coupler")))
-    body = plate_of("coupler", "coupler", on_coupler, coupler_layer, radius, hole, mark=True)
+    body = plate_of(
+        on_coupler,
+        name="coupler",
+        owner="coupler",
+        layer=coupler_layer,
+        radius=radius,
+        hole=hole,
+        mark=True,
+    )
     plates.append(body)
     order = ["ground", "ground-2", "driver", "coupler", "follower"]
     return tuple(sorted(plates, key=lambda each: order.index(each.name))), tuple(pins)

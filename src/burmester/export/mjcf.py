@@ -1,6 +1,6 @@
 """MJCF, MuJoCo's own format: links as bodies in metres, a motor on the driver, the loop closed.
 
-The model begins at the pose asked for.  The joints' coordinates are angles in F (of the coupler:
+The model begins at the chosen pose.  The joints' coordinates are angles in F (of the coupler:
 from the driver), so that each key frame `pose1`, `pose2`, ... is readable.  Masses and
 friction stand in for real ones: 1 kg a body.
 
@@ -18,15 +18,15 @@ import numpy as np
 from burmester.export.joints import (
     along_slot,
     directions,
-    driven,
+    driver_coordinates,
     ground_joint,
     hinged,
     require_bodies,
 )
-from burmester.export.mjcf_places import walk
+from burmester.export.mjcf_kinematics import frames_at
 from burmester.export.numbers import number, numbers_in, xy
 from burmester.export.options import Options
-from burmester.export.truth import PRECISION, Truth, about, agree, as_rows
+from burmester.export.reference import PRECISION, Reference, as_rows, description, require_equal
 from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import FloatArray
@@ -48,39 +48,39 @@ COLOURS = {
 
 def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
     """Write the model; raises E163."""
-    truth = Truth.of(chosen, options, "m")
-    require_bodies(chosen, truth)
-    place = truth.places[options.pose - 1]
-    q = _coordinates(chosen, truth)
+    reference = Reference.of(chosen, options, "m")
+    require_bodies(chosen, reference)
+    place = reference.places[options.pose - 1]
+    q = _coordinates(chosen, reference)
     start = q[options.pose - 1]
-    thin = THIN * truth.span
-    gain = BODIES * SWIFT * (truth.span**2 if hinged(truth, 0) else 1.0)
-    middle = truth.places.translation.mean(axis=0)
+    thin = THIN * reference.span
+    gain = BODIES * SWIFT * (reference.span**2 if hinged(reference, 0) else 1.0)
+    middle = reference.places.translation.mean(axis=0)
     low, high = q[:, 0].min(), q[:, 0].max()
-    told = about(chosen, options, "m")
+    head = description(chosen, options, "m")
     lines = [
         f'<mujoco model="{chosen.id}">',
-        f"  <!-- {' '.join(told)} -->".replace("--unit", "the option unit"),
+        f"  <!-- {' '.join(head)} -->".replace("--unit", "the option unit"),
         "  <!-- Masses (1 kg a body) and friction are stand-ins. Set the motor's ctrl to the "
         "driver's place: radians, or metres of a slide. -->",
         '  <compiler angle="radian" autolimits="true"/>',
         f'  <option timestep="{STEP}" gravity="0 0 0" integrator="implicitfast" solver="Newton"'
         ' iterations="100" tolerance="0"><flag contact="disable"/></option>',
-        f'  <statistic center="{_xyz(middle)}" extent="{number(1.5 * truth.span)}"/>',
+        f'  <statistic center="{_xyz(middle)}" extent="{number(1.5 * reference.span)}"/>',
         "  <default>",
         f'    <geom type="capsule" size="{number(thin)}" contype="0" conaffinity="0" group="1"/>',
         f'    <site size="{number(1.2 * thin)}" rgba="0 0 0 1"/>',
         f'    <equality solref="{2 * STEP} 1" solimp="0.9999 0.9999 0.001 0.5 2"/>',
         "  </default>",
         "  <worldbody>",
-        f'    <light pos="{_xyz(middle, 3 * truth.span)}" dir="0 0 -1"/>',
+        f'    <light pos="{_xyz(middle, 3 * reference.span)}" dir="0 0 -1"/>',
     ]
-    lines += _ground(truth)
-    lines += _driver(truth, place, start, thin)
-    if truth.kinds[1] != "RP":
-        lines += _follower(truth, start, thin)
+    lines += _ground(reference)
+    lines += _driver(reference, place, start, thin)
+    if reference.kinds[1] != "RP":
+        lines += _follower(reference, start, thin)
     reach = f' ctrlrange="{number(low)} {number(high)}"' if high > low else ""
-    motor = "hinge, radians" if hinged(truth, 0) else "slide, metres"
+    motor = "hinge, radians" if hinged(reference, 0) else "slide, metres"
     lines += [
         "  </worldbody>",
         '  <equality><connect name="loop" site1="loop_a" site2="loop_b"/></equality>',
@@ -97,18 +97,20 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
     path.write_text("\n".join(lines), encoding="utf-8", newline="\n")
 
 
-def _coordinates(chosen: SavedLinkage, truth: Truth) -> FloatArray:
+def _coordinates(chosen: SavedLinkage, reference: Reference) -> FloatArray:
     """The joints driver, coupler and follower (N, 3) at the poses."""
-    places = truth.places
-    drive = driven(chosen, truth)
-    if truth.kinds[0] == "RR":
+    places = reference.places
+    drive = driver_coordinates(chosen, reference)
+    if reference.kinds[0] == "RR":
         coupler = _wrapped(places.angle - drive)
-    elif truth.kinds[0] == "PR":
+    elif reference.kinds[0] == "PR":
         coupler = places.angle
     else:
-        coupler = -along_slot(truth, 0, places)
+        coupler = -along_slot(reference, 0, places)
     follower = (
-        along_slot(truth, 1, places) if truth.kinds[1] == "RP" else ground_joint(truth, 1, places)
+        along_slot(reference, 1, places)
+        if reference.kinds[1] == "RP"
+        else ground_joint(reference, 1, places)
     )
     return np.column_stack([drive, coupler, follower])
 
@@ -117,32 +119,32 @@ def _wrapped(angle: FloatArray) -> FloatArray:
     return np.asarray(np.arctan2(np.sin(angle), np.cos(angle)))
 
 
-def _ground(truth: Truth) -> list[str]:
+def _ground(reference: Reference) -> list[str]:
     """What is seen of the ground: rails and pivots."""
     lines = []
     for side in (0, 1):
-        fixed, line = truth.fixed[side], truth.line[side]
+        fixed, line = reference.fixed[side], reference.line[side]
         if fixed is not None:
-            name = ' name="loop_b"' if side and truth.kinds[1] == "RP" else ""
+            name = ' name="loop_b"' if side and reference.kinds[1] == "RP" else ""
             lines.append(f'    <site{name} pos="{_xyz(fixed)}"/>')
         elif line is not None:
             n, along = directions(line[0])
-            s = ground_joint(truth, 1 if side else 0, truth.places)
+            s = ground_joint(reference, 1 if side else 0, reference.places)
             ends = [line[1] * n + each * along for each in (s.min(), s.max())]
-            lines.append(f"    {_bar(ends[0], ends[1], 'ground', 0.3 * THIN * truth.span)}")
+            lines.append(f"    {_bar(ends[0], ends[1], 'ground', 0.3 * THIN * reference.span)}")
     return lines
 
 
-def _driver(truth: Truth, place: Displacement, start: FloatArray, thin: float) -> list[str]:
+def _driver(reference: Reference, place: Displacement, start: FloatArray, thin: float) -> list[str]:
     """The driver with the coupler on it."""
     fixed, moving, line, radius = (
-        truth.fixed[0],
-        truth.moving[0],
-        truth.line[0],
-        truth.radius[0],
+        reference.fixed[0],
+        reference.moving[0],
+        reference.line[0],
+        reference.radius[0],
     )
     angle = float(place.angle)
-    if truth.kinds[0] == "RR":
+    if reference.kinds[0] == "RR":
         assert fixed is not None
         assert moving is not None
         at, turn = fixed, float(start[0])
@@ -151,7 +153,7 @@ def _driver(truth: Truth, place: Displacement, start: FloatArray, thin: float) -
         relative = float(start[1])
         body = np.array([radius, 0.0]) - _turned(moving, relative)
         inner = f'type="hinge" axis="0 0 1" pos="{_xyz(moving)}"'
-    elif truth.kinds[0] == "PR":
+    elif reference.kinds[0] == "PR":
         assert line is not None
         assert moving is not None
         n, along = directions(line[0])
@@ -172,43 +174,43 @@ def _driver(truth: Truth, place: Displacement, start: FloatArray, thin: float) -
         inner = f'type="slide" axis="{_xyz(directions(line[0])[1])}"'
     lines = [
         f'    <body name="driver" pos="{_xyz(at)}" euler="0 0 {number(turn)}">',
-        f'      <joint name="driver" {joint}{_rub(truth, joint)} ref="{number(start[0])}"/>',
-        f"      {_mass(truth)}",
+        f'      <joint name="driver" {joint}{_rub(reference, joint)} ref="{number(start[0])}"/>',
+        f"      {_mass(reference)}",
         f"      {seen}",
         f'      <body name="coupler" pos="{_xyz(body)}" euler="0 0 {number(relative)}">',
-        f'        <joint name="coupler" {inner}{_rub(truth, inner)} ref="{number(start[1])}"/>',
-        f"        {_mass(truth)}",
+        f'        <joint name="coupler" {inner}{_rub(reference, inner)} ref="{number(start[1])}"/>',
+        f"        {_mass(reference)}",
     ]
-    seen_points = [_on_coupler(truth, 0, place), np.zeros(2), _on_coupler(truth, 1, place)]
+    seen_points = [_on_coupler(reference, 0, place), np.zeros(2), _on_coupler(reference, 1, place)]
     for k in range(3):
         one, two = seen_points[k], seen_points[(k + 1) % 3]
         if np.linalg.norm(two - one) > 1e-3 * thin:
             lines.append(f"        {_bar(one, two, 'coupler', thin)}")
     lines.append('        <site name="body" pos="0 0 0"/>')
-    if truth.kinds[1] == "RP":
-        held = truth.line[1]
-        assert held is not None
-        n, along = directions(held[0])
+    if reference.kinds[1] == "RP":
+        slot = reference.line[1]
+        assert slot is not None
+        n, along = directions(slot[0])
         lines += [
-            f'        <body name="follower" pos="{_xyz(held[1] * n + float(start[2]) * along)}">',
+            f'        <body name="follower" pos="{_xyz(slot[1] * n + float(start[2]) * along)}">',
             f'          <joint name="follower" type="slide" axis="{_xyz(along)}"'
-            f'{_rub(truth, "slide")} ref="{number(start[2])}"/>',
-            f"          {_mass(truth)}",
+            f'{_rub(reference, "slide")} ref="{number(start[2])}"/>',
+            f"          {_mass(reference)}",
             f"          {_block('follower', thin)}",
             '          <site name="loop_a" pos="0 0 0"/>',
             "        </body>",
         ]
     else:
-        hand = truth.moving[1]
+        hand = reference.moving[1]
         assert hand is not None
         lines.append(f'        <site name="loop_a" pos="{_xyz(hand)}"/>')
     return [*lines, "      </body>", "    </body>"]
 
 
-def _follower(truth: Truth, start: FloatArray, thin: float) -> list[str]:
+def _follower(reference: Reference, start: FloatArray, thin: float) -> list[str]:
     """A follower on the ground."""
-    fixed, line, radius = truth.fixed[1], truth.line[1], truth.radius[1]
-    if truth.kinds[1] == "RR":
+    fixed, line, radius = reference.fixed[1], reference.line[1], reference.radius[1]
+    if reference.kinds[1] == "RR":
         assert fixed is not None
         at, turn, tip = fixed, float(start[2]), np.array([radius, 0.0])
         joint, seen = (
@@ -222,31 +224,31 @@ def _follower(truth: Truth, start: FloatArray, thin: float) -> list[str]:
         joint, seen = f'type="slide" axis="{_xyz(along)}"', _block("follower", thin)
     return [
         f'    <body name="follower" pos="{_xyz(at)}" euler="0 0 {number(turn)}">',
-        f'      <joint name="follower" {joint}{_rub(truth, joint)} ref="{number(start[2])}"/>',
-        f"      {_mass(truth)}",
+        f'      <joint name="follower" {joint}{_rub(reference, joint)} ref="{number(start[2])}"/>',
+        f"      {_mass(reference)}",
         f"      {seen}",
         f'      <site name="loop_b" pos="{_xyz(tip)}"/>',
         "    </body>",
     ]
 
 
-def _on_coupler(truth: Truth, side: int, place: Displacement) -> FloatArray:
+def _on_coupler(reference: Reference, side: int, place: Displacement) -> FloatArray:
     """Where a side holds the coupler, in M."""
-    moving, fixed = truth.moving[side], truth.fixed[side]
+    moving, fixed = reference.moving[side], reference.fixed[side]
     if moving is not None:
         return moving
     assert fixed is not None
     return np.asarray(place.inverse().act(fixed))
 
 
-def _mass(truth: Truth) -> str:
-    inertia = number(truth.span**2)
+def _mass(reference: Reference) -> str:
+    inertia = number(reference.span**2)
     return f'<inertial pos="0 0 0" mass="1" diaginertia="{inertia} {inertia} {inertia}"/>'
 
 
-def _rub(truth: Truth, joint: str) -> str:
+def _rub(reference: Reference, joint: str) -> str:
     """Friction of a joint, by its speed, so that a motor does not throw links over dead points."""
-    return f' damping="{number(RUB * (1.0 if "slide" in joint else truth.span**2))}"'
+    return f' damping="{number(RUB * (1.0 if "slide" in joint else reference.span**2))}"'
 
 
 def _bar(one: FloatArray, two: FloatArray, owner: str, size: float) -> str:
@@ -271,29 +273,26 @@ def _xyz(point: FloatArray, z: float = 0.0) -> str:
 
 def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
     """Read the model's XML back, put its joints to every key frame and compare; raises E160."""
-    truth = Truth.of(chosen, options, "m")
-    tolerance = PRECISION * truth.span
+    reference = Reference.of(chosen, options, "m")
+    tolerance = PRECISION * reference.span
     root = ElementTree.parse(path).getroot()
     world = root.find("worldbody")
     assert world is not None
     keys = root.findall("keyframe/key")
-    agree("the number of key frames", len(keys), len(truth.places.angle), 0)
+    require_equal("the number of key frames", len(keys), len(reference.places.angle), 0)
     for k, key in enumerate(keys):
         q = dict(zip(("driver", "coupler", "follower"), numbers_in(key, "qpos"), strict=True))
-        sites: dict[str, complex] = {}
-        turns: dict[str, float] = {}
-        walk(world, 0j, 0.0, q, sites, turns)
-        place = truth.places[k]
+        sites, angles = frames_at(world, q)
+        place = reference.places[k]
         name = f"at pose {k + 1}"
         body = sites["body"]
-        agree(f"the coupler {name}", [body.real, body.imag], place.translation, tolerance)
-        gap = np.exp(1j * (turns["coupler"] - float(place.angle))) - 1
-        agree(f"the coupler's angle {name}", abs(gap), 0, PRECISION)
-        agree(f"the loop {name}", abs(sites["loop_a"] - sites["loop_b"]), 0, tolerance)
-        agree(f"the motor {name}", numbers_in(key, "ctrl")[0], q["driver"], 0)
-    hold = as_rows(truth.places[options.pose - 1])
-    sites, turns = {}, {}
-    walk(world, 0j, 0.0, {}, sites, turns)
-    body, turn = sites["body"], turns["coupler"]
-    agree("where it begins", [body.real, body.imag], hold[:2], tolerance)
-    agree("how it begins", [math.cos(turn), math.sin(turn)], hold[2:], PRECISION)
+        require_equal(f"the coupler {name}", [body.real, body.imag], place.translation, tolerance)
+        gap = np.exp(1j * (angles["coupler"] - float(place.angle))) - 1
+        require_equal(f"the coupler's angle {name}", abs(gap), 0, PRECISION)
+        require_equal(f"the loop {name}", abs(sites["loop_a"] - sites["loop_b"]), 0, tolerance)
+        require_equal(f"the motor {name}", numbers_in(key, "ctrl")[0], q["driver"], 0)
+    hold = as_rows(reference.places[options.pose - 1])
+    sites, angles = frames_at(world, {})
+    body, turn = sites["body"], angles["coupler"]
+    require_equal("where it begins", [body.real, body.imag], hold[:2], tolerance)
+    require_equal("how it begins", [math.cos(turn), math.sin(turn)], hold[2:], PRECISION)

@@ -124,19 +124,19 @@ def check_gif(chosen: SavedLinkage, path: Path, options: Options) -> None:
 def check_mp4(chosen: SavedLinkage, path: Path, options: Options) -> None:
     """Read an MP4 back with ffmpeg; raises E160 unless it shows this linkage's motion."""
     film, program = _mp4(chosen, options), _ffmpeg().get_ffmpeg_exe()
-    told = subprocess.run(
+    report = subprocess.run(
         [program, "-hide_banner", "-i", str(path)], capture_output=True, check=False
     ).stderr.decode(errors="replace")
-    video = next((line for line in told.splitlines() if "Video:" in line), "")
+    video = next((line for line in report.splitlines() if "Video:" in line), "")
     size = re.search(r", (\d+)x(\d+)", video)
     rate = re.search(r", ([\d.]+) fps", video)
     if size is None or rate is None or "h264" not in video or "yuv420p" not in video:
         raise _off(f"it is no film that every player shows: {video.strip() or 'no picture'}")
     width, height = int(size[1]), int(size[2])
     looks, kept, count = film.looks, list[Picture](), 0
-    asked = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-fps_mode", "passthrough", "-"]
+    arguments = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-fps_mode", "passthrough", "-"]
     with subprocess.Popen(
-        [program, "-v", "error", "-i", str(path), *asked], stdout=subprocess.PIPE
+        [program, "-v", "error", "-i", str(path), *arguments], stdout=subprocess.PIPE
     ) as reader:
         assert reader.stdout is not None
         while len(data := reader.stdout.read(3 * width * height)) == 3 * width * height:
@@ -201,10 +201,10 @@ def _ffmpeg() -> Any:
 
 def _pictures(film: Film) -> Iterator[Picture]:
     """The pictures (rows, columns, 3) of a film."""
-    travel, along = film.travel, (film.travel.places,)
+    motion, along = film.motion, (film.motion.places,)
     long = FRAME * span_of(film.chosen.task.poses)
     body = np.array([[long, 0.0], [0.0, 0.0], [0.0, 0.6 * long]])
-    path = travel.places.translation
+    path = motion.places.translation
     pivot = film.followed(np.arange(film.count))
     with plot.house_style():
         stage = _stage(film)
@@ -218,7 +218,7 @@ def _pictures(film: Film) -> Iterator[Picture]:
         ax.add_patch(mark)
         drive = ax.text(1.0, 1.0, "", transform=ax.transAxes, ha="right", va="bottom", fontsize=9)
         for number in range(film.count):
-            place = travel.places[number]
+            place = motion.places[number]
             drawn = plot.linkage(ax, film.linkage, place, travel=along)
             own = [*drawn.links, drawn.coupler, *drawn.ground]
             own += [drawn.fixed_pivots, drawn.moving_pivots]
@@ -237,7 +237,7 @@ def _pictures(film: Film) -> Iterator[Picture]:
 
 def _stage(film: Film) -> Stage:
     """Axes that hold the whole motion, with the path, the poses and a title, drawn once."""
-    task, travel, linkage = film.chosen.task, film.travel, film.linkage
+    task, motion, linkage = film.chosen.task, film.motion, film.linkage
     with plot.house_style():
         # First all that is ever drawn, to see how large it is.
         trial = plot.figure(film.width / DPI, film.width / DPI, DPI)
@@ -245,7 +245,7 @@ def _stage(film: Film) -> Stage:
         some = np.unique(np.linspace(0, film.count - 1, POSED).astype(np.intp))
         plot.poses(ax, task.poses, numbers=False)
         for number in some:
-            plot.linkage(ax, linkage, travel.places[number], travel=(travel.places,))
+            plot.linkage(ax, linkage, motion.places[number], travel=(motion.places,))
         plot.finish(ax, film.chosen.unit, room=0.04)
         (left, right), (low, high) = ax.get_xlim(), ax.get_ylim()
 
@@ -262,7 +262,7 @@ def _stage(film: Film) -> Stage:
             ylim=(y - half * (h - above), y + half * (h - above)),
             autoscale_on=False,
         )
-        curve = plot.coupler_curve(ax, linkage, only=travel.number)
+        curve = plot.coupler_curve(ax, linkage, only=motion.number)
         for line in [each for lines in curve.circuits for each in lines]:
             line.set(color=GREY, lw=0.9, linestyle=(0, (3, 2)))
         for cross in curve.dead_points:
@@ -270,7 +270,7 @@ def _stage(film: Film) -> Stage:
         over = list[Artist]()
         long = FRAME * span_of(task.poses)
         for color, reached in ((VERMILION, True), (GREY, False)):
-            numbers = np.flatnonzero(np.isfinite(travel.at) == reached)
+            numbers = np.flatnonzero(np.isfinite(motion.pose_shares) == reached)
             if len(numbers):
                 names = [str(k + 1) for k in numbers]
                 wanted = plot.poses(ax, task.poses[numbers], size=long, names=names, color=color)

@@ -17,7 +17,7 @@ import numpy as np
 from burmester.export.numbers import number
 from burmester.export.options import Options
 from burmester.export.plates import assembly_of
-from burmester.export.truth import PRECISION, Truth, about, agree
+from burmester.export.reference import PRECISION, Reference, description, require_equal
 from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import FloatArray
@@ -74,7 +74,7 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
     made = assembly.dimensions
     motion = assembly.motion
     pick = np.unique(np.linspace(0, motion.shape[0] - 1, FRAMES).round().astype(int))
-    lines = [f"// {line}" for line in about(chosen, options, "mm")]
+    lines = [f"// {line}" for line in description(chosen, options, "mm")]
     lines += [
         "// View > Animate plays the motion, with FPS 25 and Steps 100. At $t = 0 the coupler is",
         "// at the pose asked for.",
@@ -144,33 +144,37 @@ def _places(places: Displacement) -> str:
 
 def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
     """Read the numbers back and compare them; raises E160."""
-    truth = Truth.of(chosen, options)
-    tolerance = PRECISION * truth.span
+    reference = Reference.of(chosen, options)
+    tolerance = PRECISION * reference.span
     text = re.sub(r"//.*", "", path.read_text(encoding="utf-8"))
-    told = {name: json.loads(value) for name, value in NUMBERS.findall(text)}
-    rows = np.array(told["poses"])
-    agree("the places", rows[:, :2], truth.places.translation, tolerance)
-    agree("the angles", np.radians(rows[:, 2]), truth.places.angle, 1e-12)
-    path_rows = np.array(told["motion"])
-    missed = truth.missed(Displacement(path_rows[:, :2], np.radians(path_rows[:, 2])))
-    agree("the links along the motion", missed, 0, tolerance)
-    on_ground = np.array(told["ground_holes"] + told.get("ground_2_holes", [])).reshape(-1, 2)
-    on_coupler = np.array(told["coupler_holes"]).reshape(-1, 2)
+    values = {name: json.loads(value) for name, value in NUMBERS.findall(text)}
+    rows = np.array(values["poses"])
+    require_equal("the places", rows[:, :2], reference.places.translation, tolerance)
+    require_equal("the angles", np.radians(rows[:, 2]), reference.places.angle, 1e-12)
+    path_rows = np.array(values["motion"])
+    missed = reference.closure_error(Displacement(path_rows[:, :2], np.radians(path_rows[:, 2])))
+    require_equal("the links along the motion", missed, 0, tolerance)
+    on_ground = np.array(values["ground_holes"] + values.get("ground_2_holes", [])).reshape(-1, 2)
+    on_coupler = np.array(values["coupler_holes"]).reshape(-1, 2)
     for side, name in ((0, "driver"), (1, "follower")):
-        fixed, moving, radius = truth.fixed[side], truth.moving[side], truth.radius[side]
+        fixed, moving, radius = (
+            reference.fixed[side],
+            reference.moving[side],
+            reference.radius[side],
+        )
         if radius is not None:
             assert fixed is not None
             assert moving is not None
-            agree(f"the length of the {name}", told[f"{name}_length"], radius, tolerance)
-            agree(f"the {name}'s fixed pivot", told[f"{name}_fixed"], fixed, tolerance)
-            agree(f"the {name}'s moving pivot", told[f"{name}_moving"], moving, tolerance)
+            require_equal(f"the length of the {name}", values[f"{name}_length"], radius, tolerance)
+            require_equal(f"the {name}'s fixed pivot", values[f"{name}_fixed"], fixed, tolerance)
+            require_equal(f"the {name}'s moving pivot", values[f"{name}_moving"], moving, tolerance)
         for holes, point in ((on_ground, fixed), (on_coupler, moving)):
             if point is not None:
                 gap = np.linalg.norm(holes - point, axis=1).min(initial=np.inf)
-                agree(f"a hole for the {name}", gap, 0, tolerance)
-        if (line := truth.line[side]) is not None:
-            where = ("ground", "ground_2") if truth.kinds[side] == "PR" else ("coupler",)
-            slots = np.array([each for name in where for each in told.get(f"{name}_slots", [])])
+                require_equal(f"a hole for the {name}", gap, 0, tolerance)
+        if (line := reference.line[side]) is not None:
+            where = ("ground", "ground_2") if reference.kinds[side] == "PR" else ("coupler",)
+            slots = np.array([each for name in where for each in values.get(f"{name}_slots", [])])
             ends = slots.reshape(-1, 2, 2)
             off = np.abs(ends @ [np.cos(line[0]), np.sin(line[0])] - line[1]).max(axis=1)
-            agree(f"the slot of the {name}", off.min(initial=np.inf), 0, tolerance)
+            require_equal(f"the slot of the {name}", off.min(initial=np.inf), 0, tolerance)

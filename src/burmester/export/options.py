@@ -42,19 +42,19 @@ class Options:
 def unit_of(chosen: SavedLinkage, options: Options) -> str:
     """The unit of the linkage's lengths, a key of `MILLIMETRES`; raises E162."""
     known = ", ".join(MILLIMETRES)
-    own, said = chosen.unit, options.unit
-    if said is not None and said not in MILLIMETRES:
+    own, stated = chosen.unit, options.unit
+    if stated is not None and stated not in MILLIMETRES:
         raise InputError(
-            "E162", f"there is no unit {said!r}", why=f"known are {known}", help="say --unit mm"
+            "E162", f"there is no unit {stated!r}", why=f"known are {known}", help="say --unit mm"
         )
-    if own is not None and said is not None and own != said:
+    if own is not None and stated is not None and own != stated:
         raise InputError(
             "E162",
-            f"the lengths of this linkage are in {own}, not in {said}",
+            f"the lengths of this linkage are in {own}, not in {stated}",
             why="the poses came with their unit",
             help="leave --unit out",
         )
-    unit = own or said or "mm"
+    unit = own or stated or "mm"
     if unit not in MILLIMETRES:
         raise InputError(
             "E162",

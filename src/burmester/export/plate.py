@@ -75,10 +75,11 @@ class Pin:
     joins: tuple[str, str]
 
 
-def plate_of(  # noqa: PLR0917
+def plate_of(
+    features: Sequence[FloatArray],
+    *,
     name: str,
     owner: Owner,
-    features: Sequence[FloatArray],
     layer: int,
     radius: float,
     hole: float,
@@ -86,9 +87,10 @@ def plate_of(  # noqa: PLR0917
     fixed: FloatArray | None = None,
     moving: FloatArray | None = None,
 ) -> Plate:
-    """A plate whose outline is a radius around features: ends (1, 2) of holes, (2, 2) of slots.
+    """A plate around features: centres (1, 2) of holes, end centres (2, 2) of slots.
 
-    hole: the diameter of holes and the width of slots; mark: whether the origin is marked.
+    radius: between the features' centres and the outline.  hole: the diameter of holes and the
+    width of slots.  mark: whether the origin is marked.
     """
     holes = [[*each[0].tolist(), hole] for each in features if len(each) == 1]
     slots = []

@@ -16,10 +16,10 @@ from typing import Any
 import numpy as np
 
 from burmester.errors import InputError
-from burmester.export.joints import directions, driven, ground_joint
+from burmester.export.joints import directions, driver_coordinates, ground_joint
 from burmester.export.numbers import number
 from burmester.export.options import Options
-from burmester.export.truth import PRECISION, Truth, about, agree
+from burmester.export.reference import PRECISION, Reference, description, require_equal
 from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import FloatArray
 
@@ -68,9 +68,9 @@ if __name__ == "__main__":
 
 def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
     """Write the script; raises E163."""
-    truth = Truth.of(chosen, options, None)
-    if not set(truth.kinds) <= {"RR", "PR"}:
-        slot = "RP" in truth.kinds
+    reference = Reference.of(chosen, options, None)
+    if not set(reference.kinds) <= {"RR", "PR"}:
+        slot = "RP" in reference.kinds
         raise InputError(
             "E163",
             f"linkage {chosen.id} cannot be built with pylinkage",
@@ -81,15 +81,15 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
             if slot
             else "choose another linkage",
         )
-    place = truth.places[options.pose - 1]
-    one, two = truth.moving
+    place = reference.places[options.pose - 1]
+    one, two = reference.moving
     assert one is not None
     assert two is not None
-    drive = driven(chosen, truth)
+    drive = driver_coordinates(chosen, reference)
     tips = place.act(np.stack([one, two]))
-    actuator = "Crank" if truth.kinds[0] == "RR" else "LinearActuator"
-    dyad = "RRRDyad" if truth.kinds[1] == "RR" else "RRPDyad"
-    told = "\n".join(about(chosen, options, None))
+    actuator = "Crank" if reference.kinds[0] == "RR" else "LinearActuator"
+    dyad = "RRRDyad" if reference.kinds[1] == "RR" else "RRPDyad"
+    head = "\n".join(description(chosen, options, None))
     arm = two - one
     length = math.hypot(*arm.tolist())
     angle = math.atan2(arm[1], arm[0])
@@ -100,14 +100,14 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
         return f"{number(math.hypot(*to.tolist()))}, {number(math.atan2(to[1], to[0]) - angle)}"
 
     lines = [
-        IMPORTS.format(about=told, actuator=actuator, dyad=dyad),
+        IMPORTS.format(about=head, actuator=actuator, dyad=dyad),
         f"COUPLER = {number(length)}  # between its pivots",
     ]
-    numbers, body, drives = _driver(truth, drive)
+    numbers, body, drives = _driver(reference, drive)
     lines += numbers
     x, y = tips[1].tolist()
     lines.append(f"B0 = {_p((x, y))}  # the follower's pin at the start")
-    numbers, more, grounds = _follower(truth)
+    numbers, more, grounds = _follower(reference)
     lines += numbers
     body += more
     body += [
@@ -122,7 +122,7 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
         f"BODY = ({tracked((0.0, 0.0))})",
         f"BODY_X = ({tracked(unit_x)})",
         "# Where the driver is at the poses: "
-        + ("radians." if truth.kinds[0] == "RR" else "from the beginning of its rail."),
+        + ("radians." if reference.kinds[0] == "RR" else "from the beginning of its rail."),
         f"DRIVES = {[float(each) for each in drives]!r}",
         f"START = {options.pose - 1}  # the pose at which it is assembled, from 0",
         "",
@@ -134,9 +134,9 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
     path.write_text("\n".join(lines) + "\n" + RUN, encoding="utf-8", newline="\n")
 
 
-def _driver(truth: Truth, drive: FloatArray) -> tuple[list[str], list[str], FloatArray]:
+def _driver(reference: Reference, drive: FloatArray) -> tuple[list[str], list[str], FloatArray]:
     """The driver's numbers, what builds it, and where it is at the poses (N,)."""
-    fixed, radius, line = truth.fixed[0], truth.radius[0], truth.line[0]
+    fixed, radius, line = reference.fixed[0], reference.radius[0], reference.line[0]
     ground = 'a = Ground(*A, name="A")'
     if fixed is not None:
         numbers = [
@@ -151,7 +151,7 @@ def _driver(truth: Truth, drive: FloatArray) -> tuple[list[str], list[str], Floa
     assert line is not None
     # The rail begins a little before the first place, and ends a little behind the last.
     n, along = directions(line[0])
-    room = ROOM * (float(np.ptp(drive)) or truth.span)
+    room = ROOM * (float(np.ptp(drive)) or reference.span)
     low = float(drive.min()) - room
     drives = drive - low
     numbers = [
@@ -166,9 +166,9 @@ def _driver(truth: Truth, drive: FloatArray) -> tuple[list[str], list[str], Floa
     return numbers, [ground, built], drives
 
 
-def _follower(truth: Truth) -> tuple[list[str], list[str], list[str]]:
+def _follower(reference: Reference) -> tuple[list[str], list[str], list[str]]:
     """The follower's numbers, what builds it, and the names of all points of the ground."""
-    fixed, radius, line = truth.fixed[1], truth.radius[1], truth.line[1]
+    fixed, radius, line = reference.fixed[1], reference.radius[1], reference.line[1]
     if fixed is not None:
         numbers = [
             f"B = {_p(fixed)}  # the follower's fixed pivot",
@@ -182,8 +182,8 @@ def _follower(truth: Truth) -> tuple[list[str], list[str], list[str]]:
         return numbers, built, ["a", "b"]
     assert line is not None
     n, along = directions(line[0])
-    s = ground_joint(truth, 1, truth.places)
-    room = ROOM * (float(np.ptp(s)) or truth.span)
+    s = ground_joint(reference, 1, reference.places)
+    room = ROOM * (float(np.ptp(s)) or reference.span)
     ends = [line[1] * n + each * along for each in (s.min() - room, s.max() + room)]
     built = [
         'b1, b2 = Ground(*RAIL[0], name="B1"), Ground(*RAIL[1], name="B2")',
@@ -198,41 +198,49 @@ def _p(point: Any) -> str:
 
 def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
     """Read the script's numbers back as Python has them, and compare; raises E160."""
-    truth = Truth.of(chosen, options, None)
-    tolerance = PRECISION * truth.span
+    reference = Reference.of(chosen, options, None)
+    tolerance = PRECISION * reference.span
     tree = ast.parse(path.read_text(encoding="utf-8"))
-    told: dict[str, Any] = {}
+    constants: dict[str, Any] = {}
     for node in tree.body:
         if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
-            told[node.targets[0].id] = ast.literal_eval(node.value)
-    drives, start = np.array(told["DRIVES"]), told["START"]
-    agree("the pose at the start", start, options.pose - 1, 0)
-    if truth.kinds[0] == "RR":
-        assert truth.fixed[0] is not None
-        agree("the driver's fixed pivot", told["A"], truth.fixed[0], tolerance)
-        agree("the driver's length", told["CRANK"], truth.radius[0] or np.nan, tolerance)
-        way = np.stack([np.cos(drives), np.sin(drives)], axis=1) * told["CRANK"]
+            constants[node.targets[0].id] = ast.literal_eval(node.value)
+    drives, start = np.array(constants["DRIVES"]), constants["START"]
+    require_equal("the pose at the start", start, options.pose - 1, 0)
+    if reference.kinds[0] == "RR":
+        assert reference.fixed[0] is not None
+        require_equal("the driver's fixed pivot", constants["A"], reference.fixed[0], tolerance)
+        require_equal(
+            "the driver's length", constants["CRANK"], reference.radius[0] or np.nan, tolerance
+        )
+        way = np.stack([np.cos(drives), np.sin(drives)], axis=1) * constants["CRANK"]
     else:
-        way = drives[:, None] * [math.cos(told["DIRECTION"]), math.sin(told["DIRECTION"])]
-    pins = np.array(told["A"]) + way
-    one, two = truth.moving
+        way = drives[:, None] * [math.cos(constants["DIRECTION"]), math.sin(constants["DIRECTION"])]
+    pins = np.array(constants["A"]) + way
+    one, two = reference.moving
     assert one is not None
     assert two is not None
-    agree("the driver's pin at the poses", pins, truth.places.act(one), tolerance)
-    agree("the follower's pin", told["B0"], truth.places[start].act(two), tolerance)
-    agree("the coupler's length", told["COUPLER"], np.linalg.norm(two - one), tolerance)
-    if truth.kinds[1] == "RR":
-        assert truth.fixed[1] is not None
-        agree("the follower's fixed pivot", told["B"], truth.fixed[1], tolerance)
-        agree("the follower's length", told["ROCKER"], truth.radius[1] or np.nan, tolerance)
+    require_equal("the driver's pin at the poses", pins, reference.places.act(one), tolerance)
+    require_equal(
+        "the follower's pin", constants["B0"], reference.places[start].act(two), tolerance
+    )
+    require_equal(
+        "the coupler's length", constants["COUPLER"], np.linalg.norm(two - one), tolerance
+    )
+    if reference.kinds[1] == "RR":
+        assert reference.fixed[1] is not None
+        require_equal("the follower's fixed pivot", constants["B"], reference.fixed[1], tolerance)
+        require_equal(
+            "the follower's length", constants["ROCKER"], reference.radius[1] or np.nan, tolerance
+        )
     else:
-        assert truth.line[1] is not None
-        normal, offset = truth.line[1]
-        off = np.array(told["RAIL"]) @ [math.cos(normal), math.sin(normal)] - offset
-        agree("the follower's rail", off, [0, 0], tolerance)
+        assert reference.line[1] is not None
+        normal, offset = reference.line[1]
+        off = np.array(constants["RAIL"]) @ [math.cos(normal), math.sin(normal)] - offset
+        require_equal("the follower's rail", off, [0, 0], tolerance)
     arm = two - one
-    for name, point in (("BODY", [0.0, 0.0]), ("BODY_X", [told["COUPLER"], 0.0])):
-        size, angle = told[name]
+    for name, point in (("BODY", [0.0, 0.0]), ("BODY_X", [constants["COUPLER"], 0.0])):
+        size, angle = constants[name]
         turn = complex(*arm) / abs(complex(*arm)) * complex(math.cos(angle), math.sin(angle))
         at = complex(*one) + size * turn
-        agree(f"{name} on the coupler", [at.real, at.imag], point, tolerance)
+        require_equal(f"{name} on the coupler", [at.real, at.imag], point, tolerance)

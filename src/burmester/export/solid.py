@@ -21,9 +21,9 @@ from burmester.export.clashes import met
 from burmester.export.holes import axes_of, axis_away, joints_of, rim_away
 from burmester.export.options import Options
 from burmester.export.plates import Assembly, assembly_of
+from burmester.export.reference import PRECISION, Reference
 from burmester.export.solid_parts import FIT, Part, area_of, laid, parts_of, placed
 from burmester.export.stl import Triangles, read_stl, shells_of, volume_of
-from burmester.export.truth import PRECISION, Truth
 from burmester.io.saved import SavedLinkage
 
 __all__ = [
@@ -70,17 +70,17 @@ def check_step(chosen: SavedLinkage, path: Path, options: Options) -> None:
     """
     cad, made = _cad(), assembly_of(chosen, options)
     read = {each.label: each for each in cad.import_step(str(path)).children}
-    wanted = {part.name: part for part in parts_of(cad, made)}
-    if read.keys() != wanted.keys():
-        raise _off(f"its parts are {', '.join(read)}, not {', '.join(wanted)}")
-    for name, part in wanted.items():
+    expected = {part.name: part for part in parts_of(cad, made)}
+    if read.keys() != expected.keys():
+        raise _off(f"its parts are {', '.join(read)}, not {', '.join(expected)}")
+    for name, part in expected.items():
         volume = part.area * part.height
         if not abs(read[name].volume - volume) <= FILLED * volume:
             raise _off(f"the {name} has {read[name].volume:.9g} mm³, not {volume:.9g} mm³")
-    truth, radius = Truth.of(chosen, options), made.dimensions.hole / 2
-    for joint in joints_of(truth, made, options.pose):
+    reference, radius = Reference.of(chosen, options), made.dimensions.hole / 2
+    for joint in joints_of(reference, made, options.pose):
         away = min(axis_away(joint, axes_of(read[each], radius)) for each in joint.plates)
-        if not away <= PRECISION * truth.span:
+        if not away <= PRECISION * reference.span:
             raise _off(f"a hole of the {joint.plates[0]} is {away:.3g} mm from its pivot")
     clash = met(cad, read, made)
     if clash is not None:
@@ -104,7 +104,7 @@ def check_stl(chosen: SavedLinkage, path: Path, options: Options) -> None:
             and abs(np.ptp(shell[..., 2]) - made.dimensions.thickness) <= tolerance
         ]
         rims[name] = np.concatenate([np.zeros((0, 3)), *(each.reshape(-1, 3) for each in own)])
-    for joint in joints_of(Truth.of(chosen, options), made, options.pose):
+    for joint in joints_of(Reference.of(chosen, options), made, options.pose):
         away = min(rim_away(joint, rims[each][:, :2], radius) for each in joint.plates)
         if not away <= tolerance:
             raise _off(f"a hole of the {joint.plates[0]} is {away:.3g} mm from its pivot")
@@ -153,10 +153,12 @@ def _checked_shells(path: Path, made: Assembly) -> tuple[list[Triangles], float]
         raise _off("its surface is not closed")
     step = size.thickness + size.gap
     pin = math.pi * (size.hole * (1 - FIT) / 2) ** 2
-    wanted = [area_of(plate) * size.thickness for plate in made.plates]
-    wanted += [pin * ((each.high - each.low) * step + size.thickness) for each in made.pins]
+    expected = [area_of(plate) * size.thickness for plate in made.plates]
+    expected += [pin * ((each.high - each.low) * step + size.thickness) for each in made.pins]
     found = sorted(volume_of(shell) for shell in shells)
-    close = len(found) == len(wanted) and np.allclose(found, sorted(wanted), rtol=FACETED, atol=0)
+    close = len(found) == len(expected) and np.allclose(
+        found, sorted(expected), rtol=FACETED, atol=0
+    )
     if not close:
         raise _off(f"its {len(found)} parts do not have the volumes of the plates and pins")
     reach = float(np.abs(triangles).max())

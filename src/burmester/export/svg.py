@@ -18,8 +18,8 @@ import numpy as np
 
 from burmester.export.options import Options
 from burmester.export.plates import Plate, assembly_of, slot_outline
+from burmester.export.reference import PRECISION, Reference, description, require_equal
 from burmester.export.sheet import beside, moved, notes_on, sheet_of
-from burmester.export.truth import PRECISION, Truth, about, agree
 from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import FloatArray
@@ -41,8 +41,8 @@ STYLE = """
 def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
     """Write the drawing."""
     assembly = assembly_of(chosen, options)
-    poses = Truth.of(chosen, options).poses
-    notes = about(chosen, options, "mm") + notes_on(assembly)
+    poses = Reference.of(chosen, options).poses
+    notes = description(chosen, options, "mm") + notes_on(assembly)
     sheet = sheet_of(assembly, poses, len(notes))
     hair = min(HAIR, OF_WIDTH * assembly.dimensions.width)
     size = sheet.high - sheet.low
@@ -149,31 +149,31 @@ def _n(value: float) -> str:
 
 def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
     """Read the drawing back by its XML and compare it; raises E160."""
-    truth = Truth.of(chosen, options)
+    reference = Reference.of(chosen, options)
     assembly = assembly_of(chosen, options)
-    tolerance = PRECISION * truth.span
+    tolerance = PRECISION * reference.span
     root = ElementTree.parse(path).getroot()
     groups = {each.get("id"): each for each in root.iter() if each.get("id")}
     wide, _, _ = (root.get("width") or "").partition("mm")
     box = [float(part) for part in (root.get("viewBox") or "").split()]
-    agree("millimetres per unit of the drawing", float(wide) / box[2], 1, 1e-12)
-    place = truth.places[options.pose - 1]
+    require_equal("millimetres per unit of the drawing", float(wide) / box[2], 1, 1e-12)
+    place = reference.places[options.pose - 1]
     for k, side in enumerate(("driver", "follower")):
-        fixed, moving = truth.fixed[k], truth.moving[k]
-        wanted = {"ground": [], "coupler": [], side: []}  # type: dict[str, list[FloatArray]]
+        fixed, moving = reference.fixed[k], reference.moving[k]
+        expected = {"ground": [], "coupler": [], side: []}  # type: dict[str, list[FloatArray]]
         if fixed is not None:
-            wanted["ground"].append(fixed)
+            expected["ground"].append(fixed)
         if moving is not None:
-            wanted["coupler"].append(place.act(moving))
+            expected["coupler"].append(place.act(moving))
         if fixed is not None and moving is not None:
-            wanted[side] = [fixed, place.act(moving)]
-        for owner, points in wanted.items():
+            expected[side] = [fixed, place.act(moving)]
+        for owner, points in expected.items():
             placed = [each for name, each in groups.items() if name and _is(name, owner)]
             holes = np.array([each for group in placed for each in _holes(group)]).reshape(-1, 3)
             for point in points:
                 gap = np.linalg.norm(holes[:, :2] - point, axis=1)
                 what = f"a pivot of the {side} in the {owner}"
-                agree(what, gap.min(initial=np.inf), 0, tolerance)
+                require_equal(what, gap.min(initial=np.inf), 0, tolerance)
     for plate in assembly.plates:
         group = groups[f"part-{plate.name}"]
         shift = _paths(group)[0][0, :2] - plate.outline[0, :2]
@@ -190,10 +190,10 @@ def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
     )
     lines[:, 1::2] *= -1
     start, way = lines[::2, :2], lines[::2, 2:] - lines[::2, :2]
-    agree("the places of the poses", start, truth.poses.translation, tolerance)
-    agree("their second axes", lines[1::2, :2], start, tolerance)
-    angle = np.exp(1j * (np.arctan2(way[:, 1], way[:, 0]) - truth.poses.angle))
-    agree("the angles of the poses", np.abs(angle - 1), np.zeros(len(angle)), 1e-6)
+    require_equal("the places of the poses", start, reference.poses.translation, tolerance)
+    require_equal("their second axes", lines[1::2, :2], start, tolerance)
+    angle = np.exp(1j * (np.arctan2(way[:, 1], way[:, 0]) - reference.poses.angle))
+    require_equal("the angles of the poses", np.abs(angle - 1), np.zeros(len(angle)), 1e-6)
 
 
 def _check_plate(
@@ -202,12 +202,12 @@ def _check_plate(
     """Compare what a group draws with a plate carried by a displacement."""
     outline, holes, slots, _ = moved(plate, by)
     drawn, *inside = _paths(group)
-    agree(f"the outline of {plate.name}", drawn, _halved(outline), tolerance)
+    require_equal(f"the outline of {plate.name}", drawn, _halved(outline), tolerance)
     read = np.array(_holes(group)).reshape(-1, 3)
-    agree(f"the holes of {plate.name}", read, holes, tolerance)
-    agree(f"the number of slots of {plate.name}", len(inside), len(slots), 0)
+    require_equal(f"the holes of {plate.name}", read, holes, tolerance)
+    require_equal(f"the number of slots of {plate.name}", len(inside), len(slots), 0)
     for rows, slot in zip(inside, slots, strict=True):
-        agree(f"a slot of {plate.name}", rows, _halved(slot_outline(slot)), tolerance)
+        require_equal(f"a slot of {plate.name}", rows, _halved(slot_outline(slot)), tolerance)
 
 
 def _paths(group: ElementTree.Element) -> list[FloatArray]:

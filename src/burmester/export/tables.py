@@ -1,9 +1,9 @@
 """CSV of the coupler's places along the motion, and JSON of the one linkage; the task's own unit.
 
-CSV: a row for each step along the way from the first pose to the last, and one for each pose.
+CSV: a row for each step along the motion from the first pose to the last, and one for each pose.
 JSON: what `linkage.SCHEMA` says, the driver first.
 
-E160 what was written is not the linkage        E163 a linkage that has no way through its poses
+E160 what was written is not the linkage        E163 a linkage that has no motion through its poses
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ from typing import Any, Final
 
 import numpy as np
 
+from burmester.export.coupler_motion import CouplerMotion
 from burmester.export.options import Options, unit_of
-from burmester.export.travel import Travel
-from burmester.export.truth import PRECISION, Truth, agree, as_rows
+from burmester.export.reference import PRECISION, Reference, as_rows, require_equal
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.geometry.displacement import Displacement
 from burmester.io.linkage_data import poses_data
@@ -27,23 +27,23 @@ from burmester.io.saved import SavedLinkage
 __all__ = ["SCHEMA", "check_csv", "check_json", "write_csv", "write_json"]
 
 SCHEMA: Final = "burmester.linkage/1"
-STEPS = 361  # rows along the way, beside those of the poses
+STEPS = 361  # rows along the motion, beside those of the poses
 
 
 def write_csv(chosen: SavedLinkage, path: Path, options: Options) -> None:
     """Write the table; raises E163."""
-    way = Travel.of(chosen, 2)
+    motion = CouplerMotion.of(chosen, 2)
     shares = np.linspace(0, 1, STEPS)
-    poses = {int(k): float(way.at[k]) for k in way.reached}
+    poses = {int(k): float(motion.pose_shares[k]) for k in motion.reached}
     met = np.array(list(poses.values()))
     # Where a pose and a step are one place, the pose's row stands for both.
     shares = shares[np.abs(shares[:, None] - met).min(axis=1) > 0.01 / STEPS]
     marked = [(share, 0) for share in shares.tolist()]
     marked += [(share, number + 1) for number, share in poses.items()]
     marked.sort()
-    way = Travel.of(chosen, np.array([share for share, _ in marked]))
-    turns = way.circuit.loop.turns
-    drive = np.degrees(way.drive) if turns else way.drive
+    motion = CouplerMotion.of(chosen, np.array([share for share, _ in marked]))
+    turns = motion.circuit.loop.turns
+    drive = np.degrees(motion.driver_coordinate) if turns else motion.driver_coordinate
     unit = _unit(chosen, options)
     in_unit = f"_{unit}" if unit else ""
     with open(path, "w", encoding="utf-8", newline="") as file:
@@ -58,7 +58,7 @@ def write_csv(chosen: SavedLinkage, path: Path, options: Options) -> None:
             ]
         )
         rows = zip(
-            drive.tolist(), poses_data(way.places), [number for _, number in marked], strict=True
+            drive.tolist(), poses_data(motion.places), [number for _, number in marked], strict=True
         )
         for value, place, number in rows:
             table.writerow([repr(value), *map(repr, place.values()), number or ""])
@@ -66,23 +66,25 @@ def write_csv(chosen: SavedLinkage, path: Path, options: Options) -> None:
 
 def check_csv(chosen: SavedLinkage, path: Path, options: Options) -> None:
     """Read the table back and compare: every place is one of the linkage, and the poses' too."""
-    truth = Truth.of(chosen, options, None)
+    reference = Reference.of(chosen, options, None)
     with open(path, encoding="utf-8", newline="") as file:
         head, *rows = list(csv.reader(file))
     numbers = np.array([[float(cell) for cell in row[:4]] for row in rows])
     places = Displacement(numbers[:, 1:3], np.radians(numbers[:, 3]))
-    tolerance = PRECISION * truth.span
-    agree("the links at the places", truth.missed(places), 0, tolerance)
+    tolerance = PRECISION * reference.span
+    require_equal("the links at the places", reference.closure_error(places), 0, tolerance)
     at = [(k, int(row[4]) - 1) for k, row in enumerate(rows) if row[4]]
-    here, wanted = places[[k for k, _ in at]], truth.places[[pose for _, pose in at]]
+    here, wanted = places[[k for k, _ in at]], reference.places[[pose for _, pose in at]]
     # Along a circuit a place is computed from the drive; beside dead points digits are lost.
-    agree("the places for the poses", here.translation, wanted.translation, 1e3 * tolerance)
-    agree("the angles for the poses", as_rows(here)[:, 2:], as_rows(wanted)[:, 2:], 1e-6)
+    require_equal("the places for the poses", here.translation, wanted.translation, 1e3 * tolerance)
+    require_equal("the angles for the poses", as_rows(here)[:, 2:], as_rows(wanted)[:, 2:], 1e-6)
     if chosen.usable:
-        agree("the poses", sorted(pose for _, pose in at), np.arange(len(truth.places.angle)), 0)
+        require_equal(
+            "the poses", sorted(pose for _, pose in at), np.arange(len(reference.places.angle)), 0
+        )
     # The driver, from the places.
-    fixed, moving, line = truth.fixed[0], truth.moving[0], truth.line[0]
-    told = numbers[:, 0]
+    fixed, moving, line = reference.fixed[0], reference.moving[0], reference.line[0]
+    drives = numbers[:, 0]
     if head[0] == "drive_deg" and line is None:
         assert fixed is not None
         assert moving is not None
@@ -95,10 +97,10 @@ def check_csv(chosen: SavedLinkage, path: Path, options: Options) -> None:
         assert line is not None
         assert moving is not None
         along = np.array([-math.sin(line[0]), math.cos(line[0])])
-        agree("the drive", told, places.act(moving) @ along, 10 * tolerance)
+        require_equal("the drive", drives, places.act(moving) @ along, 10 * tolerance)
         return
-    turned = np.exp(1j * (np.radians(told) - own))
-    agree("the drive", np.abs(turned - 1).max(), 0, 1e-8)
+    turned = np.exp(1j * (np.radians(drives) - own))
+    require_equal("the drive", np.abs(turned - 1).max(), 0, 1e-8)
 
 
 def write_json(chosen: SavedLinkage, path: Path, options: Options) -> None:
@@ -127,40 +129,42 @@ def write_json(chosen: SavedLinkage, path: Path, options: Options) -> None:
 
 def check_json(chosen: SavedLinkage, path: Path, options: Options) -> None:
     """Read the linkage back and compare all its numbers."""
-    truth = Truth.of(chosen, options, None)
+    reference = Reference.of(chosen, options, None)
     data = json.loads(path.read_text(encoding="utf-8"))
-    tolerance = PRECISION * truth.span
+    tolerance = PRECISION * reference.span
     for k, dyad in enumerate(data["dyads"]):
-        agree(f"the kind of dyad {k + 1}", dyad["kind"] == truth.kinds[k], True, 0)
+        require_equal(f"the kind of dyad {k + 1}", dyad["kind"] == reference.kinds[k], True, 0)
         for key, wanted in (
-            ("fixed_pivot", truth.fixed[k]),
-            ("moving_pivot", truth.moving[k]),
-            ("radius", truth.radius[k]),
+            ("fixed_pivot", reference.fixed[k]),
+            ("moving_pivot", reference.moving[k]),
+            ("radius", reference.radius[k]),
         ):
             if wanted is not None:
-                agree(f"{key} of dyad {k + 1}", dyad[key], wanted, tolerance)
-        if (line := truth.line[k]) is not None:
-            agree("a normal", math.radians(dyad["line"]["normal_deg"]), line[0], 1e-12)
-            agree("an offset", dyad["line"]["offset"], line[1], tolerance)
-    for key, places in (("coupler", truth.places), ("poses", truth.poses)):
+                require_equal(f"{key} of dyad {k + 1}", dyad[key], wanted, tolerance)
+        if (line := reference.line[k]) is not None:
+            require_equal("a normal", math.radians(dyad["line"]["normal_deg"]), line[0], 1e-12)
+            require_equal("an offset", dyad["line"]["offset"], line[1], tolerance)
+    for key, places in (("coupler", reference.places), ("poses", reference.poses)):
         rows = [[each["x"], each["y"]] for each in data[key]]
-        agree(f"the places of {key}", rows, places.translation, tolerance)
+        require_equal(f"the places of {key}", rows, places.translation, tolerance)
         angles = [math.radians(each["angle_deg"]) for each in data[key]]
-        agree(f"the angles of {key}", angles, places.angle, 1e-12)
+        require_equal(f"the angles of {key}", angles, places.angle, 1e-12)
     if "links" in data:
-        pivots = [np.asarray(each) for each in (*truth.fixed, *truth.moving)]
+        pivots = [np.asarray(each) for each in (*reference.fixed, *reference.moving)]
         ground, coupler = (np.linalg.norm(pivots[k + 1] - pivots[k]) for k in (0, 2))
-        lengths = np.array([ground, truth.radius[0], coupler, truth.radius[1]], dtype=np.float64)
-        agree("the links", list(data["links"].values()), lengths, tolerance)
-    gap = truth.places.translation - truth.poses.translation
+        lengths = np.array(
+            [ground, reference.radius[0], coupler, reference.radius[1]], dtype=np.float64
+        )
+        require_equal("the links", list(data["links"].values()), lengths, tolerance)
+    gap = reference.places.translation - reference.poses.translation
     worst = float(np.hypot(gap[:, 0], gap[:, 1]).max())
-    agree("the error", data["position_error"]["max"], worst, 10 * tolerance)
+    require_equal("the error", data["position_error"]["max"], worst, 10 * tolerance)
 
 
 def _unit(chosen: SavedLinkage, options: Options) -> str | None:
     """The unit in which the task or the options say lengths are; None where nobody does."""
-    said = chosen.unit or options.unit
-    return unit_of(chosen, options) if said else None
+    stated = chosen.unit or options.unit
+    return unit_of(chosen, options) if stated else None
 
 
 def _dyad(dyad: Dyad) -> dict[str, Any]:

@@ -1,6 +1,6 @@
 """URDF: a tree of links in metres, the loop open, for it has no loops.
 
-With all joints at 0 the linkage stands at the pose asked for, and the frames `loop_a` (on the
+With all joints at 0 the linkage stands at the chosen pose, and the frames `loop_a` (on the
 coupler's side) and `loop_b` are at one place: a hinge belongs there.  `body` is the frame M.
 
 E160 what was written is not the linkage        E163 a linkage that a model of bodies cannot hold
@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Literal
+from typing import Literal, NamedTuple
 from xml.etree import ElementTree
 
 import numpy as np
@@ -18,7 +18,7 @@ import numpy as np
 from burmester.export.joints import along_slot, directions, ground_joint, require_bodies
 from burmester.export.numbers import number, numbers_in, xy
 from burmester.export.options import Options
-from burmester.export.truth import PRECISION, Truth, about, agree
+from burmester.export.reference import PRECISION, Reference, description, require_equal
 from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import FloatArray
@@ -36,116 +36,115 @@ HEAD = """  URDF has no closed loops, so that of this linkage is left open at on
 
 def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
     """Write the description; raises E163."""
-    truth = Truth.of(chosen, options, "m")
-    require_bodies(chosen, truth)
-    place = truth.places[options.pose - 1]
-    told = " ".join(about(chosen, options, "m")).replace("--unit", "the option unit")
+    reference = Reference.of(chosen, options, "m")
+    require_bodies(chosen, reference)
+    place = reference.places[options.pose - 1]
+    head = " ".join(description(chosen, options, "m")).replace("--unit", "the option unit")
     lines = [
         '<?xml version="1.0"?>',
         f'<robot name="{chosen.id}">',
-        f"  <!-- {told} -->",
+        f"  <!-- {head} -->",
         f"  <!--\n{HEAD.format(pose=options.pose)}\n  -->",
         '  <link name="ground"/>',
     ]
-    on = _held(truth, 0, place)  # the coupler's own frame is where the driver holds it
-    lines += _side(truth, 0, place)
+    on = _coupler_joint(reference, 0, place)  # the coupler's own frame is where the driver holds it
+    lines += _side(reference, 0, place)
     angle = float(place.angle)
-    if truth.kinds[0] == "RR":
-        relative = angle - float(ground_joint(truth, 0, place))
-        lines += _joint(
-            "coupler", "continuous", "driver", [truth.radius[0] or 0.0, 0.0], relative, "0 0 1"
-        )
-    elif truth.kinds[0] == "PR":
-        lines += _joint("coupler", "continuous", "driver", [0.0, 0.0], angle, "0 0 1")
+    if reference.kinds[0] == "RR":
+        relative = angle - float(ground_joint(reference, 0, place))
+        tip = [reference.radius[0] or 0.0, 0.0]
+        lines += _hinge("coupler", _Origin("driver", tip, relative))
+    elif reference.kinds[0] == "PR":
+        lines += _hinge("coupler", _Origin("driver", [0.0, 0.0], angle))
     else:
-        line = truth.line[0]
+        line = reference.line[0]
         assert line is not None
-        travel = -along_slot(truth, 0, truth.places) + along_slot(truth, 0, place)
-        lines += _slide("coupler", "driver", [0.0, 0.0], -line[0], line[0], travel, truth)
-    hold = _held(truth, 1, place)
-    lines += _link("coupler", [np.zeros(2), -on, hold - on], truth, closed=True)
+        travel = -along_slot(reference, 0, reference.places) + along_slot(reference, 0, place)
+        origin = _Origin("driver", [0.0, 0.0], -line[0])
+        lines += _slide("coupler", origin, line[0], travel, reference.span)
+    hold = _coupler_joint(reference, 1, place)
+    lines += _link("coupler", [np.zeros(2), -on, hold - on], reference, closed=True)
     lines += _fixed("body", "coupler", -on)
-    if truth.kinds[1] == "RP":
-        line, pivot = truth.line[1], truth.fixed[1]
+    if reference.kinds[1] == "RP":
+        line, pivot = reference.line[1], reference.fixed[1]
         assert line is not None
         assert pivot is not None
-        travel = along_slot(truth, 1, truth.places) - along_slot(truth, 1, place)
-        lines += _slide("follower", "coupler", hold - on, 0.0, line[0], travel, truth)
-        lines += _link("follower", [np.zeros(2)], truth)
+        travel = along_slot(reference, 1, reference.places) - along_slot(reference, 1, place)
+        origin = _Origin("coupler", hold - on, 0.0)
+        lines += _slide("follower", origin, line[0], travel, reference.span)
+        lines += _link("follower", [np.zeros(2)], reference)
         lines += _fixed("loop_a", "follower", np.zeros(2))
         lines += _fixed("loop_b", "ground", pivot)
     else:
         lines += _fixed("loop_a", "coupler", hold - on)
-        lines += _side(truth, 1, place)
-        lines += _fixed("loop_b", "follower", np.array([truth.radius[1] or 0.0, 0.0]))
+        lines += _side(reference, 1, place)
+        lines += _fixed("loop_b", "follower", np.array([reference.radius[1] or 0.0, 0.0]))
     lines += ["</robot>", ""]
     path.write_text("\n".join(lines), encoding="utf-8", newline="\n")
 
 
-def _held(truth: Truth, side: int, place: Displacement) -> FloatArray:
+def _coupler_joint(reference: Reference, side: int, place: Displacement) -> FloatArray:
     """Where a side holds the coupler, in M: a moving pivot, or a point of the slot."""
-    moving, fixed, line = truth.moving[side], truth.fixed[side], truth.line[side]
+    moving, fixed, line = reference.moving[side], reference.fixed[side], reference.line[side]
     if moving is not None:
         return moving
     assert fixed is not None
     assert line is not None
     n, along = directions(line[0])
-    return np.asarray(line[1] * n + float(along_slot(truth, 1 if side else 0, place)) * along)
+    return np.asarray(line[1] * n + float(along_slot(reference, 1 if side else 0, place)) * along)
 
 
-def _side(truth: Truth, side: Literal[0, 1], place: Displacement) -> list[str]:
+def _side(reference: Reference, side: Literal[0, 1], place: Displacement) -> list[str]:
     """The link that a side has on the ground."""
     name = ("driver", "follower")[side]
-    start = float(ground_joint(truth, side, place))
-    fixed, line, radius = truth.fixed[side], truth.line[side], truth.radius[side]
-    if truth.kinds[side] == "PR":
+    start = float(ground_joint(reference, side, place))
+    fixed, line, radius = reference.fixed[side], reference.line[side], reference.radius[side]
+    if reference.kinds[side] == "PR":
         assert line is not None
         n, along = directions(line[0])
-        travel = ground_joint(truth, side, truth.places) - start
+        travel = ground_joint(reference, side, reference.places) - start
         at = line[1] * n + start * along
-        joint = _slide(name, "ground", at, 0.0, line[0], travel, truth)
+        joint = _slide(name, _Origin("ground", at, 0.0), line[0], travel, reference.span)
     else:
         assert fixed is not None
-        joint = _joint(name, "continuous", "ground", fixed, start, "0 0 1")
+        joint = _hinge(name, _Origin("ground", fixed, start))
     ends = [np.zeros(2)] if radius is None else [np.zeros(2), np.array([radius, 0.0])]
-    return [*joint, *_link(name, ends, truth)]
+    return [*joint, *_link(name, ends, reference)]
 
 
-def _joint(  # noqa: PLR0917
-    child: str,
-    kind: str,
-    parent: str,
-    at: FloatArray | list[float],
-    turn: float,
-    axis: str,
-    limit: str = "",
-) -> list[str]:
+class _Origin(NamedTuple):
+    """The frame of a joint in its parent link: a point and an angle (radians)."""
+
+    parent: str
+    at: FloatArray | list[float]
+    angle: float
+
+
+def _joint(child: str, kind: str, origin: _Origin, axis: str, limit: str = "") -> list[str]:
     return [
         f'  <joint name="{child}" type="{kind}">',
-        f'    <parent link="{parent}"/><child link="{child}"/>',
-        f'    <origin xyz="{xy(at)} 0" rpy="0 0 {number(turn)}"/>',
+        f'    <parent link="{origin.parent}"/><child link="{child}"/>',
+        f'    <origin xyz="{xy(origin.at)} 0" rpy="0 0 {number(origin.angle)}"/>',
         f'    <axis xyz="{axis}"/>{limit}',
         "  </joint>",
     ]
 
 
-def _slide(  # noqa: PLR0917
-    child: str,
-    parent: str,
-    at: FloatArray | list[float],
-    turn: float,
-    normal: float,
-    travel: FloatArray,
-    truth: Truth,
+def _hinge(child: str, origin: _Origin) -> list[str]:
+    return _joint(child, "continuous", origin, "0 0 1")
+
+
+def _slide(
+    child: str, origin: _Origin, normal: float, travel: FloatArray, span: float
 ) -> list[str]:
-    """A slide along a line with a normal at that angle, as the child's frame has it."""
+    """A slide along a line; normal: the angle of the line's normal in the child's frame."""
     low, high = float(travel.min()), float(travel.max())
     limit = (
         f'<limit lower="{number(low)}" upper="{number(high)}" effort="{number(FORCE)}" '
-        f'velocity="{number(SPEED * truth.span)}"/>'
+        f'velocity="{number(SPEED * span)}"/>'
     )
     axis = f"{xy(directions(normal)[1])} 0"
-    return _joint(child, "prismatic", parent, at, turn, axis, limit)
+    return _joint(child, "prismatic", origin, axis, limit)
 
 
 def _fixed(child: str, parent: str, at: FloatArray) -> list[str]:
@@ -158,9 +157,11 @@ def _fixed(child: str, parent: str, at: FloatArray) -> list[str]:
     ]
 
 
-def _link(name: str, points: list[FloatArray], truth: Truth, closed: bool = False) -> list[str]:
+def _link(
+    name: str, points: list[FloatArray], reference: Reference, closed: bool = False
+) -> list[str]:
     """A link with boxes from point to point, and a mass that stands in."""
-    thin, inertia = THIN * truth.span, number(truth.span**2)
+    thin, inertia = THIN * reference.span, number(reference.span**2)
     sides = f"{number(thin)} {number(thin)}"
     lines = [
         f'  <link name="{name}">',
@@ -182,38 +183,42 @@ def _link(name: str, points: list[FloatArray], truth: Truth, closed: bool = Fals
 
 def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
     """Read the XML back, put its joints to every pose and compare; raises E160."""
-    truth = Truth.of(chosen, options, "m")
-    tolerance = PRECISION * truth.span
+    reference = Reference.of(chosen, options, "m")
+    tolerance = PRECISION * reference.span
     root = ElementTree.parse(path).getroot()
     joints = {str(each.get("name")): each for each in root.findall("joint")}
-    start = truth.places[options.pose - 1]
-    for k in range(truth.places.shape[0]):
-        place = truth.places[k]
+    start = reference.places[options.pose - 1]
+    for k in range(reference.places.shape[0]):
+        place = reference.places[k]
         q = {}
         for side, name in ((0, "driver"), (1, "follower")):
-            if side == 1 and truth.kinds[1] == "RP":
-                q[name] = float(along_slot(truth, 1, place) - along_slot(truth, 1, start))
+            if side == 1 and reference.kinds[1] == "RP":
+                q[name] = float(along_slot(reference, 1, place) - along_slot(reference, 1, start))
             else:
                 q[name] = float(
-                    ground_joint(truth, 1 if side else 0, place)
-                    - ground_joint(truth, 1 if side else 0, start)
+                    ground_joint(reference, 1 if side else 0, place)
+                    - ground_joint(reference, 1 if side else 0, start)
                 )
-        if truth.kinds[0] == "RP":
-            q["coupler"] = float(along_slot(truth, 0, start) - along_slot(truth, 0, place))
+        if reference.kinds[0] == "RP":
+            q["coupler"] = float(along_slot(reference, 0, start) - along_slot(reference, 0, place))
         else:
             q["coupler"] = float(place.angle - start.angle)
-            q["coupler"] -= q["driver"] if truth.kinds[0] == "RR" else 0.0
+            q["coupler"] -= q["driver"] if reference.kinds[0] == "RR" else 0.0
         frames = {name: _frame(name, joints, q) for name in ("body", "loop_a", "loop_b")}
         name = f"at pose {k + 1}"
         at, turn = frames["body"]
-        agree(f"the coupler {name}", [at.real, at.imag], place.translation, tolerance)
+        require_equal(f"the coupler {name}", [at.real, at.imag], place.translation, tolerance)
         gap = turn - complex(np.exp(1j * float(place.angle)))
-        agree(f"the coupler's angle {name}", abs(gap), 0, PRECISION)
-        agree(f"the loop {name}", abs(frames["loop_a"][0] - frames["loop_b"][0]), 0, tolerance)
+        require_equal(f"the coupler's angle {name}", abs(gap), 0, PRECISION)
+        require_equal(
+            f"the loop {name}", abs(frames["loop_a"][0] - frames["loop_b"][0]), 0, tolerance
+        )
         for joint, value in q.items():
             if (limit := joints[joint].find("limit")) is not None:
                 low, high = float(limit.get("lower", "nan")), float(limit.get("upper", "nan"))
-                agree(f"the limits of {joint}", min(max(value, low), high), value, tolerance)
+                require_equal(
+                    f"the limits of {joint}", min(max(value, low), high), value, tolerance
+                )
 
 
 def _frame(

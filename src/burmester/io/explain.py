@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, final
 from rich.text import Text
 
 from burmester.errors import InputError
-from burmester.io.message import PLACE, STYLES, draw, place, wrapped
+from burmester.io.message import LOCATION_HEAD, STYLES, draw, location_lines, wrapped
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -25,8 +25,8 @@ from burmester.wording import listed
 
 __all__ = ["Page", "page", "pages", "show_all", "show_page"]
 
-WIDEST = 96  # columns of running text; longer lines are hard to read
-ALIKE = 2  # characters that a code has in common with one that is meant
+MAX_TEXT_COLUMNS = 96  # columns of running text; longer lines are hard to read
+MIN_COMMON_CHARACTERS = 2  # characters that a suggested code shares with the one given
 
 _HEAD = re.compile(r"(?:(error|warning|result)\[[A-Z][0-9]{3}\]|  (?:why|help)): ")
 _SHOWN = re.compile(r" *[0-9]* \| ")  # a line of the file, or the carets below it
@@ -36,7 +36,7 @@ _MARK = re.compile(r"\*\*(.+?)\*\*")
 @final
 @dataclass(frozen=True, slots=True)
 class Page:
-    """What is to be known of a code; text: Markdown, as `messages.md` has it."""
+    """The explanation of a code; text: Markdown, as in `messages.md`."""
 
     code: str
     title: str
@@ -50,10 +50,10 @@ class Page:
                 yield "block", part.strip("\n")
                 continue
             for piece in re.split(r"\n\s*\n|\n(?=- )", part):
-                said = " ".join(piece.split())
-                if said:
-                    item = said.startswith("- ")
-                    yield ("item", said.removeprefix("- ")) if item else ("text", said)
+                line = " ".join(piece.split())
+                if line:
+                    item = line.startswith("- ")
+                    yield ("item", line.removeprefix("- ")) if item else ("text", line)
 
     def example(self) -> str | None:
         """The first block, a message as it is printed."""
@@ -64,15 +64,15 @@ class Page:
 def pages() -> dict[str, Page]:
     """All pages by code, in the order of the file."""
     text = (resources.files("burmester") / "io" / "messages.md").read_text("utf-8")
-    found, family = {}, ""
+    by_code, family = {}, ""
     for section in re.split(r"(?m)^(?=##? )", text):
         head, _, body = section.partition("\n")
         if head.startswith("## "):
             code, _, title = head.removeprefix("## ").partition(" ")
-            found[code] = Page(code, title.strip(), family, body.strip("\n"))
+            by_code[code] = Page(code, title.strip(), family, body.strip("\n"))
         else:
             family = head.removeprefix("# ").strip()
-    return found
+    return by_code
 
 
 def page(code: str) -> Page:
@@ -82,10 +82,10 @@ def page(code: str) -> Page:
     """
     known = pages()
     inside = re.search(r"\[(\w+)\]", code)
-    plain = (inside[1] if inside else code).strip().upper()
-    if plain in known:
-        return known[plain]
-    near = _nearest(plain, known)
+    given = (inside[1] if inside else code).strip().upper()
+    if given in known:
+        return known[given]
+    near = _nearest(given, known)
     guess = (
         f"try {listed([f'`burmester explain {each}`' for each in near], 'or')}, or " if near else ""
     )
@@ -106,13 +106,17 @@ def _nearest(given: str, known: Iterable[str]) -> list[str]:
         return max(sum(map(str.__eq__, plain, each)) for each in (code, code[1:]))
 
     near = sorted(known, key=lambda code: (-alike(code), abs(int(code[1:]) - number), code))[:3]
-    return near[:1] if plain in near else [code for code in near if alike(code) >= ALIKE]
+    return (
+        near[:1]
+        if plain in near
+        else [code for code in near if alike(code) >= MIN_COMMON_CHARACTERS]
+    )
 
 
 def show_page(page: Page, console: Console) -> None:
     """A page, its example as the message would be printed."""
     width = console.width
-    lines = wrapped(page.title, min(width, WIDEST), Text(f"{page.code}  ", style="bold"))
+    lines = wrapped(page.title, min(width, MAX_TEXT_COLUMNS), Text(f"{page.code}  ", style="bold"))
     for line in lines:
         line.stylize("bold")
     before = ""
@@ -122,16 +126,16 @@ def show_page(page: Page, console: Console) -> None:
         if kind == "block":
             lines += [Text("  ") + line for line in _block(text, width - 2)]
         elif kind == "item":
-            lines += _marked(text, min(width, WIDEST), "- ")
+            lines += _marked(text, min(width, MAX_TEXT_COLUMNS), "- ")
         else:
-            lines += _marked(text, min(width, WIDEST))
+            lines += _marked(text, min(width, MAX_TEXT_COLUMNS))
         before = kind
     draw(lines, console)
 
 
 def show_all(console: Console) -> None:
     """Every code with its title, family by family."""
-    width, family = min(console.width, WIDEST), ""
+    width, family = min(console.width, MAX_TEXT_COLUMNS), ""
     lines: list[Text] = []
     for each in pages().values():
         if each.family != family:
@@ -147,16 +151,18 @@ def _block(text: str, width: int) -> Iterator[Text]:
     lines = text.split("\n")
     for k, line in enumerate(lines):
         if found := _HEAD.match(line):
-            head, said = found[0], line[found.end() :]
-            yield from wrapped(said, width, Text(head, style=STYLES.get(str(found[1]), "bold")))
-        elif line.startswith(PLACE):
+            head, sentence = found[0], line[found.end() :]
+            yield from wrapped(sentence, width, Text(head, style=STYLES.get(str(found[1]), "bold")))
+        elif line.startswith(LOCATION_HEAD):
             end = next((i for i in range(k + 1, len(lines)) if " | " not in lines[i]), len(lines))
-            yield from place("\n".join(lines[k:end]).removeprefix(PLACE), width, STYLES["error"])
+            yield from location_lines(
+                "\n".join(lines[k:end]).removeprefix(LOCATION_HEAD), width, STYLES["error"]
+            )
         elif len(line) <= width and not _SHOWN.match(line):
             yield Text(line)
         elif not _SHOWN.match(line):
-            said = line.lstrip()
-            yield from wrapped(said, width, line[: len(line) - len(said)])
+            text = line.lstrip()
+            yield from wrapped(text, width, line[: len(line) - len(text)])
 
 
 def _marked(text: str, width: int, head: str = "") -> Iterator[Text]:

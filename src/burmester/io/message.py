@@ -29,24 +29,24 @@ if TYPE_CHECKING:
     from burmester.errors import Advice, BurmesterError
     from burmester.tasks.motion_kinds import MotionKind
 
-    _Said: TypeAlias = BurmesterError | Advice | MotionKind
+    _Message: TypeAlias = BurmesterError | Advice | MotionKind
 
 __all__ = [
-    "PLACE",
+    "LOCATION_HEAD",
     "STYLES",
     "draw",
+    "location_lines",
     "message",
     "note",
-    "place",
     "show",
     "wrapped",
 ]
 
 STYLES = {"error": "bold red", "warning": "bold yellow", "result": "bold"}
-LEAST = 24  # columns that a text has, however narrow the terminal
-NARROW = 56  # columns; below it there is no room to indent a text by its whole head
-CUT = "..."
-PLACE = "  --> "
+MIN_COLUMNS = 24  # columns of a text, however narrow the terminal
+FULL_INDENT_COLUMNS = 56  # columns; in a narrower terminal text is indented by 4 columns only
+ELLIPSIS = "..."
+LOCATION_HEAD = "  --> "
 
 # Words, with what stands in backticks or in quotes in one piece.
 _WORD = re.compile(r'(?:`[^`\n]+`|"[^"\n]+"|\S)+')
@@ -55,15 +55,15 @@ _GUTTER = re.compile(r"( *(\d*) \|)(?: (.*))?")
 _CARETS = re.compile(r"( *)(\^+)(.*)")
 
 
-def show(kind: str, said: _Said, console: Console) -> None:
-    """An error, a warning or a result, with its place, its reason and its help."""
+def show(kind: str, content: _Message, console: Console) -> None:
+    """An error, a warning or a result, with its location, its reason and its help."""
     lines = message(
         kind,
-        said.code,
-        said.message,
-        where=getattr(said, "where", None),
-        why=getattr(said, "why", None),
-        help=said.help,
+        content.code,
+        content.message,
+        where=getattr(content, "where", None),
+        why=getattr(content, "why", None),
+        help=content.help,
         width=console.width,
     )
     draw(lines, console)
@@ -88,13 +88,13 @@ def message(
 ) -> list[Text]:
     """The lines of a message; kind: error, warning or result."""
     style = STYLES.get(kind, "bold")
-    hang = None if width >= NARROW else 4
+    hang = None if width >= FULL_INDENT_COLUMNS else 4
     lines = wrapped(text, width, Text(f"{kind}[{code}]: ", style=style), hang)
     if where:
-        lines += place(where, width, style)
-    for label, said in (("why", why), ("help", help)):
-        if said:
-            lines += note(label, said, width)
+        lines += location_lines(where, width, style)
+    for label, sentence in (("why", why), ("help", help)):
+        if sentence:
+            lines += note(label, sentence, width)
     return lines
 
 
@@ -110,12 +110,12 @@ def wrapped(text: str, width: int, head: Text | str = "", hang: int | None = Non
     """
     first = Text.assemble(head)
     indent = first.cell_len if hang is None else hang
-    words = list(_units(printable(text), max(width - indent, LEAST)))
+    words = list(_units(printable(text), max(width - indent, MIN_COLUMNS)))
     lines, line, used = [], first, first.cell_len
     empty = True
     for word in words:
         size = cell_len(word)
-        if not empty and used + 1 + size > max(width, indent + LEAST):
+        if not empty and used + 1 + size > max(width, indent + MIN_COLUMNS):
             lines.append(line)
             line, used, empty = Text(" " * indent), indent, True
         line.append(word if empty else f" {word}")
@@ -140,16 +140,16 @@ def _units(text: str, room: int) -> Iterator[str]:
             yield from unit.split()
 
 
-# --- the place in the file
+# --- the location in the file
 
 
-def place(where: str, width: int, style: str) -> Iterator[Text]:
-    """The lines of a place: its name, then lines of the file, each with carets below it.
+def location_lines(where: str, width: int, style: str) -> Iterator[Text]:
+    """The lines of a location: its name, then lines of the file, each with carets below it.
 
     where: as `BurmesterError` has it; style: of the carets.
     """
     name, *rest = printable(where).split("\n")
-    yield from wrapped(name, width, Text(PLACE, style="bold"))
+    yield from wrapped(name, width, Text(LOCATION_HEAD, style="bold"))
     k = 0
     while k < len(rest):
         line = _GUTTER.fullmatch(rest[k])
@@ -163,7 +163,7 @@ def place(where: str, width: int, style: str) -> Iterator[Text]:
             yield from _window(line, below, carets, width, style)
             k += 2
         else:
-            text = _cells(line[3] or "", 0, max(width - len(line[1]) - 1, LEAST))
+            text = _cells(line[3] or "", 0, max(width - len(line[1]) - 1, MIN_COLUMNS))
             yield _gutter(line) + Text(text.rstrip())
             k += 1
 
@@ -173,7 +173,7 @@ def _window(
 ) -> Iterator[Text]:
     """A line of the file and its carets, or as much of both around the carets as there is room."""
     text, (blanks, marks, after) = line[3] or "", carets.groups()
-    room = max(width - len(line[1]) - 1, LEAST)
+    room = max(width - len(line[1]) - 1, MIN_COLUMNS)
     # Wide characters take two columns, and what stands below them as well.
     padded = text.ljust(len(blanks) + len(marks))
     at = cell_len(padded[: len(blanks)])
@@ -182,7 +182,7 @@ def _window(
     if max(size, end + cell_len(after)) > room:
         if cell_len(after) > room // 2:
             after = ""
-        count = min(count, room - cell_len(after) - 2 * len(CUT))
+        count = min(count, room - cell_len(after) - 2 * len(ELLIPSIS))
         end = at + count
         # The carets at two thirds of the window, so that what leads to them is seen.
         start = max(0, end + max(cell_len(after), room // 3) - room)
@@ -190,9 +190,9 @@ def _window(
         stop = start + room
         text = _cells(text, start, stop)
         if start > 0:
-            text = CUT + _cells(text, len(CUT), room)
+            text = ELLIPSIS + _cells(text, len(ELLIPSIS), room)
         if stop < size:
-            text = _cells(text, 0, room - len(CUT)) + CUT
+            text = _cells(text, 0, room - len(ELLIPSIS)) + ELLIPSIS
         at -= start
     yield _gutter(line) + Text(text.rstrip())
     yield _gutter(below) + Text.assemble(" " * at, ("^" * count, style), after.rstrip())

@@ -1,6 +1,6 @@
-"""A task before anything is looked for: its poses as they were read, its motion, what stands out.
+"""A task before synthesis: its poses as read, its motion class, and the findings of the checks.
 
-For people (`show`) and as an object ready for JSON (`plain`).
+For people (`show`) and as an object ready for JSON (`check_data`).
 """
 
 from __future__ import annotations
@@ -18,17 +18,17 @@ from burmester.diagnosis.checks import Diagnosis
 from burmester.io.linkage_table import new_table
 from burmester.io.message import show as show_message
 from burmester.io.message import wrapped
-from burmester.io.result import motion_data, task_data, told
+from burmester.io.result import message_data, motion_data, task_data
 from burmester.tasks.motion_kinds import General
 from burmester.tasks.motion_task import Task
 
-__all__ = ["plain", "show"]
+__all__ = ["check_data", "show"]
 
 SCHEMA = "burmester.check/1"
-SHOWN = 20  # poses; of more, the first and the last ones
+MAX_ROWS = 20  # poses shown; of more, the first 18 and the last 2
 
 
-def plain(diagnosis: Diagnosis) -> dict[str, Any]:
+def check_data(diagnosis: Diagnosis) -> dict[str, Any]:
     """What `burmester check --json` prints."""
     motion = diagnosis.motion
     return {
@@ -36,7 +36,7 @@ def plain(diagnosis: Diagnosis) -> dict[str, Any]:
         "task": task_data(diagnosis.task),
         "motion": None if motion is None else motion_data(motion),
         "singular_values": None if motion is None else motion.singular_values.tolist(),
-        "warnings": [told(each) for each in diagnosis.findings],
+        "warnings": [message_data(each) for each in diagnosis.findings],
     }
 
 
@@ -76,8 +76,8 @@ def _poses(task: Task) -> Table:
         # Square brackets are no style here.
         table.add_column(Text(head), justify="left" if head == "name" else "right")
     rows = list(zip(*columns.values(), strict=True))
-    if count > SHOWN:
-        rows[SHOWN - 2 : -2] = [("...",) * len(columns)]
+    if count > MAX_ROWS:
+        rows[MAX_ROWS - 2 : -2] = [("...",) * len(columns)]
     for row in rows:
         table.add_row(*map(Text, row))
     return table

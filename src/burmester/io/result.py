@@ -19,30 +19,37 @@ from burmester.dyads.selection import Fit
 from burmester.errors import Advice, BurmesterError
 from burmester.geometry.regions import Line, Point, Polygon, Segment
 from burmester.io.linkage_data import dyad_data, linkage_data, number, poses_data
-from burmester.io.reading.asked import plain as requirements_data
+from burmester.io.reading.stated_requirements import requirements_data
 from burmester.synthesis.result import Outcome, Synthesis
 from burmester.tasks.limits import KINDS, Limits
 from burmester.tasks.motion_class import MotionClass
 from burmester.tasks.motion_task import Task
 
-__all__ = ["failure", "json_line", "motion_data", "plain", "task_data", "told"]
+__all__ = [
+    "failure",
+    "json_line",
+    "message_data",
+    "motion_data",
+    "synthesis_data",
+    "task_data",
+]
 
 SCHEMA = "burmester.synthesis/1"
 
 
-def plain(synthesis: Synthesis) -> dict[str, Any]:
+def synthesis_data(synthesis: Synthesis) -> dict[str, Any]:
     """The synthesis as an object ready for JSON."""
     task, outcome, motion = synthesis.task, synthesis.outcome, synthesis.motion
     tolerance = synthesis.options.manufacturing_tolerance
     return {
         "schema": SCHEMA,
-        "outcome": told(outcome),
+        "outcome": message_data(outcome),
         "method": synthesis.method,
         "task": task_data(task),
         "motion": None if motion is None else motion_data(motion),
         "dyads": [dyad_data(dyad) for dyad in synthesis.dyads],
         "linkages": [linkage_data(each, tolerance) for each in synthesis.linkages],
-        "warnings": list(map(told, synthesis.warnings)),
+        "warnings": list(map(message_data, synthesis.warnings)),
         "characteristic_length": synthesis.length,
         "singular_values": _singular_values(synthesis),
         **_critical_points(synthesis),
@@ -53,7 +60,7 @@ def plain(synthesis: Synthesis) -> dict[str, Any]:
     }
 
 
-def told(message: Advice | Outcome) -> dict[str, Any]:
+def message_data(message: Advice | Outcome) -> dict[str, Any]:
     """An outcome or a warning."""
     return {
         "code": message.code,
@@ -115,7 +122,7 @@ def motion_data(motion: MotionClass) -> dict[str, Any]:
 
 
 def _singular_values(synthesis: Synthesis) -> list[float] | None:
-    """Those of the fit where it has some, else those that told what the motion is."""
+    """Those of the fit where it has some, else those that classify the motion."""
     for fit in synthesis.fits:
         if not isinstance(fit, BestDyads):
             return list(fit.singular_values.tolist())
@@ -123,7 +130,7 @@ def _singular_values(synthesis: Synthesis) -> list[float] | None:
 
 
 def _critical_points(synthesis: Synthesis) -> dict[str, Any]:
-    """How many of the critical points of a task without limits were told apart."""
+    """How many of the critical points of a task without limits were distinguished."""
     for fit in synthesis.fits:
         if isinstance(fit, BestDyads) and isinstance(fit.search, CriticalDyads):
             return {"critical_points": {"found": int(fit.search.found), "expected": COUNT}}

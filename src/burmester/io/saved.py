@@ -23,7 +23,7 @@ from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
-from burmester.io.reading.fetched import fetch
+from burmester.io.reading.file_content import read_source
 from burmester.io.reading.poses import read_task
 from burmester.io.result import SCHEMA
 from burmester.linkages.found_linkage import Side, with_driver_first
@@ -96,7 +96,7 @@ def read_result(source: str | os.PathLike[str]) -> Result:
     path = os.fspath(source)
     label = "<stdin>" if path == "-" else path
     help = "make it with `burmester synthesize POSES -o result.json`"
-    data = fetch(path)
+    data = read_source(path)
     try:
         tree = json.loads(data)
     except (ValueError, RecursionError) as error:

@@ -18,7 +18,7 @@ from burmester.dyads.selection import FoundDyad
 from burmester.fourbar.dyad import Dyad
 from burmester.geometry.displacement import Displacement
 from burmester.io.linkage_data import dyad_data, linkage_data, number, poses_data
-from burmester.io.result import told
+from burmester.io.result import message_data
 from burmester.linkages import explanation
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.synthesis.result import Synthesis
@@ -46,9 +46,9 @@ def report_data(synthesis: Synthesis) -> dict[str, Any]:
     linkages = [_linkage(synthesis, each, scene, frames, chart) for each in synthesis.linkages]
     return {
         "schema": SCHEMA,
-        "outcome": told(outcome),
+        "outcome": message_data(outcome),
         "best": list(sentences.best_sentences(synthesis)),
-        "warnings": list(map(told, synthesis.warnings)),
+        "warnings": list(map(message_data, synthesis.warnings)),
         "method": synthesis.method,
         "unit": task.length_unit,
         "poses": _poses(task),

@@ -1,8 +1,9 @@
-"""Tasks from files and from options: `poses` reads them, the other rooms are its parts.
+"""Tasks from files and from options: `poses` reads them, the other modules are its parts.
 
-Tables: `fetched` (bytes and text), `csv_poses`, `columns` (headers), `table` (numbers as printed),
-`wrong_numbers`, `points` (two tracked points), `parquet`.  JSON and TOML: `documents`, `pose_tree`,
-`pose_model`, `places` (where a value stands), `slips` (what is wrong with the language).  What is
-wanted: `wanted` and `asked`, as text (`limits_text`, `requirements_text`) and in files
-(`limits_tree`, `requirements_tree`).
+Tables: `file_content` (bytes and text), `csv_poses` (with `csv_header`, `csv_cells`), `columns`
+(names of columns), `pose_table` (numbers as printed), `wrong_numbers`, `tracked_points`, `parquet`.
+JSON and TOML: `documents`, `pose_tree`, `pose_model`, `locations` (of values in the text),
+`syntax_faults` (with `syntax_checks`, `parser_stop`).  Limits and requirements: `specification` and
+`stated_requirements`, as text (`limits_text`, `requirements_text`) and in files (`limits_tree`,
+`requirements_tree`).
 """

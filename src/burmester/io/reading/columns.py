@@ -16,7 +16,7 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from burmester.errors import InputError
-from burmester.io.reading.table import NUMERIC, POINTS, brief, shown
+from burmester.io.reading.pose_table import NUMERIC, POINTS, brief, shown
 
 __all__ = ["HEADER", "Columns", "is_header", "read_columns"]
 
@@ -56,7 +56,7 @@ _KNOWN = (
 class Columns(NamedTuple):
     """What the names of columns say."""
 
-    places: dict[str, int]  # role -> place in a row
+    indices: dict[str, int]  # role -> index in a row
     units: dict[str, str | None]  # role -> unit
 
     @property
@@ -78,23 +78,23 @@ def read_columns(
 ) -> Columns:
     """What columns of these names hold; raises E105, E107 and E108.
 
-    where: the place of one of the names, or of all.
+    where: the location of one of the names, or of all.
     ignore: how to have a column ignored, with {} for its name.
     """
-    places: dict[str, int] = {}
+    indices: dict[str, int] = {}
     units: dict[str, str | None] = {}
     unknown: list[int] = []
     for i, name in enumerate(names):
         column = _column(name)
         if column is None:
             unknown.append(i)
-        elif column[0] in places:
-            message = f"two columns for {column[0]}: {names[places[column[0]]]} and {name}"
+        elif column[0] in indices:
+            message = f"two columns for {column[0]}: {names[indices[column[0]]]} and {name}"
             help = "delete one of the two columns"
             raise InputError("E108", message, where=where(i), help=help)
         elif column[0] != _IGNORED:
-            places[column[0]], units[column[0]] = i, column[1]
-    lengths = _require_poses(names, places, unknown, where)
+            indices[column[0]], units[column[0]] = i, column[1]
+    lengths = _require_poses(names, indices, unknown, where)
     if unknown:
         raise _unknown(names, unknown[0], where, ignore)
     for role in lengths[1:]:
@@ -103,9 +103,9 @@ def read_columns(
                 f"{first} is in {units[first] or 'no unit'}, {role} in {units[role] or 'no unit'}"
             )
             one = "both columns" if len(lengths) == 2 else "all four columns"
-            where_role = where(places[role])
+            where_role = where(indices[role])
             raise InputError("E108", message, where=where_role, help=f"give {one} the same unit")
-    return Columns(places, units)
+    return Columns(indices, units)
 
 
 def _column(name: str) -> tuple[str, str | None] | None:
@@ -128,21 +128,21 @@ def _parts(name: str) -> tuple[str, str]:
 
 def _require_poses(
     names: Sequence[str],
-    places: dict[str, int],
+    indices: dict[str, int],
     unknown: list[int],
     where: Callable[[int | None], str],
 ) -> tuple[str, ...]:
     """The roles of lengths, if the columns make poses; raises E105 and E108."""
-    points = [role for role in POINTS if role in places]
-    body = [role for role in NUMERIC[:3] if role in places]
+    points = [role for role in POINTS if role in indices]
+    body = [role for role in NUMERIC[:3] if role in indices]
     if points and body:
-        mixed = [names[places[role]] for role in (body[0], points[0])]
+        mixed = [names[indices[role]] for role in (body[0], points[0])]
         message = f"a pose in two ways: the columns {' and '.join(mixed)}"
         help = "keep x, y and the angle, or px, py, qx and qy, and delete the other columns"
-        where_point = where(places[points[0]])
+        where_point = where(indices[points[0]])
         raise InputError("E108", message, where=where_point, help=help)
     needed = POINTS if points else NUMERIC[:3]
-    if missing := [role for role in needed if role not in places]:
+    if missing := [role for role in needed if role not in indices]:
         message = f"the header has no column for {' and '.join(missing)}"
         more = f" and {len(names) - _MANY} more" if len(names) > _MANY else ""
         why = f"it has: {', '.join(map(shown, names[:_MANY]))}{more}"

@@ -1,6 +1,6 @@
 """Tasks in JSON and TOML: texts as trees, whose numbers keep the digits they are printed with.
 
-What may stand in the trees is told by `burmester.io.reading.pose_tree`.  The errors are those that
+`burmester.io.reading.pose_tree` lists the keys of the trees.  The errors are those that
 `burmester.io.reading.poses` lists.
 """
 
@@ -15,12 +15,12 @@ from decimal import Decimal, InvalidOperation
 from typing import Any
 
 from burmester.errors import InputError
-from burmester.io.reading.places import LONG, SHORT, UNCLOSED, Document, repeated
-from burmester.io.reading.table import PoseTable, Source, shown
+from burmester.io.reading.locations import LONG, SHORT, UNCLOSED, Document, duplicate_key
+from burmester.io.reading.pose_table import PoseTable, Source, shown
 
 __all__ = ["read_json", "read_toml"]
 
-_PARTS = 100  # in a dotted key of TOML: the parser takes the square of their number, or worse
+MAX_KEY_PARTS = 100  # parts of a dotted TOML key; the parsing time grows as their square
 _PART = rf"(?:[\w-]++|{SHORT})"
 _KEYS = re.compile(rf"{LONG}|#[^\n]*+|({_PART}(?:[ \t]*\.[ \t]*{_PART})*)|{UNCLOSED}")
 
@@ -34,7 +34,7 @@ def read_json(source: Source) -> PoseTable:
         where, help = source.where(start, len(constant)), "give a number, or delete the pose"
         raise InputError("E103", f"{constant} is not a finite number", where=where, help=help)
 
-    def once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    def distinct_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
         tree = dict(pairs)
         if len(tree) < len(pairs):
             raise _twice(source, pairs)
@@ -45,13 +45,13 @@ def read_json(source: Source) -> PoseTable:
         parse_float=_exact,
         parse_int=_exact,
         parse_constant=refuse,
-        object_pairs_hook=once,
+        object_pairs_hook=distinct_keys,
     )
     tree = _tree(Document(source, "JSON"), parse)
-    from burmester.io.reading.pose_tree import read
+    from burmester.io.reading.pose_tree import read_tree
 
     example = '{"angle_unit": "deg", "poses": [[0.5, 2, 30], ...]}'
-    return read(tree, Document(source, "JSON"), example)
+    return read_tree(tree, Document(source, "JSON"), example)
 
 
 def read_toml(source: Source) -> PoseTable:
@@ -59,60 +59,60 @@ def read_toml(source: Source) -> PoseTable:
     document = Document(source, "TOML")
     _require_short_keys(source)
     tree = _tree(document, functools.partial(tomllib.loads, parse_float=_exact))
-    from burmester.io.reading.pose_tree import read
+    from burmester.io.reading.pose_tree import read_tree
 
-    return read(tree, document, 'angle_unit = "deg" above poses = [[0.5, 2, 30], ...]')
+    return read_tree(tree, document, 'angle_unit = "deg" above poses = [[0.5, 2, 30], ...]')
 
 
 def _require_short_keys(source: Source) -> None:
-    """Refuse keys of so many parts that the parser would be at them for minutes: E109."""
-    if all(line.count(".") < _PARTS for line in source.text.split("\n")):
+    """Refuse keys of so many parts that the parser would take minutes: E109."""
+    if all(line.count(".") < MAX_KEY_PARTS for line in source.text.split("\n")):
         return
     for found in _KEYS.finditer(source.text):
-        if found[1] and found[1].count(".") >= _PARTS:
+        if found[1] and found[1].count(".") >= MAX_KEY_PARTS:
             count = len(re.findall(_PART, found[1]))
-            if count > _PARTS:
+            if count > MAX_KEY_PARTS:
                 where = source.where(found.start(), len(found[1]))
-                why = f"no more than {_PARTS} are read, and a task needs three at most"
+                why = f"no more than {MAX_KEY_PARTS} are read, and a task needs three at most"
                 help = "delete the parts that nothing needs, and the dots between them"
                 message = f"a key has {count} parts, with dots between them"
                 raise InputError("E109", message, where=where, why=why, help=help)
 
 
 def _tree(document: Document, parse: Callable[[str], Any]) -> Any:
-    """What a parser makes of a text, or E109."""
+    """The tree that a parser makes of a text, or E109."""
     source, language = document.source, document.language
     at: int | None = None
-    said = ""
+    report = ""
     try:
         return parse(source.text)
     except RecursionError:
         pass
     except json.JSONDecodeError as error:
-        at, said = error.pos, error.msg
+        at, report = error.pos, error.msg
     except ValueError as error:
-        said, _, place = str(error).partition(" (at")
+        report, _, position = str(error).partition(" (at")
         at = len(source.text)
-        if found := re.fullmatch(r" line (\d+), column (\d+)\)", place):
+        if found := re.fullmatch(r" line (\d+), column (\d+)\)", position):
             before = source.text.split("\n")[: int(found[1]) - 1]
             at = sum(len(line) + 1 for line in before) + int(found[2]) - 1
-        elif not place:  # an integer of more digits than Python reads, in TOML
-            raise _too_long(source, said) from None
-    from burmester.io.reading.slips import slip
+        elif not position:  # an integer of more digits than Python reads, in TOML
+            raise _too_long(source) from None
+    from burmester.io.reading.syntax_faults import syntax_fault
 
-    found_slip = slip(language, source.text, at, said)
+    fault = syntax_fault(language, source.text, at, report)
     raise InputError(
         "E109",
         f"this is not {language}",
-        where=source.where(found_slip.start, found_slip.width),
-        why=found_slip.why,
-        help=found_slip.help,
+        where=source.where(fault.start, fault.width),
+        why=fault.why,
+        help=fault.help,
     )
 
 
-def _too_long(source: Source, said: str) -> InputError:
+def _too_long(source: Source) -> InputError:
     """E103, for an integer of more digits than are read."""
-    from burmester.io.reading.slips import long_integer
+    from burmester.io.reading.syntax_faults import long_integer
 
     start, end = long_integer(source.text) or (0, 1)
     message = f"a number of {end - start} digits is not a finite number"
@@ -134,7 +134,7 @@ def _twice(source: Source, pairs: list[tuple[str, Any]]) -> InputError:
     known: set[str] = set()
     key = next(key for key, _ in pairs if key in known or known.add(key))  # type: ignore[func-returns-value]
     where, why = None, None
-    if found := repeated(source.text):
+    if found := duplicate_key(source.text):
         (first, _), (start, end) = found
         where = source.where(start, end - start)
         line = source.text.count("\n", 0, first) + 1

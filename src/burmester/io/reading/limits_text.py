@@ -1,4 +1,4 @@
-"""Limits as the command line says them.
+"""Limits as the command line states them.
 
 A region is X,Y (a point) or line:X,Y:X,Y, segment:X,Y:X,Y, box:X,Y:X,Y or
 polygon:X,Y:X,Y:X,Y with any more corners; a length is MIN:MAX, either side may be empty; kinds
@@ -16,43 +16,50 @@ import numpy as np
 
 from burmester.errors import InputError
 from burmester.geometry.regions import Region
-from burmester.io.reading.table import Source, plain_number, shown
-from burmester.io.reading.wanted import SHAPES, Length, Wanted, WantedKinds
+from burmester.io.reading.pose_table import Source, plain_number, shown
+from burmester.io.reading.specification import SHAPES, LengthRange, OptionalKinds, Specification
 from burmester.tasks.limits import KINDS, Kind
 
-__all__ = ["ANY", "fault", "number", "region", "said", "wanted"]
+__all__ = [
+    "ANY",
+    "limits_from_options",
+    "number_from_text",
+    "option_fault",
+    "option_text",
+    "region_from_text",
+]
 
 ANY = "any"
-REGION = "write X,Y for a point, or line:X,Y:X,Y, segment:, box: or polygon: likewise, or any"
-LENGTH = "write 10:200, 10: for at least 10, :200 for at most 200, or any"
+REGION_HELP = "write X,Y for a point, or line:X,Y:X,Y, segment:, box: or polygon: likewise, or any"
+LENGTH_HELP = "write 10:200, 10: for at least 10, :200 for at most 200, or any"
 
 T = TypeVar("T")
 
 
-def wanted(
+def limits_from_options(
     fixed_pivot: Sequence[str] = (),
     moving_pivot: Sequence[str] = (),
     length: Sequence[str] = (),
     kinds: Sequence[str] = (),
-) -> Wanted:
-    """What the options of these names say; raises E131, and E132 for an empty box."""
+) -> Specification:
+    """The limits in the texts of the options; raises E131, and E132 for an empty box."""
     given = {
         "fixed_pivot": fixed_pivot,
         "moving_pivot": moving_pivot,
         "length": length,
         "kinds": kinds,
     }
-    return Wanted(
-        _each(fixed_pivot, "--fixed-pivot", region),
-        _each(moving_pivot, "--moving-pivot", region),
+    return Specification(
+        _each(fixed_pivot, "--fixed-pivot", region_from_text),
+        _each(moving_pivot, "--moving-pivot", region_from_text),
         _each(length, "--length", _length),
         _each(kinds, "--kinds", _kinds),
-        {n: said(f"--{n.replace('_', '-')}", texts) for n, texts in given.items() if texts},
+        {n: option_text(f"--{n.replace('_', '-')}", texts) for n, texts in given.items() if texts},
     )
 
 
-def said(option: str, texts: Sequence[str]) -> str:
-    """An option as it was given, once or more often, in one line; empty where it was not."""
+def option_text(option: str, texts: Sequence[str]) -> str:
+    """An option with its values as typed, in one line; empty where there is none."""
     return " ".join(f"{option} {quoted(text)}" for text in texts)
 
 
@@ -68,18 +75,18 @@ def _each(texts: Sequence[str], option: str, read: Callable[[Source], T]) -> tup
         raise InputError(
             "E131",
             f"{option} is given {len(texts)} times, and a linkage has two dyads",
-            where=said(option, texts),
+            where=option_text(option, texts),
             help=f"give {option} once for both dyads, or twice, once for each",
         )
     return tuple(None if text.strip() == ANY else read(Source(option, text)) for text in texts)
 
 
-def region(source: Source, help: str = REGION) -> Region:
+def region_from_text(source: Source, help: str = REGION_HELP) -> Region:
     """The region in a text; raises E131, or E132 for an empty box, with a caret."""
     head, colon, rest = source.text.partition(":")
     shape = head.strip() if colon else "point"
     if shape not in SHAPES:
-        raise fault(source, f"there is no region {shown(shape)}", help, 0, len(head))
+        raise option_fault(source, f"there is no region {shown(shape)}", help, width=len(head))
     at = len(head) + 1 if colon else 0
     parts = (rest if colon else source.text).split(":")
     points, (count, make) = [], SHAPES[shape]
@@ -88,14 +95,17 @@ def region(source: Source, help: str = REGION) -> Region:
         if len(cells) != 2:
             message = f"{shown(part)} is not a point X,Y"
             why = "a comma parts X and Y, and is no decimal mark" if len(cells) > 2 else None
-            raise fault(source, message, help, at, len(part), why=why)
+            raise option_fault(source, message, help, at=at, width=len(part), why=why)
         points.append(
-            [number(source, cells[0], at), number(source, cells[1], at + len(cells[0]) + 1)]
+            [
+                number_from_text(source, cells[0], at),
+                number_from_text(source, cells[1], at + len(cells[0]) + 1),
+            ]
         )
         at += len(part) + 1
     if count not in (None, len(points)):
         message = f"a {shape} takes {count} point{'' if count == 1 else 's'}, not {len(points)}"
-        raise fault(source, message, help)
+        raise option_fault(source, message, help)
     try:
         return make(np.array(points))
     except InputError as error:
@@ -103,30 +113,32 @@ def region(source: Source, help: str = REGION) -> Region:
         raise
 
 
-def _length(source: Source) -> Length:
+def _length(source: Source) -> LengthRange:
     parts = source.text.split(":")
     if len(parts) != 2:
-        raise fault(source, f"{shown(source.text)} is not a range MIN:MAX", LENGTH)
+        raise option_fault(source, f"{shown(source.text)} is not a range MIN:MAX", LENGTH_HELP)
     low, high = parts
-    least = number(source, low, 0) if low.strip() else 0.0
-    most = number(source, high, len(low) + 1) if high.strip() else float("inf")
+    least = number_from_text(source, low, 0) if low.strip() else 0.0
+    most = number_from_text(source, high, len(low) + 1) if high.strip() else float("inf")
     return least, most
 
 
-def _kinds(source: Source) -> WantedKinds:
+def _kinds(source: Source) -> OptionalKinds:
     kinds: set[Kind] = set()
     at = 0
     for item in source.text.split(","):
         known: list[Kind] = [kind for kind in KINDS if kind == item.strip().upper()]
         if not known:
             help = f"choose among {', '.join(KINDS)}, with commas between them"
-            raise fault(source, f"there is no dyad kind {shown(item)}", help, at, len(item))
+            raise option_fault(
+                source, f"there is no dyad kind {shown(item)}", help, at=at, width=len(item)
+            )
         kinds.update(known)
         at += len(item) + 1
     return frozenset(kinds)
 
 
-def number(source: Source, cell: str, at: int, code: str = "E131") -> float:
+def number_from_text(source: Source, cell: str, at: int, code: str = "E131") -> float:
     """The finite number in a cell that begins `at` this place of a text, or an error.
 
     E131 for a coordinate or a bound; E134 for one that has to be positive.
@@ -138,12 +150,13 @@ def number(source: Source, cell: str, at: int, code: str = "E131") -> float:
         help = f"write digits with at most a decimal point and an exponent, such as {such}"
         message = f"{shown(cell.strip())} is not a finite number"
         short = len(cell) <= 40 and cell.isprintable()
-        why, edit = _slip(cell.strip()) if short else (None, None)
-        raise fault(source, message, edit or help, at, len(cell.strip()), code, why)
+        why, edit = _number_slip(cell.strip()) if short else (None, None)
+        width = len(cell.strip())
+        raise option_fault(source, message, edit or help, at=at, width=width, code=code, why=why)
     return float(plain)
 
 
-def _slip(cell: str) -> tuple[str | None, str | None]:
+def _number_slip(cell: str) -> tuple[str | None, str | None]:
     """Why a cell is no number, and the edit that makes it one, where both are plain."""
     if re.fullmatch(r"[-+]?[0-9]+,[0-9]+", cell):
         return "a comma is no decimal mark here", f"write {cell.replace(',', '.')}"
@@ -158,15 +171,19 @@ def _slip(cell: str) -> tuple[str | None, str | None]:
     return None, None
 
 
-def fault(  # noqa: PLR0917
+def option_fault(
     source: Source,
     message: str,
     help: str,
+    *,
     at: int = 0,
     width: int | None = None,
     code: str = "E131",
     why: str | None = None,
 ) -> InputError:
-    """An error with carets below the text at fault."""
+    """An error with carets below the faulty part of an option's text.
+
+    at, width: index and length of that part; the whole text by default.
+    """
     where = source.where(at, len(source.text) if width is None else width)
     return InputError(code, f"{source.label}: {message}", where=where, why=why, help=help)

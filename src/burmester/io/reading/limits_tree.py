@@ -1,4 +1,4 @@
-"""Limits in JSON and TOML: what may stand under `limits`, and what it comes to.
+"""Limits in JSON and TOML: the keys under `limits`, and the limits they make.
 
 One table is for both dyads of a linkage, a list of two has one for each.  Imported on first
 use, as pydantic is slow to import.
@@ -22,13 +22,20 @@ from pydantic import (
 from pydantic_core import PydanticCustomError
 
 from burmester.errors import InputError
-from burmester.io.reading.asked import FILE_KEYS
-from burmester.io.reading.places import Document, Path, meant
-from burmester.io.reading.wanted import LIMIT_KEYS, SHAPES, TOP_KEYS, Length, Wanted, WantedRegion
+from burmester.io.reading.locations import Document, Path, close_match
+from burmester.io.reading.specification import (
+    LIMIT_KEYS,
+    SHAPES,
+    TOP_KEYS,
+    LengthRange,
+    OptionalRegion,
+    Specification,
+)
+from burmester.io.reading.stated_requirements import FILE_KEYS
 from burmester.tasks.limits import KINDS, Limits
 from burmester.wording import listed
 
-__all__ = ["Model", "Number", "Pair", "Two", "read", "unfit"]
+__all__ = ["Model", "Number", "Pair", "TwoPairs", "model_fault", "read_limits"]
 
 
 def _number(value: Any) -> float:
@@ -43,7 +50,7 @@ def _number(value: Any) -> float:
 
 Number = Annotated[float, BeforeValidator(_number)]
 Pair = Annotated[list[Number], Field(min_length=2, max_length=2)]
-Two = Annotated[list[Pair], Field(min_length=2, max_length=2)]
+TwoPairs = Annotated[list[Pair], Field(min_length=2, max_length=2)]
 
 
 class Model(BaseModel):
@@ -54,9 +61,9 @@ class Model(BaseModel):
 
 class _Region(Model):
     point: Pair | None = None
-    line: Two | None = None
-    segment: Two | None = None
-    box: Two | None = None
+    line: TwoPairs | None = None
+    segment: TwoPairs | None = None
+    box: TwoPairs | None = None
     polygon: Annotated[list[Pair], Field(min_length=3)] | None = None
 
 
@@ -87,8 +94,8 @@ _HELP = {
 _TABLE = f"a table of limits has {listed(_KEYS)}, or some of them"
 
 
-def read(tree: dict[str, Any], document: Document) -> Wanted:
-    """What the tree of a task in a document says of limits.
+def read_limits(tree: dict[str, Any], document: Document) -> Specification:
+    """The limits in the tree of a task.
 
     Raises E103 to E107 as for poses, E108 (a region of two shapes), E131 and E132.
     """
@@ -101,7 +108,7 @@ def read(tree: dict[str, Any], document: Document) -> Wanted:
             raise InputError("E107", message, where=where, help=f"{help}, or delete it")
     given = tree.get("limits")
     if given is None:
-        return Wanted()
+        return Specification()
     tables = given if isinstance(given, list) else [given]
     paths: list[Path] = [("limits",)]
     if tables is given:
@@ -117,33 +124,35 @@ def read(tree: dict[str, Any], document: Document) -> Wanted:
         found = _TABLES.validate_python(tables)
     except ValidationError as error:
         fault: Any = error.errors(include_url=False)[0]
-        raise _unfit(document, paths[fault["loc"][0]], fault) from None
-    said = [_said(table, document, path) for table, path in zip(found, paths, strict=True)]
-    by_key = {key: tuple(each[key] for each in said) for key in _KEYS}
-    some = {key: values for key, values in by_key.items() if any(v is not None for v in values)}
-    places = {}
-    for key, values in some.items():
+        raise _limits_fault(document, paths[fault["loc"][0]], fault) from None
+    stated = [
+        _table_limits(table, document, path) for table, path in zip(found, paths, strict=True)
+    ]
+    by_key = {key: tuple(each[key] for each in stated) for key in _KEYS}
+    limits = {key: values for key, values in by_key.items() if any(v is not None for v in values)}
+    locations = {}
+    for key, values in limits.items():
         first = next(k for k, value in enumerate(values) if value is not None)
-        places[key] = document.where(*paths[first], key, key=True)
-    return Wanted(**some, where=places)
+        locations[key] = document.where(*paths[first], key, key=True)
+    return Specification(**limits, where=locations)
 
 
-def _said(table: _Limits, document: Document, path: Path) -> dict[str, Any]:
-    """What one table says; contradictions are refused here, where its place is known."""
-    said: dict[str, Any] = {
+def _table_limits(table: _Limits, document: Document, path: Path) -> dict[str, Any]:
+    """The limits in one table; contradictions are refused here, where its location is known."""
+    limits: dict[str, Any] = {
         "fixed_pivot": _region(table.fixed_pivot, document, (*path, "fixed_pivot")),
         "moving_pivot": _region(table.moving_pivot, document, (*path, "moving_pivot")),
         "length": _length(table.length),
         "kinds": None if table.kinds is None else frozenset(table.kinds),
     }
-    given = {key: value for key, value in said.items() if value is not None}
+    given = {key: value for key, value in limits.items() if value is not None}
     for key, value in given.items():
-        _check({key: value}, document, (*path, key), table)
-    _check(given, document, path, table)
-    return said
+        _require_valid({key: value}, document, (*path, key), table)
+    _require_valid(given, document, path, table)
+    return limits
 
 
-def _check(given: dict[str, Any], document: Document, path: Path, table: _Limits) -> None:
+def _require_valid(given: dict[str, Any], document: Document, path: Path, table: _Limits) -> None:
     """Refuse limits that `Limits` refuses."""
     try:
         Limits(**given)
@@ -156,7 +165,7 @@ def _check(given: dict[str, Any], document: Document, path: Path, table: _Limits
         raise document.again(error, *path) from None
 
 
-def _region(tree: _Region | None, document: Document, path: Path) -> WantedRegion:
+def _region(tree: _Region | None, document: Document, path: Path) -> OptionalRegion:
     if tree is None:
         return None
     given = tree.model_dump(exclude_none=True)
@@ -171,30 +180,30 @@ def _region(tree: _Region | None, document: Document, path: Path) -> WantedRegio
         raise document.again(error, *path, shape) from None
 
 
-def _length(tree: _Length | None) -> Length | None:
+def _length(tree: _Length | None) -> LengthRange | None:
     if tree is None:
         return None
     least, most = tree.least, tree.most
     return 0.0 if least is None else least, math.inf if most is None else most
 
 
-def _unfit(document: Document, path: Path, fault: Any) -> InputError:
-    """A fault that pydantic found in the table at a path."""
+def _limits_fault(document: Document, path: Path, fault: Any) -> InputError:
+    """The error for a fault reported by pydantic in the table at a path."""
     _, *keys = fault["loc"]
     help = _HELP.get(str(keys[0]), _TABLE) if keys else _TABLE
     if fault["type"] == "extra_forbidden":
         known = _KEYS if len(keys) == 1 else (*SHAPES, "least", "most")
         if keys[-1] in FILE_KEYS:
             help = f"write {keys[-1]} under requirements, which speak of the whole linkage"
-        elif near := meant(str(keys[-1]), known):
+        elif near := close_match(str(keys[-1]), known):
             help = f"write {near} in its place; {help}"
-    return unfit(document, (*path, *keys), fault, "a kind", help)
+    return model_fault(document, (*path, *keys), fault, "a kind", help)
 
 
-def unfit(document: Document, path: Path, fault: Any, item: str, help: str) -> InputError:
-    """A fault that pydantic found at a path, in this house's words.
+def model_fault(document: Document, path: Path, fault: Any, item: str, help: str) -> InputError:
+    """The error for a fault reported by pydantic at a path, in this package's words.
 
-    item: what stands in quotes there.
+    item: the noun for a text in quotes there.
     """
     kind, given = fault["type"], fault.get("input")
     if kind == "string_unicode" and document.is_key(given, *path):

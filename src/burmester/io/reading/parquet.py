@@ -14,14 +14,14 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from burmester.errors import InputError
-from burmester.io.reading import table
+from burmester.io.reading import pose_table
 from burmester.io.reading.columns import read_columns
-from burmester.io.reading.table import PoseTable, Rows, decimals, numeric_roles
+from burmester.io.reading.pose_table import PoseTable, Rows, decimals, numeric_roles
 from burmester.numerics.arrays import FloatArray
 
 __all__ = ["is_parquet", "read_parquet"]
 
-_Where: TypeAlias = Callable[[int | None, int | None], str]  # the place of a column and a row
+_Where: TypeAlias = Callable[[int | None, int | None], str]  # the location of a column and a row
 
 
 def is_parquet(data: bytes) -> bool:
@@ -30,24 +30,24 @@ def is_parquet(data: bytes) -> bool:
 
 def read_parquet(label: str, data: bytes) -> PoseTable:
     """The poses in the bytes of a Parquet file; raises E101 to E108, and E130 without pyarrow."""
-    file = _opened(data)
-    names = _taken(lambda: file.schema_arrow.names)
+    file = _open(data)
+    names = _read_or_refuse(lambda: file.schema_arrow.names)
 
     def where(i: int | None, row: int | None = None) -> str:
         parts = [f"row {row + 1}"] if row is not None else []
         if i is not None:
-            parts.append(table.brief(f"column {names[i]}", f"column number {i + 1}"))
+            parts.append(pose_table.brief(f"column {names[i]}", f"column number {i + 1}"))
         return f"{label}: {', '.join(parts)}" if parts else label
 
     columns = read_columns(names, where, 'name it "#{}"')
-    places = columns.places
-    stored = _taken(lambda: file.read(columns=[names[i] for i in places.values()]))
+    indices = columns.indices
+    stored = _read_or_refuse(lambda: file.read(columns=[names[i] for i in indices.values()]))
     if not stored.num_rows:
-        raise table.empty("there are no rows in it")
+        raise pose_table.no_poses("there are no rows in it")
     numbers: list[FloatArray] = []
     printed: dict[str, float] = {}
-    for role in numeric_roles(places):
-        i = places[role]
+    for role in numeric_roles(indices):
+        i = indices[role]
         values, texts = _numbers(stored.column(names[i]), names[i], where(i))
         if (bad := ~np.isfinite(values)).any():
             row = int(bad.argmax())
@@ -61,23 +61,23 @@ def read_parquet(label: str, data: bytes) -> PoseTable:
         numbers.append(values)
         printed[role] = 0.0 if role == "weight" else max(decimals(text) for text in texts if text)
     angle = printed.pop("angle", 0.0)
-    given_names = _list(stored, names, places.get("name"), where)
+    given_names = _list(stored, names, indices.get("name"), where)
     names_of = [str(value) if value is not None else "" for value in given_names]
-    exact = _marks(stored, names, places.get("exact"), where)
+    exact = _marks(stored, names, indices.get("exact"), where)
     rows = Rows(
-        np.stack(numbers, axis=1), (max(printed.values()), angle), names_of, exact, "px" in places
+        np.stack(numbers, axis=1), (max(printed.values()), angle), names_of, exact, "px" in indices
     )
     return PoseTable(
         rows,
         length_unit=columns.length_unit,
         angle_unit=columns.units.get("angle"),
-        where=where(places.get("angle")),
+        where=where(indices.get("angle")),
         say_unit="name the column angle_deg or angle_rad",
-        place=lambda row: where(None, row),  # where(None, None) is the file
+        locate_row=lambda row: where(None, row),  # where(None, None) is the file
     )
 
 
-def _opened(data: bytes) -> Any:
+def _open(data: bytes) -> Any:
     try:
         import pyarrow
         import pyarrow.parquet
@@ -88,11 +88,11 @@ def _opened(data: bytes) -> Any:
             why="it cannot be imported",
             help="pip install 'burmester[data]'",
         ) from None
-    return _taken(lambda: pyarrow.parquet.ParquetFile(pyarrow.BufferReader(data)))
+    return _read_or_refuse(lambda: pyarrow.parquet.ParquetFile(pyarrow.BufferReader(data)))
 
 
-def _taken(read: Callable[[], Any]) -> Any:
-    """What pyarrow makes of a file, or E101."""
+def _read_or_refuse(read: Callable[[], Any]) -> Any:
+    """The result of a pyarrow call, or E101."""
     try:
         return read()
     except Exception as error:  # of many kinds, for files that are damaged
@@ -116,7 +116,7 @@ def _numbers(column: Any, name: str, where: str) -> tuple[FloatArray, list[str |
     if types.is_integer(kind) or types.is_decimal(kind):
         texts = [None if v is None else _short(str(v)) for v in column.to_pylist()]
         return np.array([np.nan if text is None else float(text) for text in texts]), texts
-    message = f"the column {table.shown(name)} holds {kind}, not numbers"
+    message = f"the column {pose_table.shown(name)} holds {kind}, not numbers"
     raise InputError("E104", message, where=where, help="store it as float64")
 
 
@@ -127,11 +127,11 @@ def _short(text: str) -> str:
     return mantissa + e + exponent
 
 
-def _list(stored: Any, names: list[str], place: int | None, where: _Where) -> list[Any]:
+def _list(stored: Any, names: list[str], index: int | None, where: _Where) -> list[Any]:
     """The values of a column that need not be there; raises E101 for damaged text."""
-    if place is None:
+    if index is None:
         return []
-    column, values = stored.column(names[place]), []
+    column, values = stored.column(names[index]), []
     with contextlib.suppress(ValueError):
         return list(column.to_pylist())
     for row, each in enumerate(column):
@@ -141,18 +141,18 @@ def _list(stored: Any, names: list[str], place: int | None, where: _Where) -> li
             why = str(error).partition("\n")[0][:200]
             message = f"row {row + 1} has a value that cannot be read"
             help = "write the file again with another text there, or without this column"
-            raise InputError("E101", message, where=where(place, row), why=why, help=help) from None
+            raise InputError("E101", message, where=where(index, row), why=why, help=help) from None
     return values
 
 
-def _marks(stored: Any, names: list[str], place: int | None, where: _Where) -> list[bool]:
+def _marks(stored: Any, names: list[str], index: int | None, where: _Where) -> list[bool]:
     """The column `exact`: true and false, or what stands for them in a CSV file."""
     marks = []
-    for row, value in enumerate(_list(stored, names, place, where)):
+    for row, value in enumerate(_list(stored, names, index, where)):
         text = "" if value is None else str(value).strip().lower()
-        if text not in table.MARKS:
-            message = f"row {row + 1} has {table.shown(value)} where yes or no belongs"
+        if text not in pose_table.MARKS:
+            message = f"row {row + 1} has {pose_table.shown(value)} where yes or no belongs"
             help = "store true for a pose to be met exactly, false for one to come near"
-            raise InputError("E104", message, where=where(place, row), help=help)
-        marks.append(table.MARKS[text])
+            raise InputError("E104", message, where=where(index, row), help=help)
+        marks.append(pose_table.MARKS[text])
     return marks

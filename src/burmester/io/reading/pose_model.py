@@ -1,4 +1,4 @@
-"""What may stand in a pose of a JSON or TOML file, and in what words the rest is refused.
+"""The keys of a pose in a JSON or TOML file, and the errors for anything else.
 
 Imported on first use, as pydantic is slow to import.
 """
@@ -16,13 +16,13 @@ from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError,
 
 from burmester.errors import InputError
 from burmester.io.reading.limits_tree import Number
-from burmester.io.reading.places import Document, meant
-from burmester.io.reading.table import NUMERIC, POINTS
+from burmester.io.reading.locations import Document, close_match
+from burmester.io.reading.pose_table import NUMERIC, POINTS
 
-__all__ = ["PLACE_KEYS", "POINT_KEYS", "checked", "unfit"]
+__all__ = ["POINT_KEYS", "XY_ANGLE_KEYS", "pose_fault", "validated"]
 
 POINT_KEYS = {"p": ("px", "py"), "q": ("qx", "qy")}
-PLACE_KEYS = frozenset({"x", "y", "angle", "angle_deg", "angle_rad"})
+XY_ANGLE_KEYS = frozenset({"x", "y", "angle", "angle_deg", "angle_rad"})
 
 _SLICE = 1000  # poses checked at a time: all that is wrong in them is collected
 
@@ -92,7 +92,7 @@ class _Whole(BaseModel):
     length_unit: str | None = None
 
 
-_PLACES: TypeAdapter[list[_Pose]] = TypeAdapter(list[_Pose])
+_XY_ANGLES: TypeAdapter[list[_Pose]] = TypeAdapter(list[_Pose])
 _TRACKS: TypeAdapter[list[_Tracked]] = TypeAdapter(list[_Tracked])
 
 
@@ -100,8 +100,8 @@ def _decimal(value: Any) -> Any:
     return Decimal(value) if type(value) is int else value
 
 
-def checked(document: Document, tree: Any, example: str, tracked: bool) -> tuple[Any, list[Any]]:
-    """What stands beside the poses, and the poses; raises E103 to E110 as `unfit` says.
+def validated(document: Document, tree: Any, example: str, tracked: bool) -> tuple[Any, list[Any]]:
+    """The values beside the poses, and the poses; raises E103 to E110 as `pose_fault` says.
 
     tracked: whether the poses are two points each, in place of x, y and an angle.
     """
@@ -110,18 +110,20 @@ def checked(document: Document, tree: Any, example: str, tracked: bool) -> tuple
     try:
         for start in range(0, len(given) if isinstance(given, list) else 0, _SLICE):
             some = given[start : start + _SLICE]  # type: ignore[index]  # it is a list here
-            poses += (_TRACKS if tracked else _PLACES).validate_python(some)
+            poses += (_TRACKS if tracked else _XY_ANGLES).validate_python(some)
         return _Whole.model_validate(tree), poses
     except ValidationError as error:
         fault: Any = error.errors(include_url=False)[0]
         if fault["loc"] and isinstance(fault["loc"][0], int):
             row, *keys = fault["loc"]
             fault["loc"] = ("poses", len(poses) + row, *keys)
-        raise unfit(document, tree, example, tracked, fault) from None
+        raise pose_fault(document, tree, example, tracked, fault) from None
 
 
-def unfit(document: Document, tree: Any, example: str, tracked: bool, fault: Any) -> InputError:
-    """A fault that pydantic found, in this house's words."""
+def pose_fault(
+    document: Document, tree: Any, example: str, tracked: bool, fault: Any
+) -> InputError:
+    """The error for a fault reported by pydantic, in this package's words."""
     loc, given, kind = fault["loc"], fault.get("input"), fault["type"]
     if kind == "string_unicode" and document.is_key(given, *_as_written(tree, loc)):
         loc, kind = (*loc, given), "extra_forbidden"
@@ -156,8 +158,8 @@ def unfit(document: Document, tree: Any, example: str, tracked: bool, fault: Any
     if kind == "extra_forbidden" and len(loc) == 1:
         help = "delete it"
     elif kind == "extra_forbidden" and loc[0] == "poses":
-        keys = (*POINTS, *POINT_KEYS) if tracked else (*PLACE_KEYS,)
-        if near := meant(str(loc[-1]), (*keys, "weight", "exact", "name")):
+        keys = (*POINTS, *POINT_KEYS) if tracked else (*XY_ANGLE_KEYS,)
+        if near := close_match(str(loc[-1]), (*keys, "weight", "exact", "name")):
             help = f"write {near} in its place; a pose has {known}"
     elif kind == "extra_forbidden":
         help = "delete it; pose_sigma has position and angle_deg"

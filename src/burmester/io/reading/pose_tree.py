@@ -1,4 +1,4 @@
-"""Poses in the tree of a JSON or TOML file, and what else stands there.
+"""Poses in the tree of a JSON or TOML file, and the keys beside them.
 
 At the top of a task other keys may stand (title, author, notes ...) and are not looked at, unless
 they are known ones misspelt or belong elsewhere.  Imported on first use, as pydantic is slow to
@@ -14,18 +14,18 @@ from typing import Any
 import numpy as np
 
 from burmester.errors import InputError
-from burmester.io.reading.asked import REQUIREMENT_KEYS
-from burmester.io.reading.places import Document, meant
-from burmester.io.reading.pose_model import PLACE_KEYS, POINT_KEYS, checked, unfit
-from burmester.io.reading.table import POINTS, PoseTable, Rows
-from burmester.io.reading.wanted import LIMIT_KEYS, TOP_KEYS, Wanted
+from burmester.io.reading.locations import Document, close_match
+from burmester.io.reading.pose_model import POINT_KEYS, XY_ANGLE_KEYS, pose_fault, validated
+from burmester.io.reading.pose_table import POINTS, PoseTable, Rows
+from burmester.io.reading.specification import LIMIT_KEYS, TOP_KEYS, Specification
+from burmester.io.reading.stated_requirements import REQUIREMENT_KEYS
 
-__all__ = ["read"]
+__all__ = ["read_tree"]
 
 _ANGLE_KEYS = {"angle": None, "angle_deg": "deg", "angle_rad": "rad"}
 _TRACKED_KEYS = frozenset({*POINT_KEYS, *POINTS})
 
-_ELSEWHERE = {  # what may be met beside the poses by mistake, and where it belongs
+_MISPLACED = {  # keys that may stand beside the poses by mistake: the help
     **dict.fromkeys(("weight", "weights"), "write each weight into its pose, as weight"),
     **dict.fromkeys(("names",), "write each name into its pose, as name"),
     **dict.fromkeys(
@@ -37,7 +37,7 @@ _ELSEWHERE = {  # what may be met beside the poses by mistake, and where it belo
 }
 
 
-def read(tree: Any, document: Document, example: str) -> PoseTable:
+def read_tree(tree: Any, document: Document, example: str) -> PoseTable:
     """The table in a parsed tree, whose numbers are Decimal (or int, in TOML).
 
     example: a sound file in few words.  Raises E103 to E110, and what limits and requirements do.
@@ -46,9 +46,9 @@ def read(tree: Any, document: Document, example: str) -> PoseTable:
         tree, document = {"poses": tree}, document._replace(bare=True)
     elif isinstance(tree, dict) and "poses" not in tree and isinstance(tree.get("task"), dict):
         tree, document = tree["task"], document._replace(root=("task",))
-    wanted = _wanted(tree, document) if isinstance(tree, dict) else Wanted()
+    specification = _specification(tree, document) if isinstance(tree, dict) else Specification()
     tracked = _tracked(document, tree)
-    whole, poses = checked(document, tree, example, tracked)
+    whole, poses = validated(document, tree, example, tracked)
     unit: str | None = None
     if tracked:
         columns, where = _points(document, poses), ""
@@ -68,9 +68,9 @@ def read(tree: Any, document: Document, example: str) -> PoseTable:
     for i, j in np.argwhere(~np.isfinite(rows.values)):  # 1e400 is a finite Decimal
         number = columns[numeric[j]][i]
         fault = {"type": "finite_number", "loc": ("poses", int(i), numeric[j]), "input": number}
-        raise unfit(document, tree, example, tracked, fault)
+        raise pose_fault(document, tree, example, tracked, fault)
 
-    def place(row: int | None) -> str:
+    def locate_row(row: int | None) -> str:
         if row is None:
             return document.where("poses", key=True)
         return document.where("poses", row)
@@ -82,25 +82,25 @@ def read(tree: Any, document: Document, example: str) -> PoseTable:
         angle_unit=unit,
         where=where,
         say_unit=f"write {example}",
-        wanted=wanted,
-        sigma=given and (given.position, math.radians(given.angle_deg)),
-        place=place,
+        specification=specification,
+        pose_sigma=given and (given.position, math.radians(given.angle_deg)),
+        locate_row=locate_row,
     )
 
 
-def _wanted(tree: dict[str, Any], document: Document) -> Wanted:
+def _specification(tree: dict[str, Any], document: Document) -> Specification:
     """The limits and requirements beside the poses."""
     _require_known(document, tree)
-    wanted = Wanted()
+    specification = Specification()
     if not tree.keys().isdisjoint(LIMIT_KEYS):
-        from burmester.io.reading.limits_tree import read as read_limits
+        from burmester.io.reading.limits_tree import read_limits
 
-        wanted = read_limits(tree, document)
+        specification = read_limits(tree, document)
     if not tree.keys().isdisjoint(REQUIREMENT_KEYS):
-        from burmester.io.reading.requirements_tree import read as read_requirements
+        from burmester.io.reading.requirements_tree import read_requirements
 
-        wanted = wanted._replace(asked=read_requirements(tree, document))
-    return wanted
+        specification = specification._replace(requirements=read_requirements(tree, document))
+    return specification
 
 
 def _require_known(document: Document, tree: dict[str, Any]) -> None:
@@ -108,10 +108,10 @@ def _require_known(document: Document, tree: dict[str, Any]) -> None:
     for key in tree:
         if key in TOP_KEYS or key in LIMIT_KEYS or key in REQUIREMENT_KEYS:
             continue
-        if key in _ELSEWHERE:
+        if key in _MISPLACED:
             message = f"{document.named(key)} stands beside the poses, where it says nothing"
-            help = f"{_ELSEWHERE[key]}, or delete it"
-        elif near := meant(key, TOP_KEYS):
+            help = f"{_MISPLACED[key]}, or delete it"
+        elif near := close_match(key, TOP_KEYS):
             message, help = f"{document.named(key)} is not known", f"write {near} in its place"
         else:
             continue
@@ -124,18 +124,21 @@ def _tracked(document: Document, tree: Any) -> bool:
     form: tuple[str, int] | None = None
     for i, pose in enumerate(poses if isinstance(poses, list) else ()):
         if isinstance(pose, dict):
-            points, place = not _TRACKED_KEYS.isdisjoint(pose), not PLACE_KEYS.isdisjoint(pose)
-            if points and place:
-                of_points, of_place = (
-                    min(keys & pose.keys()) for keys in (_TRACKED_KEYS, PLACE_KEYS)
+            points, xy_angle = (
+                not _TRACKED_KEYS.isdisjoint(pose),
+                not XY_ANGLE_KEYS.isdisjoint(pose),
+            )
+            if points and xy_angle:
+                of_points, of_angle = (
+                    min(keys & pose.keys()) for keys in (_TRACKED_KEYS, XY_ANGLE_KEYS)
                 )
-                message = f"pose {i + 1} has {of_points} and {of_place}"
-                raise _two_forms(document, message, i, of_place)
-            given = "points" if points else "place" if place else ""
+                message = f"pose {i + 1} has {of_points} and {of_angle}"
+                raise _two_forms(document, message, i, of_angle)
+            given = "points" if points else "angle" if xy_angle else ""
         else:
-            given = "place" if isinstance(pose, list) and len(pose) == 3 else ""
+            given = "angle" if isinstance(pose, list) and len(pose) == 3 else ""
         if given and form and form[0] != given:
-            first, last = ("two points", "x, y and an angle")[:: 1 if given == "place" else -1]
+            first, last = ("two points", "x, y and an angle")[:: 1 if given == "angle" else -1]
             message = f"pose {form[1] + 1} is {first}, pose {i + 1} is {last}"
             raise _two_forms(document, message, i)
         form = form or ((given, i) if given else None)

@@ -1,4 +1,4 @@
-"""A task from a file: poses in CSV, JSON, TOML and Parquet; wishes in JSON and TOML.
+"""A task from a file: poses in CSV, JSON, TOML and Parquet; a specification in JSON and TOML.
 
 A number is taken as the nearest double or refused, never changed: no thousands separators,
 no underscores, no guessed units, no guessed decimal marks; digits beyond a double's are rounded,
@@ -9,7 +9,7 @@ character at fault, counted from 1.  Numbers in JSON and TOML are pointed at by 
 
 E101 not readable, or not text      E106 a row or pose of the wrong length
 E102 no poses in it                 E107 a column or key that is not known
-E103 a number that is not finite    E108 said twice, or in two ways that contradict
+E103 a number that is not finite    E108 given twice, or contradictory
 E104 not a number, or ambiguous     E109 not JSON or TOML at all
 E105 header, column or key missing  E110 angle unit missing or contradicted
 E111 two points that give no pose   E122 no such pose to be exact, or left out
@@ -30,14 +30,14 @@ from numpy.typing import NDArray
 
 from burmester.errors import InputError, printable
 from burmester.geometry.displacement import Displacement
-from burmester.io.reading.asked import requirements
 from burmester.io.reading.csv_poses import read_csv
 from burmester.io.reading.documents import read_json, read_toml
-from burmester.io.reading.fetched import decode, fetch
+from burmester.io.reading.file_content import decode_text, read_source
 from burmester.io.reading.parquet import is_parquet, read_parquet
-from burmester.io.reading.points import tracked
-from burmester.io.reading.table import UNITS, PoseTable, Rows, Source, pose_marks
-from burmester.io.reading.wanted import Wanted
+from burmester.io.reading.pose_table import UNITS, PoseTable, Rows, Source, pose_marks
+from burmester.io.reading.specification import Specification
+from burmester.io.reading.stated_requirements import combined_requirements
+from burmester.io.reading.tracked_points import tracked_poses
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.motion_task import Task
 
@@ -51,55 +51,91 @@ def read_task(
     source: str | os.PathLike[str],
     *,
     angle_unit: Literal["deg", "rad"] | None = None,
-    wanted: Wanted | None = None,
+    specification: Specification | None = None,
     exact: Sequence[str] = (),
-    sigma: tuple[float, float] | None = None,
+    pose_sigma: tuple[float, float] | None = None,
     columns: str | None = None,
     drop: Sequence[str] = (),
     data: bytes | None = None,
 ) -> Task:
-    """Read the task in a file, on standard input ("-") or in a carried case ("case:NAME").
+    """Read the task in a file, on standard input or in a carried case.
 
-    data: the bytes of the source, where they have been read already.
+    A file that begins as Parquet files do is read as Parquet; .csv, .tsv and .txt are CSV; .json
+    and .toml are JSON and TOML; any other file is JSON if it begins with a bracket, else CSV.
 
-    What begins as a Parquet file does is one; .csv, .tsv and .txt are CSV; .json and .toml are
-    what they say; anything else is JSON if it begins with a bracket, and CSV if not.  `columns`
-    (--columns x,y,angle_deg) is the header that a CSV file lacks, with commas whatever its
-    separator.  `angle_unit` (--angle-unit) states the unit where the file does not; `wanted` adds
-    limits and requirements to those in the file.  Poses are named by their numbers from 1 in the
-    file, or by their names: `exact` (--exact) marks some, `drop` (--drop) leaves some out.
+    Parameters
+    ----------
+    source : str or path
+        A file, "-" for standard input, or "case:NAME" for a carried case.
+    angle_unit : "deg" or "rad", optional
+        Unit of the angles where the file states none.  It is never guessed.
+    specification : Specification, optional
+        Limits and requirements in addition to those in the file.
+    exact : sequence of str
+        Poses to be met exactly, each text with numbers from 1 or names, separated by commas.
+    pose_sigma : (float, float), optional
+        Standard deviations of the positions (unit of the poses) and of the angles (radians).  The
+        task's resolution is sqrt(3) times as much.  Without it, a standard deviation in the file
+        is used, or for two tracked points one from the variation of their distance; else the
+        resolution is half of the last digit printed, and 0 where only whole numbers are printed.
+    columns : str, optional
+        The header of a CSV file that has none, separated by commas: "x,y,angle_deg".
+    drop : sequence of str
+        Poses to leave out, written as those of `exact`.
+    data : bytes, optional
+        The content of the source, if it has been read already.
 
-    The task's resolution is half of the last digit printed, x and y together; where only whole
-    numbers are printed it is 0, as people mean them exactly.  `sigma` (--pose-sigma), the standard
-    deviations of the poses' positions and angles in radians, sets it instead, to sqrt(3) times as
-    much; so does a file that states them, and the distance between two tracked points where it
-    varies more than their digits explain.
-    Raises InputError E101 to E130 as listed above, and what `Limits`, `Requirements` and `Task`
-    raise.
+    Returns
+    -------
+    Task
+        The poses with weights, names, resolution, exact marks, limits and requirements.
+
+    Raises
+    ------
+    InputError
+        E101 to E111, E122 and E130 as listed above, and the errors of `Limits`, `Requirements` and
+        `Task`.
+
+    Examples
+    --------
+    >>> from burmester import read_task
+    >>> task = read_task("case:ge2012-exact")
+    >>> task.poses.shape
+    (5,)
+    >>> read_task("case:ge2012-exact", drop=["2,4"]).poses.shape
+    (3,)
+
     """
     if angle_unit not in (None, *UNITS):
         raise InputError("E110", f"there is no angle unit {angle_unit!r}", help="say deg or rad")
     path = os.fspath(source)
     label = "<stdin>" if path == "-" else printable(path)
     try:
-        table = _table(label, fetch(path) if data is None else data, columns)
-        return _task(table, angle_unit, wanted, exact, drop, sigma)
+        table = _table(label, read_source(path) if data is None else data, columns)
+        return _task(
+            table,
+            angle_unit=angle_unit,
+            specification=specification,
+            exact=exact,
+            drop=drop,
+            pose_sigma=pose_sigma,
+        )
     except InputError as error:
         error.where = printable(error.where or label)
         error.message = printable(error.message)
         error.why = error.why and printable(error.why)
-        if error.help:  # a tab may part the cells of a line to be written
+        if error.help:  # a tab may separate the cells of a line to be written
             error.help = "\t".join(map(printable, error.help.split("\t")))
         raise
 
 
 def _table(label: str, data: bytes, columns: str | None) -> PoseTable:
-    """What a file says, by its first bytes and the end of its name."""
+    """The table in a file, by its first bytes and its suffix."""
     suffix = PurePath(label).suffix.lower()
     if is_parquet(data) or (suffix == ".parquet" and data):
         read: Callable[[], PoseTable] = functools.partial(read_parquet, label, data)
     else:
-        source = Source(label, decode(data))
+        source = Source(label, decode_text(data))
         del data  # a million poses are many bytes
         by_content: Callable[..., PoseTable]
         by_content = read_json if source.text.lstrip().startswith(("{", "[")) else read_csv
@@ -113,13 +149,14 @@ def _table(label: str, data: bytes, columns: str | None) -> PoseTable:
     return read()
 
 
-def _task(  # noqa: PLR0917
+def _task(
     table: PoseTable,
+    *,
     angle_unit: str | None,
-    wanted: Wanted | None,
+    specification: Specification | None,
     exact: Sequence[str],
     drop: Sequence[str],
-    sigma: tuple[float, float] | None,
+    pose_sigma: tuple[float, float] | None,
 ) -> Task:
     """The task in a table, without the poses that are left out."""
     rows = table.rows
@@ -134,14 +171,17 @@ def _task(  # noqa: PLR0917
         values, names = values[kept], [names[k] for k in kept] if names else []
     measured = None
     if rows.points:
-        poses, resolution, measured = tracked(values, rows.decimals[0], kept, table.place)
+        poses, resolution, measured = tracked_poses(
+            values, rows.decimals[0], kept, table.locate_row
+        )
     else:
         poses, resolution = _oriented(table, values, angle_unit)
-    for stated in (sigma, table.sigma, measured):
+    for stated in (pose_sigma, table.pose_sigma, measured):
         if stated is not None:
             resolution = (math.sqrt(3) * stated[0], math.sqrt(3) * stated[1])
             break
-    said = table.wanted.joined(wanted) if wanted else table.wanted
+    stated_in_file = table.specification
+    whole = stated_in_file.merged(specification) if specification else stated_in_file
     numbers = 4 if rows.points else 3  # in a row, before its weight
     try:
         return Task(
@@ -151,14 +191,14 @@ def _task(  # noqa: PLR0917
             length_unit=table.length_unit,
             resolution=resolution,
             exact=marks[kept] if marks is not None and marks[kept].any() else None,
-            limits=said.limits(),
-            requirements=requirements(said.asked),
+            limits=whole.limits(),
+            requirements=combined_requirements(whole.requirements),
         )
     except InputError as error:
         if error.code in ("E132", "E134"):  # limits and requirements, not the poses
-            error.where = error.where or said.places
-        elif error.code == "E120" and table.place and not error.where:  # too few poses
-            error.where = table.place(None)
+            error.where = error.where or whole.locations
+        elif error.code == "E120" and table.locate_row and not error.where:  # too few poses
+            error.where = table.locate_row(None)
         raise
 
 

@@ -1,6 +1,6 @@
-"""Requirements, and lengths to compute with, as the command line says them.
+"""Requirements, and lengths to compute with, as the command line states them.
 
-Angles are in degrees, lengths in the unit of the poses.  What does not fit is E134, with a caret
+Angles are in degrees, lengths in the unit of the poses.  A malformed value is E134, with a caret
 below the text (a malformed region is E131, as for pivots).
 """
 
@@ -9,17 +9,23 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 
-from burmester.io.reading.asked import Asked, ask
-from burmester.io.reading.limits_text import ANY, fault, number, region, said
-from burmester.io.reading.table import Source, shown
+from burmester.io.reading.limits_text import (
+    ANY,
+    number_from_text,
+    option_fault,
+    option_text,
+    region_from_text,
+)
+from burmester.io.reading.pose_table import Source, shown
+from burmester.io.reading.stated_requirements import StatedRequirement, checked_requirement
 from burmester.tasks.requirements import Driver
 
-__all__ = ["above_zero", "asked", "lengths", "pose_sigma"]
+__all__ = ["lengths", "pose_sigma", "positive_length", "requirements_from_options"]
 
-FOOTPRINT = "write box:X,Y:X,Y from lower left to upper right, or polygon:X,Y:X,Y:X,Y, or any"
+FOOTPRINT_HELP = "write box:X,Y:X,Y from lower left to upper right, or polygon:X,Y:X,Y:X,Y, or any"
 
 
-def asked(
+def requirements_from_options(
     *,
     min_transmission: str | None = None,
     types: Sequence[str] = (),
@@ -28,8 +34,8 @@ def asked(
     link_ratio: str | None = None,
     within: str | None = None,
     any_order: bool = False,
-) -> tuple[Asked, ...]:
-    """What the options of these names ask for; raises E134, E131 and E132 as `Requirements` does.
+) -> tuple[StatedRequirement, ...]:
+    """The requirements in the texts of the options; raises E134, E131 and E132.
 
     The types' option is `--type`, and adds up where it is given more than once.
     """
@@ -38,40 +44,40 @@ def asked(
         out.append(_number("transmission", "--min-transmission", min_transmission, math.radians))
     if types:
         names = frozenset(name for text in types for name in _types(Source("--type", text)))
-        out.append(Asked("types", names, said("--type", types)))
+        out.append(StatedRequirement("types", names, option_text("--type", types)))
     if driver is not None:
-        out.append(ask("driver", driver, said("--driver", [driver])))
+        out.append(checked_requirement("driver", driver, option_text("--driver", [driver])))
     if footprint is not None:
         source = Source("--footprint", footprint)
-        area = None if footprint.strip() == ANY else region(source, FOOTPRINT)
-        where = said(source.label, [footprint])
-        out.append(ask("footprint", area, where, source.where(0, len(footprint))))
+        area = None if footprint.strip() == ANY else region_from_text(source, FOOTPRINT_HELP)
+        where = option_text(source.label, [footprint])
+        out.append(checked_requirement("footprint", area, where, source.where(0, len(footprint))))
     if link_ratio is not None:
         out.append(_number("link_ratio", "--link-ratio", link_ratio))
     if within is not None:
         out.append(_number("within", "--within", within))
     if any_order:
-        out.append(ask("any_order", True, "--any-order"))
+        out.append(checked_requirement("any_order", True, "--any-order"))
     return tuple(out)
 
 
-def above_zero(option: str, text: str) -> float:
+def positive_length(option: str, text: str) -> float:
     """The one length that an option takes; raises E134 where it is not above zero."""
     (value,) = lengths(option, [text], one=True)
     return value
 
 
 def lengths(option: str, texts: Sequence[str], *, one: bool = False) -> tuple[float, ...]:
-    """Lengths with commas between them, in one text or in more; raises E134 as `above_zero`."""
+    """Lengths separated by commas, in one text or several; raises E134 as `positive_length`."""
     out = []
     for text in texts:
         source, at = Source(option, text), 0
         for cell in [text] if one else text.split(","):
-            value = number(source, cell, at, "E134")
+            value = number_from_text(source, cell, at, "E134")
             if value <= 0:
                 help = f"give a length above zero, in the unit of the poses, or leave {option} out"
                 message = f"{shown(cell.strip())} is not above zero"
-                raise fault(source, message, help, at, len(cell), "E134")
+                raise option_fault(source, message, help, at=at, width=len(cell), code="E134")
             out.append(value)
             at += len(cell) + 1
     return tuple(out)
@@ -83,28 +89,32 @@ def pose_sigma(text: str) -> tuple[float, float]:
     cells = text.split(",")
     help = "write a length and an angle in degrees, such as 0.05,0.1; 0 is for exact numbers"
     if len(cells) != 2:
-        raise fault(source, f"{shown(text)} is not LENGTH,DEG", help, code="E134")
+        raise option_fault(source, f"{shown(text)} is not LENGTH,DEG", help, code="E134")
     values, at = [], 0
     for cell in cells:
-        values.append(number(source, cell, at, "E134"))
+        values.append(number_from_text(source, cell, at, "E134"))
         if values[-1] < 0:
             message = f"{shown(cell.strip())} is below zero"
-            raise fault(source, message, help, at, len(cell), "E134")
+            raise option_fault(source, message, help, at=at, width=len(cell), code="E134")
         at += len(cell) + 1
     return values[0], math.radians(values[1])
 
 
-def _number(field: str, option: str, text: str, into: Callable[[float], float] = float) -> Asked:
+def _number(
+    field: str, option: str, text: str, into: Callable[[float], float] = float
+) -> StatedRequirement:
     source = Source(option, text)
-    value = into(number(source, text, 0, "E134"))
-    return ask(field, value, said(option, [text]), source.where(0, len(text)))
+    value = into(number_from_text(source, text, 0, "E134"))
+    return checked_requirement(
+        field, value, option_text(option, [text]), source.where(0, len(text))
+    )
 
 
 def _types(source: Source) -> list[str]:
     names, at = [], 0
     for item in source.text.split(","):
         name = item.strip()
-        place = source.where(at + len(item) - len(item.lstrip()), len(name))
-        names.append(ask("types", [name], source.label, place).value[0])
+        fault_at = source.where(at + len(item) - len(item.lstrip()), len(name))
+        names.append(checked_requirement("types", [name], source.label, fault_at).value[0])
         at += len(item) + 1
     return names

@@ -1,4 +1,4 @@
-"""Requirements in JSON and TOML: what may stand under `requirements`, and what it comes to.
+"""Requirements in JSON and TOML: the keys under `requirements`, and the values they give.
 
 Imported on first use, as pydantic is slow to import.
 """
@@ -13,18 +13,23 @@ from pydantic import Field, ValidationError
 
 from burmester.errors import InputError
 from burmester.geometry.regions import Region
-from burmester.io.reading.asked import FILE_KEYS, REQUIREMENT_KEYS, Asked, ask
-from burmester.io.reading.limits_tree import Model, Number, Pair, Two, unfit
-from burmester.io.reading.places import Document, meant
-from burmester.io.reading.wanted import LIMIT_KEYS, SHAPES
+from burmester.io.reading.limits_tree import Model, Number, Pair, TwoPairs, model_fault
+from burmester.io.reading.locations import Document, close_match
+from burmester.io.reading.specification import LIMIT_KEYS, SHAPES
+from burmester.io.reading.stated_requirements import (
+    FILE_KEYS,
+    REQUIREMENT_KEYS,
+    StatedRequirement,
+    checked_requirement,
+)
 from burmester.tasks.requirements import DRIVERS
 from burmester.wording import listed
 
-__all__ = ["read"]
+__all__ = ["read_requirements"]
 
 
 class _Footprint(Model):
-    box: Two | None = None
+    box: TwoPairs | None = None
     polygon: Annotated[list[Pair], Field(min_length=3)] | None = None
 
 
@@ -54,8 +59,8 @@ _HELP = {
 _TABLE = f"a table of requirements has {listed(_KEYS)}, or some of them"
 
 
-def read(tree: dict[str, Any], document: Document) -> tuple[Asked, ...]:
-    """What the tree of a task in a document asks of the whole linkage.
+def read_requirements(tree: dict[str, Any], document: Document) -> tuple[StatedRequirement, ...]:
+    """The requirements in the tree of a task.
 
     Raises E103 to E107 as for limits, E108 (a footprint of two shapes), E131, E132 and E134.
     """
@@ -72,7 +77,7 @@ def read(tree: dict[str, Any], document: Document) -> tuple[Asked, ...]:
     try:
         table = _Requirements.model_validate(given)
     except ValidationError as error:
-        raise _unfit(document, error.errors(include_url=False)[0]) from None
+        raise _requirements_fault(document, error.errors(include_url=False)[0]) from None
     out = []
     for key, field in FILE_KEYS.items():
         value = getattr(table, key)
@@ -82,20 +87,21 @@ def read(tree: dict[str, Any], document: Document) -> tuple[Asked, ...]:
             value = math.radians(value)
         elif key == "types" and value:
             names = [
-                _ask(document, field, [name], path, key, i).value for i, name in enumerate(value)
+                _requirement(document, field, [name], path, key, i).value
+                for i, name in enumerate(value)
             ]
             value = frozenset(name for each in names for name in each)
         elif key == "footprint":
             value = _footprint(value, document)
-        asked = _ask(document, field, value, path, key)
-        out.append(asked._replace(where=document.where(path, key, key=True)))
+        stated = _requirement(document, field, value, path, key)
+        out.append(stated._replace(where=document.where(path, key, key=True)))
     return tuple(out)
 
 
-def _ask(document: Document, field: str, value: Any, *path: str | int) -> Asked:
-    """A requirement that is sound by itself; raises what `Requirements` does, with its place."""
+def _requirement(document: Document, field: str, value: Any, *path: str | int) -> StatedRequirement:
+    """A requirement that is valid by itself; raises the errors of `Requirements`, located."""
     try:
-        return ask(field, value, "")
+        return checked_requirement(field, value, "")
     except InputError as error:
         raise document.again(error, *path) from None
 
@@ -113,14 +119,14 @@ def _footprint(tree: _Footprint, document: Document) -> Region:
         raise document.again(error, *path, shape) from None
 
 
-def _unfit(document: Document, fault: Any) -> InputError:
-    """A fault that pydantic found."""
+def _requirements_fault(document: Document, fault: Any) -> InputError:
+    """The error for a fault reported by pydantic."""
     keys = list(fault["loc"])
     help = _HELP.get(str(keys[0]), _TABLE) if keys else _TABLE
     if fault["type"] == "extra_forbidden":
         if keys[-1] in LIMIT_KEYS:
             help = f"write {keys[-1]} under limits, which speak of single dyads"
-        elif near := meant(str(keys[-1]), _KEYS if len(keys) == 1 else ("box", "polygon")):
+        elif near := close_match(str(keys[-1]), _KEYS if len(keys) == 1 else ("box", "polygon")):
             help = f"write {near} in its place; {help}"
     item = "a name of a type" if keys[:1] == ["types"] else "one of its names"
-    return unfit(document, ("requirements", *keys), fault, item, help)
+    return model_fault(document, ("requirements", *keys), fault, item, help)

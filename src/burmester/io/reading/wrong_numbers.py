@@ -11,7 +11,7 @@ from decimal import Decimal
 from fractions import Fraction
 
 from burmester.errors import InputError
-from burmester.io.reading.table import NOT_FINITE, NUMBER, UNITS, brief, plain_number, shown
+from burmester.io.reading.pose_table import NOT_FINITE, NUMBER, UNITS, brief, plain_number, shown
 
 __all__ = ["not_a_number"]
 
@@ -30,10 +30,13 @@ _MEASURE = re.compile(r"([-+.,0-9eE]*[0-9.])\s*([^\s\d.,+-][^\d,;]*)")
 _FRACTION = re.compile(r"([+-]?)(?:([0-9]{1,9})\s+)?([0-9]{1,9})\s*[/⁄]\s*([0-9]{1,9})")
 
 
-def not_a_number(  # noqa: PLR0917
-    cell: str, plain: str, row: int, unit: str | None, where: str, separator: str = ","
+def not_a_number(
+    cell: str, plain: str, *, row: int, unit: str | None, where: str, separator: str = ","
 ) -> InputError:
-    """E103 or E104, for a cell that `plain_number` made `plain` and gave no mark."""
+    """E103 or E104, for a cell that `plain_number` turned into `plain` without a mark.
+
+    row: from 1; unit: of the column, if it names one.
+    """
     code, fault, why = "E103", "a value that is not a finite number", None
     in_unit = f" in {UNITS.get(unit, unit)}" if unit else ""
     help = f"give a number{in_unit}, such as -12.5 or 3e-4, or delete the row"

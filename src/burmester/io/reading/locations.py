@@ -14,7 +14,7 @@ from collections.abc import Iterable, Iterator
 from typing import Literal, NamedTuple, TypeAlias
 
 from burmester.errors import InputError
-from burmester.io.reading.table import Source, shown
+from burmester.io.reading.pose_table import Source, shown
 
 __all__ = [
     "LONG",
@@ -24,12 +24,12 @@ __all__ = [
     "Document",
     "Language",
     "Path",
-    "deepest",
+    "close_match",
+    "deepest_bracket",
     "dotted",
-    "meant",
-    "place",
-    "repeated",
-    "statement",
+    "duplicate_key",
+    "last_statement",
+    "span_of",
 ]
 
 Path: TypeAlias = tuple[str | int, ...]
@@ -73,7 +73,7 @@ class Document(NamedTuple):
         key: whether it is its key that is pointed at.
         """
         full = self.root + (path[1:] if self.bare else path)
-        found = place(self.source.text, self.language, full, key=key)
+        found = span_of(self.source.text, self.language, full, key=key)
         if found is None:
             return f"{self.source.label}: {dotted(full)}".removesuffix(": ")
         return self.source.where(found[0], found[1] - found[0])
@@ -81,7 +81,7 @@ class Document(NamedTuple):
     def shown(self, value: object, *path: str | int) -> str:
         """A value as a message shows it: a text in quotes, anything else as the file has it."""
         full = self.root + (path[1:] if self.bare else path)
-        found = None if isinstance(value, str) else place(self.source.text, self.language, full)
+        found = None if isinstance(value, str) else span_of(self.source.text, self.language, full)
         piece = self.source.text[slice(*found)].partition("\n")[0] if found else ""
         if not piece or not piece.isprintable():
             return shown(value)
@@ -109,13 +109,13 @@ def dotted(path: Path) -> str:
     return out.removeprefix(".")
 
 
-def meant(word: str, known: Iterable[str]) -> str | None:
+def close_match(word: str, known: Iterable[str]) -> str | None:
     """The one of the known words that is nearly the same, if one is."""
     found = difflib.get_close_matches(word.lower(), list(known), 1, 0.75)
     return found[0] if found else None
 
 
-def place(
+def span_of(
     text: str, language: Language, path: Path, *, key: bool = False
 ) -> tuple[int, int] | None:
     """Where the value at a path of a valid text begins and ends, or its key; None if nowhere.
@@ -216,7 +216,7 @@ def _key(text: str, at: int) -> tuple[list[_Part], int]:
     parts: list[_Part] = []
     while True:
         found = _KEY.match(text, at)
-        start, end = found.span()  # type: ignore[union-attr]  # `place` takes care of that
+        start, end = found.span()  # type: ignore[union-attr]  # `span_of` takes care of that
         parts.append((_word(text[start:end]), start, end))
         at = _blank(text, end)
         if text[at] != ".":
@@ -255,7 +255,7 @@ def _blank(text: str, at: int) -> int:
     return found.end() if found else at
 
 
-def repeated(text: str) -> tuple[tuple[int, int], tuple[int, int]] | None:
+def duplicate_key(text: str) -> tuple[tuple[int, int], tuple[int, int]] | None:
     """The two places of a key that stands twice in an object of a JSON text.
 
     It is that of the first object to end; the text need not be valid behind it.
@@ -278,7 +278,7 @@ def repeated(text: str) -> tuple[tuple[int, int], tuple[int, int]] | None:
     return None
 
 
-def statement(text: str, end: int) -> tuple[int, int] | None:
+def last_statement(text: str, end: int) -> tuple[int, int] | None:
     """The key or head of the last statement of a TOML text, valid so far, that begins above."""
     span = None
     try:
@@ -293,7 +293,7 @@ def statement(text: str, end: int) -> tuple[int, int] | None:
     return span
 
 
-def deepest(text: str) -> tuple[int, int]:
+def deepest_bracket(text: str) -> tuple[int, int]:
     """The depth of the deepest bracket of a text that need not be valid, and its place."""
     depth, found = 0, (0, 0)
     for token in _TOKEN.finditer(text):

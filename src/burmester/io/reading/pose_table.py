@@ -1,4 +1,4 @@
-"""What every pose file boils down to: numbers as printed, and where they stand in the text."""
+"""The table that every pose file is read into: numbers as printed, and their locations."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.errors import InputError, printable
-from burmester.io.reading.wanted import Wanted
+from burmester.io.reading.specification import Specification
 from burmester.numerics.arrays import FloatArray
 
 __all__ = [
@@ -28,7 +28,7 @@ __all__ = [
     "Source",
     "brief",
     "decimals",
-    "empty",
+    "no_poses",
     "numeric_roles",
     "plain_number",
     "pose_marks",
@@ -82,17 +82,17 @@ class Rows(NamedTuple):
 
 
 class PoseTable(NamedTuple):
-    """All that a file says about its poses."""
+    """All that a file states about its poses."""
 
     rows: Rows
     length_unit: str | None
     angle_unit: str | None
-    where: str  # the place where the angle unit is stated, or should be
+    where: str  # the location where the angle unit is stated, or should be
     say_unit: str  # how to state it there
-    wanted: Wanted = Wanted()
-    sigma: tuple[float, float] | None = None  # standard deviations of the poses, if stated
+    specification: Specification = Specification()
+    pose_sigma: tuple[float, float] | None = None  # standard deviations of the poses, if stated
     # where a row stands, by its number from 0; None is for where they begin
-    place: Callable[[int | None], str] | None = None
+    locate_row: Callable[[int | None], str] | None = None
 
 
 class Source(NamedTuple):
@@ -168,7 +168,7 @@ def _pose(word: str, names: Sequence[str], count: int, option: str, where: str) 
     raise InputError("E122", message, where=where, help=help)
 
 
-def empty(message: str) -> InputError:
+def no_poses(message: str) -> InputError:
     """E102, for a file without poses."""
     help = "write a CSV file: `x,y,angle_deg` on line 1, and a pose on each line below"
     return InputError("E102", f"no poses: {message}", help=help)

@@ -1,4 +1,4 @@
-"""What every file has to say of a linkage, from its dyads alone, and the comparison with it.
+"""The reference that every file is compared with: a linkage's dimensions and places in a unit.
 
 E160 what was written is not the linkage
 """
@@ -20,20 +20,20 @@ from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import FloatArray
 from burmester.wording import with_article
 
-__all__ = ["PRECISION", "Truth", "about", "agree", "as_rows"]
+__all__ = ["PRECISION", "Reference", "as_rows", "description", "require_equal"]
 
-PRECISION = 1e-9  # of the span, by which what is read back may differ
+PRECISION = 1e-9  # of the span: the largest deviation of a file from the linkage
 
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class Truth:
-    """A linkage in some unit: per dyad what it has, None for what it has not.
+class Reference:
+    """A linkage in a unit of length: the dimensions of each dyad, None for those it does not have.
 
     kinds: RR, PR, RP or PP; fixed: pivots in F; moving: pivots in M; radius: link lengths;
     line: the angle of the normal and the offset, in F for PR and in M for RP.
-    places: (N,) of the coupler for the poses; poses: (N,) those asked for.
-    span: the size of all of it; scale: of the unit, in the task's own.
+    places: (N,) of the coupler for the poses; poses: (N,) of the task.
+    span: diagonal of the box around all pivots; scale: of this unit per unit of the task.
     """
 
     kinds: tuple[str, str]
@@ -47,7 +47,7 @@ class Truth:
     scale: float
 
     @classmethod
-    def of(cls, chosen: SavedLinkage, options: Options, unit: str | None = "mm") -> Truth:
+    def of(cls, chosen: SavedLinkage, options: Options, unit: str | None = "mm") -> Reference:
         """The linkage in a unit, None for the task's own; raises E162."""
         scale = 1.0
         if unit is not None:
@@ -70,9 +70,9 @@ class Truth:
                 if isinstance(dyad, PR | RP)
                 else None
             )
-        seen = [places.translation, *(each[None] for each in fixed if each is not None)]
-        seen += [places.act(each) for each in moving if each is not None]
-        span = math.hypot(*np.ptp(np.concatenate(seen), axis=0).tolist())
+        points = [places.translation, *(each[None] for each in fixed if each is not None)]
+        points += [places.act(each) for each in moving if each is not None]
+        span = math.hypot(*np.ptp(np.concatenate(points), axis=0).tolist())
         return cls(
             (type(dyads[0]).__name__, type(dyads[1]).__name__),
             (fixed[0], fixed[1]),
@@ -90,8 +90,8 @@ class Truth:
         """Whether a dyad is PP."""
         return PP.__name__ in self.kinds
 
-    def missed(self, places: Displacement) -> float:
-        """By how much the links do not fit at coupler places, in the unit of lengths."""
+    def closure_error(self, places: Displacement) -> float:
+        """The largest misfit of a link at coupler places, in the unit of lengths."""
         worst = 0.0
         c, s = np.cos(places.angle), np.sin(places.angle)
         x, y = places.translation[..., 0], places.translation[..., 1]
@@ -121,9 +121,9 @@ class Truth:
         return worst
 
 
-def agree(what: str, got: ArrayLike, wanted: ArrayLike, tolerance: float) -> None:
+def require_equal(what: str, got: ArrayLike, expected: ArrayLike, tolerance: float) -> None:
     """Raise E160 where numbers read from a file are not those of the linkage."""
-    one, two = np.asarray(got, dtype=np.float64), np.asarray(wanted, dtype=np.float64)
+    one, two = np.asarray(got, dtype=np.float64), np.asarray(expected, dtype=np.float64)
     if one.shape != two.shape:
         off: float | str = f"{one.shape} numbers where {two.shape} belong"
     else:
@@ -147,31 +147,33 @@ def as_rows(places: Displacement) -> FloatArray:
     )
 
 
-def about(chosen: SavedLinkage, options: Options, unit: str | None) -> list[str]:
+def description(chosen: SavedLinkage, options: Options, unit: str | None) -> list[str]:
     """Sentences on what a file holds, for its head; unit: of its lengths, None for the task's."""
     number = chosen.error.places.shape[0]
     own = unit_of(chosen, options)
     worst = float(chosen.error.position.max())
     named = f" {own}" if unit is not None or chosen.unit or options.unit else ""
-    told = [
+    sentences = [
         f"Linkage {chosen.id}, {with_article(chosen.type)}, for {number} poses.",
         f"Its driver is {chosen.ids[0]} ({type(chosen.linkage.first).__name__}), and "
         f"{chosen.ids[1]} ({type(chosen.linkage.second).__name__}) follows.",
         f"The coupler comes within {worst:.3g}{named} of every pose.",
     ]
     if not chosen.usable:
-        told.append("It is not usable as it is: it cannot go from pose to pose in one motion.")
+        sentences.append("It is not usable as it is: it cannot go from pose to pose in one motion.")
     if unit is None:
-        said = chosen.unit or options.unit
-        told.append(f"Lengths are in {said}." if said else "The task names no unit of length.")
-        return told
-    if own == unit or chosen.unit is None:
-        told.append(f"Lengths are in {unit}.")
-    else:
-        told.append(f"Lengths are in {unit}; the task's are in {own}.")
-    if chosen.unit is None:
-        told.append(
-            f"The task names no unit of length: one of its units is taken for 1 {own}"
-            + (f", as asked for with --unit {own}." if options.unit else "; --unit says another.")
+        unit_stated = chosen.unit or options.unit
+        sentences.append(
+            f"Lengths are in {unit_stated}." if unit_stated else "The task names no unit of length."
         )
-    return told
+        return sentences
+    if own == unit or chosen.unit is None:
+        sentences.append(f"Lengths are in {unit}.")
+    else:
+        sentences.append(f"Lengths are in {unit}; the task's are in {own}.")
+    if chosen.unit is None:
+        sentences.append(
+            f"The task names no unit of length: one of its units is taken for 1 {own}"
+            + (f", as --unit {own} states." if options.unit else "; --unit states another.")
+        )
+    return sentences

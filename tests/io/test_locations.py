@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from burmester.io.reading.places import place
+from burmester.io.reading.locations import span_of
 
 # Trees, and one of the ways to write each ------------------------------------------------------
 
@@ -218,7 +218,7 @@ def check(text, language, tree):
     for path, value in leaves(tree):
         if not path and language == "TOML":
             continue
-        found = place(text, language, path)
+        found = span_of(text, language, path)
         assert found, path
         piece = text[slice(*found)]
         words = [key for key in path if isinstance(key, str)]
@@ -228,12 +228,12 @@ def check(text, language, tree):
         else:
             assert same(parsed(piece, language), value)
         if path and isinstance(path[-1], str):
-            start, end = place(text, language, path, key=True)
+            start, end = span_of(text, language, path, key=True)
             assert parsed_key(text[start:end], language) == path[-1]
             if not isinstance(value, dict | list):
                 assert re.fullmatch(r"\s*[=:]\s*", text[end : found[0]])
-        assert place(text, language, (*path, "nowhere")) is None
-        assert place(text, language, (*path, 99)) is None
+        assert span_of(text, language, (*path, "nowhere")) is None
+        assert span_of(text, language, (*path, 99)) is None
 
 
 def same_value(piece, value):

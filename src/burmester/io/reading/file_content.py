@@ -8,15 +8,15 @@ import sys
 from burmester.errors import InputError
 from burmester.io import cases
 from burmester.io.reading.columns import HEADER
-from burmester.io.reading.table import empty
+from burmester.io.reading.pose_table import no_poses
 
-__all__ = ["decode", "fetch"]
+__all__ = ["decode_text", "read_source"]
 
 _SHEET = (
     "save the sheet as CSV, or copy its cells and paste them: "
     f"`burmester synthesize - --columns {HEADER}`"
 )
-_BINARY: dict[bytes, tuple[str, str]] = {  # how a file begins -> what it is, and what to do
+_BINARY_FORMATS: dict[bytes, tuple[str, str]] = {  # first bytes of a file: its format, and the help
     b"PK\x03\x04": ("a zip archive, as .xlsx and .ods spreadsheets are", _SHEET),
     b"\xd0\xcf\x11\xe0": ("an .xls spreadsheet, or another old Office file", _SHEET),
     b"\x1f\x8b": ("packed with gzip", "unpack it with gunzip, and read what comes out"),
@@ -24,7 +24,7 @@ _BINARY: dict[bytes, tuple[str, str]] = {  # how a file begins -> what it is, an
 }
 
 
-def fetch(source: str) -> bytes:
+def read_source(source: str) -> bytes:
     """The bytes of a file, of standard input ("-") or of a carried case; raises E101."""
     if source == "-":
         return sys.stdin.buffer.read()
@@ -35,13 +35,13 @@ def fetch(source: str) -> bytes:
             return file.read()
     except (OSError, ValueError) as error:  # ValueError: a null character in the path
         why = getattr(error, "strerror", None) or str(error)
-        help = _instead(source, error)
+        help = _help_for(source, error)
         raise InputError("E101", "the poses cannot be read", why=why, help=help) from None
 
 
-def decode(data: bytes) -> str:
+def decode_text(data: bytes) -> str:
     """Text with one line feed between its lines, from UTF-8 or from UTF-16 that says so."""
-    for start, (what, help) in _BINARY.items():
+    for start, (what, help) in _BINARY_FORMATS.items():
         if data.startswith(start):
             message = "the poses are not text"
             raise InputError("E101", message, why=f"the file is {what}", help=help)
@@ -55,13 +55,13 @@ def decode(data: bytes) -> str:
     if why:
         raise InputError("E101", "the poses are not text", why=why, help="save the file as UTF-8")
     if not text.strip():
-        raise empty("there is nothing in it")
+        raise no_poses("there is nothing in it")
     # splitlines() would also break a name at U+2028 and shift the line numbers
     return text.replace("\r\n", "\n").replace("\r", "\n").rstrip("\n")
 
 
-def _instead(source: str, error: Exception) -> str:
-    """What to read in place of a file that cannot be."""
+def _help_for(source: str, error: Exception) -> str:
+    """The help for a file that cannot be read: the file that is probably meant."""
     from difflib import get_close_matches
 
     if source in cases.names():

@@ -1,34 +1,46 @@
-"""Where the bodies of an MJCF model are, for given joints: its XML read as MuJoCo reads it."""
+"""The frames of the bodies of an MJCF model for given joints: its XML read as MuJoCo reads it."""
 
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 from xml.etree import ElementTree
 
 from burmester.export.numbers import numbers_in
 
-__all__ = ["walk"]
+__all__ = ["Frames", "frames_at"]
 
 
-def walk(  # noqa: PLR0917
+class Frames(NamedTuple):
+    """The world coordinates of sites (complex) and the angles of bodies (radians), by name."""
+
+    sites: dict[str, complex]
+    angles: dict[str, float]
+
+
+def frames_at(world: ElementTree.Element, joints: dict[str, float]) -> Frames:
+    """The sites and bodies under a `worldbody`.
+
+    joints: by name, radians or metres; a joint that is missing is as the model begins.
+    """
+    frames = Frames({}, {})
+    _add(frames, world, 0j, 0.0, joints)
+    return frames
+
+
+def _add(
+    frames: Frames,
     element: ElementTree.Element,
     origin: complex,
     angle: float,
-    q: dict[str, float],
-    sites: dict[str, complex],
-    turns: dict[str, float],
+    joints: dict[str, float],
 ) -> None:
-    """Add where the sites are, and the angles of the bodies, with joints at q or as they begin.
-
-    origin, angle: the frame of the element in the world, as a complex number and in radians.
-    q: by name of joint, radians or metres; one that is not in it is as the model begins.
-    sites, turns: by name, what is found; complex numbers and radians.
-    """
+    """Add what an element holds whose own frame is at an origin and an angle (radians)."""
     for each in element:
         if each.tag == "site" and each.get("name"):
             x, y, _ = numbers_in(each, "pos")
             turn = complex(math.cos(angle), math.sin(angle))
-            sites[str(each.get("name"))] = origin + complex(x, y) * turn
+            frames.sites[str(each.get("name"))] = origin + complex(x, y) * turn
         elif each.tag == "body":
             x, y, _ = numbers_in(each, "pos")
             turn = complex(math.cos(angle), math.sin(angle))
@@ -38,7 +50,7 @@ def walk(  # noqa: PLR0917
             assert joint is not None
             name = str(joint.get("name"))
             ref = numbers_in(joint, "ref")[0]
-            by = q.get(name, ref) - ref
+            by = joints.get(name, ref) - ref
             turn = complex(math.cos(spin), math.sin(spin))
             if joint.get("type") == "slide":
                 ax, ay, _ = numbers_in(joint, "axis")
@@ -48,5 +60,5 @@ def walk(  # noqa: PLR0917
                 pin = at + complex(px, py) * turn
                 spin += by
                 at = pin - complex(px, py) * complex(math.cos(spin), math.sin(spin))
-            turns[str(each.get("name"))] = spin
-            walk(each, at, spin, q, sites, turns)
+            frames.angles[str(each.get("name"))] = spin
+            _add(frames, each, at, spin, joints)

@@ -1,9 +1,9 @@
-"""The way of a coupler through the poses: what moves in a film, and what must not collide.
+"""The motion of a coupler through the poses: of a film, of a table, and for collision checks.
 
 It runs along one circuit, from the first pose that the driver reaches to the last, in the sense in
-which the poses are met; a driver that turns fully may go all the way round.
+which the poses are met; with a driver that turns fully it may be a whole turn.
 
-E163 a linkage that has no such way
+E163 a linkage without such a motion
 """
 
 from __future__ import annotations
@@ -24,47 +24,47 @@ from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.motion_task import characteristic_length
 
-__all__ = ["Travel"]
+__all__ = ["CouplerMotion"]
 
 TURN: Final = 2 * np.pi
-STEPS: Final = 721  # places by which the coupler's angle is followed
+ANGLE_SAMPLES: Final = 721  # places between which the coupler's angle is unwrapped
 
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class Travel:
-    """Places (n,) of a coupler on its way from the first pose to the last.
+class CouplerMotion:
+    """Places (n,) of a coupler from the first pose to the last.
 
-    circuit: the one circuit, see `Circuits`; number: its own, in `Circuits.of`.
-    parameter: (n,) along it, rising or falling as the poses want it; evenly spaced unless shares
-        of the way were asked for.
+    circuit: the one circuit, see `Circuits`; number: its index in `Circuits.of`.
+    parameter: (n,) circuit parameter, rising or falling in the order of the poses; evenly spaced
+        unless shares of the motion were given.
     places: (n,), their angles without jumps.
-    drive: (n,), the driver's coordinate without jumps, a length or radians (`DrivenLoop`); the way
-        begins within the first turn, from 0 to 2 pi.
-    at: (N,), where each pose is met, in shares of the way; nan for poses that the driver does not
-        reach.
-    turns_fully: whether the driver can turn round and round.
-    round: whether the way is one whole turn, its last place being its first one again.
+    driver_coordinate: (n,), without jumps, a length or radians (`DrivenLoop`); the motion begins
+        within the first turn, from 0 to 2 pi.
+    pose_shares: (N,), the share of the motion, 0 to 1, at which each pose is met; nan for poses
+        that the driver does not reach.
+    turns_fully: whether the driver can make full turns.
+    full_turn: whether the motion is one whole turn; its last place is then its first one again.
     """
 
     circuit: Circuits
     number: int
     parameter: FloatArray
     places: Displacement
-    drive: FloatArray
-    at: FloatArray
+    driver_coordinate: FloatArray
+    pose_shares: FloatArray
     turns_fully: bool
-    round: bool
+    full_turn: bool
 
     @classmethod
     def of(cls, chosen: SavedLinkage, count: int | ArrayLike, whole: bool = False) -> Self:
-        """So many places, 2 or more, of the way of a linkage through its poses.
+        """The motion of a linkage through its poses.
 
-        count: or the shares (n,) of the way, from 0 to 1, at which they are.
-        whole: one whole turn that begins at the first pose, where the driver turns fully.
-        Of a linkage that is not usable, the poses on one branch are taken, on the one with the
-        most of them.  Raises InputError E163 where these are fewer than two, and where the linkage
-        cannot be driven.
+        count: the number of places, 2 or more, or their shares (n,) of the motion, from 0 to 1.
+        whole: one whole turn that begins at the first pose, if the driver turns fully.
+        Of a linkage that is not usable, only the poses on the branch with the most poses count.
+        Raises InputError E163 where these are fewer than two, and where the linkage cannot be
+        driven.
         """
         driven = _driven(chosen)
         reached = np.flatnonzero(np.isfinite(driven.parameter))
@@ -92,7 +92,7 @@ class Travel:
         own = Circuits.of(chosen.linkage, as_given=True)[driven.circuit]
         share = np.linspace(0.0, 1.0, count) if isinstance(count, int) else np.asarray(count, float)
         # Angles are followed in small steps, and come by whole turns as the first pose has its own.
-        steps = np.linspace(0.0, 1.0, STEPS)
+        steps = np.linspace(0.0, 1.0, ANGLE_SAMPLES)
         followed = np.unwrap(own.couplers(start + sense * length * steps).angle)
         there = np.interp(sense * (first - start) / length, steps, followed)
         turns = np.round((chosen.error.places.angle[reached[0]] - there) / TURN)
@@ -114,17 +114,17 @@ class Travel:
     @property
     def reached(self) -> NDArray[np.intp]:
         """The numbers, from 0, of the poses that the driver reaches."""
-        return np.flatnonzero(np.isfinite(self.at))
+        return np.flatnonzero(np.isfinite(self.pose_shares))
 
 
 def _driven(chosen: SavedLinkage) -> Driven:
-    """How the linkage does with its driver, from the poses that lie together on one branch."""
+    """The linkage with its driver, judged by the poses that lie together on one branch."""
     first, second = chosen.linkage.first, chosen.linkage.second
     if isinstance(first, PP) or isinstance(second, PP):
         raise InputError(
             "E163",
-            f"linkage {chosen.id} has no way that could be followed",
-            why="a body that only translates is held by a PP dyad, which has no one joint",
+            f"linkage {chosen.id} has no motion with one driver",
+            why="a body that only translates has a PP dyad, which has no single joint to drive",
             help="choose a linkage of RR, PR and RP dyads",
         )
     places, task = chosen.error.places, chosen.task

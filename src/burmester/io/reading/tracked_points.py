@@ -13,12 +13,12 @@ from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["Tracked", "tracked"]
+__all__ = ["Tracked", "tracked_poses"]
 
-MOST_CHANGE = 0.1  # of the distance between points of one rigid body, before they are refused
+MAX_DISTANCE_CHANGE = 0.1  # relative change of |pq|; above it the points are refused
 
 
-_Place: TypeAlias = Callable[[int | None], str]  # where a row stands
+_RowLocator: TypeAlias = Callable[[int | None], str]  # where a row stands
 
 
 class Tracked(NamedTuple):
@@ -29,17 +29,17 @@ class Tracked(NamedTuple):
     sigma: tuple[float, float] | None  # from the distance, if it varies more than that
 
 
-def tracked(
+def tracked_poses(
     points: FloatArray,
     decimals: float,
     numbers: NDArray[np.intp],
-    place: _Place | None = None,
+    locate_row: _RowLocator | None = None,
 ) -> Tracked:
     """Poses whose origin is p, exactly as given, and whose x axis points from p to q.
 
     points: (N, 4) rows (px, py, qx, qy), in one unit.
-    decimals: the most that a coordinate is printed with.
-    numbers: (N,) the number of each row in its file, from 0; place tells where it stands.
+    decimals: the largest number of decimals that a coordinate is printed with.
+    numbers: (N,) the number of each row in its file, from 0; locate_row tells where it stands.
     The distance |pq| of a rigid body is constant.  Where it varies more than the digits
     explain, its standard deviation measures the noise: it is sqrt(2) times that of a coordinate,
     and |pq| times that of the angle.
@@ -54,13 +54,13 @@ def tracked(
         why = "p and q are the same point"
         if distance[bad.argmax()]:
             why = "p and q are more than 1.8e308 apart, the largest number there is"
-        raise _refusal(f"row {row + 1} gives no angle", why, row, place)
+        raise _refusal(f"row {row + 1} gives no angle", why, row, locate_row)
     poses = Displacement(p, np.arctan2(y, x))
     if not len(points):
         return Tracked(poses, (0.0, 0.0), None)
     least, most = distance.min(), distance.max()
-    if most > (1 + MOST_CHANGE) * least:
-        raise _not_rigid(distance, numbers, place)
+    if most > (1 + MAX_DISTANCE_CHANGE) * least:
+        raise _not_rigid(distance, numbers, locate_row)
     half = 0.5 * 10.0**-decimals if decimals else 0.0
     resolution = (half, min(2 * half / float(least), math.pi))
     if len(points) < 2:
@@ -74,16 +74,20 @@ def tracked(
     return Tracked(poses, resolution, sigma)
 
 
-def _not_rigid(distance: FloatArray, numbers: NDArray[np.intp], place: _Place | None) -> InputError:
+def _not_rigid(
+    distance: FloatArray, numbers: NDArray[np.intp], locate_row: _RowLocator | None
+) -> InputError:
     """E111, at the row whose distance is furthest from the usual one."""
     short, long = int(distance.argmin()), int(distance.argmax())
     least, usual, most = (float(f(distance)) for f in (np.min, np.median, np.max))
     odd = short if usual / least > most / usual else long
-    said = [f"{distance[k]:.6g} apart in row {numbers[k] + 1}" for k in sorted((short, long))]
-    why = f"they are {said[0]} and {said[1]}, more than 10 percent from one to the other"
-    return _refusal("p and q do not stay on one rigid body", why, int(numbers[odd]), place)
+    apart = [f"{distance[k]:.6g} apart in row {numbers[k] + 1}" for k in sorted((short, long))]
+    why = f"they are {apart[0]} and {apart[1]}, more than 10 percent from one to the other"
+    return _refusal("p and q do not stay on one rigid body", why, int(numbers[odd]), locate_row)
 
 
-def _refusal(message: str, why: str, row: int, place: _Place | None) -> InputError:
+def _refusal(message: str, why: str, row: int, locate_row: _RowLocator | None) -> InputError:
     help = f"correct row {row + 1}, or leave it out: delete it, or pass --drop {row + 1}"
-    return InputError("E111", message, where=place(row) if place else None, why=why, help=help)
+    return InputError(
+        "E111", message, where=locate_row(row) if locate_row else None, why=why, help=help
+    )
