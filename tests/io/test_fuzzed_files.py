@@ -210,7 +210,7 @@ def test_texts_of_options_are_taken_or_refused(text):
         lambda: requirements_text.requirements_from_options(within=text),
         lambda: requirements_text.pose_sigma(text),
         lambda: requirements_text.lengths("--stock", [text]),
-        lambda: requirements_text.above_zero("--round", text),
+        lambda: requirements_text.positive_length("--round", text),
     ]
     for read in readers:
         try:
