@@ -19,9 +19,9 @@ from burmester.paper.reproduction import (
     Comparison,
     Section,
     Verdict,
-    as_json,
     compare_cases,
     reproduce,
+    reproduction_data,
 )
 from burmester.paper.side_by_side import SideBySide, side_by_side
 from burmester.paper.tables import show_reproduction
@@ -309,7 +309,7 @@ def test_a_table_fits_in_100_columns(sections: tuple[Section, ...]) -> None:
 
 
 def test_plain_data(sections: tuple[Section, ...]) -> None:
-    data = json.loads(json.dumps(as_json(sections), allow_nan=False))
+    data = json.loads(json.dumps(reproduction_data(sections), allow_nan=False))
     assert data["schema"] == "burmester.reproduction/1"
     row = next(r for s in data["sections"] for r in s["rows"] if r["item"] == "Table 3, sigma5")
     assert (row["printed"], row["verdict"]) == ("0.2868", "misprint")
@@ -317,7 +317,9 @@ def test_plain_data(sections: tuple[Section, ...]) -> None:
 
 
 def test_the_methods_beside_one_another_as_plain_data() -> None:
-    data = json.loads(json.dumps(as_json((), side_by_side(starts=12, seed=3)), allow_nan=False))
+    data = json.loads(
+        json.dumps(reproduction_data((), side_by_side(starts=12, seed=3)), allow_nan=False)
+    )
     names = ["Ravani-Roth", "Larochelle", "algebraic", "pencil", "complete"]
     for task, case in zip(data["methods"], ("exact", "approximate"), strict=True):
         assert task["case"] == f"ge2012-{case}"
@@ -353,4 +355,4 @@ def test_a_method_without_an_answer_is_shown_so() -> None:
     out = io.StringIO()
     show_reproduction((), (task,), Console(file=out, width=80))
     assert "Larochelle never" in out.getvalue()
-    assert as_json((), (task,))["methods"][0]["answers"][0]["starts_needed"] is None
+    assert reproduction_data((), (task,))["methods"][0]["answers"][0]["starts_needed"] is None

@@ -13,13 +13,14 @@ from collections.abc import Sequence
 import click
 
 from burmester import __version__
+from burmester.cli.cases import cases
 from burmester.cli.check import check
 from burmester.cli.explain import explain
 from burmester.cli.export import export
-from burmester.cli.known import cases, reproduce
 from burmester.cli.new import new
 from burmester.cli.output import EXIT_FOUND, EXIT_INTERRUPT, console, print_json
 from burmester.cli.report import report
+from burmester.cli.reproduce import reproduce
 from burmester.cli.synthesize import synthesize
 from burmester.errors import BurmesterError, InputError
 
@@ -91,8 +92,8 @@ def _bug(error: Exception, given: Sequence[str]) -> BurmesterError:
     try:
         handle, path = tempfile.mkstemp(prefix="burmester-", suffix=".txt")
         with os.fdopen(handle, "w", encoding="utf-8") as file:
-            told = "".join(traceback.format_exception(error))
-            file.write(f"burmester {__version__}, Python {sys.version}\n{list(given)}\n\n{told}")
+            trace = "".join(traceback.format_exception(error))
+            file.write(f"burmester {__version__}, Python {sys.version}\n{list(given)}\n\n{trace}")
         send = f"{path} and your input"
     except OSError:
         pass  # no place for a file: the message itself has to do

@@ -1,4 +1,4 @@
-"""`burmester check`: the poses as they are read, and what stands out among them."""
+"""`burmester check`: the poses as read, and findings about them."""
 
 from __future__ import annotations
 
@@ -6,19 +6,19 @@ from typing import Any
 
 import click
 
-from burmester.cli.options import READ, Sectioned, takes, task
+from burmester.cli.options import POSES, Sectioned, read_poses, with_options
 from burmester.cli.output import EXIT_FOUND, EXIT_NOTHING, console, print_json
 
 __all__ = ["check"]
 
 
 @click.command(cls=Sectioned)
-@takes(READ)
+@with_options(POSES)
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object and nothing else.")
 def check(poses: str, *, as_json: bool, **given: Any) -> int:
-    """Read POSES and say what stands out among them.
+    """Read POSES and report anything unusual.
 
-    Exit code 0: nothing does; 1: something does; 2: the file cannot be used.
+    Exit code 0: nothing unusual; 1: a finding; 2: the file cannot be used.
     """
     from dataclasses import replace
 
@@ -26,7 +26,7 @@ def check(poses: str, *, as_json: bool, **given: Any) -> int:
     from burmester.io import overview
     from burmester.io.files import quoted
 
-    found = diagnose(task(poses, **given))
+    found = diagnose(read_poses(poses, **given))
     if (odd := disagreement(found.task, found.motion)) is not None:
         found = replace(found, findings=(odd, *found.findings))
     if as_json:

@@ -13,38 +13,44 @@ __all__ = ["export"]
 
 FORMATS = """\b
 FORMAT  dxf, svg       plates with their holes for cutting, and the assembly
-        step, stl      solid parts in their places; flat: for printing
+        step, stl      solid parts, assembled; flat: side by side for printing
         openscad       a model with its numbers on top, animated
         mjcf, urdf     for simulation (MuJoCo; robots)
         gif, mp4       the motion
-        csv, json      the coupler's places; the one linkage
+        csv, json      the coupler's places; the linkage itself
         pylinkage      a Python script
 
-Every file is read back and compared with the linkage before it is put in place.
+Every file is read back and compared with the linkage before it gets its name.
 Lengths are in the unit of the poses."""
 
 
 @click.command(epilog=FORMATS)
 @click.argument("result")
-@click.option("--linkage", metavar="ID", help="Which one, such as L2; the best one by default.")
-@click.option("--to", metavar="FORMAT", help="What to write, if the name of FILE does not say it.")
+@click.option("--linkage", metavar="ID", help="The linkage, such as L2; by default the best one.")
+@click.option("--to", metavar="FORMAT", help="Format, if the name of FILE does not determine it.")
 @click.option("-o", "--output", metavar="FILE", required=True, help="Name of the file.")
 @click.option("--force", is_flag=True, help="Write FILE even if it exists.")
-@click.option("--unit", metavar="UNIT", help="Of the lengths, if the poses name none (mm).")
+@click.option(
+    "--unit", metavar="UNIT", help="Unit of the lengths, if the poses state none; by default mm."
+)
 @click.option("--hole", type=float, metavar="LENGTH", help="Diameter of holes and pins.")
 @click.option("--width", type=float, metavar="LENGTH", help="Width of the links.")
 @click.option("--thickness", type=float, metavar="LENGTH", help="Thickness of the plates.")
-@click.option("--gap", type=float, metavar="LENGTH", help="Between plates that lie on each other.")
 @click.option(
-    "--pose", type=int, metavar="N", default=1, help="The pose at which the assembly is drawn."
+    "--gap", type=float, metavar="LENGTH", help="Gap between plates that lie on each other."
 )
-@click.option("--seconds", type=float, default=4.0, help="Of gif and mp4.", show_default=True)
+@click.option(
+    "--pose", type=int, metavar="N", default=1, help="Pose at which the assembly is drawn."
+)
+@click.option(
+    "--seconds", type=float, default=4.0, help="Duration of gif and mp4.", show_default=True
+)
 @click.option(
     "--fps",
     "frames_per_second",
     type=float,
     default=25.0,
-    help="Frames a second, of gif and mp4.",
+    help="Frames per second of gif and mp4.",
     show_default=True,
 )
 @click.option(
@@ -59,7 +65,7 @@ def export(
     force: bool,
     **options: Any,
 ) -> int:
-    """Write a linkage of RESULT, which `burmester synthesize POSES -o RESULT` made."""
+    """Write a linkage of RESULT, the file of `burmester synthesize POSES -o RESULT`."""
     from burmester.export import FORMATS, Options, format_of
     from burmester.export import export as run
     from burmester.io.files import require_free
@@ -69,14 +75,14 @@ def export(
     if name is None:
         raise InputError(
             "E161",
-            f"the name {output} does not say which format is wanted",
-            why=f"known are {', '.join(FORMATS)}",
-            help="say --to dxf, or another of these",
+            f"the name {output} does not determine a format",
+            why=f"the formats are {', '.join(FORMATS)}",
+            help="give --to dxf, or another of these",
         )
     require_free(output, force=force)
     chosen = read_result(result).choose(linkage)
     for path in run(chosen, name, output, Options(**options), force):
-        click.echo(f"wrote {path}: {chosen.id}, {chosen.type}; read back and found the same")
+        click.echo(f"wrote {path}: {chosen.id}, {chosen.type}; read back and compared")
     if not chosen.usable:
         click.echo(f"{chosen.id} is not usable: `burmester synthesize` says why", err=True)
     return EXIT_FOUND

@@ -17,9 +17,9 @@ __all__ = ["new"]
 @click.option("--force", is_flag=True, help="Replace the file if it exists.")
 @click.option("--list", "as_list", is_flag=True, help="List the templates.")
 def new(template: str | None, output: str | None, force: bool, as_list: bool) -> int:
-    """Write a task file to start from.
+    """Write a task file to start from, with comments.
 
-    It is commented: TEMPLATE if one is named (see --list), else one with every key.
+    TEMPLATE is one of those that --list shows; by default a file with every key.
     """
     from burmester.io import templates
 

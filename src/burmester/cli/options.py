@@ -1,6 +1,7 @@
-"""What is asked of a task and of its linkages, as options that several commands share.
+"""The options that several commands share: poses, specification, method, manufacturing.
 
-A command takes groups of options (`takes`) and hands what was given on, to `task` or `synthesis`.
+A command is declared with groups of options (`with_options`); `read_poses` and `run_synthesis`
+take their values.
 """
 
 from __future__ import annotations
@@ -16,22 +17,22 @@ if TYPE_CHECKING:
     from burmester.tasks.motion_task import Task
 
 __all__ = [
-    "FOUND",
-    "MADE",
+    "MANUFACTURING",
+    "METHOD",
+    "POSES",
     "POSES_HELP",
-    "READ",
-    "WANTED",
+    "SPECIFICATION",
     "Sectioned",
-    "synthesis",
-    "takes",
-    "task",
+    "read_poses",
+    "run_synthesis",
+    "with_options",
 ]
 
 Decorator: TypeAlias = Callable[[Any], Any]
 
 POSES_HELP = """\b
 POSES   a CSV, JSON or TOML file, "-" for standard input, or case:NAME for
-        one of the tasks that burmester carries (see `burmester cases`). A CSV
+        one of the tasks in the package (see `burmester cases`). A CSV
         file starts with the line x,y,angle_deg (or angle_rad; x_mm,y_mm and
         the like name a unit); the columns weight, name and exact may follow.
 REGION  X,Y                    a point
@@ -46,14 +47,14 @@ NAME    crank-rocker, rocker-crank, double-crank, double-rocker (these four
         "Oldham linkage", "Rapson slide"
 
 A limit given once holds for both dyads of a linkage; given twice, the first is
-for one dyad and the second for the other, and `any` leaves one free. A point
-given once is for one dyad and leaves the other free, as two dyads cannot share
-a pivot. Fixed pivots are in the frame of the ground, moving pivots in that of
-the body, lengths in the unit of the poses."""
+for one dyad and the second for the other, and `any` leaves a dyad free. A point
+given once is for one dyad and leaves the other free, because two dyads cannot
+share a pivot. Fixed pivots are in the frame of the ground, moving pivots in that
+of the body, lengths in the unit of the poses."""
 
 
 class _Option(click.Option):
-    """An option that stands under a head of its own in the help."""
+    """An option with the section of the help that lists it."""
 
     def __init__(self, *args: Any, section: str, **settings: Any) -> None:
         super().__init__(*args, **settings)
@@ -61,7 +62,7 @@ class _Option(click.Option):
 
 
 class Sectioned(click.Command):
-    """A command whose help shows its options under heads."""
+    """A command whose help lists its options by sections."""
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the options, section by section."""
@@ -76,114 +77,106 @@ class Sectioned(click.Command):
                     formatter.write_dl(rows)
 
 
-HEADS = (
-    "How the poses are read",
-    "What is wanted",
-    "How it is found",
-    "What is made of it",
-    "What is put out",
-)
-_read, _wanted, _found, _made = (
+HEADS = ("Poses", "Limits and requirements", "Method", "Manufacturing", "Output")
+_poses, _specification, _method, _manufacturing = (
     partial(click.option, cls=_Option, section=head) for head in HEADS[:-1]
 )
 
-READ: tuple[Decorator, ...] = (
-    _read(
+POSES: tuple[Decorator, ...] = (
+    _poses(
         "--angle-unit",
         type=click.Choice(["deg", "rad"]),
         help="Unit of an angle column that does not name one.",
     ),
-    _read(
+    _poses(
         "--columns",
         metavar="NAME,...",
         help="The header that a CSV file lacks, such as x,y,angle_deg.",
     ),
-    _read(
+    _poses(
         "--drop",
         metavar="3,7",
         multiple=True,
-        help="Poses to leave out, by number or by name; the rest is counted anew.",
+        help="Poses to leave out, by number or by name; the others are numbered anew.",
     ),
-    _read(
+    _poses(
         "--pose-sigma",
         metavar="LENGTH,DEG",
-        help="Standard deviation of the poses' positions and angles; else it is taken from the "
-        "digits they are given with.",
+        help="Standard deviation of the poses' positions and angles; by default it follows from "
+        "the number of digits printed.",
     ),
 )
 
-WANTED: tuple[Decorator, ...] = (
-    _wanted(
+SPECIFICATION: tuple[Decorator, ...] = (
+    _specification(
         "--fixed-pivot",
         metavar="REGION",
         multiple=True,
-        help="Where a fixed pivot may be, on the ground.",
+        help="Region of a fixed pivot, on the ground.",
     ),
-    _wanted(
+    _specification(
         "--moving-pivot",
         metavar="REGION",
         multiple=True,
-        help="Where a moving pivot may be, on the body.",
+        help="Region of a moving pivot, on the body.",
     ),
-    _wanted(
+    _specification(
         "--length",
         metavar="MIN:MAX",
         multiple=True,
-        help="How long an RR dyad's link may be; either side may be empty.",
+        help="Length of the link of an RR dyad; MIN or MAX may be left out.",
     ),
-    _wanted(
+    _specification(
         "--kinds",
         metavar="RR,PR,RP",
         multiple=True,
-        help="Which dyads may be used: links RR, sliders PR, slots RP.",
+        help="Kinds of dyads allowed: links RR, sliders PR, slots RP.",
     ),
-    _wanted(
+    _specification(
         "--exact",
         metavar="1,5",
         multiple=True,
         help="Poses to be met exactly, by number or by name.",
     ),
-    _wanted(
+    _specification(
         "--min-transmission",
         metavar="DEG",
-        help="Least transmission angle over the range that the poses use.",
+        help="Smallest transmission angle allowed while the linkage moves through the poses.",
     ),
-    _wanted(
+    _specification(
         "--type",
         "types",
         metavar="NAME[,NAME]",
         multiple=True,
-        help="Which types of linkage may be used; see below.",
+        help="Types of linkage allowed; see NAME below.",
     ),
-    _wanted(
+    _specification(
         "--driver",
         type=click.Choice(["any", "first", "second", "crank"]),
-        help="Which dyad drives: the one of the first or of the second limits, or one that turns "
-        "fully.",
+        help="The driver: the dyad of the first or of the second limits, or (crank) a dyad that "
+        "turns fully.",
     ),
-    _wanted(
+    _specification(
         "--footprint",
         metavar="REGION",
-        help="A box or a polygon on the ground that holds all pivots, wherever the poses take "
-        "them.",
+        help="A box or a polygon on the ground; all pivots stay inside it while the linkage moves "
+        "through the poses.",
     ),
-    _wanted(
+    _specification(
         "--link-ratio",
         metavar="R",
-        help="The longest of the four links is at most R times the shortest.",
+        help="Longest link divided by the shortest, at most.",
     ),
-    _wanted(
-        "--within", metavar="LENGTH", help="Greatest position error at a pose that is acceptable."
-    ),
-    _wanted(
+    _specification("--within", metavar="LENGTH", help="Largest position error allowed at a pose."),
+    _specification(
         "--any-order",
         is_flag=True,
-        help="The poses need not be met in the order they are given in.",
+        help="The poses may be met in any order.",
     ),
 )
 
-FOUND: tuple[Decorator, ...] = (
-    _found(
+METHOD: tuple[Decorator, ...] = (
+    _method(
         "--method",
         type=click.Choice(["auto", "pencil", "complete", "exact"]),
         metavar="METHOD",
@@ -192,60 +185,60 @@ FOUND: tuple[Decorator, ...] = (
         help="pencil: the paper's two dyads for 6 poses or more; complete: every locally best dyad "
         "for 6 or more; exact: all dyads through 5; auto: complete for 6 or more, exact for 5.",
     ),
-    _found(
+    _method(
         "--norm",
         type=click.Choice(["rms", "worst"]),
         default="rms",
         show_default=True,
-        help="What is made small: least squares, or the smallest worst deviation.",
+        help="The error to minimise: root mean square, or the largest deviation (worst).",
     ),
-    _found(
+    _method(
         "--angle-weight",
         "length_per_radian",
         metavar="LENGTH",
-        help="The length that weighs as much as one radian of angle error; by default the size of "
-        "the motion.",
+        help="The position error that counts as much as one radian of angle error; by default the "
+        "size of the motion.",
     ),
-    _found("--certify", is_flag=True, help="Prove with interval arithmetic what can be proved."),
-    _found(
+    _method("--certify", is_flag=True, help="Prove with interval arithmetic what can be proved."),
+    _method(
         "--raw",
         is_flag=True,
-        help="Fit the numbers as they come, as the paper does; the answer then depends on frames "
-        "and units.",
+        help="Fit the numbers as given, as the paper does: frames and unit are not normalised, and "
+        "the result depends on them.",
     ),
 )
 
-MADE: tuple[Decorator, ...] = (
-    _made(
+MANUFACTURING: tuple[Decorator, ...] = (
+    _manufacturing(
         "--tolerance",
         "manufacturing_tolerance",
         metavar="LENGTH",
-        help="How exactly pivots and lengths are made; tells the error that comes of it.",
+        help="Manufacturing tolerance of pivots and lengths; report the resulting error.",
     ),
-    _made(
+    _manufacturing(
         "--round",
         "rounding_step",
         metavar="STEP",
-        help="Round lengths and pivots to multiples of STEP, and judge the linkage again.",
+        help="Round lengths and pivots to multiples of STEP, and check the linkage again.",
     ),
-    _made(
+    _manufacturing(
         "--stock",
         "stock_lengths",
         metavar="L1,L2,...",
         multiple=True,
-        help="The link lengths that are to be had; the nearest ones are taken, and judged again.",
+        help="Available link lengths; the nearest are used, and the linkage is checked again.",
     ),
 )
 
 
-def takes(*groups: tuple[Decorator, ...]) -> Decorator:
+def with_options(*groups: tuple[Decorator, ...]) -> Decorator:
     """A decorator that gives a command the argument POSES and groups of options."""
     options = [click.argument("poses"), *(option for group in groups for option in group)]
     return lambda command: reduce(lambda made, option: option(made), reversed(options), command)
 
 
-def task(poses: str, **given: Any) -> Task:
-    """The task that the options of READ, and of WANTED if there are any, make of POSES."""
+def read_poses(poses: str, **given: Any) -> Task:
+    """The task in the file POSES, by the options of POSES and, if given, of SPECIFICATION."""
     from burmester.io.reading import requirements_text as text
     from burmester.io.reading.limits_text import limits_from_options
     from burmester.io.reading.poses import read_task
@@ -268,14 +261,14 @@ def task(poses: str, **given: Any) -> Task:
     )
 
 
-def synthesis(poses: str, **given: Any) -> Synthesis:
-    """What the options of all groups make of POSES."""
+def run_synthesis(poses: str, **given: Any) -> Synthesis:
+    """The synthesis for the file POSES, by the options of all groups."""
     from burmester.io.reading import requirements_text as text
     from burmester.synthesis.motion_generation import synthesize
     from burmester.tasks.options import SynthesisOptions
 
     further: dict[str, Any] = {}
-    for keyword, option in _LENGTHS.items():
+    for keyword, option in _LENGTH_OPTIONS.items():
         if given[keyword] is not None:
             further[keyword] = text.positive_length(option, given[keyword])
     if given["stock_lengths"]:
@@ -287,10 +280,10 @@ def synthesis(poses: str, **given: Any) -> Synthesis:
         certify=given["certify"],
         **further,
     )
-    return synthesize(task(poses, **given), options)
+    return synthesize(read_poses(poses, **given), options)
 
 
-_LENGTHS = {
+_LENGTH_OPTIONS = {
     "length_per_radian": "--angle-weight",
     "manufacturing_tolerance": "--tolerance",
     "rounding_step": "--round",

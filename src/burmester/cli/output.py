@@ -1,4 +1,4 @@
-"""What every command puts out: exit codes, JSON, and the consoles it draws on."""
+"""The output of every command: exit codes, JSON, and consoles."""
 
 from __future__ import annotations
 

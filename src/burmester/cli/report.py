@@ -7,19 +7,29 @@ from typing import Any
 
 import click
 
-from burmester.cli.options import FOUND, MADE, READ, WANTED, Sectioned, synthesis, takes
+from burmester.cli.options import (
+    MANUFACTURING,
+    METHOD,
+    POSES,
+    SPECIFICATION,
+    Sectioned,
+    run_synthesis,
+    with_options,
+)
 from burmester.cli.output import EXIT_FOUND, EXIT_NOTHING
 
 __all__ = ["report"]
 
 
 @click.command(cls=Sectioned)
-@takes(READ, WANTED, FOUND, MADE)
-@click.option("-o", "--output", metavar="FILE", help="Name of the page; else POSES with .html.")
-@click.option("--title", metavar="TEXT", help="What the page is called; else the name of POSES.")
+@with_options(POSES, SPECIFICATION, METHOD, MANUFACTURING)
+@click.option(
+    "-o", "--output", metavar="FILE", help="Name of the page; by default that of POSES with .html."
+)
+@click.option("--title", metavar="TEXT", help="Title of the page; by default the name of POSES.")
 @click.option("--force", is_flag=True, help="Write FILE even if it exists.")
 def report(poses: str, *, output: str | None, title: str | None, force: bool, **given: Any) -> int:
-    """Write a page with the linkages for POSES, moving, that opens without a network.
+    """Write a page with the linkages for POSES as animations; it needs no network.
 
     The options are those of `burmester synthesize`, where REGION and NAME are explained.
     """
@@ -29,7 +39,7 @@ def report(poses: str, *, output: str | None, title: str | None, force: bool, **
     name = {"-": "poses"}.get(poses, os.path.basename(poses.removeprefix("case:")))
     path = output or f"{os.path.splitext(name)[0]}.html"
     files.require_free(path, force=force)
-    found = synthesis(poses, **given)
+    found = run_synthesis(poses, **given)
     files.write(path, page(found, title or name), force=force)
     click.echo(f"{found.outcome.message}\nwrote {path}; open it in any browser")
     return EXIT_FOUND if found.determined else EXIT_NOTHING

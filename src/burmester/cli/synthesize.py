@@ -6,21 +6,30 @@ from typing import Any
 
 import click
 
-from burmester.cli.options import FOUND, MADE, POSES_HELP, READ, WANTED, Sectioned, synthesis, takes
+from burmester.cli.options import (
+    MANUFACTURING,
+    METHOD,
+    POSES,
+    POSES_HELP,
+    SPECIFICATION,
+    Sectioned,
+    run_synthesis,
+    with_options,
+)
 from burmester.cli.output import EXIT_FOUND, EXIT_NOTHING, console, print_json
 
 __all__ = ["synthesize"]
 
 
 @click.command(cls=Sectioned, epilog=POSES_HELP)
-@takes(READ, WANTED, FOUND, MADE)
+@with_options(POSES, SPECIFICATION, METHOD, MANUFACTURING)
 @click.option(
     "--accept-uncertain",
     is_flag=True,
-    help="Exit with 0 even if the poses hardly determine where the pivots are.",
+    help="Exit with 0 even if the poses hardly determine the pivots.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object and nothing else.")
-@click.option("-o", "--output", metavar="FILE", help="Write that object to FILE, too.")
+@click.option("-o", "--output", metavar="FILE", help="Write that object to FILE as well.")
 @click.option("--force", is_flag=True, help="Write FILE even if it exists.")
 def synthesize(
     poses: str,
@@ -37,7 +46,7 @@ def synthesize(
 
     if output is not None:
         files.require_free(output, force=force)
-    found = synthesis(poses, **given)
+    found = run_synthesis(poses, **given)
     if output is not None:
         files.write(output, json_line(synthesis_data(found)), force=force)
         click.echo(f"wrote {output}", err=True)

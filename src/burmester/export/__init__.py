@@ -88,8 +88,8 @@ def export(
         raise InputError(
             "E161",
             f"there is no format {to!r}",
-            why=f"known are {', '.join(FORMATS)}",
-            help="say --to dxf, or another of these",
+            why=f"the formats are {', '.join(FORMATS)}",
+            help="give --to dxf, or another of these",
         )
     form = FORMATS[name]
     try:

@@ -1,4 +1,4 @@
-"""Widths, holes and thicknesses of plates: those stated for, or such as suit the linkage.
+"""Widths, holes and thicknesses of plates: as given, or chosen to suit the linkage.
 
 E162 dimensions that cannot be made        E163 a linkage that plates cannot hold
 """
@@ -19,19 +19,19 @@ from burmester.fourbar.dyad import RR
 
 __all__ = ["WALL", "Dimensions", "dimensions_of"]
 
-SHARE = 0.12  # of the middle link length: the width of links
-OF_SHORTEST = 0.6  # of the least distance between two holes: the most that the width may be
-HOLE = 0.4  # of the width
-THICK = 0.4  # of the width
-AIR = 0.1  # of the thickness, between plates
-WALL = 0.1  # of a hole's diameter: the least metal beside it
-NOTHING = 1e-6  # of the middle link length: a distance that leaves no room for holes
+WIDTH = 0.12  # of the median link length: width of links
+MAX_WIDTH = 0.6  # of the shortest distance between two holes: largest width and hole
+HOLE = 0.4  # of the width: diameter of holes
+THICKNESS = 0.4  # of the width: thickness of plates
+GAP = 0.1  # of the thickness: gap between plates
+WALL = 0.1  # of a hole's diameter: least material beside it
+MIN_DISTANCE = 1e-6  # of the median link length: below it there is no room for two holes
 
 
 @final
 @dataclass(frozen=True, slots=True)
 class Dimensions:
-    """What the plates are made with, in millimetres."""
+    """The dimensions of plates and pins, in millimetres."""
 
     hole: float
     width: float
@@ -40,7 +40,7 @@ class Dimensions:
 
 
 def dimensions_of(features: Features, options: Options, scale: float, unit: str) -> Dimensions:
-    """The dimensions stated for or chosen, in millimetres; raises E162."""
+    """The dimensions given or chosen, in millimetres; raises E162."""
     near = distance(*features.of_link("coupler"))
     lengths = [float(dyad.radius) for dyad in features.dyads if isinstance(dyad, RR)]
     between = {
@@ -57,11 +57,11 @@ def dimensions_of(features: Features, options: Options, scale: float, unit: str)
     ]
     size = float(np.median([each for each in lengths + travels if each > 0] or [1.0]))
 
-    if not least > NOTHING * size:
+    if not least > MIN_DISTANCE * size:
         raise InputError(
             "E163",
             "this linkage cannot be made of plates with pins and slots",
-            why="both joints of the coupler would be at one place of it: a slot runs through them"
+            why="both joints of the coupler are at one point of it: a slot runs through them"
             if least_name.startswith("two")
             else f"the {least_name} has no length",
             help="choose another linkage, or a table of its places: --to csv",
@@ -82,15 +82,15 @@ def dimensions_of(features: Features, options: Options, scale: float, unit: str)
             raise InputError(
                 "E162",
                 f"a {name} of {value / scale:g} {unit} cannot be made",
-                why="it has to be a number above 0",
+                why="the value has to be above 0",
                 help=f"leave --{name} out, and it is chosen from the linkage's size",
             )
     width, hole = stated["width"], stated["hole"]
     if width is None:
-        most = min(SHARE * size, OF_SHORTEST * least)
+        most = min(WIDTH * size, MAX_WIDTH * least)
         width = _rounded(most if hole is None else hole / HOLE)
     if hole is None:
-        hole = _rounded(min(HOLE * width, OF_SHORTEST * least))
+        hole = _rounded(min(HOLE * width, MAX_WIDTH * least))
     most_hole = width / (1 + 2 * WALL)
     if not hole <= most_hole * (1 + 1e-9):
         raise InputError(
@@ -99,19 +99,21 @@ def dimensions_of(features: Features, options: Options, scale: float, unit: str)
             f"{width / scale:.6g} {unit}",
             why=f"on each side {WALL:.0%} of the hole has to be left of the link, so the hole can "
             f"be {most_hole / scale:.6g} {unit} at most",
-            help=f"say --hole {_down(most_hole / scale)}, or --width {_up(hole * 1.2 / scale)}",
+            help=f"give --hole {_down(most_hole / scale)}, or --width {_up(hole * 1.2 / scale)}",
         )
     most_hole = least / (1 + WALL)
     if not hole <= most_hole:
         what = least_name if least_name.startswith("two") else f"the {least_name}'s two holes"
         raise InputError(
             "E162",
-            f"holes of {hole / scale:.6g} {unit} would run into each other",
+            f"holes of {hole / scale:.6g} {unit} would overlap",
             why=f"{what} are {least / scale:.6g} {unit} apart",
-            help=f"say --hole {_down(most_hole / scale)}",
+            help=f"give --hole {_down(most_hole / scale)}",
         )
-    thickness = stated["thickness"] if stated["thickness"] is not None else _rounded(THICK * width)
-    gap = stated["gap"] if stated["gap"] is not None else _rounded(AIR * thickness)
+    thickness = (
+        stated["thickness"] if stated["thickness"] is not None else _rounded(THICKNESS * width)
+    )
+    gap = stated["gap"] if stated["gap"] is not None else _rounded(GAP * thickness)
     return Dimensions(hole, width, thickness, gap)
 
 

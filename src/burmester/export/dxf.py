@@ -1,7 +1,7 @@
 """DXF (R2010, millimetres): the plates laid out for cutting, and the assembly as a block.
 
 Outlines are closed polylines with exact arcs, holes are circles, slots are closed polylines.  The
-block ASSEMBLY is inserted where F has it, with the coupler at the pose asked for.  The bytes
+block ASSEMBLY is inserted where F has it, with the coupler at the chosen pose.  The bytes
 depend on the linkage and the options only, but for the order of two entries that ezdxf keeps in a
 set.
 
@@ -29,8 +29,8 @@ __all__ = ["check", "write"]
 
 ezdxf: Any = import_module("ezdxf")
 
-TOLERANCE = 1e-6  # mm
-MM = 4  # the code of millimetres in the format
+TOLERANCE_MM = 1e-6  # largest deviation of what is read back
+MILLIMETRES_CODE = 4  # the code of millimetres in DXF
 LAYERS = {  # and their colours by the index of AutoCAD
     "GROUND": 8,
     "DRIVER": 1,
@@ -54,9 +54,9 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
     fixed = ezdxf.options.write_fixed_meta_data_for_testing
     try:
         ezdxf.options.write_fixed_meta_data_for_testing = True  # no dates and no random numbers
-        document = ezdxf.new("R2010", units=MM)
+        document = ezdxf.new("R2010", units=MILLIMETRES_CODE)
         document.header["$MEASUREMENT"] = 1
-        document.header["$INSUNITS"] = MM
+        document.header["$INSUNITS"] = MILLIMETRES_CODE
         document.header["$EXTMIN"] = (*sheet.low.tolist(), 0.0)
         document.header["$EXTMAX"] = (*sheet.high.tolist(), 0.0)
         for name, colour in LAYERS.items():
@@ -146,7 +146,7 @@ def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
             why="; ".join(faults[:3]),
             help="this is a fault of burmester: report it, with the result file",
         )
-    require_equal("the unit of the drawing", document.header["$INSUNITS"], MM, 0)
+    require_equal("the unit of the drawing", document.header["$INSUNITS"], MILLIMETRES_CODE, 0)
     # The assembly holds a hole or a slot's middle line where the dyads have their pivots.
     block = document.blocks.get("ASSEMBLY")
     assert block is not None
@@ -158,19 +158,19 @@ def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
     expected = _pivots(reference, place)
     for name, point in expected:
         gap = np.linalg.norm(circles - point, axis=1)
-        require_equal(f"{name} in the assembly", gap.min(initial=np.inf), 0, TOLERANCE)
+        require_equal(f"{name} in the assembly", gap.min(initial=np.inf), 0, TOLERANCE_MM)
     for point in circles:
         gap = min(float(np.linalg.norm(point - each)) for _, each in expected)
-        require_equal("a hole in the assembly", gap, 0, TOLERANCE)
+        require_equal("a hole in the assembly", gap, 0, TOLERANCE_MM)
     drawn = iter(block.query("LWPOLYLINE"))
     for plate in assembly.plates:
         outline, _, slots, _ = moved(plate, plate.at(assembly.drawn))
         for rows in (outline, *map(slot_outline, slots)):
-            require_equal(f"{plate.name} in the assembly", _rows(next(drawn)), rows, TOLERANCE)
+            require_equal(f"{plate.name} in the assembly", _rows(next(drawn)), rows, TOLERANCE_MM)
     _check_plates(document, assembly)
     axes = document.modelspace().query('LINE[layer=="POSES"]')
     starts = np.array([tuple(each.dxf.start)[:2] for each in axes])
-    require_equal("the poses", starts, np.repeat(poses.translation, 2, axis=0), TOLERANCE)
+    require_equal("the poses", starts, np.repeat(poses.translation, 2, axis=0), TOLERANCE_MM)
     ends = np.array([tuple(each.dxf.end)[:2] for each in axes])[::2] - starts[::2]
     turned = np.exp(1j * (np.arctan2(ends[:, 1], ends[:, 0]) - poses.angle))
     require_equal("the angles of the poses", np.abs(turned - 1), np.zeros(len(turned)), 1e-6)
@@ -209,19 +209,21 @@ def _check_plates(document: Any, assembly: Assembly) -> None:
         points = _rows(own)
         shift = points[0, :2] - plate.outline[0, :2]
         require_equal(
-            f"the outline of {plate.name}", points - [*shift, 0], plate.outline, TOLERANCE
+            f"the outline of {plate.name}", points - [*shift, 0], plate.outline, TOLERANCE_MM
         )
         if len(plate.holes):
             local = circles - [*shift, 0]
             gaps = np.abs(local[:, None] - plate.holes).max(axis=-1).min(axis=0)
-            require_equal(f"the holes of {plate.name}", gaps, np.zeros(len(gaps)), TOLERANCE)
+            require_equal(f"the holes of {plate.name}", gaps, np.zeros(len(gaps)), TOLERANCE_MM)
         for slot in plate.slots:
             gaps_of = [
                 float(np.abs(rows - [*shift, 0] - slot_outline(slot)).max())
                 for rows in map(_rows, slots)
                 if rows.shape == slot_outline(slot).shape
             ]
-            require_equal(f"the slot of {plate.name}", min(gaps_of, default=np.inf), 0, TOLERANCE)
+            require_equal(
+                f"the slot of {plate.name}", min(gaps_of, default=np.inf), 0, TOLERANCE_MM
+            )
 
 
 def _rows(polyline: Any) -> FloatArray:

@@ -1,4 +1,4 @@
-"""What plates have to hold of a linkage, before it is known how wide they are; millimetres.
+"""The holes and slots of a linkage's plates, before their widths are chosen; millimetres.
 
 E163 a linkage that plates cannot hold
 """
@@ -29,7 +29,7 @@ class Features:
         self.reach = tuple(_reach(dyad, motion) for dyad in self.dyads)
 
     def of_link(self, on: Literal["ground", "coupler"]) -> list[FloatArray]:
-        """What each dyad has on the ground or the coupler: ends (1, 2) of a hole, (2, 2) a slot."""
+        """Each dyad's hole, centre (1, 2), or slot, ends (2, 2), on the ground or the coupler."""
         slotted = PR if on == "ground" else RP
         ends: list[FloatArray] = []
         for dyad, reach in zip(self.dyads, self.reach, strict=True):
@@ -57,7 +57,7 @@ def _reach(dyad: RR | PR | RP, motion: Displacement) -> FloatArray | None:
 
 
 def scaled(dyad: Dyad, scale: float) -> RR | PR | RP:
-    """A dyad whose lengths are so many times as long; raises E163 for a PP."""
+    """A dyad with its lengths multiplied by a scale; raises E163 for a PP."""
     if isinstance(dyad, RR):
         return RR(dyad.fixed_pivot * scale, dyad.moving_pivot * scale, dyad.radius * scale)
     if isinstance(dyad, PR):

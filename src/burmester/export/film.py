@@ -17,16 +17,16 @@ from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import FloatArray
 from burmester.plot.style import with_unit
 
-__all__ = ["DOT", "DPI", "MARK", "Film", "Picture", "blob"]
+__all__ = ["DPI", "MARK_COLOUR", "MARK_POINTS", "Film", "Picture", "blob"]
 
 Picture = NDArray[np.uint8]
 
-MARK: Final = "#F0E442"  # of the followed pivot; nothing else comes near this colour
-DOT: Final = 9.0  # its size in points
-NEAR: Final = 70  # of 255, how far from its colour, in all, the followed pivot may be
+MARK_COLOUR: Final = "#F0E442"  # of the followed pivot; nothing else comes near this colour
+MARK_POINTS: Final = 9.0  # size of the mark, in points
+COLOUR_DISTANCE: Final = 70  # of 3 x 255: largest deviation from the mark's colour
 DPI: Final = 100.0
-LOOKS: Final = 8  # pictures that are looked at again
-HOLD: Final = 0.08  # of a film that goes back and forth, spent at each end
+CHECKED_PICTURES: Final = 8  # pictures that are read back
+HOLD_SHARE: Final = 0.08  # of a film that goes back and forth: pause at each end
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,9 @@ class Film:
             CouplerMotion.of(self.chosen, 2).turns_fully,
         )
         if not whole:
-            there = np.clip((1 - np.abs(2 * share - 1)) * (1 + 2 * HOLD) - HOLD, 0.0, 1.0)
+            there = np.clip(
+                (1 - np.abs(2 * share - 1)) * (1 + 2 * HOLD_SHARE) - HOLD_SHARE, 0.0, 1.0
+            )
             share = (1 - np.cos(np.pi * there)) / 2
         return CouplerMotion.of(self.chosen, share, whole)
 
@@ -70,7 +72,7 @@ class Film:
     @property
     def looks(self) -> NDArray[np.intp]:
         """The numbers of the pictures that are looked at again, spread over the film."""
-        return np.unique(np.linspace(0, self.count - 1, LOOKS).astype(np.intp))
+        return np.unique(np.linspace(0, self.count - 1, CHECKED_PICTURES).astype(np.intp))
 
     def drive_text(self, number: int) -> str:
         """Where the driver is in a picture."""
@@ -85,11 +87,11 @@ class Film:
 
 def blob(picture: Picture) -> tuple[float, float]:
     """The middle (column, row) of what has the colour of the followed pivot; nan if nothing."""
-    colour = [int(MARK[at : at + 2], 16) for at in (1, 3, 5)]
-    near = np.abs(picture.astype(np.int16) - colour).sum(axis=-1) < NEAR
+    colour = [int(MARK_COLOUR[at : at + 2], 16) for at in (1, 3, 5)]
+    near = np.abs(picture.astype(np.int16) - colour).sum(axis=-1) < COLOUR_DISTANCE
     rows, columns = np.nonzero(near)
     if not len(rows):
         return math.nan, math.nan
     # Beside lines a film may have single pixels of any colour.
-    spot = np.hypot(rows - np.median(rows), columns - np.median(columns)) < DOT * DPI / 72
+    spot = np.hypot(rows - np.median(rows), columns - np.median(columns)) < MARK_POINTS * DPI / 72
     return float(columns[spot].mean()), float(rows[spot].mean())

@@ -15,7 +15,7 @@ from burmester.numerics.arrays import FloatArray
 
 __all__ = ["Joint", "axes_of", "axis_away", "joints_of", "rim_away"]
 
-RING: Final = 0.2  # of a hole's radius, within which its facets are looked for
+RING_SHARE: Final = 0.2  # of a hole's radius: band in which its facets are searched
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,7 +91,7 @@ def rim_away(joint: Joint, points: FloatArray, radius: float) -> float:
     """
     if joint.point is not None:
         from_pivot = points - joint.point
-        near = np.abs(np.linalg.norm(from_pivot, axis=1) - radius) <= RING * radius
+        near = np.abs(np.linalg.norm(from_pivot, axis=1) - radius) <= RING_SHARE * radius
         ring = np.unique(from_pivot[near], axis=0)
         if len(ring) < 8:
             return math.inf

@@ -21,7 +21,7 @@ from burmester.numerics.arrays import FloatArray
 
 __all__ = ["arranged"]
 
-CLEAR = 0.05  # of the width, by which plates of one layer have to miss each other
+CLEARANCE = 0.05  # of the width: least distance between plates of one layer
 
 
 def arranged(features: Features, made: Dimensions) -> tuple[tuple[Plate, ...], tuple[Pin, ...]]:
@@ -116,7 +116,7 @@ def _meet(
 ) -> bool:
     """Whether two plates of one layer, or a pin and a plate that it does not join, ever meet."""
     bodies = {each.name: each.at(motion) for each in plates}
-    clear = CLEAR * made.width
+    clear = CLEARANCE * made.width
     for k, one in enumerate(plates):
         for two in plates[k + 1 :]:
             if one.layer == two.layer:

@@ -33,11 +33,11 @@ from burmester.numerics.arrays import FloatArray
 
 __all__ = ["check", "write"]
 
-STEP = 1e-3  # seconds
-THIN = 0.02  # of the span: the radius of the capsules
-SWIFT = 100.0  # radians a second: the natural frequency of the motor's position control
-RUB = 20.0  # of a body's inertia a second: friction in the joints
-BODIES = 4.0  # what moves with the motor, in bodies
+TIME_STEP = 1e-3  # seconds
+CAPSULE_RADIUS = 0.02  # of the span
+SERVO_FREQUENCY = 100.0  # radians a second: natural frequency of the motor's position control
+JOINT_DAMPING = 20.0  # of a body's inertia, per second
+MOVING_BODIES = 4.0  # bodies whose inertia the motor moves
 COLOURS = {
     "driver": ".76 .15 .18 1",
     "coupler": "0 .34 .72 1",
@@ -53,8 +53,8 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
     place = reference.places[options.pose - 1]
     q = _coordinates(chosen, reference)
     start = q[options.pose - 1]
-    thin = THIN * reference.span
-    gain = BODIES * SWIFT * (reference.span**2 if hinged(reference, 0) else 1.0)
+    thin = CAPSULE_RADIUS * reference.span
+    gain = MOVING_BODIES * SERVO_FREQUENCY * (reference.span**2 if hinged(reference, 0) else 1.0)
     middle = reference.places.translation.mean(axis=0)
     low, high = q[:, 0].min(), q[:, 0].max()
     head = description(chosen, options, "m")
@@ -64,13 +64,14 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
         "  <!-- Masses (1 kg a body) and friction are stand-ins. Set the motor's ctrl to the "
         "driver's place: radians, or metres of a slide. -->",
         '  <compiler angle="radian" autolimits="true"/>',
-        f'  <option timestep="{STEP}" gravity="0 0 0" integrator="implicitfast" solver="Newton"'
+        f'  <option timestep="{TIME_STEP}" gravity="0 0 0" integrator="implicitfast" '
+        'solver="Newton"'
         ' iterations="100" tolerance="0"><flag contact="disable"/></option>',
         f'  <statistic center="{_xyz(middle)}" extent="{number(1.5 * reference.span)}"/>',
         "  <default>",
         f'    <geom type="capsule" size="{number(thin)}" contype="0" conaffinity="0" group="1"/>',
         f'    <site size="{number(1.2 * thin)}" rgba="0 0 0 1"/>',
-        f'    <equality solref="{2 * STEP} 1" solimp="0.9999 0.9999 0.001 0.5 2"/>',
+        f'    <equality solref="{2 * TIME_STEP} 1" solimp="0.9999 0.9999 0.001 0.5 2"/>',
         "  </default>",
         "  <worldbody>",
         f'    <light pos="{_xyz(middle, 3 * reference.span)}" dir="0 0 -1"/>',
@@ -85,7 +86,7 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
         "  </worldbody>",
         '  <equality><connect name="loop" site1="loop_a" site2="loop_b"/></equality>',
         f"  <actuator><!-- {motor} -->",
-        f'    <position name="motor" joint="driver" kp="{number(gain * SWIFT)}" '
+        f'    <position name="motor" joint="driver" kp="{number(gain * SERVO_FREQUENCY)}" '
         f'kv="{number(2 * gain)}"{reach}/>',
         "  </actuator>",
         "  <keyframe>",
@@ -131,7 +132,9 @@ def _ground(reference: Reference) -> list[str]:
             n, along = directions(line[0])
             s = ground_joint(reference, 1 if side else 0, reference.places)
             ends = [line[1] * n + each * along for each in (s.min(), s.max())]
-            lines.append(f"    {_bar(ends[0], ends[1], 'ground', 0.3 * THIN * reference.span)}")
+            lines.append(
+                f"    {_bar(ends[0], ends[1], 'ground', 0.3 * CAPSULE_RADIUS * reference.span)}"
+            )
     return lines
 
 
@@ -248,7 +251,7 @@ def _mass(reference: Reference) -> str:
 
 def _rub(reference: Reference, joint: str) -> str:
     """Friction of a joint, by its speed, so that a motor does not throw links over dead points."""
-    return f' damping="{number(RUB * (1.0 if "slide" in joint else reference.span**2))}"'
+    return f' damping="{number(JOINT_DAMPING * (1.0 if "slide" in joint else reference.span**2))}"'
 
 
 def _bar(one: FloatArray, two: FloatArray, owner: str, size: float) -> str:

@@ -25,9 +25,9 @@ from PIL import Image
 
 from burmester import plot
 from burmester.errors import BurmesterError, InputError
-from burmester.export.film import DOT, DPI, MARK, Film, Picture, blob
+from burmester.export.film import DPI, MARK_COLOUR, MARK_POINTS, Film, Picture, blob
 from burmester.io.saved import SavedLinkage
-from burmester.plot.plane import FRAME, span_of
+from burmester.plot.plane import X_AXIS_LENGTH, span_of
 from burmester.plot.style import BLACK, BLUE, GREY, VERMILION, settle_labels, with_unit
 
 if TYPE_CHECKING:
@@ -39,12 +39,12 @@ if TYPE_CHECKING:
 __all__ = ["check_gif", "check_mp4", "write_gif", "write_mp4"]
 
 
-GIF_RATE: Final = 25.0  # pictures a second at most: more would only make the file larger
-STRAY: Final = 1.5  # pixels, by which it may be off
-POSED: Final = 25  # places whose drawing has to fit into the picture
+MAX_GIF_RATE: Final = 25.0  # pictures a second; more would only make the file larger
+MAX_MARK_ERROR: Final = 1.5  # pixels: largest deviation of the mark read back
+FITTED_PLACES: Final = 25  # places whose drawing has to fit into the picture
 MARGIN: Final = (0.62, 0.12, 0.48, 0.34)  # inches left, right, below and above the axes
 TALL, FLAT = 1.15, 0.5  # the height of a picture at most and at least, in shares of its width
-COLOURS: Final = 64  # of a GIF
+PALETTE_SIZE: Final = 64  # colours of a GIF
 
 
 class Stage(NamedTuple):
@@ -150,7 +150,7 @@ def check_mp4(chosen: SavedLinkage, path: Path, options: Options) -> None:
 
 def _gif(chosen: SavedLinkage, options: Options) -> tuple[Film, float]:
     """The film, and its rate: a GIF counts in hundredths of a second."""
-    rate = 100 / math.ceil(100 / min(GIF_RATE, options.frames_per_second) - 1e-9)
+    rate = 100 / math.ceil(100 / min(MAX_GIF_RATE, options.frames_per_second) - 1e-9)
     return Film(chosen, options.width_px, max(2, round(options.seconds * rate))), rate
 
 
@@ -170,7 +170,7 @@ def _compare(film: Film, looks: NDArray[np.intp], pictures: list[Picture]) -> No
         seen = blob(picture)
         # Rows run downwards, and the middle of the first one is at half a pixel.
         away = math.hypot(seen[0] + 0.5 - at[0], height - seen[1] - 0.5 - at[1])
-        if not away <= STRAY:
+        if not away <= MAX_MARK_ERROR:
             raise _off(f"in picture {number + 1} the driver is {away:.3g} pixels off")
 
 
@@ -202,7 +202,7 @@ def _ffmpeg() -> Any:
 def _pictures(film: Film) -> Iterator[Picture]:
     """The pictures (rows, columns, 3) of a film."""
     motion, along = film.motion, (film.motion.places,)
-    long = FRAME * span_of(film.chosen.task.poses)
+    long = X_AXIS_LENGTH * span_of(film.chosen.task.poses)
     body = np.array([[long, 0.0], [0.0, 0.0], [0.0, 0.6 * long]])
     path = motion.places.translation
     pivot = film.followed(np.arange(film.count))
@@ -214,7 +214,9 @@ def _pictures(film: Film) -> Iterator[Picture]:
         (frame,) = ax.plot([], [], color=BLACK, lw=1.6, zorder=5.5, solid_joinstyle="round")
         # No marker: those are drawn at whole pixels, and would tremble.
         unit = 1 / float(ax.transData.get_matrix()[0, 0])
-        mark = Circle((0, 0), DOT / 2 * DPI / 72 * unit, fc=MARK, ec=BLACK, lw=1.2, zorder=10)
+        mark = Circle(
+            (0, 0), MARK_POINTS / 2 * DPI / 72 * unit, fc=MARK_COLOUR, ec=BLACK, lw=1.2, zorder=10
+        )
         ax.add_patch(mark)
         drive = ax.text(1.0, 1.0, "", transform=ax.transAxes, ha="right", va="bottom", fontsize=9)
         for number in range(film.count):
@@ -242,7 +244,7 @@ def _stage(film: Film) -> Stage:
         # First all that is ever drawn, to see how large it is.
         trial = plot.figure(film.width / DPI, film.width / DPI, DPI)
         ax = trial.add_subplot()
-        some = np.unique(np.linspace(0, film.count - 1, POSED).astype(np.intp))
+        some = np.unique(np.linspace(0, film.count - 1, FITTED_PLACES).astype(np.intp))
         plot.poses(ax, task.poses, numbers=False)
         for number in some:
             plot.linkage(ax, linkage, motion.places[number], travel=(motion.places,))
@@ -268,7 +270,7 @@ def _stage(film: Film) -> Stage:
         for cross in curve.dead_points:
             cross.remove()
         over = list[Artist]()
-        long = FRAME * span_of(task.poses)
+        long = X_AXIS_LENGTH * span_of(task.poses)
         for color, reached in ((VERMILION, True), (GREY, False)):
             numbers = np.flatnonzero(np.isfinite(motion.pose_shares) == reached)
             if len(numbers):

@@ -25,7 +25,7 @@ from burmester.numerics.arrays import FloatArray
 __all__ = ["check", "write"]
 
 NUMBERS = re.compile(r"^(\w+) = ([-+.\d\[][^;a-z]*(?:e[-+]?\d[^;a-z]*)*);", re.MULTILINE)
-FRAMES = 121  # rows of the motion
+MOTION_ROWS = 121  # rows of the motion
 COLOURS = {
     "ground": "DimGray",
     "ground_2": "DarkGray",
@@ -73,11 +73,11 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
     assembly = assembly_of(chosen, options)
     made = assembly.dimensions
     motion = assembly.motion
-    pick = np.unique(np.linspace(0, motion.shape[0] - 1, FRAMES).round().astype(int))
+    pick = np.unique(np.linspace(0, motion.shape[0] - 1, MOTION_ROWS).round().astype(int))
     lines = [f"// {line}" for line in description(chosen, options, "mm")]
     lines += [
         "// View > Animate plays the motion, with FPS 25 and Steps 100. At $t = 0 the coupler is",
-        "// at the pose asked for.",
+        "// at the chosen pose.",
         "",
         f"width = {number(made.width)};",
         f"hole = {number(made.hole)};",

@@ -1,4 +1,4 @@
-"""What an export is told, and the unit that its lengths have.
+"""The options of an export, and the unit of its lengths.
 
 E162 dimensions that cannot be made
 """
@@ -45,13 +45,16 @@ def unit_of(chosen: SavedLinkage, options: Options) -> str:
     own, stated = chosen.unit, options.unit
     if stated is not None and stated not in MILLIMETRES:
         raise InputError(
-            "E162", f"there is no unit {stated!r}", why=f"known are {known}", help="say --unit mm"
+            "E162",
+            f"there is no unit {stated!r}",
+            why=f"the units are {known}",
+            help="give --unit mm",
         )
     if own is not None and stated is not None and own != stated:
         raise InputError(
             "E162",
             f"the lengths of this linkage are in {own}, not in {stated}",
-            why="the poses came with their unit",
+            why="the poses state that unit",
             help="leave --unit out",
         )
     unit = own or stated or "mm"
@@ -59,7 +62,7 @@ def unit_of(chosen: SavedLinkage, options: Options) -> str:
         raise InputError(
             "E162",
             f"lengths in {unit} cannot be exported",
-            why=f"known are {known}",
+            why=f"the units are {known}",
             help="state the poses in one of these units",
         )
     return unit

@@ -14,7 +14,7 @@ from burmester.numerics.arrays import FloatArray
 
 __all__ = ["Owner", "Pin", "Plate", "outline_points", "plate_of"]
 
-RUN_OUT = 0.5  # of a hole's diameter, by which a slot goes on where the pin has come to its end
+SLOT_RUN_OUT = 0.5  # of a hole's diameter: slot beyond each end of the pin's travel
 
 Owner: TypeAlias = Literal["ground", "driver", "coupler", "follower"]
 
@@ -98,7 +98,7 @@ def plate_of(
         if len(each) == 2:
             low, high = each
             size = float(np.linalg.norm(high - low))
-            out = (high - low) / size * RUN_OUT * hole if size > 0 else np.array([0.0, 0.0])
+            out = (high - low) / size * SLOT_RUN_OUT * hole if size > 0 else np.array([0.0, 0.0])
             slots.append([*(low - out).tolist(), *(high + out).tolist(), hole])
     origin = np.zeros((1, 2)) if mark else np.empty((0, 2))
     ends = [np.reshape(slot[:4], (2, 2)) for slot in slots]

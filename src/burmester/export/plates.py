@@ -37,7 +37,7 @@ __all__ = [
     "slot_outline",
 ]
 
-LOOKS = 721  # places along the motion at which plates are compared
+MOTION_SAMPLES = 721  # places along the motion at which plates are compared
 
 
 @final
@@ -73,7 +73,7 @@ class Assembly:
 
 
 def in_millimetres(places: Displacement, scale: float) -> Displacement:
-    """Places (*,) with so many millimetres per unit of theirs."""
+    """Places (*,) in millimetres; scale: millimetres per unit of theirs."""
     return Displacement(places.translation * scale, places.angle)
 
 
@@ -108,7 +108,9 @@ def assembly_of(chosen: SavedLinkage, options: Options) -> Assembly:
     )
 
 
-def places_of_motion(linkage: Linkage, places: Displacement, looks: int = LOOKS) -> Displacement:
+def places_of_motion(
+    linkage: Linkage, places: Displacement, looks: int = MOTION_SAMPLES
+) -> Displacement:
     """Coupler places (n,) along each branch of a circuit from its first to its last of places (N,).
 
     The places themselves are among them, in their order along the way.  Whole turns are cut where

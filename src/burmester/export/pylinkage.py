@@ -25,7 +25,7 @@ from burmester.numerics.arrays import FloatArray
 
 __all__ = ["check", "write"]
 
-ROOM = 0.05  # of the travel, by which a rail is longer on either side
+RAIL_MARGIN = 0.05  # of the travel: rail beyond each of its ends
 
 IMPORTS = '''"""{about}
 
@@ -151,7 +151,7 @@ def _driver(reference: Reference, drive: FloatArray) -> tuple[list[str], list[st
     assert line is not None
     # The rail begins a little before the first place, and ends a little behind the last.
     n, along = directions(line[0])
-    room = ROOM * (float(np.ptp(drive)) or reference.span)
+    room = RAIL_MARGIN * (float(np.ptp(drive)) or reference.span)
     low = float(drive.min()) - room
     drives = drive - low
     numbers = [
@@ -183,7 +183,7 @@ def _follower(reference: Reference) -> tuple[list[str], list[str], list[str]]:
     assert line is not None
     n, along = directions(line[0])
     s = ground_joint(reference, 1, reference.places)
-    room = ROOM * (float(np.ptp(s)) or reference.span)
+    room = RAIL_MARGIN * (float(np.ptp(s)) or reference.span)
     ends = [line[1] * n + each * along for each in (s.min() - room, s.max() + room)]
     built = [
         'b1, b2 = Ground(*RAIL[0], name="B1"), Ground(*RAIL[1], name="B2")',

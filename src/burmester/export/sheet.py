@@ -17,9 +17,9 @@ from burmester.numerics.arrays import FloatArray
 
 __all__ = ["Sheet", "beside", "moved", "notes_on", "sheet_of"]
 
-FINE = 1e-3  # of the width, to which arcs are followed for the size of the sheet
-BETWEEN = 0.7  # of the width, left between plates
-LETTERS = 0.35  # of the width: the height of the text
+ARC_TOLERANCE = 1e-3  # of the width: tolerance of arcs for the size of the sheet
+PLATE_SPACING = 0.7  # of the width: space between plates
+LETTER_HEIGHT = 0.35  # of the width: height of the text
 
 
 @final
@@ -42,11 +42,11 @@ class Sheet:
 
 
 def sheet_of(assembly: Assembly, poses: Displacement, notes: int) -> Sheet:
-    """The layout of an assembly, poses (N,) in millimetres, and so many lines of notes."""
+    """The layout of an assembly, poses (N,) in millimetres, and a number of lines of notes."""
     width = assembly.dimensions.width
-    between, letters, axes = BETWEEN * width, LETTERS * width, 0.8 * width
+    between, letters, axes = PLATE_SPACING * width, LETTER_HEIGHT * width, 0.8 * width
     points = [
-        plate.at(assembly.drawn).act(outline_points(plate, FINE * width))
+        plate.at(assembly.drawn).act(outline_points(plate, ARC_TOLERANCE * width))
         for plate in assembly.plates
     ]
     ends = np.array([[0.0, 0.0], [axes, 0.0], [0.0, axes]])
@@ -54,7 +54,7 @@ def sheet_of(assembly: Assembly, poses: Displacement, notes: int) -> Sheet:
     both = np.concatenate(points)
     low, high = both.min(axis=0), both.max(axis=0)
     high[0] += 2 * letters  # a pose's number stands to the right of it
-    boxes = [outline_points(plate, FINE * width) for plate in assembly.plates]
+    boxes = [outline_points(plate, ARC_TOLERANCE * width) for plate in assembly.plates]
     widest = max(*(float(np.ptp(box[:, 0])) for box in boxes), float(high[0] - low[0]))
     x, y, row = float(low[0]), float(low[1]) - 2 * between, 0.0
     start, right = x, float(high[0])

@@ -17,12 +17,12 @@ from typing import Any, Final
 import numpy as np
 
 from burmester.errors import BurmesterError, InputError
-from burmester.export.clashes import met
+from burmester.export.collisions import collision
 from burmester.export.holes import axes_of, axis_away, joints_of, rim_away
 from burmester.export.options import Options
 from burmester.export.plates import Assembly, assembly_of
 from burmester.export.reference import PRECISION, Reference
-from burmester.export.solid_parts import FIT, Part, area_of, laid, parts_of, placed
+from burmester.export.solid_parts import PIN_CLEARANCE, Part, area_of, laid, parts_of, placed
 from burmester.export.stl import Triangles, read_stl, shells_of, volume_of
 from burmester.io.saved import SavedLinkage
 
@@ -35,12 +35,16 @@ __all__ = [
     "write_stl",
 ]
 
-FACET: Final = 0.1  # radians of an arc for a facet of an STL: 0.13% of the radius off, at most
-COARSE: Final = 0.1  # of an edge's length: the same tolerance as a length, which is not to decide
-FILLED: Final = 1e-9  # relative: how exactly a volume is area times thickness
-FACETED: Final = 0.01  # relative: how near to it a volume is that chords have cut off
-ROUNDING: Final = 1e-6  # of the size: what numbers of 32 bits leave of a place
-NO_TIME: Final = "2000-01-01T00:00:00"  # in every STEP file: when it was written says nothing
+FACET_ANGLE: Final = 0.1  # radians of an arc per facet of an STL: 0.13% of the radius off, at most
+FACET_LENGTH: Final = (
+    0.1  # of an edge's length: the tolerance as a length, large enough not to decide
+)
+VOLUME_TOLERANCE: Final = 1e-9  # relative: of a solid's volume to area times thickness
+FACETED_VOLUME_TOLERANCE: Final = 0.01  # relative: the same with facets for arcs
+FLOAT32_ERROR: Final = 1e-6  # of the size: error of a coordinate of 32 bits
+FIXED_TIME: Final = (
+    "2000-01-01T00:00:00"  # written into every STEP file, so that equal parts give equal files
+)
 
 
 def write_step(chosen: SavedLinkage, path: Path, options: Options) -> None:
@@ -48,7 +52,7 @@ def write_step(chosen: SavedLinkage, path: Path, options: Options) -> None:
     cad, made = _cad(), assembly_of(chosen, options)
     parts = [placed(cad, part) for part in parts_of(cad, made)]
     whole = cad.Compound(label=f"{chosen.id} {chosen.type}", children=parts)
-    cad.export_step(whole, str(path), timestamp=NO_TIME)
+    cad.export_step(whole, str(path), timestamp=FIXED_TIME)
 
 
 def write_stl(chosen: SavedLinkage, path: Path, options: Options) -> None:
@@ -75,16 +79,16 @@ def check_step(chosen: SavedLinkage, path: Path, options: Options) -> None:
         raise _off(f"its parts are {', '.join(read)}, not {', '.join(expected)}")
     for name, part in expected.items():
         volume = part.area * part.height
-        if not abs(read[name].volume - volume) <= FILLED * volume:
+        if not abs(read[name].volume - volume) <= VOLUME_TOLERANCE * volume:
             raise _off(f"the {name} has {read[name].volume:.9g} mm³, not {volume:.9g} mm³")
     reference, radius = Reference.of(chosen, options), made.dimensions.hole / 2
     for joint in joints_of(reference, made, options.pose):
         away = min(axis_away(joint, axes_of(read[each], radius)) for each in joint.plates)
         if not away <= PRECISION * reference.span:
             raise _off(f"a hole of the {joint.plates[0]} is {away:.3g} mm from its pivot")
-    clash = met(cad, read, made)
+    clash = collision(cad, read, made)
     if clash is not None:
-        raise _off(f"the {clash[0]} and the {clash[1]} are in each other's way")
+        raise _off(f"the {clash[0]} and the {clash[1]} collide along the motion")
 
 
 def check_stl(chosen: SavedLinkage, path: Path, options: Options) -> None:
@@ -137,7 +141,7 @@ def _cad() -> Any:
 
 def _write_stl(cad: Any, parts: list[Part], path: Path) -> None:
     whole = cad.Compound(children=[placed(cad, part) for part in parts])
-    if not cad.export_stl(whole, str(path), COARSE, FACET):
+    if not cad.export_stl(whole, str(path), FACET_LENGTH, FACET_ANGLE):
         raise OSError(f"{path} cannot be written")
 
 
@@ -152,17 +156,17 @@ def _checked_shells(path: Path, made: Assembly) -> tuple[list[Triangles], float]
     if shells is None:
         raise _off("its surface is not closed")
     step = size.thickness + size.gap
-    pin = math.pi * (size.hole * (1 - FIT) / 2) ** 2
+    pin = math.pi * (size.hole * (1 - PIN_CLEARANCE) / 2) ** 2
     expected = [area_of(plate) * size.thickness for plate in made.plates]
     expected += [pin * ((each.high - each.low) * step + size.thickness) for each in made.pins]
     found = sorted(volume_of(shell) for shell in shells)
     close = len(found) == len(expected) and np.allclose(
-        found, sorted(expected), rtol=FACETED, atol=0
+        found, sorted(expected), rtol=FACETED_VOLUME_TOLERANCE, atol=0
     )
     if not close:
         raise _off(f"its {len(found)} parts do not have the volumes of the plates and pins")
     reach = float(np.abs(triangles).max())
-    return shells, ROUNDING * reach
+    return shells, FLOAT32_ERROR * reach
 
 
 def _off(why: str) -> BurmesterError:

@@ -16,11 +16,11 @@ from burmester.export.plates import Assembly, Plate, slot_outline
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["FIT", "Part", "area_of", "laid", "parts_of", "placed"]
+__all__ = ["PIN_CLEARANCE", "Part", "area_of", "laid", "parts_of", "placed"]
 
-FIT: Final = 0.02  # of a hole's diameter: by how much its pin is thinner, so that it turns
-SHORTEST: Final = 1e-4  # of a plate: pieces of its outline that are shorter are left out
-APART: Final = 2.0  # widths of a link between parts that are laid flat
+PIN_CLEARANCE: Final = 0.02  # of a hole's diameter: its pin is thinner by this, so that it turns
+MIN_EDGE: Final = 1e-4  # of a plate: shorter pieces of its outline are left out
+FLAT_SPACING: Final = 2.0  # widths of a link between parts that are laid flat
 COLOURS: Final = {
     "ground": (0.48, 0.53, 0.58),
     "driver": (0.90, 0.62, 0.0),
@@ -63,7 +63,7 @@ def parts_of(cad: Any, made: Assembly) -> list[Part]:
     ]
     places = {part.name: part.place for part in parts}
     for number, pin in enumerate(made.pins, start=1):
-        radius = pin.diameter * (1 - FIT) / 2
+        radius = pin.diameter * (1 - PIN_CLEARANCE) / 2
         height = (pin.high - pin.low) * step + size.thickness
         parts.append(
             Part(
@@ -91,7 +91,7 @@ def placed(cad: Any, part: Part) -> Any:
 def laid(parts: Iterable[Part], made: Assembly) -> list[Part]:
     """The parts in a column, the longest first, each lengthwise, and the pins behind them."""
     plates = {plate.name: plate for plate in made.plates}
-    apart = APART * made.dimensions.width
+    apart = FLAT_SPACING * made.dimensions.width
     rows = []
     for part in parts:
         plate = plates.get(part.name)
@@ -129,7 +129,7 @@ def _face(cad: Any, plate: Plate) -> Any:
 def _plain(outline: FloatArray) -> FloatArray:
     """An outline (k, 3) without pieces so short that no mesh has room for them."""
     rows = [outline[0].copy()]
-    least = SHORTEST * float(np.ptp(outline[:, :2], axis=0).max())
+    least = MIN_EDGE * float(np.ptp(outline[:, :2], axis=0).max())
     for row in outline[1:]:
         if np.hypot(*(row - rows[-1])[:2]) < least:
             rows[-1][2] = row[2]  # what comes after the short piece follows here

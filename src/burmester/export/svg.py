@@ -26,9 +26,9 @@ from burmester.numerics.arrays import FloatArray
 
 __all__ = ["check", "write"]
 
-HAIR = 0.1  # mm, and no more than a share of the width
+LINE_WIDTH_MM = 0.1  # at most, and no more than a share of the link width
 OF_WIDTH = 0.02
-WIDE = 0.57  # the bulge of an arc that is drawn as two
+MAX_BULGE = 0.57  # bulge above which an arc is drawn as two
 STYLE = """
   path, circle, line { fill: none; stroke: #000; stroke-width: %s; stroke-linejoin: round }
   .driver { stroke: #c1272d } .coupler { stroke: #0057b8 } .follower { stroke: #1b7f3b }
@@ -44,7 +44,7 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
     poses = Reference.of(chosen, options).poses
     notes = description(chosen, options, "mm") + notes_on(assembly)
     sheet = sheet_of(assembly, poses, len(notes))
-    hair = min(HAIR, OF_WIDTH * assembly.dimensions.width)
+    hair = min(LINE_WIDTH_MM, OF_WIDTH * assembly.dimensions.width)
     size = sheet.high - sheet.low
     box = f"{_n(sheet.low[0])} {_n(-sheet.high[1])} {_n(size[0])} {_n(size[1])}"
     lines = [
@@ -100,13 +100,13 @@ def _plate(
 def _halved(outline: FloatArray) -> FloatArray:
     """The outline with its arcs of a third of a turn or more in two.
 
-    By its ends and its radius, half a circle is told to half the digits only.
+    Its ends and its radius determine half a circle to half the digits only.
     """
     rows: list[list[float]] = []
     for (x0, y0, bulge), (x, y, _) in zip(
         outline.tolist(), np.roll(outline, -1, axis=0).tolist(), strict=True
     ):
-        if abs(bulge) < WIDE:
+        if abs(bulge) < MAX_BULGE:
             rows.append([x0, y0, bulge])
             continue
         half = math.tan(math.atan(bulge) / 2)

@@ -1,7 +1,7 @@
 """CSV of the coupler's places along the motion, and JSON of the one linkage; the task's own unit.
 
 CSV: a row for each step along the motion from the first pose to the last, and one for each pose.
-JSON: what `linkage.SCHEMA` says, the driver first.
+JSON: an object as `linkage.SCHEMA` describes it, the driver first.
 
 E160 what was written is not the linkage        E163 a linkage that has no motion through its poses
 """
@@ -27,17 +27,17 @@ from burmester.io.saved import SavedLinkage
 __all__ = ["SCHEMA", "check_csv", "check_json", "write_csv", "write_json"]
 
 SCHEMA: Final = "burmester.linkage/1"
-STEPS = 361  # rows along the motion, beside those of the poses
+MOTION_ROWS = 361  # rows along the motion, beside those of the poses
 
 
 def write_csv(chosen: SavedLinkage, path: Path, options: Options) -> None:
     """Write the table; raises E163."""
     motion = CouplerMotion.of(chosen, 2)
-    shares = np.linspace(0, 1, STEPS)
+    shares = np.linspace(0, 1, MOTION_ROWS)
     poses = {int(k): float(motion.pose_shares[k]) for k in motion.reached}
     met = np.array(list(poses.values()))
     # Where a pose and a step are one place, the pose's row stands for both.
-    shares = shares[np.abs(shares[:, None] - met).min(axis=1) > 0.01 / STEPS]
+    shares = shares[np.abs(shares[:, None] - met).min(axis=1) > 0.01 / MOTION_ROWS]
     marked = [(share, 0) for share in shares.tolist()]
     marked += [(share, number + 1) for number, share in poses.items()]
     marked.sort()

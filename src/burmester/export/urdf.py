@@ -25,9 +25,9 @@ from burmester.numerics.arrays import FloatArray
 
 __all__ = ["check", "write"]
 
-THIN = 0.04  # of the span: the sides of the boxes
-FORCE = 1000.0  # newton: the limit of slides, which the format wants
-SPEED = 1.0  # spans a second, likewise
+BOX_SIDE = 0.04  # of the span: sides of the boxes
+SLIDE_EFFORT = 1000.0  # newton: limit of slides, required by the format
+SLIDE_SPEED = 1.0  # spans a second: limit of slides, required by the format
 HEAD = """  URDF has no closed loops, so that of this linkage is left open at one joint.  With all
   joints at 0, as they are at pose {pose}, the links loop_a and loop_b are at one place.  Close the
   loop there by a hinge about z, the way your program has it: a point to point constraint between
@@ -140,8 +140,8 @@ def _slide(
     """A slide along a line; normal: the angle of the line's normal in the child's frame."""
     low, high = float(travel.min()), float(travel.max())
     limit = (
-        f'<limit lower="{number(low)}" upper="{number(high)}" effort="{number(FORCE)}" '
-        f'velocity="{number(SPEED * span)}"/>'
+        f'<limit lower="{number(low)}" upper="{number(high)}" effort="{number(SLIDE_EFFORT)}" '
+        f'velocity="{number(SLIDE_SPEED * span)}"/>'
     )
     axis = f"{xy(directions(normal)[1])} 0"
     return _joint(child, "prismatic", origin, axis, limit)
@@ -161,7 +161,7 @@ def _link(
     name: str, points: list[FloatArray], reference: Reference, closed: bool = False
 ) -> list[str]:
     """A link with boxes from point to point, and a mass that stands in."""
-    thin, inertia = THIN * reference.span, number(reference.span**2)
+    thin, inertia = BOX_SIDE * reference.span, number(reference.span**2)
     sides = f"{number(thin)} {number(thin)}"
     lines = [
         f'  <link name="{name}">',

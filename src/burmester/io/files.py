@@ -22,7 +22,7 @@ from burmester.errors import InputError
 
 __all__ = ["quoted", "require_free", "whole", "write"]
 
-LEFT_OVER = 3600.0  # seconds after which a temporary file is one that a killed process left
+STALE_SECONDS = 3600.0  # age above which a temporary file was left by a killed process
 
 _WINDOWS = os.name == "nt"
 _KEPT = 50  # characters of the target's name in the temporary one, which has 255 bytes at most
@@ -205,7 +205,7 @@ def _sweep(target: Path) -> None:
             start = _TEMPORARY.match(entry.name)
             if start and entry.name[start.end() :] == target.name[-_KEPT:]:
                 with suppress(OSError):
-                    if time.time() - entry.stat(follow_symlinks=False).st_mtime > LEFT_OVER:
+                    if time.time() - entry.stat(follow_symlinks=False).st_mtime > STALE_SECONDS:
                         os.unlink(entry.path)
 
 

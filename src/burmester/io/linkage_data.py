@@ -30,11 +30,11 @@ def number(value: float) -> float | None:
 
 
 def poses_data(poses: Displacement) -> list[dict[str, float]]:
-    """Poses (N,) as rows of a file; an angle of 45.58 degrees is told as that."""
+    """Poses (N,) as rows of a file; an angle given as 45.58 degrees is written as 45.58."""
     degrees = np.degrees(poses.angle)
     short = np.array([float(f"{angle:.15g}") for angle in degrees.tolist()])
-    told = np.where(np.radians(short) == poses.angle, short, degrees)
-    rows = zip(poses.translation.tolist(), told.tolist(), strict=True)
+    shown = np.where(np.radians(short) == poses.angle, short, degrees)
+    rows = zip(poses.translation.tolist(), shown.tolist(), strict=True)
     return [{"x": x, "y": y, "angle_deg": angle} for (x, y), angle in rows]
 
 
@@ -71,7 +71,7 @@ def _line(dyad: PR | RP) -> dict[str, float]:
 
 
 def linkage_data(found: FoundLinkage, tolerance: float | None = None) -> dict[str, Any]:
-    """A linkage with all that is said of it; tolerance: to which it is built, if that was asked."""
+    """A linkage with its errors, verdicts and links; tolerance: of its manufacture, if given."""
     verdict = found.verdict
     data: dict[str, Any] = {
         "id": found.id,
@@ -127,7 +127,7 @@ def _transmission(driven: Driven) -> dict[str, float | None]:
 
 
 def _drive(dyad: Dyad, driven: Driven) -> dict[str, Any]:
-    """What comes of it when this dyad drives; travel: the range of its drive between the poses."""
+    """The verdicts with this dyad as driver; travel: the range of its input between the poses."""
     slides = isinstance(dyad, PR)
     travel = driven.input_range if slides else np.degrees(driven.input_range)
     return {

@@ -84,7 +84,7 @@ def _poses(task: Task) -> Table:
 
 
 def _facts(diagnosis: Diagnosis) -> Iterator[tuple[str, str]]:
-    """What is to be said of the poses as a whole, each under its name."""
+    """The facts about the poses as a whole, each with its name."""
     task, motion = diagnosis.task, diagnosis.motion
     unit = f" {task.length_unit}" if task.length_unit else ""
     width, height = np.ptp(task.poses.translation, axis=0)

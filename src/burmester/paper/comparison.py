@@ -35,7 +35,7 @@ MISPRINTS: Final = {  # item: what is printed, what is meant, what went wrong
 
 
 class Verdict(StrEnum):
-    """What comes of holding a printed number against the computed one."""
+    """The result of comparing a printed number with the computed one."""
 
     AGREES = "agrees"  # to the last printed digit
     WITHIN = "within rounding"  # inside the spread that the rounding of the poses allows
@@ -78,7 +78,7 @@ class Comparison:
 @final
 @dataclass(frozen=True, slots=True)
 class Section:
-    """A table or a few equations of the paper, with what is to be said about them."""
+    """A table or a few equations of the paper, with notes about them."""
 
     title: str
     rows: tuple[Comparison, ...]

@@ -32,8 +32,8 @@ from burmester.numerics.arrays import FloatArray
 
 __all__ = ["Answer", "by_every_method", "random_starts", "starts_needed"]
 
-SPREAD = 3.0  # of the start pivots, in canonical lengths
-SAME = 1e-4  # relative distance within which two ends are one
+START_SPREAD = 3.0  # canonical lengths: spread of the start pivots
+SAME_END = 1e-4  # relative distance below which two ends are one
 
 
 @final
@@ -80,7 +80,7 @@ def by_every_method(poses: Displacement, starts: int, seed: int) -> tuple[Answer
 
 def random_starts(poses: Displacement, count: int, seed: int) -> RR:
     """Pairs of dyads (count, 2) to start from, for poses (N,) in canonical frames."""
-    pivots = np.random.default_rng(seed).normal(scale=SPREAD, size=(2, count, 2, 2))
+    pivots = np.random.default_rng(seed).normal(scale=START_SPREAD, size=(2, count, 2, 2))
     centred = RR(pivots[0], pivots[1], np.zeros((count, 2)))
     return RR(pivots[0], pivots[1], centred[..., None].residual(poses).mean(axis=-1))
 
@@ -117,7 +117,7 @@ def _searched(
     reached: list[int] = []
     while len(going) and len(lowest) < (1 if pairs else 2):
         end = ends[going[0]]
-        here = np.abs(ends[going] - end).max(axis=(1, 2)) < SAME * (1 + np.abs(end).max())
+        here = np.abs(ends[going] - end).max(axis=(1, 2)) < SAME_END * (1 + np.abs(end).max())
         lowest.append(end)
         reached.append(int(here.sum()))
         going = going[~here]

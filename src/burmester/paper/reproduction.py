@@ -32,9 +32,9 @@ from burmester.paper.comparison import (
     compare_columns,
 )
 from burmester.paper.fit import LAST_DIGIT, VECTORS, PaperFit, rounded
-from burmester.paper.side_by_side import SideBySide, plain
+from burmester.paper.side_by_side import SideBySide, side_by_side_data
 
-__all__ = ["Comparison", "Section", "Verdict", "as_json", "compare_cases", "reproduce"]
+__all__ = ["Comparison", "Section", "Verdict", "compare_cases", "reproduce", "reproduction_data"]
 
 ENTRIES: Final = ("sigma1", "sigma2", "tau1", "tau2", "c33", "c34", "c44")  # of Eq. (9), at
 PLACES: Final = ([0, 1, 0, 1, 2, 2, 3], [2, 2, 3, 3, 2, 3, 3])
@@ -68,12 +68,14 @@ def compare_cases(
     )
 
 
-def as_json(sections: Iterable[Section], tasks: Iterable[SideBySide] = ()) -> dict[str, Any]:
+def reproduction_data(
+    sections: Iterable[Section], tasks: Iterable[SideBySide] = ()
+) -> dict[str, Any]:
     """The sections, and the methods side by side, as plain data."""
     return {
         "schema": "burmester.reproduction/1",
         "sections": [asdict(s) for s in sections],
-        "methods": [plain(task) for task in tasks],
+        "methods": [side_by_side_data(task) for task in tasks],
     }
 
 

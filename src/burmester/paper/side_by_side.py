@@ -14,7 +14,7 @@ from burmester.io.cases import load
 from burmester.paper.five_methods import Answer, by_every_method
 from burmester.tasks.motion_task import Task
 
-__all__ = ["Answer", "SideBySide", "plain", "side_by_side"]
+__all__ = ["Answer", "SideBySide", "side_by_side", "side_by_side_data"]
 
 
 @final
@@ -37,13 +37,13 @@ def side_by_side(starts: int = 100, seed: int = 2012) -> tuple[SideBySide, ...]:
     return tuple(result)
 
 
-def plain(task: SideBySide) -> dict[str, Any]:
+def side_by_side_data(task: SideBySide) -> dict[str, Any]:
     """One task as plain data."""
-    answers = [_plain(answer) for answer in task.answers]
+    answers = [_answer_data(answer) for answer in task.answers]
     return {"title": task.title, "case": task.case, "answers": answers}
 
 
-def _plain(answer: Answer) -> dict[str, Any]:
+def _answer_data(answer: Answer) -> dict[str, Any]:
     dyads = [
         {
             "fixed_pivot": answer.dyads.fixed_pivot[k].tolist(),

@@ -43,8 +43,8 @@ def show_reproduction(
         for remark in _of_starts(task.answers):
             console.print(Text(remark))
     counts = Counter(row.verdict for section in sections for row in section.rows)
-    said = ", ".join(f"{counts[verdict]} {verdict}" for verdict in Verdict)
-    console.print(Text(f"\n{sum(counts.values())} printed numbers: {said}", style="bold"))
+    verdicts = ", ".join(f"{counts[verdict]} {verdict}" for verdict in Verdict)
+    console.print(Text(f"\n{sum(counts.values())} printed numbers: {verdicts}", style="bold"))
 
 
 def _methods(task: SideBySide) -> Table:

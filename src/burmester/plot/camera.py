@@ -17,7 +17,7 @@ from burmester.numerics.arrays import FloatArray
 
 __all__ = ["Box", "Camera", "chart"]
 
-ROOM = 0.12  # left free around points, in shares of their extent
+MARGIN = 0.12  # share of the points' extent left free around them
 
 
 def chart(points: ArrayLike) -> FloatArray:
@@ -47,7 +47,7 @@ class Box:
         object.__setattr__(self, "high", high)
 
     @classmethod
-    def around(cls, points: ArrayLike, room: float = ROOM, height: float = 2.0) -> Self:
+    def around(cls, points: ArrayLike, room: float = MARGIN, height: float = 2.0) -> Self:
         """The box around finite points (*, 3) of the chart, equally wide in Z1 and Z2."""
         p = np.asarray(points, dtype=np.float64).reshape(-1, 3)
         p = p[np.isfinite(p).all(axis=-1)]

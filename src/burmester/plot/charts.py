@@ -25,8 +25,8 @@ if TYPE_CHECKING:
 
 __all__ = ["DrawnErrors", "DrawnTransmission", "pose_errors", "transmission"]
 
-GOOD = 40.0  # degrees; below it friction may lock the linkage
-FLOOR = 1e-16  # what an error of zero is drawn as, next to the greatest or to 1
+USUAL_MIN_TRANSMISSION_DEG = 40.0  # degrees; below it friction may lock the linkage
+ZERO_ERROR = 1e-16  # of the largest error, or of 1: height at which an error of zero is drawn
 
 
 class DrawnTransmission(NamedTuple):
@@ -109,7 +109,7 @@ def transmission(
         labels = [
             label(ax, str(k + 1), (xx, yy), (0.0, 1.0)) for k, xx, yy in zip(met, x, y, strict=True)
         ]
-    least = ax.axhline(GOOD, color=GREY, lw=0.9, ls=(0, (1, 2)), zorder=1)
+    least = ax.axhline(USUAL_MIN_TRANSMISSION_DEG, color=GREY, lw=0.9, ls=(0, (1, 2)), zorder=1)
     ax.set_ylim(0, 95)
     ax.set_yticks(range(0, 91, 15))
     ax.set_ylabel("transmission angle (deg)")
@@ -155,7 +155,7 @@ def pose_errors(ax: Axes, error: PoseError, unit: str | None = None) -> DrawnErr
     )
     for axes, values, style, shift in styles:
         greatest = float(np.nanmax(values)) if np.isfinite(values).any() else 1.0
-        shown = np.maximum(values, FLOOR * (greatest or 1.0))
+        shown = np.maximum(values, ZERO_ERROR * (greatest or 1.0))
         (line,) = axes.plot(number + shift, shown, ls="none", ms=6, mew=1.3, zorder=3, **style)
         axes.set_yscale("log")
         finite = shown[np.isfinite(shown)]

@@ -19,8 +19,8 @@ from burmester.numerics.arrays import FloatArray
 
 __all__ = ["common_curve"]
 
-REAL = 1e-7  # imaginary part, of the size of a root, below which it is taken for real
-NOTHING = 1e-12  # of a coefficient, next to the others
+MAX_IMAGINARY = 1e-7  # of a root's size: largest imaginary part of a real root
+ZERO_COEFFICIENT = 1e-12  # of the largest coefficient: smaller ones count as 0
 
 
 def common_curve(p: ArrayLike, q: ArrayLike, samples: int = 400) -> list[FloatArray]:
@@ -39,7 +39,7 @@ def common_curve(p: ArrayLike, q: ArrayLike, samples: int = 400) -> list[FloatAr
     in_unit = unit ** np.array([2, 0, 1, 1, 1, 1, 0, 0])
     one, two = (v * in_unit / np.linalg.norm(v * in_unit) for v in (one, two))
     back = np.array([unit, unit, 1.0, 1.0])
-    if _roundness(one) <= NOTHING:
+    if _roundness(one) <= ZERO_COEFFICIENT:
         return [_crossing(one, two, np.linspace(0, np.pi, samples)) * back]
     two, one = two - two[0] / one[0] * one, one / one[0]
     loops = []
@@ -66,7 +66,7 @@ def _roundness(p: FloatArray) -> float:
 def _length(p: FloatArray) -> float:
     """A length of the size of those in p; 1 where there is none."""
     first, zeroth = np.linalg.norm(p[2:6]), np.linalg.norm(p[[1, 6, 7]])
-    if _roundness(p) > NOTHING:
+    if _roundness(p) > ZERO_COEFFICIENT:
         size = max(first / abs(p[0]), np.sqrt(zeroth / abs(p[0])))
     else:
         size = zeroth / first if first > 0 else 1.0
@@ -89,9 +89,9 @@ def _spans(p: FloatArray, q: FloatArray) -> list[tuple[float, float]]:
     d = np.zeros(5)
     for sign, term in ((1, poly.polymul(square, inside)), (-1, poly.polymul(away, away))):
         d[: len(term)] += sign * term
-    d[np.abs(d) <= NOTHING * np.abs(d).max()] = 0.0
+    d[np.abs(d) <= ZERO_COEFFICIENT * np.abs(d).max()] = 0.0
     roots = poly.polyroots(np.trim_zeros(d, "b"))
-    real = roots[np.abs(roots.imag) <= REAL * (1 + np.abs(roots))].real
+    real = roots[np.abs(roots.imag) <= MAX_IMAGINARY * (1 + np.abs(roots))].real
     ends = np.sort(np.arctan(real))
     if d[4] == 0:  # a form: what the polynomial lacks in degree is at infinity
         ends = np.append(ends, np.pi / 2)

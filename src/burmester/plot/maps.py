@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
 __all__ = ["DrawnMap", "centre_point_curve", "circle_point_curve", "pivot_map"]
 
-DECADES = 4.0  # of errors that the colours tell apart, at most
-FAR = 3.0  # spans of the poses beyond which a curve is not drawn
+MAX_DECADES = 4.0  # of errors that the colours distinguish, at most
+CURVE_REACH = 3.0  # spans of the poses; the curve is cut off beyond
 
 
 class DrawnMap(NamedTuple):
@@ -56,7 +56,7 @@ def pivot_map(
     found = fixed_pivot_map(poses, at, weights)
     error = np.where(np.isfinite(found.rms_error), found.rms_error, np.nan)
     greatest = float(np.nanmax(error))
-    least = max(float(np.nanmin(error)), greatest * 10**-DECADES)
+    least = max(float(np.nanmin(error)), greatest * 10**-MAX_DECADES)
     if not 0 < least < greatest:  # every pivot does as well
         least, greatest = 0.5 * (greatest or 1.0), 2 * (greatest or 1.0)
     norm = LogNorm(least, greatest)
@@ -115,7 +115,7 @@ def circle_point_curve(
 
 
 def _reach(curve: DyadCurve, within: float | None) -> float:
-    return FAR * float(curve.frames.length) if within is None else within
+    return CURVE_REACH * float(curve.frames.length) if within is None else within
 
 
 def _loops(

@@ -29,8 +29,8 @@ if TYPE_CHECKING:
 __all__ = ["DrawnLinkage", "dimension", "linkage"]
 
 FAINT = "#aab3bd"
-SYMBOL = 0.045  # size of a ground pivot or a block, in shares of the linkage's size
-RAIL = 0.28  # half of a rail's or a slot's length beyond what it has to hold, in the same
+SYMBOL_SIZE = 0.045  # of the linkage's size: a ground pivot or a block
+RAIL_MARGIN = 0.28  # of the linkage's size: half of a rail's or slot's length beyond the travel
 
 
 class DrawnLinkage(NamedTuple):
@@ -65,8 +65,8 @@ def linkage(
     further places of one linkage.
     """
     dyads = (linkage.first, linkage.second)
-    size = SYMBOL * dimension(linkage)
-    guides = [_guide(dyad, place, travel, size / SYMBOL) for dyad in dyads]
+    size = SYMBOL_SIZE * dimension(linkage)
+    guides = [_guide(dyad, place, travel, size / SYMBOL_SIZE) for dyad in dyads]
     links, ground = list[Line2D](), list[Artist]()
     width = 0.6 if faint else 2.6
     for dyad, guide in zip(dyads, guides, strict=True):
@@ -150,7 +150,7 @@ def _directions(dyad: PR | RP) -> FloatArray:
 def _span(at: FloatArray, others: list[FloatArray], size: float) -> FloatArray:
     """The ends (2,) of a rail or slot that holds all these coordinates along it."""
     every = np.concatenate([np.ravel(at), *(np.ravel(o) for o in others)])
-    return np.array([np.nanmin(every) - RAIL * size, np.nanmax(every) + RAIL * size])
+    return np.array([np.nanmin(every) - RAIL_MARGIN * size, np.nanmax(every) + RAIL_MARGIN * size])
 
 
 def _ground(ax: Axes, guide: _Guide, size: float) -> list[Artist]:

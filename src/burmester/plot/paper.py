@@ -48,7 +48,7 @@ EXACT_BOX: Final = Box(np.array([-2.9, -4.6, -2.6]), np.array([3.1, 1.4, 1.7]), 
 NOISY_BOX: Final = Box(np.array([-2.2, -3.7, -1.5]), np.array([2.2, 0.7, 1.5]), 1.9)
 FIGURE5: Final = (90.0, 80.21, 70.73, 60.00)  # theta in degrees, as in the captions
 FIGURE6: Final = (0.0, -36.87, -42.84, -48.60)
-AT: Final = 2  # the pose at which linkages are drawn, counted from 0
+DRAWN_POSE: Final = 2  # index of the pose at which linkages are drawn
 _METADATA: Final[dict[str, dict[str, Any]]] = {
     "png": {"Software": None},
     "svg": {"Date": None, "Creator": None},
@@ -170,7 +170,7 @@ def _figure1() -> Figure:
 
 def _figure2() -> Figure:
     fit = _exact()
-    linkage, place = _linkage(fit.printed["linkage"]), fit.poses[0][AT]
+    linkage, place = _linkage(fit.printed["linkage"]), fit.poses[0][DRAWN_POSE]
     drawing = figure(5.0, 6.0, 200)
     ax = drawing.add_axes((0.1, 0.08, 0.87, 0.9))
     coupler_curve(ax, linkage, only=1, size=span_of(fit.poses[0]))
@@ -251,7 +251,7 @@ def _at_poses(linkage: Linkage, wanted: Displacement) -> Figure:
     )
     coupler_curve(left, linkage, size=span_of(wanted))
     for k in range(len(wanted.angle)):
-        draw_linkage(left, linkage, error.places[k], faint=k != AT, names=k == AT)
+        draw_linkage(left, linkage, error.places[k], faint=k != DRAWN_POSE, names=k == DRAWN_POSE)
     poses(left, wanted)
     legend(left)
     finish(left)

@@ -39,9 +39,9 @@ __all__ = [
     "span_of",
 ]
 
-FRAME = 0.13  # length of a frame's x axis, in shares of the poses' span
-SHORTER = 0.6  # its y axis, next to that
-FAR = 2.0  # spans beyond which an endless curve is cut off
+X_AXIS_LENGTH = 0.13  # of the poses' span: length of a frame's x axis
+Y_AXIS_SHARE = 0.6  # of the x axis: length of the y axis
+ENDLESS_CURVE_REACH = 2.0  # spans; an endless curve is cut off beyond
 CIRCUITS = ((BLUE, "-"), (GREEN, (0, (5, 2))))
 
 
@@ -92,8 +92,8 @@ def poses(
     names: one a pose, in the place of the numbers from 1.
     """
     row = poses if poses.shape else poses[None]
-    long = FRAME * span_of(row) if size is None else size
-    tips = row[:, None].act(np.array([[0.0, 0.0], [long, 0.0], [0.0, SHORTER * long]]))
+    long = X_AXIS_LENGTH * span_of(row) if size is None else size
+    tips = row[:, None].act(np.array([[0.0, 0.0], [long, 0.0], [0.0, Y_AXIS_SHARE * long]]))
     style: dict[str, Any] = {
         "color": color,
         "ls": linestyle,
@@ -147,7 +147,7 @@ def coupler_curve(
     """
     circuits = Circuits.of(linkage, as_given=True)
     drawn, dead = list[list[Line2D]](), list[Line2D]()
-    reach = FAR * (dimension(linkage) if size is None else size)
+    reach = ENDLESS_CURVE_REACH * (dimension(linkage) if size is None else size)
     for number, (color, style) in enumerate(CIRCUITS):
         own = circuits[number]
         if not own.exists or only not in (None, number):
@@ -202,16 +202,18 @@ def achieved(
     turn = places.angle - poses_.angle
     turn = turn - 2 * np.pi * np.round(turn / (2 * np.pi))
     span = span_of(poses_)
-    worst = float(max(np.hypot(*gap.T).max(), np.abs(turn).max() * FRAME * span))
+    worst = float(max(np.hypot(*gap.T).max(), np.abs(turn).max() * X_AXIS_LENGTH * span))
     if scale is None:
         scale = 1.0
         if worst > 0:
-            exact = 0.5 * FRAME * span / worst
+            exact = 0.5 * X_AXIS_LENGTH * span / worst
             power = 10.0 ** np.floor(np.log10(exact))
             scale = float(max(1.0, *(m * power for m in (1, 2, 5) if m * power <= exact)))
     shown = Displacement(poses_.translation + scale * gap, poses_.angle + scale * turn)
     wanted = poses(ax, poses_, size=size, color=GREY, linestyle=(0, (2, 1.2)), numbers=True)
-    got = poses(ax, shown, size=FRAME * span if size is None else size, color=BLUE, numbers=False)
+    got = poses(
+        ax, shown, size=X_AXIS_LENGTH * span if size is None else size, color=BLUE, numbers=False
+    )
     errors = LineCollection(
         list(np.stack([poses_.translation, shown.translation], axis=1)),
         colors=BLACK,
@@ -243,10 +245,10 @@ def centrodes(
     """
     own = Circuits.of(linkage, as_given=True)[circuit]
     size = dimension(linkage)
-    rows = np.concatenate(parameters(own, samples, FAR * size))
+    rows = np.concatenate(parameters(own, samples, ENDLESS_CURVE_REACH * size))
     both = centrodes_of(linkage, own.couplers(rows))
-    fixed = _near(both.fixed, FAR * size, place.translation)
-    moving = _near(place.act(both.moving), FAR * size, place.translation)
+    fixed = _near(both.fixed, ENDLESS_CURVE_REACH * size, place.translation)
+    moving = _near(place.act(both.moving), ENDLESS_CURVE_REACH * size, place.translation)
     (one,) = ax.plot(*fixed.T, color=GREEN, lw=1.5, zorder=2.2, label="fixed centrode")
     (two,) = ax.plot(
         *moving.T, color=PURPLE, lw=1.5, ls=(0, (4, 1.6)), zorder=2.2, label="moving centrode"

@@ -23,12 +23,12 @@ from burmester.plot.camera import Camera
 
 __all__ = ["Extent", "Scene", "Surface", "cast", "render"]
 
-BLOCK = 1 << 13  # rays at a time: what they need stays in the cache
-FINER = 3  # rays along each side of a pixel on an edge
-LIGHT = np.array([-0.45, 0.55, -0.70])  # towards it: right, up, ahead
+BLOCK = 1 << 13  # rays at a time, so that their data stay in the cache
+EDGE_SAMPLES = 3  # rays along each side of a pixel on an edge
+LIGHT_DIRECTION = np.array([-0.45, 0.55, -0.70])  # towards the light: right, up, ahead
 AMBIENT, DIFFUSE, SHINE = 0.40, 0.62, 0.22
 RING, EDGE = 1.3, 1.6  # width of lines on surfaces, in pixels
-THICKEST = 4.0  # times the surface's thickness that a grazing ray sees
+MAX_GRAZING_THICKNESS = 4.0  # times the surface's thickness, for a grazing ray
 
 
 @final
@@ -142,9 +142,9 @@ def render(scene: Scene, extent: Extent, size: tuple[int, int]) -> NDArray[np.ui
         code[own], some, colour = _shade(scene, width, xs, ys)
         picture[start * columns + some] = _bytes(colour)
     edges = np.flatnonzero(_changes(code.reshape(rows, columns)))
-    inner = (np.arange(FINER) + 0.5) / FINER - 0.5
+    inner = (np.arange(EDGE_SAMPLES) + 0.5) / EDGE_SAMPLES - 0.5
     dx, dy = (grid.ravel() for grid in np.meshgrid(inner * width, inner * height))
-    many = max(1, BLOCK // FINER**2)
+    many = max(1, BLOCK // EDGE_SAMPLES**2)
     for start in range(0, edges.size, many):
         some = edges[start : start + many]
         xs = (x[some % columns][:, None] + dx).ravel()
@@ -224,7 +224,7 @@ def _paint(scene: Scene, surface: Surface, pixel: float, rays: FloatArray) -> Fl
     cosine = np.abs(toward) / (size * far)
     side = -np.sign(toward) / size  # the normal turned to the eye
     forward = ahead / np.sqrt(ahead @ ahead)
-    light = LIGHT[0] * right + LIGHT[1] * up + LIGHT[2] * forward
+    light = LIGHT_DIRECTION[0] * right + LIGHT_DIRECTION[1] * up + LIGHT_DIRECTION[2] * forward
     light /= np.sqrt(light @ light)
     lit = side * (g[0] * light[0] + g[1] * light[1] + g[2] * light[2])
     between = light - forward
@@ -235,7 +235,7 @@ def _paint(scene: Scene, surface: Surface, pixel: float, rays: FloatArray) -> Fl
     shine *= shine  # to the power of 8
     shine *= SHINE * shine * shine
     value = (AMBIENT + DIFFUSE * (0.5 + 0.5 * lit)) * (0.72 + 0.28 * cosine)
-    clear = (1 - surface.opacity) ** np.minimum(1 / np.maximum(cosine, 1e-9), THICKEST)
+    clear = (1 - surface.opacity) ** np.minimum(1 / np.maximum(cosine, 1e-9), MAX_GRAZING_THICKNESS)
     alpha = 1 - clear
     dark = _lines(scene, surface, pixel, p, hit)
     alpha = alpha + (1 - alpha) * dark * 0.8

@@ -34,11 +34,11 @@ if TYPE_CHECKING:
 
 __all__ = ["ImageSpace", "covered", "image_space", "scene_of", "standard_camera"]
 
-ON_SURFACE = 1e-6  # in t: a curve on a surface is not covered by that surface there
-MARKER = 0.02  # of the box: half the size of an image point's marker
+ON_SURFACE = 1e-6  # in t: a surface does not cover a curve that is nearer to it
+MARKER_SIZE = 0.02  # of the box: half the size of an image point's marker
 RINGS = 9  # lines of equal height on a surface as high as the box
-STEEP = 3.0  # Z3/Z4 of a curve, at 143 degrees, beyond which a box does not follow it
-MARGIN = 0.17  # around the box, for its numbers
+MAX_CHART_HEIGHT = 3.0  # Z3/Z4 (at 143 degrees); the box does not include what is higher
+NUMBER_MARGIN = 0.17  # of the box: space around it for its numbers
 
 
 class ImageSpace(NamedTuple):
@@ -147,7 +147,7 @@ def image_space(
     )
     corners = camera.project(np.array(list(product(*zip(-box.half, box.half, strict=True)))))
     low, high = corners[:, :2].min(axis=0), corners[:, :2].max(axis=0)
-    free = MARGIN * max(high - low)
+    free = NUMBER_MARGIN * max(high - low)
     ax.set_aspect("equal", adjustable="box")
     ax.set_xlim(low[0] - free, high[0] + free * 0.4)
     ax.set_ylim(low[1] - free * 0.9, high[1] + free * (0.5 if names else 0.2))
@@ -188,7 +188,7 @@ def _box_around(loops: Sequence[FloatArray], places: FloatArray) -> Box:
     """A box around loops and places (*, 4), without what is near the half turns."""
     at = chart(places)
     at = at[np.isfinite(at).all(axis=-1)]
-    high = max(STEEP, 1.2 * float(np.abs(at[:, 2]).max(initial=0.0)))
+    high = max(MAX_CHART_HEIGHT, 1.2 * float(np.abs(at[:, 2]).max(initial=0.0)))
     shown = np.concatenate([at, *(chart(loop) for loop in loops), np.zeros((0, 3))])
     with np.errstate(invalid="ignore"):
         shown = shown[np.abs(shown[:, 2]) <= high]
@@ -234,7 +234,7 @@ def _points(
         return [], []
     seen = seen[numbered]
     flat = scene.camera.project(seen)
-    slack = MARKER * flat[:, 2] / np.sqrt(scene.camera.ahead @ scene.camera.ahead)
+    slack = MARKER_SIZE * flat[:, 2] / np.sqrt(scene.camera.ahead @ scene.camera.ahead)
     layers = covered(scene, seen, slack) if scene.surfaces else np.zeros(len(seen), dtype=np.intp)
     behind = np.atleast_1d(layers > 0)
     out = []

@@ -55,11 +55,11 @@ PURPLE: Final = "#AA5A94"
 PALETTE: Final = (BLUE, ORANGE, GREEN, PURPLE)
 DASHES: Final = ("-", (0, (5, 2)), (0, (1, 1.5)), (0, (5, 2, 1, 2)))
 
-OWN: Final = "burmester.label"  # marks labels that may be moved
-STEP: Final = 9.0  # points from what is labelled to its label, at first
-ROOM: Final = 0.07  # left free around a drawing, in shares of its longer side
-HIDE: Final = 30.0  # what a piece of a line under a label costs; another label costs 10,000
-PIECE: Final = 3.0  # points long
+LABEL_ID: Final = "burmester.label"  # gid of labels that may be moved
+LABEL_STEP: Final = 9.0  # points: first distance between a label and its target
+DRAWING_MARGIN: Final = 0.07  # of a drawing's longer side: space left free around it
+LINE_COST: Final = 30.0  # cost of a piece of a line under a label; another label costs 10,000
+PIECE_LENGTH: Final = 3.0  # points: length of such a piece
 
 # The 32 places of a label: 4 distances in 8 directions, what was asked for first.
 _FAR: Final = np.repeat([1.0, 1.5, 2.2, 3.3], 8)
@@ -137,18 +137,18 @@ def label(
     out = ax.annotate(
         text,
         (x, y),
-        xytext=cast("tuple[float, float]", tuple(STEP * direction)),
+        xytext=cast("tuple[float, float]", tuple(LABEL_STEP * direction)),
         textcoords="offset points",
         ha="center",
         va="center",
         annotation_clip=False,
         **settings,  # type: ignore[arg-type]
     )
-    out.set_gid(OWN)
+    out.set_gid(LABEL_ID)
     return out
 
 
-def finish(ax: Axes, unit: str | None = None, *, room: float = ROOM) -> None:
+def finish(ax: Axes, unit: str | None = None, *, room: float = DRAWING_MARGIN) -> None:
     """Equal axes around all that is drawn, their unit, and labels moved apart; to be called last.
 
     For the plane of F; `unit` as the task writes it, or None.
@@ -198,9 +198,9 @@ def settle_labels(ax: Axes, obstacles: Iterable[ArrayLike] = ()) -> list[Annotat
     canvas = ax.figure.canvas
     renderer = canvas.get_renderer()  # type: ignore[attr-defined]
     ax.apply_aspect()
-    own = [t for t in ax.texts if isinstance(t, Annotation) and t.get_gid() == OWN]
+    own = [t for t in ax.texts if isinstance(t, Annotation) and t.get_gid() == LABEL_ID]
     taken = [t.get_window_extent(renderer) for t in ax.texts if t not in own and t.get_visible()]
-    piece = PIECE * ax.figure.dpi / 72
+    piece = PIECE_LENGTH * ax.figure.dpi / 72
     own_legend = ax.get_legend()
     if own_legend is not None:
         taken.append(own_legend.get_window_extent(renderer))
@@ -227,7 +227,7 @@ def settle_labels(ax: Axes, obstacles: Iterable[ArrayLike] = ()) -> list[Annotat
         half = np.array([size.width, size.height]) / 2
         ways = wanted @ _TURNS  # (32, 2)
         # The label's near side, not its middle, is at the distance.
-        reach = STEP * 0.45 * _FAR * ax.figure.dpi / 72 + np.abs(ways) @ half
+        reach = LABEL_STEP * 0.45 * _FAR * ax.figure.dpi / 72 + np.abs(ways) @ half
         away = reach[:, None] * ways
         middles = ax.transData.transform(text.xy) + away
         places = np.stack([middles - half - 1, middles + half + 1], axis=1)
@@ -266,7 +266,7 @@ def _costs(
     cost += (1e4 * (both > 0) + 100 * both).sum(axis=1)
     near = ((points > places[:, 0].min(axis=0)) & (points < places[:, 1].max(axis=0))).all(axis=-1)
     own = points[near]
-    cost += HIDE * ((own > low) & (own < high)).all(axis=-1).sum(axis=1)
+    cost += LINE_COST * ((own > low) & (own < high)).all(axis=-1).sum(axis=1)
     size = (places[:, 1] - places[:, 0]).prod(axis=-1)
     seen = np.minimum(places[:, 1], inside[1]) - np.maximum(places[:, 0], inside[0])
     return np.asarray(cost + 20 * (size - np.maximum(seen, 0.0).prod(axis=-1)))

@@ -23,7 +23,7 @@ from burmester.plot.style import figure, house_style
 
 __all__ = ["steps", "walk", "write_gif"]
 
-COLOURS = 256  # of a GIF's palette
+PALETTE_SIZE = 256  # colours of a GIF
 
 
 def steps(start: ArrayLike, end: ArrayLike, count: int = 40, hold: int = 10) -> FloatArray:
@@ -96,8 +96,8 @@ def write_gif(
             times.append(round(1000 * seconds))
     # One palette, so that nothing flickers, and paper stays white.
     some = np.concatenate([kept[0], kept[len(kept) // 2], kept[-1]])
-    palette = Image.fromarray(some).quantize(COLOURS - 1, kmeans=2)
-    colours = [*(palette.getpalette() or [])[: 3 * (COLOURS - 1)], 255, 255, 255]
+    palette = Image.fromarray(some).quantize(PALETTE_SIZE - 1, kmeans=2)
+    colours = [*(palette.getpalette() or [])[: 3 * (PALETTE_SIZE - 1)], 255, 255, 255]
     frames = []
     for each in kept:
         index = np.array(Image.fromarray(each).quantize(palette=palette, dither=Image.Dither.NONE))

@@ -45,8 +45,8 @@ _NAME = re.compile(
     r"(?:[\s_]*\(\s*(?P<round>[^()\s]+)\s*\)|[\s_]*\[\s*(?P<square>[^\[\]\s]+)\s*\]"
     r"|\s*/\s*(?P<slash>\S+)|[\s_]+(?P<blank>\S+))"
 )
-_LONGEST = 60  # characters in a name that may be known; others are not looked at closely
-_MANY = 12  # names that an error tells, or looks for slips in
+MAX_NAME_CHARACTERS = 60  # characters of a name; a longer one is not compared with known ones
+MAX_NAMES = 12  # names of columns that an error lists, or compares with known ones
 _KNOWN = (
     "known are x, y (or x_mm, y_mm and so on), angle_deg, angle_rad, weight, exact and name, "
     "or px, py, qx, qy in place of x, y and the angle"
@@ -122,7 +122,7 @@ def _column(name: str) -> tuple[str, str | None] | None:
 
 def _parts(name: str) -> tuple[str, str]:
     """The base and the unit in a name, both empty if it is not made of the two."""
-    found = _NAME.fullmatch(name.strip().lower()) if len(name) < _LONGEST else None
+    found = _NAME.fullmatch(name.strip().lower()) if len(name) < MAX_NAME_CHARACTERS else None
     return (found["base"], next(filter(None, found.groups()[1:]))) if found else ("", "")
 
 
@@ -144,17 +144,17 @@ def _require_poses(
     needed = POINTS if points else NUMERIC[:3]
     if missing := [role for role in needed if role not in indices]:
         message = f"the header has no column for {' and '.join(missing)}"
-        more = f" and {len(names) - _MANY} more" if len(names) > _MANY else ""
-        why = f"it has: {', '.join(map(shown, names[:_MANY]))}{more}"
+        more = f" and {len(names) - MAX_NAMES} more" if len(names) > MAX_NAMES else ""
+        why = f"it has: {', '.join(map(shown, names[:MAX_NAMES]))}{more}"
         help = (
             "name the columns x, y and angle_deg (or angle_rad), with commas, semicolons or tabs "
             "between them; x_mm and y_mm (um, mm, cm, m, in, ft) state the length unit"
         )
         if points:
             help = "name the columns px, py, qx and qy, for two points of the body"
-        if of_unit := next(filter(None, (_units(names[i]) for i in unknown[:_MANY])), None):
+        if of_unit := next(filter(None, (_units(names[i]) for i in unknown[:MAX_NAMES])), None):
             why += f"; {of_unit}"
-        near = {names[i]: _nearest(names[i]) for i in unknown[:_MANY]}
+        near = {names[i]: _nearest(names[i]) for i in unknown[:MAX_NAMES]}
         meant = {column[0] for name in near.values() if name and (column := _column(name))}
         if meant.issuperset(missing):
             edits = [f"`{name}` in place of {shown(old)}" for old, name in near.items() if name]
@@ -168,7 +168,7 @@ def _nearest(name: str) -> str | None:
     from difflib import get_close_matches
 
     found = re.match(r"[^\W\d_]+", name.strip().lower())
-    if not found or found[0] in _BASES or len(name) >= _LONGEST:
+    if not found or found[0] in _BASES or len(name) >= MAX_NAME_CHARACTERS:
         return None
     for base in get_close_matches(found[0], _BASES, 1, 0.7):
         if _column(near := base + name.strip().lower()[found.end() :]):

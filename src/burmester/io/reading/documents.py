@@ -65,7 +65,7 @@ def read_toml(source: Source) -> PoseTable:
 
 
 def _require_short_keys(source: Source) -> None:
-    """Refuse keys of so many parts that the parser would take minutes: E109."""
+    """Refuse keys with more parts than the parser handles in seconds: E109."""
     if all(line.count(".") < MAX_KEY_PARTS for line in source.text.split("\n")):
         return
     for found in _KEYS.finditer(source.text):

@@ -40,7 +40,7 @@ def read_source(source: str) -> bytes:
 
 
 def decode_text(data: bytes) -> str:
-    """Text with one line feed between its lines, from UTF-8 or from UTF-16 that says so."""
+    """Text with line feeds between its lines, from UTF-8, or UTF-16 with a byte order mark."""
     for start, (what, help) in _BINARY_FORMATS.items():
         if data.startswith(start):
             message = "the poses are not text"

@@ -1,7 +1,7 @@
-"""Where things stand in the text of a JSON or TOML file, to point at what is wrong with them.
+"""Locations of values and keys in the text of a JSON or TOML file, for errors that point at them.
 
-The parsers tell nothing of places, so the text is gone through again, on errors only and lax, as
-it is known to be valid.  Nothing recurses: a file may hold a thousand brackets.
+The parsers report no locations, so the text is scanned again, only for an error, and without
+checks, because it is known to be valid.  Nothing recurses: a file may hold a thousand brackets.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ class Document(NamedTuple):
     bare: bool = False  # whether the tree is the list of poses itself
 
     def named(self, *path: str | int) -> str:
-        """The path of something in the task, as a message says it."""
+        """The path of a value in the task, as a message names it."""
         return dotted(self.root + path) or "the file"
 
     def where(self, *path: str | int, key: bool = False) -> str:
@@ -126,7 +126,7 @@ def span_of(
         if language == "JSON":
             return _inside(text, _blank(text, 0), path, key)
         return _in_statements(text, path, key)
-    except (AttributeError, IndexError, ValueError):  # an error is told without its line, then
+    except (AttributeError, IndexError, ValueError):  # the error then shows no line
         return None
 
 

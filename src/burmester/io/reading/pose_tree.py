@@ -109,7 +109,7 @@ def _require_known(document: Document, tree: dict[str, Any]) -> None:
         if key in TOP_KEYS or key in LIMIT_KEYS or key in REQUIREMENT_KEYS:
             continue
         if key in _MISPLACED:
-            message = f"{document.named(key)} stands beside the poses, where it says nothing"
+            message = f"{document.named(key)} stands beside the poses, where it has no meaning"
             help = f"{_MISPLACED[key]}, or delete it"
         elif near := close_match(key, TOP_KEYS):
             message, help = f"{document.named(key)} is not known", f"write {near} in its place"
@@ -153,7 +153,7 @@ def _two_forms(document: Document, message: str, pose: int, key: str | None = No
 
 
 def _points(document: Document, poses: list[Any]) -> dict[str, list[str]]:
-    """The columns px, py, qx and qy; raises E105 and E108 where a point is not said once."""
+    """The columns px, py, qx and qy; raises E105 and E108 where a point is not given once."""
     columns: dict[str, list[str]] = {role: [] for role in POINTS}
     for i, pose in enumerate(poses):
         for point, roles in POINT_KEYS.items():

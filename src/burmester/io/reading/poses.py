@@ -107,7 +107,7 @@ def read_task(
 
     """
     if angle_unit not in (None, *UNITS):
-        raise InputError("E110", f"there is no angle unit {angle_unit!r}", help="say deg or rad")
+        raise InputError("E110", f"there is no angle unit {angle_unit!r}", help="give deg or rad")
     path = os.fspath(source)
     label = "<stdin>" if path == "-" else printable(path)
     try:
@@ -208,7 +208,7 @@ def _oriented(
     """Poses from x, y, angle and their resolution, once the angle unit is beyond doubt."""
     angles, stated = values[:, 2], table.angle_unit
     if stated and angle_unit and stated != angle_unit:
-        message = f"the angles are stated in {UNITS[stated]}, --angle-unit says {UNITS[angle_unit]}"
+        message = f"the file states {UNITS[stated]}, --angle-unit states {UNITS[angle_unit]}"
         help = "leave --angle-unit out, or correct the unit in the file"
         raise InputError("E110", message, where=table.where, help=help)
     unit = stated or angle_unit
@@ -224,7 +224,7 @@ def _oriented(
 
 
 def _marked(rows: Rows, exact: Sequence[str]) -> NDArray[np.bool_] | None:
-    """Which poses must be met exactly, as the file or --exact says."""
+    """Which poses must be met exactly, by the file or by --exact."""
     if exact and any(rows.exact):
         message = "poses are marked exact in the file and by --exact"
         raise InputError("E108", message, help="leave --exact out, or the marks in the file")
@@ -236,7 +236,8 @@ def _marked(rows: Rows, exact: Sequence[str]) -> NDArray[np.bool_] | None:
 def _both_readings(least: float, most: float, count: int) -> str:
     """How far the body turns if the angles are degrees, and if they are radians."""
     if count == 1:
-        return f"the angle is {least:g}: so many degrees, or {math.degrees(least):g} deg as radians"
+        as_radians = f"{math.degrees(least):g} deg as radians"
+        return f"the angle is {least:g}: {least:g} deg as degrees, {as_radians}"
     small = max(-least, most) <= 2 * math.pi
     lie = "within +-6.28" if small else f"between {least:g} and {most:g}"
     turns = (most - least, math.degrees(most - least))

@@ -69,7 +69,9 @@ class Specification(NamedTuple):
                 what = name.replace("_", " ")
                 raise InputError(
                     "E108",
-                    f"the {what} is limited twice" if name != "kinds" else "kinds are said twice",
+                    f"the {what} is limited twice"
+                    if name != "kinds"
+                    else "the kinds are given twice",
                     where=one_line(self.where.get(name, ""), other.where.get(name, "")),
                     help="leave one of the two out",
                 )

@@ -83,7 +83,7 @@ def combined_requirements(stated: Sequence[StatedRequirement]) -> Requirements:
         if each.field in known:
             raise InputError(
                 "E108",
-                f"{_SUBJECTS[each.field]} said twice",
+                f"{_SUBJECTS[each.field]} given twice",
                 where=one_line(known[each.field].where, each.where),
                 help="leave one of the two out",
             )

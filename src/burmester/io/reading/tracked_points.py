@@ -39,7 +39,7 @@ def tracked_poses(
 
     points: (N, 4) rows (px, py, qx, qy), in one unit.
     decimals: the largest number of decimals that a coordinate is printed with.
-    numbers: (N,) the number of each row in its file, from 0; locate_row tells where it stands.
+    numbers: (N,) the number of each row in its file, from 0; locate_row gives its location.
     The distance |pq| of a rigid body is constant.  Where it varies more than the digits
     explain, its standard deviation measures the noise: it is sqrt(2) times that of a coordinate,
     and |pq| times that of the angle.

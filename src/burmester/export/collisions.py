@@ -1,4 +1,4 @@
-"""Solids that are in each other's way somewhere along the motion; millimetres."""
+"""Collisions of solid parts along the motion; millimetres."""
 
 from __future__ import annotations
 
@@ -9,28 +9,29 @@ import numpy as np
 
 from burmester.export.plates import Assembly
 
-__all__ = ["met"]
+__all__ = ["collision"]
 
-SHARED: Final = 1e-6  # of a hole's volume: what two parts have in common when they only touch
-TOUCH: Final = 1e-6  # mm between heights, below which they are the same
-MET_AT: Final = 12  # places along the motion at which parts are compared
+TOUCHING_VOLUME: Final = 1e-6  # of a hole's volume: common volume up to which parts only touch
+SAME_HEIGHT: Final = 1e-6  # mm: heights closer than this are equal
+PLACES: Final = 12  # places along the motion at which parts are compared
 
 
-def met(cad: Any, read: dict[str, Any], made: Assembly) -> tuple[str, str] | None:
-    """Two parts that share some volume somewhere on their way, if there are any."""
+def collision(cad: Any, read: dict[str, Any], made: Assembly) -> tuple[str, str] | None:
+    """Two parts that overlap somewhere along the motion, if there are any."""
     heights = {name: (box.min.Z, box.max.Z) for name, box in _boxes(read).items()}
-    least = SHARED * made.dimensions.hole**2 * made.dimensions.thickness
+    least = TOUCHING_VOLUME * made.dimensions.hole**2 * made.dimensions.thickness
     names = list(read)
     pairs = [
         (one, two)
         for k, two in enumerate(names)
         for one in names[:k]
-        if max(heights[one][0], heights[two][0]) < min(heights[one][1], heights[two][1]) - TOUCH
+        if max(heights[one][0], heights[two][0])
+        < min(heights[one][1], heights[two][1]) - SAME_HEIGHT
     ]
     carriers = {plate.name: plate for plate in made.plates}
     pins = {f"pin-{k}": carriers[pin.plate] for k, pin in enumerate(made.pins, start=1)}
     carriers |= pins
-    ways = np.linspace(0, made.motion.shape[0] - 1, MET_AT).astype(np.intp)
+    ways = np.linspace(0, made.motion.shape[0] - 1, PLACES).astype(np.intp)
     for place in [made.drawn, *(made.motion[k] for k in ways)]:
         there = {}
         for name, shape in read.items():
