@@ -370,7 +370,7 @@ def test_a_folder_that_is_not_there_and_the_help(here):
     ("path", "why"),
     [
         (".", "it is a folder"),
-        ("new/", "it ends as the name of a folder does"),
+        ("new/", "it ends like the name of a folder"),
         ("", "its name is empty"),
         ("file/deep/er/a", "file is a file, not a folder"),
         ("a\0b", "embedded null"),

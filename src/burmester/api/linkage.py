@@ -75,7 +75,7 @@ class _Shown:
             raise InputError(
                 "E161",
                 f"the name {os.fspath(path)} does not say which format is wanted",
-                why=f"known are {', '.join(FORMATS)}",
+                why=f"the formats are {', '.join(FORMATS)}",
                 help='say to="dxf", or another of these',
             )
         known = [each.name for each in fields(Options)]

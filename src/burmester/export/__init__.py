@@ -59,7 +59,7 @@ FORMATS: Final[Mapping[str, Format]] = {
     "urdf": Format("urdf", "robot description; its loop is open (m)", ".urdf"),
     "pylinkage": Format("pylinkage", "Python script for pylinkage", ".py"),
     "csv": Format("tables", "table of the coupler's places along the motion", ".csv"),
-    "json": Format("tables", "the one linkage as JSON", ".json"),
+    "json": Format("tables", "the linkage as JSON", ".json"),
     "gif": Format("movie", "moving picture", ".gif", "export", ("PIL", "matplotlib")),
     "mp4": Format("movie", "film", ".mp4", "export", ("imageio_ffmpeg", "matplotlib")),
 }

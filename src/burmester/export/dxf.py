@@ -5,7 +5,7 @@ block ASSEMBLY is inserted where F has it, with the coupler at the chosen pose. 
 depend on the linkage and the options only, but for the order of two entries that ezdxf keeps in a
 set.
 
-E160 what was written is not the linkage
+E160 the file does not contain the linkage
 """
 
 from __future__ import annotations

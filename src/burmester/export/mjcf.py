@@ -4,7 +4,7 @@ The model begins at the chosen pose.  The joints' coordinates are angles in F (o
 from the driver), so that each key frame `pose1`, `pose2`, ... is readable.  Masses and
 friction stand in for real ones: 1 kg a body.
 
-E160 what was written is not the linkage        E163 a linkage that a model of bodies cannot hold
+E160 the file does not contain the linkage        E163 a linkage that a model of bodies cannot hold
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@
 The links are made from the numbers: pivots, holes, widths and thicknesses can be changed there.
 The places of the coupler are a table; its links turn towards their pivots.
 
-E160 what was written is not the linkage
+E160 the file does not contain the linkage
 """
 
 from __future__ import annotations

@@ -88,7 +88,7 @@ def assembly_of(chosen: SavedLinkage, options: Options) -> Assembly:
             "E162",
             f"there is no pose {options.pose} to draw",
             why=f"the task has {number} poses",
-            help=f"say --pose 1, or another up to {number}",
+            help=f"give --pose 1, or another up to {number}",
         )
     places = in_millimetres(chosen.error.places, scale)
     motion = places_of_motion(Linkage(first, second), places)

@@ -3,7 +3,7 @@
 What pylinkage has: cranks and sliders that drive, and followers that are links or sliders on the
 ground.  It has no slot on a moving body, so a linkage with an RP dyad is refused.
 
-E160 what was written is not the linkage        E163 a linkage that pylinkage has no parts for
+E160 the file does not contain the linkage        E163 a linkage that pylinkage has no parts for
 """
 
 from __future__ import annotations

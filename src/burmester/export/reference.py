@@ -1,6 +1,6 @@
 """The reference that every file is compared with: a linkage's dimensions and places in a unit.
 
-E160 what was written is not the linkage
+E160 the file does not contain the linkage
 """
 
 from __future__ import annotations
@@ -133,7 +133,7 @@ def require_equal(what: str, got: ArrayLike, expected: ArrayLike, tolerance: flo
         off = f"off by {gap:.3g}, more than {tolerance:.3g}"
     raise BurmesterError(
         "E160",
-        "what was written is not the linkage, so nothing was kept",
+        "the written file does not contain the linkage, so it was deleted",
         why=f"{what}: {off}",
         help="this is a fault of burmester: report it, with the result file",
     )

@@ -3,7 +3,7 @@
 The plates are extruded with their holes and slots, one layer of them over the other with a gap
 between, and held by pins that have a running fit.  The first plate lies on z = 0.
 
-E130 build123d is missing        E160 what was written is not the linkage
+E130 build123d is missing        E160 the file does not contain the linkage
 E162 dimensions that cannot be made        E163 a linkage that plates cannot hold
 """
 
@@ -172,7 +172,7 @@ def _checked_shells(path: Path, made: Assembly) -> tuple[list[Triangles], float]
 def _off(why: str) -> BurmesterError:
     return BurmesterError(
         "E160",
-        "what was written is not the linkage, so nothing was kept",
+        "the written file does not contain the linkage, so it was deleted",
         why=why,
         help="this is a fault of burmester: report it, with the result file",
     )

@@ -3,7 +3,7 @@
 Everything has its last coordinates in the file, y downwards, without transformations: programs
 for cutters do not all know them.  Lines are hairlines; classes say what they are.
 
-E160 what was written is not the linkage
+E160 the file does not contain the linkage
 """
 
 from __future__ import annotations

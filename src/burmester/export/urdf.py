@@ -3,7 +3,7 @@
 With all joints at 0 the linkage stands at the chosen pose, and the frames `loop_a` (on the
 coupler's side) and `loop_b` are at one place: a hinge belongs there.  `body` is the frame M.
 
-E160 what was written is not the linkage        E163 a linkage that a model of bodies cannot hold
+E160 the file does not contain the linkage        E163 a linkage that a model of bodies cannot hold
 """
 
 from __future__ import annotations

@@ -142,7 +142,7 @@ def show_all(console: Console) -> None:
             family = each.family
             lines += [Text()] * bool(lines) + [Text(family, style="bold")]
         lines += wrapped(each.title, width, Text(f"  {each.code}  "))
-    lines += [Text(), *wrapped("More on one of them: `burmester explain CODE`", width)]
+    lines += [Text(), *wrapped("Details of a code: `burmester explain CODE`", width)]
     draw(lines, console)
 
 

@@ -105,11 +105,11 @@ def _target(given: str, force: bool) -> Path:
     except (OSError, ValueError) as error:  # ValueError: a null character in the path
         raise _cannot(given, error, target) from None
     if known is None or stat.S_ISDIR(known.st_mode):
-        why = "it is a folder" if known else "it ends as the name of a folder does"
+        why = "it is a folder" if known else "it ends like the name of a folder"
         inside = _plain(os.path.join(given, "NAME"))
         raise _refused(given, why, f"give the name of a file, such as {inside}")
     if not stat.S_ISREG(known.st_mode):
-        why = "it is a device or a pipe, and only files are written whole"
+        why = "it is a device or a pipe, not a file"
         raise _refused(given, why, "give the name of a file")
     if not force:
         raise _exists(given)
@@ -233,7 +233,7 @@ def _cannot(given: str, error: OSError | ValueError, target: Path) -> InputError
         return _refused(given, f"{_plain(file)} is a file, not a folder", "give another name")
     if code in _FULL:
         why = f"{why}{_free(target.parent)}"
-        return _refused(given, why, "make room there, or give a name on another disk")
+        return _refused(given, why, "free some space there, or give a name on another disk")
     if code in (errno.EACCES, errno.EPERM, errno.EROFS):
         why = f"{why}, in the folder {_plain(str(target.parent))}"
         return _refused(given, why, "give a name in a folder that you may write to")

@@ -87,7 +87,7 @@ class Result(NamedTuple):
             f"there is no linkage {id} in this result",
             where=self.label,
             why=f"it has {', '.join(known)}",
-            help=f"say --linkage {known[0]}",
+            help=f"give --linkage {known[0]}",
         )
 
 

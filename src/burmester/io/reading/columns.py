@@ -48,8 +48,8 @@ _NAME = re.compile(
 MAX_NAME_CHARACTERS = 60  # characters of a name; a longer one is not compared with known ones
 MAX_NAMES = 12  # names of columns that an error lists, or compares with known ones
 _KNOWN = (
-    "known are x, y (or x_mm, y_mm and so on), angle_deg, angle_rad, weight, exact and name, "
-    "or px, py, qx, qy in place of x, y and the angle"
+    "the known names are x, y (or x_mm, y_mm and so on), angle_deg, angle_rad, weight, exact and "
+    "name, or px, py, qx, qy in place of x, y and the angle"
 )
 
 
@@ -137,7 +137,7 @@ def _require_poses(
     body = [role for role in NUMERIC[:3] if role in indices]
     if points and body:
         mixed = [names[indices[role]] for role in (body[0], points[0])]
-        message = f"a pose in two ways: the columns {' and '.join(mixed)}"
+        message = f"two forms of a pose: the columns {' and '.join(mixed)}"
         help = "keep x, y and the angle, or px, py, qx and qy, and delete the other columns"
         where_point = where(indices[points[0]])
         raise InputError("E108", message, where=where_point, help=help)

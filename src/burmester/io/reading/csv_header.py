@@ -50,7 +50,7 @@ def read_header(source: Source, given: str | None) -> Header:
     start = stated.end() if stated else 0
     first = next(_filled_lines(source.text, start, part, header=given is None), None)
     if not first:
-        raise pose_table.no_poses("there are only comments")
+        raise pose_table.no_poses("the file has only comments")
     if given is not None:
         return _header_of_option(source, given, first, part)
     separator = part or _separator_of_header(first[0])

@@ -58,7 +58,7 @@ def read_csv(source: Source, columns: str | None = None) -> PoseTable:
             row += len(rows.values)
         start = end + 1
     if not blocks:
-        raise pose_table.no_poses("there is only a header")
+        raise pose_table.no_poses("the file has only a header")
     _require_one_mark(marks)
     where = "in the header" if columns is None else "in --columns"
     return PoseTable(
@@ -173,9 +173,9 @@ def _require_one_mark(marks: dict[str, str]) -> None:
     """Refuse commas that nothing proves to be decimal ones."""
     where = marks.get("?") or marks.get(",")
     if where and "." in marks:
-        why = "other numbers have a decimal point, so the comma may part thousands"
+        why = "other numbers have a decimal point, so the comma may separate thousands"
     elif where and "," not in marks:
-        why = "no number shows whether the comma is a decimal mark or parts thousands"
+        why = "no number shows whether the comma is a decimal mark or separates thousands"
     else:
         return
     message = "a comma in a number can be read in two ways"
@@ -197,11 +197,11 @@ def _require_width(line: re.Match[str], cells: list[str], header: Header, row: i
         where = cell_location(header.source, line.start(), cells, extra)
         if extra < needed + header.spare:
             message = f"row {row} has {pose_table.shown(unquoted(cells[extra]))} below no name"
-            help = "give its column a name, or delete what stands in it"
+            help = "give its column a name, or delete the cell's content"
             raise InputError("E107", message, where=where, help=help)
     if given == 2 * needed and header.separator == ",":
         why = "a comma ends a cell here, so it cannot be a decimal mark as well"
-        help = "write decimal points, or part all cells with semicolons, those of the header too"
+        help = "write decimal points, or separate all cells by semicolons, also those of the header"
     other = next((s for s in "\t;|," if len(row_values(split_cells(line[0], s))) == needed), None)
     if given == 1 and other:
         one, two = _SEPARATOR_NAMES[header.separator], _SEPARATOR_NAMES[other]

@@ -73,8 +73,8 @@ def _require_short_keys(source: Source) -> None:
             count = len(re.findall(_PART, found[1]))
             if count > MAX_KEY_PARTS:
                 where = source.where(found.start(), len(found[1]))
-                why = f"no more than {MAX_KEY_PARTS} are read, and a task needs three at most"
-                help = "delete the parts that nothing needs, and the dots between them"
+                why = f"at most {MAX_KEY_PARTS} are read, and a task needs no more than three"
+                help = "delete the parts that are not needed, with their dots"
                 message = f"a key has {count} parts, with dots between them"
                 raise InputError("E109", message, where=where, why=why, help=help)
 
@@ -116,7 +116,9 @@ def _too_long(source: Source) -> InputError:
 
     start, end = long_integer(source.text) or (0, 1)
     message = f"a number of {end - start} digits is not a finite number"
-    why = f"{source.text[start : start + 10]}... is beyond 1.8e308, the largest number there is"
+    why = (
+        f"{source.text[start : start + 10]}... is beyond 1.8e308, the largest representable number"
+    )
     help = "give a number, or delete the pose"
     return InputError("E103", message, where=source.where(start, end - start), why=why, help=help)
 

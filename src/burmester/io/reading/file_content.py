@@ -55,7 +55,7 @@ def decode_text(data: bytes) -> str:
     if why:
         raise InputError("E101", "the poses are not text", why=why, help="save the file as UTF-8")
     if not text.strip():
-        raise no_poses("there is nothing in it")
+        raise no_poses("the file is empty")
     # splitlines() would also break a name at U+2028 and shift the line numbers
     return text.replace("\r\n", "\n").replace("\r", "\n").rstrip("\n")
 

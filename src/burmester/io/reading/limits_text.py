@@ -94,7 +94,7 @@ def region_from_text(source: Source, help: str = REGION_HELP) -> Region:
         cells = part.split(",")
         if len(cells) != 2:
             message = f"{shown(part)} is not a point X,Y"
-            why = "a comma parts X and Y, and is no decimal mark" if len(cells) > 2 else None
+            why = "a comma separates X and Y and is no decimal mark" if len(cells) > 2 else None
             raise option_fault(source, message, help, at=at, width=len(part), why=why)
         points.append(
             [
@@ -163,11 +163,11 @@ def _number_slip(cell: str) -> tuple[str | None, str | None]:
     if found := re.fullmatch(r"([-+]?[0-9]*\.?[0-9]+) *([^\W\d_]+|°|%)", cell):
         return f"a number is written without {found[2]}", f"write {found[1]}"
     if re.fullmatch(r"[-+]?[0-9]+(_[0-9]+)+", cell):
-        return "no underscores part digits here", f"write {cell.replace('_', '')}"
+        return "underscores between digits are not allowed here", f"write {cell.replace('_', '')}"
     if cell[:1] in tuple("−–"):
         return f"{cell[0]} is a dash, not a minus sign", f"write -{cell[1:]}"
     if re.fullmatch(r"[-+]?[0-9.]+[eE][+-]?[0-9]+", cell):
-        return f"{cell} is beyond 1.8e308, the largest number there is", None
+        return f"{cell} is beyond 1.8e308, the largest representable number", None
     return None, None
 
 

@@ -103,7 +103,7 @@ def read_limits(tree: dict[str, Any], document: Document) -> Specification:
         if key in tree:
             help = "write limits in its place" if key == "limit" else "write it under limits"
             help = "write it into a pose" if key == "exact" else help
-            message = f"{document.named(key)} stands beside the poses, where it limits nothing"
+            message = f"{document.named(key)} stands beside the poses, where it has no effect"
             where = document.where(key, key=True)
             raise InputError("E107", message, where=where, help=f"{help}, or delete it")
     given = tree.get("limits")
@@ -194,7 +194,7 @@ def _limits_fault(document: Document, path: Path, fault: Any) -> InputError:
     if fault["type"] == "extra_forbidden":
         known = _KEYS if len(keys) == 1 else (*SHAPES, "least", "most")
         if keys[-1] in FILE_KEYS:
-            help = f"write {keys[-1]} under requirements, which speak of the whole linkage"
+            help = f"write {keys[-1]} under requirements, which holds for the whole linkage"
         elif near := close_match(str(keys[-1]), known):
             help = f"write {near} in its place; {help}"
     return model_fault(document, (*path, *keys), fault, "a kind", help)
@@ -232,8 +232,8 @@ def model_fault(document: Document, path: Path, fault: Any, item: str, help: str
     if code == "E103" or kind == "no_number":
         help = "write a number without quotes, such as -12.5 or 3e-4"
     if code == "E103" and value[-1:].isdigit():
-        why = f"{value} is beyond 1.8e308, the largest number there is"
+        why = f"{value} is beyond 1.8e308, the largest representable number"
     if kind == "too_long" and items == "numbers":
-        why = "a comma parts numbers, and is no decimal mark"
+        why = "a comma separates numbers and is no decimal mark"
     where = document.where(*path, key=extra)
     return InputError(code, f"{document.named(*path)} {message}", where=where, why=why, help=help)

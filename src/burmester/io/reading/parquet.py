@@ -43,7 +43,7 @@ def read_parquet(label: str, data: bytes) -> PoseTable:
     indices = columns.indices
     stored = _read_or_refuse(lambda: file.read(columns=[names[i] for i in indices.values()]))
     if not stored.num_rows:
-        raise pose_table.no_poses("there are no rows in it")
+        raise pose_table.no_poses("the file has no rows")
     numbers: list[FloatArray] = []
     printed: dict[str, float] = {}
     for role in numeric_roles(indices):

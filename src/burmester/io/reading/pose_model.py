@@ -150,7 +150,7 @@ def pose_fault(
     }.get(kind, ("E104", f"does not fit: {value}", f"write {example}"))
     why = None
     if kind == "finite_number" and re.match(r"[-+]?\d", value):
-        why = f"{value} is beyond 1.8e308, the largest number there is"
+        why = f"{value} is beyond 1.8e308, the largest representable number"
     if kind == "missing" and loc[:1] == ("poses",) and len(loc) > 1:
         help = f"write it into the pose; a pose has {known}"
     if kind == "missing" and loc[:1] == ("pose_sigma",):
@@ -167,7 +167,7 @@ def pose_fault(
         code, message = "E106", f"has {len(given)} number{'s' * (len(given) != 1)}, not 3"
         help = "write [x, y, angle], with a point for the decimal mark of a number"
         if len(given) > 3:
-            why = "a comma parts the numbers, and is no decimal mark"
+            why = "a comma separates the numbers and is no decimal mark"
     path = path[:-1] if kind == "missing" else path
     where = document.where(*path, key=kind == "extra_forbidden")
     return InputError(code, f"{name} {message}", where=where, why=why, help=help)

@@ -32,8 +32,8 @@ _MISPLACED = {  # keys that may stand beside the poses by mistake: the help
         ("x", "y", "angle", "angles", "angle_deg", "angle_rad", *POINT_KEYS, *POINTS),
         "write the numbers into the poses, one by one",
     ),
-    **dict.fromkeys(("unit", "units"), "say angle_unit for angles, length_unit for lengths"),
-    **dict.fromkeys(("sigma",), "say pose_sigma, with position and angle_deg in it"),
+    **dict.fromkeys(("unit", "units"), "write angle_unit for angles, length_unit for lengths"),
+    **dict.fromkeys(("sigma",), "write pose_sigma with position and angle_deg"),
 }
 
 
@@ -109,7 +109,7 @@ def _require_known(document: Document, tree: dict[str, Any]) -> None:
         if key in TOP_KEYS or key in LIMIT_KEYS or key in REQUIREMENT_KEYS:
             continue
         if key in _MISPLACED:
-            message = f"{document.named(key)} stands beside the poses, where it has no meaning"
+            message = f"{document.named(key)} stands beside the poses, where it has no effect"
             help = f"{_MISPLACED[key]}, or delete it"
         elif near := close_match(key, TOP_KEYS):
             message, help = f"{document.named(key)} is not known", f"write {near} in its place"

@@ -144,7 +144,7 @@ def _table(label: str, data: bytes, columns: str | None) -> PoseTable:
             return read_csv(source, columns)
         read = functools.partial(reader, source)
     if columns is not None:
-        message = "--columns is for CSV, and this file names its columns itself"
+        message = "--columns is for CSV files; this file names its columns itself"
         raise InputError("E108", message, help="leave --columns out")
     return read()
 

@@ -66,7 +66,7 @@ def read_requirements(tree: dict[str, Any], document: Document) -> tuple[StatedR
     """
     for key in REQUIREMENT_KEYS[1:]:
         if key in tree:
-            message = f"{document.named(key)} stands beside the poses, where it asks for nothing"
+            message = f"{document.named(key)} stands beside the poses, where it has no effect"
             help = "write it under requirements, or delete it"
             if key == "requirement":
                 help = "write requirements in its place, or delete it"
@@ -125,7 +125,7 @@ def _requirements_fault(document: Document, fault: Any) -> InputError:
     help = _HELP.get(str(keys[0]), _TABLE) if keys else _TABLE
     if fault["type"] == "extra_forbidden":
         if keys[-1] in LIMIT_KEYS:
-            help = f"write {keys[-1]} under limits, which speak of single dyads"
+            help = f"write {keys[-1]} under limits, which holds for single dyads"
         elif near := close_match(str(keys[-1]), _KEYS if len(keys) == 1 else ("box", "polygon")):
             help = f"write {near} in its place; {help}"
     item = "a name of a type" if keys[:1] == ["types"] else "one of its names"

@@ -102,7 +102,7 @@ def mismatched_bracket(stop: ParserStop) -> SyntaxFault | None:
     ):
         return None
     need = {"[": "]", "{": "}"}[still[-1]]
-    why = f"the bracket to be closed is a {still[-1]}"
+    why = f"the bracket still open is a {still[-1]}"
     return SyntaxFault(stop.at, 1, why, f"write {need} in place of the {closing}")
 
 
@@ -124,7 +124,7 @@ def malformed_number(stop: ParserStop) -> SyntaxFault | None:
     if not simple:
         why, help = (
             f"{shown(token)} is not a number in {stop.language}",
-            ("write digits with at most a decimal point and an exponent, such as -12.5 or 3e-4"),
+            "write digits with at most a decimal point and an exponent, such as -12.5 or 3e-4",
         )
         return SyntaxFault(start, len(token), why, help)
     if behind[:1] in ("°", "%"):

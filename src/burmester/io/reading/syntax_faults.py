@@ -42,7 +42,7 @@ def syntax_fault(language: Language, text: str, at: int | None, report: str) -> 
     if at is None:
         depth, at = deepest_bracket(text)
         why = f"too many brackets inside each other: {depth}"
-        return SyntaxFault(at, 1, why, "delete the brackets that nothing needs")
+        return SyntaxFault(at, 1, why, "delete the brackets that are not needed")
     if report.startswith("Illegal trailing comma"):  # others point behind it
         at, report = at + 1 + len(text[at + 1 :]) - len(text[at + 1 :].lstrip()), "Expecting value"
     stop = ParserStop(language, text, min(at, len(text)), report)
@@ -90,9 +90,11 @@ _RULES: tuple[_Rule | Callable[[ParserStop], SyntaxFault | None], ...] = (
     unclosed_text,
     backslash,
     _Rule("Unterminated", "", "the text that begins here does not end", 'write " at its end'),
-    _Rule("Invalid control", r"\n", "a text in quotes goes over a line's end", r"write \n for it"),
+    _Rule(
+        "Invalid control", r"\n", "a text in quotes goes over the end of a line", r"write \n for it"
+    ),
     _Rule("Invalid control", r"\t", "there is a tab in a text in quotes", r"write \t for it"),
-    _Rule("Invalid control|Illegal", "", "a sign that cannot be seen stands here", "delete it"),
+    _Rule("Invalid control|Illegal", "", "an invisible character stands here", "delete it"),
     _Rule("", r"//.*|/\*.*|#.*", "JSON has no comments", "delete the comment", "JSON"),
     _Rule("", r"//|/\*", "a comment begins with # in TOML", "write # in place of {0}", "TOML"),
     _Rule(
@@ -121,7 +123,9 @@ _RULES: tuple[_Rule | Callable[[ParserStop], SyntaxFault | None], ...] = (
     _Rule("Expecting ':'", r"\S", _IN_TWO, "write : before this"),
     _Rule("Expecting property", r"[\w.-]+", "the key {0} has no quotes around it", 'write "{0}"'),
     _Rule("Expected newline", ";", "no semicolon ends a line in TOML", "delete the semicolon"),
-    _Rule("", ";", "no semicolon parts values", "write a comma in place of the semicolon"),
+    _Rule(
+        "", ";", "a semicolon does not separate values", "write a comma in place of the semicolon"
+    ),
     _Rule("", ",", "nothing stands before this comma", "delete the comma", last=r"[\[{,]"),
     mismatched_bracket,
     _Rule(
@@ -153,7 +157,7 @@ _RULES: tuple[_Rule | Callable[[ParserStop], SyntaxFault | None], ...] = (
     _Rule(
         "Invalid initial|Unclosed inline",
         r"\n",
-        "what stands in {{ }} is one line in TOML",
+        "a table in {{ }} is one line in TOML",
         "join this line and the next",
         back=True,
     ),

@@ -53,7 +53,7 @@ def tracked_poses(
         row = int(numbers[bad.argmax()])
         why = "p and q are the same point"
         if distance[bad.argmax()]:
-            why = "p and q are more than 1.8e308 apart, the largest number there is"
+            why = "p and q are more than 1.8e308 apart, the largest representable number"
         raise _refusal(f"row {row + 1} gives no angle", why, row, locate_row)
     poses = Displacement(p, np.arctan2(y, x))
     if not len(points):
@@ -82,7 +82,7 @@ def _not_rigid(
     least, usual, most = (float(f(distance)) for f in (np.min, np.median, np.max))
     odd = short if usual / least > most / usual else long
     apart = [f"{distance[k]:.6g} apart in row {numbers[k] + 1}" for k in sorted((short, long))]
-    why = f"they are {apart[0]} and {apart[1]}, more than 10 percent from one to the other"
+    why = f"they are {apart[0]} and {apart[1]}, a change of more than 10 percent"
     return _refusal("p and q do not stay on one rigid body", why, int(numbers[odd]), locate_row)
 
 

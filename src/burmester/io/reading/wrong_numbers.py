@@ -41,7 +41,7 @@ def not_a_number(
     in_unit = f" in {UNITS.get(unit, unit)}" if unit else ""
     help = f"give a number{in_unit}, such as -12.5 or 3e-4, or delete the row"
     if NUMBER.fullmatch(plain):
-        why = f"{shown(cell)} is beyond 1.8e308, the largest number there is"
+        why = f"{shown(cell)} is beyond 1.8e308, the largest representable number"
     elif not NOT_FINITE.fullmatch(plain):
         code, fault = "E104", f"{'text' if cell else 'an empty cell'} where a number belongs"
         if cell:
@@ -69,7 +69,10 @@ def _dash(cell: str, separator: str) -> tuple[str, str] | None:
 def _spreadsheet(cell: str, separator: str) -> tuple[str, str] | None:
     if not re.fullmatch(r"#(N/A|REF!|DIV/0!|VALUE!|NAME\?|NUM!|NULL!)", cell):
         return None
-    return "is an error of the spreadsheet", "correct the formula in the sheet, or delete the row"
+    return (
+        "is an error value of the spreadsheet",
+        "correct the formula in the sheet, or delete the row",
+    )
 
 
 def _digits(cell: str, separator: str) -> tuple[str, str] | None:
@@ -113,7 +116,7 @@ def _measure(cell: str, separator: str) -> tuple[str, str] | None:
         column = "angle_deg" if found[2] == "°" else "x_mm"
         edit = brief(f"write {found[1]}", "delete that")
         return (
-            "has a unit or other text behind the number",
+            "has a unit or other text after the number",
             f"{edit}, and the unit in the header, as in {column}",
         )
     return None
@@ -125,5 +128,5 @@ def _comma(cell: str, separator: str) -> tuple[str, str] | None:
     return (
         "has a comma, which ends a cell in this file",
         brief(f"write {cell.replace(',', '.')}", "write a point for it")
-        + ", or delete the comma if it parts thousands",
+        + ", or delete the comma if it separates thousands",
     )
