@@ -15,9 +15,10 @@ import pytest
 from scipy.optimize import least_squares, minimize_scalar
 
 from burmester.fourbar.dyad import PR, RP, RR
+from burmester.fourbar.foot_points import rows_of
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
-from burmester.fourbar.nearest_places import on_circuits, rows_of
+from burmester.fourbar.nearest_places import on_circuits
 from burmester.fourbar.pose_error import error_frames
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Line, Polygon

@@ -31,8 +31,9 @@ from burmester.diagnosis.repairs import NUMBERS, Nearness, Repair, repairs_of, u
 from burmester.diagnosis.sampson_fits import Seen, refined
 from burmester.diagnosis.unit_errors import UnitError, apart, unit_error
 from burmester.fourbar.dyad import Dyad
+from burmester.fourbar.foot_points import rows_of
 from burmester.fourbar.linkage import Linkage
-from burmester.fourbar.nearest_places import on_circuits, rows_of
+from burmester.fourbar.nearest_places import on_circuits
 from burmester.numerics.arrays import ROUNDING
 from burmester.numerics.bundles import concatenate
 from burmester.tasks.motion_class import MotionClass, classify_motion

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.fourbar.canonical_frames import CanonicalFrames
+from burmester.fourbar.foot_points import foot_points, rows_of
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
-from burmester.fourbar.nearest_places import rows_of, settled
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.refinement import refine
 from burmester.linkages.residuals import SIZE
@@ -207,7 +207,7 @@ def refined(
     poses, weights = seen.poses[keep], seen.weights[keep]
     rows = rows_of(poses, length)
     with np.errstate(all="ignore"):
-        start = settled(stack, np.broadcast_to(rows, (len(stack), *rows.shape)), rows, length)
+        start = foot_points(stack, np.broadcast_to(rows, (len(stack), *rows.shape)), rows, length)
         places = Displacement(start[..., :2], start[..., 2] / length)
         fine = refine(stack, places, poses, length, weights=weights)
         cost = (weights * ((fine.rows - rows) ** 2).sum(axis=-1)).sum(axis=-1)

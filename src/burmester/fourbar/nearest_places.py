@@ -1,382 +1,320 @@
-"""How near an assembled linkage comes to the poses: the error that a user will see.
+"""The places of an assembled linkage nearest to the poses, on each of its circuits.
 
-For each pose the nearest place of the coupler is looked for on each circuit of the linkage: near
-means the least |position difference|² + (length x angle difference)².
+Near means a small |position difference|² + (length x angle difference)².  For each pose, samples of
+the circuit give starts, and Newton's method (`foot_points`) leads from the nearest of them to the
+nearest places.
 """
 
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from dataclasses import dataclass
+from typing import Final, NamedTuple, Self, final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from burmester.fourbar.circuits import Circuits, circuit_of, locate
-from burmester.fourbar.linkage_batch import ConstraintForms, LinkageBatch
+from burmester.fourbar.foot_points import foot_points, rows_of, wrapped
+from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray, complex_of, wrapped_angle
-from burmester.numerics.bundles import take
+from burmester.numerics.arrays import FloatArray
 
-__all__ = [
-    "Normal",
-    "nearest",
-    "newton_step",
-    "normal",
-    "on_circuits",
-    "on_own_circuits",
-    "rows_of",
-    "settled",
-    "wrapped",
-]
-
-SAMPLES, FEWER = 128, 48  # places looked at on a circuit, for up to MANY poses and for more
-SPLITS, HALVED = 4, 16  # times that more are put between, and how many of the widest gaps
-MANY, BLOCK = 1000, 256  # poses; those looked at together
-VALLEYS, FEW = 3, 1  # of these places, the local minima followed, for few poses and many
-REACH = 2.0  # of the samples on an endless circuit: half of them lie within it
-STEPS, QUICK = 30, 12  # at most, of the way to the nearest place; where it can be closed in on
-WIDE = 0.2  # of a gap between samples, in lengths, that wants more of them
-FAR = 0.3  # the longest of them
-SETTLED = 1e-12  # a step after which the next is rounding
-ROUNDS, LOOKS = 4, 17  # where it does not do: times looked closer, and places each time
-TWICE = 2.0  # the way to the next sample: no place beside a sample is farther from it
-EDGE = 1e-6  # of an endless circuit, left out
-ON, SAME = 1e-10, 1e-9  # a place that far from a linkage is on it; as near as another
-MEETING = 1e-9  # a circuit's margin at which it meets the other
-FLAT = 0.2  # the least curvature that a step along the circuit counts with
-PARALLEL = 1e-20  # squared sine between two forces that are taken for parallel
+__all__ = ["nearest", "on_circuits", "on_own_circuits"]
 
 
-class Normal(NamedTuple):
-    """What both dyads' equations do in the space of (x, y, length x angle), at places (*,).
+class SearchEffort(NamedTuple):
+    """The number of samples of each circuit, and of local minima followed for each pose."""
 
-    miss: (*, 2), force: (*, 2, 3); gram: (*, 3), the products 11, 12, 22 of the forces, and
-    det: (*,), their determinant, kept from zero.
-    """
-
-    miss: FloatArray
-    force: FloatArray
-    gram: FloatArray
-    det: FloatArray
-
-    def solve(self, right: FloatArray) -> FloatArray:
-        """The forces' shares (*, 2) whose products with both forces are right (*, 2)."""
-        a, b, c = np.moveaxis(self.gram, -1, 0)
-        first, second = right[..., 0], right[..., 1]
-        shares = np.stack([c * first - b * second, a * second - b * first], axis=-1)
-        return np.asarray(shares / self.det[..., None])
-
-    @property
-    def along(self) -> FloatArray:
-        """The unit direction (*, 3) in which the coupler can move."""
-        cross = np.cross(self.force[..., 0, :], self.force[..., 1, :])
-        return np.asarray(cross / np.sqrt(self.det)[..., None])
+    samples: int
+    minima: int
 
 
-def normal(miss: FloatArray, force: FloatArray, length: float) -> Normal:
-    """The same from the equations (k, 2, *) and forces (k, 2, *, 3) of `LinkageBatch.bearing`."""
-    force = np.moveaxis(force, 1, -2) / np.array([1.0, 1.0, length])
-    one, two = force[..., 0, :], force[..., 1, :]
-    a, b, c = (np.einsum("...i,...i->...", *pair) for pair in ((one, one), (one, two), (two, two)))
-    det = np.maximum(a * c - b * b, PARALLEL * a * c) + np.finfo(float).tiny
-    return Normal(np.moveaxis(miss, 1, -1), force, np.stack([a, b, c], axis=-1), det)
+THOROUGH: Final = SearchEffort(samples=128, minima=3)  # up to MAX_POSES_THOROUGH poses
+QUICK: Final = SearchEffort(samples=48, minima=1)  # for more poses
+MAX_POSES_THOROUGH: Final = 1000  # number of poses
+POSES_PER_BLOCK: Final = 256  # number of poses searched for at once; bounds the memory
+# Samples are added where they are far apart: at most REFINEMENTS times, in the GAPS_PER_REFINEMENT
+# widest gaps, as long as some gap is wider than WIDE_GAP (lengths, relative to 1 + the distance
+# from the origin).
+REFINEMENTS: Final = 4
+GAPS_PER_REFINEMENT: Final = 16
+WIDE_GAP: Final = 0.2
+MEDIAN_PARAMETER: Final = 2.0  # lengths; half of the samples of an endless circuit are below it
+ENDLESS_MARGIN: Final = 1e-6  # fraction of an endless circuit without samples, at each end
+MAX_STEPS: Final = 12  # number of Newton's steps from a sample, before bracketing takes over
+# Bracketing where Newton's method fails: number of rounds, and of samples in each round.
+BRACKETING_ROUNDS: Final = 4
+BRACKETING_SAMPLES: Final = 17
+SPACING_SAFETY: Final = 2.0  # factor on the sample spacing, to bound the distance between samples
+SAME_SQUARE: Final = 1e-12  # squared lengths; squared distances that differ by less are equal
+ON_LINKAGE: Final = 1e-10  # residual, in lengths, of a place on the linkage
+EQUALLY_NEAR: Final = 1e-9  # relative; squared distances that differ by less are equal
+MEETING_MARGIN: Final = 1e-9  # circuits meet where `Location.circuit_margin` is no larger
 
 
-def rows_of(places: Displacement, length: float) -> FloatArray:
-    """Places (*,) as rows (*, 3) of x, y, length x angle."""
-    return np.concatenate([places.translation, length * places.angle[..., None]], axis=-1)
-
-
-def wrapped(gap: FloatArray, length: float) -> FloatArray:
-    """Differences (*, 3) of such rows, their angles within half a turn."""
-    gap = gap.copy()
-    gap[..., 2] = length * wrapped_angle(gap[..., 2] / length)
-    return gap
-
-
-def on_circuits(stack: LinkageBatch, poses: Displacement, length: float) -> Displacement:
+def on_circuits(batch: LinkageBatch, poses: Displacement, length: float) -> Displacement:
     """The nearest places (k, 2, N) to poses (N,) on both circuits of linkages (k,).
 
-    In frames where lengths are about 1 (`error_frames`).  nan where there is no such circuit.
-    Followed by Newton's method from the nearest of some hundred places of the circuit; that no
-    other minimum is nearer is not proved.  Angles come within half a turn of the poses'.
+    In frames where lengths are about 1 (`pose_error.error_frames`).  nan where the circuit does not
+    exist.  Newton's method starts from the nearest of some hundred samples of the circuit; that no
+    other minimum is nearer is not proved.  Angles are within half a turn of the poses'.
     """
-    count, number = len(stack), poses.shape[0]
+    count, number = len(batch), poses.shape[0]
     out = np.full((count, 2, number, 3), np.nan)
-    wanted = rows_of(poses, length)
+    target = rows_of(poses, length)
+    effort = THOROUGH if number <= MAX_POSES_THOROUGH else QUICK
     searches = [
-        _Search(index, stack[index], Circuits.of(linkage, as_given=True), length, number <= MANY)
-        for index, linkage in stack.alike()
+        _CircuitSearch.of(index, batch[index], Circuits.of(linkage, as_given=True), length, effort)
+        for index, linkage in batch.alike()
     ]
-    for at in range(0, number, BLOCK):
-        block = wanted[at : at + BLOCK]
+    for at in range(0, number, POSES_PER_BLOCK):
+        block = target[at : at + POSES_PER_BLOCK]
         starts = [each.starts(block) for each in searches]
         rows = np.concatenate([each.index[each.row] for each in searches])
         start = np.concatenate([start for start, _ in starts])
-        target = np.broadcast_to(block[:, None], start.shape)
-        ends = _led(stack[rows], start, target, length)  # of all kinds at once
+        # Newton's method runs on linkages of all kinds at once.
+        wanted = np.broadcast_to(block[:, None], start.shape)
+        ends = _newton_ends(batch[rows], start, wanted, length)
         done = 0
         for each, (start, sample) in zip(searches, starts, strict=True):
             own = ends[done : done + len(start)]
-            out[each.index, :, at : at + BLOCK] = each.nearest(start, sample, own, block)
+            out[each.index, :, at : at + POSES_PER_BLOCK] = each.nearest(start, sample, own, block)
             done += len(start)
     return Displacement(out[..., :2], out[..., 2] / length)
 
 
 def on_own_circuits(
-    stack: LinkageBatch, rows: FloatArray, poses: Displacement, length: float
+    batch: LinkageBatch, rows: FloatArray, poses: Displacement, length: float
 ) -> FloatArray:
-    """The nearest places (k, N, 3) to poses (N,), on the circuits where places rows (k, N, 3) are.
+    """The nearest places (k, N, 3) to poses (N,), on the circuits of given places (k, N, 3).
 
-    Of linkages whose places are on both circuits, the nearest ones on either.  What a search that
-    went down a valley left behind: another valley of the same circuit may be nearer.  Places that
-    are on no circuit, and those on the linkage that are nearer than what is found, stay.
+    A descent may have left the given places in one local minimum while another one on the same
+    circuit is nearer.  Of linkages with given places on both circuits, the nearest ones on either.
+    A given place stays where it is on no circuit, and where it is on the linkage and nearer.
     """
-    both = rows_of(on_circuits(stack, poses, length), length)
-    wanted, found = rows_of(poses, length), rows.copy()
+    both = rows_of(on_circuits(batch, poses, length), length)
+    target, nearer = rows_of(poses, length), rows.copy()
     every = np.arange(poses.shape[0])
-    for index, linkage in stack.alike():
+    for index, linkage in batch.alike():
         places = Displacement(rows[index, ..., :2], rows[index, ..., 2] / length)
         circuit = circuit_of(linkage, places, as_given=True).circuit
         mixed = (circuit != circuit[:, :1]).any(axis=1)
-        nearer = np.nan_to_num(_away(both[index], wanted), nan=np.inf).argmin(axis=1)
-        side = np.where(mixed[:, None], nearer, np.maximum(circuit, 0))
+        side = np.where(mixed[:, None], _nearest_of(both[index], target, 1), np.maximum(circuit, 0))
         own = both[index[:, None], side, every]
-        found[index] = np.where((circuit >= 0)[..., None], own, rows[index])
+        nearer[index] = np.where((circuit >= 0)[..., None], own, rows[index])
     places = Displacement(rows[..., :2], rows[..., 2] / length)
-    off = np.abs(stack.bearing(places).miss).max(axis=1) > ON
-    better = off | (_away(found, wanted) <= _away(rows, wanted) * (1 + SAME))
-    better &= np.isfinite(found).all(axis=-1)
-    return np.where(better[..., None], found, rows)
+    off = np.abs(batch.bearing(places).miss).max(axis=1) > ON_LINKAGE
+    least = _squares(rows, target) * (1 + EQUALLY_NEAR)
+    better = off | (_squares(nearer, target) <= least)
+    better &= np.isfinite(nearer).all(axis=-1)
+    return np.where(better[..., None], nearer, rows)
 
 
 def nearest(places: Displacement, poses: Displacement, length: float) -> Displacement:
     """The nearer (k, N) of the places (k, 2, N) on two circuits; nan where there is none."""
-    away = ((rows_of(places, length) - rows_of(poses, length)) ** 2).sum(axis=-1)
-    other = np.nan_to_num(away, nan=np.inf).argmin(axis=1)
-    row, pose = np.indices(other.shape)
-    return places[row, other, pose]
+    side = _nearest_of(rows_of(places, length), rows_of(poses, length), 1)
+    row, pose = np.indices(side.shape)
+    return places[row, side, pose]
 
 
-class _Search:
-    """Circuits (k, 2) of linkages (k,) of the same kinds, on which places are looked for.
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class _CircuitSearch:
+    """The circuits (k, 2) of linkages (k,) of one pair of kinds, with samples of the existing ones.
 
-    index: (k,), their numbers among all.
+    index: (k,), the linkages' numbers in the whole batch.
+    row, side: (n,), linkage and circuit of each existing circuit.
+    share: (n, s), where on its circuit each sample is, a fraction; gap: (n, s), the distance to the
+        farther of its neighbours in these fractions.
+    samples: (n, s, 3), their places; spacing: (n, s), the distance to the farther neighbour.
+    minima: the number of local minima that are followed.
     """
 
-    def __init__(
-        self,
+    index: NDArray[np.intp]
+    batch: LinkageBatch
+    circuits: Circuits
+    length: float
+    minima: int
+    row: NDArray[np.intp]
+    side: NDArray[np.intp]
+    share: FloatArray
+    gap: FloatArray
+    samples: FloatArray
+    spacing: FloatArray
+
+    @classmethod
+    def of(
+        cls,
         index: NDArray[np.intp],
-        stack: LinkageBatch,
+        batch: LinkageBatch,
         circuits: Circuits,
         length: float,
-        few: bool,
-    ) -> None:
-        self.index, self.stack, self.circuits, self.length = index, stack, circuits, length
-        samples, self.valleys = (SAMPLES, VALLEYS) if few else (FEWER, FEW)
-        self.row, self.side = np.nonzero(circuits.exists)
-        own = circuits[self.row, self.side]
-        self.share = np.tile((np.arange(samples) + 0.5) / samples, (len(self.row), 1))
-        self.sampled = self._at(own, self.share)
-        for _ in range(SPLITS if len(self.row) else 0):
-            if not self._split(own):
+        effort: SearchEffort,
+    ) -> Self:
+        """The search on the circuits (k, 2) of linkages (k,), sampled."""
+        row, side = np.nonzero(circuits.exists)
+        own, count = circuits[row, side], effort.samples
+        share = np.tile((np.arange(count) + 0.5) / count, (len(row), 1))
+        samples = _places_at(own, share, length)
+        for _ in range(REFINEMENTS if len(row) else 0):
+            wide = _relative_gaps(samples, length)
+            if not (wide > WIDE_GAP).any():
                 break
-        after = self._after(self.sampled)
-        self.hop = np.maximum(after, np.roll(after, 1, axis=-1))
-        gap = np.roll(self.share, -1, axis=-1) - self.share
+            share, samples = _refined(own, share, samples, wide, length)
+        after = _distance_to_next(samples, length)
+        gap = np.roll(share, -1, axis=-1) - share
         gap[:, -1:] += 1
-        self.gap = np.maximum(gap, np.roll(gap, 1, axis=-1))
+        gap = np.maximum(gap, np.roll(gap, 1, axis=-1))
+        spacing = np.maximum(after, np.roll(after, 1, axis=-1))
+        return cls(
+            index, batch, circuits, length, effort.minima, row, side, share, gap, samples, spacing
+        )
 
-    def _after(self, sampled: FloatArray) -> FloatArray:
-        """How far (n, s) the next of places (n, s, 3) is; behind the last one comes the first."""
-        hop = wrapped(np.roll(sampled, -1, axis=1) - sampled, self.length)
-        return np.nan_to_num(np.sqrt(_away(hop, 0.0)), nan=np.inf)
-
-    def _split(self, own: Circuits) -> bool:
-        """Put more samples where the widest gaps are: near change points a place runs fast.
-
-        Whether there were wide ones.
-        """
-        hop = self._after(self.sampled)[:, :-1]
-        far = np.sqrt(_away(self.sampled[:, :-1], 0.0))
-        wide = np.nan_to_num(hop / (1 + far), nan=0.0, posinf=0.0)
-        if not (wide > WIDE).any():
-            return False
-        at = np.argpartition(-wide, HALVED, axis=-1)[:, :HALVED]
-        middle = (self.share[:, :-1] + self.share[:, 1:]) / 2
-        share = np.take_along_axis(middle, at, axis=-1)
-        places = np.concatenate([self.sampled, self._at(own, share)], axis=1)
-        share = np.concatenate([self.share, share], axis=1)
-        order = np.argsort(share, axis=-1)
-        self.share = np.take_along_axis(share, order, axis=-1)
-        self.sampled = np.take_along_axis(places, order[..., None], axis=1)
-        return True
-
-    def starts(self, wanted: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
-        """Where to start from to wanted (N, 3), places (n, N, *, 3), and their numbers."""
-        return _valleys(self.sampled, wanted, self.length, self.valleys)
+    def starts(self, target: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
+        """Starts (n, N, *, 3) towards target (N, 3), and the numbers (n, N, *) of their samples."""
+        return _local_minima(self.samples, target, self.length, self.minima)
 
     def nearest(
-        self, start: FloatArray, sample: NDArray[np.intp], ends: FloatArray, wanted: FloatArray
+        self, start: FloatArray, sample: NDArray[np.intp], ends: FloatArray, target: FloatArray
     ) -> FloatArray:
-        """The places (k, 2, N, 3) nearest to wanted (N, 3), from what Newton's method led to."""
-        out = np.full((len(self.stack), 2, len(wanted), 3), np.nan)
+        """The places (k, 2, N, 3) nearest to target (N, 3), from the ends of Newton's method."""
+        out = np.full((len(self.batch), 2, len(target), 3), np.nan)
         if not len(self.row):
             return out
-        target = np.broadcast_to(wanted[:, None], start.shape)
-        # Newton's method may leap to the other circuit, or past the valley.
-        astray = ~(_away(ends, target) <= _away(start, target) + SETTLED)
-        astray |= self._strayed(self.row, self.side, ends)
+        wanted = np.broadcast_to(target[:, None], start.shape)
+        # Newton's method may leap to the other circuit, or past the minimum.
+        astray = ~(_squares(ends, wanted) <= _squares(start, wanted) + SAME_SQUARE)
+        astray |= self._on_other_circuit(self.row, self.side, ends)
         ends[astray] = np.nan
-        sound = np.where(astray, np.inf, np.sqrt(_away(ends, target)))
-        # Beside a sample no place is nearer than this.
-        hop = self.hop[np.arange(len(sample))[:, None, None], sample]
-        nearest = np.sqrt(_away(start, target)) - TWICE * hop
-        astray &= nearest <= sound.min(axis=-1, keepdims=True)
+        sound = np.where(astray, np.inf, np.sqrt(_squares(ends, wanted)))
+        # No place beside a sample is nearer than this.
+        spacing = self.spacing[np.arange(len(sample))[:, None, None], sample]
+        bound = np.sqrt(_squares(start, wanted)) - SPACING_SAFETY * spacing
+        astray &= bound <= sound.min(axis=-1, keepdims=True)
         if astray.any():
             which = np.nonzero(astray)
-            ends[which] = self._closed_in(which[0], sample[which], target[which])
-        best = np.nan_to_num(_away(ends, target), nan=np.inf).argmin(axis=-1)[..., None, None]
+            ends[which] = self._bracketed(which[0], sample[which], wanted[which])
+        best = _nearest_of(ends, wanted, -1)[..., None, None]
         out[self.row, self.side] = np.take_along_axis(ends, best, axis=2)[:, :, 0]
         return out
 
-    def _at(self, circuits: Circuits, share: FloatArray) -> FloatArray:
-        """Places (*, s, 3) where shares (s,) or (*, s) of circuits (*,) are passed."""
-        closed = circuits.closed[..., None]
-        if circuits.loop.turns:
-            at = np.where(closed, 2 * np.pi * (share % 1), np.pi * np.clip(share, 0, 1))
-        else:
-            inside = np.clip(share, EDGE, 1 - EDGE)
-            at = np.where(closed, 2 * np.pi * (share % 1), REACH * np.tan(np.pi * (inside - 0.5)))
-        return rows_of(circuits.couplers(at), self.length)
-
-    def _strayed(
+    def _on_other_circuit(
         self, row: NDArray[np.intp], side: NDArray[np.intp], ends: FloatArray
     ) -> NDArray[np.bool_]:
-        """Whether places (n, *, 3) are on the other circuit than (n,) of linkages (n,)."""
+        """Whether places (n, *, 3) are not on circuits `side` (n,) of linkages `row` (n,)."""
         out = np.zeros(ends.shape[:-1], dtype=bool)
         two = np.flatnonzero(np.asarray(self.circuits.exists.all(axis=-1))[row])
         if len(two):
             places = Displacement(ends[two, ..., :2], ends[two, ..., 2] / self.length)
-            found = locate(self.circuits[row[two]], places)
+            at = locate(self.circuits[row[two]], places)
             own = side[two].reshape(-1, *[1] * (ends.ndim - 2))
             # Where circuits meet, a place is on both.
-            out[two] = np.not_equal(found.circuit, own) & np.greater(found.circuit_margin, MEETING)
+            apart = np.greater(at.circuit_margin, MEETING_MARGIN)
+            out[two] = np.not_equal(at.circuit, own) & apart
         return out
 
-    def _closed_in(
+    def _bracketed(
         self,
         which: NDArray[np.intp],
         sample: NDArray[np.intp],
-        wanted: FloatArray,
+        target: FloatArray,
     ) -> FloatArray:
-        """The places (n, 3) nearest to wanted (n, 3) beside samples (n,), kept to the circuit."""
+        """The places (m, 3) nearest to target (m, 3) beside samples (m,) of circuits (m,)."""
         circuits, every = self.circuits[self.row[which], self.side[which]], np.arange(len(which))
         share, width = self.share[which, sample], self.gap[which, sample]
-        for _ in range(ROUNDS):
-            tries = share[:, None] + width[:, None] * np.linspace(-1, 1, LOOKS)
-            gap = wrapped(self._at(circuits, tries) - wanted[:, None], self.length)
+        for _ in range(BRACKETING_ROUNDS):
+            tried = share[:, None] + width[:, None] * np.linspace(-1, 1, BRACKETING_SAMPLES)
+            gap = wrapped(_places_at(circuits, tried, self.length) - target[:, None], self.length)
             best = np.nan_to_num((gap * gap).sum(axis=-1), nan=np.inf).argmin(axis=-1)
-            share, near = tries[every, best], wanted + gap[every, best]
-            width = width * 2.0 / (LOOKS - 1)
+            share, near = tried[every, best], target + gap[every, best]
+            width = width * 2.0 / (BRACKETING_SAMPLES - 1)
         row, side = self.row[which], self.side[which]
-        ends = _led(self.stack[row], near[:, None], wanted[:, None], self.length)[:, 0]
-        worse = np.nan_to_num(_away(ends, wanted), nan=np.inf) > _away(near, wanted) + SETTLED
-        worse |= self._strayed(row, side, ends)
+        ends = _newton_ends(self.batch[row], near[:, None], target[:, None], self.length)[:, 0]
+        after = np.nan_to_num(_squares(ends, target), nan=np.inf)
+        worse = after > _squares(near, target) + SAME_SQUARE
+        worse |= self._on_other_circuit(row, side, ends)
         return np.where(worse[..., None], near, ends)
 
 
-def _led(stack: LinkageBatch, start: FloatArray, target: FloatArray, length: float) -> FloatArray:
-    """Places (n, *, 3) of linkages (n,) that Newton's method leads to, in a few steps."""
-    flat = (len(stack), math.prod(start.shape[1:-1]), 3)
-    ends = settled(stack, start.reshape(flat), target.reshape(flat), length, steps=QUICK)
+def _places_at(circuits: Circuits, share: FloatArray, length: float) -> FloatArray:
+    """Places (*, s, 3) at fractions (s,) or (*, s) of circuits (*,)."""
+    closed = circuits.closed[..., None]
+    around = 2 * np.pi * (share % 1)
+    if circuits.loop.turns:
+        open_ = np.pi * np.clip(share, 0, 1)
+    else:
+        inside = np.clip(share, ENDLESS_MARGIN, 1 - ENDLESS_MARGIN)
+        open_ = MEDIAN_PARAMETER * np.tan(np.pi * (inside - 0.5))
+    return rows_of(circuits.couplers(np.where(closed, around, open_)), length)
+
+
+def _distance_to_next(samples: FloatArray, length: float) -> FloatArray:
+    """The distance (n, s) from each place (n, s, 3) to the next; from the last one to the first."""
+    gap = wrapped(np.roll(samples, -1, axis=1) - samples, length)
+    return np.nan_to_num(np.sqrt(_squares(gap, 0.0)), nan=np.inf)
+
+
+def _relative_gaps(samples: FloatArray, length: float) -> FloatArray:
+    """The gaps (n, s - 1) between samples (n, s, 3), relative to 1 + the distance from the origin.
+
+    Gaps without an end count as 0.
+    """
+    gap = _distance_to_next(samples, length)[:, :-1]
+    far = np.sqrt(_squares(samples[:, :-1], 0.0))
+    return np.nan_to_num(gap / (1 + far), nan=0.0, posinf=0.0)
+
+
+def _refined(
+    circuits: Circuits, share: FloatArray, samples: FloatArray, gaps: FloatArray, length: float
+) -> tuple[FloatArray, FloatArray]:
+    """Fractions (n, s) and samples (n, s, 3) with more samples in the middle of the widest gaps.
+
+    Near change points the coupler moves fast along the parameter.
+    """
+    at = np.argpartition(-gaps, GAPS_PER_REFINEMENT, axis=-1)[:, :GAPS_PER_REFINEMENT]
+    middle = (share[:, :-1] + share[:, 1:]) / 2
+    more = np.take_along_axis(middle, at, axis=-1)
+    samples = np.concatenate([samples, _places_at(circuits, more, length)], axis=1)
+    share = np.concatenate([share, more], axis=1)
+    order = np.argsort(share, axis=-1)
+    in_order = np.take_along_axis(samples, order[..., None], axis=1)
+    return np.take_along_axis(share, order, axis=-1), in_order
+
+
+def _newton_ends(
+    batch: LinkageBatch, start: FloatArray, target: FloatArray, length: float
+) -> FloatArray:
+    """The ends (n, *, 3) of a few of Newton's steps on linkages (n,) from start towards target."""
+    flat = (len(batch), math.prod(start.shape[1:-1]), 3)
+    ends = foot_points(batch, start.reshape(flat), target.reshape(flat), length, MAX_STEPS)
     return ends.reshape(start.shape)
 
 
-def _away(rows: FloatArray, wanted: FloatArray | float) -> FloatArray:
-    """The squared distances (*,) of rows (*, 3)."""
-    return np.asarray(((rows - wanted) ** 2).sum(axis=-1))
+def _squares(rows: FloatArray, target: FloatArray | float) -> FloatArray:
+    """The squared distances (*,) of rows (*, 3) from target."""
+    return np.asarray(((rows - target) ** 2).sum(axis=-1))
 
 
-def _valleys(
-    sampled: FloatArray, wanted: FloatArray, length: float, count: int
+def _nearest_of(rows: FloatArray, target: FloatArray, axis: int) -> NDArray[np.intp]:
+    """The index of the rows (*, 3) nearest to target along an axis of (*,); nan is the farthest."""
+    return np.asarray(np.nan_to_num(_squares(rows, target), nan=np.inf).argmin(axis=axis))
+
+
+def _local_minima(
+    samples: FloatArray, target: FloatArray, length: float, count: int
 ) -> tuple[FloatArray, NDArray[np.intp]]:
-    """Of places (k, s, 3) along circuits the nearest local minima to wanted (N, 3): (k, N, *, 3).
+    """Of samples (n, s, 3) the `count` local minima nearest to target (N, 3): (n, N, count, 3).
 
-    With angles within half a turn of the wanted ones; and their numbers (k, N, *).
+    With angles within half a turn of the target's, and the numbers (n, N, count) of the samples.
+    nan where there are fewer.
     """
-    gap = wrapped(sampled[:, None] - wanted[:, None], length)
+    gap = wrapped(samples[:, None] - target[:, None], length)
     away = np.nan_to_num((gap * gap).sum(axis=-1), nan=np.inf)
-    valley = (away <= np.roll(away, 1, axis=-1)) & (away <= np.roll(away, -1, axis=-1))
-    valley[..., [0, -1]] = True  # an open circuit ends there
-    depth = np.where(valley, away, np.inf)
+    minimum = (away <= np.roll(away, 1, axis=-1)) & (away <= np.roll(away, -1, axis=-1))
+    minimum[..., [0, -1]] = True  # an open circuit ends there
+    depth = np.where(minimum, away, np.inf)
     best = np.argpartition(depth, count - 1, axis=-1)[..., :count]
-    start = wanted[:, None] + np.take_along_axis(gap, best[..., None], axis=2)
-    dead = np.isinf(np.take_along_axis(depth, best, axis=-1))  # no valley, but what was left
-    return np.where(dead[..., None], np.nan, start), best
-
-
-def settled(
-    stack: LinkageBatch, start: FloatArray, wanted: FloatArray, length: float, steps: int = STEPS
-) -> FloatArray:
-    """The places (k, n, 3) of linkages (k,) nearest to wanted (n, 3) that starts (k, n, 3) lead to.
-
-    nan where Newton's method (`newton_step`) does not come to rest on the linkage.
-    """
-    shape = start.shape
-    which = np.repeat(np.arange(len(stack)), shape[1])
-    ends, target = start.reshape(-1, 3).copy(), np.broadcast_to(wanted, shape).reshape(-1, 3)
-    run = np.flatnonzero(np.isfinite(ends).all(axis=-1))
-    met = np.zeros(len(ends), dtype=bool)
-    every = stack.surfaces()
-    for _ in range(steps):
-        surfaces = take(every, which[run])
-        step, moved = newton_step(surfaces, ends[run, None], target[run, None], length)
-        ends[run] += step[:, 0]
-        still = moved[:, 0] > SETTLED * (1 + np.abs(ends[run]).max(axis=-1))
-        met[run[~still]] = True
-        run = run[still]
-        if not len(run):
-            break
-    if len(run):  # slow ones are kept where they are on the linkage
-        d, turn = complex_of(ends[run, None]), np.exp(1j * ends[run, None, 2] / length)
-        miss, _, _ = take(every, which[run]).at(d[:, None], turn[:, None])
-        met[run] = (np.abs(miss) < 1e-9).all(axis=(1, 2))
-    ends[~met] = np.nan
-    return ends.reshape(shape)
-
-
-def newton_step(
-    surfaces: ConstraintForms, here: FloatArray, target: FloatArray, length: float
-) -> tuple[FloatArray, FloatArray]:
-    """The step (k, n, 3) from rows (k, n, 3) towards the feet of normals, and its size (k, n).
-
-    Back onto both manifolds, and along their intersection to where target (k, n, 3) is nearest.
-    """
-    d, turn = complex_of(here)[:, None], np.exp(1j * here[:, None, :, 2] / length)
-    miss, push, swing = surfaces.at(d, turn)
-    moment = -swing.imag / length
-    f1, f2, push1, push2 = miss[:, 0], miss[:, 1], push[:, 0], push[:, 1]
-    moment1, moment2 = moment[:, 0], moment[:, 1]
-    to = target - here
-    to_d, to_a = complex_of(to), to[..., 2]
-    a = push1.real**2 + push1.imag**2 + moment1**2
-    c = push2.real**2 + push2.imag**2 + moment2**2
-    mixed = push1.conj() * push2
-    b = mixed.real + moment1 * moment2
-    det = np.maximum(a * c - b * b, PARALLEL * a * c) + np.finfo(float).tiny
-    # What the poses pull with, as shares of both forces, and how the manifolds bend under it.
-    pull1 = (push1.conj() * to_d).real + moment1 * to_a
-    pull2 = (push2.conj() * to_d).real + moment2 * to_a
-    along, omega = -1j * (push1 * moment2 - push2 * moment1), mixed.imag
-    bend = surfaces.bend(turn, swing, along[:, None], omega[:, None] / length)
-    share1, share2 = c * pull1 - b * pull2, a * pull2 - b * pull1
-    curved = 1 + (share1 * bend[:, 0] + share2 * bend[:, 1]) / det**2
-    share = ((along.conj() * to_d).real + omega * to_a) / det / np.maximum(curved, FLAT)
-    back1, back2 = (c * f1 - b * f2) / det, (a * f2 - b * f1) / det
-    step_d = share * along - back1 * push1 - back2 * push2
-    step_a = share * omega - back1 * moment1 - back2 * moment2
-    step = np.stack([step_d.real, step_d.imag, step_a], axis=-1)
-    size = np.abs(step).max(axis=-1)
-    return step * np.minimum(1.0, FAR / np.maximum(size, FAR))[..., None], size
+    start = target[:, None] + np.take_along_axis(gap, best[..., None], axis=2)
+    none = np.isinf(np.take_along_axis(depth, best, axis=-1))
+    return np.where(none[..., None], np.nan, start), best

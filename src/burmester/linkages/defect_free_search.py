@@ -17,8 +17,9 @@ from burmester.dyads.pivot_map import fixed_pivot_map, grid
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.circuits import Circuits, circuit_of
 from burmester.fourbar.dyad import RR
+from burmester.fourbar.foot_points import newton_step, rows_of
 from burmester.fourbar.linkage_batch import LinkageBatch
-from burmester.fourbar.nearest_places import newton_step, on_circuits, rows_of
+from burmester.fourbar.nearest_places import on_circuits
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.constraints import (
     CLEAR,

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from burmester.dyads.selection import FoundDyad, same_dyad
 from burmester.fourbar.defects import Defect, Verdict, judge
 from burmester.fourbar.dyad import RR, Dyad
+from burmester.fourbar.foot_points import rows_of
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
-from burmester.fourbar.nearest_places import rows_of
 from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.constraints import AllConstraints

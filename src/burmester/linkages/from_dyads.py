@@ -14,9 +14,10 @@ from itertools import combinations, product
 import numpy as np
 
 from burmester.fourbar.dyad import PP
+from burmester.fourbar.foot_points import rows_of
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import STACKED, LinkageBatch
-from burmester.fourbar.nearest_places import nearest, on_circuits, on_own_circuits, rows_of
+from burmester.fourbar.nearest_places import nearest, on_circuits, on_own_circuits
 from burmester.fourbar.pose_error import error_frames
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.constraints import AllConstraints, Constraints, DyadLimitsConstraint

@@ -14,8 +14,8 @@ from typing import NamedTuple, final
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.fourbar.foot_points import rows_of
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
-from burmester.fourbar.nearest_places import rows_of
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.constrained_refinement import (
     CURVED,

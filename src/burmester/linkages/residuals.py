@@ -13,8 +13,8 @@ from typing import NamedTuple, final
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.fourbar.foot_points import ConstraintNormals, constraint_normals, newton_step
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
-from burmester.fourbar.nearest_places import Normal, newton_step, normal
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.constraints import Constraints
 from burmester.numerics.arrays import FloatArray
@@ -91,7 +91,7 @@ class Problem:
 
     def _brought(
         self, stack: LinkageBatch, rows: FloatArray, target: FloatArray | None
-    ) -> tuple[FloatArray, Normal, FloatArray]:
+    ) -> tuple[FloatArray, ConstraintNormals, FloatArray]:
         """Rows brought to where target is nearest (None: straight ahead), nan where they are lost.
 
         With what both dyads do there, and the derivatives by their dimensions.
@@ -107,7 +107,7 @@ class Problem:
         miss, force, partial = stack.bearing(places)
         off = ~(np.abs(miss) < OFF).all(axis=(1, 2))
         rows[off] = np.nan
-        return rows, normal(miss, force, self.length), partial
+        return rows, constraint_normals(miss, force, self.length), partial
 
     @property
     def loose(self) -> bool:
@@ -127,7 +127,7 @@ class Problem:
             gap, every = rows - self.wanted, np.arange(rows.shape[1])
             moved = np.zeros((*gap.shape, SIZE + len(every)))
             moved[..., :SIZE] = _normal_part(at, gap, partial)[2]
-            moved[:, every, :, SIZE + every] = np.moveaxis(at.along, 1, 0)
+            moved[:, every, :, SIZE + every] = np.moveaxis(at.tangent, 1, 0)
             return State(z, rows, gap, moved, moved)
 
     def limits(
@@ -183,7 +183,7 @@ class Problem:
 
 
 def _normal_part(
-    at: Normal, gap: FloatArray, partial: FloatArray
+    at: ConstraintNormals, gap: FloatArray, partial: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Of gaps (k, N, 3) what is normal to the motion, (k, N, 2), in an orthonormal basis.
 

@@ -23,8 +23,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.fourbar.circuits import circuit_of
+from burmester.fourbar.foot_points import foot_points, rows_of
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
-from burmester.fourbar.nearest_places import on_circuits, rows_of, settled
+from burmester.fourbar.nearest_places import on_circuits
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.constraints import (
     SHORTEST,
@@ -228,7 +229,7 @@ class _Rounding:
         start = np.broadcast_to(self.rows if rows is None else rows, (len(own), *self.rows.shape))
         stack, wanted = self._stack(own), rows_of(self.aim.poses, self.aim.length)
         with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-            rows = settled(stack, start, wanted, self.aim.length)
+            rows = foot_points(stack, start, wanted, self.aim.length)
             # Two equal dyads leave no direction to go back to the linkage: off is lost.
             at = Displacement(rows[..., :2], rows[..., 2] / self.aim.length)
             rows[~(np.abs(stack.bearing(at).miss) < OFF).all(axis=(1, 2))] = np.nan

@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.fourbar.canonical_frames import CanonicalFrames
+from burmester.fourbar.foot_points import rows_of
 from burmester.fourbar.linkage_batch import LinkageBatch
-from burmester.fourbar.nearest_places import on_circuits, rows_of
+from burmester.fourbar.nearest_places import on_circuits
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.constraints import (
     Constraints,

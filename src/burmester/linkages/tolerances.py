@@ -18,8 +18,8 @@ from typing import final
 import numpy as np
 
 from burmester.fourbar.dyad import PR, RP, RR
+from burmester.fourbar.foot_points import constraint_normals, newton_step, rows_of
 from burmester.fourbar.linkage_batch import DIMENSIONS, STACKED, LinkageBatch
-from burmester.fourbar.nearest_places import newton_step, normal, rows_of
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.uncertainty import line_middle
 from burmester.numerics.arrays import FloatArray
@@ -126,8 +126,8 @@ def sensitivity(
     length (see the module); zero for slots not in use.
     """
     miss, force, by_dimension = stack.bearing(places)
-    at = normal(miss, force, length)
-    tangent, here = at.along, rows_of(places, length)
+    at = constraint_normals(miss, force, length)
+    tangent, here = at.tangent, rows_of(places, length)
     gap = here - rows_of(poses, length)
     # At the nearest place gap + pull J = 0, and along + pull J' = 0 where the forces J turn.
     pull = -at.solve(np.einsum("knac,knc->kna", at.force, gap))
