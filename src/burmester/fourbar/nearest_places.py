@@ -262,7 +262,7 @@ def _relative_gaps(samples: FloatArray, length: float) -> FloatArray:
     """
     gap = _distance_to_next(samples, length)[:, :-1]
     far = np.sqrt(_squares(samples[:, :-1], 0.0))
-    return np.nan_to_num(gap / (1 + far), nan=0.0, posinf=0.0)
+    return np.asarray(np.nan_to_num(gap / (1 + far), nan=0.0, posinf=0.0))
 
 
 def _refined(
