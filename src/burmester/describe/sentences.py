@@ -38,7 +38,7 @@ def best_sentences(synthesis: Synthesis) -> Iterator[str]:
     nearest = explanation.by_nearness(synthesis.linkages, size)[0]
     if not nearest.usable and _nearer(nearest, best, size):
         yield (
-            f"This one works and {explanation.met(best, task, size)}; "
+            f"This one works and {explanation.nearness(best, task, size)}; "
             f"the closest one, {nearest.id}, "
             f"{explanation.in_short(nearest, task, size)}."
         )
@@ -47,12 +47,12 @@ def best_sentences(synthesis: Synthesis) -> Iterator[str]:
         if better is not None:
             yield (
                 f"Its pivots are uncertain; those of {better.id} are not, and it "
-                f"{explanation.met(better, task, size)}."
+                f"{explanation.nearness(better, task, size)}."
             )
 
 
 def _passes(synthesis: Synthesis, best: FoundLinkage) -> str:
-    if explanation.exact(best, synthesis.length):
+    if explanation.meets_exactly(best, synthesis.length):
         return "passes every pose exactly, up to rounding"
     worst = wording.length_of(best.error.worst, synthesis.task)
     return f"passes every pose within {worst} and {degrees(float(best.error.angle.max()))}"

@@ -92,9 +92,9 @@ def unusable(synthesis: Synthesis, found: Sequence[FoundLinkage]) -> Group:
     rows: list[Text | Padding] = []
     for each in found[:MOST_UNUSABLE]:
         dyads = " ".join(dyad.id for dyad in each.dyads_driver_first)
-        how = explanation.met(each, synthesis.task, synthesis.length)
+        how = explanation.nearness(each, synthesis.task, synthesis.length)
         angle = float(each.error.angle.max())
-        if math.isfinite(angle) and not explanation.exact(each, synthesis.length):
+        if math.isfinite(angle) and not explanation.meets_exactly(each, synthesis.length):
             how += f" and {degrees(angle)}"
         if each.error_before_rounding is not None:
             before = wording.length_of(each.error_before_rounding.worst, synthesis.task)

@@ -1,4 +1,4 @@
-"""Why a linkage does not work, and what would help: in words, from what is known of it."""
+"""The explanation of a linkage in words: how near it comes, why it is not usable, what helps."""
 
 from __future__ import annotations
 
@@ -13,29 +13,29 @@ from burmester.numerics.arrays import ROUNDING
 from burmester.tasks.motion_task import CONDITIONS, Task
 from burmester.tasks.wording import called, figure, length_of
 
-__all__ = ["by_nearness", "exact", "in_short", "met", "reasons", "way_on"]
+__all__ = ["by_nearness", "hints", "in_short", "meets_exactly", "nearness", "reasons"]
 
-FEW = 3  # poses missed that are called by their names
-HINTS = 2  # ways on that are told
+MAX_NAMED_POSES = 3  # number of poses that a reason names; more are counted
+MAX_HINTS = 2  # number of linkages, with options that would make them usable, in one hint
 
 
-def exact(found: FoundLinkage, size: float) -> bool:
-    """Whether all poses are met, up to rounding, by a linkage of a task of characteristic size."""
+def meets_exactly(found: FoundLinkage, size: float) -> bool:
+    """Whether a linkage meets all poses within rounding; size: the task's characteristic length."""
     worst = float(np.nan_to_num(found.error.angle, nan=np.inf).max())
     return found.error.worst < ROUNDING * size and worst < 10 * ROUNDING
 
 
-def met(found: FoundLinkage, task: Task, size: float) -> str:
-    """How near it comes: "passes every pose exactly", "misses by 0.15 mm"."""
+def nearness(found: FoundLinkage, task: Task, size: float) -> str:
+    """How near a linkage comes: "passes every pose exactly", "misses by 0.15 mm"."""
     if not math.isfinite(found.error.worst):
         return "cannot be assembled near every pose"
-    if exact(found, size):
+    if meets_exactly(found, size):
         return "passes every pose exactly"
     return f"misses by {length_of(found.error.worst, task)}"
 
 
 def by_nearness(linkages: Sequence[FoundLinkage], size: float) -> list[FoundLinkage]:
-    """By rising worst position error, in the order they have where that is mere rounding."""
+    """Sorted by the worst position error; linkages equal within rounding keep their order."""
 
     def worst(each: FoundLinkage) -> float:
         return float(np.round(each.error.worst / (ROUNDING * size)))
@@ -44,28 +44,30 @@ def by_nearness(linkages: Sequence[FoundLinkage], size: float) -> list[FoundLink
 
 
 def reasons(found: FoundLinkage, task: Task) -> list[str]:
-    """Why it is not usable: defects, missed poses first; then what is asked and not so."""
-    said = [_too_far(found, task, each) or each.message for each in found.defects]
-    locks = any(each.kind == "branch" for each in found.defects)  # without any transmission there
-    return said + [
+    """Why a linkage is not usable: its defects, missed poses first; then violated requirements."""
+    defects = [_too_far(found, task, each) or each.message for each in found.defects]
+    # At a dead point there is no transmission angle anyway.
+    locks = any(each.kind == "branch" for each in found.defects)
+    return defects + [
         each.message for each in found.violations if not (locks and each.kind == "transmission")
     ]
 
 
 def in_short(found: FoundLinkage, task: Task, size: float) -> str:
-    """How near it comes and why it is not usable: "misses by 0.15 mm but locks between ..."."""
+    """Nearness and reasons in one phrase: "misses by 0.15 mm but locks between ..."."""
     far = any(each.kind == "assembly" for each in found.defects)
-    return f"{met(found, task, size)}{':' if far else ' but'} {'; '.join(reasons(found, task))}"
+    near = nearness(found, task, size)
+    return f"{near}{':' if far else ' but'} {'; '.join(reasons(found, task))}"
 
 
 def _too_far(found: FoundLinkage, task: Task, defect: Defect) -> str | None:
-    """An assembly defect by how much it misses, if it comes near the poses at all."""
+    """An assembly defect in terms of the distance, if the linkage has places near those poses."""
     poses = list(defect.poses)
     if defect.kind != "assembly" or not np.isfinite(found.error.position[poses]).all():
         return None
     away = length_of(float(found.error.position[poses].max()), task)
     turned = figure(math.degrees(float(found.error.angle[poses].max())))
-    if len(poses) <= FEW:
+    if len(poses) <= MAX_NAMED_POSES:
         which = called(task, poses)
     else:
         total = task.poses.shape[0]
@@ -73,40 +75,44 @@ def _too_far(found: FoundLinkage, task: Task, defect: Defect) -> str | None:
     return f"too far from {which} ({'' if len(poses) == 1 else 'up to '}{away} and {turned}°)"
 
 
-def way_on(linkages: Sequence[FoundLinkage], task: Task, size: float) -> str:
-    """What would help where none of the linkages is usable, and would leave one."""
+def hints(linkages: Sequence[FoundLinkage], task: Task, size: float) -> str:
+    """What to change where none of the linkages is usable, so that one becomes usable."""
     near = by_nearness(linkages, size)
-    ways: dict[tuple[str, ...], FoundLinkage] = {}
+    # For each set of options the nearest linkage that they make usable.
+    nearest_with: dict[tuple[str, ...], FoundLinkage] = {}
     for each in near:
         options = _options(each, task)
         if options:
-            ways.setdefault(tuple(option.split()[0] for option in options), each)
-    nearest = sorted(ways.values(), key=lambda each: len(_options(each, task)))
-    softer = ways.get(("--min-transmission",))
-    if softer is not None:  # the nearest one; and one that transmits best
-        alike = [each for each in near if {way.kind for way in each.violations} == {"transmission"}]
-        alike = [each for each in alike if not each.defects]
+            nearest_with.setdefault(tuple(option.split()[0] for option in options), each)
+    nearest = sorted(nearest_with.values(), key=lambda each: len(_options(each, task)))
+    softer = nearest_with.get(("--min-transmission",))
+    if softer is not None:  # beside the nearest one, the one with the best transmission angle
+        alike = [
+            each
+            for each in near
+            if not each.defects and {why.kind for why in each.violations} == {"transmission"}
+        ]
         best = max(alike, key=lambda each: each.driven.least_over_range)
         if best is not softer:
             nearest.insert(1, best)
-    said = [_would_do(each, task, size) for each in nearest[:HINTS]]
+    texts = [_would_do(each, task, size) for each in nearest[:MAX_HINTS]]
     if near[0].error_before_rounding is not None:
-        said.insert(0, "round less")
+        texts.insert(0, "round less")
     stuck = next((each for each in near[0].defects if each.kind in ("circuit", "branch")), None)
-    if stuck is not None and stuck.poses and len(said) < HINTS:
-        few = len(stuck.poses) <= FEW + 1
+    if stuck is not None and stuck.poses and len(texts) < MAX_HINTS:
+        few = len(stuck.poses) <= MAX_NAMED_POSES + 1
         text = f"move {called(task, stuck.poses, 'or')}" if few else "move a pose"
         if task.poses.shape[0] > CONDITIONS and not task.limits:
             text += ", or leave one out"
-        said.append(text)
+        texts.append(text)
     if task.limits:
-        said.append("give the limits more room")
-    return "; or ".join(said) or "move a pose"
+        texts.append("give the limits more room")
+    return "; or ".join(texts) or "move a pose"
 
 
 def _would_do(found: FoundLinkage, task: Task, size: float) -> str:
     options = _options(found, task)
-    how = met(found, task, size)
+    how = nearness(found, task, size)
     if options[0].startswith("--within"):
         turned = figure(math.degrees(float(found.error.angle.max())))
         how = f"is off by {length_of(found.error.worst, task)} and {turned}°"
@@ -114,7 +120,7 @@ def _would_do(found: FoundLinkage, task: Task, size: float) -> str:
 
 
 def _options(found: FoundLinkage, task: Task) -> tuple[str, ...]:
-    """The options with which the linkage would be usable; none where no option helps."""
+    """The options that would make the linkage usable; none where no option helps."""
     asked, options = task.requirements, []
     for defect in found.defects:
         if defect.kind == "order" and not asked.any_order:

@@ -1,4 +1,4 @@
-"""What is asked of a linkage and is not so."""
+"""The check of a linkage against the requirements of its task."""
 
 from __future__ import annotations
 
@@ -23,9 +23,10 @@ ViolationKind: TypeAlias = Literal[
     "transmission", "type", "driver", "footprint", "link ratio", "rounding"
 ]
 
-ROUNDING = 1e-9  # relative, of what is asked
-FLAT = 1e-6  # degrees; less is none
-PLACES = 181  # looked at on the way between the poses, for the footprint
+# Relative, and radians for angles.  A requirement missed by less than this is met.
+REQUIREMENT_TOLERANCE = 1e-9
+SHOWN_ANGLE = 1e-6  # degrees; a message writes a smaller angle as 0
+FOOTPRINT_SAMPLES = 181  # number of places between the poses checked against the footprint
 
 
 @final
@@ -40,62 +41,69 @@ class Violation:
 def violations(
     linkage: Linkage, driven: Driven, asked: Requirements, unit: str | None = None
 ) -> tuple[Violation, ...]:
-    """What a linkage, driven by its first dyad, lacks of what is asked."""
+    """The requirements that a linkage, driven by its first dyad, violates.
+
+    asked: the requirements; unit: the task's length unit, for messages.
+    """
     if not asked.asked:
         return ()
-    found: list[Violation] = []
+    missing: list[Violation] = []
     least = driven.least_over_range
-    if not least >= asked.transmission - ROUNDING:
-        found.append(
+    if not least >= asked.transmission - REQUIREMENT_TOLERANCE:
+        missing.append(
             Violation(
                 "transmission",
                 f"the transmission angle falls to {_degrees(least)} between the poses; "
-                f"{_degrees(asked.transmission)} is asked",
+                f"at least {_degrees(asked.transmission)} is required",
             )
         )
     kind = linkage.type
     if not asked.allows(kind):
-        found.append(Violation("type", f"it is {with_article(kind)}"))
+        missing.append(Violation("type", f"it is {with_article(kind)}"))
     if asked.driver == "crank" and not driven.turns_fully:
-        found.append(Violation("driver", "its driver does not turn fully"))
+        missing.append(Violation("driver", "its driver does not turn fully"))
     if (links := linkage.links) is not None:
         lengths = [float(length) for length in links]
         ratio = max(lengths) / min(lengths)
-        if ratio > asked.link_ratio * (1 + ROUNDING):
-            found.append(
+        if ratio > asked.link_ratio * (1 + REQUIREMENT_TOLERANCE):
+            missing.append(
                 Violation(
                     "link ratio",
                     f"its longest link is {ratio:.3g} times its shortest; "
-                    f"{asked.link_ratio:g} at most is asked",
+                    f"at most {asked.link_ratio:g} times is allowed",
                 )
             )
     if asked.footprint is not None:
         out, what = _outside(linkage, driven, asked.footprint)
-        if out > ROUNDING * float(np.ptp(asked.footprint.vertices, axis=0).max()):
+        if out > REQUIREMENT_TOLERANCE * float(np.ptp(asked.footprint.vertices, axis=0).max()):
             length = f"{out:.2g}{f' {unit}' if unit else ''}"
-            found.append(Violation("footprint", f"{what} leaves the footprint by {length}"))
-    return tuple(found)
+            missing.append(Violation("footprint", f"{what} leaves the footprint by {length}"))
+    return tuple(missing)
 
 
 def _degrees(angle: float) -> str:
     degrees = math.degrees(angle)
-    return f"{degrees if degrees > FLAT else 0:.3g}°" if math.isfinite(angle) else "nothing"
+    return f"{degrees if degrees > SHOWN_ANGLE else 0:.3g}°" if math.isfinite(angle) else "nothing"
 
 
 def _outside(linkage: Linkage, driven: Driven, footprint: Polygon) -> tuple[float, str]:
-    """How far the farthest pivot comes outside, at places close together, and which it is."""
+    """The greatest distance of a pivot outside the footprint, and what the pivot is.
+
+    At FOOTPRINT_SAMPLES places between the poses.
+    """
     worst, what = 0.0, ""
     ends = driven.parameter[np.isfinite(driven.parameter)]
     circuits = Circuits.of(linkage, as_given=True)
-    way = None
+    places = None
     if len(ends) and driven.circuit >= 0:
-        way = circuits[driven.circuit].couplers(np.linspace(ends.min(), ends.max(), PLACES))
+        parameter = np.linspace(ends.min(), ends.max(), FOOTPRINT_SAMPLES)
+        places = circuits[driven.circuit].couplers(parameter)
     for dyad in (linkage.first, linkage.second):
         points: list[tuple[str, FloatArray]] = []
         if isinstance(dyad, RR | RP):
             points.append(("a fixed pivot", dyad.fixed_pivot))
-        if isinstance(dyad, RR | PR) and way is not None:
-            points.append(("a moving pivot", way.act(dyad.moving_pivot)))
+        if isinstance(dyad, RR | PR) and places is not None:
+            points.append(("a moving pivot", places.act(dyad.moving_pivot)))
         for name, at in points:
             out = float(np.nanmax(footprint.signed_distance(np.asarray(at))))
             if out > worst:

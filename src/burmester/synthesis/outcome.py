@@ -12,7 +12,7 @@ from burmester.dyads.minima_within_limits import LimitedDyads
 from burmester.dyads.selection import LONG
 from burmester.errors import Advice
 from burmester.fourbar.dyad import RR
-from burmester.linkages.explanation import by_nearness, in_short, met, way_on
+from burmester.linkages.explanation import by_nearness, hints, in_short, nearness
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.synthesis.dyad_search import DyadSearch
 from burmester.synthesis.result import Outcome
@@ -175,7 +175,7 @@ def _none_usable(
     return Outcome(
         "R301",
         f"no usable linkage: {all_of_them}, {none}{aside}",
-        way_on(linkages, task, size),
+        hints(linkages, task, size),
         f"{why} {in_short(nearest, task, size)}",
     )
 
@@ -233,7 +233,7 @@ def linkage_advice(task: Task, linkages: Sequence[FoundLinkage], code: str) -> l
             other = max(usable, key=lambda each: each.driven.least_over_range)
             if other.driven.least_over_range > BETTER * least:
                 angle = least_angle(other.driven.least_over_range)
-                near = met(other, task, characteristic_length(task))
+                near = nearness(other, task, characteristic_length(task))
                 help = f"take {other.id}, which has {angle} or more and {near}; or {help}"
             warnings.append(
                 Advice(

@@ -119,7 +119,7 @@ def _linkage(
         "led": [dyad_data(first), dyad_data(second)],
         "said": {
             "verdict": "usable" if found.usable else "not usable",
-            "met": explanation.met(found, task, synthesis.length),
+            "met": explanation.nearness(found, task, synthesis.length),
             "in_short": explanation.in_short(found, task, synthesis.length),
             "reasons": [] if found.usable else explanation.reasons(found, task),
             "worst": worst,
