@@ -88,9 +88,9 @@ def by_scipy(dyads, true, side, rows, length):
 def hits(true, found, told):
     """For each pivot and line of a dyad its name, and whether its region holds the truth."""
     if told.fixed is not None:
-        yield "fixed pivot", bool(told.fixed.holds(true.fixed_pivot - found.fixed_pivot))
+        yield "fixed pivot", bool(told.fixed.contains(true.fixed_pivot - found.fixed_pivot))
     if told.moving is not None:
-        yield "moving pivot", bool(told.moving.holds(true.moving_pivot - found.moving_pivot))
+        yield "moving pivot", bool(told.moving.contains(true.moving_pivot - found.moving_pivot))
     if told.line is not None:
         turned = np.angle(np.exp(2j * (true.normal_angle - found.normal_angle))) / 2
         yield "angle of a line", bool(abs(turned) < told.line.angle)

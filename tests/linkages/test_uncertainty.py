@@ -36,7 +36,7 @@ def in_use(kinds):
 def ours(dyads, rows, weights=None, held=None, sigma=SIGMA):
     stack = LinkageBatch.of([Linkage(*dyads)])
     at = Displacement.from_poses(rows[None])
-    return stack, at, covariance(stack, at, LENGTH, sigma, weights, held)
+    return stack, at, covariance(stack, at, LENGTH, sigma, weights=weights, fixed=held)
 
 
 @pytest.mark.parametrize(
@@ -100,13 +100,13 @@ def test_regions_hold_the_truth_in_95_of_100_draws(second):
     for _ in range(draws):
         noise = rng.normal(size=rows.shape) * [SIGMA[0], SIGMA[0], SIGMA[1]]
         first, last = dyads_of([RR, second], refitted(dyads, rows + noise, drive))
-        hits.append(one.fixed.holds(first.fixed_pivot - dyads[0].fixed_pivot))
-        hits.append(one.moving.holds(first.moving_pivot - dyads[0].moving_pivot))
+        hits.append(one.fixed.contains(first.fixed_pivot - dyads[0].fixed_pivot))
+        hits.append(one.moving.contains(first.moving_pivot - dyads[0].moving_pivot))
         hits.append(abs(first.radius - dyads[0].radius) < one.length)
         if other.fixed is not None:
-            hits.append(other.fixed.holds(last.fixed_pivot - dyads[1].fixed_pivot))
+            hits.append(other.fixed.contains(last.fixed_pivot - dyads[1].fixed_pivot))
         if other.moving is not None:
-            hits.append(other.moving.holds(last.moving_pivot - dyads[1].moving_pivot))
+            hits.append(other.moving.contains(last.moving_pivot - dyads[1].moving_pivot))
         if other.line is not None:
             turned = last.normal_angle - dyads[1].normal_angle
             hits.append(abs(turned) < other.line.angle)
@@ -130,11 +130,11 @@ def test_an_ellipse_holds_what_it_should():
     ((one, other),) = uncertainties(spread, stack, Displacement.identity((1, 3)), unit=3.0)
     draws = rng.normal(size=(40000, 2)) @ root.T
     level = np.einsum("ni,ni->n", draws, np.linalg.solve(root @ root.T, draws.T).T)
-    assert np.array_equal(one.fixed.holds(3 * draws), level <= 5.991464547107979)
-    assert abs(one.fixed.holds(3 * draws).mean() - 0.95) < 0.005
+    assert np.array_equal(one.fixed.contains(3 * draws), level <= 5.991464547107979)
+    assert abs(one.fixed.contains(3 * draws).mean() - 0.95) < 0.005
     assert one.half_width == one.fixed.half_width == one.fixed.major > one.fixed.minor
     assert other.half_width == 0
-    assert PivotRegion(2, 1, np.pi / 2).holds(np.array([0.0, 1.9]))
+    assert PivotRegion(2, 1, np.pi / 2).contains(np.array([0.0, 1.9]))
 
 
 @pytest.mark.parametrize("second", [RR, PR, RP])

@@ -222,7 +222,12 @@ class Evaluation:
             weights = np.where(self.task.exact, EXACT, weights)
         held = _held_by(self.aim, stack[sound], rows[sound])
         spreads = covariance(
-            stack[sound], places, self.aim.length, (position / unit, angle), weights, held
+            stack[sound],
+            places,
+            self.aim.length,
+            (position / unit, angle),
+            weights=weights,
+            fixed=held,
         )
         regions = uncertainties(spreads, stack[sound], places, unit)
         deviation = links_deviation(stack[sound], spreads)

@@ -1,4 +1,4 @@
-"""How far from the poses a linkage comes that is made with tolerances.
+"""The pose errors of a linkage that is built within tolerances.
 
 Every dimension of the built linkage is off by up to a tolerance t, evenly spread and independent
 of the others: each coordinate of a pivot and each link length by +-t; a slider's line by +-t across
@@ -6,7 +6,7 @@ it, in the middle of the stretch that the poses use, and by +-t / length in its 
 The driver is adjusted: the built linkage meets a pose at the place of its coupler nearest to it.
 
 Near, here and everywhere, means the least |position error|² + (length x angle error)².  All
-arguments are in one frame and unit, where lengths are about 1 (`accuracy.error_frames`).
+arguments are in one frame and unit, where lengths are about 1 (`pose_error.error_frames`).
 """
 
 from __future__ import annotations
@@ -26,13 +26,13 @@ from burmester.numerics.arrays import FloatArray
 
 __all__ = ["Built", "Spread", "monte_carlo", "sensitivity", "spread"]
 
-DRAWS = 1000
-SHARE = 95.0  # per cent of the built linkages
-NUDGE = 1e-5  # lengths along the coupler's curve, for how the forces turn on the way
-DIRECTIONS = 90  # in which the greatest error is looked for, on half a circle
-STEPS = 30  # on the way to the nearest place of a built linkage
-SETTLED = 1e-9  # lengths; a last step below this has arrived, for steps shrink by squares
-BLOCK = 256  # poses looked at together
+DRAWS = 1000  # number of linkages built at random
+PERCENTILE = 95.0  # per cent of the built linkages within `greatest_95`
+TANGENT_STEP = 1e-5  # lengths along the coupler's curve, of the forces' difference quotients
+DIRECTIONS = 90  # number of directions on half a circle in which the greatest error is computed
+MAX_NEWTON_STEPS = 30  # number of steps to the nearest place of a built linkage at most
+CONVERGED_STEP = 1e-9  # lengths; after a smaller step the next would be rounding
+POSES_PER_BLOCK = 256  # number of poses computed at once; bounds the memory
 
 
 @final
@@ -40,11 +40,11 @@ BLOCK = 256  # poses looked at together
 class Spread:
     """Position errors of built linkages at poses (N,), to first order in the tolerance.
 
-    deviation: (k, N), rms distance between a built linkage's place and the nominal one.
-    worst: (k, N), no linkage within the tolerance has a greater position error at that pose.
+    deviation: (k, N), the rms distance between the places of built linkages and the nominal one.
+    worst: (k, N), upper bound on the position error at that pose of linkages within the tolerance.
     rms: (k,), the root of the mean squared position error over built linkages and poses.
     greatest_95: (k,), 95 % of the built linkages come nearer than this to every pose; from
-        1,000 draws, and so known to a few per cent.
+        1,000 draws, and so accurate to a few per cent.
     bound: (k,), the greatest `worst`.
     """
 
@@ -55,7 +55,7 @@ class Spread:
     bound: FloatArray
 
     def one(self, index: int, unit: float) -> Spread:
-        """That of one linkage, in another unit: the one in which the length 1 is `unit`."""
+        """The spread of one linkage, in the unit in which the length 1 is `unit`."""
         parts = (self.deviation, self.worst, self.rms, self.greatest_95, self.bound)
         return Spread(*(unit * part[index] for part in parts))
 
@@ -63,11 +63,11 @@ class Spread:
 @final
 @dataclass(frozen=True, slots=True, eq=False)
 class Built:
-    """Linkages built at random within a tolerance, and where they come.
+    """Linkages built at random within a tolerance, with their places.
 
-    dimensions: (k, draws, 2, 5), as built, in the order of the stack.
-    places: (k, draws, N), nearest to the poses; nan where the built linkage was not brought there.
-    position: (k, draws, N), their position errors, infinite there.
+    dimensions: (k, draws, 2, 5), as built, in the order of `LinkageBatch`.
+    places: (k, draws, N), nearest to the poses; nan where Newton's method does not converge.
+    position: (k, draws, N), their position errors, infinite for nan places.
     """
 
     dimensions: FloatArray
@@ -76,21 +76,22 @@ class Built:
 
     @property
     def lost(self) -> FloatArray:
-        """The share (k,) of linkages that miss a pose altogether."""
+        """The fraction (k,) of linkages without a place near some pose."""
         return np.asarray(np.isinf(self.position).any(axis=-1).mean(axis=-1))
 
     @property
     def greatest_95(self) -> FloatArray:
         """95 % of the linkages (k,) come nearer than this to every pose."""
-        return _share(self.position.max(axis=-1))
+        return _percentile_95(self.position.max(axis=-1))
 
 
-def spread(  # noqa: PLR0917
+def spread(
     stack: LinkageBatch,
     poses: Displacement,
     places: Displacement,
     length: float,
     tolerance: float,
+    *,
     seed: int = 0,
 ) -> Spread:
     """The position errors of linkages (k,) built within a tolerance, to first order.
@@ -100,13 +101,13 @@ def spread(  # noqa: PLR0917
     slope = tolerance * sensitivity(stack, poses, places, length)
     gap = places.translation - poses.translation
     deviation = np.sqrt((slope**2).sum(axis=(-2, -1)) / 3)
-    # The farthest point of a convex figure is that in the direction in which it reaches farthest.
+    # The farthest point of a convex figure is farthest in its own direction.
     worst = np.zeros(gap.shape[:-1])
     for angle in np.arange(DIRECTIONS) * (np.pi / DIRECTIONS):
         to = np.array([np.cos(angle), np.sin(angle)])
         along = np.abs(np.einsum("c,kncj->knj", to, slope)).sum(axis=-1)
         worst = np.maximum(worst, np.abs(gap @ to) + along)
-    worst /= np.cos(np.pi / (2 * DIRECTIONS))  # a bound between the directions tried as well
+    worst /= np.cos(np.pi / (2 * DIRECTIONS))  # a bound for directions in between, too
     square = (gap**2).sum(axis=-1) + deviation**2
     off = np.random.default_rng(seed).uniform(-1, 1, size=(DRAWS, slope.shape[-1]))
     greatest = np.zeros((len(stack), DRAWS))
@@ -114,64 +115,65 @@ def spread(  # noqa: PLR0917
         moved = gap[:, None, at] + np.einsum("sj,kncj->ksnc", off, slope[:, at])
         greatest = np.maximum(greatest, np.hypot(moved[..., 0], moved[..., 1]).max(axis=-1))
     rms = np.sqrt(square.mean(axis=-1))
-    return Spread(deviation, worst, rms, _share(greatest), worst.max(axis=-1))
+    return Spread(deviation, worst, rms, _percentile_95(greatest), worst.max(axis=-1))
 
 
 def sensitivity(
     stack: LinkageBatch, poses: Displacement, places: Displacement, length: float
 ) -> FloatArray:
-    """How the places nearest to poses (N,) move with what is built amiss: (k, N, 2, 10).
+    """Derivatives (k, N, 2, 10) of the places nearest to poses (N,) by errors of the dimensions.
 
-    Their positions by the errors of the dimensions in the order of the stack, each error as a
-    length (see the module); zero for slots not in use.
+    Of their positions, by errors in the order of `LinkageBatch`, each as a length (see the top of
+    the file); zero for unused slots.
     """
     miss, force, by_dimension = stack.bearing(places)
     at = constraint_normals(miss, force, length)
     tangent, here = at.tangent, rows_of(places, length)
     gap = here - rows_of(poses, length)
-    # At the nearest place gap + pull J = 0, and along + pull J' = 0 where the forces J turn.
-    pull = -at.solve(np.einsum("knac,knc->kna", at.force, gap))
-    ahead, behind = (
-        stack.bearing(_places(here + sign * NUDGE * length * tangent, length)) for sign in (1, -1)
-    )
-    step = 2 * NUDGE * length
-    turning = np.einsum("kna,kanc->knc", pull, (ahead.force - behind.force) / step)
+    # At the nearest place gap + multipliers J = 0 with the forces J, whose turning along the
+    # tangent bends the distance.
+    multipliers = -at.solve(np.einsum("knac,knc->kna", at.force, gap))
+    nudge = TANGENT_STEP * length * tangent
+    ahead, behind = (stack.bearing(_places(here + sign * nudge, length)) for sign in (1, -1))
+    step = 2 * TANGENT_STEP * length
+    turning = np.einsum("kna,kanc->knc", multipliers, (ahead.force - behind.force) / step)
     turning[..., 2] /= length
     partial = (ahead.by_dimension - behind.by_dimension) / step
-    curving = 1 + (turning * tangent).sum(axis=-1)  # how the distance bends: positive if least
-    # One dimension after the other: back to the moved surface, then along to the nearest place.
+    curvature = 1 + (turning * tangent).sum(axis=-1)  # of the distance; positive at a minimum
+    # One dimension after the other: back to the moved manifold, then along to the nearest place.
     moved = np.zeros((*places.shape, 3, 2, DIMENSIONS))
     for side in (0, 1):
         for j in range(DIMENSIONS):
             values = np.zeros((*places.shape, 2))
             values[..., side] = by_dimension[:, side, :, j]
             back = -np.einsum("kna,knac->knc", at.solve(values), at.force)
-            along = (turning * back).sum(axis=-1) + pull[..., side] * partial[:, side, :, j]
-            moved[..., side, j] = back - (along / curving)[..., None] * tangent
-    made = _made(stack, line_middle(stack, places), length)
-    return np.asarray(np.einsum("kncsj,ksji->kncsi", moved[..., :2, :, :], made)).reshape(
+            along = (turning * back).sum(axis=-1) + multipliers[..., side] * partial[:, side, :, j]
+            moved[..., side, j] = back - (along / curvature)[..., None] * tangent
+    errors = _dimensions_by_errors(stack, line_middle(stack, places), length)
+    return np.asarray(np.einsum("kncsj,ksji->kncsi", moved[..., :2, :, :], errors)).reshape(
         *places.shape, 2, 2 * DIMENSIONS
     )
 
 
-def monte_carlo(  # noqa: PLR0917
+def monte_carlo(
     stack: LinkageBatch,
     poses: Displacement,
     places: Displacement,
     length: float,
     tolerance: float,
+    *,
     draws: int = DRAWS,
     seed: int = 0,
 ) -> Built:
-    """Linkages built at random, each led from the nominal places to its nearest ones.
+    """Linkages built at random, each with its places nearest to the poses.
 
-    As in `spread`, but nothing is taken to be linear.  So every linkage stays on the circuit on
-    which it is meant to be, as long as the circuits keep apart.
+    As in `spread`, without linearisation.  Newton's method starts from the nominal places, so every
+    linkage stays on its circuit as long as the circuits are apart.
     """
     rng = np.random.default_rng(seed)
-    made = _made(stack, line_middle(stack, places), length)
+    errors = _dimensions_by_errors(stack, line_middle(stack, places), length)
     off = tolerance * rng.uniform(-1, 1, size=(len(stack), draws, 2, DIMENSIONS))
-    dimensions = stack.dimensions[:, None] + np.einsum("ksji,knsi->knsj", made, off)
+    dimensions = stack.dimensions[:, None] + np.einsum("ksji,knsi->knsj", errors, off)
     rows = np.empty((len(stack), draws, poses.shape[0], 3))
     for k in range(len(stack)):
         built = LinkageBatch(np.broadcast_to(stack.kinds[k], (draws, 2)), dimensions[k])
@@ -188,20 +190,20 @@ def _nearest(
 ) -> FloatArray:
     """The places (n, N, 3) of linkages (n,) nearest to poses (N,), by Newton's steps from (N,)."""
     shape = (len(built), poses.shape[0], 3)
-    surfaces = built.surfaces()
+    forms = built.surfaces()
     rows = np.broadcast_to(rows_of(start, length), shape)
     wanted = np.broadcast_to(rows_of(poses, length), shape)
     size = np.full(shape[:2], np.inf)
-    for _ in range(STEPS):
-        step, size = newton_step(surfaces, rows, wanted, length)
+    for _ in range(MAX_NEWTON_STEPS):
+        step, size = newton_step(forms, rows, wanted, length)
         rows = rows + step
-        if not (size > SETTLED).any():
+        if not (size > CONVERGED_STEP).any():
             break
-    return np.where((size <= SETTLED)[..., None], rows, np.nan)
+    return np.where((size <= CONVERGED_STEP)[..., None], rows, np.nan)
 
 
-def _made(stack: LinkageBatch, middle: FloatArray, length: float) -> FloatArray:
-    """How what is built amiss, as lengths, changes the dimensions of each dyad: (k, 2, 5, 5)."""
+def _dimensions_by_errors(stack: LinkageBatch, middle: FloatArray, length: float) -> FloatArray:
+    """Derivatives (k, 2, 5, 5) of the dimensions of each dyad by building errors, as lengths."""
     made = np.zeros((*stack.kinds.shape, DIMENSIONS, DIMENSIONS))
     made[:] = np.eye(DIMENSIONS)
     made[stack.kinds != STACKED.index(RR), -1, -1] = 0.0
@@ -216,10 +218,10 @@ def _places(rows: FloatArray, length: float) -> Displacement:
     return Displacement(rows[..., :2], rows[..., 2] / length)
 
 
-def _share(greatest: FloatArray) -> FloatArray:
-    """The value (k,) that 95 % of (k, draws) are below; a draw counts as it is, nothing between."""
-    return np.asarray(np.percentile(greatest, SHARE, axis=-1, method="higher"))
+def _percentile_95(greatest: FloatArray) -> FloatArray:
+    """The 95th percentile (k,) of (k, draws): one of the values, no interpolation."""
+    return np.asarray(np.percentile(greatest, PERCENTILE, axis=-1, method="higher"))
 
 
 def _blocks(poses: Displacement) -> Iterator[slice]:
-    return (slice(at, at + BLOCK) for at in range(0, poses.shape[0], BLOCK))
+    return (slice(at, at + POSES_PER_BLOCK) for at in range(0, poses.shape[0], POSES_PER_BLOCK))

@@ -1,9 +1,9 @@
-"""How uncertain the pivots of a linkage are, because the poses are known to a few digits only.
+"""The uncertainty of a linkage's pivots, as poses are known to a few digits only.
 
-A small error of a linkage does not mean certain pivots: where the body hardly turns, or nearly
-as a parallelogram's coupler does, the error hardly changes as the pivots move together.
+A small error of a linkage does not mean certain pivots: where the body hardly turns, or moves
+nearly as a parallelogram's coupler does, the error hardly changes as the pivots move together.
 
-Poses x = (d1, d2, length x angle) pull at the linkage only across its coupler's curve.  With
+Poses x = (d1, d2, length x angle) determine a linkage only across its coupler's curve.  With
 J = L Qᵀ, the forces that the two dyads bear at a place (Q has two orthonormal columns, L is lower
 triangular), and F the derivatives of the two equations by the dimensions z, the curve moves there
 by -L⁻¹ F dz within the plane of Q.  So errors e of the poses move a linkage of least squares by
@@ -37,13 +37,15 @@ __all__ = [
     "uncertainties",
 ]
 
-CIRCLE_95 = 2.4477468306808166  # standard deviations: sqrt(-2 ln 0.05), for two coordinates
-NORMAL_95 = 1.959963984540054  # for one
-ULPS = 4.0  # of the poses' own size, that they are known to at best
-SINGULAR = 1e-7  # sine of the angle between two forces that say the same, up to rounding
-LOST = 8 * float(np.finfo(np.float64).eps)  # a smaller singular value is rounding
-UNKNOWN = 1e3  # standard deviation, in lengths, of what the poses say nothing about, at least
-HELD = 1e-9  # sine of the angle between two held quantities that are one
+CIRCLE_95 = 2.4477468306808166  # standard deviations: 95 % radius in a plane, sqrt(-2 ln 0.05)
+NORMAL_95 = 1.959963984540054  # standard deviations: 95 % half-width in one coordinate
+POSE_ULPS = 4.0  # units in the last place of the poses' size: floor on their standard deviation
+# Sine of the angle between both dyads' forces; with a smaller one they count as one constraint.
+PARALLEL_FORCES = 1e-7
+LOST_SINGULAR_VALUE = 8 * float(np.finfo(np.float64).eps)  # relative; a smaller one is rounding
+# Lengths: floor on the standard deviation of what the poses do not determine.
+UNKNOWN_DEVIATION = 1e3
+DEPENDENT = 1e-9  # relative singular value; smaller ones mean that fixed quantities are dependent
 
 _RR, _PR, _RP = (STACKED.index(kind) for kind in (RR, PR, RP))
 
@@ -51,7 +53,7 @@ _RR, _PR, _RP = (STACKED.index(kind) for kind in (RR, PR, RP))
 @final
 @dataclass(frozen=True, slots=True)
 class PivotRegion:
-    """The ellipse that holds a pivot with a probability of 95 %, around where it was found.
+    """The ellipse that contains a pivot with a probability of 95 %, centred at its estimate.
 
     major, minor: its semi-axes; direction: the angle of the major one in the pivot's own frame
     (F for a fixed pivot, M for a moving one), radians in (-pi/2, pi/2].
@@ -63,11 +65,11 @@ class PivotRegion:
 
     @property
     def half_width(self) -> float:
-        """How far the ellipse reaches in its worst direction."""
+        """The half-width of the ellipse in its worst direction."""
         return self.major
 
-    def holds(self, offset: FloatArray) -> NDArray[np.bool_]:
-        """Whether points (*, 2), relative to the centre, are within."""
+    def contains(self, offset: FloatArray) -> NDArray[np.bool_]:
+        """Whether points (*, 2), relative to the centre, are within the ellipse."""
         z = (offset[..., 0] + 1j * offset[..., 1]) * np.exp(-1j * self.direction)
         return (
             np.asarray((z.real * self.minor) ** 2 + (z.imag * self.major) ** 2)
@@ -91,9 +93,10 @@ class LineRegion:
 @final
 @dataclass(frozen=True, slots=True)
 class DyadUncertainty:
-    """What of a dyad is how uncertain; None for what the dyad does not have.
+    """The 95 % regions of a dyad's dimensions; None for dimensions that its kind does not have.
 
-    length: the 95 % half-width of an RR dyad's link.
+    fixed, moving: of the pivots; line: of a slider's line.
+    length: the half-width of an RR dyad's link length.
     """
 
     fixed: PivotRegion | None
@@ -103,16 +106,16 @@ class DyadUncertainty:
 
     @property
     def half_width(self) -> float:
-        """Of its pivots and its line, the one that is known least: 95 % half-width."""
+        """The greatest 95 % half-width of its pivots and its line."""
         parts = [each.half_width for each in (self.fixed, self.moving) if each is not None]
         return max([*parts, 0.0 if self.line is None else self.line.offset])
 
 
 class _Across(NamedTuple):
-    """How forces J (*, 2, 3) lie across the coupler's curve: J = [[first, 0], [mixed, second]] Q'.
+    """Forces J (*, 2, 3) across the coupler's curve: J = [[first, 0], [mixed, second]] Q'.
 
-    normals: Q' (*, 2, 3), orthonormal.  second is infinite where both forces are one: the curve has
-    no normal plane there, and only one normal.
+    normals: Q' (*, 2, 3), orthonormal.  Where both forces are parallel the curve has one normal
+    only, and second is infinite.
     """
 
     normals: FloatArray
@@ -130,7 +133,7 @@ class _Across(NamedTuple):
         rest = b - mixed[..., None] * one
         rest -= (rest * one).sum(axis=-1)[..., None] * one  # once more: little may be left
         second = np.linalg.norm(rest, axis=-1)
-        lost = second < SINGULAR * np.linalg.norm(b, axis=-1)
+        lost = second < PARALLEL_FORCES * np.linalg.norm(b, axis=-1)
         other = np.where(lost, 0.0, 1 / np.where(lost, 1.0, second))[..., None] * rest
         return cls(np.stack([one, other], axis=-2), first, mixed, np.where(lost, np.inf, second))
 
@@ -138,10 +141,10 @@ class _Across(NamedTuple):
 def pose_sigma(task: Task) -> tuple[float, float]:
     """The standard deviations of a pose: a coordinate, in the task's unit, and the angle.
 
-    Numbers rounded to their last digit err evenly within half of it.  Never less than a few units
-    in the last place of what a double holds.
+    Numbers rounded to their last digit err evenly within half of it.  The deviations are never
+    less than a few units in the last place of a double.
     """
-    rounding = ULPS * np.finfo(np.float64).eps
+    rounding = POSE_ULPS * np.finfo(np.float64).eps
     size = np.abs(task.poses.translation).max() or 1.0
     least = rounding * size, rounding * max(1.0, float(np.abs(task.poses.angle).max()))
     position, angle = (
@@ -151,32 +154,33 @@ def pose_sigma(task: Task) -> tuple[float, float]:
     return position, angle
 
 
-def covariance(  # noqa: PLR0917
+def covariance(
     stack: LinkageBatch,
     places: Displacement,
     length: float,
     sigma: tuple[float, float],
+    *,
     weights: FloatArray | None = None,
-    held: FloatArray | None = None,
+    fixed: FloatArray | None = None,
 ) -> FloatArray:
-    """Covariances (k, 10, 10) of the dimensions of linkages fitted to poses that err.
+    """Covariances (k, 10, 10) of the dimensions of linkages fitted to poses with errors.
 
     stack: (k,) linkages, refined: least sum of w (|position error|² + (length x angle error)²).
-    places: (k, N), nearest to the poses; one that is nan says nothing.
+    places: (k, N), nearest to the poses; nan places are left out.
     sigma: standard deviations of a coordinate and of an angle, independent of each other.
-    weights: (N,), how the fit weighs the poses, not how well they are known: a pose of large
-        weight is met nearly exactly, and its errors are passed on whole.
-    held: (k, m, 10), derivatives of quantities that do not change, such as limits that hold; zero
-        rows mean nothing.  An exact pose whose own errors count is one of large weight instead.
-    Order of the dimensions: dyad by dyad as in `LinkageBatch`; slots not in use are zero.  All in
-    one frame and unit, where lengths are about 1: `accuracy.error_frames` with `LinkageBatch.seen`,
-    and sigma in that unit; M must be as it is given, for pose errors are those of its origin.
-    What the poses do not determine has a standard deviation of 1e3 lengths at least.
+    weights: (N,), of the poses in the fit, not of the knowledge of them: a pose of large weight is
+        met nearly exactly, and its errors are passed on whole.
+    fixed: (k, m, 10), derivatives of quantities that do not change, such as active limits; zero
+        rows are left out.  An exact pose has a large weight instead, as its own errors count.
+    Order of the dimensions: dyad by dyad as in `LinkageBatch`; unused slots are zero.  All in one
+    frame and unit, where lengths are about 1: `pose_error.error_frames` with `LinkageBatch.seen`,
+    and sigma in that unit; the origin of M stays, as pose errors are those of this point.
+    What the poses do not determine has a standard deviation of at least UNKNOWN_DEVIATION.
     """
     count = places.shape[1]
     _, force, by_dimension = stack.bearing(places)
     plane = _Across.of(force, length)
-    # Rows of the poses: u by the dimensions, two a pose, and a root of the errors' covariance.
+    # Two rows for each pose: the derivatives by the dimensions, and a root of its covariance.
     a: FloatArray = np.zeros((len(stack), count, 2, 2, DIMENSIONS))
     a[..., 0, 0, :] = by_dimension[:, 0] / plane.first[..., None]
     a[..., 1, 0, :] = -(plane.mixed / plane.second)[..., None] * a[..., 0, 0, :]
@@ -189,19 +193,20 @@ def covariance(  # noqa: PLR0917
     a, noise = (share * np.where(known[..., None, None], each, 0.0) for each in (-a, noise))
     a = a.reshape(len(stack), 2 * count, -1)
 
-    fast = _held(stack, held)
-    free = np.eye(2 * DIMENSIONS) - fast
+    fixed_part = _fixed_projector(stack, fixed)
+    free = np.eye(2 * DIMENSIONS) - fixed_part
     a = a @ free
     size = np.linalg.norm(a, axis=(-2, -1), keepdims=True)
     size = np.where(size > 0, size, 1.0)
-    # What is held becomes known, from rows without errors: so zeros left are not known at all.
-    u, s, vt = np.linalg.svd(np.concatenate([a, size * fast], axis=1), full_matrices=False)
-    lost = s < LOST * size[..., 0]
+    # Rows without errors for the fixed directions: singular values that remain 0 are unknown.
+    u, s, vt = np.linalg.svd(np.concatenate([a, size * fixed_part], axis=1), full_matrices=False)
+    lost = s < LOST_SINGULAR_VALUE * size[..., 0]
     u = u[:, : 2 * count].reshape(len(stack), count, 2, -1)
     moved = np.einsum("knac,knad->kcnd", u, noise).reshape(len(stack), 2 * DIMENSIONS, -1)
     moved = np.where(lost, 0.0, 1 / np.where(lost, 1.0, s))[..., None] * moved
     greatest = np.sqrt((noise**2).sum(axis=(-2, -1)).max(axis=-1, initial=0.0))[:, None]
-    unknown = lost * np.maximum(greatest / (LOST * size[..., 0]), UNKNOWN * length)
+    unknown = greatest / (LOST_SINGULAR_VALUE * size[..., 0])
+    unknown = lost * np.maximum(unknown, UNKNOWN_DEVIATION * length)
     root = (
         free
         @ vt.swapaxes(1, 2)
@@ -210,17 +215,17 @@ def covariance(  # noqa: PLR0917
     return np.asarray(root @ root.swapaxes(1, 2))
 
 
-def _held(stack: LinkageBatch, held: FloatArray | None) -> FloatArray:
-    """Projectors (k, 10, 10) on the directions of what is held, unused slots among them."""
+def _fixed_projector(stack: LinkageBatch, fixed: FloatArray | None) -> FloatArray:
+    """Projectors (k, 10, 10) on the directions in which dimensions are fixed, or unused."""
     unused = np.zeros((len(stack), 2, 2, DIMENSIONS))
     for side in (0, 1):
         unused[:, side, side, -1] = stack.kinds[:, side] != _RR
     rows = unused.reshape(len(stack), 2, -1)
-    if held is not None:
-        rows = np.concatenate([rows, held], axis=1)
+    if fixed is not None:
+        rows = np.concatenate([rows, fixed], axis=1)
     size = np.linalg.norm(rows, axis=-1, keepdims=True)
     _, s, vt = np.linalg.svd(rows / np.where(size > 0, size, 1.0), full_matrices=False)
-    basis = vt * (s > HELD)[..., None]
+    basis = vt * (s > DEPENDENT)[..., None]
     return np.asarray(basis.swapaxes(1, 2) @ basis)
 
 
@@ -229,11 +234,11 @@ def uncertainties(
 ) -> list[tuple[DyadUncertainty, DyadUncertainty]]:
     """The 95 % regions of both dyads of linkages (k,), from `covariance` of the same stack.
 
-    places: (k, N), as there; they tell which stretch of a line is used.
-    unit: the length that is 1 there (the length of its frames): the result is in the task's unit.
+    places: (k, N), as there; they bound the stretch of a line that is in use.
+    unit: the length of its frames, in the task's unit, which is that of the result.
     """
     middle = line_middle(stack, places)
-    found = []
+    regions = []
     for k in range(len(stack)):
         pair = []
         for side in (0, 1):
@@ -241,12 +246,12 @@ def uncertainties(
             pair.append(
                 _of_dyad(covariance[k, slots, slots], stack.kinds[k, side], middle[k, side], unit)
             )
-        found.append((pair[0], pair[1]))
-    return found
+        regions.append((pair[0], pair[1]))
+    return regions
 
 
 def _of_dyad(spread: FloatArray, kind: int, middle: float, unit: float) -> DyadUncertainty:
-    """From the covariance (5, 5) of one dyad."""
+    """The 95 % regions of one dyad, from its covariance (5, 5)."""
     fixed = None if kind == _PR else _ellipse(spread[:2, :2], unit)
     moving = None if kind == _RP else _ellipse(spread[2:4, 2:4], unit)
     if kind == _RR:
@@ -269,9 +274,10 @@ def _ellipse(spread: FloatArray, unit: float) -> PivotRegion:
 
 
 def line_middle(stack: LinkageBatch, places: Displacement) -> FloatArray:
-    """For each dyad (k, 2) that is a slider, where along its line the middle of its travel is.
+    """The middle of each slider's travel along its line, (k, 2); 0 for an RR.
 
-    From the foot of the normal through the origin, towards a quarter turn ahead of it; 0 for an RR.
+    Measured from the foot of the normal through the origin, in the direction a quarter turn ahead
+    of the normal.
     """
     middle = np.zeros(stack.kinds.shape)
     for index, pair in stack.alike():
@@ -295,7 +301,7 @@ def line_middle(stack: LinkageBatch, places: Displacement) -> FloatArray:
 def links_deviation(stack: LinkageBatch, covariance: FloatArray) -> FloatArray:
     """Standard deviations (k,) of Grashof's excess s + l - p - q; nan where a dyad is a slider.
 
-    An excess not beyond twice that is a change point as far as the poses can tell.
+    With an excess up to twice that, the poses do not exclude a change point.
     """
     deviation = np.full(len(stack), np.nan)
     for index, pair in stack.alike():
