@@ -21,9 +21,12 @@ from burmester.numerics.weights import shares
 
 __all__ = ["CanonicalFrames"]
 
-STILL = 1e-28  # spread of the rotation, squared, below which it is rounding and M only moves
-FAR = 30.0  # sizes of the motion; an origin of M farther off costs digits worth saving
-POLE_ONLY = 1e-10  # below this share of the motion's size the poses share a pole exactly
+# Mean squared deviation of e^(i angle).  A smaller one is rounding: M only translates.
+ROTATION_ROUNDING = 1e-28
+# Sizes of the motion.  With an origin of M farther off than this, long doubles save digits.
+FAR_ORIGIN = 30.0
+# Fraction of the motion's size.  If less of it remains, all poses share a pole.
+SHARED_POLE = 1e-10
 
 
 @final
@@ -56,15 +59,15 @@ class CanonicalFrames:
         d0, turn0 = d - mean_d, turn - mean_turn
         spread = (share * (turn0.real**2 + turn0.imag**2)).sum(axis=-1, keepdims=True)
         moment = -(share * turn0.conj() * d0).sum(axis=-1, keepdims=True)
-        m = np.divide(moment, spread, out=np.zeros_like(moment), where=spread > STILL)
+        m = np.divide(moment, spread, out=np.zeros_like(moment), where=spread > ROTATION_ROUNDING)
         c = mean_d + mean_turn * m
         rest = d0 + turn0 * m
         before, length = _rms(share, d0), np.array(_rms(share, rest))
-        if (far := np.abs(m[..., 0]) > FAR * length).any():
+        if (far := np.abs(m[..., 0]) > FAR_ORIGIN * length).any():
             rest[far] = _less_rounding(poses[far], c[far], m[far])
             length[far] = _rms(share[far], rest[far])
         # Poses with a common pole leave nothing to measure by but the motion itself.
-        length = np.where(length > POLE_ONLY * before, length, before)
+        length = np.where(length > SHARED_POLE * before, length, before)
         length = np.where(length > 0, length, 1.0)
         frames = cls(_pair(c[..., 0]), _pair(m[..., 0]), length)
         return frames, Displacement(_pair(rest / length[..., None]), poses.angle)

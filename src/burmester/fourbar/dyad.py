@@ -1,9 +1,8 @@
 """The four planar dyads: RR, PR, RP and PP, their letters read from ground to coupler.
 
-Each holds its dimensions as arrays with the same leading axes, so that one dyad and a
-million are the same type.  `residual` is how far a displacement is from being possible for
-the dyad, signed and in the task's length unit (radians for PP); `coefficients` is its
-constraint manifold.
+The dimensions are arrays with the same leading axes, so that one dyad and a million are the
+same type.  `residual` is the signed distance of a displacement from those that the dyad
+allows, in the task's length unit (radians for PP); `coefficients` is its constraint manifold.
 """
 
 from __future__ import annotations
@@ -22,7 +21,7 @@ __all__ = ["PP", "PR", "RP", "RR", "Dyad", "refitted_circles"]
 
 
 class _Dimensions:
-    """What the four kinds share: fields made float arrays once, and leading axes to pick from."""
+    """The common part of the four kinds: float arrays, and indices along the leading axes."""
 
     __slots__ = ()
 
@@ -36,7 +35,7 @@ class _Dimensions:
         points = index
         if isinstance(index, tuple) and any(part is Ellipsis for part in index):
             points = (*index, slice(None))
-        picked = object.__new__(type(self))  # what is picked needs no conversion
+        picked = object.__new__(type(self))  # its parts need no conversion
         for name in self.__match_args__:  # type: ignore[attr-defined]
             part = getattr(self, name)[points if name.endswith("pivot") else index]
             object.__setattr__(picked, name, part)
@@ -46,9 +45,23 @@ class _Dimensions:
 @final
 @dataclass(frozen=True, slots=True, eq=False)
 class RR(_Dimensions):
-    """A point of M stays on a circle of F: a link with two pins.
+    """A link with two pins: a point of M stays on a circle of F.
 
-    fixed_pivot: (*, 2) in F; moving_pivot: (*, 2) in M; radius: (*,), the link's length.
+    Attributes
+    ----------
+    fixed_pivot : (*, 2) array of float
+        The centre of the circle, in F, in the task's length unit.
+    moving_pivot : (*, 2) array of float
+        The point of M.
+    radius : (*,) array of float
+        The length of the link.
+
+    Examples
+    --------
+    >>> from burmester import Displacement
+    >>> crank = RR(fixed_pivot=[0, 0], moving_pivot=[1, 0], radius=2)
+    >>> float(crank.residual(Displacement([2.0, 0.0], 0.0)))
+    1.0
     """
 
     fixed_pivot: FloatArray
@@ -80,10 +93,25 @@ class RR(_Dimensions):
 @final
 @dataclass(frozen=True, slots=True, eq=False)
 class PR(_Dimensions):
-    """A point of M stays on a line of F: a slider on the ground with a pin on it.
+    """A slider on the ground with a pin on it: a point of M stays on a line of F.
 
-    The line is n · X = offset with n = (cos, sin)(normal_angle) in F, normal_angle (*,) in
-    radians, offset (*,); moving_pivot: (*, 2) in M.
+    The line is n · X = offset with n = (cos, sin)(normal_angle) in F.
+
+    Attributes
+    ----------
+    normal_angle : (*,) array of float
+        In radians, in F.
+    offset : (*,) array of float
+        The signed distance of the line from the origin of F, in the task's length unit.
+    moving_pivot : (*, 2) array of float
+        The point of M.
+
+    Examples
+    --------
+    >>> from burmester import Displacement
+    >>> slider = PR(normal_angle=0, offset=0.5, moving_pivot=[0, 0])
+    >>> float(slider.residual(Displacement([3.0, 1.0], 0.0)))
+    2.5
     """
 
     normal_angle: FloatArray
@@ -111,10 +139,25 @@ class PR(_Dimensions):
 @final
 @dataclass(frozen=True, slots=True, eq=False)
 class RP(_Dimensions):
-    """A point of F stays on a line of M: a pin on the ground in a slot of the body.
+    """A pin on the ground in a slot of the body: a point of F stays on a line of M.
 
-    fixed_pivot: (*, 2) in F; the line is n · x = offset with n = (cos, sin)(normal_angle)
-    in M, normal_angle (*,) in radians, offset (*,).
+    The line is n · x = offset with n = (cos, sin)(normal_angle) in M.
+
+    Attributes
+    ----------
+    fixed_pivot : (*, 2) array of float
+        The point of F, in the task's length unit.
+    normal_angle : (*,) array of float
+        In radians, in M.
+    offset : (*,) array of float
+        The signed distance of the line from the origin of M.
+
+    Examples
+    --------
+    >>> from burmester import Displacement
+    >>> slot = RP(fixed_pivot=[3, 1], normal_angle=0, offset=2)
+    >>> float(slot.residual(Displacement([0.0, 0.0], 0.0)))
+    1.0
     """
 
     fixed_pivot: FloatArray
@@ -140,7 +183,19 @@ class RP(_Dimensions):
 @final
 @dataclass(frozen=True, slots=True, eq=False)
 class PP(_Dimensions):
-    """M only translates: two sliders, one on the other.  angle: (*,), kept, in radians."""
+    """Two sliders, one on the other: M only translates.
+
+    Attributes
+    ----------
+    angle : (*,) array of float
+        The angle of M, in radians, which stays.
+
+    Examples
+    --------
+    >>> from burmester import Displacement
+    >>> float(PP(angle=0.5).residual(Displacement([7.0, 8.0], 0.75)))
+    0.25
+    """
 
     angle: FloatArray
 
@@ -176,11 +231,26 @@ def _wrench(force: FloatArray, at: FloatArray) -> FloatArray:
 def refitted_circles(
     p: FloatArray, poses: Displacement, weights: FloatArray | None = None
 ) -> tuple[RR, FloatArray, FloatArray]:
-    """The circles of p (*, k, 8), their radii refitted to the poses (*, N), and their errors.
+    """The circles of manifolds p, with radii refitted to the poses.
 
-    The mean distance of the moving pivot from the fixed one is the radius with the least sum
-    of squares.  Returned with the rms and the greatest residual over the poses, (*, k) each.
-    The radius that p itself holds is not used: noise makes its two versions disagree.
+    The mean distance of the moving pivot from the fixed one is the radius with the least sum of
+    squares.  The radius in p itself is not used: noise makes its two versions disagree.
+
+    Parameters
+    ----------
+    p : (*, k, 8) array of float
+        The constraint manifolds.
+    poses : Displacement
+        (*, N)
+    weights : (*, N) array of float, optional
+        Of the poses in the fit.
+
+    Returns
+    -------
+    circles : RR
+        (*, k)
+    rms, greatest : (*, k) arrays of float
+        The root mean square and the greatest residual over the poses.
     """
     fixed_pivot, moving_pivot, _ = constraint_manifold.circle(p)
     centred = RR(fixed_pivot, moving_pivot, np.zeros(fixed_pivot.shape[:-1]))

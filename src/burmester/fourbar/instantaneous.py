@@ -1,9 +1,9 @@
-"""How the coupler moves at a place: velocity, instant centre, centrodes, transmission angle.
+"""Instantaneous kinematics: velocity, instant centre, centrodes, transmission angle at a place.
 
 Each dyad lets the coupler move only so that it does no work against one force, which acts along a
 line: an RR's link, the normal of a PR's line through its moving pivot, the normal of an RP's line
-through its fixed pivot.  The instant centre is where the two lines cross.  So nothing here asks
-which dyad drives, except the speeds and the transmission angle.
+through its fixed pivot.  The instant centre is where the two lines cross.  Only the speeds and the
+transmission angle depend on the driver.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ __all__ = ["Centrodes", "centrodes", "instant_centre", "transmission_angle", "tw
 
 
 class Centrodes(NamedTuple):
-    """The instant centres of places (*,) as F and as M see them: points (*, 2).
+    """The instant centres of places (*,) in F and in M: points (*, 2).
 
     Along a circuit the curves of these points roll on each other without slipping.  Not finite
     where the coupler only translates at that instant.
@@ -34,11 +34,11 @@ class Centrodes(NamedTuple):
 
 
 def twist(linkage: Linkage, places: Displacement) -> FloatArray:
-    """The direction (*, 3) in which the coupler can move at places (*,), of no certain size.
+    """The direction (*, 3) in which the coupler can move at places (*,), of any size.
 
     (v1, v2, omega): the velocity in F of the origin of M, and the angular velocity.  The axes of
-    the linkages are the first of the places.  Zero where both dyads ask for the same, as they do
-    at a change point: there the coupler can move in two ways.
+    the linkages are the first of the places.  Zero at a change point, where both constraints are
+    the same to first order and the coupler can move in two ways.
     """
     first, second = (
         with_trailing_axes(dyad, len(places.shape)).gradient(places)
@@ -48,10 +48,10 @@ def twist(linkage: Linkage, places: Displacement) -> FloatArray:
 
 
 def velocity(linkage: Linkage, places: Displacement) -> FloatArray:
-    """The coupler's velocity (*, 3) at places (*,) for a unit speed of the first dyad's drive.
+    """The coupler's velocity (*, 3) at places (*,) for a unit speed of the first dyad's input.
 
-    (v1, v2, omega) as in `twist`; not finite at dead points of that drive.
-    Raises InputError E401 where the first dyad is PP, which has no one drive.
+    (v1, v2, omega) as in `twist`; not finite at dead points of that input.
+    Raises InputError E401 where the first dyad is PP, which has no single input.
     """
     motion, driver = twist(linkage, places), with_trailing_axes(linkage.first, len(places.shape))
     v, omega = complex_of(motion[..., :2]), motion[..., 2]
@@ -94,7 +94,7 @@ def centrodes(linkage: Linkage, places: Displacement) -> Centrodes:
 def transmission_angle(linkage: Linkage, places: Displacement) -> FloatArray:
     """The angle (*,) in [0, pi/2] between the force on the second dyad and its lever, radians.
 
-    The first dyad drives.  It is 0 at its dead points, pi/2 where the force is best used.
+    The first dyad drives.  The angle is 0 at its dead points and best at pi/2.
 
     An RR or PR that follows an RR or PR: between the coupler, from pin to pin, and the follower
     (for PR the normal of its line).  The same after an RP: between the normal of the driving slot,

@@ -1,4 +1,4 @@
-"""Two dyads joined: a linkage, its links, its type, and where its coupler can be.
+"""A linkage of two dyads: its links, its type, and the places of its coupler.
 
 The coupler moves where both constraint manifolds meet.  At a given coupler angle each of
 them is a circle (or a line) in the (Z1, Z2) plane, so the coupler's places are where two
@@ -18,8 +18,8 @@ from burmester.numerics.arrays import FloatArray
 
 __all__ = ["Linkage", "Links", "grashof"]
 
-PARALLEL = 1e-9  # of two lines, or of the line of two circles: its direction is rounding
-CHANGE_POINT = 1e-9  # relative excess of link lengths below which Grashof's sum is a tie
+PARALLEL = 1e-9  # relative; lines whose cross product is smaller are parallel within rounding
+GRASHOF_TIE = 1e-9  # relative excess of link lengths; a smaller one is a change point
 
 _TYPES = {
     frozenset({RR, PR}): "slider-crank",
@@ -42,14 +42,29 @@ class Links(NamedTuple):
 @final
 @dataclass(frozen=True, slots=True, eq=False)
 class Linkage:
-    """A four-bar: a coupler held to the ground by two dyads."""
+    """A four-bar linkage: two dyads that join one coupler to the ground.
+
+    Attributes
+    ----------
+    first, second : Dyad
+        RR, PR, RP or PP, with the same leading axes; where one drives, the first.
+
+    Examples
+    --------
+    >>> from burmester import RR
+    >>> linkage = Linkage(RR([0, 0], [0, 0], 1), RR([4, 0], [3, 0], 3))
+    >>> linkage.type
+    'crank-rocker'
+    >>> float(linkage.links.coupler)
+    3.0
+    """
 
     first: Dyad
     second: Dyad
 
     @property
     def links(self) -> Links | None:
-        """Link lengths of a 4R linkage; None where a dyad is a slider."""
+        """The link lengths of a 4R linkage; None where a dyad is a slider."""
         a, b = self.first, self.second
         if not (isinstance(a, RR) and isinstance(b, RR)):
             return None
@@ -66,10 +81,20 @@ class Linkage:
         return _TYPES.get(pair, "translating linkage")
 
     def couplers(self, angle: FloatArray) -> Displacement:
-        """The coupler's places at coupler angles (*,), radians: displacements (*, 2).
+        """The two coupler places at each coupler angle.
 
-        nan where the linkage cannot be assembled at that angle.  The two places exchange roles
-        where they meet.  Not for PP dyads, nor for a coupler that only translates.
+        The two places exchange roles where they meet.  Not for PP dyads, nor for a coupler that
+        only translates.
+
+        Parameters
+        ----------
+        angle : (*,) array of float
+            In radians.
+
+        Returns
+        -------
+        Displacement
+            (*, 2); nan where the linkage cannot be assembled at that angle.
         """
         angle = np.asarray(angle, dtype=np.float64)
         s, c = np.sin(angle / 2), np.cos(angle / 2)
@@ -109,7 +134,7 @@ def grashof(links: Links) -> str:
     lengths = np.array([float(length) for length in links])
     s, p, q, longest = np.sort(lengths)
     excess = s + longest - p - q
-    if abs(excess) <= CHANGE_POINT * lengths.sum():
+    if abs(excess) <= GRASHOF_TIE * lengths.sum():
         return "change-point"
     if excess > 0:
         return "triple-rocker"

@@ -1,4 +1,4 @@
-"""How far the coupler is from the poses, and the frames in which that is measured."""
+"""The error of a linkage at the poses, and the frames in which errors are computed."""
 
 from __future__ import annotations
 
@@ -20,9 +20,25 @@ __all__ = ["PoseError", "error_frames"]
 @final
 @dataclass(frozen=True, slots=True, eq=False)
 class PoseError:
-    """How far the coupler stays from the poses, at places (N,) of one linkage.
+    """The error of one linkage at poses (N,): what its coupler misses them by.
 
-    Position in the task's length unit, angle in radians.
+    Attributes
+    ----------
+    places : Displacement
+        (N,), of the coupler, nearest to the poses; nan where there is none.
+    position : (N,) array of float
+        The distances of the origin of M from the poses, in the task's length unit.
+    angle : (N,) array of float
+        The absolute differences of the angle, in radians.
+
+    Examples
+    --------
+    >>> from burmester import RR, Displacement, Linkage
+    >>> linkage = Linkage(RR([0, 0], [0, 0], 1), RR([4, 0], [3, 0], 3))
+    >>> poses = Displacement.from_poses([(0, 1, 0.4), (-1, 0, 0.9)])
+    >>> error = PoseError.of(linkage, poses, length=1)
+    >>> round(error.worst, 3), round(error.rms, 3)
+    (0.065, 0.049)
     """
 
     places: Displacement
@@ -31,7 +47,7 @@ class PoseError:
 
     @classmethod
     def at(cls, places: Displacement, poses: Displacement) -> PoseError:
-        """The error of the places where the coupler is for the poses, whole turns apart."""
+        """The error of the coupler at given places (N,), whose angles count to whole turns."""
         gap = places.translation - poses.translation
         turn = wrapped_angle(places.angle - poses.angle)
         near = Displacement(places.translation, poses.angle + turn)
@@ -39,7 +55,10 @@ class PoseError:
 
     @classmethod
     def of(cls, linkage: Linkage, poses: Displacement, length: float) -> PoseError:
-        """The error of the nearest places of a linkage (`nearest`), whatever their circuits."""
+        """The error of a linkage at its places nearest to the poses, on either circuit.
+
+        length: the length that a radian counts as, in the poses' unit.
+        """
         frames = error_frames(poses, length)
         seen, unit = frames.see(poses), length / float(frames.length)
         stack = LinkageBatch.of([linkage]).seen(frames)
@@ -48,20 +67,20 @@ class PoseError:
 
     @property
     def worst(self) -> float:
-        """The greatest position error, infinite where some pose has no place near it."""
+        """The greatest position error; infinite where there is no place near some pose."""
         return float(np.nan_to_num(self.position, nan=np.inf).max())
 
     @property
     def rms(self) -> float:
-        """The root mean square of the position errors, infinite where there is none."""
+        """The root mean square of the position errors; infinite like `worst`."""
         return float(np.sqrt((np.nan_to_num(self.position, nan=np.inf) ** 2).mean()))
 
 
 def error_frames(poses: Displacement, length: float) -> CanonicalFrames:
-    """Where errors are looked at: M as it is, for position errors are those of its origin.
+    """The frames in which errors are computed, where lengths are about 1.
 
-    F has its origin amid the poses, and lengths are measured in the motion's size (at least
-    `length`).
+    The origin of F is the mean of the poses' origins, and the unit is the size of the motion (at
+    least `length`).  M stays, as position errors are those of its origin.
     """
     middle = poses.translation.mean(axis=-2)
     spread = np.sqrt(((poses.translation - middle) ** 2).sum(axis=-1).mean())

@@ -1,7 +1,4 @@
-"""The numbers that dimensions may have: multiples of a step, decimal angles, lengths from stock.
-
-And which whole numbers of steps are nearest to a linear least-squares problem.
-"""
+"""The grid of values for dimensions: multiples of a step, decimal angles, lengths from stock."""
 
 from __future__ import annotations
 
@@ -21,8 +18,10 @@ from burmester.numerics.integer_least_squares import ALIKE
 __all__ = ["Grid", "multiple"]
 
 SIZE = 2 * DIMENSIONS
-BESIDE, REACH = 1.5, 0.5  # steps, or sizes (radians), that a rounding may be off
-WHOLE = 2.0**53  # from here on not every whole number is a double
+# A rounded value differs from the dimension by at most MAX_STEPS_OFF steps or MAX_SIZES_OFF sizes
+# of the motion (radians for lines), whichever is more.
+MAX_STEPS_OFF, MAX_SIZES_OFF = 1.5, 0.5
+EXACT_INTEGERS = 2.0**53  # every whole number below this is a double
 
 
 def multiple(count: FloatArray, step: float) -> FloatArray:
@@ -30,7 +29,7 @@ def multiple(count: FloatArray, step: float) -> FloatArray:
     exact = Fraction(repr(float(step)))
     over, under = exact.numerator, exact.denominator
     top = np.abs(count).max(initial=0.0)
-    if top * over < WHOLE and under < 1e22 and int(float(under)) == under:
+    if top * over < EXACT_INTEGERS and under < 1e22 and int(float(under)) == under:
         return np.asarray(count * float(over) / float(under))  # of exact numbers: rounded once
     values = [float(int(each) * exact) for each in np.ravel(count)]
     return np.array(values).reshape(np.shape(count))
@@ -41,7 +40,10 @@ def multiple(count: FloatArray, step: float) -> FloatArray:
 class Grid:
     """The values that the ten dimensions of one linkage may have, numbered by whole numbers.
 
-    links, lines, lengths: (10,), which are links' lengths, normal angles, and other lengths.
+    step: of lengths, in the task's unit; turn: of lines' angles, in degrees; None: not rounded.
+    size: of the motion, in the task's unit.
+    stock: the link lengths available, sorted; empty: multiples of the step.
+    links, lines, lengths: (10,), which dimensions are link lengths, normal angles, other lengths.
     """
 
     step: float | None
@@ -56,7 +58,7 @@ class Grid:
     def of(
         cls, kinds: NDArray[np.int8], step: float | None, stock: Sequence[float], size: float
     ) -> Grid:
-        """Of a linkage with dyads of kinds (2,), and a motion of this size."""
+        """The grid of a linkage with dyads of kinds (2,), for a motion of this size."""
         links, lines = np.zeros((2, DIMENSIONS), dtype=bool), np.zeros((2, DIMENSIONS), dtype=bool)
         links[:, 4] = kinds == 0
         lines[:, 0], lines[:, 2] = kinds == 1, kinds == 2
@@ -76,7 +78,7 @@ class Grid:
         return np.asarray(links | ((self.lines | self.lengths) & (self.step is not None)))
 
     def number(self, dimensions: FloatArray) -> FloatArray:
-        """Where dimensions (*, 10) are among the values: whole numbers, and what is between."""
+        """The numbers (*, 10) of dimensions (*, 10): whole for values of the grid, else between."""
         out = np.zeros(dimensions.shape)
         if self.step is not None:
             out = dimensions / self.step
@@ -87,9 +89,9 @@ class Grid:
         return out
 
     def possible(self, number: FloatArray, start: FloatArray) -> NDArray[np.bool_]:
-        """Whether there are links of these lengths, of numbers (*, 10), and all near a start (10,).
+        """Whether numbers (*, 10) have links that exist, and all are near a start (10,).
 
-        A coarse step leads to giants otherwise.
+        Without the second condition a coarse step leads to huge dimensions.
         """
         least, most = (0, len(self.stock) - 1) if len(self.stock) else (1, np.inf)
         links = number[..., self.links]
@@ -97,14 +99,16 @@ class Grid:
         return np.asarray(((links >= least) & (links <= most)).all(axis=-1) & near.all(axis=-1))
 
     def reach(self) -> FloatArray:
-        """How many whole numbers away values may be, (10,)."""
+        """The greatest difference of numbers (10,) from the start."""
         stride = self.stride()
         size = np.where(self.lines, 1.0, self.size)
         with np.errstate(divide="ignore"):
-            return np.where(stride > 0, np.maximum(BESIDE, REACH * size / stride), np.inf)
+            return np.where(
+                stride > 0, np.maximum(MAX_STEPS_OFF, MAX_SIZES_OFF * size / stride), np.inf
+            )
 
     def nearest(self, number: FloatArray) -> FloatArray:
-        """The whole numbers nearest to numbers (*, 10), of links that are possible."""
+        """The whole numbers nearest to numbers (*, 10), with links that exist."""
         out = np.rint(number)
         if len(self.stock):
             return out
@@ -118,7 +122,7 @@ class Grid:
         return sorted(product(*sides), key=lambda each: float(((np.array(each) - at) ** 2).sum()))
 
     def stride(self) -> FloatArray:
-        """How far apart the values are, (10,); 0 of stock and of what is not rounded."""
+        """The distances between neighbouring values, (10,); 0 for stock and where not rounded."""
         out = np.zeros(SIZE)
         if self.step is not None and self.turn is not None:
             out[self.lengths] = self.step
@@ -127,7 +131,7 @@ class Grid:
         return out
 
     def values(self, number: FloatArray, dimensions: FloatArray) -> FloatArray:
-        """Dimensions (*, 10) with those that are rounded at their whole numbers."""
+        """Dimensions (*, 10), the rounded ones at the values of whole numbers (*, 10)."""
         out = np.array(np.broadcast_to(dimensions, number.shape))
         if self.step is not None and self.turn is not None:
             some = self.lengths | self.links

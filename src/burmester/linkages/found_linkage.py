@@ -1,4 +1,4 @@
-"""A linkage found, and all that is known of it."""
+"""One linkage of an answer: dimensions, error at the poses, verdict, uncertainty."""
 
 from __future__ import annotations
 
@@ -20,27 +20,55 @@ Side: TypeAlias = Literal["first", "second"]
 
 
 def with_driver_first(linkage: Linkage, driver: Side) -> Linkage:
-    """With the dyad that drives first."""
+    """The linkage with the dyad that drives first."""
     return Linkage(linkage.second, linkage.first) if driver == "second" else linkage
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FoundLinkage:
-    """A linkage made of two of the dyads found, refined as a whole, and what is to be said of it.
+    """A linkage made of two dyads, refined as a whole, with all that is known of it.
 
-    dyads: with their dimensions in this linkage, the better driver first unless the task has two
-        limits, whose order they keep; ids say from which of the dyads found they come.
-    error: at the places where the coupler is for the poses, all on one circuit unless there is
-        a circuit defect.
-    verdict: circuit, branch and order for either driver.
-    preferred_driver: which dyad is the better driver, or the only one allowed.
-    usable: whether it leads through all poses, driven by that dyad, and is as asked.
-    violations: what is asked of it and not so, driven by that dyad.
-    from_search: whether it was looked for under conditions, the closest ones not being usable.
-    uncertainty: what errors of the poses leave open of both dyads; determined: whether that is
-        little against the motion; tie: whether it leaves open which of Grashof's types it is.
-    spread: of the error, where links and pivots are built within a tolerance.
-    error_before_rounding: None where no rounding was asked for.
+    Attributes
+    ----------
+    id : str
+        "L1", "L2", ... by rank.
+    rank : int
+        From 1; usable linkages first, then by the worst position error.
+    dyads : tuple of two FoundDyad
+        With their dimensions in this linkage, the preferred driver first, unless the task has two
+        limits, whose order they keep.  The ids name the dyads from which they come.
+    linkage : Linkage
+        The same dimensions.
+    error : PoseError
+        Of the coupler's places nearest to the poses, on one circuit unless there is a circuit
+        defect.
+    verdict : Verdict
+        The defects, and the motion with either driver.
+    preferred_driver : "first" or "second"
+        The better driver, or the only one allowed.
+    usable : bool
+        Whether the linkage, with that driver, leads through all poses and meets all requirements.
+    violations : tuple of Violation
+        The requirements that it violates with that driver.
+    from_search : bool
+        Whether it comes from the search for defect-free linkages.
+    uncertainty : tuple of two DyadUncertainty, optional
+        The 95 % regions of both dyads that errors of the poses leave.
+    determined : bool
+        Whether these regions are small compared with the motion.
+    tie : bool
+        Whether they leave Grashof's type open.
+    spread : Spread, optional
+        Of the error, for links and pivots built within a tolerance.
+    error_before_rounding : PoseError, optional
+        The error before the dimensions were rounded.
+
+    Examples
+    --------
+    >>> from burmester import read_task, synthesize
+    >>> best = synthesize(read_task("case:motiongen-shoulder")).linkages[0]
+    >>> best.id, best.type, best.usable
+    ('L1', 'crank-rocker', True)
     """
 
     id: str
@@ -61,30 +89,30 @@ class FoundLinkage:
 
     @property
     def type(self) -> str:
-        """The type, the better driver taken for the driver; a change point within what is known."""
+        """Grashof's type, or the slider linkage's name, with the preferred driver; see `tie`."""
         return "change-point" if self.tie else self.driver_first.type
 
     @property
     def driver(self) -> Side | None:
-        """Which dyad drives; None where the linkage is not usable."""
+        """The dyad that drives; None where the linkage is not usable."""
         return self.preferred_driver if self.usable else None
 
     @property
     def driven(self) -> Driven:
-        """How it does with the better driver."""
+        """The motion with the preferred driver."""
         return self.verdict.first if self.preferred_driver == "first" else self.verdict.second
 
     @property
     def defects(self) -> tuple[Defect, ...]:
-        """Why it is not usable: of the linkage, and of its better driver."""
+        """The defects of the linkage and of its preferred driver."""
         return self.verdict.defects + self.driven.defects
 
     @property
     def dyads_driver_first(self) -> Pair:
-        """The dyads as `driver_first` has them, the better driver first."""
+        """The dyads, the preferred driver first."""
         return self.dyads if self.preferred_driver == "first" else (self.dyads[1], self.dyads[0])
 
     @property
     def driver_first(self) -> Linkage:
-        """The linkage with the better driver first."""
+        """The linkage with the preferred driver first."""
         return with_driver_first(self.linkage, self.preferred_driver)

@@ -1,4 +1,4 @@
-"""What linkages are made for: the poses in their frames, and what is asked."""
+"""The target of a linkage synthesis: poses in their frames, weights, limits, requirements."""
 
 from __future__ import annotations
 
@@ -26,9 +26,10 @@ __all__ = ["Target"]
 @final
 @dataclass(frozen=True, slots=True, eq=False)
 class Target:
-    """What linkages are looked for: near poses (N,), in the frames of `accuracy.error_frames`.
+    """Poses (N,) to come near to, in the frames of `pose_error.error_frames`, and what else holds.
 
-    kept: the limits of the dyads.  The rest as in `refine`.
+    kept: the limits of the dyads, as constraints.
+    weights, exact, worst: as in `refine`.
     """
 
     poses: Displacement
@@ -41,7 +42,7 @@ class Target:
     worst: bool = False
 
     def refine(self, stack: LinkageBatch, rows: FloatArray, **how: Any) -> Refined:
-        """Linkages (k,) from where they are to the least error."""
+        """Linkages (k,) with places (k, N, 3), refined to the least error; how: as in `refine`."""
         return refine(
             stack,
             self.places_of(rows),
@@ -53,7 +54,7 @@ class Target:
         )
 
     def thinned(self, most: int) -> Target:
-        """The same with so many poses at most, evenly chosen; exact ones all stay."""
+        """The target with at most `most` poses, evenly chosen; all exact poses stay."""
         count = self.poses.shape[0]
         if count <= most:
             return self
@@ -68,7 +69,7 @@ class Target:
         )
 
     def places(self, stack: LinkageBatch) -> FloatArray:
-        """Rows (k, N, 3) of the places nearest to the poses, on the circuit nearest to all."""
+        """Rows (k, N, 3) of the places nearest to the poses, on the circuit with the least cost."""
         rows = rows_of(on_circuits(stack, self.poses, self.length), self.length)
         cost = np.nan_to_num(self.cost(rows), nan=np.inf)
         return np.asarray(rows[np.arange(len(stack)), cost.argmin(axis=1)])
