@@ -10,7 +10,6 @@ import struct
 import subprocess
 from types import SimpleNamespace
 
-import imageio_ffmpeg
 import numpy as np
 import pytest
 from PIL import Image
@@ -21,6 +20,8 @@ from burmester.export.options import Options
 from burmester.fourbar.dyad import PR, RP, RR
 from tests.oracles import witness
 from tests.oracles.saved_linkages import PAPER, paper, saved
+
+imageio_ffmpeg = pytest.importorskip("imageio_ffmpeg", reason="films need imageio-ffmpeg")
 
 SMALL = Options(seconds=1.2, frames_per_second=20, width_px=321)
 

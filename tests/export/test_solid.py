@@ -24,7 +24,7 @@ from burmester.io.saved import SavedLinkage
 from tests.oracles import witness
 from tests.oracles.saved_linkages import PAPER, paper, saved
 
-cad = pytest.importorskip("build123d")
+cad = pytest.importorskip("build123d", reason="solids need build123d", exc_type=ImportError)
 
 POSE = 4
 HOLE, WIDTH, THICK, GAP = 6.0, 14.0, 5.0, 1.0

@@ -7,7 +7,6 @@ import shutil
 from contextlib import contextmanager
 
 import pytest
-from playwright.sync_api import sync_playwright
 
 NAMES = ("chromium", "chromium-browser", "google-chrome")
 
@@ -24,7 +23,8 @@ def path():
 def launched(*arguments):
     """A browser that draws without a graphics card, and asks no sandbox of a container."""
     executable = path()
-    with sync_playwright() as playwright:
+    driver = pytest.importorskip("playwright.sync_api", reason="no playwright for this machine")
+    with driver.sync_playwright() as playwright:
         browser = playwright.chromium.launch(
             executable_path=executable,
             args=["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", *arguments],
