@@ -1,0 +1,115 @@
+"""What is handed out: one version, and archives that hold the sources and nothing else."""
+
+import re
+import subprocess
+import tarfile
+import tomllib
+import zipfile
+from pathlib import Path
+
+import pytest
+from hatchling.builders.sdist import SdistBuilder
+from hatchling.builders.wheel import WheelBuilder
+
+from burmester import __version__
+
+ROOT = Path(__file__).parents[2]
+DATA = (
+    "burmester/py.typed",
+    "burmester/cases/ge2012-exact.json",
+    "burmester/templates/gripper.toml",
+    "burmester/io/synthesis.schema.json",
+    "burmester/io/messages.md",
+    "burmester/dyads/start_points.npz",
+    "burmester/web/assets/page.html",
+    "burmester/web/assets/widget.mjs",
+)
+# A stranger can set up, check and test with these, and the folders below.
+TOP = (
+    "ARCHITECTURE.md", "CHANGELOG.md", "CITATION.cff", "CONTRIBUTING.md", "LICENSE", "README.md",
+    "pyproject.toml", "requirements.lock", "requirements-dev.lock",
+)  # fmt: skip
+FOLDERS = ("src", "tests", "scripts", "benchmarks", "docs", "examples", ".ci")
+
+
+def below(folder):
+    """The files of a folder, without what Python and npm leave there."""
+    files = (each for each in (ROOT / folder).rglob("*") if each.is_file())
+    return {
+        each.relative_to(ROOT).as_posix()
+        for each in files
+        if not {"__pycache__", "node_modules"}.intersection(each.parts)
+    }
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory):
+    """(wheel, sdist), as a release builds them."""
+    folder = str(tmp_path_factory.mktemp("dist"))
+    return [
+        Path(next(builder(str(ROOT)).build(directory=folder, versions=["standard"])))
+        for builder in (WheelBuilder, SdistBuilder)
+    ]
+
+
+def test_the_wheel_holds_the_package_and_nothing_else(built):
+    with zipfile.ZipFile(built[0]) as wheel:
+        held = [name for name in wheel.namelist() if ".dist-info/" not in name]
+        entry = wheel.read(f"burmester-{__version__}.dist-info/entry_points.txt").decode()
+    # The page's script is in it as the bundle that is read, not as the modules it is made from.
+    package = below("src") - below("src/burmester/web/widget")
+    assert sorted(held) == sorted(each.removeprefix("src/") for each in package)
+    assert set(DATA) <= set(held)
+    assert "burmester = burmester.cli:main" in entry
+
+
+def test_the_sdist_holds_all_that_tests_and_scripts_need(built):
+    with tarfile.open(built[1]) as sdist:
+        members = {each.name.partition("/")[2]: each for each in sdist.getmembers()}
+    assert set(TOP) | set().union(*map(below, FOLDERS)) <= set(members)
+    assert not [name for name in members if name.startswith((".venv", ".git/", "dist"))]
+    assert members["scripts/test"].mode & 0o100
+
+
+def test_the_version_has_one_source(built):
+    assert [each.name for each in built] == [
+        f"burmester-{__version__}-py3-none-any.whl",
+        f"burmester-{__version__}.tar.gz",
+    ]
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+    assert "version" not in project
+    citation = (ROOT / "CITATION.cff").read_text("utf-8")
+    assert re.findall(r"(?m)^version: (.*)$", citation) == [__version__]
+    changes = (ROOT / "CHANGELOG.md").read_text("utf-8")
+    newest = re.search(r"(?m)^## (\S+) \((?:unreleased|\d{4}-\d\d-\d\d)\)$", changes)
+    assert newest[1] == __version__
+
+
+def test_citation_names_the_paper_as_the_program_does():
+    """The cases that the package carries say in their own words where they are from."""
+    citation = (ROOT / "CITATION.cff").read_text("utf-8")
+    paper = dict(re.findall(r'(?m)^    (\w+): "?(.*?)"?$', citation))
+    case = (ROOT / "src/burmester/cases/ge2012-exact.json").read_text("utf-8")
+    source = re.search(r"\((\d+)\), JCISE (\d+)\((\d+)\) (\d+)", case).groups()
+    assert source == (paper["year"], paper["volume"], paper["issue"], paper["start"])
+    names = re.findall(r"family-names: (\w+)", citation)
+    assert f"{', '.join(names)} (2012)" in case
+    mathematics = " ".join((ROOT / "docs/mathematics.md").read_text("utf-8").split())
+    assert paper["title"] in mathematics
+    assert paper["journal"] in mathematics
+
+
+SCRIPTS = [*filter(Path.is_file, sorted((ROOT / "scripts").iterdir())), ROOT / ".ci" / "run"]
+
+
+@pytest.mark.parametrize("script", SCRIPTS, ids=lambda path: path.name)
+def test_a_script_can_be_run_and_says_what_it_does(script):
+    first, second, *_ = script.read_text("utf-8").splitlines()
+    if script.suffix == ".py":
+        assert first.startswith('"""')
+        return
+    assert script.stat().st_mode & 0o111 == 0o111
+    assert first == "#!/usr/bin/env bash"
+    assert second.startswith("# ")
+    checked = subprocess.run(["bash", "-n", script], capture_output=True, text=True, check=False)
+    assert (checked.returncode, checked.stderr) == (0, "")
