@@ -3,7 +3,7 @@
 CSV: a row for each step along the motion from the first pose to the last, and one for each pose.
 JSON: an object as `linkage.SCHEMA` describes it, the driver first.
 
-E160 the file does not contain the linkage        E163 a linkage that has no motion through its poses
+E160 the file does not contain the linkage    E163 a linkage that has no motion through its poses
 """
 
 from __future__ import annotations
