@@ -83,7 +83,7 @@ def synthesize(
     >>> print(result.outcome.message)
     6 four-bars from 4 real dyads (of the 4 that five poses have), 3 of them usable
     >>> [(linkage.id, linkage.type) for linkage in result.usable]
-    [('L1', 'crank-rocker'), ('L2', 'crank-rocker'), ('L3', 'rocker-crank')]
+    [('L1', 'crank-rocker'), ('L2', 'crank-rocker'), ('L3', 'crank-rocker')]
     """
     options = SynthesisOptions(
         method,

@@ -1,0 +1,338 @@
+"""Results as a person holds them, beside the command's files and linkages driven joint by joint."""
+
+import io
+import json
+import re
+import subprocess
+import sys
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from PIL import Image, ImageSequence
+
+import burmester
+from burmester import InputError
+from burmester.dyads import burmester_curve
+from burmester.fourbar.dyad import RR
+from burmester.geometry.displacement import Displacement
+from burmester.tasks.motion_task import Task
+from tests.oracles.witness import places
+
+ROWS = [
+    (-3.9696, -2.6338, 37.23),
+    (-0.2223, -0.3211, 27.48),
+    (3.3279, 3.9568, 8.17),
+    (7.7225, 10.0149, -14.86),
+    (5.7615, 18.8535, -25.64),
+]
+CASES = ("ge2012-approximate", "motiongen-mixed5", "motiongen-prpr", "motiongen-rrpr")
+
+
+@pytest.fixture(scope="module")
+def five():
+    return burmester.synthesize(ROWS, angle_unit="deg", length_unit="mm")
+
+
+@pytest.fixture(scope="module")
+def results(five):
+    return [five, *(burmester.synthesize(burmester.read_task(f"case:{name}")) for name in CASES)]
+
+
+# What comes in -----------------------------------------------------------------------------------
+
+
+def test_rows_radians_a_displacement_and_a_task_are_one_motion(five):
+    rows = np.array(ROWS)
+    turned = np.column_stack([rows[:, :2], np.radians(rows[:, 2])])
+    ways = (
+        burmester.synthesize(turned, angle_unit="rad", length_unit="mm"),
+        burmester.synthesize(Displacement.from_poses(turned), length_unit="mm"),
+        burmester.synthesize(Task(Displacement.from_poses(turned), length_unit="mm")),
+    )
+    for way in ways:
+        assert way.to_json() == five.to_json()
+
+
+@pytest.mark.parametrize(
+    ("given", "code", "words"),
+    [
+        ({}, "E110", "not stated"),
+        ({"angle_unit": "grad"}, "E110", "'grad'"),
+        ({"angle_unit": "deg", "poses": Displacement.identity((5,))}, "E110", "are radians"),
+        ({"angle_unit": "deg", "poses": "poses.csv"}, "E125", "(N, 3)"),
+        ({"angle_unit": "deg", "poses": np.ones((5, 2))}, "E125", "(5, 2)"),
+        ({"angle_unit": "deg", "poses": np.ones((2, 5, 3))}, "E125", "(2, 5, 3)"),
+        ({"angle_unit": "deg", "poses": [(0, 0, 1j)] * 5}, "E125", "complex"),
+        ({"angle_unit": "deg", "poses": np.ma.masked_equal(ROWS, 8.17)}, "E125", "masked"),
+        ({"angle_unit": "deg", "poses": [(0, 0), *ROWS]}, "E125", "lengths"),
+        ({"angle_unit": "deg", "poses": [(np.nan, 0, 0), *ROWS]}, "E103", "nan"),
+        ({"angle_unit": "deg", "poses": ROWS[:2]}, "E120", "2 poses"),
+        ({"angle_unit": "deg", "poses": [(1e80, 0, 0), *ROWS]}, "E112", "too large"),
+        ({"angle_unit": "deg", "length_unit": 25.4}, "E125", "length unit"),
+        ({"angle_unit": "deg", "method": "best"}, "E134", "'best'"),
+        ({"angle_unit": "deg", "norm": 2}, "E134", "norm 2"),
+        ({"angle_unit": "deg", "certify": "yes"}, "E134", "'yes'"),
+        ({"angle_unit": "deg", "rounding_step": -0.5}, "E134", "-0.5"),
+        ({"angle_unit": "deg", "rounding_step": True}, "E134", "True"),
+        ({"angle_unit": "deg", "manufacturing_tolerance": np.nan}, "E134", "nan"),
+        ({"angle_unit": "deg", "length_per_radian": np.inf}, "E134", "inf"),
+        ({"angle_unit": "deg", "length_per_radian": "80"}, "E134", "'80'"),
+        ({"angle_unit": "deg", "stock_lengths": [20, 0]}, "E134", "is 0,"),
+    ],
+)
+def test_what_makes_no_sense_is_refused_in_words(given, code, words):
+    with pytest.raises(InputError) as refused:
+        burmester.synthesize(given.pop("poses", ROWS), **given)
+    assert refused.value.code == code
+    assert words in str(refused.value)
+    assert refused.value.help
+
+
+def test_a_task_keeps_its_own_numbers():
+    rows, weights, exact = np.array(ROWS), np.ones(5), np.zeros(5, dtype=bool)
+    poses = Displacement(rows[:, :2], np.radians(rows[:, 2]))
+    task = Task(poses, weights=weights, exact=exact)
+    rows += 1.0
+    weights *= 2.0
+    exact[:] = True
+    assert task.poses.translation.tolist() == [[x, y] for x, y, _ in ROWS]
+    assert task.weights.tolist() == [1.0] * 5
+    assert not task.exact.any()
+    for own in (task.poses.translation, task.poses.angle, task.weights, task.exact):
+        with pytest.raises(ValueError, match="read-only"):
+            own[0] = 0
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"weights": [1, 1, 1, 1]},
+        {"weights": [1, 1, 1, 1, -1]},
+        {"weights": [1, 1, 1, 1, "a"]},
+        {"exact": [0, 1, 0, 0, 0]},
+        {"exact": "yes"},
+        {"names": "shut"},
+        {"names": (1, 2, 3, 4, 5)},
+        {"resolution": (-1, 0)},
+        {"resolution": 0.1},
+        {"limits": (None,)},
+        {"limits": (burmester.Limits(),) * 3},
+        {"requirements": {"transmission": 1}},
+    ],
+)
+def test_a_task_of_wrong_parts_is_refused(wrong):
+    poses = Task.from_rows(ROWS, angle_unit="deg").poses
+    with pytest.raises(InputError) as refused:
+        Task(poses, **wrong)
+    assert refused.value.code in ("E122", "E125")
+    assert refused.value.help
+
+
+# What comes out ----------------------------------------------------------------------------------
+
+
+def test_a_repr_is_short_and_says_what_the_json_says(results):
+    few = burmester.synthesize(ROWS[:4], angle_unit="deg")
+    for result in [*results, few]:
+        lines = repr(result).splitlines()
+        assert len(lines) <= 12
+        data = json.loads(result.to_json())
+        assert lines[0] == data["outcome"]["message"]
+        shown = [line for line in lines if re.match(r"L\d+ ", line)]
+        for line, linkage in zip(shown, data["linkages"], strict=False):
+            assert line.startswith(f"{linkage['id']} ")
+            assert linkage["type"] in line
+            assert line.endswith("not usable") == (not linkage["usable"])
+            least = linkage["min_transmission_angle_deg"]["range"]
+            if linkage["usable"]:
+                assert float(re.search(r"([\d.]+)°$", line)[1]) == pytest.approx(least, abs=0.1)
+            worst = linkage["position_error"]["max"]
+            if worst is not None and worst > 1e-6:
+                number = re.search(r"  ([\d.e-]+)(?: mm)?  ", line)[1]
+                assert float(number) == pytest.approx(worst, rel=0.06)
+        more = re.search(r"^and (\d+) more$", lines[-1])
+        assert len(shown) + (int(more[1]) if more else 0) == len(data["linkages"])
+
+
+def test_linkages_by_rank_by_id_and_in_turn(results):
+    for result in results:
+        assert [each.id for each in result] == [f"L{k + 1}" for k in range(len(result))]
+        assert result[0] is result["L1"] is next(iter(result)) is result["l1"]
+        assert result[-1] is result.linkages[-1]
+        assert result.best is (result.usable[0] if result.usable else None)
+        assert all(each.usable for each in result.usable)
+        with pytest.raises(InputError, match="L99") as refused:
+            result["L99"]
+        assert refused.value.code == "E151"
+
+
+def test_every_usable_linkage_comes_to_its_poses_when_driven(results):
+    for result in results:
+        for found in result.usable:
+            saved = found.saved()
+            first, second = saved.linkage.first, saved.linkage.second
+            if not isinstance(first, RR):
+                continue
+            at, angle = places(first, second, np.linspace(-np.pi, np.pi, 40_001))
+            for k in range(len(result.task.poses.angle)):
+                pose = result.task.poses[k]
+                turn = np.abs(np.exp(1j * angle) - np.exp(1j * pose.angle))
+                away = np.hypot(np.abs(at - complex(*pose.translation)), result.length * turn)
+                near = np.hypot(found.error.position[k], result.length * found.error.angle[k])
+                assert np.nanmin(away) < 1.01 * near + 3e-3 * result.length
+
+
+def numbers_of(path):
+    """Every number of a text file."""
+    return list(map(float, re.findall(r"-?\d+\.?\d*(?:e-?\d+)?", path.read_text())))
+
+
+def test_what_is_saved_is_read_back_and_handed_over(results, tmp_path):
+    for k, result in enumerate(results):
+        path = result.save(tmp_path / f"{k}.json")
+        assert path.read_text() == result.to_json()
+        read = burmester.read_result(path)
+        assert [each.id for each in read.usable] == [each.id for each in result.usable]
+        assert read.outcome.message == result.outcome.message
+        assert [repr(each) for each in read] == [repr(each) for each in result]
+        result.export(tmp_path / f"{k}.svg")
+        read.export(tmp_path / f"{k}-read.svg")
+        one, other = (numbers_of(tmp_path / f"{k}{end}.svg") for end in ("", "-read"))
+        assert one == pytest.approx(other, rel=1e-9, abs=1e-9)
+        with pytest.raises(InputError, match="exists") as refused:
+            result.save(path)
+        assert refused.value.code == "E140"
+        result.save(path, force=True)
+
+
+def test_the_command_writes_the_same_result(tmp_path):
+    task = burmester.read_task("case:motiongen-shoulder")
+    command = [sys.executable, "-m", "burmester", "synthesize", "case:motiongen-shoulder", "--json"]
+    printed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    assert burmester.synthesize(task).to_json() == printed
+
+
+def test_a_report_and_exports_by_the_ending_of_a_name(five, tmp_path):
+    page = five.report(tmp_path / "lid.html").read_text()
+    assert "<title>lid</title>" in page
+    assert five.outcome.message in page
+    exported = five.export(tmp_path / "lid.json", "L2")
+    assert json.loads(exported.read_text())["id"] == "L2"
+    assert five["L2"].export(tmp_path / "again.json").read_text() == exported.read_text()
+    for wrong, code in (
+        ({"path": tmp_path / "lid.foo"}, "E161"),
+        ({"path": tmp_path / "lid.svg", "to": "foo"}, "E161"),
+        ({"path": tmp_path / "lid.svg", "bore": 3}, "E162"),
+        ({"path": tmp_path / "lid.svg", "linkage": "L7"}, "E151"),
+        ({"path": tmp_path / "lid.html"}, "E161"),
+    ):
+        with pytest.raises(InputError) as refused:
+            five.export(**wrong)
+        assert refused.value.code == code
+
+
+# What is drawn -----------------------------------------------------------------------------------
+
+
+def points_of(svg, stroke, shape="polyline"):
+    """The corners of all shapes of one colour, y upwards."""
+    found = re.findall(rf'<{shape} points="([^"]*)"[^>]*stroke="{stroke}"', svg)
+    rows = [[list(map(float, p.split(","))) for p in each.split()] for each in found]
+    return [np.array(each) * [1, -1] for each in rows]
+
+
+def test_the_still_drawing_has_the_poses_and_links_in_their_proportions(results):
+    for result in results:
+        found = result[0]
+        saved, svg = found.saved(), found._repr_html_()
+        frames = points_of(svg, "#d0493c")
+        poses = result.task.poses
+        assert len(frames) == len(poses.angle)
+        origins = np.array([each[1] for each in frames])
+        wanted = poses.translation
+        scale = np.linalg.norm(origins - origins.mean(0)) / np.linalg.norm(wanted - wanted.mean(0))
+        shift = origins.mean(0) - scale * wanted.mean(0)
+        assert np.abs(scale * wanted + shift - origins).max() < 0.2  # of a pixel
+        for frame, angle in zip(frames, poses.angle, strict=True):
+            x = frame[0] - frame[1]
+            if np.hypot(*x) > 10:
+                assert np.cos(np.arctan2(*x[::-1]) - angle) > 0.99
+        links = [
+            float(dyad.radius)
+            for dyad in (saved.linkage.first, saved.linkage.second)
+            if isinstance(dyad, RR)
+        ]
+        drawn = [np.hypot(*(each[1] - each[0])) / scale for each in points_of(svg, "#5d6b7a")]
+        for length in links:
+            assert min(abs(each - length) for each in drawn) < 0.5 / scale
+        # The dashed curve is the way of the body's origin: it passes its place at every pose.
+        curve = np.concatenate(points_of(svg, "#8796a8"))
+        for place in scale * found.error.places.translation + shift:
+            assert np.hypot(*(curve - place).T).min() < 8
+
+
+def test_a_result_without_linkages_is_shown_in_words():
+    few = burmester.synthesize(ROWS[:4], angle_unit="deg")
+    assert few.best is None
+    assert few
+    assert "infinitely many" in few._repr_html_()
+    assert "<svg" not in few._repr_html_()
+    with pytest.raises(InputError, match="no linkage") as refused:
+        few.plot()
+    assert "infinitely many" in refused.value.why
+
+
+def test_names_from_files_do_no_harm_in_a_notebook():
+    task = Task.from_rows(ROWS, angle_unit="deg", length_unit="<b>mm</b>")
+    assert "<b>" not in burmester.synthesize(task)._repr_html_()
+
+
+def test_the_figure_shows_the_way_of_the_origin_through_the_poses(five):
+    (ax,) = five.plot("L2").axes
+    curve = next(
+        line for line in ax.lines if line.get_label() == "circuit 1" or line.get_lw() == 1.6
+    )
+    for origin in five["L2"].error.places.translation:
+        assert np.hypot(*(curve.get_xydata() - origin).T).min() < 0.2
+    own = five.plot()
+    assert five.plot(ax=own.axes[0]) is own
+
+
+def test_a_moving_picture_moves(five, tmp_path):
+    picture = five.animate("L2", seconds=0.5, width_px=200)
+    with Image.open(io.BytesIO(picture.gif)) as gif:
+        frames = [np.asarray(each.convert("L"), float) for each in ImageSequence.Iterator(gif)]
+        assert gif.width == 200
+    assert len(frames) > 5
+    assert all(np.abs(a - b).max() > 50 for a, b in pairwise(frames))
+    assert picture.save(tmp_path / "lid.gif").read_bytes() == picture.gif
+    assert len(repr(picture)) < 100
+    assert "data:image/gif;base64," in picture._repr_html_()
+
+
+# Names -------------------------------------------------------------------------------------------
+
+
+def test_drawing_and_export_come_with_the_package_but_are_not_loaded_by_it():
+    program = """
+import sys
+import burmester
+assert "numpy" not in sys.modules
+assert burmester.export.FORMATS and burmester.report.page
+assert "matplotlib" not in sys.modules
+assert burmester.plot.figure
+for name in burmester.__all__:
+    getattr(burmester, name)
+"""
+    subprocess.run([sys.executable, "-c", program], check=True)
+
+
+def test_names_are_reached_from_the_package_and_are_those_of_their_rooms():
+    assert set(burmester.__all__) <= set(dir(burmester))
+    for name in burmester.__all__:
+        assert getattr(burmester, name) is not None
+    assert burmester.dyad_curve is burmester_curve.dyad_curve  # solvers too, in no one's way
+    assert "dyad_curve" not in dir(burmester)
+    with pytest.raises(AttributeError):
+        burmester.no_such_thing  # noqa: B018
