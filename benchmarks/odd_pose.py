@@ -19,7 +19,7 @@ from tests.oracles.witness import places, random_four_bar, random_poses, span
 
 from burmester import Displacement, Task
 from burmester.diagnosis.odd_pose import odd_pose
-from burmester.diagnosis.swapped_poses import out_of_order
+from burmester.diagnosis.swapped_poses import swapped_poses
 from burmester.fourbar.dyad import PR, RP, RR
 
 WRONG = 20.0  # standard deviations, at least
@@ -124,7 +124,7 @@ def counted(kind, number, seed, *, least=8, most=15, top=False):
         if odd is None:
             what = "silent"
             if top and made.wrong is not None:
-                likeliest = odd_pose(made.task, sure=1.0)
+                likeliest = odd_pose(made.task, false_alarm_chance=1.0)
                 right = likeliest is not None and likeliest.pose == made.wrong
                 what = "silent, but right" if right else "silent, else wrong"
         elif odd.pose == made.wrong:
@@ -145,9 +145,9 @@ def counted_orders(number, seed):
     for index in range(number):
         rng = np.random.default_rng([seed, index])
         made = ordered(rng, int(rng.integers(6, 16)))
-        found["ordered: " + ("silent" if out_of_order(made.task) is None else "wrong")] += 1
+        found["ordered: " + ("silent" if swapped_poses(made.task) is None else "wrong")] += 1
         made, pair = swapped(rng, int(rng.integers(6, 16)))
-        said = out_of_order(made.task)
+        said = swapped_poses(made.task)
         what = "silent" if said is None else "wrong"
         if said is not None and (said.first, said.second) == pair:
             what = "right"

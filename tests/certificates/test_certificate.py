@@ -204,7 +204,7 @@ def test_critical_points_lie_where_they_are_said_to(seed):
     critical = critical_dyads(poses)
     certificate = certify(poses, None, critical, [])
     radius = float(
-        re.search(r"within (\S+) of the computed", said(certificate, "25 critical")[0])[1]
+        re.search(r"within (\S+) of the computed one", said(certificate, "25 critical")[0])[1]
     )
     frames = critical.frames
     origin = [*frames.fixed_origin, *frames.moving_origin]

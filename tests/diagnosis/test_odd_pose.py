@@ -8,20 +8,24 @@ from scipy.stats import combine_pvalues, f
 
 from burmester import Displacement, Task
 from burmester.diagnosis.leave_one_out import LeaveOneOut
-from burmester.diagnosis.odd_pose import _chance, _chance_of_number, odd_pose
-from burmester.diagnosis.repairs import Nearness
-from burmester.diagnosis.sampson_fits import Seen
-from burmester.diagnosis.sampson_fits import misses as tangents
-from burmester.diagnosis.swapped_poses import _best, _distances, _way, out_of_order
-from burmester.diagnosis.unit_errors import _landed, chance_of
+from burmester.diagnosis.odd_pose import chance_of_number, chance_of_pose, odd_pose
+from burmester.diagnosis.repairs import Prediction
+from burmester.diagnosis.sampson_fits import NormalizedPoses, sampson_residuals
+from burmester.diagnosis.swapped_poses import (
+    best_exchange,
+    distances_between,
+    path_length,
+    swapped_poses,
+)
+from burmester.diagnosis.unit_errors import Multiple, coincidence_chance, combined_chance
 from burmester.dyads.local_minima import best_dyads
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.io.cases import load
 from burmester.io.reading.poses import read_task
 from burmester.tasks.motion_class import classify_motion
+from burmester.tasks.notation import figure
 from burmester.tasks.requirements import Requirements
-from burmester.tasks.wording import figure
 from tests.oracles.witness import misses, random_four_bar, random_poses
 
 CASE = load("ge2012-exact")
@@ -108,12 +112,12 @@ def test_distances_to_first_order_are_those_of_a_linkage_driven():
     rows = random_poses(dyads, rng, 6)
     stack, share = LinkageBatch.of([Linkage(*dyads)]), np.ones((1, 6))
     off = rows + 1e-3 * rng.normal(size=rows.shape)
-    near = np.linalg.norm(tangents(stack, off, share)[0].reshape(6, 2), axis=1)
+    near = np.linalg.norm(sampson_residuals(stack, off, share)[0].reshape(6, 2), axis=1)
     assert near == pytest.approx(misses(Linkage(*dyads), Displacement.from_poses(off), 1.0), 0.03)
-    miss, slope = tangents(stack, rows, share)  # on the linkage: there they are exact
+    miss, slope = sampson_residuals(stack, rows, share)  # on the linkage: there they are exact
     step = 1e-7 * rng.normal(size=(2, 5))
     moved = LinkageBatch(stack.kinds, stack.dimensions + step)
-    change = tangents(moved, rows, share)[0] - miss
+    change = sampson_residuals(moved, rows, share)[0] - miss
     assert change[0] == pytest.approx(slope[0] @ step.ravel(), abs=1e-11)
 
 
@@ -122,7 +126,7 @@ def test_the_chance_is_that_of_an_f_test():
         spare = 2 * count - 12
         value = (of_all - without) / 2 / (without / spare)
         expected = count * f.sf(value, 2, spare)
-        assert _chance(count, without, of_all) == pytest.approx(min(1.0, expected))
+        assert chance_of_pose(count, without, of_all) == pytest.approx(min(1.0, expected))
 
 
 def test_the_chance_of_one_number_is_that_of_an_f_test():
@@ -130,8 +134,8 @@ def test_the_chance_of_one_number_is_that_of_an_f_test():
     for count, mended, of_all in ((8, 1.0, 60.0), (12, 2.0, 7.0), (15, 0.3, 1.0)):
         spare = 2 * count - 11
         expected = 3 * count * f.sf((of_all - mended) / (mended / spare), 1, spare)
-        assert 1 <= _chance_of_number(count, mended, of_all) / min(1.0, expected) < 1.15
-    assert _chance_of_number(12, 6.9, 7.0) == 1.0
+        assert 1 <= chance_of_number(count, mended, of_all) / min(1.0, expected) < 1.15
+    assert chance_of_number(12, 6.9, 7.0) == 1.0
 
 
 def test_dyads_that_are_given_are_taken_in_their_own_frames():
@@ -144,21 +148,21 @@ def test_dyads_that_are_given_are_taken_in_their_own_frames():
         plain, given = odd_pose(task), odd_pose(task, classify_motion(task), dyads)
         assert given.pose == plain.pose
         assert given.error_without == pytest.approx(plain.error_without, rel=1e-6)
-    seen = Seen.of(table(PRINTED).poses, None)
-    pairs, _ = LeaveOneOut.whole_of(seen, dyads, table(PRINTED).poses)
-    again, _ = LeaveOneOut.whole_of(seen, (), table(PRINTED).poses)
+    seen = NormalizedPoses.of(table(PRINTED).poses, None)
+    pairs, _ = LeaveOneOut.fit_all(seen, dyads, table(PRINTED).poses)
+    again, _ = LeaveOneOut.fit_all(seen, (), table(PRINTED).poses)
     assert pairs.dimensions == pytest.approx(again.dimensions, rel=1e-6)
 
 
 def test_a_pose_far_beside_is_told_by_its_place():
     rows = changed(2, x=-2.6392 * 1000, y=0.292 * 1000)
     odd = odd_pose(table(rows))
-    assert odd.beside > 100
+    assert odd.extents > 100
     others = np.delete(RIGHT, 2, axis=0)[:, :2]
     around = others - others.mean(axis=0)
     extent = np.sqrt(12 * (around**2).sum(axis=1).mean())  # of poses spread evenly
     far = np.linalg.norm(rows[2, :2] - others.mean(axis=0)) / extent
-    assert odd.beside == pytest.approx(far, rel=1e-6)
+    assert odd.extents == pytest.approx(far, rel=1e-6)
     assert odd.why.endswith("times the others' extent away; divided by 1000 it lies among them")
     assert odd.why.startswith(f"it lies {figure(far)} ")
     assert odd.help.startswith("check its unit: x and y divided by 1000 would agree")
@@ -169,22 +173,22 @@ def test_a_multiple_lands_by_chance_as_often_as_is_told():
     rng = np.random.default_rng(8)
     dyads = random_four_bar(rng)
     rows = random_poses(dyads, rng, 200)
-    seen = Seen.of(Displacement.from_poses(rows), None)
+    seen = NormalizedPoses.of(Displacement.from_poses(rows), None)
     stack = LinkageBatch.of([Linkage(*dyads)]).seen(seen.frames)
-    near = Nearness.of(seen, stack, 0, 1e-3)
+    near = Prediction.of(seen, stack, 0, 1e-3)
     low, high = seen.rows.min(axis=0), seen.rows.max(axis=0)
     tries = rng.uniform(low, high, size=(20000, 3))
-    miss, _ = tangents(stack, tries, np.ones((1, len(tries))))
+    miss, _ = sampson_residuals(stack, tries, np.ones((1, len(tries))))
     off = (miss.reshape(-1, 2) ** 2).sum(axis=1)
     for reach in (1e-4, 1e-3):
-        told = _landed(seen, near, seen.rows[1], 0, reach)
+        told = coincidence_chance(seen, near, Multiple(0, 0, seen.rows[1]), reach)
         assert 1 < told / (off < reach).mean() < 4
 
 
 def test_two_chances_are_joined_as_fisher_does():
     for first, second in ((0.3, 0.01), (1e-3, 1e-4), (1.0, 0.2)):
         expected = combine_pvalues([first, second], method="fisher").pvalue
-        assert chance_of(first, second) == pytest.approx(expected)
+        assert combined_chance(first, second) == pytest.approx(expected)
 
 
 @pytest.mark.parametrize(
@@ -309,16 +313,16 @@ def test_the_exchange_that_saves_most_is_found():
     """Against every exchange, one by one."""
     rng = np.random.default_rng(1)
     for count in (6, 9, 13):
-        away, _ = _distances(Displacement.from_poses(rng.normal(size=(count, 3))))
+        away, _ = distances_between(Displacement.from_poses(rng.normal(size=(count, 3))))
         order = rng.permutation(count)
         every = []
         for i in range(count):
             for j in range(i + 1, count):
                 other = order.copy()
                 other[[i, j]] = other[[j, i]]
-                every.append((_way(away, order) - _way(away, other), (i, j)))
+                every.append((path_length(away, order) - path_length(away, other), (i, j)))
         every.sort(reverse=True)
-        (pair, saved), second = _best(away, order)
+        (pair, saved), second = best_exchange(away, order)
         assert pair == every[0][1]
         assert (saved, second) == pytest.approx((every[0][0], every[1][0]))
 
@@ -326,16 +330,16 @@ def test_the_exchange_that_saves_most_is_found():
 def test_exchanged_poses_are_told():
     rows = RIGHT.copy()
     rows[[2, 6]] = rows[[6, 2]]
-    found = out_of_order(table(rows, names=tuple("abcdefghij")))
+    found = swapped_poses(table(rows, names=tuple("abcdefghij")))
     assert (found.first, found.second) == (2, 6)
     assert found.message == "poses 3 (c) and 7 (g) seem to be exchanged"
     assert rows[list(found.order)] == pytest.approx(RIGHT)
     step = np.diff(RIGHT, axis=0)
     spread = np.sqrt(((RIGHT[:, :2] - RIGHT[:, :2].mean(axis=0)) ** 2).sum(axis=1).mean())
     whole = np.linalg.norm(step * [1, 1, spread * np.pi / 180], axis=1).sum()
-    assert found.way_exchanged == pytest.approx(whole)
-    assert out_of_order(table(rows, requirements=Requirements(any_order=True))) is None
-    assert out_of_order(table(np.concatenate([rows, rows[:1]]))) is None
+    assert found.path_exchanged == pytest.approx(whole)
+    assert swapped_poses(table(rows, requirements=Requirements(any_order=True))) is None
+    assert swapped_poses(table(np.concatenate([rows, rows[:1]]))) is None
 
 
 def test_poses_in_order_are_left_alone():
@@ -344,10 +348,10 @@ def test_poses_in_order_are_left_alone():
     for index in range(60):
         rng = np.random.default_rng([5, index])
         made = campaign.ordered(rng, int(rng.integers(6, 16)))
-        said += out_of_order(made.task) is not None
+        said += swapped_poses(made.task) is not None
         mixed, pair = campaign.swapped(rng, int(rng.integers(6, 16)))
-        found = out_of_order(mixed.task)
+        found = swapped_poses(mixed.task)
         right += found is not None and (found.first, found.second) == pair
     assert said <= 1
     assert right >= 40
-    assert out_of_order(table()) is None
+    assert swapped_poses(table()) is None

@@ -6,8 +6,8 @@ from scipy.optimize import least_squares
 
 from burmester import Displacement, Task
 from burmester.diagnosis.odd_pose import odd_pose
-from burmester.diagnosis.repairs import Nearness, repairs_of
-from burmester.diagnosis.sampson_fits import Seen
+from burmester.diagnosis.repairs import Prediction, repairs_of
+from burmester.diagnosis.sampson_fits import NormalizedPoses
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.io.cases import load
 
@@ -72,10 +72,10 @@ def test_a_unit_comes_before_a_number_that_fits_better():
     task = task_of(rows, (5e-5, np.radians(5e-3)))
     odd = odd_pose(task)
     assert odd.pose == pose
-    seen = Seen.of(task.poses, None)
+    seen = NormalizedPoses.of(task.poses, None)
     linkage = LinkageBatch.of([odd.linkage]).seen(seen.frames)
     sigma = odd.error_without / odd.length * np.sqrt(9 / 8)
-    unit, slip, *_ = repairs_of(seen, Nearness.of(seen, linkage, pose, sigma), pose, task)
+    unit, slip, *_ = repairs_of(seen, Prediction.of(seen, linkage, pose, sigma), pose, task)
     assert (unit.kind, slip.kind) == ("unit", "slip")
     assert unit.values == pytest.approx([2e-3, RIGHT[pose, 1], np.radians(RIGHT[pose, 2])])
     assert slip.values == pytest.approx([2e-4, RIGHT[pose, 1], np.radians(RIGHT[pose, 2])])

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from burmester import Displacement, Task
-from burmester.diagnosis.swapped_poses import out_of_order
+from burmester.diagnosis.swapped_poses import swapped_poses
 
 PLACES = 10
 
@@ -24,10 +24,10 @@ def exchanged(*pairs):
 
 @pytest.mark.parametrize("pair", [(1, 8), (4, 6)])
 def test_one_exchange_is_told(pair):
-    found = out_of_order(task_of(exchanged(pair)))
+    found = swapped_poses(task_of(exchanged(pair)))
     assert (found.first, found.second) == pair
 
 
 def test_of_two_exchanges_none_is_told():
     """Mended by one, the order would still be wrong: the second saves a third of what is left."""
-    assert out_of_order(task_of(exchanged((1, 8), (4, 6)))) is None
+    assert swapped_poses(task_of(exchanged((1, 8), (4, 6)))) is None

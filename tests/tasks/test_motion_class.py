@@ -365,7 +365,7 @@ def test_near_repeats_are_different_poses(apart, axis):
     assert found.distinct == 6
     if apart < 1e-11:  # less than what counts as rounding of computed poses
         assert isinstance(found.kind, FewPoses)
-        kept = rows[list(found.kind.kept)]
+        kept = rows[list(found.kind.representatives)]
         assert isinstance(kind_of(kept), General)
         assert synthesize(task_of(kept)).method == "exact"
     else:

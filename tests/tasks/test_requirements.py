@@ -5,6 +5,7 @@ import json
 import math
 import re
 import tomllib
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -22,6 +23,7 @@ from burmester.io.reading.requirements_text import requirements_from_options
 from burmester.io.reading.stated_requirements import combined_requirements, requirements_data
 from burmester.tasks.limits import KINDS, Limits
 from burmester.tasks.motion_task import Task
+from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.requirements import DRIVERS, GROUPS, TYPES, Requirements
 from tests.oracles.marked import carets, marked
 
@@ -141,7 +143,7 @@ def test_names_in_any_case_with_hyphens_or_spaces(said, name):
 
 
 def test_nothing_is_asked_by_default():
-    assert not Requirements().asked
+    assert not Requirements().has_any
     assert Task(THREE).requirements == Requirements()
     one_each = {
         "transmission": 0.1,
@@ -154,8 +156,8 @@ def test_nothing_is_asked_by_default():
     }
     assert set(one_each) == set(NOTHING)
     for field, value in one_each.items():
-        assert Requirements(**{field: value}).asked, field
-        assert Task(THREE, requirements=Requirements(**{field: value})).requirements.asked
+        assert Requirements(**{field: value}).has_any, field
+        assert Task(THREE, requirements=Requirements(**{field: value})).requirements.has_any
 
 
 MALFORMED = [  # a field, its value, and what the message holds
@@ -237,7 +239,7 @@ def test_a_crank_and_types_without_one_contradict_each_other():
     for name in (*TYPES, *GROUPS):
         types = frozenset({name})
         if name not in without:
-            assert Requirements(types=types, driver="crank").asked
+            assert Requirements(types=types, driver="crank").has_any
             continue
         error = refused(lambda: Requirements(types=types, driver="crank"), "E132", where=False)  # noqa: B023
         assert name in error.message
@@ -264,7 +266,7 @@ def test_types_that_no_dyads_within_the_limits_make_are_refused(made_of):
             error = refused_task(limits, asked_for)
             assert name in error.message
             assert all(kind in error.message for kind in one | other)
-            if match := re.search(r"ask for (.*), or let", error.help):
+            if match := re.search(r"require (.*), or let", error.help):
                 names = re.split(", | or ", match[1])
                 for offered in names if names != ["no type"] else ():
                     Task(THREE, limits=limits, requirements=Requirements(types={offered}))
@@ -554,7 +556,7 @@ def test_help_says_where_a_key_belongs(read):
         assert "asks for nothing" in error.message
         document = tomllib.loads(POSES)
         document["requirements"] = value if key == "requirement" else {key: value}
-        assert read(json.dumps(document), ".json").requirements.asked
+        assert read(json.dumps(document), ".json").requirements.has_any
 
 
 def test_contradictions_in_a_file_say_where(read):
@@ -611,15 +613,15 @@ def run(monkeypatch, tmp_path):
             cli.main(["synthesize", str(file), *map(str, arguments)])
         if not calls:
             return SimpleNamespace(code=stop.value.code, task=None, options=None)
-        (((task, method), options),) = calls
-        assert method == "auto"
+        (((task, options), rest),) = calls
+        assert not rest
         return SimpleNamespace(code=stop.value.code, task=task, options=options)
 
     run.found = SimpleNamespace(usable=(1,), determined=True)
     return run
 
 
-OPTIONS = {"normalise": True, "norm": "rms", "certify": False}
+OPTIONS = SynthesisOptions(method="auto", normalise=True, norm="rms", certify=False)
 
 
 @pytest.mark.parametrize("name", SAID)
@@ -662,22 +664,22 @@ def test_all_of_them_at_once(run):
     ("arguments", "expected"),
     [
         ((), {}),
-        (("--angle-weight", "12.5"), {"length": 12.5}),
-        (("--tolerance", "0.05"), {"tolerance": 0.05}),
-        (("--round", "1e-1"), {"step": 0.1}),
-        (("--stock", "30, 10,20.5"), {"stock": (30, 10, 20.5)}),
-        (("--stock", "30", "--stock", "10,5"), {"stock": (30, 10, 5)}),
+        (("--angle-weight", "12.5"), {"length_per_radian": 12.5}),
+        (("--tolerance", "0.05"), {"manufacturing_tolerance": 0.05}),
+        (("--round", "1e-1"), {"rounding_step": 0.1}),
+        (("--stock", "30, 10,20.5"), {"stock_lengths": (30, 10, 20.5)}),
+        (("--stock", "30", "--stock", "10,5"), {"stock_lengths": (30, 10, 5)}),
         (("--accept-uncertain",), {}),
         (
             ("--round", "2", "--stock", "4", "--tolerance", ".5"),
-            {"step": 2, "stock": (4,), "tolerance": 0.5},
+            {"rounding_step": 2, "stock_lengths": (4,), "manufacturing_tolerance": 0.5},
         ),
     ],
 )
 def test_what_is_made_of_it_reaches_the_synthesis(run, arguments, expected):
     done = run(*arguments)
     assert done.code == 0
-    assert done.options == OPTIONS | expected
+    assert done.options == replace(OPTIONS, **expected)
     assert done.task.requirements == Requirements()
 
 

@@ -10,7 +10,7 @@ from burmester.describe.digits import angle_error, degrees
 from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import ROUNDING
 from burmester.tasks.motion_task import Task, characteristic_length
-from burmester.tasks.wording import least_angle, length_of
+from burmester.tasks.notation import least_angle, length_of
 
 __all__ = ["as_html", "as_line", "as_text"]
 

@@ -1,1 +1,1 @@
-"""What is proved of the dyads found, in ball arithmetic."""
+"""Proofs of dyads, in ball arithmetic."""

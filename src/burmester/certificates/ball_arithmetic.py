@@ -22,15 +22,15 @@ from burmester.numerics.weights import weights_or_ones
 
 __all__ = [
     "Ball",
+    "BallPoses",
     "Matrix",
-    "Motion",
     "System",
     "column",
-    "descends",
     "flint",
-    "nonzero",
-    "positive",
-    "upper",
+    "has_descent",
+    "is_nonzero",
+    "positive_definite",
+    "upper_bound",
     "zero_near",
 ]
 
@@ -38,7 +38,7 @@ Ball: TypeAlias = Any  # arb or acb
 Matrix: TypeAlias = Any  # arb_mat or acb_mat
 System: TypeAlias = Callable[[Matrix], tuple[Matrix, Matrix]]  # values and Jacobian at a column
 
-NEWTON_STEPS = 8
+MAX_NEWTON_STEPS = 8  # to the middle of a box; from a good start three or four are enough
 
 
 @cache
@@ -55,8 +55,8 @@ def flint() -> Any:
         ) from error
 
 
-class Motion(NamedTuple):
-    """Poses seen in canonical frames, with their weights, all as balls.
+class BallPoses(NamedTuple):
+    """Poses in canonical frames, with their weights, all as balls.
 
     The doubles of poses, weights and frames count as exact numbers.
     """
@@ -69,8 +69,10 @@ class Motion(NamedTuple):
     length: Ball
 
     @classmethod
-    def of(cls, poses: Displacement, weights: FloatArray | None, frames: CanonicalFrames) -> Motion:
-        """Poses (N,) and weights (N,) or None, seen in the frames of one task."""
+    def of(
+        cls, poses: Displacement, weights: FloatArray | None, frames: CanonicalFrames
+    ) -> BallPoses:
+        """Poses (N,) and weights (N,) or None, in the canonical frames of one task."""
         arb = flint().arb
         fixed = tuple(arb(float(v)) for v in frames.fixed_origin)
         moving = tuple(arb(float(v)) for v in frames.moving_origin)
@@ -85,13 +87,13 @@ class Motion(NamedTuple):
         share = [arb(float(w)) for w in weights_or_ones(weights, (len(angles),))]
         return cls(places, angles, share, fixed, moving, length)
 
-    def inverse(self) -> Motion:
+    def inverse(self) -> BallPoses:
         """The inverse motion: F and M exchanged."""
         places = [
             (-cos * d1 - sin * d2, sin * d1 - cos * d2, cos, -sin)
             for d1, d2, cos, sin in self.places
         ]
-        return Motion(
+        return BallPoses(
             places,
             [-angle for angle in self.angles],
             self.weights,
@@ -109,7 +111,7 @@ class Motion(NamedTuple):
 def zero_near(system: System, start: Matrix) -> Matrix | None:
     """A box near `start` that holds exactly one zero, a simple one; None if that is not proved.
 
-    start: a column of real or of complex balls, which says where zeros are looked for.  Newton's
+    start: a column of real or of complex balls; it decides which zeros count.  Newton's
     method goes to the middle of the box; the proof is Krawczyk's test, that a box is mapped into
     its own interior (Rump, Acta Numerica 19, 2010, section 13).
     """
@@ -119,9 +121,9 @@ def zero_near(system: System, start: Matrix) -> Matrix | None:
     small = lib.arb(2) ** (-lib.ctx.prec // 2)
     x = start.mid()
     try:
-        for _ in range(NEWTON_STEPS):
-            values, slope = system(x)
-            step = slope.mid().solve(values.mid()).mid()
+        for _ in range(MAX_NEWTON_STEPS):
+            values, jacobian = system(x)
+            step = jacobian.mid().solve(values.mid()).mid()
             x = (x - step).mid()
             size = 1 + sum(abs(e) for e in x.entries())
             if all(abs(e) < small * size / 1024 for e in step.entries()):
@@ -129,18 +131,18 @@ def zero_near(system: System, start: Matrix) -> Matrix | None:
         radius = (small * size).mid()
         side = lib.arb(0, radius)
         around = kind(n, 1, [side if real else lib.acb(side, side)] * n)
-        values, slope = system(x)
-        inverse = slope.mid().inv().mid()
-        _, slopes = system(x + around)
+        values, jacobian = system(x)
+        inverse = jacobian.mid().inv().mid()
+        _, jacobians = system(x + around)
     except ZeroDivisionError:  # a matrix that is singular as far as these bits can tell
         return None
     identity = kind(n, n, [int(j == k) for j in range(n) for k in range(n)])
-    moved = ((identity - inverse * slopes) * around - inverse * values).entries()
+    moved = ((identity - inverse * jacobians) * around - inverse * values).entries()
     parts = moved if real else [part for e in moved for part in (e.real, e.imag)]
     return x + around if all(abs(part) < radius for part in parts) else None
 
 
-def positive(matrix: Matrix) -> bool:
+def positive_definite(matrix: Matrix) -> bool:
     """Whether a real symmetric matrix is surely positive definite: all pivots of elimination."""
     rows = matrix.tolist()
     while rows:
@@ -153,7 +155,7 @@ def positive(matrix: Matrix) -> bool:
     return True
 
 
-def descends(matrix: Matrix) -> bool:
+def has_descent(matrix: Matrix) -> bool:
     """Whether a real symmetric matrix surely has a negative direction."""
     middle = np.array([[float(x) for x in row] for row in matrix.tolist()])
     if not np.isfinite(middle).all():
@@ -162,12 +164,12 @@ def descends(matrix: Matrix) -> bool:
     return bool((down.transpose() * matrix * down)[0, 0] < 0)
 
 
-def nonzero(ball: Ball) -> bool:
+def is_nonzero(ball: Ball) -> bool:
     """Whether a ball surely is not zero."""
     return bool(abs(ball) > 0)
 
 
-def upper(ball: Ball) -> float:
+def upper_bound(ball: Ball) -> float:
     """A double that surely is not below the absolute value of a ball."""
     value = float(abs(ball).upper())
     return inf if isnan(value) else nextafter(value, inf)

@@ -1,8 +1,8 @@
-"""What a certificate is made of: zeros in boxes, and why there are no others.
+"""The proofs of a certificate: zeros in boxes, and why there are no others.
 
-The derivatives of F = vᵀ G v (see `critical`) have degrees (1, 2), (1, 2), (2, 1), (2, 1) in
-(c0 : c1 : c2) and (m0 : m1 : m2), so where they have but finitely many common zeros these count
-33, with multiplicity (Bezout).  Two of them are at infinity for every task and count four
+The derivatives of F = vᵀ G v (see `dyads.critical_points`) have degrees (1, 2), (1, 2), (2, 1),
+(2, 1) in (c0 : c1 : c2) and (m0 : m1 : m2).  Where they have but finitely many common zeros these
+count 33, with multiplicity (Bezout).  Two of them are at infinity for every task and count four
 each (`infinity_takes_eight`); 25 simple ones exhaust the number.  A further zero z, isolated
 or not, cannot be: add to the equations a small multiple of generic ones that vanish at z.  The
 sum has finitely many zeros, 33 in all; 33 of them stay near those that were counted, and z is
@@ -20,37 +20,40 @@ from numpy.typing import NDArray
 
 from burmester.certificates.ball_arithmetic import (
     Ball,
+    BallPoses,
     Matrix,
-    Motion,
     System,
     column,
     flint,
-    nonzero,
-    positive,
-    upper,
+    is_nonzero,
+    positive_definite,
+    upper_bound,
     zero_near,
 )
 
 __all__ = [
-    "NEAR",
+    "MAX_RELATIVE_ERROR",
     "Zeros",
     "circle_distances",
     "circle_of",
+    "first_is_least",
     "five_equations",
     "gram_of",
-    "grows",
+    "grows_to_infinity",
     "infinity_takes_eight",
     "proved_zeros",
     "squared_residual",
     "stationary_line",
-    "sure_least",
 ]
 
-NEAR = 1e-7  # of a point's size; an exact point farther away is not the one that was computed
+MAX_RELATIVE_ERROR = 1e-7  # of a point's size; an exact point farther away is another one
 
 
 class Zeros(NamedTuple):
-    """Boxes with one zero each, all of them different; error: their distance from the computed."""
+    """Boxes with one zero each, all of them different.
+
+    error: the greatest distance of a box from its computed point.
+    """
 
     real: dict[int, Matrix]  # by their place among the points
     others: list[Matrix]
@@ -67,31 +70,33 @@ def proved_zeros(
     real: NDArray[np.bool_],
     differ: Callable[[Matrix, Matrix], bool],
 ) -> Zeros:
-    """The points (k, n) that are proved, as real or as not real; those that fail are left out.
+    """Boxes around those of the points (k, n) that are proved to be zeros, real ones or not.
 
-    equations: what to solve near a point.  differ: whether two boxes surely hold different zeros.
-    A real box is tried for a point that is said to be real; one that is not must differ from
-    its conjugate, and so from all real ones.
+    equations: the system to solve near a point.  differ: whether two boxes surely hold different
+    zeros.  A point marked `real` (k,) gets a real box; any other box must differ from its
+    conjugate, and so from all real ones.
     """
-    found = Zeros({}, [], 0.0)
+    zeros = Zeros({}, [], 0.0)
     for k, point in enumerate(points):
         at = point.real if real[k] else point
         start = column(at, real=bool(real[k]))
         box = zero_near(equations(at), start)
         if box is None:
             continue
-        away = max(upper(e) for e in (box - start).entries())
-        others = found.real.values() if real[k] else [*found.others, box.conjugate()]
-        if away < NEAR * (1 + np.abs(at).max()) and all(differ(box, other) for other in others):
+        away = max(upper_bound(e) for e in (box - start).entries())
+        others = zeros.real.values() if real[k] else [*zeros.others, box.conjugate()]
+        if away < MAX_RELATIVE_ERROR * (1 + np.abs(at).max()) and all(
+            differ(box, other) for other in others
+        ):
             if real[k]:
-                found.real[k] = box
+                zeros.real[k] = box
             else:
-                found.others.append(box)
-            found = found._replace(error=max(found.error, away))
-    return found
+                zeros.others.append(box)
+            zeros = zeros._replace(error=max(zeros.error, away))
+    return zeros
 
 
-def gram_of(motion: Motion) -> Matrix:
+def gram_of(poses: BallPoses) -> Matrix:
     """G (7, 7) with vᵀ G v the weighted sum of the squared circle residuals."""
     a = flint().arb_mat(
         [
@@ -99,12 +104,12 @@ def gram_of(motion: Motion) -> Matrix:
                 *(d1 * d1 + d2 * d2, -2 * d1, -2 * d2),
                 *(2 * (c * d1 + s * d2), 2 * (c * d2 - s * d1), -2 * c, -2 * s),
             ]
-            for d1, d2, c, s in motion.places
+            for d1, d2, c, s in poses.places
         ]
     )
-    total = flint().arb_mat([motion.weights]) * a
-    mean = total.transpose() * total * (1 / sum(motion.weights))
-    return a.transpose() * motion.weighted(a) - mean
+    total = flint().arb_mat([poses.weights]) * a
+    mean = total.transpose() * total * (1 / sum(poses.weights))
+    return a.transpose() * poses.weighted(a) - mean
 
 
 def _features(x: Matrix) -> Matrix:
@@ -121,10 +126,10 @@ def squared_residual(gram: Matrix) -> System:
         kind = type(x)
         rows = [[0, 1, 0, 0, 0, m1, -m2], [0, 0, 1, 0, 0, m2, m1]]
         rows += [[0, 0, 0, 1, 0, c1, c2], [0, 0, 0, 0, 1, c2, -c1]]
-        slope, pull = kind(rows), gram * _features(x)
-        p, q = pull[5, 0], pull[6, 0]
-        bend = kind([[0, 0, p, -q], [0, 0, q, p], [p, q, 0, 0], [-q, p, 0, 0]])
-        return slope * pull, slope * gram * slope.transpose() + bend
+        jacobian, gradient = kind(rows), gram * _features(x)
+        p, q = gradient[5, 0], gradient[6, 0]
+        second_derivatives = kind([[0, 0, p, -q], [0, 0, q, p], [p, q, 0, 0], [-q, p, 0, 0]])
+        return jacobian * gradient, jacobian * gram * jacobian.transpose() + second_derivatives
 
     return system
 
@@ -164,27 +169,28 @@ def infinity_takes_eight(gram: Matrix) -> bool:
     except ZeroDivisionError:
         return False
     s = block(rest, rest) - block(rest, products) * inverse * block(products, rest)
-    return all(nonzero(value) for value in (s[0, 0], s[1, 1], s.det()))
+    return all(is_nonzero(value) for value in (s[0, 0], s[1, 1], s.det()))
 
 
-def grows(gram: Matrix) -> bool:
+def grows_to_infinity(gram: Matrix) -> bool:
     """Whether F surely grows beyond all bounds far away, and so has a global minimum.
 
     Far away v points along (0, c, 0, c · m, c x m) or (0, 0, m, c · m, c x m), never along 0.
     """
     blocks = ((1, 2, 5, 6), (3, 4, 5, 6))
     return all(
-        positive(flint().arb_mat([[gram[j, k] for k in block] for j in block])) for block in blocks
+        positive_definite(flint().arb_mat([[gram[j, k] for k in block] for j in block]))
+        for block in blocks
     )
 
 
-def sure_least(gram: Matrix, boxes: Iterable[Matrix]) -> bool:
+def first_is_least(gram: Matrix, boxes: Iterable[Matrix]) -> bool:
     """Whether F surely is less in the first box than in all others."""
     first, *others = [(_features(x).transpose() * gram * _features(x))[0, 0] for x in boxes]
     return all(first < other for other in others)
 
 
-def circle_distances(motion: Motion) -> System:
+def circle_distances(poses: BallPoses) -> System:
     """Half the gradient and half the Hessian of the sum of (|R m + d - c| - r)².
 
     In the five unknowns (c1, c2, m1, m2, r), real.
@@ -192,25 +198,26 @@ def circle_distances(motion: Motion) -> System:
 
     def system(x: Matrix) -> tuple[Matrix, Matrix]:
         c1, c2, m1, m2, r = x.entries()
-        slopes, bends, pulled, misses = [], [], [], []
-        for (d1, d2, c, s), w in zip(motion.places, motion.weights, strict=True):
+        forces, arm_turns, weighted_turns, residuals = [], [], [], []
+        for (d1, d2, c, s), w in zip(poses.places, poses.weights, strict=True):
             a1, a2 = c * m1 - s * m2 + d1 - c1, s * m1 + c * m2 + d2 - c2
             arm = (a1 * a1 + a2 * a2).sqrt()
             u1, u2 = a1 / arm, a2 / arm
             along, across = c * u1 + s * u2, c * u2 - s * u1
-            slopes.append([-u1, -u2, along, across, -1])
-            bends.append([u2, -u1, -across, along, 0])
-            misses.append([w * (arm - r)])
-            pulled.append([misses[-1][0] / arm * e for e in bends[-1]])
+            forces.append([-u1, -u2, along, across, -1])
+            arm_turns.append([u2, -u1, -across, along, 0])
+            residuals.append([w * (arm - r)])
+            weighted_turns.append([residuals[-1][0] / arm * e for e in arm_turns[-1]])
         kind = type(x)
-        slope, bend = kind(slopes), kind(bends)
-        hessian = slope.transpose() * motion.weighted(slope) + bend.transpose() * kind(pulled)
-        return slope.transpose() * kind(misses), hessian
+        jacobian, turns = kind(forces), kind(arm_turns)
+        hessian = jacobian.transpose() * poses.weighted(jacobian)
+        hessian += turns.transpose() * kind(weighted_turns)
+        return jacobian.transpose() * kind(residuals), hessian
 
     return system
 
 
-def stationary_line(motion: Motion, angle: Ball) -> tuple[list[Ball], bool] | None:
+def stationary_line(poses: BallPoses, angle: Ball) -> tuple[list[Ball], bool] | None:
     """The stationary line fixed in F whose normal is nearer to `angle`, and whether it is the best.
 
     As balls: how far its normal is from `angle`, its offset, and the moving pivot.  The weighted
@@ -218,22 +225,22 @@ def stationary_line(motion: Motion, angle: Ball) -> tuple[list[Ball], bool] | No
     and the line an eigenvector.  None where that is not proved.
     """
     lib = flint()
-    d = lib.arb_mat([[d1, d2] for d1, d2, _, _ in motion.places])
-    others = lib.arb_mat([[c, s, -1] for _, _, c, s in motion.places])
-    normal = others.transpose() * motion.weighted(others)
-    if not positive(normal):
+    d = lib.arb_mat([[d1, d2] for d1, d2, _, _ in poses.places])
+    others = lib.arb_mat([[c, s, -1] for _, _, c, s in poses.places])
+    normal = others.transpose() * poses.weighted(others)
+    if not positive_definite(normal):
         return None
-    mixed = others.transpose() * motion.weighted(d)
+    mixed = others.transpose() * poses.weighted(d)
     try:
         solve = normal.solve(mixed)
     except ZeroDivisionError:  # regular, but by less than these bits can invert
         return None
-    form = d.transpose() * motion.weighted(d) - mixed.transpose() * solve
+    form = d.transpose() * poses.weighted(d) - mixed.transpose() * solve
     # Half the difference of the eigenvalues is p along one eigenvector, with q = 0.
     sin, cos = (2 * angle).sin_cos()
     p, q = (form[0, 0] - form[1, 1]) / 2, form[0, 1]
     p, q = p * cos + q * sin, q * cos - p * sin
-    if not nonzero(p):
+    if not is_nonzero(p):
         return None
     turn = (q / p).atan() / 2
     n2, n1 = (angle + turn).sin_cos()
@@ -248,11 +255,11 @@ _CONDITIONS = (
 )
 
 
-def five_equations(motion: Motion) -> Callable[[NDArray[Any]], System]:
-    """What p (8,) fulfils near a root: five linear equations, two conditions, and a scale."""
+def five_equations(poses: BallPoses) -> Callable[[NDArray[Any]], System]:
+    """The equations for p (8,) near a root: five linear ones, two conditions, and a scale."""
     lib = flint()
     linear = []
-    for (d1, d2, _, _), angle in zip(motion.places, motion.angles, strict=True):
+    for (d1, d2, _, _), angle in zip(poses.places, poses.angles, strict=True):
         s, c = (lib.arb(angle) / 2).sin_cos()
         z1, z2 = (d1 * s - d2 * c) / 2, (d1 * c + d2 * s) / 2
         linear.append([z1 * z1 + z2 * z2, s * s, z1 * s, z2 * s, z1 * c, z2 * c, s * c, c * c])
@@ -277,10 +284,10 @@ def five_equations(motion: Motion) -> Callable[[NDArray[Any]], System]:
     return near
 
 
-def different(a: Matrix, b: Matrix) -> bool:
+def surely_different(a: Matrix, b: Matrix) -> bool:
     """Whether two columns of coefficients surely are no multiples of each other."""
     p, q = a.entries(), b.entries()
-    return any(nonzero(p[j] * q[k] - p[k] * q[j]) for j, k in combinations(range(len(p)), 2))
+    return any(is_nonzero(p[j] * q[k] - p[k] * q[j]) for j, k in combinations(range(len(p)), 2))
 
 
 def circle_of(root: Matrix) -> list[Ball]:

@@ -10,7 +10,7 @@ from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.numerics.arrays import ROUNDING
 from burmester.synthesis.result import Synthesis
-from burmester.tasks import wording
+from burmester.tasks import notation
 
 __all__ = [
     "angle_error",
@@ -73,7 +73,7 @@ def fixed(value: float, digits: int) -> str:
 
 def position_error(synthesis: Synthesis, error: float) -> str:
     """A position error of a linkage, "exact" where it is rounding."""
-    return "exact" if error < ROUNDING * (synthesis.length or 1.0) else wording.figure(error)
+    return "exact" if error < ROUNDING * (synthesis.length or 1.0) else notation.figure(error)
 
 
 def angle_error(angle: float) -> str:
@@ -89,7 +89,7 @@ def worst_errors(synthesis: Synthesis, found: FoundLinkage) -> tuple[str, str]:
 
 def degrees(angle: float) -> str:
     """An angle in radians as degrees, "-" where there is none."""
-    return f"{wording.figure(math.degrees(angle))}°" if math.isfinite(angle) else "-"
+    return f"{notation.figure(math.degrees(angle))}°" if math.isfinite(angle) else "-"
 
 
 def links(synthesis: Synthesis, found: FoundLinkage) -> list[str]:

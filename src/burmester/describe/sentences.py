@@ -11,7 +11,7 @@ from burmester.linkages.found_linkage import FoundLinkage
 from burmester.linkages.uncertainty import pose_sigma
 from burmester.numerics.arrays import ROUNDING
 from burmester.synthesis.result import Synthesis
-from burmester.tasks import wording
+from burmester.tasks import notation
 from burmester.wording import with_article
 
 __all__ = [
@@ -30,7 +30,7 @@ def best_sentences(synthesis: Synthesis) -> Iterator[str]:
         return
     best, task, size = synthesis.usable[0], synthesis.task, synthesis.length
     kind = best.type.replace("change-point", "change-point linkage")
-    least = wording.least_angle(best.driven.least_over_range)
+    least = notation.least_angle(best.driven.least_over_range)
     yield (
         f"Best: {best.id}, {with_article(kind)} driven by {best.dyads_driver_first[0].id}, "
         f"{_passes(synthesis, best)}, transmission angle {least} or more."
@@ -54,7 +54,7 @@ def best_sentences(synthesis: Synthesis) -> Iterator[str]:
 def _passes(synthesis: Synthesis, best: FoundLinkage) -> str:
     if explanation.meets_exactly(best, synthesis.length):
         return "passes every pose exactly, up to rounding"
-    worst = wording.length_of(best.error.worst, synthesis.task)
+    worst = notation.length_of(best.error.worst, synthesis.task)
     return f"passes every pose within {worst} and {degrees(float(best.error.angle.max()))}"
 
 
@@ -74,7 +74,7 @@ def uncertainty_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
         return None
     task = synthesis.task
     position, angle = pose_sigma(task)
-    given = wording.length_of(position, task) if task.resolution[0] else "0"
+    given = notation.length_of(position, task) if task.resolution[0] else "0"
     turned = degrees(angle) if task.resolution[1] else "0°"
     return (
         "±: 95 % regions, of a pivot in its worst direction, if the poses err by "
@@ -90,10 +90,10 @@ def tolerance_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
     assert synthesis.options.manufacturing_tolerance is not None
     task = synthesis.task
     return (
-        f"Built to ±{wording.length_of(synthesis.options.manufacturing_tolerance, task)}: "
+        f"Built to ±{notation.length_of(synthesis.options.manufacturing_tolerance, task)}: "
         "position errors of up to "
-        f"{wording.length_of(float(found.spread.greatest_95), task)} (95 % of linkages), "
-        f"at most {wording.length_of(float(found.spread.bound), task)}."
+        f"{notation.length_of(float(found.spread.greatest_95), task)} (95 % of linkages), "
+        f"at most {notation.length_of(float(found.spread.bound), task)}."
     )
 
 
@@ -104,14 +104,14 @@ def rounding_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
     task, options = synthesis.task, synthesis.options
     how = []
     if options.rounding_step is not None:
-        how.append(f"rounded to {wording.length_of(options.rounding_step, task)}")
+        how.append(f"rounded to {notation.length_of(options.rounding_step, task)}")
     if options.stock_lengths:
         how.append("with links from stock")
     text = " and ".join(how) or "rounded"
     before, after = (
         "by nothing but rounding errors"
         if each.worst < ROUNDING * synthesis.length
-        else f"by {wording.length_of(each.worst, task)}"
+        else f"by {notation.length_of(each.worst, task)}"
         for each in (found.error_before_rounding, found.error)
     )
     return f"{text[0].upper()}{text[1:]}: {found.id} misses {after}, instead of {before}."

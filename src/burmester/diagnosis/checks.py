@@ -1,4 +1,4 @@
-"""What is the matter with a task, told before any linkage is looked for."""
+"""Checks of a task's poses before any linkage is looked for."""
 
 from __future__ import annotations
 
@@ -10,18 +10,21 @@ from typing import final
 import numpy as np
 
 from burmester.diagnosis.odd_pose import odd_pose
-from burmester.diagnosis.swapped_poses import out_of_order
+from burmester.diagnosis.swapped_poses import swapped_poses
 from burmester.errors import Advice
 from burmester.fourbar.dyad import Dyad
 from burmester.tasks.motion_class import MotionClass, classify_motion
 from burmester.tasks.motion_task import Task
-from burmester.tasks.repeated_poses import ULPS
-from burmester.tasks.wording import length_of, span
+from burmester.tasks.notation import length_of, span
+from burmester.tasks.repeated_poses import COORDINATE_ROUNDING
+from burmester.values import require_instance
+from burmester.wording import listed, shortened
 
 __all__ = ["Diagnosis", "diagnose", "disagreement"]
 
-FAR = 1e8  # times their own span; half of a double's digits are gone there
-DIGITS = 16  # that a double holds
+MAX_DISTANCE = 1e8  # spans of the poses, from the origin; beyond it half of the digits are lost
+DOUBLE_DIGITS = 16  # decimal ones of a double
+MAX_LISTED = 5  # repeats in a message; of more three and their number
 
 
 @final
@@ -29,8 +32,14 @@ DIGITS = 16  # that a double holds
 class Diagnosis:
     """What a task's poses are, and what stands out among them.
 
-    motion: what the poses are; None for one or two of them.
-    findings: what a user should look at, in the order of the checks; nothing is changed by them.
+    Attributes
+    ----------
+    task : Task
+        The task as given.
+    motion : MotionClass or None
+        The class of its motion; None for one or two poses.
+    findings : tuple of Advice
+        What to look at, in the order of the checks; nothing is changed by them.
     """
 
     task: Task
@@ -44,7 +53,36 @@ class Diagnosis:
 
 
 def diagnose(task: Task) -> Diagnosis:
-    """Look for repeated poses, lost digits and poses out of order; whether all agree costs more."""
+    """Look for repeated poses, lost digits and exchanged poses.
+
+    Whether one pose disagrees with all the others takes longer: see `odd_pose`.
+
+    Parameters
+    ----------
+    task : Task
+        The poses.
+
+    Returns
+    -------
+    Diagnosis
+
+    Raises
+    ------
+    InputError
+        E125 (no `Task`).
+
+    Examples
+    --------
+    >>> rows = [(0, 0, 0), (3, 1, 40), (4, 3, 70), (3, 1, 40)]
+    >>> found = diagnose(Task.from_rows(rows, angle_unit="deg"))
+    >>> [advice.why for advice in found.findings]
+    ['pose 4 repeats 2']
+    >>> found.motion.kind.name
+    'general'
+    """
+    require_instance(
+        task, Task, "task", 'give a Task, such as Task.from_rows(rows, angle_unit="deg")'
+    )
     motion = classify_motion(task) if task.poses.shape[0] > 2 else None
     checks = [_far_away(task), _exchanged(task)]
     if motion is not None:
@@ -57,45 +95,44 @@ def disagreement(
 ) -> Advice | None:
     """W201: one pose that does not agree with all the others.
 
-    dyads: the best of all poses, where they are known; see `agreement`.
+    dyads: the best of all poses, where they are known; see `odd_pose`.
     """
-    found = None if motion is None else odd_pose(task, motion, dyads)
-    return None if found is None else Advice("W201", found.message, found.help, found.why)
+    odd = None if motion is None else odd_pose(task, motion, dyads)
+    return None if odd is None else Advice("W201", odd.message, odd.help, odd.why)
 
 
 def _repeats(task: Task, motion: MotionClass) -> Advice | None:
-    """W208: poses that are given more than once."""
+    """W208: repeated poses."""
     if motion.distinct == len(motion.group):
         return None
     again = sorted(set(range(len(motion.group))) - set(motion.first.tolist()))
     first = [int(motion.first[motion.group[i]]) for i in again]
     pairs = [f"{i + 1} repeats {j + 1}" for i, j in zip(again, first, strict=True)]
-    shown = ", ".join(pairs[:3]) + (f" and {len(pairs) - 3} more" if len(pairs) > 3 else "")
     return Advice(
         "W208",
         f"only {motion.distinct} of the {len(motion.group)} poses are different; each counts once"
         + ("" if task.weights is None else ", with all its weight"),
         "delete the repeats; to let a pose count more give it a weight",
-        f"pose {shown}",
+        f"pose {listed(shortened(pairs, MAX_LISTED, 'more'))}",
     )
 
 
 def _exchanged(task: Task) -> Advice | None:
     """W202: two poses that seem to stand in each other's place."""
-    found = out_of_order(task)
-    return None if found is None else Advice("W202", found.message, found.help, found.why)
+    swap = swapped_poses(task)
+    return None if swap is None else Advice("W202", swap.message, swap.help, swap.why)
 
 
 def _far_away(task: Task) -> Advice | None:
-    """W211: poses so far from the origin that their numbers have few digits left for them."""
+    """W211: poses so far from the origin that their numbers lose half of their digits."""
     size, reach = span(task), float(np.abs(task.poses.translation).max())
-    if not 0 < size * FAR < reach:
+    if not 0 < size * MAX_DISTANCE < reach:
         return None
     lost = math.log10(reach / size)
     return Advice(
         "W211",
         f"the poses lie {reach / size:.0e} times their own size from the origin",
-        "subtract the same point from all poses in the file that they come from",
-        f"of the {DIGITS} digits that a number holds {lost:.0f} say only that; the rest tells "
-        f"positions to {length_of(ULPS * reach, task)}",
+        "subtract the same point from all poses in their file",
+        f"{lost:.0f} of a double's {DOUBLE_DIGITS} digits go into that distance; positions are "
+        f"resolved only to {length_of(COORDINATE_ROUNDING * reach, task)}",
     )

@@ -1,4 +1,4 @@
-"""The best linkages of some poses, and of all but one."""
+"""The best linkages of all poses, and of all poses but one."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.diagnosis.sampson_fits import (
-    KEPT,
-    LONG,
-    SHORT,
+    FITS_PER_LABEL,
+    FULL_STEPS,
+    SCREENING_STEPS,
     Fits,
-    Seen,
-    fitted,
-    in_two_steps,
-    misses,
+    NormalizedPoses,
+    fit_in_two_steps,
+    fit_linkages,
+    sampson_residuals,
 )
 from burmester.dyads.local_minima import best_dyads
 from burmester.dyads.pencil import fit_pencil
@@ -28,87 +28,115 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import concatenate, take
 
-__all__ = ["EVERY", "LeaveOneOut", "pencil_pairs"]
+__all__ = ["MAX_POSES_ALL_LEFT_OUT", "LeaveOneOut", "pencil_pairs"]
 
-EVERY = 30  # of so few poses each is left out; of more the likeliest
-SAMPLE = 60  # of many poses so many lead to the first fits
-LIKELY, FEW = 4, 2  # poses whose fits start from dyads of their own
-BEST, SHARED = 5, 3  # dyads joined in pairs, of each fit; pairs of the whole fit to start from
-ROUNDS, FAR = 5, 3.0  # of weighing down what is so many times as far as the most
+MAX_POSES_ALL_LEFT_OUT = 30  # poses; of more only the suspects are left out, one at a time
+SAMPLE_SIZE = 60  # poses; the first fits to many poses are to a sample of about as many
+SUSPECTS = 4  # poses without which fits start from dyads of their own
+SUSPECTS_OF_MANY = 2  # the same where not every pose is left out
+PAIRED_DYADS = 5  # the best dyads of a task that are joined in pairs
+SHARED_STARTS = 3  # pairs of dyads of all poses that start the fits without one
+REWEIGHTING_ROUNDS = 5  # of fits in which distant poses count less and less
+REWEIGHTING_SCALE = 3.0  # median distances; a pose as far away counts a quarter
 
 
 class LeaveOneOut(NamedTuple):
-    """The best fits to all poses, and without each of the likeliest.
+    """The best fits to all poses, and without each of the suspects.
 
-    held: (N,), how far the others are from being held by two quadrics; (0,) for many poses.
-    known: pairs of the best dyads without a pose, as far as they were looked for.
+    quadric_distances: (N,), how far the other poses are from lying on two quadrics; (0,) for many
+        poses.
+    own_starts: pairs of the best dyads without a pose, kept once they are known.
     """
 
-    seen: Seen
-    whole: Fits
-    fits: Fits
-    held: FloatArray
-    known: dict[int, LinkageBatch]
+    normalized: NormalizedPoses
+    fits_to_all: Fits
+    fits_without_one: Fits
+    quadric_distances: FloatArray
+    own_starts: dict[int, LinkageBatch]
 
     @classmethod
-    def whole_of(
-        cls, seen: Seen, dyads: Sequence[Dyad], poses: Displacement
+    def fit_all(
+        cls, normalized: NormalizedPoses, dyads: Sequence[Dyad], poses: Displacement
     ) -> tuple[LinkageBatch, Fits]:
-        """The best dyads of all poses (if given, in their own frames) in pairs, and the fits."""
+        """The best dyads of all poses in pairs, and the fits from them.
+
+        dyads: the best of the poses (N,) in their own frames, if they are known.
+        """
         given = len(dyads) > 2
-        pairs = _paired(dyads, poses).seen(seen.frames) if given else _own_pairs(seen, -1)
+        pairs = (
+            _paired(dyads, poses).seen(normalized.frames) if given else _best_pairs(normalized, -1)
+        )
         none = np.full(len(pairs), -1)
-        return pairs, in_two_steps(pairs, none, seen.rows, seen.shares(none))
+        return pairs, fit_in_two_steps(
+            pairs, none, normalized.rows, normalized.weights_without(none)
+        )
 
     @classmethod
-    def quickly(cls, seen: Seen, pairs: LinkageBatch, whole: Fits) -> LeaveOneOut:
-        """Fits from the dyads of all poses, and from the pencils without each."""
-        count = len(seen.rows)
-        if count <= EVERY:
-            each, starts = np.arange(count), concatenate([pairs[:SHARED], whole.stack])
+    def from_shared_starts(
+        cls, normalized: NormalizedPoses, pairs: LinkageBatch, whole: Fits
+    ) -> LeaveOneOut:
+        """Fits from the dyads of all poses, and from the pencils without each pose."""
+        count = len(normalized.rows)
+        if count <= MAX_POSES_ALL_LEFT_OUT:
+            each, starts = np.arange(count), concatenate([pairs[:SHARED_STARTS], whole.linkages])
             others = np.array([np.delete(each, k) for k in each])
-            more, held = pencil_pairs(seen.poses[others], seen.weights[others])
+            more, distances = pencil_pairs(normalized.poses[others], normalized.weights[others])
         else:
-            each, starts = _likely(seen, whole.stack)
-            more, held = whole.stack[:0], np.empty(0)
-        own = np.concatenate([np.repeat(each, len(starts)), each[: len(more)]])
-        stack = concatenate([starts[np.tile(np.arange(len(starts)), len(each))], more])
-        fits = in_two_steps(stack, own, seen.rows, seen.shares(own))
-        return cls(seen, _and_again(seen, whole, fits), fits, held, {})
+            each, starts = _suspects(normalized, whole.linkages)
+            more, distances = whole.linkages[:0], np.empty(0)
+        labels = np.concatenate([np.repeat(each, len(starts)), each[: len(more)]])
+        linkages = concatenate([starts[np.tile(np.arange(len(starts)), len(each))], more])
+        fits = fit_in_two_steps(
+            linkages, labels, normalized.rows, normalized.weights_without(labels)
+        )
+        return cls(normalized, _refit_to_all(normalized, whole, fits), fits, distances, {})
 
-    def own_pairs(self, pose: int) -> LinkageBatch:
-        """The best dyads without a pose, joined in pairs; looked for once."""
-        if pose not in self.known:
-            self.known[pose] = _own_pairs(self.seen, pose)
-        return self.known[pose]
+    def best_pairs_without(self, pose: int) -> LinkageBatch:
+        """The best dyads without a pose, joined in pairs; computed once."""
+        if pose not in self.own_starts:
+            self.own_starts[pose] = _best_pairs(self.normalized, pose)
+        return self.own_starts[pose]
 
-    def thoroughly(self) -> LeaveOneOut:
-        """The same without the likeliest from the best dyads without them, too."""
-        seen, fits = self.seen, self.fits
-        many = len(seen.rows) > EVERY
-        likely = fits.by_cost()[: FEW if many else LIKELY]
-        # Where two quadrics hold the rest best: no start leads astray there.
-        likely += [k for k in np.argsort(self.held, kind="stable")[:LIKELY] if k not in likely]
-        stack, own = fits.stack, fits.own
-        for pose in likely:
-            new = self.own_pairs(pose)
-            stack, own = concatenate([stack, new]), np.append(own, np.full(len(new), pose))
-        # What leads to the best fit without one pose may do so without another.
-        for pose in likely:
-            best = fits.of(pose).stack[:1]
-            for other in likely:
-                stack, own = concatenate([stack, best]), np.append(own, other)
-        fits = in_two_steps(stack, own, seen.rows, seen.shares(own))
-        return self._replace(fits=fits, whole=_and_again(seen, self.whole, fits))
+    def with_own_starts(self) -> LeaveOneOut:
+        """The same with fits without the suspects that start from the best dyads without them."""
+        normalized, fits = self.normalized, self.fits_without_one
+        many = len(normalized.rows) > MAX_POSES_ALL_LEFT_OUT
+        suspects = fits.labels_by_cost()[: SUSPECTS_OF_MANY if many else SUSPECTS]
+        # The rest lies nearest to two quadrics: that measure depends on no start.
+        suspects += [
+            k
+            for k in np.argsort(self.quadric_distances, kind="stable")[:SUSPECTS]
+            if k not in suspects
+        ]
+        linkages, labels = fits.linkages, fits.labels
+        for pose in suspects:
+            new = self.best_pairs_without(pose)
+            linkages, labels = (
+                concatenate([linkages, new]),
+                np.append(labels, np.full(len(new), pose)),
+            )
+        # The best fit without one pose may lead to the best without another.
+        for pose in suspects:
+            best = fits.of(pose).linkages[:1]
+            for other in suspects:
+                linkages, labels = concatenate([linkages, best]), np.append(labels, other)
+        fits = fit_in_two_steps(
+            linkages, labels, normalized.rows, normalized.weights_without(labels)
+        )
+        return self._replace(
+            fits_without_one=fits, fits_to_all=_refit_to_all(normalized, self.fits_to_all, fits)
+        )
 
 
-def _and_again(seen: Seen, whole: Fits, fits: Fits) -> Fits:
-    """The fits to all poses, and from those without the likeliest: they may be the best of all."""
+def _refit_to_all(normalized: NormalizedPoses, whole: Fits, fits: Fits) -> Fits:
+    """The fits to all poses, also from the best fits without one, which may lead to better ones."""
     best = fits.best(1)
-    best = take(best, np.argsort(best.cost, kind="stable")[:LIKELY])
+    best = take(best, np.argsort(best.cost, kind="stable")[:SUSPECTS])
     none = np.full(len(best.cost), -1)
-    stack, cost = fitted(best.stack, seen.rows, seen.shares(none), LONG)
-    return concatenate([whole, Fits(stack, cost, none)]).best(KEPT)
+    linkages, cost = fit_linkages(
+        best.linkages, normalized.rows, normalized.weights_without(none), FULL_STEPS
+    )
+    return concatenate([whole, Fits(linkages, cost, none)]).best(FITS_PER_LABEL)
 
 
 def _dyads(poses: Displacement, weights: FloatArray | None) -> list[Dyad]:
@@ -119,18 +147,18 @@ def _dyads(poses: Displacement, weights: FloatArray | None) -> list[Dyad]:
 
 
 def _paired(dyads: Sequence[Dyad], poses: Displacement) -> LinkageBatch:
-    """The best of the dyads, joined in pairs, those of the better ones first."""
+    """The best of the dyads, joined in pairs, those of better dyads first."""
     dyads = [each for each in dyads if not isinstance(each, PP)]
     error = [float((each.residual(poses) ** 2).mean()) for each in dyads]
-    order = np.argsort(np.nan_to_num(error, nan=np.inf), kind="stable")[:BEST]
+    order = np.argsort(np.nan_to_num(error, nan=np.inf), kind="stable")[:PAIRED_DYADS]
     return LinkageBatch.of([Linkage(dyads[a], dyads[b]) for a, b in combinations(order, 2)])
 
 
-def _own_pairs(seen: Seen, left_out: int) -> LinkageBatch:
-    """The best dyads of all poses but one (of many: of a sample), joined in pairs."""
-    keep = np.flatnonzero(seen.without(left_out))
-    keep = keep[:: max(1, len(keep) // SAMPLE)]
-    return _paired(_dyads(seen.poses[keep], seen.weights[keep]), seen.poses[keep])
+def _best_pairs(normalized: NormalizedPoses, left_out: int) -> LinkageBatch:
+    """The best dyads of all poses but one (of a sample, where there are many), joined in pairs."""
+    keep = np.flatnonzero(normalized.mask_without(left_out))
+    keep = keep[:: max(1, len(keep) // SAMPLE_SIZE)]
+    return _paired(_dyads(normalized.poses[keep], normalized.weights[keep]), normalized.poses[keep])
 
 
 def pencil_pairs(
@@ -138,45 +166,52 @@ def pencil_pairs(
 ) -> tuple[LinkageBatch, FloatArray]:
     """For each of tasks (n, N) the pair of dyads of the paper's pencil, (n,).
 
-    With how far (n,) the poses are from being held by two quadrics.
+    With the distances (n,) of the poses from two quadrics.
     """
-    found = fit_pencil(poses, weights)
-    # A pencil may have one dyad only: any circle in the place of the other one.
-    own = found.dyads.coefficients()
-    lost = ~np.isfinite(own).all(axis=-1) | ~(found.rms_error < np.inf)
+    pencil = fit_pencil(poses, weights)
+    # A pencil may have one dyad only: another circle, any one, takes the place of the second.
+    coefficients = pencil.dyads.coefficients()
+    lost = ~np.isfinite(coefficients).all(axis=-1) | ~(pencil.rms_error < np.inf)
     z = np.concatenate(
-        [found.dyads.fixed_pivot, found.dyads.moving_pivot, found.dyads.radius[..., None]], axis=-1
+        [pencil.dyads.fixed_pivot, pencil.dyads.moving_pivot, pencil.dyads.radius[..., None]],
+        axis=-1,
     )
     z[lost] = z[:, ::-1][lost] + np.array([0.1, 0.2, 0.3, 0.4, 0.0])
     z = np.where(np.isfinite(z), z, 1.0)
     pairs = LinkageBatch(np.zeros(z.shape[:-1], dtype=np.int8), z)
-    return pairs, found.noise * found.frames.length
+    return pairs, pencil.noise * pencil.frames.length
 
 
-def _likely(seen: Seen, pairs: LinkageBatch) -> tuple[NDArray[np.intp], LinkageBatch]:
-    """Of many poses those that may be odd, and linkages that pass the others by.
+def _suspects(
+    normalized: NormalizedPoses, pairs: LinkageBatch
+) -> tuple[NDArray[np.intp], LinkageBatch]:
+    """Of many poses those that may be odd, and linkages that fit the others.
 
-    Fits in which poses far away count less and less.
+    From fits in which distant poses count less and less.
     """
-    away = np.linalg.norm(seen.rows[:, :2] - np.median(seen.rows[:, :2], axis=0), axis=-1)
+    away = np.linalg.norm(
+        normalized.rows[:, :2] - np.median(normalized.rows[:, :2], axis=0), axis=-1
+    )
     farthest = int(away.argmax())
-    stack = concatenate([pairs, _own_pairs(seen, farthest)])
-    some = np.arange(len(seen.rows))[:: max(1, len(seen.rows) // SAMPLE)]
-    rows, weights = seen.rows[some], seen.weights[some]
-    share = np.tile(weights, (len(stack), 1))
-    for _ in range(ROUNDS):
-        stack, _ = fitted(stack, rows, share, SHORT)
-        off = _off(stack, rows)
+    linkages = concatenate([pairs, _best_pairs(normalized, farthest)])
+    some = np.arange(len(normalized.rows))[:: max(1, len(normalized.rows) // SAMPLE_SIZE)]
+    rows, weights = normalized.rows[some], normalized.weights[some]
+    share = np.tile(weights, (len(linkages), 1))
+    for _ in range(REWEIGHTING_ROUNDS):
+        linkages, _ = fit_linkages(linkages, rows, share, SCREENING_STEPS)
+        off = _distances(linkages, rows)
         middle = np.median(off, axis=-1, keepdims=True)
-        share = weights / (1 + (off / (FAR * middle + np.finfo(float).tiny)) ** 2) ** 2
-    best = np.argsort(middle[:, 0], kind="stable")[:KEPT]
-    off = _off(stack[best], seen.rows)
-    far = np.argsort(-np.sqrt(seen.weights) * off, axis=-1)[:, :KEPT]
+        share = (
+            weights / (1 + (off / (REWEIGHTING_SCALE * middle + np.finfo(float).tiny)) ** 2) ** 2
+        )
+    best = np.argsort(middle[:, 0], kind="stable")[:FITS_PER_LABEL]
+    off = _distances(linkages[best], normalized.rows)
+    far = np.argsort(-np.sqrt(normalized.weights) * off, axis=-1)[:, :FITS_PER_LABEL]
     each = np.unique(np.append(far.ravel(), farthest)).astype(np.intp)
-    return each, stack[best]
+    return each, linkages[best]
 
 
-def _off(stack: LinkageBatch, rows: FloatArray) -> FloatArray:
+def _distances(linkages: LinkageBatch, rows: FloatArray) -> FloatArray:
     """Distances (k, N) of poses (N, 3) from the motions of linkages (k,)."""
-    miss, _ = misses(stack, rows, np.ones((len(stack), len(rows))))
-    return np.asarray(np.linalg.norm(miss.reshape(len(stack), -1, 2), axis=-1))
+    miss, _ = sampson_residuals(linkages, rows, np.ones((len(linkages), len(rows))))
+    return np.asarray(np.linalg.norm(miss.reshape(len(linkages), -1, 2), axis=-1))

@@ -1,9 +1,9 @@
-"""Whether one pose disagrees with all the others: the fit with each pose left out in turn.
+"""One pose that disagrees with all the others: the fit with each pose left out in turn.
 
 A residual cannot tell: a wrong pose bends the fit until every pose misses a little.  Here the best
 pair of dyads is fitted to all poses, and again without each of them.  Two dyads leave a pose two
 conditions to meet (the third way is along their motion), and have ten dimensions, so that N poses
-have m = 2 N - 10 misses to spare.  With S the sum of squared distances of the poses from the
+have m = 2 N - 10 residuals to spare.  With S the sum of squared distances of the poses from the
 motion, of errors that are normal and equally large,
 
     P(S_without / S < q) = q^(m / 2 - 1)
@@ -11,10 +11,10 @@ motion, of errors that are normal and equally large,
 (an F test with 2 and m - 2 degrees of freedom), N times that for the least of N such shares.  If
 one number of a pose may be any, one condition is left: an F test with 1 and m - 1 of them, 3 N
 times that.  The lesser chance counts, times two.  Lengths in another unit have a test of their own
-(`unit_error`).
+(`unit_errors`).
 Poses of which most follow no linkage at all obey it well enough, too (`benchmarks.odd_pose`).
-Not known is how large errors of angles are beside those of positions (`tangent_fits.Seen` says what
-is taken); where they are three times as large or as small, some more false alarms must be expected.
+Unknown is how large errors of angles are beside those of positions (`NormalizedPoses` states the
+assumption); where they are three times as large or as small, expect some more false alarms.
 """
 
 from __future__ import annotations
@@ -22,14 +22,15 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import final
+from typing import NamedTuple, final
 
 import numpy as np
 
 from burmester.diagnosis.leave_one_out import LeaveOneOut
-from burmester.diagnosis.repairs import NUMBERS, Nearness, Repair, repairs_of, unit_repair
-from burmester.diagnosis.sampson_fits import Seen, refined
-from burmester.diagnosis.unit_errors import UnitError, apart, unit_error
+from burmester.diagnosis.repairs import NUMBERS, Prediction, Repair, repairs_of, unit_repair
+from burmester.diagnosis.sampson_fits import NormalizedPoses, refine_best
+from burmester.diagnosis.unit_errors import UnitError, pose_apart, unit_error
+from burmester.errors import InputError
 from burmester.fourbar.dyad import Dyad
 from burmester.fourbar.foot_points import rows_of
 from burmester.fourbar.linkage import Linkage
@@ -38,16 +39,21 @@ from burmester.numerics.arrays import ROUNDING
 from burmester.numerics.bundles import concatenate
 from burmester.tasks.motion_class import MotionClass, classify_motion
 from burmester.tasks.motion_task import Task
-from burmester.tasks.wording import figure, length_of
+from burmester.tasks.notation import figure, length_of, pose_labels
+from burmester.values import real_numbers, require_instance
+from burmester.wording import listed
 
-__all__ = ["OddPose", "odd_pose"]
+__all__ = ["OddPose", "chance_of_number", "chance_of_pose", "odd_pose"]
 
-LEAST, MOST = 7, 1000  # different poses
-SURE, DOUBTFUL = 5e-3, 0.05  # chance of a false alarm; that it is another pose
-TESTS = 2  # of one pose and of one number: the least chance counts
-HOPELESS = 0.1  # a chance by the first fits that better ones hardly make telling
-TELLING, OUTLYING = 2.0, 10.0  # times the error; or standard deviations away
-EXPLAINED = 3.0  # times what the resolution makes of errors
+MIN_POSES = 7  # distinct ones; fewer leave no residual to spare without one pose
+MAX_POSES = 1000  # distinct ones; more take too long
+FALSE_ALARM_CHANCE = 5e-3  # up to which a pose is named
+OTHER_POSE_CHANCE = 0.05  # above it another pose may be the odd one as well, and is named, too
+TESTS = 2  # per pose, one of all its numbers and one of each; the lesser chance counts
+MAX_SCREENING_CHANCE = 0.1  # by the first fits; above it better fits hardly turn up an odd pose
+MIN_ERROR_RATIO = 2.0  # of the error with the pose to that without it, or
+MIN_OUTLIER_DEVIATIONS = 10.0  # standard deviations of the pose from the motion; less is not named
+MAX_EXPLAINED_ERROR = 3.0  # times the error by digits; a fit as good leaves nothing to explain
 
 
 @final
@@ -55,15 +61,28 @@ EXPLAINED = 3.0  # times what the resolution makes of errors
 class OddPose:
     """A pose that does not agree with the others.
 
-    pose: its index; others: those that it may be instead, as they explain it nearly as well.
-    error, error_without: of the best linkage, refined as a whole, to all poses and without this
-        one: the root mean square distance of the poses counted from its motion, in the task's
-        unit, where angles count as `length` times radians.
-    miss: the distance of the pose from the motion of the linkage of the others.
-    chance: that poses with errors alike would show as much anywhere.
-    linkage: the one that the others agree on.
-    repairs: what would make it agree, the likeliest first; none if nothing simple does.
-    beside: how many times the others' extent away it lies, if it lies among them as repaired.
+    Attributes
+    ----------
+    pose : int
+        Its index.
+    others : tuple of int
+        Poses that may be the odd one instead: they explain the error nearly as well.
+    error, error_without : float
+        Of the best linkage, refined as a whole, to all poses and without this one: the root mean
+        square distance of these poses from its motion, in the task's unit, where angles count as
+        `length` times radians.
+    miss : float
+        The distance of the pose from the motion of the linkage of the others.
+    length : float
+        The extent of the poses.
+    chance : float
+        That poses with errors alike show as much somewhere.
+    linkage : Linkage
+        That of the others.
+    repairs : tuple of Repair
+        Changes that make the pose agree, the likeliest first; none if nothing simple does.
+    extents : float or None
+        How many times the others' extent away it lies, if it lies among them as repaired.
     """
 
     task: Task
@@ -76,47 +95,47 @@ class OddPose:
     chance: float
     linkage: Linkage
     repairs: tuple[Repair, ...]
-    beside: float | None = None
+    extents: float | None = None
 
     @property
     def ratio(self) -> float:
-        """How many times less the error is without it."""
+        """The error with the pose, over that without it."""
         return self.error / max(self.error_without, np.finfo(float).tiny)
 
     @property
     def message(self) -> str:
         """What is wrong."""
-        names = [_called(self.task, pose) for pose in (self.pose, *self.others)]
-        return f"{' or '.join(names)} does not agree with the others"
+        labels = pose_labels(self.task, (self.pose, *self.others), "number and name")
+        names = listed([f"pose {label}" for label in labels], "or")
+        return f"{names} does not agree with the others"
 
     @property
     def why(self) -> str:
         """By which numbers."""
-        told = f"pose {self.pose + 1}" if self.others else "it"
-        if self.beside is not None:
-            by = self.repairs[0].factor
-            how = f"times {by:g}" if by > 1 else f"divided by {1 / by:g}"
+        which = f"pose {self.pose + 1}" if self.others else "it"
+        if self.extents is not None:
+            factor = self.repairs[0].factor
+            how = f"times {factor:g}" if factor > 1 else f"divided by {1 / factor:g}"
             return (
-                f"it lies {figure(self.beside)} times the others' extent away; {how} it lies "
+                f"it lies {figure(self.extents)} times the others' extent away; {how} it lies "
                 "among them"
             )
         without = length_of(self.error_without, self.task)
-        if self.ratio >= TELLING:
+        if self.ratio >= MIN_ERROR_RATIO:
             times = figure(self.ratio) if self.ratio < 1e6 else "a million"
-            said = (
-                f"leaving {told} out lowers the error from {figure(self.error)} to {without} "
+            text = (
+                f"leaving {which} out lowers the error from {figure(self.error)} to {without} "
                 f"({times} times)"
             )
         else:
-            said = (
-                f"{told} lies {length_of(self.miss, self.task)} from the motion that the others "
+            text = (
+                f"{which} lies {length_of(self.miss, self.task)} from the motion that the others "
                 f"agree on, {figure(self.miss / self.error_without)} times as far as they do"
             )
         if self.others:
-            said += (
-                f"; leaving {' or '.join(str(k + 1) for k in self.others)} out does nearly as much"
-            )
-        return said
+            others = listed([str(k + 1) for k in self.others], "or")
+            text += f"; leaving {others} out does nearly as much"
+        return text
 
     @property
     def help(self) -> str:
@@ -136,97 +155,148 @@ def odd_pose(
     motion: MotionClass | None = None,
     dyads: Sequence[Dyad] = (),
     *,
-    sure: float = SURE,
+    false_alarm_chance: float = FALSE_ALARM_CHANCE,
 ) -> OddPose | None:
-    """The pose of a task that does not agree with the others, if one can be told with certainty.
+    """The pose of a task that does not agree with the others, if one does so beyond doubt.
 
-    motion: the task's motion class, dyads: the best dyads of all its poses, where they are known;
-    that saves time.  The pose named is the one that leaves the least error when it is left out, or
-    agrees with the others in another unit.  sure: the chance of a false alarm that is taken; 1
-    names the likeliest pose in any case.
+    It is the pose that leaves the least error without it, or that agrees with the others in
+    another unit.  Nothing is said of poses that a linkage meets as well as they are known
+    (`Task.resolution`), of special motions, and of fewer than 7 or more than 1000 distinct poses.
+    Weights count as inverse variances.  Limits, marks for exact poses and requirements have no
+    part: the question is whether poses agree with any linkage.  Repeats count once, and the first
+    of them is named.
 
-    Nothing is said of poses that a linkage meets as well as they are known (`Task.resolution`), of
-    special motions, and of fewer than 7 or more than 1000 different poses.  Weights count as
-    inverse variances.  Limits, marks for exact poses and requirements are left out: whether poses
-    agree is asked of any linkage.  Repeats count once, and the first is named.
+    Parameters
+    ----------
+    task : Task
+        The poses.
+    motion : MotionClass, optional
+        The motion class of the task, if it is known; that saves time.
+    dyads : sequence of Dyad
+        The best dyads of all its poses, if they are known; that saves time.
+    false_alarm_chance : float
+        The highest chance of a false alarm, above 0 to 1; 1 names the likeliest pose in any case.
+
+    Returns
+    -------
+    OddPose or None
+
+    Raises
+    ------
+    InputError
+        E125 (no `Task`, or no such chance).
+
+    Examples
+    --------
+    One angle of the ten poses in Table 2 of the paper is misprinted:
+
+    >>> from burmester.io.cases import load
+    >>> rows = load("ge2012-exact")["poses_as_printed"]
+    >>> poses = Task.from_rows(rows, angle_unit="deg").poses
+    >>> odd = odd_pose(Task(poses, resolution=(5e-5, 8.7e-5)))
+    >>> odd.pose, odd.repairs[0].message
+    (5, 'its angle 52.67°: 52.87° would agree')
     """
+    require_instance(
+        task, Task, "task", 'give a Task, such as Task.from_rows(rows, angle_unit="deg")'
+    )
+    if not 0 < float(real_numbers(false_alarm_chance, (), "false_alarm_chance")) <= 1:
+        raise InputError(
+            "E125",
+            f"false_alarm_chance is {false_alarm_chance}, not a chance",
+            help=f"give a number above 0, up to 1, such as {FALSE_ALARM_CHANCE}",
+        )
     motion = classify_motion(task) if motion is None else motion
-    fit = motion.determined or (motion.distinct >= LEAST and _is_general(task, motion))
-    if not (fit and LEAST <= motion.distinct <= MOST):
+    fit = motion.determined or (motion.distinct >= MIN_POSES and _is_general(task, motion))
+    if not (fit and MIN_POSES <= motion.distinct <= MAX_POSES):
         return None
     weights = (
         None if task.weights is None else np.bincount(motion.group, task.weights).astype(float)
     )
     poses = task.poses[motion.first]
-    seen = Seen.of(poses, weights)
+    normalized = NormalizedPoses.of(poses, weights)
     position, angle = task.resolution
-    known = max(max(position / float(seen.frames.length), angle) / math.sqrt(3), ROUNDING)
-    count = len(seen.rows)
-    pairs, whole = LeaveOneOut.whole_of(seen, dyads, poses)
-    if whole.cost.min() <= (EXPLAINED * known) ** 2 * (2 * count - 10):
+    length, count = float(normalized.frames.length), len(normalized.rows)
+    digit_error = max(max(position / length, angle) / math.sqrt(3), ROUNDING)
+    pairs, whole = LeaveOneOut.fit_all(normalized, dyads, poses)
+    if whole.cost.min() <= (MAX_EXPLAINED_ERROR * digit_error) ** 2 * (2 * count - 10):
         return None
-    left = LeaveOneOut.quickly(seen, pairs, whole)
-    floor = (2 * count - 12) * known**2
-    first = _chance(count, left.fits.cost.min() + floor, left.whole.cost.min() + floor)
-    hopeless = first > max(HOPELESS, sure)
-    if hopeless and apart(seen) is None:
+    fits = LeaveOneOut.from_shared_starts(normalized, pairs, whole)
+    floor = (2 * count - 12) * digit_error**2
+    least, of_all = fits.fits_without_one.cost.min(), fits.fits_to_all.cost.min()
+    hopeless = chance_of_pose(count, least + floor, of_all + floor) > max(
+        MAX_SCREENING_CHANCE, false_alarm_chance
+    )
+    if hopeless and pose_apart(normalized) is None:
         return None
-    slip = unit_error(left, floor, sure)
-    if slip is None and hopeless:
+    other_unit = unit_error(fits, floor, false_alarm_chance)
+    if other_unit is None and hopeless:
         return None
-    if slip is None:
-        left = left.thoroughly()
-        pose = left.fits.by_cost()[0]
+    if other_unit is None:
+        fits = fits.with_own_starts()
+        suspect = Suspect(fits.fits_without_one.labels_by_cost()[0], floor)
     else:
-        pose = slip.pose
-    odd = _told(task, motion, left, pose, floor, slip)
-    if odd is None or sure >= 1 or odd.beside is not None:
+        suspect = Suspect(other_unit.pose, floor, other_unit)
+    odd = _described(task, motion, fits, suspect)
+    if odd is None or false_alarm_chance >= 1 or odd.extents is not None:
         return odd
     sigma = odd.error_without * math.sqrt((count - 1) / (2 * count - 12))
-    telling = odd.ratio >= TELLING or odd.miss >= OUTLYING * max(sigma, known * odd.length)
-    return odd if telling and odd.chance <= sure else None
+    deviation = max(sigma, digit_error * odd.length)
+    significant = odd.ratio >= MIN_ERROR_RATIO or odd.miss >= MIN_OUTLIER_DEVIATIONS * deviation
+    return odd if significant and odd.chance <= false_alarm_chance else None
 
 
-def _told(  # noqa: PLR0917
-    task: Task,
-    motion: MotionClass,
-    left: LeaveOneOut,
-    pose: int,
-    floor: float,
-    slip: UnitError | None,
+class Suspect(NamedTuple):
+    """The likeliest odd pose; floor: the part of sums of squares that comes from digits alone."""
+
+    pose: int
+    floor: float
+    unit_error: UnitError | None = None
+
+
+def _described(
+    task: Task, motion: MotionClass, left_out: LeaveOneOut, suspect: Suspect
 ) -> OddPose | None:
-    """What is told of a pose; None where the places of a linkage are lost."""
-    seen, fits = left.seen, left.fits
-    count, length = len(seen.rows), float(seen.frames.length)
+    """The suspect with all its numbers; None where a linkage cannot be followed to its places."""
+    normalized, fits = left_out.normalized, left_out.fits_without_one
+    pose, floor, other_unit = suspect
+    count, length = len(normalized.rows), float(normalized.frames.length)
     spare = 2 * count - 12
-    own = fits.of(pose).stack if slip is None else concatenate([slip.stack, fits.of(pose).stack])
-    without, stack = refined(seen, own, pose)
-    of_all, _ = refined(seen, concatenate([left.whole.stack, stack]), None)
+    starts = fits.of(pose).linkages
+    if other_unit is not None:
+        starts = concatenate([other_unit.linkages, starts])
+    without, linkages = refine_best(normalized, starts, pose)
+    of_all, _ = refine_best(
+        normalized, concatenate([left_out.fits_to_all.linkages, linkages]), None
+    )
     if not np.isfinite(without):
         return None
-    place = on_circuits(stack, seen.poses[[pose]], 1.0)
-    gap = rows_of(place, 1.0)[0, :, 0] - seen.rows[pose]
+    place = on_circuits(linkages, normalized.poses[[pose]], 1.0)
+    gap = rows_of(place, 1.0)[0, :, 0] - normalized.rows[pose]
     miss = float(np.nanmin(np.append(np.linalg.norm(gap, axis=-1), 1e9)))
-    # What is refined may be caught in a valley, but never is worse than this.
-    of_all = min(of_all, float(left.whole.cost.min()), without + seen.weights[pose] * miss**2)
+    # Refinement may stop in a local minimum; these are upper bounds.
+    bound = without + normalized.weights[pose] * miss**2
+    of_all = min(of_all, float(left_out.fits_to_all.cost.min()), bound)
     sigma = math.sqrt(max(without, floor) / spare)
-    repairs = repairs_of(seen, Nearness.of(seen, stack, pose, sigma), pose, task)
-    chance = TESTS * _chance(count, without + floor, of_all + floor)
+    prediction = Prediction.of(normalized, linkages, pose, sigma)
+    repairs = repairs_of(normalized, prediction, pose, task)
+    chance = TESTS * chance_of_pose(count, without + floor, of_all + floor)
     for each in repairs:
         if each.kind in NUMBERS:
-            mended = without + floor + (each.miss * sigma) ** 2
-            chance = min(chance, TESTS * _chance_of_number(count, mended, of_all + floor))
+            repaired = without + floor + (each.miss * sigma) ** 2
+            chance = min(chance, TESTS * chance_of_number(count, repaired, of_all + floor))
     others: list[int] = []
-    if slip is None:
-        likely = {k: float(fits.of(k).cost[0]) for k in fits.by_cost() if k != pose}
-        doubt = DOUBTFUL ** (1 / (count - 6))
-        others = [k for k, cost in likely.items() if without + floor > doubt * (cost + floor)]
+    if other_unit is None:
+        costs = {k: float(fits.of(k).cost[0]) for k in fits.labels_by_cost() if k != pose}
+        doubt = OTHER_POSE_CHANCE ** (1 / (count - 6))
+        others = [k for k, cost in costs.items() if without + floor > doubt * (cost + floor)]
     else:
-        chance = min(chance, slip.chance)
-        rest = [each for each in repairs if each.kind != "unit" or each.factor != slip.by]
-        repairs = (unit_repair(seen, pose, slip.by, slip.miss), *rest)
-    shares = seen.weights.sum(), seen.weights.sum() - seen.weights[pose]
-    error, rms = (
+        chance = min(chance, other_unit.chance)
+        rest = [each for each in repairs if each.kind != "unit" or each.factor != other_unit.factor]
+        repairs = (unit_repair(normalized, pose, other_unit.factor, other_unit.miss), *rest)
+    total = normalized.weights.sum()
+    shares = total, total - normalized.weights[pose]
+    error, error_without = (
         math.sqrt(cost / share) for cost, share in zip((of_all, without), shares, strict=True)
     )
     return OddPose(
@@ -234,18 +304,18 @@ def _told(  # noqa: PLR0917
         int(motion.first[pose]),
         tuple(int(motion.first[k]) for k in others),
         error * length,
-        rms * length,
+        error_without * length,
         miss * length,
         length,
         min(1.0, chance),
-        stack.back(seen.frames).linkage(0),
+        linkages.back(normalized.frames).linkage(0),
         repairs,
-        slip.away if slip is not None and slip.beside else None,
+        other_unit.extents if other_unit is not None and other_unit.far_apart else None,
     )
 
 
 def _is_general(task: Task, motion: MotionClass) -> bool:
-    """Whether a motion is special only beside one pose that is far, far off."""
+    """Whether a motion is a general one but for the one pose that is farthest off."""
     poses = task.poses[motion.first]
     middle = np.median(poses.translation, axis=0)
     far = int(((poses.translation - middle) ** 2).sum(axis=-1).argmax())
@@ -253,19 +323,18 @@ def _is_general(task: Task, motion: MotionClass) -> bool:
     return classify_motion(Task(others, resolution=task.resolution)).determined
 
 
-def _chance(count: int, without: float, of_all: float) -> float:
-    """That the least of so many sums of squares is no greater, see the module."""
+def chance_of_pose(count: int, without: float, of_all: float) -> float:
+    """The chance that the least of N sums of squares without a pose is no greater, see above."""
     return float(min(1.0, count * min(1.0, without / of_all) ** (count - 6)))
 
 
-def _chance_of_number(count: int, mended: float, of_all: float) -> float:
-    """The same of 3 N sums with one number free: a bound on it, and nearly it where it is small."""
-    half, share = (2 * count - 11) / 2, min(1.0, mended / of_all)
+def chance_of_number(count: int, repaired: float, of_all: float) -> float:
+    """The same of 3 N sums with one number free.
+
+    An upper bound, and close where the chance is small.
+    """
+    half, share = (2 * count - 11) / 2, min(1.0, repaired / of_all)
     if share == 1.0:
         return 1.0
     beta = math.exp(math.lgamma(half) + math.lgamma(0.5) - math.lgamma(half + 0.5))
     return float(min(1.0, 3 * count * share**half / (half * beta * math.sqrt(1 - share))))
-
-
-def _called(task: Task, pose: int) -> str:
-    return f"pose {pose + 1}" + ("" if task.names is None else f" ({task.names[pose]})")

@@ -1,9 +1,9 @@
-"""Linkages fitted to poses by distances to first order: many at once, each to poses of its own.
+"""Linkages fitted to poses by Sampson distances: hundreds at once, each to poses of its own.
 
-`refinement` brings the places of the coupler along, and has the same poses for all linkages.  Here
-every linkage has poses and weights of its own, and there are hundreds: so distances are those from
-the tangents, |f| over its gradient, without the places.  They differ from the true ones by squares
-of the distances.  What is told of a fit is refined by true distances (`refined`).
+`linkages.refinement` follows the places of the coupler and has the same poses for all linkages.
+Here every linkage has its own poses and weights, so distances are taken to first order (Sampson):
+|f| over its gradient, without the places.  They differ from the true ones by squares of the
+distances.  Numbers for users come from `refine_best`, by true distances.
 """
 
 from __future__ import annotations
@@ -26,29 +26,37 @@ from burmester.numerics.linear_algebra import matvec, solve
 from burmester.numerics.weights import weights_of_mean_one
 
 __all__ = [
-    "EVEN",
-    "KEPT",
-    "LONG",
-    "SHORT",
+    "FITS_PER_LABEL",
+    "FULL_STEPS",
+    "SCREENING_STEPS",
+    "UNIFORM_EXTENT_SQUARED",
     "Fits",
-    "Seen",
-    "fitted",
-    "in_two_steps",
-    "misses",
-    "refined",
+    "NormalizedPoses",
+    "fit_in_two_steps",
+    "fit_linkages",
+    "refine_best",
+    "sampson_residuals",
 ]
 
-SHORT, LONG, KEPT = 6, 30, 3  # steps for all starts, and for so many of each fit
-EVEN = 12.0  # squares of an extent to a variance
-CONVERGED, STIFF = 1e-4, 1e6  # of the steps: the last gain, and the last damping
-START_DAMPING, MIN_DAMPING = 1e-3, 1e-10  # relative, of the normal equations
+SCREENING_STEPS = 6  # of the first descent, from every start
+FULL_STEPS = 30  # of the second descent, from the best starts of each label
+FITS_PER_LABEL = 3  # linkages kept of each label
+UNIFORM_EXTENT_SQUARED = 12.0  # variances; the squared length of a line with points spread evenly
+MAX_IDLE_GAIN = 1e-4  # relative, of a step; a descent that gains less has ended
+START_DAMPING = 1e-3  # relative, of the normal equations with columns of length one
+MIN_DAMPING, MAX_DAMPING = 1e-10, 1e6  # the same; at the greater one a descent ends
 
 
-class Seen(NamedTuple):
-    """Different poses as rows (N, 3), in lengths of their extent, and their weights, 1 on average.
+class NormalizedPoses(NamedTuple):
+    """Distinct poses in canonical frames, with the extent of the poses as the unit of length.
 
-    The extent is that of poses with the same variance, spread evenly over a line.  In these frames
-    a radian is as much: errors are taken to be as large a share of it as they are in radians.
+    poses: (N,) in these frames; rows: (N, 3), x, y, angle of the same.
+    weights: (N,), 1 on average.
+    frames: the way back to the task's frames.
+
+    The extent is the length of a line over which poses of the same variance are spread evenly.  A
+    radian counts as one extent: relative errors of positions are taken to be as large as errors
+    of angles in radians.
     """
 
     poses: Displacement
@@ -57,83 +65,87 @@ class Seen(NamedTuple):
     frames: CanonicalFrames
 
     @classmethod
-    def of(cls, poses: Displacement, weights: FloatArray | None) -> Seen:
-        """Poses (N,); the one that is farthest off is not to set the frames."""
+    def of(cls, poses: Displacement, weights: FloatArray | None) -> NormalizedPoses:
+        """Poses (N,) of a task; the one farthest from their middle has no part in the extent."""
         share = weights_of_mean_one(weights, poses.shape)
         middle = np.median(poses.translation, axis=0)
         away = np.sort(((poses.translation - middle) ** 2).sum(axis=-1))[:-1]
-        length = np.sqrt(EVEN * away.mean())
+        length = np.sqrt(UNIFORM_EXTENT_SQUARED * away.mean())
         frames = CanonicalFrames(middle, np.zeros(2), length if length > 0 else np.ones(()))
-        seen = frames.see(poses)
-        return cls(seen, rows_of(seen, 1.0), share, frames)
+        own = frames.see(poses)
+        return cls(own, rows_of(own, 1.0), share, frames)
 
-    def without(self, pose: int | None) -> NDArray[np.bool_]:
-        """Which poses are left."""
+    def mask_without(self, pose: int | None) -> NDArray[np.bool_]:
+        """Which poses (N,) are left without one (None: all)."""
         return np.asarray(np.arange(len(self.rows)) != (-1 if pose is None else pose))
 
-    def shares(self, left_out: NDArray[np.intp]) -> FloatArray:
-        """The weights (k, N) without the poses left_out (k,); -1 for none."""
+    def weights_without(self, left_out: NDArray[np.intp]) -> FloatArray:
+        """The weights (k, N), zero for the poses left_out (k,); -1 leaves out none."""
         share = np.tile(self.weights, (len(left_out), 1))
-        some = np.flatnonzero(left_out >= 0)
-        share[some, left_out[some]] = 0.0
+        rows = np.flatnonzero(left_out >= 0)
+        share[rows, left_out[rows]] = 0.0
         return share
 
 
 class Fits(NamedTuple):
-    """Linkages (k,) fitted to weighted poses, sums (k,) of squares, and whose (k,) they are."""
+    """Linkages (k,) fitted to weighted poses.
 
-    stack: LinkageBatch
+    cost: (k,), the sums of their squared distances.
+    labels: (k,), which fit each belongs to: the pose left out, or an index of other poses.
+    """
+
+    linkages: LinkageBatch
     cost: FloatArray
-    own: NDArray[np.intp]
+    labels: NDArray[np.intp]
 
-    def of(self, own: int) -> Fits:
-        """Those of one task, the best first."""
-        index = np.flatnonzero(self.own == own)
+    def of(self, label: int) -> Fits:
+        """Those of one label, the best first."""
+        index = np.flatnonzero(self.labels == label)
         return take(self, index[np.argsort(self.cost[index], kind="stable")])
 
-    def by_cost(self) -> list[int]:
-        """Whose they are, by the least cost of each."""
-        return list(dict.fromkeys(self.own[np.argsort(self.cost, kind="stable")].tolist()))
+    def labels_by_cost(self) -> list[int]:
+        """The labels, in the order of their least costs."""
+        return list(dict.fromkeys(self.labels[np.argsort(self.cost, kind="stable")].tolist()))
 
     def best(self, number: int) -> Fits:
-        """The best of each, so many at most."""
-        return take(self, _best(self.cost, self.own, number))
+        """At most `number` of each label, those of the least cost."""
+        return take(self, _best(self.cost, self.labels, number))
 
 
-def in_two_steps(
-    starts: LinkageBatch, own: NDArray[np.intp], rows: FloatArray, share: FloatArray
+def fit_in_two_steps(
+    starts: LinkageBatch, labels: NDArray[np.intp], rows: FloatArray, share: FloatArray
 ) -> Fits:
-    """Starts (k,) fitted to rows (N, 3) or (k, N, 3) weighed by share (k, N); the best of each own.
+    """Starts (k,) fitted to rows (N, 3) or (k, N, 3) weighed by share (k, N); the best of a label.
 
-    own: (k,), to which task each of them belongs.
+    labels: (k,), see `Fits`.
     """
-    stack, cost = fitted(starts, rows, share, SHORT)
-    index = _best(cost, own, KEPT)
+    linkages, cost = fit_linkages(starts, rows, share, SCREENING_STEPS)
+    index = _best(cost, labels, FITS_PER_LABEL)
     rows = rows if rows.ndim == 2 else rows[index]
-    stack, cost = fitted(stack[index], rows, share[index], LONG)
-    return Fits(stack, cost, own[index])
+    linkages, cost = fit_linkages(linkages[index], rows, share[index], FULL_STEPS)
+    return Fits(linkages, cost, labels[index])
 
 
-def _best(cost: FloatArray, own: NDArray[np.intp], number: int) -> NDArray[np.intp]:
-    """The indices of so many of each own, those of the least cost."""
-    order = np.lexsort((cost, own))
-    first = np.searchsorted(own[order], own[order])
+def _best(cost: FloatArray, labels: NDArray[np.intp], number: int) -> NDArray[np.intp]:
+    """The indices of at most `number` of each label, those of the least cost."""
+    order = np.lexsort((cost, labels))
+    first = np.searchsorted(labels[order], labels[order])
     return np.asarray(order[np.arange(len(order)) - first < number])
 
 
-def fitted(
-    stack: LinkageBatch, rows: FloatArray, share: FloatArray, steps: int
+def fit_linkages(
+    linkages: LinkageBatch, rows: FloatArray, share: FloatArray, steps: int
 ) -> tuple[LinkageBatch, FloatArray]:
-    """Linkages (k,) nearer to poses (N, 3) or (k, N, 3), weighed by share (k, N).
+    """Linkages (k,) fitted to poses (N, 3) or (k, N, 3) weighed by share (k, N), and their costs.
 
-    With their sums (k,) of squares.  Levenberg and Marquardt's method.
+    By at most `steps` steps of Levenberg and Marquardt's method.
     """
-    kinds, z = stack.kinds, stack.dimensions.reshape(-1, SIZE)
-    rows = np.broadcast_to(rows, (len(stack), *rows.shape[-2:]))
+    kinds, z = linkages.kinds, linkages.dimensions.reshape(-1, SIZE)
+    rows = np.broadcast_to(rows, (len(linkages), *rows.shape[-2:]))
 
     def point(which: NDArray[np.intp], z: FloatArray) -> _Point:
         linkages = LinkageBatch(kinds[which], z.reshape(-1, 2, DIMENSIONS))
-        residual, jacobian = misses(linkages, rows[which], share[which])
+        residual, jacobian = sampson_residuals(linkages, rows[which], share[which])
         return _Point(z, residual, jacobian, (residual * residual).sum(axis=-1))
 
     def attempt(which: NDArray[np.intp], here: _Point, damping: FloatArray) -> Attempt[_Point]:
@@ -149,10 +161,10 @@ def fitted(
         positive = ((radius > 0) | (kinds[which] > 0)).all(axis=-1)
         better = (there.cost < here.cost) & positive
         damping = np.maximum(damping * np.where(better, 0.1, 10.0), MIN_DAMPING)
-        idle = better & (there.cost > here.cost * (1 - CONVERGED))
-        return Attempt(there, better, damping, idle | (damping > STIFF))
+        idle = better & (there.cost > here.cost * (1 - MAX_IDLE_GAIN))
+        return Attempt(there, better, damping, idle | (damping > MAX_DAMPING))
 
-    every = np.arange(len(stack))
+    every = np.arange(len(linkages))
     ends, _ = damped_descent(
         attempt, point(every, z), every, damping=START_DAMPING, max_steps=steps
     )
@@ -168,18 +180,18 @@ class _Point(NamedTuple):
     cost: FloatArray
 
 
-def misses(
-    stack: LinkageBatch, rows: FloatArray, share: FloatArray
+def sampson_residuals(
+    linkages: LinkageBatch, rows: FloatArray, share: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Distances (k, 2 N) of poses (k, N, 3) from the motions of linkages (k,), to first order.
 
-    In two directions normal to the motion, times the roots of share (k, N); and the derivatives
-    (k, 2 N, 10) by the dimensions, but for the turn of the normals.
+    In two directions normal to the motion, times the roots of share (k, N).  With them the Jacobian
+    (k, 2 N, 10) by the dimensions, in which the normals count as constant.
     """
-    count, number = len(stack), rows.shape[-2]
+    count, number = len(linkages), rows.shape[-2]
     rows = np.broadcast_to(rows, (count, number, 3))
     with np.errstate(all="ignore"):
-        miss, force, partial = stack.bearing(Displacement(rows[..., :2], rows[..., 2]))
+        miss, force, partial = linkages.bearing(Displacement(rows[..., :2], rows[..., 2]))
         a, b, c = ((force[:, i] * force[:, j]).sum(-1) for i, j in ((0, 0), (0, 1), (1, 1)))
         first, height = np.sqrt(a), np.sqrt(np.maximum(c - b * b / a, 1e-20 * c))
         root = np.sqrt(share)
@@ -195,21 +207,23 @@ def misses(
     return out.reshape(count, -1), slope.reshape(count, -1, SIZE)
 
 
-def refined(
-    seen: Seen, stack: LinkageBatch, left_out: int | None, length: float = 1.0
+def refine_best(
+    normalized: NormalizedPoses, linkages: LinkageBatch, left_out: int | None, length: float = 1.0
 ) -> tuple[float, LinkageBatch]:
-    """The least sum of squared distances of poses, but for one, and the linkage (1,) that has it.
+    """The least cost of linkages (k,) refined for all poses but one, and the linkage (1,) with it.
 
-    By true distances, a radian counting as much as `length`; infinite where the places of all
-    linkages (k,) were lost.
+    The cost is the sum of squared true distances, a radian counting as much as `length`; infinite
+    where no linkage could be followed through its places.
     """
-    keep = seen.without(left_out)
-    poses, weights = seen.poses[keep], seen.weights[keep]
+    keep = normalized.mask_without(left_out)
+    poses, weights = normalized.poses[keep], normalized.weights[keep]
     rows = rows_of(poses, length)
     with np.errstate(all="ignore"):
-        start = foot_points(stack, np.broadcast_to(rows, (len(stack), *rows.shape)), rows, length)
+        start = foot_points(
+            linkages, np.broadcast_to(rows, (len(linkages), *rows.shape)), rows, length
+        )
         places = Displacement(start[..., :2], start[..., 2] / length)
-        fine = refine(stack, places, poses, length, weights=weights)
+        fine = refine(linkages, places, poses, length, weights=weights)
         cost = (weights * ((fine.rows - rows) ** 2).sum(axis=-1)).sum(axis=-1)
     cost = np.nan_to_num(cost, nan=np.inf)
     best = int(cost.argmin())

@@ -1,8 +1,8 @@
-"""Whether two poses stand in each other's place: exchanged, the way through all is much shorter.
+"""Two poses in each other's place: with the two exchanged the path through all is much shorter.
 
-A guess from the poses alone, before any linkage is known: a body that is led through its poses in
-their order does not run to and fro.  Where a linkage meets the poses in another order,
-`defects.judge` says so with certainty.
+A guess from the poses alone, before any linkage is known: a body guided through its poses in their
+order does not run to and fro.  Where a linkage meets the poses in another order,
+`fourbar.defects.judge` says so with certainty.
 """
 
 from __future__ import annotations
@@ -11,35 +11,44 @@ from dataclasses import dataclass
 from typing import final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray, wrapped_angle
 from burmester.tasks.motion_task import Task
-from burmester.tasks.repeated_poses import different
+from burmester.tasks.notation import poses_in_words
+from burmester.tasks.repeated_poses import exact_repeats
 
-__all__ = ["Swapped", "out_of_order"]
+__all__ = [
+    "Swap",
+    "best_exchange",
+    "distances_between",
+    "path_length",
+    "swapped_poses",
+]
 
-LEAST, MOST = 6, 1000  # poses
-SHORTER = 0.8  # times the way: exchanging two poses must save so much,
-CLEAR = 1.1  # times that way: any other exchange must leave so much more,
-DONE = 0.9  # and no second one may save as much again
+MIN_POSES_IN_ORDER = 6  # of fewer the order says too little
+MAX_POSES_IN_ORDER = 1000  # of more all distances between them take too much memory
+MAX_PATH_SHARE = 0.8  # of the path as given, left by the best exchange; else nothing is said
+MIN_NEXT_PATH = 1.1  # times the shortest path, left by the next best exchange; else it is a tie
+MAX_FURTHER_SAVING = 0.1  # of the shortest path, by a second exchange; else more than two are mixed
 
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class Swapped:
+class Swap:
     """Two poses that seem to be exchanged.
 
     first, second: their indices.
-    way, way_exchanged: through all poses in order, as given and with the two exchanged, in the
-        task's unit; a radian counts as much as the poses' spread.
+    path, path_exchanged: the lengths of the path through all poses in order, as given and with the
+        two exchanged, in the task's unit; a radian counts as much as the poses' spread.
     """
 
     task: Task
     first: int
     second: int
-    way: float
-    way_exchanged: float
+    path: float
+    path_exchanged: float
 
     @property
     def order(self) -> tuple[int, ...]:
@@ -51,18 +60,16 @@ class Swapped:
     @property
     def message(self) -> str:
         """What is wrong."""
-        names = [str(k + 1) for k in (self.first, self.second)]
-        if self.task.names is not None:
-            own = (self.task.names[self.first], self.task.names[self.second])
-            names = [f"{number} ({name})" for number, name in zip(names, own, strict=True)]
-        return f"poses {names[0]} and {names[1]} seem to be exchanged"
+        which = poses_in_words(self.task, (self.first, self.second), form="number and name")
+        return f"{which} seem to be exchanged"
 
     @property
     def why(self) -> str:
         """By which numbers."""
-        less = 100 * (1 - self.way_exchanged / self.way)
+        less = 100 * (1 - self.path_exchanged / self.path)
         return (
-            f"the way through all poses in their order is {less:.0f} % shorter the other way round"
+            f"the path through all poses in their order is {less:.0f} % shorter with the two "
+            "exchanged"
         )
 
     @property
@@ -74,34 +81,38 @@ class Swapped:
         )
 
 
-def out_of_order(task: Task) -> Swapped | None:
+def swapped_poses(task: Task) -> Swap | None:
     """The two poses of a task that seem to be exchanged, if that is clear.
 
-    None for fewer than 6 or more than 1000 different poses, where a pose comes twice (the body
-    comes back), where any order will do, and where no exchange, or more than one, is called for.
+    None for fewer than 6 or more than 1000 poses, where a pose comes twice (the body comes back),
+    where any order will do, and where no exchange, or more than one, shortens the path.
     """
     count = task.poses.shape[0]
-    if task.requirements.any_order or not LEAST <= count <= MOST:
+    if task.requirements.any_order or not MIN_POSES_IN_ORDER <= count <= MAX_POSES_IN_ORDER:
         return None
-    if len(different(task.poses)[0]) < count:
+    if len(exact_repeats(task.poses)[0]) < count:
         return None
-    away, unit = _distances(task.poses)
+    distances, unit = distances_between(task.poses)
     if not unit > 0:
         return None
     order = np.arange(count)
-    way, (pair, other) = _way(away, order), _best(away, order)
-    (first, second), saved = pair
-    if way - saved > SHORTER * way or way - other < CLEAR * (way - saved):
+    path, (pair, next_saving) = path_length(distances, order), best_exchange(distances, order)
+    (first, second), saving = pair
+    shortest = path - saving
+    if shortest > MAX_PATH_SHARE * path or path - next_saving < MIN_NEXT_PATH * shortest:
         return None
     order[[first, second]] = second, first
-    (_, again), _ = _best(away, order)
-    if again > (1 - DONE) * (way - saved):
+    (_, further), _ = best_exchange(distances, order)
+    if further > MAX_FURTHER_SAVING * shortest:
         return None
-    return Swapped(task, first, second, way * unit, (way - saved) * unit)
+    return Swap(task, first, second, path * unit, shortest * unit)
 
 
-def _distances(poses: Displacement) -> tuple[FloatArray, float]:
-    """How far (N, N) poses are apart, in their spread, and the spread (zero: all in one place)."""
+def distances_between(poses: Displacement) -> tuple[FloatArray, float]:
+    """Distances (N, N) between poses, in their spread, and the spread.
+
+    A radian counts as one spread; (0, 0) and zero where all poses are in one place.
+    """
     middle = poses.translation.mean(axis=0)
     spread = float(np.sqrt(((poses.translation - middle) ** 2).sum(axis=-1).mean()))
     if not spread > 0:
@@ -111,21 +122,27 @@ def _distances(poses: Displacement) -> tuple[FloatArray, float]:
     return np.hypot(np.abs(d[:, None] - d), turn), spread
 
 
-def _way(away: FloatArray, order: np.ndarray) -> float:
-    return float(away[order[:-1], order[1:]].sum())
+def path_length(distances: FloatArray, order: NDArray[np.int_]) -> float:
+    """The length of the path through all poses in an order (N,)."""
+    return float(distances[order[:-1], order[1:]].sum())
 
 
-def _best(away: FloatArray, order: np.ndarray) -> tuple[tuple[tuple[int, int], float], float]:
-    """The two places whose exchange saves most of the way, what it saves, and what the next."""
+def best_exchange(
+    distances: FloatArray, order: NDArray[np.int_]
+) -> tuple[tuple[tuple[int, int], float], float]:
+    """The two places in an order whose exchange saves most of the path, with its saving.
+
+    And the saving of the next best exchange.
+    """
     count = len(order)
     apart = np.zeros((count, count + 2))  # from those at a place to none before and after
-    apart[:, 1:-1] = away[np.ix_(order, order)]
+    apart[:, 1:-1] = distances[np.ix_(order, order)]
     before, after = apart[:, :-2], apart[:, 2:]  # [i, k]: from i to what is before, after place k
     at = np.arange(count)
     own = before[at, at] + after[at, at]
     saved = own[:, None] + own - (before + after) - (before + after).T
-    near = at[:-1]  # neighbours keep the way between them
-    saved[near, near + 1] -= 2 * away[order[:-1], order[1:]]
+    near = at[:-1]  # neighbours keep the piece between them
+    saved[near, near + 1] -= 2 * distances[order[:-1], order[1:]]
     saved = np.where(at[:, None] < at, saved, -np.inf)
     best = int(saved.argmax())
     first, second = divmod(best, count)

@@ -1,15 +1,15 @@
-"""Whether the lengths of one pose are in another unit, or a decimal point away.
+"""A pose with lengths in another unit, or a decimal point away.
 
-That a pose times one of a few factors should agree with all the others by chance is so unlikely
-that it tells where an F test on the pose left out does not: let S be the least sum of squared
-distances of all poses, S' that with one of them multiplied, S_without that without it.  Where the
-pose is right, its multiple is anywhere; then it comes so near to the motion of the others that
+That a pose times one of a few factors agrees with all the others by chance is so unlikely that it
+tells where an F test on the pose left out does not.  Let S be the least sum of squared distances
+of all poses, S' that with one of them multiplied, S_without that without it.  Where the pose is
+right, its multiple is anywhere; then it comes so near to the motion of the others that
 S' - S_without is no more than it is with a chance of
 
     pi (S' - S_without) sqrt(det C) / A,
 
-where C is the covariance of its two misses (its own error and what the others leave open), and A
-the area that poses range over across the motion.
+where C is the covariance of its two residuals (its own error and the uncertainty of the others'
+linkage), and A the area that poses range over across the motion.
 """
 
 from __future__ import annotations
@@ -20,193 +20,233 @@ from typing import NamedTuple, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.diagnosis.leave_one_out import EVERY, LeaveOneOut, pencil_pairs
-from burmester.diagnosis.repairs import FACTORS, Nearness
+from burmester.diagnosis.leave_one_out import MAX_POSES_ALL_LEFT_OUT, LeaveOneOut, pencil_pairs
+from burmester.diagnosis.repairs import UNIT_FACTORS, Prediction
 from burmester.diagnosis.sampson_fits import (
-    EVEN,
-    LONG,
+    FULL_STEPS,
+    UNIFORM_EXTENT_SQUARED,
     Fits,
-    Seen,
-    fitted,
-    in_two_steps,
-    misses,
-    refined,
+    NormalizedPoses,
+    fit_in_two_steps,
+    fit_linkages,
+    refine_best,
+    sampson_residuals,
 )
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import concatenate
 
-__all__ = ["UnitError", "apart", "chance_of", "unit_error"]
+__all__ = ["UnitError", "coincidence_chance", "combined_chance", "pose_apart", "unit_error"]
 
-BY = np.array([by for factor in FACTORS for by in (factor, 1 / factor)])
-USUAL = 0.75  # chance that it is one of the first three factors
-LIKELY = np.repeat([USUAL / 6] * 3 + [(1 - USUAL) / 8] * 4, 2)
-TRIED = 4  # poses and factors whose fits are tried, of each way to find them
-FITTED = 3  # poses without which fits start from dyads of their own
-APART, BESIDE = 0.75, 3.0  # times the others' extent: hardly among them, and not at all
-AMONG = 1.0  # times their extent from their middle: here it is
+FACTORS = np.array([each for factor in UNIT_FACTORS for each in (factor, 1 / factor)])  # (14,)
+USUAL_FACTOR_CHANCE = 0.75  # that a unit error is one of the first three factors, either way
+FACTOR_CHANCES = np.repeat([USUAL_FACTOR_CHANCE / 6] * 3 + [(1 - USUAL_FACTOR_CHANCE) / 8] * 4, 2)
+CANDIDATES = 4  # poses with a factor to fit, of each way to find them
+POSES_WITH_OWN_STARTS = 3  # whose fits start from the best dyads without them, too
+APART_EXTENTS = 0.75  # of the others, from their middle; farther out a pose may be apart from them
+FAR_APART_EXTENTS = 3.0  # the same; farther out a pose surely is not one of them
+AMONG_EXTENTS = 1.0  # the same; a multiple nearer to the middle is one of them
+
+
+class Multiple(NamedTuple):
+    """A pose times a factor (an index of FACTORS), as a row (3,)."""
+
+    pose: int
+    factor: int
+    row: FloatArray
+
+
+class Costs(NamedTuple):
+    """Least sums of squared distances: of all poses, with one multiplied, and without that one."""
+
+    of_all: float
+    multiplied: float
+    without: float
 
 
 @final
 class UnitError(NamedTuple):
     """A pose that agrees with the others when its lengths are multiplied.
 
-    by: the factor; away: how far it lies from the others' middle, in times their extent.
-    chance: that this is so by chance, see the module.  miss: how far it lies from the motion of
-    the others then, in their standard deviations.  stack: linkages of the others.
+    factor: of the lengths.
+    extents: how far the pose lies from the others' middle, in their extents.
+    far_apart: whether that is beyond doubt, and its multiple lies among the others.
+    chance: of such agreement by coincidence, see the module.
+    miss: the distance of the multiple from the motion of the others, in standard deviations.
+    linkages: of the others.
     """
 
     pose: int
-    by: float
-    away: float
-    beside: bool
+    factor: float
+    extents: float
+    far_apart: bool
     chance: float
     miss: float
-    stack: LinkageBatch
+    linkages: LinkageBatch
 
 
-def unit_error(left: LeaveOneOut, floor: float, sure: float) -> UnitError | None:
+def unit_error(left_out: LeaveOneOut, floor: float, false_alarm_chance: float) -> UnitError | None:
     """The likeliest pose and factor, if one is likely enough.
 
-    floor: what digits alone make of sums of squares; sure: the chance of a false alarm.
+    floor: the part of sums of squares that comes from digits alone.
     """
-    seen, found = left.seen, None
-    tried = _tried(left)
-    if not len(tried):
+    normalized, best = left_out.normalized, None
+    candidates = _candidates(left_out)
+    if not len(candidates):
         return None
-    rows, fits = _multiples_fitted(left, tried)
-    whole = float(left.whole.cost.min())
-    for k in fits.by_cost()[:TRIED]:
-        (pose, factor), stack = tried[k], fits.of(k).stack
-        if fits.of(k).cost[0] >= whole:
+    rows, fits = _fit_multiples(left_out, candidates)
+    of_all = float(left_out.fits_to_all.cost.min())
+    for k in fits.labels_by_cost()[:CANDIDATES]:
+        (pose, factor), linkages = candidates[k], fits.of(k).linkages
+        if fits.of(k).cost[0] >= of_all:
             break
-        none = np.full(len(stack), pose)
-        alone = Fits(*fitted(stack, seen.rows, seen.shares(none), LONG), none).of(int(pose))
-        mended, without = float(fits.of(k).cost[0]), float(alone.cost[0])
-        costs = floor + np.array([whole, mended, min(without, mended)])
-        slip = _slip(seen, alone.stack, int(pose), int(factor), rows[k, pose], costs)
-        if found is None or slip.chance < found[0].chance:
-            found = slip, factor, rows[k], stack
-    if found is None or not (found[0].beside or found[0].chance < sure):
+        labels = np.full(len(linkages), pose)
+        weights = normalized.weights_without(labels)
+        refits = Fits(*fit_linkages(linkages, normalized.rows, weights, FULL_STEPS), labels)
+        alone = refits.of(int(pose))
+        multiplied, without = float(fits.of(k).cost[0]), float(alone.cost[0])
+        costs = Costs(floor + of_all, floor + multiplied, floor + min(without, multiplied))
+        multiple = Multiple(int(pose), int(factor), rows[k, pose])
+        error = _error_of(normalized, alone.linkages, multiple, costs)
+        if best is None or error.chance < best[0].chance:
+            best = error, multiple, rows[k], linkages
+    if best is None or not (best[0].far_apart or best[0].chance < false_alarm_chance):
         return None
     # The same by true distances.
-    slip, factor, row, stack = found
+    error, multiple, row, linkages = best
     places = Displacement(row[:, :2], row[:, 2])
-    mended, _ = refined(seen._replace(rows=row, poses=places), stack, None)
-    without, stack = refined(seen, slip.stack, slip.pose)
-    of_all, _ = refined(seen, concatenate([left.whole.stack, stack]), None)
-    of_all, without = min(of_all, whole), min(without, mended)
-    if not mended < of_all:
+    multiplied, _ = refine_best(normalized._replace(rows=row, poses=places), linkages, None)
+    without, linkages = refine_best(normalized, error.linkages, error.pose)
+    refined, _ = refine_best(
+        normalized, concatenate([left_out.fits_to_all.linkages, linkages]), None
+    )
+    of_all, without = min(refined, of_all), min(without, multiplied)
+    if not multiplied < of_all:
         return None
-    costs = floor + np.array([of_all, mended, without])
-    slip = _slip(seen, stack, slip.pose, int(factor), row[slip.pose], costs)
-    return slip if slip.beside or slip.chance < sure else None
+    costs = Costs(floor + of_all, floor + multiplied, floor + without)
+    error = _error_of(normalized, linkages, multiple._replace(row=row[error.pose]), costs)
+    return error if error.far_apart or error.chance < false_alarm_chance else None
 
 
-def _multiples_fitted(left: LeaveOneOut, tried: NDArray[np.intp]) -> tuple[FloatArray, Fits]:
+def _fit_multiples(left_out: LeaveOneOut, candidates: NDArray[np.intp]) -> tuple[FloatArray, Fits]:
     """The poses (n, N, 3), each time with one multiplied, and the linkages that fit them."""
-    seen, own = left.seen, np.arange(len(tried))
-    rows = np.tile(seen.rows, (len(tried), 1, 1))
-    rows[own, tried[:, 0]] = _multiplied(seen)[tried[:, 0], tried[:, 1]]
-    poses = list(dict.fromkeys(tried[:, 0].tolist()))
-    if len(seen.rows) > EVERY:  # one of many hardly moves a linkage
-        starts = {k: left.fits.of(k).stack[:1] for k in poses}
+    normalized, index = left_out.normalized, np.arange(len(candidates))
+    whole, fits = left_out.fits_to_all, left_out.fits_without_one
+    rows = np.tile(normalized.rows, (len(candidates), 1, 1))
+    rows[index, candidates[:, 0]] = _multiples(normalized)[candidates[:, 0], candidates[:, 1]]
+    poses = list(dict.fromkeys(candidates[:, 0].tolist()))
+    if len(normalized.rows) > MAX_POSES_ALL_LEFT_OUT:  # one of many hardly moves a linkage
+        starts = {k: fits.of(k).linkages[:1] for k in poses}
     else:
-        starts = {k: concatenate([left.fits.of(k).stack[:2], left.whole.stack[:2]]) for k in poses}
-        for k in poses[:FITTED]:
-            starts[k] = concatenate([starts[k], left.own_pairs(k)])
-    stack, each = left.whole.stack[:0], np.empty(0, dtype=np.intp)
-    for k in own:
-        new = starts[int(tried[k, 0])]
-        stack, each = concatenate([stack, new]), np.append(each, np.full(len(new), k))
-    if len(seen.rows) <= EVERY:
-        weights = np.broadcast_to(seen.weights, rows.shape[:2])
+        starts = {k: concatenate([fits.of(k).linkages[:2], whole.linkages[:2]]) for k in poses}
+        for k in poses[:POSES_WITH_OWN_STARTS]:
+            starts[k] = concatenate([starts[k], left_out.best_pairs_without(k)])
+    linkages, labels = whole.linkages[:0], np.empty(0, dtype=np.intp)
+    for k in index:
+        new = starts[int(candidates[k, 0])]
+        linkages, labels = concatenate([linkages, new]), np.append(labels, np.full(len(new), k))
+    if len(normalized.rows) <= MAX_POSES_ALL_LEFT_OUT:
+        weights = np.broadcast_to(normalized.weights, rows.shape[:2])
         pencils, _ = pencil_pairs(Displacement(rows[..., :2], rows[..., 2]), weights)
-        stack, each = concatenate([stack, pencils]), np.append(each, own)
-    share = np.broadcast_to(seen.weights, (len(stack), len(seen.rows)))
-    return rows, in_two_steps(stack, each, rows[each], share)
+        linkages, labels = concatenate([linkages, pencils]), np.append(labels, index)
+    share = np.broadcast_to(normalized.weights, (len(linkages), len(normalized.rows)))
+    return rows, fit_in_two_steps(linkages, labels, rows[labels], share)
 
 
-def _slip(  # noqa: PLR0917
-    seen: Seen, stack: LinkageBatch, pose: int, factor: int, row: FloatArray, costs: FloatArray
+def _error_of(
+    normalized: NormalizedPoses, linkages: LinkageBatch, multiple: Multiple, costs: Costs
 ) -> UnitError:
-    """A pose multiplied, its row (3,), by sums (3,): of all, of all so, and without it."""
-    of_all, mended, without = np.maximum(costs, np.finfo(float).tiny).tolist()
-    spare, away = 2 * len(seen.rows) - 12, _away(seen, pose)
-    near = Nearness.of(seen, stack[:1], pose, math.sqrt(without / spare))
-    landed = _landed(seen, near, row, pose, max(mended - without, without / spare))
-    agreed = min(1.0, len(seen.rows) * (mended / of_all) ** (spare / 2))
-    chance = chance_of(agreed, min(1.0, landed / LIKELY[factor]))
-    beside = bool(away[0] > BESIDE and away[1 + factor] < AMONG)
-    miss = math.sqrt((mended - without) * spare / without)
-    return UnitError(pose, float(BY[factor]), float(away[0]), beside, chance, miss, stack)
+    """A pose multiplied, judged by the best of the linkages of the others."""
+    of_all, multiplied, without = np.maximum(costs, np.finfo(float).tiny).tolist()
+    pose, spare = multiple.pose, 2 * len(normalized.rows) - 12
+    extents = _extents(normalized, pose)
+    prediction = Prediction.of(normalized, linkages[:1], pose, math.sqrt(without / spare))
+    increase = max(multiplied - without, without / spare)
+    coincidence = coincidence_chance(normalized, prediction, multiple, increase)
+    agreement = min(1.0, len(normalized.rows) * (multiplied / of_all) ** (spare / 2))
+    chance = combined_chance(agreement, min(1.0, coincidence / FACTOR_CHANCES[multiple.factor]))
+    among = extents[1 + multiple.factor] < AMONG_EXTENTS
+    far_apart = bool(extents[0] > FAR_APART_EXTENTS and among)
+    miss = math.sqrt((multiplied - without) * spare / without)
+    factor = float(FACTORS[multiple.factor])
+    return UnitError(pose, factor, float(extents[0]), far_apart, chance, miss, linkages)
 
 
-def apart(seen: Seen) -> int | None:
+def pose_apart(normalized: NormalizedPoses) -> int | None:
     """The pose that lies apart from all others, and among them in another unit, if one does."""
-    off = seen.rows[:, :2] - np.median(seen.rows[:, :2], axis=0)
+    off = normalized.rows[:, :2] - np.median(normalized.rows[:, :2], axis=0)
     pose = int((off * off).sum(axis=-1).argmax())
-    away = _away(seen, pose)
-    return pose if away[0] > APART and (away[1:] < AMONG).any() else None
+    extents = _extents(normalized, pose)
+    among = (extents[1:] < AMONG_EXTENTS).any()
+    return pose if extents[0] > APART_EXTENTS and among else None
 
 
-def chance_of(first: float, second: float) -> float:
-    """That the product of two chances is no greater (Fisher's method)."""
+def combined_chance(first: float, second: float) -> float:
+    """The chance that the product of two chances is no greater (Fisher's method)."""
     product = max(first * second, np.finfo(float).tiny)
     return min(1.0, product * (1 - math.log(product)))
 
 
-def _tried(left: LeaveOneOut) -> NDArray[np.intp]:
-    """Poses and factors (n, 2), by their indices, that may be slips."""
-    seen, tried = left.seen, []
-    rows, number = _multiplied(seen), len(BY)
-    if (pose := apart(seen)) is not None:
-        tried = [(pose, int(k)) for k in np.flatnonzero(_away(seen, pose)[1:] < AMONG)]
-    # How near multiples come to the motions of the others,
-    there = rows[left.fits.own]
-    miss, _ = misses(left.fits.stack, there, np.ones(there.shape[:2]))
-    off = (miss * miss).reshape(*there.shape[:2], 2).sum(axis=-1) + left.fits.cost[:, None]
-    for k in np.argsort(off, axis=None, kind="stable")[: 3 * TRIED]:
-        tried.append((int(left.fits.own[k // number]), int(k % number)))
-    tried = list(dict.fromkeys(tried))[: 2 * TRIED]
-    if len(rows) <= EVERY:  # and all poses to being held by two quadrics
-        every = np.tile(seen.rows, (len(rows), number, 1, 1))
-        every[np.arange(len(rows)), :, np.arange(len(rows))] = rows
-        every = every.reshape(-1, len(rows), 3)
-        weights = np.broadcast_to(seen.weights, every.shape[:2])
-        _, held = pencil_pairs(Displacement(every[..., :2], every[..., 2]), weights)
-        best = np.argsort(held, kind="stable")[:TRIED]
-        tried += [(int(k // number), int(k % number)) for k in best]
-    return np.array(list(dict.fromkeys(tried)), dtype=np.intp).reshape(-1, 2)
+def _candidates(left_out: LeaveOneOut) -> NDArray[np.intp]:
+    """Poses and factors (n, 2), by their indices, that may be unit errors."""
+    normalized, fits = left_out.normalized, left_out.fits_without_one
+    chosen: list[tuple[int, int]] = []
+    multiples, count = _multiples(normalized), len(FACTORS)
+    if (pose := pose_apart(normalized)) is not None:
+        among = np.flatnonzero(_extents(normalized, pose)[1:] < AMONG_EXTENTS)
+        chosen = [(pose, int(k)) for k in among]
+    # Those whose multiples come nearest to the motions of the others,
+    rows = multiples[fits.labels]
+    residuals, _ = sampson_residuals(fits.linkages, rows, np.ones(rows.shape[:2]))
+    squares = (residuals * residuals).reshape(*rows.shape[:2], 2).sum(axis=-1)
+    cost = squares + fits.cost[:, None]
+    for k in np.argsort(cost, axis=None, kind="stable")[: 3 * CANDIDATES]:
+        chosen.append((int(fits.labels[k // count]), int(k % count)))
+    chosen = list(dict.fromkeys(chosen))[: 2 * CANDIDATES]
+    if len(multiples) <= MAX_POSES_ALL_LEFT_OUT:  # and all poses nearest to two quadrics
+        every = np.tile(normalized.rows, (len(multiples), count, 1, 1))
+        every[np.arange(len(multiples)), :, np.arange(len(multiples))] = multiples
+        every = every.reshape(-1, len(multiples), 3)
+        weights = np.broadcast_to(normalized.weights, every.shape[:2])
+        _, distances = pencil_pairs(Displacement(every[..., :2], every[..., 2]), weights)
+        best = np.argsort(distances, kind="stable")[:CANDIDATES]
+        chosen += [(int(k // count), int(k % count)) for k in best]
+    return np.array(list(dict.fromkeys(chosen)), dtype=np.intp).reshape(-1, 2)
 
 
-def _multiplied(seen: Seen) -> FloatArray:
+def _multiples(normalized: NormalizedPoses) -> FloatArray:
     """All poses times all factors, (N, 14, 3)."""
-    origin, length = seen.frames.fixed_origin, seen.frames.length
-    given = seen.rows[:, None, :2] * length + origin
-    turn = np.broadcast_to(seen.rows[:, None, 2:], (len(seen.rows), len(BY), 1))
-    return np.concatenate([(given * BY[:, None] - origin) / length, turn], axis=-1)
+    origin, length = normalized.frames.fixed_origin, normalized.frames.length
+    given = normalized.rows[:, None, :2] * length + origin
+    turn = np.broadcast_to(normalized.rows[:, None, 2:], (len(normalized.rows), len(FACTORS), 1))
+    return np.concatenate([(given * FACTORS[:, None] - origin) / length, turn], axis=-1)
 
 
-def _away(seen: Seen, pose: int) -> FloatArray:
-    """How far a pose and its multiples, (15,), lie from the others' middle, in their extent."""
-    middle, extent = _others(seen, pose, 2)
-    where = np.concatenate([seen.rows[[pose], :2], _multiplied(seen)[pose, :, :2]])
-    return np.asarray(np.linalg.norm(where - middle, axis=-1) / np.linalg.norm(extent))
+def _extents(normalized: NormalizedPoses, pose: int) -> FloatArray:
+    """The distances (15,) of a pose and its multiples from the others' middle, in their extents."""
+    middle, extent = _middle_and_extent(normalized, pose, 2)
+    places = [normalized.rows[[pose], :2], _multiples(normalized)[pose, :, :2]]
+    distances = np.linalg.norm(np.concatenate(places) - middle, axis=-1)
+    return np.asarray(distances / np.linalg.norm(extent))
 
 
-def _others(seen: Seen, pose: int, size: int) -> tuple[FloatArray, FloatArray]:
+def _middle_and_extent(
+    normalized: NormalizedPoses, pose: int, size: int
+) -> tuple[FloatArray, FloatArray]:
     """The middle (size,) of the other poses, and their extents (size,) along their main axes."""
-    others = seen.rows[seen.without(pose), :size]
+    others = normalized.rows[normalized.mask_without(pose), :size]
     middle = others.mean(axis=0)
-    wide = np.linalg.svd(others - middle, compute_uv=False) * math.sqrt(EVEN / len(others))
+    wide = np.linalg.svd(others - middle, compute_uv=False)
+    wide = wide * math.sqrt(UNIFORM_EXTENT_SQUARED / len(others))
     return middle, np.maximum(wide, np.finfo(float).tiny)
 
 
-def _landed(seen: Seen, near: Nearness, row: FloatArray, pose: int, short: float) -> float:
-    """The chance that a pose anywhere is no farther from the motion of the others."""
-    _, spread = near.spread(row)
-    _, extent = _others(seen, pose, 3)
-    wide = math.pi * short * math.sqrt(max(float(np.linalg.det(spread)), 1.0))
-    return min(1.0, wide / float(extent[1:].prod()))
+def coincidence_chance(
+    normalized: NormalizedPoses, prediction: Prediction, multiple: Multiple, increase: float
+) -> float:
+    """The chance that a multiple anywhere raises the cost of the others' motion by no more."""
+    _, spread = prediction.residuals_and_covariance(multiple.row)
+    _, extent = _middle_and_extent(normalized, multiple.pose, 3)
+    area = math.pi * increase * math.sqrt(max(float(np.linalg.det(spread)), 1.0))
+    return min(1.0, area / float(extent[1:].prod()))

@@ -17,7 +17,7 @@ from burmester.describe.dimensions import certain, dimensions
 from burmester.linkages import explanation
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.synthesis.result import Synthesis
-from burmester.tasks import wording
+from burmester.tasks import notation
 
 __all__ = [
     "closest_three",
@@ -82,7 +82,7 @@ def _usable(synthesis: Synthesis, usable: Sequence[FoundLinkage], pins: bool, ga
             " ".join(dyad.id for dyad in found.dyads_driver_first),
             *(links(synthesis, found) if pins else ()),
             *worst_errors(synthesis, found),
-            wording.least_angle(found.driven.least_over_range),
+            notation.least_angle(found.driven.least_over_range),
         )
     return table
 
@@ -97,7 +97,7 @@ def unusable(synthesis: Synthesis, found: Sequence[FoundLinkage]) -> Group:
         if math.isfinite(angle) and not explanation.meets_exactly(each, synthesis.length):
             how += f" and {degrees(angle)}"
         if each.error_before_rounding is not None:
-            before = wording.length_of(each.error_before_rounding.worst, synthesis.task)
+            before = notation.length_of(each.error_before_rounding.worst, synthesis.task)
             how += f" (before rounding {before})"
         head = Text(f"{each.id:<{INDENT - 1}} {each.type}, {dyads}: {how}")
         reasons = "; ".join(explanation.reasons(each, synthesis.task))

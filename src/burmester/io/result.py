@@ -82,7 +82,7 @@ def task_data(task: Task) -> dict[str, Any]:
     data: dict[str, Any] = {"poses": poses, "length_unit": task.length_unit}
     if task.limits:
         data["limits"] = [_limits(each) for each in task.limits]
-    if task.requirements.asked:
+    if task.requirements.has_any:
         data["requirements"] = requirements_data(task.requirements)
     position, angle = (given / math.sqrt(3) for given in task.resolution)
     data["pose_sigma"] = {"position": position, "angle_deg": math.degrees(angle)}

@@ -11,7 +11,7 @@ from burmester.fourbar.defects import Defect
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.numerics.arrays import ROUNDING
 from burmester.tasks.motion_task import CONDITIONS, Task
-from burmester.tasks.wording import called, figure, length_of
+from burmester.tasks.notation import figure, length_of, poses_in_words
 
 __all__ = ["by_nearness", "hints", "in_short", "meets_exactly", "nearness", "reasons"]
 
@@ -68,7 +68,7 @@ def _too_far(found: FoundLinkage, task: Task, defect: Defect) -> str | None:
     away = length_of(float(found.error.position[poses].max()), task)
     turned = figure(math.degrees(float(found.error.angle[poses].max())))
     if len(poses) <= MAX_NAMED_POSES:
-        which = called(task, poses)
+        which = poses_in_words(task, poses)
     else:
         total = task.poses.shape[0]
         which = f"all {total} poses" if len(poses) == total else f"{len(poses)} of {total} poses"
@@ -101,7 +101,7 @@ def hints(linkages: Sequence[FoundLinkage], task: Task, size: float) -> str:
     stuck = next((each for each in near[0].defects if each.kind in ("circuit", "branch")), None)
     if stuck is not None and stuck.poses and len(texts) < MAX_HINTS:
         few = len(stuck.poses) <= MAX_NAMED_POSES + 1
-        text = f"move {called(task, stuck.poses, 'or')}" if few else "move a pose"
+        text = f"move {poses_in_words(task, stuck.poses, 'or')}" if few else "move a pose"
         if task.poses.shape[0] > CONDITIONS and not task.limits:
             text += ", or leave one out"
         texts.append(text)

@@ -45,7 +45,7 @@ def violations(
 
     asked: the requirements; unit: the task's length unit, for messages.
     """
-    if not asked.asked:
+    if not asked.has_any:
         return ()
     missing: list[Violation] = []
     least = driven.least_over_range

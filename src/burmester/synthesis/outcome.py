@@ -17,9 +17,9 @@ from burmester.linkages.found_linkage import FoundLinkage
 from burmester.synthesis.dyad_search import DyadSearch
 from burmester.synthesis.result import Outcome
 from burmester.tasks.motion_task import CONDITIONS, Task, characteristic_length
+from burmester.tasks.notation import figure, least_angle, length_of, span
 from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.repeated_poses import rotation_range
-from burmester.tasks.wording import figure, least_angle, length_of, span
 from burmester.wording import count, listed
 
 __all__ = ["dyad_advice", "family", "linkage_advice", "summary"]
@@ -165,7 +165,7 @@ def _none_usable(
     """Linkages, and none that works."""
     task, size = problem.given, problem.length
     nearest = by_nearness(linkages, size)[0]
-    works = "works as asked" if task.requirements.asked else "works"
+    works = "works as asked" if task.requirements.has_any else "works"
     if len(linkages) == 1:
         none = f"which does not {works.replace('works', 'work')}"
         why = "it"

@@ -1,1 +1,1 @@
-"""What is asked: poses, limits, requirements, and what kind of motion the poses are."""
+"""Tasks: poses, limits, requirements, and the class of motion of the poses."""

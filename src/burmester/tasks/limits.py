@@ -1,4 +1,4 @@
-"""What a designer allows a dyad to be: where its pivots may lie, how long, of which kind.
+"""Limits on one dyad: where its pivots may lie, how long its link may be, which kinds it may have.
 
 A region of the plane is a point, a line, a segment or a polygon.  Its faces are the pieces of
 it without an edge of their own: the inside, the edges, the corners.  The best pivot in a region
@@ -107,7 +107,7 @@ class Limits:
 
     @property
     def allowed(self) -> frozenset[Kind]:
-        """The kinds that have the pivots that are limited."""
+        """The kinds whose dyads have the limited pivots."""
         out: set[Kind] = set()
         if self.fixed_pivot is not None:
             out |= {"PR", "PP"}
@@ -122,7 +122,7 @@ class Limits:
 
     @property
     def conditions(self) -> int:
-        """How many exact conditions they set on a dyad: two for a point, one for a line."""
+        """The number of exact conditions on a dyad: two for a point, one for a line."""
         return sum(
             len(region.equations()) for region in (self.fixed_pivot, self.moving_pivot) if region
         )

@@ -1,4 +1,4 @@
-"""What a motion is, before any dyad is looked for: the special ones named, with what to do.
+"""The kinds of motion, from the poses alone: the special ones by name, with what to do.
 
 Each kind holds its numbers, says them in a sentence (`message`) with a way on (`help`), and
 offers the dyads that it has for certain (`dyads`).  Some motions leave the pivots of a
@@ -26,13 +26,14 @@ from typing import ClassVar, TypeAlias, final
 from burmester.tasks.special_motions import (
     CircularTranslation,
     FreeTranslation,
-    Kind,
+    MotionKindBase,
     Rotation,
     StraightTranslation,
     TwoSliders,
     in_degrees,
-    length,
+    rounded_length,
 )
+from burmester.wording import listed
 
 __all__ = [
     "CircularTranslation",
@@ -51,7 +52,7 @@ __all__ = [
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class Rest(Kind):
+class Rest(MotionKindBase):
     """All poses (count of them) are the same."""
 
     code: ClassVar[str] = "R310"
@@ -69,8 +70,8 @@ class Rest(Kind):
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class FewPoses(Kind):
-    """Of `count` poses only those at the indices `kept` can be told apart.
+class FewPoses(MotionKindBase):
+    """Of `count` poses only those at the indices `representatives` can be told apart.
 
     repeats: whether the others repeat them exactly, or within their digits only.
     """
@@ -78,29 +79,30 @@ class FewPoses(Kind):
     code: ClassVar[str] = "R311"
     name: ClassVar[str] = "too few different poses"
     count: int
-    kept: tuple[int, ...]
+    representatives: tuple[int, ...]
     repeats: bool
 
     @property
     def message(self) -> str:
         differ = "are different" if self.repeats else "can be told apart with the digits given"
-        return f"only {len(self.kept)} of the {self.count} poses {differ}; the others repeat them"
+        some = f"only {len(self.representatives)} of the {self.count} poses"
+        return f"{some} {differ}; the others repeat them"
 
     @property
     def help(self) -> str:
-        shown = ", ".join(str(i + 1) for i in self.kept)
-        if len(self.kept) < 3:
-            return f"keep poses {shown} and add poses that differ from them: 3 or more in all"
+        poses = listed([str(i + 1) for i in self.representatives])
+        if len(self.representatives) < 3:
+            return f"keep poses {poses}, and add poses that differ from them: 3 or more in all"
         then = {
             3: "a two-parameter family of dyads passes through them",
             4: "a one-parameter family of dyads passes through them",
-        }.get(len(self.kept), "they are met exactly by at most four dyads")
-        return f"keep poses {shown} only: {then}"
+        }.get(len(self.representatives), "they are met exactly by at most four dyads")
+        return f"keep poses {poses} only: {then}"
 
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class Undetermined(Kind):
+class Undetermined(MotionKindBase):
     """More quadrics hold the poses, within their digits, than leave a finite number of dyads.
 
     rotation: the range of the angles, radians; size: of the motion, a length.
@@ -124,7 +126,7 @@ class Undetermined(Kind):
             f"the poses do not determine the dyads: {within}{self.nullity} independent quadrics "
             f"hold all {self.count} of them (a four-bar needs 2); the rotation covers "
             f"{in_degrees(self.rotation)}, and pivots are uncertain by more than the motion's own "
-            f"size, {length(self.size, self.size, self.unit, 2)}"
+            f"size, {rounded_length(self.size, self.size, self.unit, 2)}"
         )
 
     @property
@@ -139,7 +141,7 @@ class Undetermined(Kind):
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class TwoOrientations(Kind):
+class TwoOrientations(MotionKindBase):
     """A general motion, but with two angles only (radians): one quadric tells just that."""
 
     code: ClassVar[str] = "R320"
@@ -162,7 +164,7 @@ class TwoOrientations(Kind):
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class General(Kind):
+class General(MotionKindBase):
     """A motion with at most a few dyads: a fit finds them.
 
     nullity: how many independent quadrics hold the poses.  Two, with six poses or more, is an

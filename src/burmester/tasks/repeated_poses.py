@@ -1,4 +1,4 @@
-"""Which poses differ: exactly, by more than the errors that they may have, and by how much."""
+"""Repeated poses, exactly or within their errors, and how much the others differ."""
 
 from __future__ import annotations
 
@@ -8,19 +8,25 @@ from numpy.typing import NDArray
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["ULPS", "different", "distinguishable", "rotation_range", "spanning"]
+__all__ = [
+    "COORDINATE_ROUNDING",
+    "distinguishable",
+    "exact_repeats",
+    "rotation_range",
+    "spanning",
+]
 
 Indices = NDArray[np.int_]
 
-ULPS = 8 * float(np.finfo(np.float64).eps)  # rounding of a number, as a share of it
+COORDINATE_ROUNDING = 8 * float(np.finfo(np.float64).eps)  # share of the greatest coordinate
 
 
-def different(poses: Displacement) -> tuple[Indices, Indices]:
-    """The first of each different pose of (N,), in order (k,), and which of them each is (N,).
+def exact_repeats(poses: Displacement) -> tuple[Indices, Indices]:
+    """The first (k,) of each distinct pose of (N,), in order, and which of them each pose is (N,).
 
-    Merged are exact repeats only, whole turns apart: poses whose x, y and orientation are the
-    same within 8 units in the last place of the greatest of all.  Poses that differ by more are
-    different, however little.
+    Two poses repeat each other where x, y and orientation (whole turns apart) are the same within
+    `COORDINATE_ROUNDING` of the greatest of all.  Poses that differ by more are distinct, however
+    little.
     """
     reach = float(np.abs(poses.translation).max())
     turns = max(1.0, float(np.abs(poses.angle).max()))
@@ -34,7 +40,7 @@ def different(poses: Displacement) -> tuple[Indices, Indices]:
         # Those that may still be twins fall into runs of nearly the same value.
         order = np.argsort(values[twins])
         run = np.zeros(len(twins), dtype=np.int64)
-        run[order[1:]] = np.cumsum(np.diff(values[twins][order]) > ULPS * size)
+        run[order[1:]] = np.cumsum(np.diff(values[twins][order]) > COORDINATE_ROUNDING * size)
         _, label, count = np.unique(
             label * len(twins) + run, return_inverse=True, return_counts=True
         )
@@ -48,15 +54,15 @@ def different(poses: Displacement) -> tuple[Indices, Indices]:
     return first, np.searchsorted(first, same_as)
 
 
-def distinguishable(poses: Displacement, position: float, angle: float, enough: int) -> Indices:
-    """At most `enough` poses of (N,), each the farthest from those before, that are not one.
+def distinguishable(poses: Displacement, position: float, angle: float, most: int) -> Indices:
+    """At most `most` poses of (N,) that can be told apart, each the farthest from those before.
 
-    position, angle: bounds on the errors of a pose; two poses within both are as good as one.
+    position, angle: bounds on the errors of a pose; two poses within twice both may be one.
     """
     turn = np.exp(1j * poses.angle)
     position = max(position, float(np.finfo(np.float64).tiny))
     chosen, nearest = [0], np.full(poses.shape, np.inf)
-    while len(chosen) < enough:
+    while len(chosen) < most:
         last = chosen[-1]
         apart = np.linalg.norm(poses.translation - poses.translation[last], axis=-1) / position
         apart = np.maximum(apart, np.abs(turn - turn[last]) / angle)
@@ -69,7 +75,7 @@ def distinguishable(poses: Displacement, position: float, angle: float, enough: 
 
 
 def spanning(rows: FloatArray, count: int) -> Indices:
-    """`count` of the rows (N, k) that span the most, each the farthest from those before."""
+    """`count` of the rows (N, k) that span the most, each the farthest from the span before."""
     left, chosen = rows.copy(), []
     for _ in range(count):
         chosen.append(int((left**2).sum(axis=1).argmax()))

@@ -1,4 +1,4 @@
-"""What a designer asks of the whole linkage, beside the limits of each of its dyads."""
+"""Requirements on the whole linkage, beside the limits on each of its dyads."""
 
 from __future__ import annotations
 
@@ -42,9 +42,9 @@ GROUPS: Final[Mapping[str, frozenset[str]]] = {
     "non-grashof": frozenset({"triple-rocker"}),
 }
 
-WITHOUT_CRANK = frozenset({"double-rocker", "triple-rocker", "double slider"})
-TURNING: frozenset[Kind] = frozenset({"RR", "RP"})  # a PR dyad slides on the ground
-MARGIN = 1e-9  # of a footprint's size: what rounding may put outside it
+TYPES_WITHOUT_CRANK = frozenset({"double-rocker", "triple-rocker", "double slider"})
+TURNING_KINDS: frozenset[Kind] = frozenset({"RR", "RP"})  # a PR dyad slides on the ground
+FOOTPRINT_MARGIN = 1e-9  # share of a footprint's diagonal; rounding may put a point as far outside
 
 
 @final
@@ -149,19 +149,19 @@ class Requirements:
             )
         object.__setattr__(self, "any_order", bool(self.any_order))
         allowed = self.allowed_types
-        if self.driver == "crank" and allowed is not None and allowed <= WITHOUT_CRANK:
-            turning = [name for name in TYPES if name not in WITHOUT_CRANK]
+        if self.driver == "crank" and allowed is not None and allowed <= TYPES_WITHOUT_CRANK:
+            turning = [name for name in TYPES if name not in TYPES_WITHOUT_CRANK]
             raise InputError(
                 "E132",
                 "the requirements contradict each other: a driver that turns fully, and "
-                f"linkages of type {_either(self.types)} only",
-                why=f"no driver of a {_either(allowed)} turns fully",
+                f"linkages of type {_types_in_words(self.types)} only",
+                why=f"no driver of a {_types_in_words(allowed)} turns fully",
                 help=f"allow another type as well, such as {turning[0]}, or any driver",
             )
 
     @property
-    def asked(self) -> bool:
-        """Whether anything is asked at all."""
+    def has_any(self) -> bool:
+        """Whether there is any requirement at all."""
         return self != Requirements()
 
     @property
@@ -178,16 +178,16 @@ class Requirements:
 
 
 def require_possible(requirements: Requirements, limits: tuple[Limits, ...]) -> None:
-    """Refuse requirements that no dyads within limits (none, one for both, or two) can meet.
+    """Refuse requirements that no dyads within limits (none, one for both, or two) meet.
 
-    Getting past here proves nothing.  Raises InputError E132, which quotes both, and E134 where
-    the driver is named by limits that are not two.
+    What it lets pass may be impossible nevertheless.  Raises InputError E132, which quotes both,
+    and E134 where the driver is that of the first or second limits, and there are no two.
     """
     if requirements.driver in ("first", "second") and len(limits) != 2:
         given = "no limits" if not limits else "one set of limits for both dyads"
         raise InputError(
             "E134",
-            f"the {requirements.driver} dyad is to drive, and the dyads are not told apart",
+            f"driver {requirements.driver!r} needs two sets of limits",
             why=f"there is {given}" if limits else f"there are {given}",
             help="give limits for each dyad (an option such as --kinds twice, or two [[limits]] "
             "tables in a file), or let any dyad drive",
@@ -197,7 +197,7 @@ def require_possible(requirements: Requirements, limits: tuple[Limits, ...]) -> 
     for each in limits:
         if each.fixed_pivot is None or requirements.footprint is None:
             continue
-        if _apart(requirements.footprint, each.fixed_pivot):
+        if _is_outside(requirements.footprint, each.fixed_pivot):
             raise InputError(
                 "E132",
                 "the limits and the requirements contradict each other: fixed pivot "
@@ -210,46 +210,47 @@ def require_possible(requirements: Requirements, limits: tuple[Limits, ...]) -> 
 def _require_a_type(requirements: Requirements, first: Limits, second: Limits) -> None:
     """Refuse types, or a crank, that two dyads within these limits never make."""
     kinds = first.allowed, second.allowed
-    wanted = requirements.allowed_types
-    here = [name for name, pair in TYPES.items() if _fits(pair, kinds)]
+    allowed = requirements.allowed_types
+    possible = [name for name, pair in TYPES.items() if _makes_pair(pair, kinds)]
     if requirements.driver == "crank":
-        if not (kinds[0] | kinds[1]) & TURNING:
+        if not (kinds[0] | kinds[1]) & TURNING_KINDS:
             raise InputError(
                 "E132",
                 "the limits and the requirements contradict each other: "
-                f"{_said(kinds)}, and a driver that turns fully",
-                why="a dyad of such a kind slides on the ground, and does not turn",
+                f"{_kinds_in_words(kinds)}, and a driver that turns fully",
+                why="a dyad of this kind slides on the ground and does not turn",
                 help="allow RR as well, or let any dyad drive",
             )
-        here = [name for name in here if name not in WITHOUT_CRANK]
-    if wanted is None or not wanted.isdisjoint(here):
+        possible = [name for name in possible if name not in TYPES_WITHOUT_CRANK]
+    if allowed is None or not allowed.isdisjoint(possible):
         return
-    name = min(wanted, key=list(TYPES).index)
+    name = min(allowed, key=list(TYPES).index)
     crank = " with a driver that turns fully" if requirements.driver == "crank" else ""
-    why = f"{with_article(name)} is made of {_made_of(TYPES[name])}"
+    why = f"{with_article(name)} is made of {_pair_in_words(TYPES[name])}"
     if kinds != (first.kinds, second.kinds):
         why += "; where a fixed pivot is limited there is no PR, and where a moving one is no RP"
-    others = f"ask for {_either(here)}" if here else "ask for no type"
+    others = f"require {_types_in_words(possible)}" if possible else "require no type"
     raise InputError(
         "E132",
         "the limits and the requirements contradict each other: "
-        f"{_said(kinds)}, and linkages of type {_either(requirements.types)} only{crank}",
+        f"{_kinds_in_words(kinds)}, and linkages of type "
+        f"{_types_in_words(requirements.types)} only{crank}",
         why=why,
         help=f"{others}, or let the limits allow other dyads",
     )
 
 
-def _fits(pair: tuple[Kind, Kind], kinds: tuple[frozenset[Kind], frozenset[Kind]]) -> bool:
+def _makes_pair(pair: tuple[Kind, Kind], kinds: tuple[frozenset[Kind], frozenset[Kind]]) -> bool:
     """Whether two dyads of these kinds can be the pair, in either order."""
     (a, b), (one, other) = pair, kinds
     return (a in one and b in other) or (b in one and a in other)
 
 
-def _apart(footprint: Polygon, region: Region) -> bool:
-    """Whether a region is plainly outside the footprint."""
+def _is_outside(footprint: Polygon, region: Region) -> bool:
+    """Whether a region surely lies outside the footprint."""
     corners, edge = region.corners(), footprint.corners()
     low, high = edge.min(axis=0), edge.max(axis=0)
-    slack = MARGIN * float(np.linalg.norm(high - low))
+    slack = FOOTPRINT_MARGIN * float(np.linalg.norm(high - low))
     if isinstance(region, Line):
         ((offset, *normal),) = region.equations()
         sides = edge @ np.array(normal) + offset
@@ -280,7 +281,7 @@ def _number(value: object, what: str, *, infinite: bool = False) -> float:
 
 def _type_names(given: Iterable[str]) -> Iterator[str]:
     """The names as `TYPES` and `GROUPS` spell them."""
-    known = {_plain(name): name for name in (*TYPES, *GROUPS)}
+    known = {_normalized(name): name for name in (*TYPES, *GROUPS)}
     names = list(given) if isinstance(given, Set | list | tuple) else None
     if not names:
         raise InputError(
@@ -291,36 +292,36 @@ def _type_names(given: Iterable[str]) -> Iterator[str]:
             help=f"name one type or more: {', '.join(known.values())}; or leave types out",
         )
     for name in names:
-        if not isinstance(name, str) or _plain(name) not in known:
+        if not isinstance(name, str) or _normalized(name) not in known:
             raise _unknown("linkage type", name, tuple(known.values()))
-        yield known[_plain(name)]
+        yield known[_normalized(name)]
 
 
-def _plain(name: str) -> str:
+def _normalized(name: str) -> str:
     return " ".join(name.lower().replace("-", " ").split())
 
 
 def _unknown(what: str, name: object, known: tuple[str, ...]) -> InputError:
     """E134 for a name that is none of the known ones, with the likeliest of them."""
-    plain = {_plain(each): each for each in known}
-    near = difflib.get_close_matches(_plain(str(name)), plain, n=1)
+    plain = {_normalized(each): each for each in known}
+    near = difflib.get_close_matches(_normalized(str(name)), plain, n=1)
     guess = f"did you mean {plain[near[0]]}? " if near else ""
     help = f"{guess}choose among {', '.join(known)}"
     return InputError("E134", f"there is no {what} {shown(name)}", help=help)
 
 
-def _either(types: Iterable[str] | None) -> str:
+def _types_in_words(types: Iterable[str] | None) -> str:
     """Names of types in one phrase, in the order of `TYPES`."""
     return listed(sorted(types or (), key=[*TYPES, *GROUPS].index), "or")
 
 
-def _said(kinds: tuple[frozenset[Kind], frozenset[Kind]]) -> str:
-    """The kinds of two dyads that limits leave, in words."""
+def _kinds_in_words(kinds: tuple[frozenset[Kind], frozenset[Kind]]) -> str:
+    """The kinds of two dyads that their limits allow, in words."""
     one, other = (", ".join(sorted(each)) for each in kinds)
     if one == other:
         return f"dyads of kind {one} only"
     return f"one dyad of kind {one} and one of kind {other} only"
 
 
-def _made_of(pair: tuple[Kind, Kind]) -> str:
+def _pair_in_words(pair: tuple[Kind, Kind]) -> str:
     return f"two {pair[0]} dyads" if pair[0] == pair[1] else f"dyads {pair[0]} and {pair[1]}"

@@ -1,4 +1,4 @@
-"""The special motions: each with its numbers, a sentence that says them, and a way on.
+"""The special motions: each with its numbers, a sentence with them, and what to do.
 
 Their dyads are a whole family or none at all, known without a fit; a fit would give one member
 of the family, or invent one.
@@ -19,19 +19,19 @@ from burmester.numerics.arrays import FloatArray
 __all__ = [
     "CircularTranslation",
     "FreeTranslation",
-    "Kind",
+    "MotionKindBase",
     "Rotation",
     "StraightTranslation",
     "TwoSliders",
     "in_degrees",
-    "length",
+    "rounded_length",
 ]
 
-DIGITS = 6  # of the motion's size, in what people read
+SIGNIFICANT_DIGITS = 6  # of the motion's size, in messages
 
 
-class Kind:
-    """What the kinds share: a stable code, a name, a sentence with numbers, and a way on."""
+class MotionKindBase:
+    """The base of all kinds: a stable code, a name, a sentence with numbers, and what to do."""
 
     __slots__ = ()
     code: ClassVar[str]
@@ -49,13 +49,13 @@ class Kind:
 
     @property
     def dyads(self) -> tuple[Dyad, ...]:
-        """The dyads that are certain without a fit: those to show, of a family of them."""
+        """The dyads that are certain without a fit; some of each family of them."""
         return ()
 
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class StraightTranslation(Kind):
+class StraightTranslation(MotionKindBase):
     """The body keeps `angle` and moves along a line in `direction` (in F, [0, pi)), radians."""
 
     code: ClassVar[str] = "R312"
@@ -85,11 +85,11 @@ class StraightTranslation(Kind):
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class CircularTranslation(Kind):
+class CircularTranslation(MotionKindBase):
     """The body keeps `angle` (radians) and its origin runs on a circle: a parallelogram's coupler.
 
     centre: (2,) in F, of the circle of M's origin; radius: of every point's circle.
-    chord: the distance between the pivots of the parallelogram that is offered.
+    chord: the distance between the two pivots of the parallelogram in `dyads`.
     toward: from the centre to the middle of the arc, radians.
     """
 
@@ -107,9 +107,10 @@ class CircularTranslation(Kind):
         size = self.radius + self.chord
         return (
             f"the body never turns (its angle stays {in_degrees(self.angle)}) and every point of "
-            f"it runs on a circle of radius {length(self.radius, size, self.unit)}, its origin "
-            f"about {_point(self.centre, size, self.unit)}: a parallelogram linkage does this, "
-            "and its pivots may be anywhere"
+            "it runs on a circle of radius "
+            f"{rounded_length(self.radius, size, self.unit)}, its origin about "
+            f"{_point(self.centre, size, self.unit)}: a parallelogram linkage does this, and its "
+            "pivots may be anywhere"
         )
 
     @property
@@ -122,8 +123,8 @@ class CircularTranslation(Kind):
             for link in (first, second)
         )
         return (
-            f"take two links of {length(self.radius, size, self.unit)}, {pairs}, or shift both "
-            "ends of a link alike; for another four-bar give poses whose angles differ"
+            f"take two links of {rounded_length(self.radius, size, self.unit)}, {pairs}, or shift "
+            "both ends of a link alike; for another four-bar give poses whose angles differ"
         )
 
     def link(self, moving_pivot: ArrayLike) -> RR:
@@ -145,7 +146,7 @@ class CircularTranslation(Kind):
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class FreeTranslation(Kind):
+class FreeTranslation(MotionKindBase):
     """The body keeps `angle` (radians); its points run on a curve that is no line and no circle."""
 
     code: ClassVar[str] = "R314"
@@ -174,10 +175,10 @@ class FreeTranslation(Kind):
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class Rotation(Kind):
+class Rotation(MotionKindBase):
     """The body turns about one point: `fixed_centre` (2,) of F, `moving_centre` (2,) of M.
 
-    uncertainty: how far the digits of the poses leave the centre free, a length.
+    uncertainty: of the centre, by the digits of the poses; a length.
     """
 
     code: ClassVar[str] = "R315"
@@ -191,7 +192,7 @@ class Rotation(Kind):
     @property
     def message(self) -> str:
         about = ""
-        if self.uncertainty > 10.0**-DIGITS * self.size:
+        if self.uncertainty > 10.0**-SIGNIFICANT_DIGITS * self.size:
             about = f" (within {self.uncertainty:.1g}{_unit(self.unit)}, as the digits go)"
         return (
             f"the body turns about the point {_point(self.fixed_centre, self.size, self.unit)}"
@@ -209,7 +210,7 @@ class Rotation(Kind):
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class TwoSliders(Kind):
+class TwoSliders(MotionKindBase):
     """A circle of points of M, each on a line of F: Cardan's motion.  Or the inverse of it.
 
     In complex numbers the pose is d = c + b exp(-i angle) - R m: M's centre m runs backwards on
@@ -240,8 +241,9 @@ class TwoSliders(Kind):
             own, other = other, own
         return (
             f"a two-slider motion{' (inverted)' if self.inverse else ''}: every point of the {on} "
-            f"on the circle of radius {length(self.radius, self.radius, self.unit)} about its "
-            f"point {_point(own, self.radius)} stays on a straight line of the {of} through "
+            "on the circle of radius "
+            f"{rounded_length(self.radius, self.radius, self.unit)} about its point "
+            f"{_point(own, self.radius)} stays on a straight line of the {of} through "
             f"{_point(other, self.radius)}; so the sliders are a whole family, with one crank "
             "that joins the two centres"
         )
@@ -283,15 +285,17 @@ def _unit(unit: str | None) -> str:
     return f" {unit}" if unit else ""
 
 
-def _rounded(value: float, size: float, digits: int = DIGITS) -> str:
-    """A length to so many digits of `size`, so that rounding does not show as 1e-17."""
+def _rounded(value: float, size: float, digits: int = SIGNIFICANT_DIGITS) -> str:
+    """A length to `digits` digits of `size`, so that rounding does not show as 1e-17."""
     step = 10.0 ** (np.floor(np.log10(size)) + 1 - digits) if size > 0 else 1.0
     snapped = round(float(value) / step) * step
     wanted = int(np.log10(abs(snapped) / step)) + 1 if snapped else digits
     return f"{snapped + 0.0:.{min(max(digits, wanted), 15)}g}"
 
 
-def length(value: float, size: float, unit: str | None = None, digits: int = DIGITS) -> str:
+def rounded_length(
+    value: float, size: float, unit: str | None = None, digits: int = SIGNIFICANT_DIGITS
+) -> str:
     return _rounded(value, size, digits) + _unit(unit)
 
 

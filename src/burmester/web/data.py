@@ -22,7 +22,7 @@ from burmester.io.result import message_data
 from burmester.linkages import explanation
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.synthesis.result import Synthesis
-from burmester.tasks import wording
+from burmester.tasks import notation
 from burmester.tasks.motion_task import Task
 from burmester.web.branches import Branches, branches_of
 from burmester.web.image_space import chart_of, space_of
@@ -71,7 +71,7 @@ def report_data(synthesis: Synthesis) -> dict[str, Any]:
 
 def _scene(synthesis: Synthesis) -> float:
     """The size of the drawing, in the task's unit: that of the motion."""
-    size = max(wording.span(synthesis.task), synthesis.length)
+    size = max(notation.span(synthesis.task), synthesis.length)
     return size if size > 0 and math.isfinite(size) else 1.0
 
 
@@ -126,7 +126,7 @@ def _linkage(
             "angle": angle,
             "rms": digits.position_error(synthesis, found.error.rms),
             "rms_angle": digits.angle_error(float(np.sqrt((found.error.angle**2).mean()))),
-            "transmission": wording.least_angle(found.driven.least_over_range),
+            "transmission": notation.least_angle(found.driven.least_over_range),
             "turns_fully": found.driven.turns_fully,
             "links": _links(synthesis, found),
             "dimensions": [each._asdict() for each in dimensions(synthesis, found)],

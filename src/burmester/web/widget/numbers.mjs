@@ -13,7 +13,7 @@ export function fixed(value, digits) {
   return Number(text) === 0 ? text.replace("-", "") : text;
 }
 
-/** A figure with two digits, as `figure` of burmester/tasks/wording.py writes it, but for exact ties. */
+/** A figure with two digits, as `figure` of burmester/tasks/notation.py writes it, but for exact ties. */
 export function figure(value) {
   if (value === null || !Number.isFinite(value)) return "–";
   if (value === 0) return "0";

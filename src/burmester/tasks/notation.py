@@ -1,0 +1,67 @@
+"""Lengths, angles and poses of a task as messages write them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Literal, TypeAlias
+
+import numpy as np
+
+from burmester.tasks.motion_task import Task
+from burmester.wording import listed
+
+__all__ = [
+    "PoseFormat",
+    "figure",
+    "least_angle",
+    "length_of",
+    "pose_labels",
+    "poses_in_words",
+    "span",
+]
+
+# "name": its name, or its number where it has none; "number and name": "3 (open)", or "3".
+PoseFormat: TypeAlias = Literal["name", "number and name"]
+
+
+def figure(value: float) -> str:
+    """A figure with two digits, or its whole part if that has more: "0.00011", "4.5", "153"."""
+    if not math.isfinite(value):
+        return "-"
+    return f"{value:.0f}" if 99.5 <= abs(value) < 1e6 else f"{value:.2g}"
+
+
+def length_of(value: float, task: Task) -> str:
+    """A length with its unit, if the task has one."""
+    return figure(value) + (f" {task.length_unit}" if task.length_unit else "")
+
+
+def least_angle(angle: float) -> str:
+    """A lower bound of an angle in degrees, rounded down."""
+    if not math.isfinite(angle):
+        return "-"
+    return f"{math.floor(10 * math.degrees(angle) + 1e-6) / 10:g}°"
+
+
+def pose_labels(task: Task, poses: Sequence[int], form: PoseFormat = "name") -> list[str]:
+    """Poses (numbers from 0) in one of the two formats, with numbers from 1."""
+    labels = []
+    for pose in poses:
+        name = task.names[pose] if task.names else ""
+        number = str(pose + 1)
+        labels.append(name or number if form == "name" else number + (f" ({name})" if name else ""))
+    return labels
+
+
+def poses_in_words(
+    task: Task, poses: Sequence[int], last: str = "and", form: PoseFormat = "name"
+) -> str:
+    """Poses (numbers from 0) in one phrase: "pose 3", "poses 2, 3 and 7"."""
+    labels = pose_labels(task, poses, form)
+    return f"pose{'' if len(labels) == 1 else 's'} {listed(labels, last)}"
+
+
+def span(task: Task) -> float:
+    """The diagonal of the box around the poses' origins."""
+    return float(np.linalg.norm(np.ptp(task.poses.translation, axis=0)))
