@@ -16,10 +16,11 @@ from burmester.geometry.regions import Line, Polygon, Segment
 from burmester.linkages.constraints import (
     AllConstraints,
     BranchAndOrder,
+    DrivenBranch,
     DyadLimitsConstraint,
     LinkProportions,
-    drive_of,
-    least_between,
+    input_of,
+    least_transmission_inputs,
     signed_transmission_sine,
     type_excess,
 )
@@ -104,7 +105,7 @@ def test_drives_are_those_the_linkage_is_assembled_at(pair):
             at = both.translation[:, side], both.angle[:, side]
             sound = np.isfinite(at[1])
             rows = np.column_stack([at[0], LENGTH * at[1]])[sound]
-            told, turns = drive_of(stack, rows[None], LENGTH, np.array([0]))
+            told, turns = input_of(stack, rows[None], LENGTH, np.array([0]))
             gap = told[0] - drive[sound]
             assert turns[0] == (pair[0] is not PR)
             assert np.abs(np.exp(1j * gap) - 1 if turns[0] else gap).max(initial=0) < 1e-7
@@ -123,7 +124,9 @@ def test_the_least_sine_of_a_stretch_is_at_its_ends_or_where_it_is_said(pair):
         start, reach = rng.uniform(-3, 3), rng.uniform(0.5, 5)
         drive = np.linspace(start, start + reach, 2001)
         rows = swept(linkage.first, linkage.second, drive)[0]
-        at, cosine = (part[0] for part in least_between(LinkageBatch.of([linkage]), np.array([0])))
+        at, cosine = (
+            part[0] for part in least_transmission_inputs(LinkageBatch.of([linkage]), np.array([0]))
+        )
         if pair[0] is not PR:
             at = start + (at - start) % (2 * np.pi)
         within = (at > start) & (at < start + reach) & np.isfinite(cosine)
@@ -149,7 +152,11 @@ def test_the_least_sine_of_a_stretch_is_at_its_ends_or_where_it_is_said(pair):
 def journey_of(linkage, rows, sign, asked=ANY, middle=np.nan):
     stack = LinkageBatch.of([linkage])
     return stack, BranchAndOrder.of(
-        stack, rows[None], LENGTH, np.array([0]), np.array([sign]), np.array([middle]), asked
+        stack,
+        rows[None],
+        LENGTH,
+        DrivenBranch(np.array([0]), np.array([sign]), np.array([middle])),
+        asked,
     )
 
 

@@ -146,7 +146,7 @@ def refined(linkage, rows, wanted, length=1.0, **how):
     """Refined from where it is; rows and wanted with plain angles."""
     own = as_places(rows)
     start = Displacement(own.translation[None], own.angle[None])
-    how = {"steps": STEPS, "held_steps": STEPS} | how
+    how = {"steps": STEPS, "constrained_steps": STEPS} | how
     return refine(LinkageBatch.of([linkage]), start, as_places(wanted), length, **how)
 
 
@@ -310,7 +310,7 @@ def test_limits_hold_and_scipy_comes_no_lower(what, seed):
     limits, zero, below = WITHIN[what]
     linkage, rows, wanted = a_task((RR, RR), seed)
     frames = CanonicalFrames.as_given()
-    ours = refined(linkage, rows, wanted, conditions=DyadLimitsConstraint(0, limits, frames))
+    ours = refined(linkage, rows, wanted, constraints=DyadLimitsConstraint(0, limits, frames))
     assert ours.met[0]
     z = ours.stack.dimensions[0, 0]
     if zero:

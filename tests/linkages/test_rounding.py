@@ -140,7 +140,7 @@ def test_numbers_are_multiples_to_the_last_digit(second, unit, shift):
     step = 0.1 * unit if unit == 1 else 0.5
     for seed in range(2):
         _, aim, stack, rows = problem(seed, second, unit=unit, shift=shift)
-        own, _ = rounded(stack, rows, aim, step, ())
+        own, _ = rounded(stack, rows, aim, step=step)
         turn = turn_of(aim, step)
         for kind, row in zip(own.kinds[0], own.dimensions[0], strict=True):
             line = LINES.get(int(kind))
@@ -157,7 +157,7 @@ def test_numbers_are_multiples_to_the_last_digit(second, unit, shift):
 def test_the_error_is_that_of_the_rounded_linkage_driven_again(second):
     for seed in range(3):
         poses, aim, stack, rows = problem(seed, second, count=6)
-        own, rows = rounded(stack, rows, aim, 0.05, ())
+        own, rows = rounded(stack, rows, aim, step=0.05)
         told = np.linalg.norm(rows[0] - rows_of(aim.poses, aim.length), axis=-1)
         told = told * float(aim.frames.length)
         again = simulated(own.linkage(0), poses, LENGTH)
@@ -167,7 +167,7 @@ def test_the_error_is_that_of_the_rounded_linkage_driven_again(second):
 def compared(seed, second, step, **how):
     """The greatest distance rounded here and all at once, by another simulation, and before."""
     poses, aim, stack, rows = problem(seed, second, **how)
-    _, new = rounded(stack, rows, aim, step, ())
+    _, new = rounded(stack, rows, aim, step=step)
     naive = simulated(all_at_once(stack, aim, step), poses, LENGTH).max()
     return greatest(aim, new), naive, greatest(aim, rows)
 
@@ -209,7 +209,7 @@ def by_brute_force(poses, stack, aim, rows, step):
 def test_it_is_as_good_as_the_best_of_all_floors_and_ceilings(second):
     for seed, step in ((1, 0.02), (2, 0.1)):
         poses, aim, stack, rows = problem(seed, second, count=5)
-        _, new = rounded(stack, rows, aim, step, ())
+        _, new = rounded(stack, rows, aim, step=step)
         assert greatest(aim, new) <= by_brute_force(poses, stack, aim, rows, step) * 1.001
 
 
@@ -246,7 +246,7 @@ def test_links_come_from_stock(step):
     stock = (0.5, 0.75, 1.1, 1.6, 2.5)
     for seed in range(3):
         poses, aim, stack, rows = problem(seed, RR)
-        own, new = rounded(stack, rows, aim, step, stock)
+        own, new = rounded(stack, rows, aim, step=step, stock=stock)
         links = own.dimensions[0, :, 4]
         assert set(links) <= set(stock)
         again = simulated(own.linkage(0), poses, LENGTH)
@@ -261,7 +261,7 @@ def test_of_stock_the_choice_is_the_best_of_four():
     for seed in range(2):
         poses, aim, stack, rows = problem(seed, RR)
         before = stack.back(aim.frames)
-        own, new = rounded(stack, rows, aim, None, list(stock))
+        own, new = rounded(stack, rows, aim, step=None, stock=list(stock))
         sides = []
         for r in before.dimensions[0, :, 4]:
             at = np.searchsorted(stock, r)
@@ -279,7 +279,7 @@ def test_of_stock_the_choice_is_the_best_of_four():
 def test_a_step_far_too_coarse_gives_a_great_error_or_no_place(second):
     for seed, step in ((0, 3.0), (1, 3.0), (0, 40.0)):
         poses, aim, stack, rows = problem(seed, second)
-        own, new = rounded(stack, rows, aim, step, ())
+        own, new = rounded(stack, rows, aim, step=step)
         lengths = own.dimensions[0].copy()
         for side, kind in enumerate(own.kinds[0]):
             if kind:
@@ -305,7 +305,7 @@ def test_pivots_stay_in_their_regions():
         x, y = np.stack([ends - 1.5, ends], axis=1)
         box = Polygon([(x[0], y[0]), (x[1], y[0]), (x[1], y[1]), (x[0], y[1])])
         aim = replace(aim, kept=(DyadLimitsConstraint(0, Limits(fixed_pivot=box), aim.frames),))
-        own, _ = rounded(stack, rows, aim, 0.1, ())
+        own, _ = rounded(stack, rows, aim, step=0.1)
         new, naive = own.dimensions[0, 0, :2], np.rint(c / 0.1) * 0.1
         left += bool((naive > ends + 1e-9).any())
         assert (new <= ends + 1e-9).all()
@@ -329,7 +329,7 @@ def test_a_pivot_beside_its_line_is_no_excuse_to_pass_another_limit(seed):
     assert np.rint(length / step) * step > length + 0.1 * step  # the nearest multiple is too long
     limits = Limits(fixed_pivot=Line((0, height), (1, height)), length=(0.0, length + 1e-4))
     aim = replace(aim, kept=(DyadLimitsConstraint(0, limits, aim.frames),))
-    new, _ = rounded(stack, rows, aim, step, ())
+    new, _ = rounded(stack, rows, aim, step=step)
     at, radius = new.dimensions[0, 0, :2], new.dimensions[0, 0, 4]
     assert abs(at[1] - height) == pytest.approx(step / 2)
     assert radius < length
@@ -362,10 +362,10 @@ def test_poses_stay_in_order():
             rows = rows[np.argsort(here)]
         if (np.diff(here) < 4e-3).any():
             continue
-        kept = steps(*rounded(stack, found, aim, 0.2, ()), aim.frames, aim.length)
+        kept = steps(*rounded(stack, found, aim, step=0.2), aim.frames, aim.length)
         assert (np.diff(kept) > 0).all()
         free = replace(aim, requirements=Requirements(any_order=True))
-        loose = steps(*rounded(stack, found, free, 0.2, ()), aim.frames, aim.length)
+        loose = steps(*rounded(stack, found, free, step=0.2), aim.frames, aim.length)
         confused += bool((np.diff(loose) <= 0).any())
     assert confused
 
@@ -376,7 +376,7 @@ def test_exact_poses_and_weights_count_more():
         _, aim, stack, rows = problem(seed, RR, off=0.05)
 
         def first(aim, stack=stack, rows=rows):
-            _, new = rounded(stack, rows, aim, 0.1, ())
+            _, new = rounded(stack, rows, aim, step=0.1)
             return np.linalg.norm((new - rows_of(aim.poses, aim.length))[0, 0])
 
         plain.append(first(aim))
@@ -396,9 +396,9 @@ def test_linkages_together_are_as_one_by_one():
     stack = LinkageBatch(kinds, np.concatenate([each.dimensions for each in many]))
     found = rows_of(on_circuits(stack, aim.poses, aim.length), aim.length)[:, 0]
     found[0] = rows[0]
-    own, new = rounded(stack, found, aim, 0.1, ())
+    own, new = rounded(stack, found, aim, step=0.1)
     for k in range(3):
-        single, its = rounded(stack[k : k + 1], found[k : k + 1], aim, 0.1, ())
+        single, its = rounded(stack[k : k + 1], found[k : k + 1], aim, step=0.1)
         assert np.array_equal(single.dimensions[0], own.dimensions[k])
         assert np.array_equal(its[0], new[k], equal_nan=True)
 

@@ -1,7 +1,7 @@
-"""Linkages refined under conditions, and so that exact poses stay exact.
+"""The refinement of linkages under constraints, exact poses among them (SQP).
 
-Each step is the best one for the equations as they are here (`quadratic_program`), by the sum of
-squares and of all that is not kept (Fletcher, Practical methods of optimization, 1987).
+Each step solves a quadratic program of the equations linearised here (`quadratic_program`), for the
+sum of squares plus penalties of all violations (Fletcher, Practical methods of optimization, 1987).
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ from burmester.linkages.residuals import (
     Linearisation,
     Problem,
     State,
-    all_conditions,
-    free_part,
-    rescaled,
+    all_constraints,
+    linearised,
+    power_ratio,
     secant,
 )
 from burmester.numerics.arrays import FloatArray
@@ -28,17 +28,21 @@ from burmester.numerics.least_squares import Attempt, damped_descent
 from burmester.numerics.linear_algebra import matvec
 from burmester.numerics.quadratic_program import SoftProgram
 
-__all__ = ["held"]
+__all__ = ["refine_constrained"]
 
-DAMPING, LEAST, MOST = 1e-4, 1e-14, 1e8  # relative, of Levenberg and Marquardt
-SETTLED = 1e-13  # a relative step that is rounding
-CURVED = 4  # good steps, before those take the residuals' curvature into account
-GAIN = 1e-14  # relative; less of it ends the steps
-STIFF, STIFFER, STIFFEST = 1.0, 4.0, 1e5  # what a condition's miss counts as: at first, at most
-OVER = 3.0  # times the greatest multiplier, that it counts as once all are met
-COARSE = 1e-3  # of the greatest slope; a dimension that tells less is damped as if it told so much
-MET = 1e-9  # a condition missed by less is met
-TOUCHED = 1e-6  # of `stiff`; what presses less on a condition does not touch it
+# Relative, of the Hessian's scaled diagonal: first value, floor, and the value that ends a descent.
+START_DAMPING, MIN_DAMPING, MAX_DAMPING = 1e-4, 1e-14, 1e8
+CONVERGED_STEP = 1e-13  # relative; a smaller step is rounding and ends the descent
+STEPS_BEFORE_CURVATURE = 4  # number of successful steps before the Hessian estimate is in use
+COST_ROUNDING = 1e-14  # relative; a smaller decrease of the cost is rounding
+# Penalty weight of a constraint's violation: initial value, growth factor, maximum.
+START_PENALTY, PENALTY_GROWTH, MAX_PENALTY = 1.0, 4.0, 1e5
+# Once feasible, the penalty drops to this many times the largest multiplier.
+MULTIPLIER_FACTOR = 3.0
+# Floor on the column norms used to scale the damping, relative to the largest one.
+MIN_COLUMN_NORM = 1e-3
+FEASIBLE = 1e-9  # lengths; a constraint violated by less is met
+ACTIVE_MULTIPLIER = 1e-6  # relative to the penalty; a constraint with a smaller one is inactive
 
 
 class _Point(NamedTuple):
@@ -51,8 +55,8 @@ class _Point(NamedTuple):
     @classmethod
     def at(cls, problem: Problem, which: NDArray[np.intp], state: State, power: float) -> _Point:
         with np.errstate(all="ignore"):
-            value, jacobian, _ = all_conditions(problem, which, state)
-            model = free_part(problem, which, state, power)
+            value, jacobian, _ = all_constraints(problem, which, state)
+            model = linearised(problem, which, state, power)
         return cls(state, model, Linearisation(value, jacobian))
 
     @property
@@ -103,16 +107,16 @@ class _Descent:
     @classmethod
     def of(cls, problem: Problem, z: FloatArray, rows: FloatArray, power: float) -> _Descent:
         count, every = len(z), np.arange(len(z))
-        start = _Point.at(problem, every, problem.placed(every, z.copy(), rows), power)
+        start = _Point.at(problem, every, problem.state_ahead(every, z.copy(), rows), power)
         one = every[:1]
-        equal = all_conditions(problem, one, take(start.state, one))[2]
+        equal = all_constraints(problem, one, take(start.state, one))[2]
         unknowns = start.model.jacobian.shape[-1]
         return cls(
             problem,
             power,
             start,
             equal,
-            np.full(count, STIFF),
+            np.full(count, START_PENALTY),
             np.zeros((count, unknowns, unknowns)),
             np.zeros(count, dtype=np.intp),
             np.zeros(start.constraints.residual.shape),
@@ -125,7 +129,7 @@ class _Descent:
 
     def program(self, rows: NDArray[np.intp], here: _Point, damping: FloatArray) -> _ScaledProgram:
         """The quadratic programs of linkages `rows` (r,) at their points."""
-        use_curvature = (self.good_steps[rows] >= CURVED)[:, None, None]
+        use_curvature = (self.good_steps[rows] >= STEPS_BEFORE_CURVATURE)[:, None, None]
         estimate = np.where(use_curvature, self.hessian_estimate[rows], 0.0)
         hessian, size = _hessian(here.model.jacobian, estimate)
         hessian = hessian + damping[:, None, None] * np.eye(hessian.shape[-1])
@@ -143,37 +147,37 @@ class _Descent:
         problem = self.problem
         step, shift = problem.limited(here.state, step)
         z = here.state.z + step[:, :SIZE]
-        state = problem.placed(rows, z, here.state.rows + shift)
+        state = problem.state_ahead(rows, z, here.state.rows + shift)
         there = _Point.at(problem, rows, state, self.power)
         with np.errstate(all="ignore"):
             after = (there.model.residual**2).sum(axis=1) / 2
             if self.power != 2.0:  # measured in the top distance of before
-                after = after * rescaled(problem, here.state, state, self.power)
+                after = after * power_ratio(problem, here.state, state, self.power)
             after = after + self.penalty[rows] * self.violation(there.constraints.residual)
         sound = problem.sound(rows, z) & there.sound
         return step, there, np.where(sound, after, np.inf)
 
     def attempt(self, rows: NDArray[np.intp], here: _Point, damping: FloatArray) -> Attempt[_Point]:
         """A step of the linkages `rows` (r,), with Fletcher's second-order correction."""
-        may, penalty = self.problem.may(rows), self.penalty[rows]
+        free_unknowns, penalty = self.problem.free_unknowns(rows), self.penalty[rows]
         value, jacobian = here.constraints
         program = self.program(rows, here, damping)
         step, multipliers = program.solved()
-        step = np.where(may, step, 0.0)  # but for rounding it is so
+        step = np.where(free_unknowns, step, 0.0)  # but for rounding it is so
         before = self.violation(value)
         cost = (here.model.residual**2).sum(axis=1) / 2 + penalty * before
         ahead = self.violation(value + matvec(jacobian, step))
         model = ((here.model.residual + matvec(here.model.jacobian, step)) ** 2).sum(axis=1) / 2
         step, there, after = self.tried(rows, here, step)
-        enough = cost * (1 + GAIN)
+        enough = cost * (1 + COST_ROUNDING)
         with np.errstate(invalid="ignore"):
-            missed = self.violation(there.constraints.residual) > SETTLED
+            missed = self.violation(there.constraints.residual) > CONVERGED_STEP
             again = np.flatnonzero(~(after <= enough) & missed)
         if len(again):  # the same step for constraints with the curvature met on the way
             some = take(here, again)
             off = there.constraints.residual[again] - matvec(jacobian[again], step[again])
             second, own = program.corrected(again, off).solved()
-            second = np.where(may[again], second, 0.0)
+            second = np.where(free_unknowns[again], second, 0.0)
             second, other, later = self.tried(rows[again], some, second)
             won = later <= enough[again]
             at = again[won]
@@ -184,22 +188,24 @@ class _Descent:
             promise = cost - model - penalty * ahead
             gain = (cost - after) / np.maximum(promise, np.finfo(float).tiny)
         factor = np.select([~better, gain > 0.75, gain > 0.25], [10.0, 0.1, 0.5], 3.0)
-        damping = np.maximum(damping * factor, LEAST)
+        damping = np.maximum(damping * factor, MIN_DAMPING)
         good_steps = self.good_steps[rows]
-        refused = np.where(good_steps >= CURVED, 0, good_steps)
+        refused = np.where(good_steps >= STEPS_BEFORE_CURVATURE, 0, good_steps)
         self.good_steps[rows] = np.where(better, good_steps + 1, refused)
         self._learn(
             rows[better], step[better], take(here, better), take(there, better), multipliers[better]
         )
         miss = np.where(better, self.violation(there.constraints.residual), before)
-        stuck = (miss > MET) & (ahead > before / 2) & (penalty < STIFFEST)
-        least = np.maximum(OVER * np.abs(multipliers).max(axis=1, initial=0), MET)
+        stuck = (miss > FEASIBLE) & (ahead > before / 2) & (penalty < MAX_PENALTY)
+        least = np.maximum(MULTIPLIER_FACTOR * np.abs(multipliers).max(axis=1, initial=0), FEASIBLE)
         self.penalty[rows] = np.select(
-            [stuck, miss <= MET], [STIFFER * penalty, np.minimum(penalty, least)], penalty
+            [stuck, miss <= FEASIBLE],
+            [PENALTY_GROWTH * penalty, np.minimum(penalty, least)],
+            penalty,
         )
-        small = np.abs(step).max(axis=-1) < SETTLED * (1 + np.abs(here.state.z).max(axis=-1))
-        idle = better & (cost - after < GAIN * cost)
-        return Attempt(there, better, damping, (small | idle | (damping > MOST)) & ~stuck)
+        small = np.abs(step).max(axis=-1) < CONVERGED_STEP * (1 + np.abs(here.state.z).max(axis=-1))
+        idle = better & (cost - after < COST_ROUNDING * cost)
+        return Attempt(there, better, damping, (small | idle | (damping > MAX_DAMPING)) & ~stuck)
 
     def _learn(
         self,
@@ -221,31 +227,31 @@ class _Descent:
         self.multipliers[rows] = multipliers
 
 
-def held(
+def refine_constrained(
     problem: Problem, z: FloatArray, rows: FloatArray, power: float, steps: int
 ) -> tuple[FloatArray, FloatArray, NDArray[np.bool_], NDArray[np.bool_]]:
-    """Linkages refined under conditions: z, rows, whether they came to an end, if all hold.
+    """Linkages refined under constraints: z, rows, whether they converged, whether all hold.
 
     A step that bends away from the conditions is taken again (Fletcher's second-order correction).
     """
     way = _Descent.of(problem, z, rows, power)
     every, sound = np.arange(len(z)), np.flatnonzero(way.start.sound)
     ends, done = damped_descent(
-        way.attempt, way.start, sound, damping=10 * DAMPING, max_steps=steps
+        way.attempt, way.start, sound, damping=10 * START_DAMPING, max_steps=steps
     )
-    active = way.equal | (np.abs(way.multipliers) > TOUCHED * way.penalty[:, None])
-    state, met = _closed(problem, ends.state, active, way.equal)
-    if problem.loose:  # the nearest places, where they do as well
+    active = way.equal | (np.abs(way.multipliers) > ACTIVE_MULTIPLIER * way.penalty[:, None])
+    state, met = _made_feasible(problem, ends.state, active, way.equal)
+    if problem.places_are_free:  # the nearest places, where they do as well
         near = problem.state(every, state.z, state.rows)
-        also = problem.placed(every, state.z, near.rows)
-        value, _, _ = all_conditions(problem, every, also)
-        good = np.array(met & (_most(value, way.equal) < MET), dtype=np.bool_)
+        also = problem.state_ahead(every, state.z, near.rows)
+        value, _, _ = all_constraints(problem, every, also)
+        good = np.array(met & (_greatest_violation(value, way.equal) < FEASIBLE), dtype=np.bool_)
         state = where(good, also, state)
     return state.z, state.rows, done, met
 
 
-def _most(value: FloatArray, equal: NDArray[np.bool_]) -> FloatArray:
-    """By how much conditions (k, m) are missed at the most, (k,); infinite where there is none."""
+def _greatest_violation(value: FloatArray, equal: NDArray[np.bool_]) -> FloatArray:
+    """The greatest violation (k,) of constraints (k, m); infinite where one has no value."""
     off = np.where(equal, np.abs(value), value)
     return np.asarray(np.nan_to_num(off, nan=np.inf).max(axis=-1, initial=0))
 
@@ -254,33 +260,33 @@ def _hessian(jacobian: FloatArray, estimate: FloatArray) -> tuple[FloatArray, Fl
     """The Hessian (k, n, n) of half the squares, made positive, in unknowns scaled by (k, n)."""
     flat = np.swapaxes(jacobian, -1, -2) @ jacobian
     size = np.sqrt(np.einsum("kii->ki", flat))
-    size = np.maximum(size, COARSE * size.max(axis=1, keepdims=True))
+    size = np.maximum(size, MIN_COLUMN_NORM * size.max(axis=1, keepdims=True))
     size = np.where(size > 0, size, 1.0)  # every pose is exact, and nothing else counts
     values, axes = np.linalg.eigh((flat + estimate) / (size[:, None] * size[..., None]))
     values = np.maximum(np.abs(values), 1e-10)
     return (axes * values[:, None]) @ np.swapaxes(axes, -1, -2), size
 
 
-def _closed(
+def _made_feasible(
     problem: Problem, state: State, active: NDArray[np.bool_], equal: NDArray[np.bool_]
 ) -> tuple[State, NDArray[np.bool_]]:
-    """What is held met to rounding: Newton's method, by the shortest step."""
+    """States moved to meet the active constraints to rounding, by Newton's shortest steps."""
     every = np.arange(len(state.z))
-    value, slope, _ = all_conditions(problem, every, state)
-    may = problem.may(every)
+    value, jacobian, _ = all_constraints(problem, every, state)
+    free_unknowns = problem.free_unknowns(every)
     for _ in range(6):
         active = active | (value > 0)
         gap = np.where(active, value, 0.0)
-        if not (np.abs(gap) > SETTLED).any():
+        if not (np.abs(gap) > CONVERGED_STEP).any():
             break
-        rows = np.where(active[..., None], slope, 0.0)
+        rows = np.where(active[..., None], jacobian, 0.0)
         with np.errstate(invalid="ignore"):
             sound = np.isfinite(rows).all(axis=(1, 2)) & np.isfinite(gap).all(axis=1)
-        step = np.zeros((len(every), slope.shape[-1]))
+        step = np.zeros((len(every), jacobian.shape[-1]))
         step[sound] = -matvec(np.linalg.pinv(rows[sound], rcond=1e-10), gap[sound])
-        step = np.where((np.abs(step).max(axis=-1) < 0.1)[:, None] & may, step, 0.0)
-        start = state.rows + matvec(state.moved, step[:, None])
-        new = problem.placed(every, state.z + step[:, :SIZE], start)
+        step = np.where((np.abs(step).max(axis=-1) < 0.1)[:, None] & free_unknowns, step, 0.0)
+        start = state.rows + matvec(state.place_jacobian, step[:, None])
+        new = problem.state_ahead(every, state.z + step[:, :SIZE], start)
         state = where(np.asarray(np.isfinite(new.rows).all(axis=(1, 2))), new, state)
-        value, slope, _ = all_conditions(problem, every, state)
-    return state, np.asarray(_most(value, equal) < MET)
+        value, jacobian, _ = all_constraints(problem, every, state)
+    return state, np.asarray(_greatest_violation(value, equal) < FEASIBLE)

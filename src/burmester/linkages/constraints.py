@@ -1,14 +1,14 @@
-"""What a linkage keeps to while all its dimensions are refined: limits, a journey, requirements.
+"""Constraints on linkages while all their dimensions are refined: limits, branch, requirements.
 
-Each is a number that is to be at most 0 (or 0, where `equal` says so), for linkages (k,) and their
-coupler's places, in the frames of `accuracy.error_frames`.  Lengths count in the frames' unit.
+Each is a number that must be at most 0 (equal to 0, where `equal` is true), for linkages (k,) and
+their coupler's places, in the frames of `pose_error.error_frames` and their unit of length.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import ClassVar, Final, Protocol, TypeAlias, final
+from typing import ClassVar, Final, NamedTuple, Protocol, TypeAlias, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,35 +21,36 @@ from burmester.tasks.limits import Limits
 from burmester.tasks.requirements import Requirements
 
 __all__ = [
-    "CLEAR",
-    "SHORTEST",
+    "CLEARANCE_ANGLE",
+    "SHORTEST_LINK",
     "AllConstraints",
     "BranchAndOrder",
     "Constraints",
+    "DrivenBranch",
     "DyadLimitsConstraint",
     "LinkProportions",
-    "drive_of",
-    "least_between",
+    "input_of",
+    "least_transmission_inputs",
     "signed_transmission_sine",
     "type_excess",
 ]
 
-CLEAR: Final = np.radians(5.0)  # from dead points, of a linkage that is looked for
-BEYOND: Final = 1e-7  # radians, of a transmission angle that is asked for
-IN_ORDER: Final = 2e-3  # radians or lengths; the least way from pose to pose
-# The shortest of ground, driver, coupler and follower of Grashof's types.
-SHORTEST: Final = {"double-crank": 0, "crank-rocker": 1, "double-rocker": 2, "rocker-crank": 3}
-SURE: Final = 1e-6  # relative, by which proportions keep from the border
+CLEARANCE_ANGLE: Final = np.radians(5.0)  # least transmission angle in a search for linkages
+TRANSMISSION_MARGIN: Final = 1e-7  # radians; kept above a required transmission angle
+MIN_INPUT_STEP: Final = 2e-3  # radians or lengths; least step of the input from pose to pose
+# The index of the shortest of ground, driver, coupler and follower in each of Grashof's types.
+SHORTEST_LINK: Final = {"double-crank": 0, "crank-rocker": 1, "double-rocker": 2, "rocker-crank": 3}
+PROPORTION_MARGIN: Final = 1e-6  # relative; kept from the border of a type or a ratio
 
 
 ConstraintValues: TypeAlias = tuple[FloatArray, NDArray[np.bool_]]
 
 
 class Constraints(Protocol):
-    """Numbers (k, m) of linkages and rows (k, N, 3) of places, to be at most 0.
+    """A function of linkages (k,) and rows (k, N, 3) of places: values (k, m), to be at most 0.
 
-    With them, which of the m are to be 0, (m,).  The indices (k,) say which of the linkages that
-    are refined they are.  Those that do not look at the places say so by `placed = False`.
+    With a mask (m,) of the values that must be 0.  The indices (k,) are those of the linkages in
+    the batch that is refined.  Constraints that ignore the places have `uses_places = False`.
     """
 
     def __call__(
@@ -60,14 +61,14 @@ class Constraints(Protocol):
 @final
 @dataclass(frozen=True, slots=True, eq=False)
 class AllConstraints:
-    """Some conditions, one after the other."""
+    """Several constraints, one after the other."""
 
     parts: tuple[Constraints, ...]
 
     @property
-    def placed(self) -> bool:
-        """Whether one of them looks at the places."""
-        return any(getattr(part, "placed", True) for part in self.parts)
+    def uses_places(self) -> bool:
+        """Whether one of them depends on the places."""
+        return any(getattr(part, "uses_places", True) for part in self.parts)
 
     def __call__(
         self, stack: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
@@ -79,12 +80,12 @@ class AllConstraints:
 @final
 @dataclass(frozen=True, slots=True, eq=False)
 class DyadLimitsConstraint:
-    """The limits of one side's dyad, for all linkages."""
+    """The limits of the dyad on one side, the same for all linkages."""
 
     side: int
     limits: Limits
     frames: CanonicalFrames
-    placed: ClassVar[bool] = False
+    uses_places: ClassVar[bool] = False
 
     def __call__(
         self, stack: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
@@ -106,7 +107,7 @@ class DyadLimitsConstraint:
 
 
 def _outside(region: Region, points: FloatArray) -> FloatArray:
-    """How far points (k, 2) are off a region: its equations, then what is to be at most 0."""
+    """Distances (k, m) of points (k, 2) from a region: its equations, then its inequalities."""
     if isinstance(region, Polygon):
         return region.signed_distance(points)[:, None]
     rows = region.equations()
@@ -122,15 +123,28 @@ def _outside(region: Region, points: FloatArray) -> FloatArray:
     return np.concatenate([off, beyond], axis=1)
 
 
+class DrivenBranch(NamedTuple):
+    """A branch of each linkage (k,), and the side that drives.
+
+    driver: (k,), 0 or 1.
+    sign: (k,), of `signed_transmission_sine` on the branch.
+    middle: (k,), the input halfway between its dead points; nan where it has none, or slides.
+    """
+
+    driver: NDArray[np.intp]
+    sign: FloatArray
+    middle: FloatArray
+
+
 @final
 @dataclass(frozen=True, slots=True, eq=False)
 class BranchAndOrder:
-    """The poses met on one branch of a drive, clear of its dead points, and in order.
+    """The constraint that all poses are on one branch, clear of its dead points, and in order.
 
-    length: what a radian counts as in rows.  driver: (k,), the side that drives.
+    length: the length that a radian counts as in rows.  driver: (k,), the side that drives.
     sign: (k,), of `signed_transmission_sine` on the branch; clear: its least size.
-    sense: (k,), +1 or -1, how the drive goes; ways: (k, N - 1), from pose to pose in that sense, to
-    know whole turns by.  ordered: whether it goes that way from each pose to the next.
+    sense: (k,), +1 or -1, of the input; ways: (k, N - 1), the steps from pose to pose in that sense
+    at the start, which decide on whole turns.  ordered: whether each step must have that sense.
     """
 
     length: float
@@ -140,32 +154,28 @@ class BranchAndOrder:
     sense: FloatArray
     ways: FloatArray
     ordered: bool
-    placed: ClassVar[bool] = True
+    uses_places: ClassVar[bool] = True
 
     @classmethod
-    def of(  # noqa: PLR0917
+    def of(
         cls,
         stack: LinkageBatch,
         rows: FloatArray,
         length: float,
-        driver: NDArray[np.intp],
-        sign: FloatArray,
-        middle: FloatArray,
+        branch: DrivenBranch,
         requirements: Requirements,
     ) -> BranchAndOrder:
-        """The journey that is nearest to what places rows (k, N, 3) are.
-
-        middle: (k,), the drive amid its dead points; nan where it turns fully, or slides.
-        """
-        clear = float(np.sin(max(CLEAR, requirements.transmission + BEYOND)))
-        drive, turns = drive_of(stack, rows, length, driver)
+        """The constraint on a branch, in the order nearest to that of places rows (k, N, 3)."""
+        driver, sign, middle = branch
+        clear = float(np.sin(max(CLEARANCE_ANGLE, requirements.transmission + TRANSMISSION_MARGIN)))
+        drive, turns = input_of(stack, rows, length, driver)
         round_ = turns & np.isnan(middle)
         between = drive - np.nan_to_num(middle)[:, None]
         between = np.where((turns & ~round_)[:, None], wrapped_angle(between), between)
         step = np.diff(between, axis=1)
         step = np.where(round_[:, None], wrapped_angle(step), step)
         forward = (step > 0).mean(axis=1) >= 0.5
-        # A drive that turns fully may meet all poses within one turn, in one of the two senses.
+        # An input that turns fully may meet all poses within one turn, in one of the two senses.
         turn = np.stack([step, -step]) % (2 * np.pi)
         total = turn.sum(axis=-1)
         once = round_ & (total.min(axis=0) < 2 * np.pi)
@@ -181,15 +191,15 @@ class BranchAndOrder:
         driver, sense, ways = self.driver[which], self.sense[which, None], self.ways[which]
         sine = self.sign[which, None] * signed_transmission_sine(stack, rows, self.length, driver)
         out = [self.clear - sine]
-        drive, turns = drive_of(stack, rows, self.length, driver)
+        drive, turns = input_of(stack, rows, self.length, driver)
         more = sense * np.diff(drive, axis=1) - ways
         step = ways + np.where(turns[:, None], wrapped_angle(more), more)
         along = np.concatenate([np.zeros((len(drive), 1)), np.cumsum(step, axis=1)], axis=1)
         if self.ordered:
-            whole = along[:, -1:] - 2 * np.pi + IN_ORDER
-            out += [IN_ORDER - step, np.where(turns[:, None], whole, -1.0)]
+            whole = along[:, -1:] - 2 * np.pi + MIN_INPUT_STEP
+            out += [MIN_INPUT_STEP - step, np.where(turns[:, None], whole, -1.0)]
         # Between the poses, too, it stays clear.
-        at, cosine = least_between(stack, driver)
+        at, cosine = least_transmission_inputs(stack, driver)
         start = along.min(axis=1, keepdims=True)
         ahead = sense * (at - drive[:, :1]) - start
         ahead = np.where(turns[:, None], ahead % (2 * np.pi), ahead)
@@ -201,9 +211,9 @@ class BranchAndOrder:
 @final
 @dataclass(frozen=True, slots=True, eq=False)
 class LinkProportions:
-    """What a designer asks of the links' lengths, and of the room that the pivots take.
+    """The constraints on the links' proportions, the linkage's type and the pivots' footprint.
 
-    driver: (k,), the side that drives; types: (k,), the type to be, "" for any.
+    driver: (k,), the side that drives; types: (k,), the required type, "" for any.
     """
 
     length: float
@@ -211,7 +221,7 @@ class LinkProportions:
     requirements: Requirements
     driver: NDArray[np.intp]
     types: NDArray[np.str_]
-    placed: ClassVar[bool] = True
+    uses_places: ClassVar[bool] = True
 
     def __call__(
         self, stack: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
@@ -219,7 +229,7 @@ class LinkProportions:
         out = [np.full((len(stack), 1), -1.0)]
         links = _links(stack, self.driver[which])
         if np.isfinite(self.requirements.link_ratio):
-            ratio = self.requirements.link_ratio * (1 - SURE)
+            ratio = self.requirements.link_ratio * (1 - PROPORTION_MARGIN)
             excess = links[:, :, None] - ratio * links[:, None]
             out.append(excess.reshape(len(stack), -1))
         if (self.types != "").any():
@@ -230,7 +240,7 @@ class LinkProportions:
         return np.where(np.isfinite(value), value, -1.0), equal
 
     def _footprint(self, footprint: Polygon, stack: LinkageBatch, rows: FloatArray) -> FloatArray:
-        """How far fixed pivots, and moving pivots at the places, are outside; -1 for lines."""
+        """Distances of fixed pivots, and moving pivots at the places, outside; -1 for lines."""
         unit, origin = float(self.frames.length), self.frames.fixed_origin
         out = []
         turn = np.exp(1j * rows[..., 2] / self.length)
@@ -254,9 +264,9 @@ def signed_transmission_sine(
 ) -> FloatArray:
     """The sine (k, n) of the transmission angle at rows (k, n, 3), signed.
 
-    It changes its sign at the dead points of the side that drives, (k,).  The power that the
-    driver passes on: of three wrenches (what the driver can do, and both constraints) the
-    determinant, over its lever.
+    It changes its sign at the dead points of the side that drives, (k,).  It is the power that the
+    driver transmits: the determinant of three wrenches (the driver's effort and both constraints),
+    over its lever.
     """
     every = np.arange(len(stack))
     d, turn = complex_of(rows), np.exp(1j * rows[..., 2] / length)
@@ -281,11 +291,13 @@ def signed_transmission_sine(
     return np.where(slot & slot2, 1.0, sine)
 
 
-def least_between(stack: LinkageBatch, driver: NDArray[np.intp]) -> tuple[FloatArray, FloatArray]:
-    """Drives (k, 2) where a transmission angle may be least between two places, and its cosine.
+def least_transmission_inputs(
+    stack: LinkageBatch, driver: NDArray[np.intp]
+) -> tuple[FloatArray, FloatArray]:
+    """Inputs (k, 2) where the transmission angle may be least between two places, and its cosine.
 
-    Where the drive's f turns back, see `drive`; beyond 1 where the linkage does not close there.
-    nan for pairs whose transmission angle is nowhere least there.
+    These are the ends of the range of f (see `loop_closure`).  The cosine is above 1 where the
+    linkage does not close there.  nan for pairs without such a minimum.
     """
     every = np.arange(len(stack))
     z, z2 = stack.dimensions[every, driver].T, stack.dimensions[every, 1 - driver].T
@@ -315,10 +327,10 @@ def least_between(stack: LinkageBatch, driver: NDArray[np.intp]) -> tuple[FloatA
     return at, cosine.T
 
 
-def drive_of(
+def input_of(
     stack: LinkageBatch, rows: FloatArray, length: float, driver: NDArray[np.intp]
 ) -> tuple[FloatArray, NDArray[np.bool_]]:
-    """The drive's coordinate (k, n) at rows (k, n, 3), see `drive`, and whether it turns (k,)."""
+    """The input (k, n), see `loop_closure`, at rows (k, n, 3), and whether it turns, (k,)."""
     every = np.arange(len(stack))
     z, kind = stack.dimensions[every, driver], stack.kinds[every, driver]
     d, angle = complex_of(rows), rows[..., 2] / length
@@ -339,15 +351,17 @@ def _links(stack: LinkageBatch, driver: NDArray[np.intp]) -> FloatArray:
 
 
 def type_excess(stack: LinkageBatch, driver: NDArray[np.intp], types: Sequence[str]) -> FloatArray:
-    """By how much 4R linkages (k,) are not of the types (k,): three numbers each, relative."""
+    """Three relative numbers (k, 3), all at most 0 where 4R linkages (k,) are of types (k,)."""
     links, names = _links(stack, driver), np.array(types, dtype=str)
     out = np.full((len(links), 3), -1.0)
-    for name, shortest in SHORTEST.items():
+    for name, shortest in SHORTEST_LINK.items():
         some = links[names == name]
         others = [i for i in range(4) if i != shortest]
         whole = some.sum(axis=1, keepdims=True)
-        out[names == name] = (2 * (some[:, [shortest]] + some[:, others]) - whole) / whole + SURE
+        out[names == name] = (
+            2 * (some[:, [shortest]] + some[:, others]) - whole
+        ) / whole + PROPORTION_MARGIN
     some = links[names == "triple-rocker"]
     ends, whole = some.min(axis=1) + some.max(axis=1), some.sum(axis=1)
-    out[names == "triple-rocker", 0] = (whole - 2 * ends) / whole + SURE
+    out[names == "triple-rocker", 0] = (whole - 2 * ends) / whole + PROPORTION_MARGIN
     return out

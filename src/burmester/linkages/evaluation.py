@@ -33,14 +33,14 @@ from burmester.tasks.problem import SynthesisProblem
 
 __all__ = ["Candidates", "Evaluation"]
 
-REACH = 0.1  # sizes of the motion; a pose missed by more is not met at all
-SHORTEST = 1e-6  # sizes; a ground link or a coupler shorter than this is none
-DETERMINED = 0.05  # spans; pivots known worse than this are not determined
-EXACT = 1e8  # weights: what an exact pose counts as, to say what its errors do
+ASSEMBLY_REACH = 0.1  # motion sizes; a pose missed by more is an assembly defect
+MIN_LINK = 1e-6  # motion sizes; linkages with a shorter ground link or coupler are dropped
+DETERMINED_SHARE = 0.05  # spans of the motion; pivots with larger regions are not determined
+EXACT_WEIGHT = 1e8  # weight of an exact pose in the covariance
 QUOTIENTS = DifferenceQuotients(stride=1e-7)  # of limits, by the dimensions
-TOUCHING = 1e-9  # lengths; a limit that is nearer than this is touched
-FIXED, MOVING = slice(0, 2), slice(2, 4)
-ROUNDED = 5  # linkages are rounded where that is asked, at most
+ACTIVE_LIMIT = 1e-9  # lengths; a limit nearer than this is active
+FIXED, MOVING = slice(0, 2), slice(2, 4)  # the pivots' coordinates in an RR dyad's dimensions
+MAX_ROUNDED = 5  # round at most this many linkages
 
 
 class Candidates(NamedTuple):
@@ -63,7 +63,7 @@ class Evaluation:
     """What linkages are judged by."""
 
     problem: SynthesisProblem
-    aim: Target
+    target: Target
 
     @property
     def task(self) -> Task:
@@ -73,13 +73,15 @@ class Evaluation:
     def stacked(self, pairs: Sequence[Pair]) -> LinkageBatch:
         """Pairs of dyads in the frames in which they are judged."""
         linkages = [Linkage(first.dyad, second.dyad) for first, second in pairs]
-        return LinkageBatch.of(linkages).seen(self.aim.frames)
+        return LinkageBatch.of(linkages).seen(self.target.frames)
 
-    def told(self, made: Candidates) -> list[FoundLinkage]:
+    def evaluate(self, candidates: Candidates) -> list[FoundLinkage]:
         """The linkages with all that is to be said of them, ranked."""
-        made = take(made, np.flatnonzero(_sizable(made.stack)))
-        own = made.stack.back(self.aim.frames) if made.own is None else made.own
-        places = self.aim.frames.unseen(self._places(made.rows))
+        candidates = take(candidates, np.flatnonzero(_sizable(candidates.stack)))
+        own = (
+            candidates.stack.back(self.target.frames) if candidates.own is None else candidates.own
+        )
+        places = self.target.frames.unseen(self._places(candidates.rows))
         errors = [PoseError.at(places[k], self.task.poses) for k in range(len(own))]
         verdicts = self._verdicts(own, places, errors)
         sides = np.tile(np.arange(2), (len(own), 1))
@@ -87,17 +89,19 @@ class Evaluation:
         for k, verdict in enumerate(verdicts):
             linkage = own.linkage(k)
             better, missing, works = self._driver(linkage, verdict)
-            parts = linkage, verdict, better, made.pairs[k]
+            parts = linkage, verdict, better, candidates.pairs[k]
             if better == "second" and len(self.task.limits) < 2:
                 sides[k] = (1, 0)
-                parts = _exchanged(linkage, verdict, made.pairs[k])
+                parts = _exchanged(linkage, verdict, candidates.pairs[k])
             linkage, verdict, better, (one, two) = parts  # noqa: PLW2901
             dyads = self.dyad(one, linkage.first), self.dyad(two, linkage.second)
             said = (dyads, linkage, errors[k], verdict, better, works, missing)
-            out.append(FoundLinkage("", 0, *said, bool(made.from_search[k])))
+            out.append(FoundLinkage("", 0, *said, bool(candidates.from_search[k])))
         rows = np.arange(len(own))[:, None]
-        stack = LinkageBatch(made.stack.kinds[rows, sides], made.stack.dimensions[rows, sides])
-        return self.ranked(self._measured(out, stack, made.rows))
+        stack = LinkageBatch(
+            candidates.stack.kinds[rows, sides], candidates.stack.dimensions[rows, sides]
+        )
+        return self.ranked(self._with_uncertainty(out, stack, candidates.rows))
 
     def ranked(self, found: list[FoundLinkage]) -> list[FoundLinkage]:
         """Those that work first, then by worst error; the same linkage once.
@@ -109,7 +113,7 @@ class Evaluation:
             worst = np.round(each.error.worst / (ROUNDING * self.problem.length_per_radian))
             return not each.usable, float(worst)
 
-        size = float(self.aim.frames.length)
+        size = float(self.target.frames.length)
         out: list[FoundLinkage] = []
         failed = set()
         for each in sorted(found, key=order):  # stable: the order of the dyads stays
@@ -125,16 +129,21 @@ class Evaluation:
     def rounded(self, found: list[FoundLinkage]) -> list[FoundLinkage]:
         """The best of them with lengths and pivots rounded, judged again."""
         out: list[FoundLinkage] = []
-        frames, options = self.aim.frames, self.problem.options
-        for each in found[:ROUNDED]:
+        frames, options = self.target.frames, self.problem.options
+        for each in found[:MAX_ROUNDED]:
             stack = LinkageBatch.of([each.linkage]).seen(frames)
-            rows = rows_of(frames.see(each.error.places), self.aim.length)[None]
+            rows = rows_of(frames.see(each.error.places), self.target.length)[None]
             driver = np.array([int(each.preferred_driver == "second")])
             own, rows = rounded(
-                stack, rows, self.aim, options.rounding_step, options.stock_lengths, driver
+                stack,
+                rows,
+                self.target,
+                step=options.rounding_step,
+                stock=options.stock_lengths,
+                driver=driver,
             )
             from_search = np.array([each.from_search])
-            new = self.told(Candidates(own.seen(frames), rows, [each.dyads], from_search, own))
+            new = self.evaluate(Candidates(own.seen(frames), rows, [each.dyads], from_search, own))
             if not new:
                 lost = Violation("rounding", "rounded so coarsely its pivots would fall together")
                 new = [replace(each, usable=False, violations=(*each.violations, lost))]
@@ -150,7 +159,7 @@ class Evaluation:
         return replace(origin, dyad=dyad, rms_error=rms, max_error=worst)
 
     def _places(self, rows: FloatArray) -> Displacement:
-        return Displacement(rows[..., :2], rows[..., 2] / self.aim.length)
+        return Displacement(rows[..., :2], rows[..., 2] / self.target.length)
 
     def _verdicts(
         self, own: LinkageBatch, places: Displacement, errors: list[PoseError]
@@ -164,7 +173,7 @@ class Evaluation:
             if within is not None
             else np.hypot(position, self.problem.length_per_radian * turn)
         )
-        reach = REACH * float(self.aim.frames.length) if within is None else within
+        reach = ASSEMBLY_REACH * float(self.target.frames.length) if within is None else within
         numbers = self.problem.pose_numbers
         given = self.task.names or ("",) * len(numbers)
         names = [name or str(number + 1) for name, number in zip(given, numbers, strict=True)]
@@ -180,7 +189,7 @@ class Evaluation:
                 any_order=asked.any_order,
             )
             for k, verdict in zip(index, verdicts, strict=True):
-                out[k] = _numbered(verdict, numbers)
+                out[k] = _with_numbers(verdict, numbers)
         return [verdict for verdict in out if verdict is not None]
 
     def _driver(
@@ -207,39 +216,39 @@ class Evaluation:
         (defects, missing, *_), reasons = ranked[best]
         return best, reasons, not (verdict.defects or defects or missing)
 
-    def _measured(
+    def _with_uncertainty(
         self, found: list[FoundLinkage], stack: LinkageBatch, rows: FloatArray
     ) -> list[FoundLinkage]:
         """The linkages with what errors of the poses, and of building, do to them."""
         sound = np.flatnonzero(np.isfinite(rows).all(axis=(1, 2)))
         if not len(sound):
             return found
-        unit, places = float(self.aim.frames.length), self._places(rows[sound])
+        unit, places = float(self.target.frames.length), self._places(rows[sound])
         position, angle = pose_sigma(self.task)
         weights = self.task.weights
         if self.task.exact is not None:
             weights = weights_or_ones(weights, self.task.exact.shape)
-            weights = np.where(self.task.exact, EXACT, weights)
-        held = _held_by(self.aim, stack[sound], rows[sound])
+            weights = np.where(self.task.exact, EXACT_WEIGHT, weights)
+        active = _active_limits(self.target, stack[sound], rows[sound])
         spreads = covariance(
             stack[sound],
             places,
-            self.aim.length,
+            self.target.length,
             (position / unit, angle),
             weights=weights,
-            fixed=held,
+            fixed=active,
         )
         regions = uncertainties(spreads, stack[sound], places, unit)
         deviation = links_deviation(stack[sound], spreads)
         built = None
         if self.problem.options.manufacturing_tolerance is not None:
             tolerance = self.problem.options.manufacturing_tolerance / unit
-            built = spread(stack[sound], self.aim.poses, places, self.aim.length, tolerance)
+            built = spread(stack[sound], self.target.poses, places, self.target.length, tolerance)
         span = np.linalg.norm(np.ptp(self.task.poses.translation, axis=0))
         size = max(float(span), self.problem.length_per_radian)
         out = list(found)
         for at, k in enumerate(sound):
-            determined = max(each.half_width for each in regions[at]) <= DETERMINED * size
+            determined = max(each.half_width for each in regions[at]) <= DETERMINED_SHARE * size
             tie = bool(abs(_excess(stack.dimensions[k])) <= 2 * deviation[at])
             out[k] = replace(out[k], uncertainty=regions[at], determined=determined, tie=tie)
             if built is not None:
@@ -252,8 +261,8 @@ def _sizable(stack: LinkageBatch) -> NDArray[np.bool_]:
     kinds, z = stack.kinds, stack.dimensions
     ground, coupler = (np.linalg.norm(z[:, 1, at] - z[:, 0, at], axis=-1) for at in (FIXED, MOVING))
     return np.asarray(
-        ((kinds == 1).any(axis=1) | (ground > SHORTEST))
-        & ((kinds == 2).any(axis=1) | (coupler > SHORTEST))
+        ((kinds == 1).any(axis=1) | (ground > MIN_LINK))
+        & ((kinds == 2).any(axis=1) | (coupler > MIN_LINK))
     )
 
 
@@ -284,23 +293,23 @@ def _alike(a: Dyad, b: Dyad, size: float) -> bool:
     return same_dyad(a, b, size)
 
 
-def _numbered(verdict: Verdict, numbers: Sequence[int]) -> Verdict:
+def _with_numbers(verdict: Verdict, numbers: Sequence[int]) -> Verdict:
     """With the poses' own numbers in the defects."""
 
-    def told(defects: tuple[Defect, ...]) -> tuple[Defect, ...]:
+    def numbered(defects: tuple[Defect, ...]) -> tuple[Defect, ...]:
         return tuple(replace(each, poses=tuple(numbers[i] for i in each.poses)) for each in defects)
 
     first, second = (
-        replace(each, defects=told(each.defects)) for each in (verdict.first, verdict.second)
+        replace(each, defects=numbered(each.defects)) for each in (verdict.first, verdict.second)
     )
-    return Verdict(told(verdict.defects), first, second)
+    return Verdict(numbered(verdict.defects), first, second)
 
 
-def _held_by(aim: Target, stack: LinkageBatch, rows: FloatArray) -> FloatArray | None:
+def _active_limits(target: Target, stack: LinkageBatch, rows: FloatArray) -> FloatArray | None:
     """The limits that hold linkages (k,): their derivatives (k, m, 10), zero where they do not."""
-    if not aim.kept:
+    if not target.kept:
         return None
-    keep = AllConstraints(aim.kept)
+    keep = AllConstraints(target.kept)
     count, size = len(stack), 2 * DIMENSIONS
     z = QUOTIENTS.points(stack.dimensions.reshape(count, size), np.eye(size)[:, None])
     every, times = np.tile(np.arange(count), len(z)), (len(z), 1, 1)
@@ -308,4 +317,4 @@ def _held_by(aim: Target, stack: LinkageBatch, rows: FloatArray) -> FloatArray |
     value, equal = keep(beside, np.tile(rows, times), every)
     value = value.reshape(len(z), count, -1)
     jacobian = QUOTIENTS.jacobian(value)
-    return np.where((equal | (value[0] > -TOUCHING))[..., None], jacobian, 0.0)
+    return np.where((equal | (value[0] > -ACTIVE_LIMIT))[..., None], jacobian, 0.0)

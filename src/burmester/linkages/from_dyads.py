@@ -30,11 +30,17 @@ from burmester.tasks.problem import SynthesisProblem
 
 __all__ = ["linkages_from_dyads"]
 
-TWICE = 2.0  # times the least greatest distance; one circuit may miss by so much for being one
-ROUGH, FINE = 8, 52  # steps of refining, for all linkages and for those that come near
-GOOD, NEAR = 4, 100.0  # those: so many, and all whose sum of squares is no more times the least
-MANY, ENOUGH = 1000, 60  # poses; of more so many are refined for, or looked for linkages with
-FEW = 5  # linkages found under conditions are kept, at most
+# Stay on one circuit if its worst error is at most this many times the unrestricted one.
+ONE_CIRCUIT_RATIO = 2.0
+FIRST_STEPS, FURTHER_STEPS = (
+    8,
+    52,
+)  # number of refinement steps: for all linkages, for the near ones
+# Refine fully the best MIN_REFINED and all within REFINED_COST_RATIO times the lowest cost.
+MIN_REFINED, REFINED_COST_RATIO = 4, 100.0
+# Refine on at most 1000 poses, search on at most 60, evenly thinned.
+MAX_POSES_REFINED, MAX_POSES_SEARCHED = 1000, 60
+MAX_SEARCHED = 5  # number of linkages kept from the search for defect-free linkages
 
 
 def linkages_from_dyads(
@@ -52,20 +58,20 @@ def linkages_from_dyads(
     if len(problem.task.limits) < 2:  # pairs of the same kinds are looked at together
         kind = {each.id: STACKED.index(type(each.dyad)) for pair in pairs for each in pair}
         pairs = [(b, a) if kind[b.id] < kind[a.id] else (a, b) for a, b in pairs]
-    judging = Evaluation(problem, _aim(problem))
-    start = judging.stacked(pairs)
-    found = judging.told(_of_pairs(start, pairs, judging.aim, refine))
+    evaluation = Evaluation(problem, _target_of(problem))
+    start = evaluation.stacked(pairs)
+    found = evaluation.evaluate(_of_pairs(start, pairs, evaluation.target, refine))
     closest = min(found, key=lambda each: each.error.worst, default=None)
     if refine and closest is not None and not closest.usable:
-        found = judging.ranked(found + _sought(start, pairs, judging, found))
+        found = evaluation.ranked(found + _searched(start, pairs, evaluation, found))
     if options.rounds:
-        found = judging.rounded(found)
+        found = evaluation.rounded(found)
     return tuple(
         replace(each, id=f"L{rank}", rank=rank) for rank, each in enumerate(found, start=1)
     )
 
 
-def _aim(problem: SynthesisProblem) -> Target:
+def _target_of(problem: SynthesisProblem) -> Target:
     task, length = problem.task, problem.length_per_radian
     frames = error_frames(task.poses, length)
     kept: tuple[Constraints, ...] = ()
@@ -86,97 +92,107 @@ def _aim(problem: SynthesisProblem) -> Target:
     )
 
 
-def _of_pairs(start: LinkageBatch, pairs: list[Pair], aim: Target, refine: bool) -> Candidates:
+def _of_pairs(start: LinkageBatch, pairs: list[Pair], target: Target, refine: bool) -> Candidates:
     """The pairs with their places, on one circuit where that is nearly as near as any."""
     every = np.arange(len(start))
-    rows = rows_of(on_circuits(start, aim.poses, aim.length), aim.length)
-    one = rows[every, np.nan_to_num(aim.cost(rows), nan=np.inf).argmin(axis=1)]
-    places = nearest(Displacement(rows[..., :2], rows[..., 2] / aim.length), aim.poses, aim.length)
-    best = rows_of(places, aim.length)
-    wanted = rows_of(aim.poses, aim.length)
+    rows = rows_of(on_circuits(start, target.poses, target.length), target.length)
+    one = rows[every, np.nan_to_num(target.cost(rows), nan=np.inf).argmin(axis=1)]
+    places = nearest(
+        Displacement(rows[..., :2], rows[..., 2] / target.length), target.poses, target.length
+    )
+    best = rows_of(places, target.length)
+    wanted = rows_of(target.poses, target.length)
     away, least = (
         np.sqrt(np.nan_to_num(((each - wanted) ** 2).sum(axis=-1), nan=np.inf)).max(axis=1)
         for each in (one, best)
     )
-    apart = away > np.maximum(TWICE * least, ROUNDING)
+    apart = away > np.maximum(ONE_CIRCUIT_RATIO * least, ROUNDING)
     both = apart & np.isfinite(away) & np.isfinite(least) & refine
     index = np.concatenate([every, np.flatnonzero(both)])
     rows = np.concatenate([np.where(apart[:, None, None], best, one), one[both]])
     none = np.zeros(len(index), dtype=bool)
-    made = Candidates(start[index], rows, [pairs[k] for k in index], none)
+    candidates = Candidates(start[index], rows, [pairs[k] for k in index], none)
     if refine:
-        made = _refined(made, aim)
-        if len(made.rows[0]) <= MANY:  # refining leaves some in a valley that is not the nearest
-            rows = on_own_circuits(made.stack, made.rows, aim.poses, aim.length)
-            made = made._replace(rows=rows)
+        candidates = _refined(candidates, target)
+        if (
+            len(candidates.rows[0]) <= MAX_POSES_REFINED
+        ):  # refining leaves some in a valley that is not the nearest
+            rows = on_own_circuits(candidates.stack, candidates.rows, target.poses, target.length)
+            candidates = candidates._replace(rows=rows)
     # What was not touched keeps its digits.
-    own = LinkageBatch.of([Linkage(a.dyad, b.dyad) for a, b in made.pairs]).dimensions
-    touched = (made.stack.dimensions != start.dimensions[index]).any(axis=(1, 2), keepdims=True)
-    own = np.where(touched, made.stack.back(aim.frames).dimensions, own)
-    return made._replace(own=LinkageBatch(made.stack.kinds, own))
+    own = LinkageBatch.of([Linkage(a.dyad, b.dyad) for a, b in candidates.pairs]).dimensions
+    touched = (candidates.stack.dimensions != start.dimensions[index]).any(
+        axis=(1, 2), keepdims=True
+    )
+    own = np.where(touched, candidates.stack.back(target.frames).dimensions, own)
+    return candidates._replace(own=LinkageBatch(candidates.stack.kinds, own))
 
 
-def _refined(made: Candidates, aim: Target) -> Candidates:
+def _refined(candidates: Candidates, target: Target) -> Candidates:
     """The linkages refined, but for those that meet the poses up to rounding already.
 
     All of them by some steps, and those that come near by as many as it takes.
     """
-    cost = aim.cost(made.rows)
-    some = np.flatnonzero(cost > ROUNDING**2 * made.rows.shape[1])
+    cost = target.cost(candidates.rows)
+    some = np.flatnonzero(cost > ROUNDING**2 * candidates.rows.shape[1])
     if not len(some):
-        return made
-    if (thin := aim.thinned(MANY)) is not aim:
-        stack = _refined(made._replace(rows=thin.places(made.stack)), thin).stack
-        return made._replace(stack=stack, rows=aim.places(stack))
-    kept = AllConstraints(aim.kept) if aim.kept else None
-    dimensions, rows = made.stack.dimensions.copy(), made.rows.copy()
-    plain = not aim.worst and kept is None and aim.exact is None
-    for steps in (ROUGH, FINE) if plain else (FINE,):
-        stack = LinkageBatch(made.stack.kinds[some], dimensions[some])
-        refined = aim.refine(stack, rows[some], conditions=kept, worst=aim.worst, steps=steps)
+        return candidates
+    if (thin := target.thinned(MAX_POSES_REFINED)) is not target:
+        stack = _refined(candidates._replace(rows=thin.places(candidates.stack)), thin).stack
+        return candidates._replace(stack=stack, rows=target.places(stack))
+    kept = AllConstraints(target.kept) if target.kept else None
+    dimensions, rows = candidates.stack.dimensions.copy(), candidates.rows.copy()
+    plain = not target.worst and kept is None and target.exact is None
+    for steps in (FIRST_STEPS, FURTHER_STEPS) if plain else (FURTHER_STEPS,):
+        stack = LinkageBatch(candidates.stack.kinds[some], dimensions[some])
+        refined = target.refine(
+            stack, rows[some], constraints=kept, worst=target.worst, steps=steps
+        )
         with np.errstate(invalid="ignore"):
-            better = refined.met & (aim.worst | (aim.cost(refined.rows) <= cost[some]))
+            better = refined.met & (target.worst | (target.cost(refined.rows) <= cost[some]))
         dimensions[some[better]] = refined.stack.dimensions[better]
         rows[some[better]] = refined.rows[better]
-        cost = aim.cost(rows)
-        near = np.sort(np.nan_to_num(cost, nan=np.inf))[: min(GOOD, len(cost))]
+        cost = target.cost(rows)
+        near = np.sort(np.nan_to_num(cost, nan=np.inf))[: min(MIN_REFINED, len(cost))]
         some = some[~refined.settled]
-        some = some[cost[some] <= max(NEAR * near[0], near[-1])]
+        some = some[cost[some] <= max(REFINED_COST_RATIO * near[0], near[-1])]
         if not len(some):
             break
-    return made._replace(stack=LinkageBatch(made.stack.kinds, dimensions), rows=rows)
+    return candidates._replace(stack=LinkageBatch(candidates.stack.kinds, dimensions), rows=rows)
 
 
-def _sought(
-    start: LinkageBatch, pairs: list[Pair], judging: Evaluation, plain: list[FoundLinkage]
+def _searched(
+    start: LinkageBatch, pairs: list[Pair], evaluation: Evaluation, plain: list[FoundLinkage]
 ) -> list[FoundLinkage]:
     """Linkages that work and come nearer to the poses than the plain ones that do."""
     best = min((each.error.worst for each in plain if each.usable), default=np.inf)
-    aim = judging.aim.thinned(ENOUGH)
-    stack, origin = _more(start, pairs, judging)
-    found = defect_free_linkages(stack, aim)
+    target = evaluation.target.thinned(MAX_POSES_SEARCHED)
+    stack, origin = _search_starts(start, pairs, evaluation)
+    found = defect_free_linkages(stack, target)
     if found is None:
         return []
     index = np.flatnonzero(found.refined.met)
     stack, rows = found.refined.stack[index], found.refined.rows[index]
-    if aim is not judging.aim:
-        rows = judging.aim.places(stack)
-    came = [origin[k] for k in found.pair[index]]
-    told = judging.told(Candidates(stack, rows, came, np.ones(len(index), dtype=bool)))
-    return [each for each in told if each.usable and each.error.worst < best][:FEW]
+    if target is not evaluation.target:
+        rows = evaluation.target.places(stack)
+    origins = [origin[k] for k in found.pair[index]]
+    evaluated = evaluation.evaluate(
+        Candidates(stack, rows, origins, np.ones(len(index), dtype=bool))
+    )
+    return [each for each in evaluated if each.usable and each.error.worst < best][:MAX_SEARCHED]
 
 
-def _more(
-    start: LinkageBatch, pairs: list[Pair], judging: Evaluation
+def _search_starts(
+    start: LinkageBatch, pairs: list[Pair], evaluation: Evaluation
 ) -> tuple[LinkageBatch, list[Pair]]:
     """Where the search starts from: the pairs, and links that are low in the pivot maps."""
-    if judging.problem.task.limits:
+    if evaluation.problem.task.limits:
         return start, pairs
-    links = links_of_pivot_map(judging.aim.poses, judging.problem.task.weights)
+    links = links_of_pivot_map(evaluation.target.poses, evaluation.problem.task.weights)
     own = {each.id: each for pair in pairs for each in pair}
     map_ = [
-        judging.dyad(f"M{number}", judging.aim.frames.circle_back(link[None])[0])
+        evaluation.dyad(f"M{number}", evaluation.target.frames.circle_back(link[None])[0])
         for number, link in enumerate(links, start=1)
     ]
     every = [*pairs, *combinations(map_, 2), *product(own.values(), map_)]
-    return judging.stacked(every), every
+    return evaluation.stacked(every), every

@@ -1,9 +1,9 @@
-"""The last step to a linkage: all its dimensions at once, for the least error at the poses.
+"""The refinement of linkages: all dimensions at once, for the least error at the poses.
 
-Two dyads that are best one by one do not make the best linkage.  Here the places of the coupler
-nearest to the poses, on the circuits where they are, are brought nearer by Gauss and Newton's
-method in all ten dimensions of both dyads (four of each slider), by exact derivatives (`misses`),
-and under conditions (limits, a branch to be kept, exact poses) by quadratic programs (`held`).
+Two dyads that are best one by one do not make the best linkage.  Gauss and Newton's method moves
+the coupler's nearest places towards the poses, on their circuits, in all ten dimensions of both
+dyads (four of each slider), with exact derivatives (`residuals`).  With constraints (limits, a
+branch, exact poses) quadratic programs take its place (`constrained_refinement`).
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ from burmester.fourbar.foot_points import rows_of
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.constrained_refinement import (
-    CURVED,
-    DAMPING,
-    GAIN,
-    LEAST,
-    MOST,
-    SETTLED,
-    held,
+    CONVERGED_STEP,
+    COST_ROUNDING,
+    MAX_DAMPING,
+    MIN_DAMPING,
+    START_DAMPING,
+    STEPS_BEFORE_CURVATURE,
+    refine_constrained,
 )
 from burmester.linkages.constraints import Constraints
 from burmester.linkages.residuals import (
@@ -32,8 +32,8 @@ from burmester.linkages.residuals import (
     Linearisation,
     Problem,
     State,
-    free_part,
-    rescaled,
+    linearised,
+    power_ratio,
     secant,
 )
 from burmester.numerics.arrays import FloatArray
@@ -44,19 +44,21 @@ from burmester.numerics.weights import weights_of_mean_one
 
 __all__ = ["Refined", "refine"]
 
-STEPS = 60  # of Gauss and Newton, at most
-HELD = 120  # steps under conditions, at most
-POWERS = (2.0, 8.0, 32.0, 128.0, 512.0)  # sums of ever higher powers lead to the least worst
+MAX_STEPS = 60  # number of steps without constraints at most
+MAX_CONSTRAINED_STEPS = 120  # number of steps with constraints at most
+# Exponents of the distances in the sums that are minimised one after the other; the minimum of the
+# last is nearly the one of the greatest distance.
+POWERS = (2.0, 8.0, 32.0, 128.0, 512.0)
 
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
 class Refined:
-    """Linkages (k,) as they came out, in the frames they were given in.
+    """Refined linkages (k,), in the frames in which they were given.
 
     rows: (k, N, 3), the coupler's places as x, y, length x angle; nan where a linkage was lost.
     cost: (k,), half the weighted sum of squared distances (or the greatest distance).
-    settled: (k,), whether the steps came to an end; met: whether all conditions hold.
+    settled: (k,), whether the steps converged; met: (k,), whether all constraints hold.
     """
 
     stack: LinkageBatch
@@ -74,20 +76,40 @@ def refine(
     *,
     weights: FloatArray | None = None,
     exact: NDArray[np.bool_] | None = None,
-    conditions: Constraints | None = None,
+    constraints: Constraints | None = None,
     free: NDArray[np.bool_] | None = None,
     worst: bool = False,
-    steps: int = STEPS,
-    held_steps: int = HELD,
+    steps: int = MAX_STEPS,
+    constrained_steps: int = MAX_CONSTRAINED_STEPS,
 ) -> Refined:
-    """Linkages (k,) with the least error at poses (N,), from those given and their places (k, N).
+    """Linkages (k,) refined to a local minimum of the error at poses (N,).
 
-    In frames where lengths are about 1 (`accuracy.error_frames`).  The places go along
-    continuously, so they stay on their circuits.  free: (k, 10), which dimensions may change.
-    worst: the greatest distance is to be least, not the sum of squares; by sums of ever higher
-    powers of the distances, so to about half a percent.  steps, and held_steps where something
-    is held: at most.
-    All minima are local ones.
+    In frames where lengths are about 1 (`pose_error.error_frames`).  Places change continuously, so
+    they stay on their circuits.
+
+    Parameters
+    ----------
+    stack : LinkageBatch
+        The linkages (k,) to start from.
+    places : Displacement
+        (k, N), their places nearest to the poses.
+    poses : Displacement
+        (N,)
+    length : float
+        The length that a radian counts as.
+    weights : (N,) array of float, optional
+        Of the squared distances.
+    exact : (N,) array of bool, optional
+        The poses that must be met exactly.
+    constraints : Constraints, optional
+        All further constraints.
+    free : (k, 10) array of bool, optional
+        The dimensions that may change; by default all.
+    worst : bool
+        Minimise the greatest distance instead of the sum of squares: by sums of ever higher powers
+        of the distances, and so to about half a percent.
+    steps, constrained_steps : int
+        The numbers of steps at most, without and with constraints.
     """
     count, number = len(stack), poses.shape[0]
     exact = np.zeros(number, dtype=bool) if exact is None else exact
@@ -95,15 +117,17 @@ def refine(
     slots = np.ones((count, 2, DIMENSIONS), dtype=bool)
     slots[..., -1] = stack.kinds == 0
     used = slots.reshape(count, SIZE) & (True if free is None else free)
-    problem = Problem(stack.kinds, rows_of(poses, length), length, share, exact, conditions, used)
+    problem = Problem(stack.kinds, rows_of(poses, length), length, share, exact, constraints, used)
     state = problem.state(
         np.arange(count), stack.dimensions.reshape(count, SIZE), rows_of(places, length)
     )
-    keeping = bool(exact.any()) or conditions is not None
+    keeping = bool(exact.any()) or constraints is not None
     rows, met = state.rows, np.ones(count, dtype=bool)
     for power in POWERS if worst else POWERS[:1]:
         if keeping:
-            z, rows, done, met = held(problem, state.z, rows, power, held_steps)
+            z, rows, done, met = refine_constrained(
+                problem, state.z, rows, power, constrained_steps
+            )
             state = state._replace(z=z)
         else:
             state, done = _descend(problem, state, power, steps)
@@ -126,13 +150,13 @@ def _descend(
 ) -> tuple[State, NDArray[np.bool_]]:
     """Levenberg and Marquardt's method without conditions."""
     count = len(state.z)
-    start = _Point(state, free_part(problem, np.arange(count), state, power))
+    start = _Point(state, linearised(problem, np.arange(count), state, power))
     hessian_estimate, good_steps = np.zeros((count, SIZE, SIZE)), np.zeros(count, dtype=int)
 
     def attempt(rows: NDArray[np.intp], here: _Point, damping: FloatArray) -> Attempt[_Point]:
         free = problem.free[rows]
         step = _step(here.model, damping, free)
-        use_curvature = good_steps[rows] >= CURVED
+        use_curvature = good_steps[rows] >= STEPS_BEFORE_CURVATURE
         if use_curvature.any():
             step[use_curvature] = _curved_step(
                 take(here.model, use_curvature),
@@ -143,15 +167,15 @@ def _descend(
         step, shift = problem.limited(here.state, step)
         z = here.state.z + step
         state = problem.state(rows, z, here.state.rows + shift)
-        there = _Point(state, free_part(problem, rows, state, power))
+        there = _Point(state, linearised(problem, rows, state, power))
         with np.errstate(invalid="ignore", over="ignore"):
             before, after = (
                 (point.model.residual * point.model.residual).sum(axis=-1)
                 for point in (here, there)
             )
         if power != 2.0:  # measured in the top distance of before
-            after = after * rescaled(problem, here.state, state, power)
-        better = problem.sound(rows, z) & (after <= before * (1 + GAIN))
+            after = after * power_ratio(problem, here.state, state, power)
+        better = problem.sound(rows, z) & (after <= before * (1 + COST_ROUNDING))
         refused = np.where(use_curvature, 0, good_steps[rows])
         good_steps[rows] = np.where(better, good_steps[rows] + 1, refused)
         taken = rows[better]
@@ -161,13 +185,13 @@ def _descend(
             take(here.model, better),
             take(there.model, better),
         )
-        damping = np.clip(np.where(better, damping / 10, damping * 10), LEAST, None)
-        small = np.abs(step).max(axis=-1) < SETTLED * (1 + np.abs(here.state.z).max(axis=-1))
-        idle = better & (before - after < GAIN * before)
-        return Attempt(there, better, damping, small | idle | (damping > MOST))
+        damping = np.clip(np.where(better, damping / 10, damping * 10), MIN_DAMPING, None)
+        small = np.abs(step).max(axis=-1) < CONVERGED_STEP * (1 + np.abs(here.state.z).max(axis=-1))
+        idle = better & (before - after < COST_ROUNDING * before)
+        return Attempt(there, better, damping, small | idle | (damping > MAX_DAMPING))
 
     rows = np.flatnonzero(np.isfinite(state.rows).all(axis=(1, 2)))
-    ends, done = damped_descent(attempt, start, rows, damping=DAMPING, max_steps=steps)
+    ends, done = damped_descent(attempt, start, rows, damping=START_DAMPING, max_steps=steps)
     return ends.state, done
 
 

@@ -1,8 +1,8 @@
-"""What refining makes less: the misses of linkages, and how they and the places change.
+"""The residuals of linkages at the poses, and their Jacobians by the dimensions.
 
-At a place x nearest to a pose only what is normal to the motion counts, and there J dx = -F dz,
-with J the forces of both dyads and F the derivatives of their equations by the dimensions z.
-Where places need not be the nearest ones, the ways along the motion are unknowns beside z.
+At a place x nearest to a pose only the components normal to the motion count, and there
+J dx = -F dz, with J the forces of both dyads and F the derivatives of their equations by the
+dimensions z.  Where places are free, steps along the motion are unknowns beside z.
 """
 
 from __future__ import annotations
@@ -26,29 +26,36 @@ __all__ = [
     "Linearisation",
     "Problem",
     "State",
-    "all_conditions",
-    "free_part",
-    "rescaled",
+    "all_constraints",
+    "linearised",
+    "power_ratio",
     "secant",
 ]
 
 SIZE = 2 * DIMENSIONS
-NEARER, CLOSE = 6, 1e-6  # Newton's steps to the nearest place; a step whose next is rounding
-OFF = 1e-6  # a place farther off its linkage is lost
-FEW = 64  # places that may be unknowns
+MAX_NEWTON_STEPS = 6  # number of steps to the nearest places at most
+CLOSE_STEP = 1e-6  # lengths; after a smaller step the next would be rounding
+OFF_LINKAGE = 1e-6  # residual, in lengths; a place with a greater one is lost
+MAX_FREE_PLACES = 64  # number of places that may be unknowns; with more, nearest places are used
 QUOTIENTS = DifferenceQuotients(stride=1e-7)  # of the constraints, by all unknowns
-MAX_SHIFT = 0.25  # lengths that a place may move in a step
-MAX_DIMENSION = 1e4  # lengths; a linkage with a longer one is on its way to infinity
+MAX_SHIFT = 0.25  # lengths; a step moves no place farther
+MAX_DIMENSION = 1e4  # lengths; a linkage with a longer dimension is given up
 
 
 class State(NamedTuple):
-    """Linkages (k,) with their places: misses u (k, N, 2) normal to the motion, and derivatives."""
+    """Linkages (k,) with their places.
+
+    z: (k, 10), dimensions; rows: (k, N, 3), places.
+    residual: (k, N, 2), normal to the motion (or (k, N, 3), of free places); jacobian: its
+        derivatives by the unknowns.
+    place_jacobian: (k, N, 3, n), the derivatives of the places.
+    """
 
     z: FloatArray
     rows: FloatArray
-    miss: FloatArray
-    slope: FloatArray
-    moved: FloatArray
+    residual: FloatArray
+    jacobian: FloatArray
+    place_jacobian: FloatArray
 
 
 class Linearisation(NamedTuple):
@@ -65,10 +72,11 @@ class Linearisation(NamedTuple):
 @final
 @dataclass(frozen=True, slots=True, eq=False)
 class Problem:
-    """What is asked of linkages of kinds (k, 2), whose dimensions are z (k, 10) all along.
+    """The refinement problem of linkages of kinds (k, 2), with dimensions z (k, 10).
 
-    wanted: (N, 3), the poses as rows of x, y, length x angle; share: (N,), roots of their weights,
-    0 for exact ones; free: (k, 10), which dimensions may change.
+    wanted: (N, 3), the poses as rows of x, y, length x angle.
+    share: (N,), roots of their weights, 0 for exact poses.
+    free: (k, 10), which dimensions may change.
     """
 
     kinds: NDArray[np.int8]
@@ -76,7 +84,7 @@ class Problem:
     length: float
     share: FloatArray
     exact: NDArray[np.bool_]
-    conditions: Constraints | None
+    constraints: Constraints | None
     free: NDArray[np.bool_]
 
     def stack(self, which: NDArray[np.intp], z: FloatArray) -> LinkageBatch:
@@ -84,79 +92,80 @@ class Problem:
         return LinkageBatch(self.kinds[which], z.reshape(-1, 2, DIMENSIONS))
 
     def state(self, which: NDArray[np.intp], z: FloatArray, rows: FloatArray) -> State:
-        """The linkages z (k, 10) with the places nearest to the poses that rows lead to."""
+        """The linkages z (k, 10) with their places nearest to the poses, by steps from rows."""
         with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-            rows, at, partial = self._brought(self.stack(which, z), rows, self.wanted)
+            rows, at, partial = self._foot_points(self.stack(which, z), rows, self.wanted)
             return State(z, rows, *_normal_part(at, rows - self.wanted, partial))
 
-    def _brought(
+    def _foot_points(
         self, stack: LinkageBatch, rows: FloatArray, target: FloatArray | None
     ) -> tuple[FloatArray, ConstraintNormals, FloatArray]:
-        """Rows brought to where target is nearest (None: straight ahead), nan where they are lost.
+        """The rows nearest to target (None: straight ahead of rows), nan where they are lost.
 
-        With what both dyads do there, and the derivatives by their dimensions.
+        With the constraints' normals there, and their derivatives by the dimensions.
         """
         surfaces = stack.surfaces()
-        for _ in range(NEARER):
+        for _ in range(MAX_NEWTON_STEPS):
             to = rows if target is None else target
             step, size = newton_step(surfaces, rows, to, self.length)
             rows = rows + step
-            if not (size > CLOSE).any():
+            if not (size > CLOSE_STEP).any():
                 break
         places = Displacement(rows[..., :2], rows[..., 2] / self.length)
-        miss, force, partial = stack.bearing(places)
-        off = ~(np.abs(miss) < OFF).all(axis=(1, 2))
+        residual, force, partial = stack.bearing(places)
+        off = ~(np.abs(residual) < OFF_LINKAGE).all(axis=(1, 2))
         rows[off] = np.nan
-        return rows, constraint_normals(miss, force, self.length), partial
+        return rows, constraint_normals(residual, force, self.length), partial
 
     @property
-    def loose(self) -> bool:
-        """Whether places are unknowns."""
-        looked_at = self.conditions is not None and getattr(self.conditions, "placed", True)
-        return looked_at and len(self.wanted) <= FEW
+    def places_are_free(self) -> bool:
+        """Whether steps along the motion are unknowns."""
+        looked_at = self.constraints is not None and getattr(self.constraints, "uses_places", True)
+        return looked_at and len(self.wanted) <= MAX_FREE_PLACES
 
-    def placed(self, which: NDArray[np.intp], z: FloatArray, rows: FloatArray) -> State:
-        """The linkages z (k, 10) with the places (k, N) that are straight ahead of rows.
+    def state_ahead(self, which: NDArray[np.intp], z: FloatArray, rows: FloatArray) -> State:
+        """The linkages z (k, 10) with the places (k, N) straight ahead of rows.
 
-        Misses are whole gaps (k, N, 3), and the ways along the motion are unknowns N + 10.
+        Residuals are all of the differences (k, N, 3), and the unknowns N + 10 include a step along
+        the motion for each place.
         """
-        if not self.loose:
+        if not self.places_are_free:
             return self.state(which, z, rows)
         with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-            rows, at, partial = self._brought(self.stack(which, z), rows, None)
+            rows, at, partial = self._foot_points(self.stack(which, z), rows, None)
             gap, every = rows - self.wanted, np.arange(rows.shape[1])
-            moved = np.zeros((*gap.shape, SIZE + len(every)))
-            moved[..., :SIZE] = _normal_part(at, gap, partial)[2]
-            moved[:, every, :, SIZE + every] = np.moveaxis(at.tangent, 1, 0)
-            return State(z, rows, gap, moved, moved)
+            place_jacobian = np.zeros((*gap.shape, SIZE + len(every)))
+            place_jacobian[..., :SIZE] = _normal_part(at, gap, partial)[2]
+            place_jacobian[:, every, :, SIZE + every] = np.moveaxis(at.tangent, 1, 0)
+            return State(z, rows, gap, place_jacobian, place_jacobian)
 
-    def limits(
+    def constraint_values(
         self, which: NDArray[np.intp], state: State
     ) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]]:
         """The conditions (k, m), and their derivatives (k, m, n), places moving along."""
-        unknowns = state.moved.shape[-1]
-        if self.conditions is None:
+        unknowns = state.place_jacobian.shape[-1]
+        if self.constraints is None:
             none = np.empty((len(which), 0, unknowns))
             return none[..., 0], none, np.empty(0, dtype=bool)
         z = QUOTIENTS.points(state.z, np.eye(unknowns)[:, None, :SIZE])
-        rows = QUOTIENTS.points(state.rows, np.moveaxis(state.moved, -1, 0))
+        rows = QUOTIENTS.points(state.rows, np.moveaxis(state.place_jacobian, -1, 0))
         count, number = len(which), state.rows.shape[1]
         every = np.tile(which, unknowns + 1)
-        value, equal = self.conditions(
+        value, equal = self.constraints(
             self.stack(every, z.reshape(-1, SIZE)), rows.reshape(-1, number, 3), every
         )
         value = value.reshape(unknowns + 1, count, -1)
-        slope = QUOTIENTS.jacobian(value)
-        return value[0], np.where(self.may(which)[:, None], slope, 0.0), equal
+        jacobian = QUOTIENTS.jacobian(value)
+        return value[0], np.where(self.free_unknowns(which)[:, None], jacobian, 0.0), equal
 
-    def may(self, which: NDArray[np.intp]) -> NDArray[np.bool_]:
-        """Which unknowns (k, n) may change."""
-        ways = np.ones((len(which), len(self.wanted) if self.loose else 0), dtype=bool)
+    def free_unknowns(self, which: NDArray[np.intp]) -> NDArray[np.bool_]:
+        """The unknowns (k, n) that may change."""
+        ways = np.ones((len(which), len(self.wanted) if self.places_are_free else 0), dtype=bool)
         return np.concatenate([self.free[which], ways], axis=1)
 
     def limited(self, state: State, step: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Steps (k, n) that move no place by more than `MAX_SHIFT`, and the shifts (k, N, 3)."""
-        shift = matvec(state.moved, step[:, None])
+        shift = matvec(state.place_jacobian, step[:, None])
         longest = np.abs(shift).max(axis=(1, 2))
         part = np.minimum(1.0, MAX_SHIFT / np.maximum(longest, MAX_SHIFT))
         return part[:, None] * step, part[:, None, None] * shift
@@ -167,17 +176,17 @@ class Problem:
         positive = ((radius > 0) | (self.kinds[which] > 0)).all(axis=-1)
         return np.asarray(positive & (np.abs(z).max(axis=-1) < MAX_DIMENSION))
 
-    def rooted(self, state: State, power: float) -> tuple[FloatArray, FloatArray]:
-        """Residuals (k, *) and their derivatives (k, *, n) whose squares are to be least."""
-        count, unknowns = state.slope.shape[0], state.slope.shape[-1]
-        miss = self.share[:, None] * state.miss
-        slope = self.share[:, None, None] * state.slope
+    def powered(self, state: State, power: float) -> tuple[FloatArray, FloatArray]:
+        """Residuals (k, *) whose squares are powers of the distances, and derivatives (k, *, n)."""
+        count, unknowns = state.jacobian.shape[0], state.jacobian.shape[-1]
+        residual = self.share[:, None] * state.residual
+        jacobian = self.share[:, None, None] * state.jacobian
         if power == 2.0:
-            number = miss.shape[1] * miss.shape[2]  # given, as there may be no linkages
-            return miss.reshape(count, number), slope.reshape(count, number, unknowns)
-        size = np.sqrt((miss * miss).sum(axis=-1)) + np.finfo(float).tiny
+            number = residual.shape[1] * residual.shape[2]  # given, as there may be no linkages
+            return residual.reshape(count, number), jacobian.reshape(count, number, unknowns)
+        size = np.sqrt((residual * residual).sum(axis=-1)) + np.finfo(float).tiny
         top = size.max(axis=-1, keepdims=True)
-        toward = (miss[..., None] * slope).sum(axis=-2) / size[..., None]
+        toward = (residual[..., None] * jacobian).sum(axis=-2) / size[..., None]
         root = (size / top) ** (power / 2)
         return top * root, (power / 2 * root / size * top)[..., None] * toward
 
@@ -185,7 +194,7 @@ class Problem:
 def _normal_part(
     at: ConstraintNormals, gap: FloatArray, partial: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Of gaps (k, N, 3) what is normal to the motion, (k, N, 2), in an orthonormal basis.
+    """The components (k, N, 2) of gaps (k, N, 3) normal to the motion, in an orthonormal basis.
 
     With its derivatives (k, N, 2, 10) by the dimensions, and those of the places (k, N, 3, 10).
     """
@@ -196,43 +205,43 @@ def _normal_part(
     basis[..., 1, :] = (at.force[..., 1, :] - (b / a)[..., None] * at.force[..., 0, :]) / height[
         ..., None
     ]
-    slope = np.zeros((*gap.shape[:-1], 2, SIZE))
-    slope[..., 0, :DIMENSIONS] = -partial[:, 0] / first[..., None]
-    slope[..., 1, :DIMENSIONS] = (b / a / height)[..., None] * partial[:, 0]
-    slope[..., 1, DIMENSIONS:] = -partial[:, 1] / height[..., None]
-    moved = np.swapaxes(basis, -1, -2) @ slope
-    return (basis @ gap[..., None])[..., 0], slope, moved
+    jacobian = np.zeros((*gap.shape[:-1], 2, SIZE))
+    jacobian[..., 0, :DIMENSIONS] = -partial[:, 0] / first[..., None]
+    jacobian[..., 1, :DIMENSIONS] = (b / a / height)[..., None] * partial[:, 0]
+    jacobian[..., 1, DIMENSIONS:] = -partial[:, 1] / height[..., None]
+    place_jacobian = np.swapaxes(basis, -1, -2) @ jacobian
+    return (basis @ gap[..., None])[..., 0], jacobian, place_jacobian
 
 
-def rescaled(problem: Problem, here: State, there: State, power: float) -> FloatArray:
-    """What the sum of powers at `there` is multiplied by, to be compared with that at `here`."""
+def power_ratio(problem: Problem, here: State, there: State, power: float) -> FloatArray:
+    """The factor (k,) that makes the sum of powers at `there` comparable with that at `here`."""
     top = [
-        np.sqrt(((problem.share[:, None] * each.miss) ** 2).sum(axis=-1)).max(axis=-1)
+        np.sqrt(((problem.share[:, None] * each.residual) ** 2).sum(axis=-1)).max(axis=-1)
         for each in (here, there)
     ]
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         return np.asarray((top[1] / top[0]) ** (power - 2))
 
 
-def free_part(
+def linearised(
     problem: Problem, which: NDArray[np.intp], state: State, power: float
 ) -> Linearisation:
-    """Residuals (k, *) and derivatives (k, *, n) by what may change."""
-    residual, slope = problem.rooted(state, power)
-    return Linearisation(residual, np.where(problem.may(which)[:, None], slope, 0.0))
+    """Residuals (k, *) and derivatives (k, *, n), 0 for unknowns that may not change."""
+    residual, jacobian = problem.powered(state, power)
+    return Linearisation(residual, np.where(problem.free_unknowns(which)[:, None], jacobian, 0.0))
 
 
-def all_conditions(
+def all_constraints(
     problem: Problem, which: NDArray[np.intp], state: State
 ) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]]:
     """Exact poses (equalities) and conditions: values (k, m), derivatives, which are to be 0."""
     count = len(which)
-    value, slope, equalities = problem.limits(which, state)
-    exact = state.miss[:, problem.exact].reshape(count, -1)
-    turn = state.slope[:, problem.exact].reshape(count, -1, state.slope.shape[-1])
-    turn = np.where(problem.may(which)[:, None], turn, 0.0)
+    value, jacobian, equalities = problem.constraint_values(which, state)
+    exact = state.residual[:, problem.exact].reshape(count, -1)
+    turn = state.jacobian[:, problem.exact].reshape(count, -1, state.jacobian.shape[-1])
+    turn = np.where(problem.free_unknowns(which)[:, None], turn, 0.0)
     equal = np.concatenate([np.ones(exact.shape[1], dtype=bool), equalities])
-    return np.concatenate([exact, value], axis=1), np.concatenate([turn, slope], axis=1), equal
+    return np.concatenate([exact, value], axis=1), np.concatenate([turn, jacobian], axis=1), equal
 
 
 def secant(
