@@ -13,7 +13,6 @@ from PIL import Image, ImageSequence
 
 import burmester
 from burmester import InputError
-from burmester.dyads import burmester_curve
 from burmester.fourbar.dyad import RR
 from burmester.geometry.displacement import Displacement
 from burmester.tasks.motion_task import Task
@@ -326,13 +325,3 @@ for name in burmester.__all__:
     getattr(burmester, name)
 """
     subprocess.run([sys.executable, "-c", program], check=True)
-
-
-def test_names_are_reached_from_the_package_and_are_those_of_their_rooms():
-    assert set(burmester.__all__) <= set(dir(burmester))
-    for name in burmester.__all__:
-        assert getattr(burmester, name) is not None
-    assert burmester.dyad_curve is burmester_curve.dyad_curve  # solvers too, in no one's way
-    assert "dyad_curve" not in dir(burmester)
-    with pytest.raises(AttributeError):
-        burmester.no_such_thing  # noqa: B018
