@@ -550,7 +550,7 @@ def test_e110_with_large_angles_does_not_claim_they_are_small(read: Read) -> Non
 def test_e110_speaks_of_one_angle_as_one(read: Read) -> None:
     error = refused(read, "x,y,angle\n1,2,2.5\n")
     assert error.code == "E110"
-    assert "the angle is 2.5: so many degrees, or 143.239 deg as radians" in error.text
+    assert "the angle is 2.5: 2.5 deg as degrees, 143.239 deg as radians" in error.text
 
 
 ESCAPES = "\x1b[31m\x07\x9b\u202e"  # what a terminal would obey
@@ -619,7 +619,7 @@ def test_a_contradicted_unit_is_refused_and_leaving_the_option_out_works(
 
     error = refusal(lambda: attempt(angle_unit="rad"))
     assert error.code == "E110"
-    assert "in degrees, --angle-unit says radians" in error.message
+    assert "states degrees, --angle-unit states radians" in error.message
     assert error.help.startswith("leave --angle-unit out")
     assert triples(attempt()) == triples(attempt(angle_unit="deg"))
 

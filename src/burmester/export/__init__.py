@@ -2,8 +2,8 @@
 
 A format is a module of this package with `write(chosen, path, options)` and
 `check(chosen, path, options)`, or `write_<name>` and `check_<name>` where one module has several.
-What is written is read back before it is put in place; a file that does not hold the linkage
-never comes to be.
+Every file is read back before it gets its name; a file that does not contain the linkage is
+deleted.
 
 E161 no such format        E130 a library is missing
 """
@@ -28,9 +28,20 @@ __all__ = ["FORMATS", "Format", "Options", "export", "format_of"]
 @final
 @dataclass(frozen=True, slots=True)
 class Format:
-    """A format: the module that writes it, what it is, what has to be installed, its suffix.
+    """A format of `export`.
 
-    extra: of `pip install 'burmester[extra]'`; libraries: what that brings and the format needs.
+    Attributes
+    ----------
+    module : str
+        The module of this package that writes it.
+    what : str
+        Its description, with the unit of lengths.
+    suffix : str
+        The suffix of its files.
+    extra : str or None
+        The extra of `pip install 'burmester[extra]'` that it needs.
+    libraries : tuple of str
+        The libraries of that extra that it imports.
     """
 
     module: str
@@ -66,7 +77,24 @@ FORMATS: Final[Mapping[str, Format]] = {
 
 
 def format_of(path: str | os.PathLike[str]) -> str | None:
-    """The format that a file's name asks for by its ending, where it asks for one."""
+    """The format that belongs to the suffix of a file.
+
+    Parameters
+    ----------
+    path : str or path
+        Name of a file.
+
+    Returns
+    -------
+    str or None
+        A key of `FORMATS`; None where the suffix belongs to no format.
+
+    Examples
+    --------
+    >>> from burmester.export import format_of
+    >>> format_of("lid.dxf"), format_of("lid.doc")
+    ('dxf', None)
+    """
     suffix = Path(path).suffix.lower()
     return next((name for name, each in FORMATS.items() if each.suffix == suffix), None)
 
@@ -78,10 +106,44 @@ def export(
     options: Options = Options(),  # noqa: B008  frozen
     force: bool = False,
 ) -> list[Path]:
-    """Write a linkage in a format, read it back and compare; the files that came to be.
+    """Write a linkage in a format, read the file back, and compare it with the linkage.
 
-    Raises InputError E130, E140, E141, E161, E162 and E163, and BurmesterError E160 where what
-    was written is not the linkage.
+    Parameters
+    ----------
+    chosen : SavedLinkage
+        The linkage.
+    to : str
+        A key of `FORMATS`.
+    path : str or path
+        The file.
+    options : Options
+        Unit, dimensions of plates, and settings of moving pictures.
+    force : bool
+        Replace a file that exists.
+
+    Returns
+    -------
+    list of Path
+        The files written.
+
+    Raises
+    ------
+    InputError
+        E130 (a library is missing), E140 and E141 (the file), E161 (no such format), E162 and E163
+        (the linkage does not suit the format).
+    BurmesterError
+        E160 where the written file does not contain the linkage.
+
+    Examples
+    --------
+    >>> import os, tempfile
+    >>> from burmester import read_task, synthesize
+    >>> from burmester.export import export
+    >>> best = synthesize(read_task("case:ge2012-exact")).best
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     [path] = export(best.saved(), "svg", os.path.join(folder, "linkage.svg"))
+    >>> path.name
+    'linkage.svg'
     """
     name = to.lower()
     if name not in FORMATS:

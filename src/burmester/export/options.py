@@ -19,13 +19,19 @@ MILLIMETRES = {"um": 1e-3, "mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "ft":
 @final
 @dataclass(frozen=True, slots=True)
 class Options:
-    """How a linkage is drawn and made; what is None is chosen from the linkage's own size.
+    """The options of an export; a dimension that is None is chosen from the linkage's size.
 
-    unit: of the task's lengths where the task names none (mm if this does not either).
-    hole: diameter of pins and holes; width: of links; thickness: of plates; gap: between plates
-    that lie on each other.  These four in the task's unit of lengths, or in `unit`.
-    pose: at which the assembly is drawn, from 1.
-    seconds, frames_per_second, width_px: of pictures that move.
+    Attributes
+    ----------
+    unit : str or None
+        Unit of the task's lengths, where the task states none; mm where both are None.
+    hole, width, thickness, gap : float or None
+        Diameter of pins and holes, width of links, thickness of plates, gap between plates that
+        lie on each other; in the unit of the task's lengths.
+    pose : int
+        The pose at which the assembly is drawn, from 1.
+    seconds, frames_per_second, width_px : float, float, int
+        Duration, frame rate and width of moving pictures.
     """
 
     unit: str | None = None

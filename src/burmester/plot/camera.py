@@ -30,9 +30,25 @@ def chart(points: ArrayLike) -> FloatArray:
 @final
 @dataclass(frozen=True, slots=True, eq=False)
 class Box:
-    """A box of the chart, (3,) from low to high, and what the eye sees of it.
+    """A box of the chart Z4 = 1 of the image space, and its proportions in a picture.
 
-    height: of Z3, where the longer side of Z1 and Z2 has the length 2.
+    Attributes
+    ----------
+    low, high : (3,) array
+        Two opposite corners.
+    height : float
+        Height of Z3 in the picture, where the longer side of Z1 and Z2 has the length 2.
+
+    Raises
+    ------
+    ValueError
+        Where the corners are not of shape (3,), or the first is not the lower one.
+
+    Examples
+    --------
+    >>> from burmester import plot
+    >>> plot.Box([-1, -1, 0], [1, 1, 2]).half.tolist()
+    [1.0, 1.0, 1.0]
     """
 
     low: FloatArray
@@ -89,11 +105,26 @@ class Box:
 @final
 @dataclass(frozen=True, slots=True, eq=False)
 class Camera:
-    """Where the eye is, (3,), and the picture's plane through the middle of the box.
+    """The eye, and the picture's plane through the middle of the box.
 
-    right, up: unit vectors (3,) of the plane.  ahead: (3,), from the eye to the middle.  A point of
-    the picture (x, y) is seen along the ray eye + t (ahead + x right + y up); it lies in the plane
-    at t = 1.
+    A point of the picture (x, y) is seen along the ray eye + t (ahead + x right + y up); it lies in
+    the plane at t = 1.
+
+    Attributes
+    ----------
+    eye : (3,) array
+        The position of the eye.
+    right, up : (3,) array
+        Unit vectors of the plane.
+    ahead : (3,) array
+        From the eye to the middle of the box.
+
+    Examples
+    --------
+    >>> import math
+    >>> from burmester import plot
+    >>> plot.Camera.at(0.0, math.pi / 2).eye.round(9).tolist()
+    [0.0, 0.0, 9.0]
     """
 
     eye: FloatArray

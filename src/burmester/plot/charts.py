@@ -59,10 +59,45 @@ def transmission(
     unit: str | None = None,
     samples: int = 721,
 ) -> DrawnTransmission:
-    """The transmission angle over the first dyad's drive along a circuit, in degrees.
+    """The transmission angle over the first dyad's input along a circuit, in degrees.
 
-    driven: the verdict of that drive; its circuit is taken, the range that the poses use is drawn
-    thick, and the poses are marked.  The second branch of a circuit is dashed.
+    The second branch of a circuit is dashed.  A line across marks the usual limit of 40 degrees.
+
+    Parameters
+    ----------
+    ax : Axes
+        Matplotlib axes.
+    linkage : Linkage
+        Shape (), the driver first.
+    circuit : int
+        The number of the circuit, 0 or 1.
+    driven : Driven, optional
+        The verdict for this driver: its circuit is drawn instead, the range that the poses use in a
+        thick line, and the poses are marked.
+    unit : str, optional
+        Unit of lengths, for the axis of a sliding input.
+    samples : int
+        Points of each branch.
+
+    Returns
+    -------
+    DrawnTransmission
+        The artists: the branches, the used range, the poses, the limit and the labels.
+
+    Raises
+    ------
+    InputError
+        E401 where the first dyad cannot drive.
+
+    Examples
+    --------
+    >>> from burmester import Displacement, Linkage, plot
+    >>> from burmester.fourbar.dyad import RR
+    >>> ax = plot.figure(4, 3).add_subplot()
+    >>> crank, rocker = RR([0, 0], [0, 0], 1.0), RR([4, 0], [3, 1], 5**0.5)
+    >>> four_bar, place = Linkage(crank, rocker), Displacement([0, 1], 0.0)
+    >>> len(plot.transmission(ax, four_bar).branches)
+    1
     """
     circuit = circuit if driven is None or driven.circuit < 0 else driven.circuit
     own = Circuits.of(linkage, as_given=True)[circuit]
@@ -145,6 +180,30 @@ def pose_errors(ax: Axes, error: PoseError, unit: str | None = None) -> DrawnErr
     """Position error (filled, left axis) and angle error (hollow, right axis) of each pose.
 
     Both axes are logarithmic.  An error of zero is drawn at the bottom.
+
+    Parameters
+    ----------
+    ax : Axes
+        Matplotlib axes.
+    error : PoseError
+        Shape (N,), of a linkage at the poses.
+    unit : str, optional
+        Unit of lengths, for the label of the axis.
+
+    Returns
+    -------
+    DrawnErrors
+        Both lines of markers, and the axes of the angle errors.
+
+    Examples
+    --------
+    >>> from burmester import Displacement, PoseError, plot
+    >>> ax = plot.figure(4, 3).add_subplot()
+    >>> poses = Displacement([[0, 0], [3, 1], [4, 3]], [0.0, 0.5, 1.0])
+    >>> places = Displacement([[0, 0.1], [3, 1], [4, 3]], [0.0, 0.5, 1.1])
+    >>> drawn = plot.pose_errors(ax, PoseError.at(places, poses))
+    >>> drawn.angle_axes.get_yscale()
+    'log'
     """
     number = np.arange(1, error.position.shape[-1] + 1)
     other = ax.twinx()

@@ -24,12 +24,30 @@ ZERO_COEFFICIENT = 1e-12  # of the largest coefficient: smaller ones count as 0
 
 
 def common_curve(p: ArrayLike, q: ArrayLike, samples: int = 400) -> list[FloatArray]:
-    """The loops in which two quadrics p and q (8,) meet: image points (samples, 4) each.
+    """The loops in which two quadrics meet, as image points.
 
-    The last sample of a loop is the same point as the first, perhaps of the other sign; the image
-    points are unit ones, but for two quadrics of lines (p1 = q1 = 0: two sliders), whose curve runs
-    through displacements that are infinitely far away.  No loops where the two have no
-    real point in common.
+    Parameters
+    ----------
+    p, q : (8,) array_like
+        The coefficients of two constraint manifolds.
+    samples : int
+        Points of each loop.
+
+    Returns
+    -------
+    list of (samples, 4) array
+        Unit image points; the last sample is the first point again, perhaps of the other sign.  Of
+        two quadrics of lines (p1 = q1 = 0: two sliders) the points have other lengths, because the
+        curve runs through displacements that are infinitely far away.  The list is empty where the
+        quadrics have no real point in common.
+
+    Examples
+    --------
+    >>> from burmester import plot
+    >>> from burmester.fourbar.dyad import RR
+    >>> crank, rocker = RR([0, 0], [0, 0], 1.0), RR([4, 0], [3, 1], 5**0.5)
+    >>> [loop.shape for loop in plot.common_curve(crank.coefficients(), rocker.coefficients(), 50)]
+    [(50, 4), (50, 4)]
     """
     one, two = (np.asarray(v, dtype=np.float64) for v in (p, q))
     if _roundness(two) > _roundness(one):

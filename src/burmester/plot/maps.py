@@ -44,11 +44,39 @@ def pivot_map(
     rows: int | None = None,
     weights: FloatArray | None = None,
 ) -> DrawnMap:
-    """The least error of a link for every fixed pivot between two corners (2,) of F.
+    """The least error of a link for every fixed pivot in a rectangle of F.
 
-    Colours go with the logarithm of the rms distance from the circle, dark where it is small; a
-    line is drawn at each power of ten and, dashed, at three times as much.  `mesh` is for a colour
-    bar.
+    The colours show the logarithm of the rms distance from the circle, dark where it is small.
+    There is a line at each power of ten and a dashed one at three times as much.
+
+    Parameters
+    ----------
+    ax : Axes
+        Matplotlib axes.
+    poses : Displacement
+        Shape (N,).
+    low, high : (2,) array_like
+        Two opposite corners of the rectangle, in F.
+    columns : int
+        Columns of the grid.
+    rows : int, optional
+        Rows of the grid; by default the cells are square.
+    weights : (N,) array, optional
+        Weights of the poses.
+
+    Returns
+    -------
+    DrawnMap
+        The map's numbers, the coloured mesh (for a colour bar) and the lines.
+
+    Examples
+    --------
+    >>> from burmester import plot, read_task
+    >>> ax = plot.figure(4, 3).add_subplot()
+    >>> task = read_task("case:ge2012-exact")
+    >>> drawn = plot.pivot_map(ax, task.poses, (-5, -5), (5, 5), columns=20)
+    >>> drawn.found.rms_error.shape
+    (20, 20)
     """
     (x0, y0), (x1, y1) = np.asarray([low, high], dtype=np.float64)
     rows = max(2, round(columns * (y1 - y0) / (x1 - x0))) if rows is None else rows
@@ -87,9 +115,29 @@ def pivot_map(
 
 
 def centre_point_curve(ax: Axes, curve: DyadCurve, *, within: float | None = None) -> list[Line2D]:
-    """The fixed pivots of four poses in F: solid, a line for each loop.
+    """The fixed pivots of all dyads through four poses, in F: a solid line for each loop.
 
-    within: how far from the middle of the curve's frame it is drawn, in the unit of lengths.
+    Parameters
+    ----------
+    ax : Axes
+        Matplotlib axes.
+    curve : DyadCurve
+        The Burmester curve of four poses.
+    within : float, optional
+        Distance from the middle of the poses at which the curve is cut off, in the unit of lengths.
+
+    Returns
+    -------
+    list of Line2D
+        One line for each loop.
+
+    Examples
+    --------
+    >>> from burmester import dyad_curve, plot, read_task
+    >>> ax = plot.figure(4, 3).add_subplot()
+    >>> curve = dyad_curve(read_task("case:ge2012-exact").poses[:4], samples=50)
+    >>> len(plot.centre_point_curve(ax, curve)) == len(curve.components)
+    True
     """
     return _loops(
         ax,
@@ -103,7 +151,32 @@ def centre_point_curve(ax: Axes, curve: DyadCurve, *, within: float | None = Non
 def circle_point_curve(
     ax: Axes, curve: DyadCurve, *, place: Displacement | None = None, within: float | None = None
 ) -> list[Line2D]:
-    """The moving pivots of four poses: dashed, in M, or in F where M is at a place ()."""
+    """The moving pivots of all dyads through four poses: a dashed line for each loop.
+
+    Parameters
+    ----------
+    ax : Axes
+        Matplotlib axes.
+    curve : DyadCurve
+        The Burmester curve of four poses.
+    place : Displacement, optional
+        Shape (), the place of M at which the curve is drawn in F; by default it is drawn in M.
+    within : float, optional
+        Distance from the middle of the poses at which the curve is cut off, in the unit of lengths.
+
+    Returns
+    -------
+    list of Line2D
+        One line for each loop.
+
+    Examples
+    --------
+    >>> from burmester import dyad_curve, plot, read_task
+    >>> ax = plot.figure(4, 3).add_subplot()
+    >>> curve = dyad_curve(read_task("case:ge2012-exact").poses[:4], samples=50)
+    >>> len(plot.circle_point_curve(ax, curve)) == len(curve.components)
+    True
+    """
     place = Displacement.identity() if place is None else place
     return _loops(
         ax,

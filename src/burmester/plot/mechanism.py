@@ -58,11 +58,40 @@ def linkage(
     color: str = BLUE,
     faint: bool = False,
 ) -> DrawnLinkage:
-    """Draw a linkage with its coupler at a place ().
+    """Draw a linkage with its coupler at a place.
 
-    travel: places (n,) that a rail or a slot has to reach as well.
-    names: write A0, A and B0, B beside the pivots.  faint: without ground and in thin lines, for
-    further places of one linkage.
+    Parameters
+    ----------
+    ax : Axes
+        Matplotlib axes.
+    linkage : Linkage
+        Shape (), the driver first.
+    place : Displacement
+        Shape (), the place of the coupler.
+    travel : tuple of Displacement
+        Shapes (n,), further places that a rail or a slot has to reach.
+    names : bool
+        Write A0, A and B0, B beside the pivots.
+    color : str
+        Colour of the coupler.
+    faint : bool
+        Thin lines without ground, for further places of one linkage.
+
+    Returns
+    -------
+    DrawnLinkage
+        The artists: links, coupler, ground, pivots and labels.
+
+    Examples
+    --------
+    >>> from burmester import Displacement, Linkage, plot
+    >>> from burmester.fourbar.dyad import RR
+    >>> ax = plot.figure(4, 3).add_subplot()
+    >>> crank, rocker = RR([0, 0], [0, 0], 1.0), RR([4, 0], [3, 1], 5**0.5)
+    >>> four_bar, place = Linkage(crank, rocker), Displacement([0, 1], 0.0)
+    >>> drawn = plot.linkage(ax, four_bar, place, names=True)
+    >>> [label.get_text() for label in drawn.labels]
+    ['$A_0$', '$A$', '$B_0$', '$B$']
     """
     dyads = (linkage.first, linkage.second)
     size = SYMBOL_SIZE * dimension(linkage)

@@ -61,12 +61,37 @@ def write_figures(
     formats: Sequence[str] = ("png", "svg", "pdf"),
     force: bool = False,
 ) -> list[Path]:
-    """Write the figures of the paper into a folder, which is made if need be; the paths written.
+    """Write the figures of the paper into a folder, which is created if necessary.
 
-    formats: of "png", "svg", "pdf"; with "gif" also the walk of theta as an animation.  The same
-    call writes the same bytes.
-    Raises InputError E140 (a file exists, and not `force`) and E141 (a file cannot be written),
-    before anything is drawn where that can be seen.
+    The same call writes the same bytes.
+
+    Parameters
+    ----------
+    folder : str or path
+        The folder.
+    formats : sequence of str
+        Of "png", "svg" and "pdf"; with "gif" also the walk of theta as an animation.
+    force : bool
+        Replace files that exist.
+
+    Returns
+    -------
+    list of Path
+        The files written.
+
+    Raises
+    ------
+    InputError
+        E140 (a file exists, without `force`) and E141 (a file cannot be written), before anything
+        is drawn where that can be known.
+    ValueError
+        For an unknown format.
+
+    Examples
+    --------
+    >>> from burmester import plot
+    >>> plot.write_figures("figures", formats=["png"])  # doctest: +SKIP
+    [PosixPath('figures/figure-1.png'), ...]
     """
     if unknown := [each for each in formats if each not in FORMATS]:
         raise ValueError(f"no such format: {unknown[0]!r}; there are {', '.join(FORMATS)}")

@@ -86,10 +86,37 @@ def poses(
     linestyle: str | tuple[int, tuple[float, ...]] = "-",
     numbers: bool = True,
 ) -> Frames:
-    """Poses (N,) as frames: a long x axis with a dot at its foot, a shorter y axis, and a number.
+    """Poses as frames: a long x axis with a dot at its foot, a shorter y axis, and a number.
 
-    size: of the x axis, in the unit of lengths; an eighth of the span of the poses if None.
-    names: one a pose, in the place of the numbers from 1.
+    Parameters
+    ----------
+    ax : Axes
+        Matplotlib axes.
+    poses : Displacement
+        Shape (N,) or ().
+    size : float, optional
+        Length of the x axes, in the unit of lengths; by default 0.13 of the span of the poses.
+    names : sequence of str, optional
+        One name a pose, instead of the numbers from 1.
+    color : str
+        Colour of axes and labels.
+    linestyle : str or tuple
+        Line style of the axes, as in Matplotlib.
+    numbers : bool
+        Write the numbers of the poses, if there are no names.
+
+    Returns
+    -------
+    Frames
+        The artists: all x axes, all y axes, the origins and the labels.
+
+    Examples
+    --------
+    >>> from burmester import plot, read_task
+    >>> ax = plot.figure(4, 3).add_subplot()
+    >>> task = read_task("case:ge2012-exact")
+    >>> [label.get_text() for label in plot.poses(ax, task.poses).labels]
+    ['1', '2', '3', '4', '5', '6', '7', '8', '9', '10']
     """
     row = poses if poses.shape else poses[None]
     long = X_AXIS_LENGTH * span_of(row) if size is None else size
@@ -138,12 +165,45 @@ def coupler_curve(
     only: int | None = None,
     size: float | None = None,
 ) -> CouplerCurve:
-    """The curve of a point (2,) of M: solid blue on the first circuit, dashed green on the second.
+    """The coupler curve of a point: solid blue on the first circuit, dashed green on the second.
 
-    The second branch of a circuit is drawn thinner, and a cross marks each dead point of the first
-    dyad's drive.  only: the number of the one circuit to draw.  size: of the motion, which decides
-    where an endless curve is cut off; that of the linkage if None.
-    Raises InputError E401 where the first dyad cannot drive.
+    The second branch of a circuit is drawn thinner.  A cross marks each dead point of the driver.
+
+    Parameters
+    ----------
+    ax : Axes
+        Matplotlib axes.
+    linkage : Linkage
+        Shape (), the driver first.
+    point : (2,) array_like
+        The point, in M.
+    samples : int
+        Points of each branch.
+    only : int, optional
+        The number of the one circuit to draw, 0 or 1.
+    size : float, optional
+        Size of the motion, which decides where an endless curve is cut off; by default that of the
+        linkage.
+
+    Returns
+    -------
+    CouplerCurve
+        The lines of each circuit, and the dead points.
+
+    Raises
+    ------
+    InputError
+        E401 where the first dyad cannot drive.
+
+    Examples
+    --------
+    >>> from burmester import Displacement, Linkage, plot
+    >>> from burmester.fourbar.dyad import RR
+    >>> ax = plot.figure(4, 3).add_subplot()
+    >>> crank, rocker = RR([0, 0], [0, 0], 1.0), RR([4, 0], [3, 1], 5**0.5)
+    >>> four_bar, place = Linkage(crank, rocker), Displacement([0, 1], 0.0)
+    >>> len(plot.coupler_curve(ax, four_bar, (1.5, 1.0)).circuits)
+    2
     """
     circuits = Circuits.of(linkage, as_given=True)
     drawn, dead = list[list[Line2D]](), list[Line2D]()
@@ -193,10 +253,34 @@ def achieved(
     scale: float | None = None,
     size: float | None = None,
 ) -> Achieved:
-    """Achieved places (N,) over wanted poses (N,), and the position errors as lines.
+    """Achieved places over the poses of a task, and the position errors as lines.
 
-    The places are drawn `scale` times as far from their poses as they are, turned as far, and a
-    note says so; None takes a round number for which the greatest error is well seen.
+    Parameters
+    ----------
+    ax : Axes
+        Matplotlib axes.
+    places : Displacement
+        Shape (N,), the places of the coupler.
+    poses_ : Displacement
+        Shape (N,), the poses of the task.
+    scale : float, optional
+        Factor by which the errors are drawn larger, which the legend states; by default a round
+        number with which the largest error is well visible.
+    size : float, optional
+        Length of the x axes, in the unit of lengths.
+
+    Returns
+    -------
+    Achieved
+        The artists of poses, places and errors, and the scale.
+
+    Examples
+    --------
+    >>> from burmester import plot, read_task
+    >>> ax = plot.figure(4, 3).add_subplot()
+    >>> task = read_task("case:ge2012-exact")
+    >>> plot.achieved(ax, task.poses, task.poses).scale
+    1.0
     """
     gap = places.translation - poses_.translation
     turn = places.angle - poses_.angle
@@ -239,9 +323,38 @@ class DrawnCentrodes(NamedTuple):
 def centrodes(
     ax: Axes, linkage: Linkage, place: Displacement, *, circuit: int = 0, samples: int = 721
 ) -> DrawnCentrodes:
-    """The fixed centrode, solid, and the moving one, dashed, where the coupler is at a place ().
+    """The fixed centrode, solid, and the moving one, dashed, for the coupler at a place.
 
-    Along one circuit; both are cut off far from the place, for they may run through infinity.
+    Both are cut off far from the place, because they may run through infinity.
+
+    Parameters
+    ----------
+    ax : Axes
+        Matplotlib axes.
+    linkage : Linkage
+        Shape (), the driver first.
+    place : Displacement
+        Shape (), the place at which the moving centrode is drawn.
+    circuit : int
+        The number of the circuit, 0 or 1.
+    samples : int
+        Points of each branch.
+
+    Returns
+    -------
+    DrawnCentrodes
+        Both lines, and their points in F.
+
+    Examples
+    --------
+    >>> from burmester import Displacement, Linkage, plot
+    >>> from burmester.fourbar.dyad import RR
+    >>> ax = plot.figure(4, 3).add_subplot()
+    >>> crank, rocker = RR([0, 0], [0, 0], 1.0), RR([4, 0], [3, 1], 5**0.5)
+    >>> four_bar, place = Linkage(crank, rocker), Displacement([0, 1], 0.0)
+    >>> drawn = plot.centrodes(ax, four_bar, place, samples=90)
+    >>> drawn.points.fixed.shape
+    (90, 2)
     """
     own = Circuits.of(linkage, as_given=True)[circuit]
     size = dimension(linkage)

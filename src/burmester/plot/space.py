@@ -116,18 +116,53 @@ def image_space(
     numbers: bool = True,
     pixels: int | None = None,
 ) -> ImageSpace:
-    """Draw quadrics of the image space on given axes, in the chart Z4 = 1.
+    """Draw quadrics of the image space, in the chart Z4 = 1.
 
-    quadrics: manifolds (k, 8), or matrices (k, 4, 4), none to four of them.
-    poses: (N,), drawn as image points with their numbers.
-    curve: loops (n, 4) of image points; of two quadrics or more the curve that the first two share
-        if None.
-    box: what of the chart is drawn; None for a box around curve and points.
-    names: of the quadrics, for a legend.  unit: of lengths.
-    pixels: columns of the picture of the surfaces; None for as many as the axes have.
+    The axes get equal scales and no frame.  Z1 and Z2 have one scale; Z3, which is no length, has
+    its own.  Covered parts of curves are dashed, covered points hollow.
 
-    The axes get equal scales and no frame.  Z1 and Z2 have one scale, Z3, which is no length, its
-    own.  What is covered is dashed and hollow.
+    Parameters
+    ----------
+    ax : Axes
+        Matplotlib axes.
+    quadrics : (k, 8) or (k, 4, 4) array_like
+        Constraint manifolds or matrices, none to four of them.
+    poses : Displacement, optional
+        Shape (N,), drawn as image points with their numbers.
+    curve : sequence of (n, 4) array_like, optional
+        Loops of image points; by default the curve that the first two quadrics share.
+    box : Box, optional
+        The part of the chart that is drawn; by default a box around curve and points.
+    camera : Camera, optional
+        The point of view; by default from the left in front, a little from above.
+    names : sequence of str
+        Names of the quadrics, for a legend.
+    colours : sequence of str
+        Colours of the quadrics.
+    opacity : float
+        Opacity of the surfaces, 0 to 1.
+    unit : str, optional
+        Unit of lengths.
+    numbers : bool
+        Write the numbers of the poses.
+    pixels : int, optional
+        Columns of the picture of the surfaces; by default those of the axes.
+
+    Returns
+    -------
+    ImageSpace
+        The scene, its box, and the artists.
+
+    Examples
+    --------
+    >>> from burmester import plot, read_task
+    >>> ax = plot.figure(4, 3).add_subplot()
+    >>> task = read_task("case:ge2012-exact")
+    >>> from burmester import fit_pencil
+    >>> p = fit_pencil(task.poses).coefficients
+    >>> drawn = plot.image_space(ax, p, poses=task.poses, pixels=40)
+    >>> len(drawn.labels)
+    10
     """
     given = np.asarray(quadrics, dtype=np.float64)
     if curve is None:

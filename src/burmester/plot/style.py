@@ -99,9 +99,20 @@ _RC: Final = {
 
 @contextmanager
 def house_style() -> Iterator[None]:
-    """The fonts, colours and fixed ids of the package's own figures, for figures made and saved.
+    """The fonts, colours and fixed ids of the package's own figures, as a context.
 
-    With it the same figure is written with the same bytes each time.
+    A figure that is made and saved inside it is written with the same bytes each time.
+
+    Returns
+    -------
+    context manager
+        Matplotlib's settings are restored at its end.
+
+    Examples
+    --------
+    >>> from burmester import plot
+    >>> with plot.house_style():
+    ...     ax = plot.figure(4, 3).add_subplot()
     """
     with mpl.rc_context():
         mpl.rcdefaults()
@@ -110,7 +121,26 @@ def house_style() -> Iterator[None]:
 
 
 def figure(width: float, height: float, dpi: float = 160.0) -> Figure:
-    """An empty figure in inches that belongs to no screen and no window."""
+    """An empty figure that belongs to no screen and no window.
+
+    Parameters
+    ----------
+    width, height : float
+        Inches.
+    dpi : float
+        Pixels per inch.
+
+    Returns
+    -------
+    Figure
+        A Matplotlib figure with the Agg canvas.
+
+    Examples
+    --------
+    >>> from burmester import plot
+    >>> plot.figure(4, 3, dpi=100).bbox.size.tolist()
+    [400.0, 300.0]
+    """
     out = Figure(figsize=(width, height), dpi=dpi)
     FigureCanvasAgg(out)
     return out
@@ -149,9 +179,28 @@ def label(
 
 
 def finish(ax: Axes, unit: str | None = None, *, room: float = DRAWING_MARGIN) -> None:
-    """Equal axes around all that is drawn, their unit, and labels moved apart; to be called last.
+    """Set equal axes around the drawing, write the unit, move labels apart; to be called last.
 
-    For the plane of F; `unit` as the task writes it, or None.
+    For drawings in the plane of F.
+
+    Parameters
+    ----------
+    ax : Axes
+        Matplotlib axes.
+    unit : str, optional
+        Unit of lengths, as the task states it.
+    room : float
+        Space left free around the drawing, in shares of its longer side.
+
+    Examples
+    --------
+    >>> from burmester import plot, read_task
+    >>> ax = plot.figure(4, 3).add_subplot()
+    >>> task = read_task("case:ge2012-exact")
+    >>> frames = plot.poses(ax, task.poses)
+    >>> plot.finish(ax, "mm")
+    >>> ax.get_xlabel()
+    'X (mm)'
     """
     ax.set_aspect("equal", adjustable="box")
     ax.relim()
@@ -165,7 +214,31 @@ def finish(ax: Axes, unit: str | None = None, *, room: float = DRAWING_MARGIN) -
 
 
 def legend(ax: Axes, columns: int = 2) -> Legend:
-    """A legend above the axes, where it covers nothing."""
+    """A legend above the axes, where it covers nothing.
+
+    Parameters
+    ----------
+    ax : Axes
+        Matplotlib axes.
+    columns : int
+        Columns of the legend.
+
+    Returns
+    -------
+    Legend
+        Matplotlib's legend.
+
+    Examples
+    --------
+    >>> from burmester import Displacement, Linkage, plot
+    >>> from burmester.fourbar.dyad import RR
+    >>> ax = plot.figure(4, 3).add_subplot()
+    >>> crank, rocker = RR([0, 0], [0, 0], 1.0), RR([4, 0], [3, 1], 5**0.5)
+    >>> four_bar, place = Linkage(crank, rocker), Displacement([0, 1], 0.0)
+    >>> curve = plot.coupler_curve(ax, four_bar)
+    >>> [text.get_text() for text in plot.legend(ax).get_texts()]
+    ['circuit 1', 'circuit 2']
+    """
     return ax.legend(
         loc="lower left",
         bbox_to_anchor=(0.0, 1.0),

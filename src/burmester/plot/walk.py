@@ -27,7 +27,28 @@ PALETTE_SIZE = 256  # colours of a GIF
 
 
 def steps(start: ArrayLike, end: ArrayLike, count: int = 40, hold: int = 10) -> FloatArray:
-    """Angles (n, k) from start (k,) to end (k,), radians: slow at both ends, and a while there."""
+    """Angles of a walk through a pencil: slow at both ends, with a pause there.
+
+    Parameters
+    ----------
+    start, end : (k,) array_like
+        Angles of the quadrics, radians.
+    count : int
+        Steps from start to end.
+    hold : int
+        Steps of the pause: half as many at the start, all at the end.
+
+    Returns
+    -------
+    (n, k) array
+        Angles of each step, radians.
+
+    Examples
+    --------
+    >>> from burmester import plot
+    >>> plot.steps([0.0], [1.0], count=3, hold=2).round(3).ravel().tolist()
+    [0.0, 0.0, 0.5, 1.0, 1.0, 1.0]
+    """
     a, b = np.asarray(start, dtype=np.float64), np.asarray(end, dtype=np.float64)
     share = (1 - np.cos(np.linspace(0, np.pi, count))) / 2
     share = np.concatenate([np.zeros(hold // 2), share, np.ones(hold)])
@@ -45,9 +66,31 @@ def walk(
     size: tuple[int, int] = (640, 560),
     unit: str | None = None,
 ) -> Iterator[NDArray[np.uint8]]:
-    """Pictures (rows, columns, 3) of the quadrics at angles theta (n, k) of a pencil.
+    """Pictures of the quadrics at angles theta of a pencil.
 
-    basis: (2, 8), v1 and v2.  size: columns and rows.  The rest as in `image_space`.
+    Parameters
+    ----------
+    basis : (2, 8) array_like
+        The singular vectors v1 and v2.
+    theta : (n, k) array_like
+        Angles of the k quadrics in each picture, radians.
+    poses, box, camera, curve, unit
+        As in `image_space`.
+    size : (int, int)
+        Columns and rows of a picture.
+
+    Returns
+    -------
+    iterator of (rows, columns, 3) array
+        One picture for each row of theta.
+
+    Examples
+    --------
+    >>> from burmester import fit_pencil, plot, read_task
+    >>> v = fit_pencil(read_task("case:ge2012-exact").poses).vectors[:2]
+    >>> picture = next(plot.walk(v, [[0.0, 1.5]], size=(64, 56)))
+    >>> picture.shape
+    (56, 64, 3)
     """
     v, angles = np.asarray(basis, dtype=np.float64), np.asarray(theta, dtype=np.float64)
     last: tuple[FloatArray, NDArray[np.uint8]] | None = None
@@ -83,9 +126,30 @@ def write_gif(
     seconds: float = 0.08,
     force: bool = False,
 ) -> None:
-    """Write pictures (rows, columns, 3) as an endless GIF, `seconds` each; equal ones are joined.
+    """Write pictures as an endless GIF; equal pictures in a row are joined.
 
-    Raises InputError E140 (the file exists) and E141 (it cannot be written).
+    Parameters
+    ----------
+    path : str or path
+        The file.
+    pictures : iterable of (rows, columns, 3) array
+        Bytes of red, green and blue.
+    seconds : float
+        Duration of each picture.
+    force : bool
+        Replace a file that exists.
+
+    Raises
+    ------
+    InputError
+        E140 (the file exists) and E141 (it cannot be written).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from burmester import plot
+    >>> pictures = [np.full((8, 8, 3), grey, dtype=np.uint8) for grey in (0, 255)]
+    >>> plot.write_gif("blink.gif", pictures)  # doctest: +SKIP
     """
     kept, times = list[NDArray[np.uint8]](), list[int]()
     for picture in pictures:

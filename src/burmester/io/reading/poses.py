@@ -101,9 +101,9 @@ def read_task(
     >>> from burmester import read_task
     >>> task = read_task("case:ge2012-exact")
     >>> task.poses.shape
-    (5,)
+    (10,)
     >>> read_task("case:ge2012-exact", drop=["2,4"]).poses.shape
-    (3,)
+    (8,)
 
     """
     if angle_unit not in (None, *UNITS):
