@@ -1,5 +1,6 @@
 """The command as its users meet it: as a process of its own."""
 
+import ast
 import json
 import os
 import re
@@ -7,7 +8,8 @@ import signal
 import subprocess
 import sys
 import time
-from importlib import resources
+from importlib import import_module, resources
+from pathlib import Path
 
 import jsonschema
 import numpy as np
@@ -512,6 +514,17 @@ def test_the_main_job_does_without_what_it_does_not_need(poses):
     loaded = imported("synthesize", poses)
     assert {"numpy", "rich"} <= loaded
     assert not loaded & {"scipy", "pydantic", "matplotlib"}
+
+
+def test_exported_names_are_those_that_a_type_checker_sees():
+    tree = ast.parse(Path(burmester.__file__).read_text(encoding="utf-8"))
+    block = next(node for node in tree.body if isinstance(node, ast.If))
+    seen = {each.name: node.module for node in block.body for each in node.names}
+    assert {*seen, "__version__"} > set(dir(burmester)) > set(burmester.__all__)
+    for name, room in seen.items():
+        assert getattr(burmester, name) is getattr(import_module(room), name)
+    with pytest.raises(AttributeError):
+        burmester.no_such_thing  # noqa: B018
 
 
 def test_ctrl_c_leaves_quietly(tmp_path):

@@ -86,7 +86,7 @@ def random_pencil(rng, kind):
 
 
 @pytest.mark.parametrize("kind", ["generic", "exact", "flat"])
-def test_stationary_points_against_a_fine_grid(kind):
+def teststationary_angles_against_a_fine_grid(kind):
     rng = np.random.default_rng(1)
     grid = np.linspace(0, np.pi, 20000, endpoint=False)
     for _ in range(300):
@@ -95,7 +95,7 @@ def test_stationary_points_against_a_fine_grid(kind):
         e = (constraint_manifold.conditions(p) ** 2).sum(axis=-1)
         low = (e < np.roll(e, 1)) & (e <= np.roll(e, -1))
         high = (e > np.roll(e, 1)) & (e >= np.roll(e, -1))
-        theta = pencil._stationary_points(v[0], v[1])
+        theta = pencil.stationary_angles(v[0], v[1])
         at = np.cos(theta)[:, None] * v[0] + np.sin(theta)[:, None] * v[1]
         error = (constraint_manifold.conditions(at) ** 2).sum(axis=-1)
         assert low.sum() == high.sum() == np.isfinite(theta[:2]).sum()

@@ -183,12 +183,20 @@ def test_back_and_forth(films):
         assert abs(seen[0] - seen[-1]) < 3, name
 
 
-def test_scale_of_back_and_forth(films):
+def test_scale_of_back_and_forth(films, tmp_path, monkeypatch):
     """The rail's pin travels 60 mm between two fixed things of which one is the other pivot."""
     pictures = mp4(films.folder / "rocking.mp4")
     seen = np.array([yellow(picture) for picture in pictures])
     # The frame's ticks: both axes have the same pixels for a millimetre.
-    drawn = movie._stage(movie._mp4(films.rocking, SMALL)).ax.transData
+    figures = []
+
+    def kept(*size, figure=movie.plot.figure):
+        figures.append(figure(*size))
+        return figures[-1]
+
+    monkeypatch.setattr(movie.plot, "figure", kept)
+    movie.write_mp4(films.rocking, tmp_path / "again.mp4", SMALL)
+    drawn = figures[-1].axes[0].transData
     (x0, y0), (x1, y1) = drawn.transform([(0, 0), (60, 60)])
     assert x1 - x0 == pytest.approx(y1 - y0, rel=1e-9)
     assert np.ptp(abs(seen - seen[0])) == pytest.approx(x1 - x0, abs=1.5)

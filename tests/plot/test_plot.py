@@ -604,7 +604,10 @@ def overlaps(drawing):
             if not (ax.axison and axis.get_visible()):
                 continue
             texts += [axis.label, axis.offsetText]
-            texts += [t for tick in axis._update_ticks() for t in (tick.label1, tick.label2)]
+            low, high = sorted(axis.get_view_interval())
+            ticks = [*axis.get_major_ticks(), *axis.get_minor_ticks()]
+            ticks = [tick for tick in ticks if low <= tick.get_loc() <= high]
+            texts += [t for tick in ticks for t in (tick.label1, tick.label2)]
     texts = [t for t in texts if t.get_visible() and t.get_text().strip()]
     boxes = [(t.get_text(), rectangle(t, renderer)) for t in texts]
     return [(a, b) for (a, one), (b, two) in combinations(boxes, 2) if meet(one, two)]

@@ -31,7 +31,7 @@ from burmester.geometry import constraint_manifold
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["Pencil", "fit_pencil"]
+__all__ = ["Pencil", "fit_pencil", "stationary_angles"]
 
 LEAST_POSES = 6  # below, the quadrics through the poses are more than a pencil
 BLOCK = 1024  # rows reduced at a time; small enough that BLAS starts no threads for them
@@ -111,7 +111,7 @@ def fit_pencil(
     design = _design(seen, weights, metric)
     _, descending, v = np.linalg.svd(design, full_matrices=False)
     vectors = v[..., ::-1, :] * metric
-    theta = _stationary_points(vectors[..., 0, :], vectors[..., 1, :])
+    theta = stationary_angles(vectors[..., 0, :], vectors[..., 1, :])
     p = (
         np.cos(theta)[..., None] * vectors[..., None, 0, :]
         + np.sin(theta)[..., None] * vectors[..., None, 1, :]
@@ -151,7 +151,7 @@ def _design(poses: Displacement, weights: FloatArray | None, metric: FloatArray)
     return np.concatenate(blocks, axis=-2)
 
 
-def _stationary_points(v1: FloatArray, v2: FloatArray) -> FloatArray:
+def stationary_angles(v1: FloatArray, v2: FloatArray) -> FloatArray:
     """The stationary points theta (*, 4) of E on the pencil of v1, v2 (*, 8); see Pencil.
 
     With w = v1 - i v2, p(theta) = Re(w exp(i theta)), and so
