@@ -15,6 +15,7 @@ import jsonschema
 import numpy as np
 import pytest
 
+import burmester
 from burmester import cli
 from tests.oracles.ten_poses import TEN as TABLE_2
 
