@@ -553,7 +553,7 @@ def test_help_says_where_a_key_belongs(read):
         assert error.message.startswith(f"{key} stands beside")
         column = json.dumps(document).index(f'"{key}"') + 1
         assert carets(error.where)[1:] == (1, column, len(key) + 2)
-        assert "asks for nothing" in error.message
+        assert "has no effect" in error.message
         document = tomllib.loads(POSES)
         document["requirements"] = value if key == "requirement" else {key: value}
         assert read(json.dumps(document), ".json").requirements.has_any
