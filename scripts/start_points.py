@@ -14,13 +14,14 @@ from itertools import pairwise
 import numpy as np
 
 from burmester.dyads.parameter_homotopy import (
+    SAME_POINT,
     Parameters,
     circle_shape,
-    distinct,
     equations,
     follow,
     line_shape,
 )
+from burmester.numerics.unique_rows import unique_rows
 
 QUIET = 10  # loops without a new solution
 
@@ -46,8 +47,7 @@ def solved(shape, rng):
     p = p._replace(rows=p.rows - np.outer(p.rows @ w, w.conj()) / (w @ w.conj()))
     if shape.quadratic != "none":
         p = p._replace(square=p.square + equations(shape, x, p)[-1])
-    slope = shape.linear.T + np.einsum("fij,j->if", shape.bend, x[:n])
-    z = -np.linalg.pinv(slope) @ equations(shape, x, p)[:n]
+    z = -np.linalg.pinv(shape.gradients(x[:n])) @ equations(shape, x, p)[:n]
     square = w @ w
     more = (np.outer(z, w) + np.outer(w, z)) / square - np.outer(w, w) * (z @ w) / square**2
     return x, p._replace(gram=p.gram + more)
@@ -74,9 +74,10 @@ def all_solutions(shape, seed):
             )
             ends = ends[state == 1]
         before = len(found)
-        found = distinct(np.concatenate([found, ends]))
+        found = unique_rows(np.concatenate([found, ends]), SAME_POINT, "maximum")
         if line:
-            found = distinct(np.concatenate([found, mirrored(shape, found)]))
+            both = np.concatenate([found, mirrored(shape, found)])
+            found = unique_rows(both, SAME_POINT, "maximum")
         quiet = quiet + 1 if len(found) == before else 0
     if line:
         first = []

@@ -6,18 +6,22 @@ from scipy.optimize import least_squares as scipy_least_squares
 from scipy.optimize import linprog, minimize
 
 from burmester.dyads.geometric_fit import (
-    circle_misses,
+    FitProblem,
+    circle_distances,
     circle_terms,
     least_squares,
     least_worst,
-    line_misses,
+    line_distances,
 )
 from burmester.dyads.local_minima import best_dyads
 from burmester.geometry.displacement import Displacement
 from tests.oracles.limits_problems import circle_distance, line_distance
 from tests.oracles.witness import random_four_bar, random_poses
 
-KINDS = {"circle": (circle_misses, circle_distance, 5), "line": (line_misses, line_distance, 4)}
+KINDS = {
+    "circle": (circle_distances, circle_distance, 5),
+    "line": (line_distances, line_distance, 4),
+}
 
 
 def random_rows(rng, count=9, noise=0.03):
@@ -31,15 +35,15 @@ def test_derivatives_are_those_of_the_distances_written_out(kind):
     rng, h = np.random.default_rng(1), 1e-5
     for _ in range(10):
         rows, z = random_rows(rng), rng.normal(size=size)
-        misses = make(Displacement.from_poses(rows))
-        here = misses(z)
-        assert np.allclose(here.miss, distance(z, rows)[0], rtol=0, atol=1e-13)
+        distances = make(Displacement.from_poses(rows))
+        here = distances(z)
+        assert np.allclose(here.distance, distance(z, rows)[0], rtol=0, atol=1e-13)
         for i, step in enumerate(h * np.eye(size)):
             slope = (distance(z + step, rows)[0] - distance(z - step, rows)[0]) / (2 * h)
-            assert np.allclose(here.slope[:, i], slope, rtol=0, atol=1e-7)
-            bend = (misses(z + step).slope - misses(z - step).slope) / (2 * h)
-            assert np.allclose(here.bend[:, i], bend, rtol=1e-5, atol=1e-6)
-        assert (here.bend == np.swapaxes(here.bend, 1, 2)).all()
+            assert np.allclose(here.jacobian[:, i], slope, rtol=0, atol=1e-7)
+            bend = (distances(z + step).jacobian - distances(z - step).jacobian) / (2 * h)
+            assert np.allclose(here.second[:, i], bend, rtol=1e-5, atol=1e-6)
+        assert (here.second == np.swapaxes(here.second, 1, 2)).all()
 
 
 def test_many_circles_at_once_are_each_alone():
@@ -48,9 +52,9 @@ def test_many_circles_at_once_are_each_alone():
     z = rng.normal(size=(3, 2, 5))
     miss, slope, *_ = circle_terms(poses)(z)
     for i, j in np.ndindex(3, 2):
-        one = circle_misses(poses)(z[i, j])
-        assert np.allclose(miss[i, j], one.miss, rtol=0, atol=1e-14)
-        assert np.allclose(slope[i, j], one.slope, rtol=0, atol=1e-14)
+        one = circle_distances(poses)(z[i, j])
+        assert np.allclose(miss[i, j], one.distance, rtol=0, atol=1e-14)
+        assert np.allclose(slope[i, j], one.jacobian, rtol=0, atol=1e-14)
 
 
 def started(seed, exact_count, *, basis_size=5, weighted=True):
@@ -71,7 +75,9 @@ def started(seed, exact_count, *, basis_size=5, weighted=True):
 @pytest.mark.parametrize("basis_size", [5, 3])
 def test_least_squares_is_scipys(seed, basis_size):
     rows, z, basis, share, exact = started(seed, 0, basis_size=basis_size)
-    found = least_squares(circle_misses(Displacement.from_poses(rows)), z, basis, share, exact)
+    found = least_squares(
+        FitProblem(circle_distances(Displacement.from_poses(rows)), basis, share, exact), z
+    )
     assert found.settled
     root = np.sqrt(share)
     other = scipy_least_squares(
@@ -117,13 +123,15 @@ def by_slsqp(rows, directions, share, exact, start):
 @pytest.mark.parametrize("exact_count", [1, 2, 3, 4])
 def test_exact_poses_are_met_and_their_pulls_balance_the_others(seed, exact_count):
     rows, z, basis, share, exact = started(seed, exact_count)
-    found = least_squares(circle_misses(Displacement.from_poses(rows)), z, basis, share, exact)
+    found = least_squares(
+        FitProblem(circle_distances(Displacement.from_poses(rows)), basis, share, exact), z
+    )
     miss, slope = circle_distance(found.z, rows)
     assert np.abs(miss[exact]).max() < 1e-11 * (1 + np.abs(found.z).max())
-    assert np.allclose(found.pull[~exact], (share * miss)[~exact], rtol=1e-9, atol=1e-15)
+    assert np.allclose(found.by_distance[~exact], (share * miss)[~exact], rtol=1e-9, atol=1e-15)
     if not found.settled or np.abs(found.z).max() > 50:
         return  # on its way to a slider
-    assert np.abs(found.pull @ slope).max() < 1e-9
+    assert np.abs(found.by_distance @ slope).max() < 1e-9
     ours = np.where(exact, 0, share) @ miss**2
     near = by_slsqp(rows, (z, basis), share, exact, basis.T @ (found.z - z))
     assert ours <= near * (1 + 1e-6) + 1e-13
@@ -171,10 +179,11 @@ def minimax(rows, z, share, exact):
 @pytest.mark.parametrize("exact_count", [0, 1, 2])
 def test_least_worst_is_that_of_linear_programs(seed, exact_count):
     rows, z, _, share, exact = started(seed, exact_count, weighted=seed % 2 == 0)
-    misses = circle_misses(Displacement.from_poses(rows))
-    start = least_squares(misses, z, np.eye(5), share, exact)
+    distances = circle_distances(Displacement.from_poses(rows))
+    problem = FitProblem(distances, np.eye(5), share, exact)
+    start = least_squares(problem, z)
     assert start.settled
-    found = least_worst(misses, start.z, np.eye(5), share, exact)
+    found = least_worst(problem, start.z)
     assert np.abs(circle_distance(found.z, rows)[0][exact]).max(initial=0) < 1e-11
     ours = worst(found.z, rows, share, exact)
     # From the same start to the same place, and no way down from ours.
@@ -185,7 +194,7 @@ def test_least_worst_is_that_of_linear_programs(seed, exact_count):
     assert ours <= worst(start.z, rows, share, exact) * (1 + 1e-9)
     slope = circle_distance(found.z, rows)[1]
     if found.settled:
-        assert np.abs(found.pull @ slope).max() < 1e-6 * np.abs(found.pull).max()
+        assert np.abs(found.by_distance @ slope).max() < 1e-6 * np.abs(found.by_distance).max()
 
 
 @pytest.mark.parametrize("seed", range(10))

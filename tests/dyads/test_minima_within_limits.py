@@ -5,8 +5,8 @@ import pytest
 from scipy.optimize import minimize
 
 from burmester import synthesize
-from burmester.dyads.face_descent import Block, Range, descend
-from burmester.dyads.geometric_fit import circle_misses, least_squares
+from burmester.dyads.face_descent import Block, LengthRange, descend
+from burmester.dyads.geometric_fit import FitProblem, circle_distances, least_squares
 from burmester.dyads.minima_within_limits import limited_dyads
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import PR, RP, RR
@@ -123,20 +123,21 @@ def test_a_way_down_goes_around_a_notch_or_along_it(seed, scale):
     blocks = (
         Block(slice(0, 2), Polygon(at + CORNER @ turned.T)),
         Block(slice(2, 4), None),
-        Block(slice(4, 5), Range(0.0, np.inf)),
+        Block(slice(4, 5), LengthRange(0.0, np.inf)),
     )
     pieces = [(at, turned, np.zeros(2), np.array(high)) for high in ([2.0, 1.0], [1.0, 2.0])]
     limits = Limits(Polygon(at + CORNER @ turned.T))
     problem = Problem(rows, None, np.zeros(9, bool), limits, pieces, ANYWHERE)
-    misses, share = circle_misses(problem.poses), problem.share
+    distances, share = circle_distances(problem.poses), problem.share
+    fitted = FitProblem(distances, np.eye(5), share, problem.exact)
 
     def step(z, basis):
-        return least_squares(misses, z, basis, share, problem.exact, steps=1)
+        return least_squares(fitted._replace(basis=basis), z, max_steps=1)
 
     ends = []
     for start in ([1.0, 1.0], [1.9, 0.2], [0.2, 1.9], [2.0, 0.5], [1.0, 0.3]):
         z = np.array([*(at + turned @ start), *dyad.moving_pivot, float(dyad.radius)])
-        end = descend(z, misses, step, blocks)
+        end = descend(z, distances, step, blocks)
         assert end is not None
         assert outside(end.z[:2], pieces) < 1e-8
         begun = share @ circle_distance(z, rows)[0] ** 2

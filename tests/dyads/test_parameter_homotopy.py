@@ -12,13 +12,13 @@ from numpy.polynomial import Polynomial
 
 from burmester.dyads.parameter_homotopy import (
     Parameters,
-    _start,
     circle_shape,
     equations,
     follow,
+    generic_solutions,
     jacobian,
     line_shape,
-    stationary,
+    stationary_points,
 )
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import PR
@@ -104,7 +104,7 @@ def one(p):
 
 def followed(shape, p):
     """All solutions (k, size) of a system; where one is lost on the way, another way."""
-    start, points = _start(shape.name)
+    start, points = generic_solutions(shape.name)
     ends, state = follow(shape, points, one(start), one(p))
     if (state != 1).any():
         middle = draw(shape, np.random.default_rng(0), real=False)
@@ -156,14 +156,16 @@ KNOWN = {
 
 @pytest.mark.parametrize(("name", "count"), KNOWN.items())
 def test_there_are_as_many_start_points_as_is_known_otherwise(name, count):
-    assert len(_start(name)[1]) == count
+    assert len(generic_solutions(name)[1]) == count
 
 
 def test_dyads_read_either_way_have_the_same_number_of_start_points():
     for shape in SHAPES:
         if shape.name.startswith("circle"):
             kind, size, *rest = shape.name.split("-")
-            assert len(_start(shape.name)[1]) == len(_start("-".join([kind, size[::-1], *rest]))[1])
+            assert len(generic_solutions(shape.name)[1]) == len(
+                generic_solutions("-".join([kind, size[::-1], *rest]))[1]
+            )
 
 
 @pytest.mark.parametrize("shape", SHAPES, ids=lambda shape: shape.name)
@@ -177,7 +179,7 @@ def test_equations_are_the_derivatives_of_the_lagrangian(shape):
 
 @pytest.mark.parametrize("shape", SHAPES, ids=lambda shape: shape.name)
 def test_start_points_solve_their_system_and_differ(shape):
-    p, points = _start(shape.name)
+    p, points = generic_solutions(shape.name)
     size = 1 + np.abs(points).max(axis=1)
     assert np.abs(gradient(shape, points, p)).max() < 1e-9 * size.max() ** 3
     # Newton's step from each: a point that were none would move.
@@ -221,9 +223,9 @@ def test_random_parameters_lose_no_path(shape):
     rng = np.random.default_rng(3)
     systems = [draw(shape, rng) for _ in range(5)]
     stacked = Parameters(*(np.stack(part) for part in zip(*systems, strict=True)))
-    count = len(_start(shape.name)[1])
-    for found in stationary(shape, stacked):
-        assert (found.found, found.away, found.lost) == (count, 0, 0)
+    count = len(generic_solutions(shape.name)[1])
+    for found in stationary_points(shape, stacked):
+        assert (found.finite, found.away, found.lost) == (count, 0, 0)
 
 
 def real_roots(polynomial):
@@ -262,7 +264,7 @@ def test_real_points_are_the_roots_of_one_polynomial(fixed, moving):
         top, bottom = determinant(entry), determinant([row[1:] for row in entry[1:]])
         wanted = top.deriv() * bottom - top * bottom.deriv()
         roots = real_roots(wanted.trim(1e-12 * np.abs(wanted.coef).max()))
-        got = np.sort(stationary(shape, one(p))[0].points[:, t_at - 1])
+        got = np.sort(stationary_points(shape, one(p))[0].points[:, t_at - 1])
         assert len(got) == len(roots)
         assert np.allclose(got, roots, rtol=1e-5, atol=1e-6)
         seen.add(len(roots))
@@ -279,7 +281,7 @@ def test_a_soft_length_on_a_line_is_a_cubic(name):
         g, (l0, l1) = p.gram, p.linear
         gap = Polynomial([l0 - p.square, l1, 1.0])
         total = Polynomial([g[0, 0], 2 * g[0, 1], g[1, 1]]) / 2 + gap * gap / 2
-        found = stationary(shape, one(p))[0]
+        found = stationary_points(shape, one(p))[0]
         at = np.argsort(found.points[:, 0])
         roots = real_roots(total.deriv())
         assert np.allclose(found.points[at, 0], roots, rtol=1e-7, atol=1e-7)
@@ -291,7 +293,7 @@ def test_minima_are_those_of_the_lagrangian_where_the_conditions_hold(shape):
     rng, n = np.random.default_rng(6), shape.unknowns
     for _ in range(4):
         p = draw(shape, rng)
-        found = stationary(shape, one(p))[0]
+        found = stationary_points(shape, one(p))[0]
         ends = followed(shape, p)
         for x, minimum in zip(found.points, found.minimum, strict=True):
             full = ends[np.abs(ends[:, :n] - x).max(axis=1).argmin()].real
@@ -320,16 +322,16 @@ def test_a_slider_that_fits_exactly_is_three_paths_to_infinity(count):
     )
     residual = (residual - residual.mean(axis=0)) / np.sqrt(count)
     p = Parameters(residual.T @ residual, np.empty((0, 7)), np.zeros(7), np.zeros(()))
-    found = stationary(circle_shape(2, 2, 0, "none"), one(p))[0]
-    assert (found.found, found.away, found.lost) == (22, 3, 0)
+    found = stationary_points(circle_shape(2, 2, 0, "none"), one(p))[0]
+    assert (found.finite, found.away, found.lost) == (22, 3, 0)
 
 
 def test_paths_that_pass_too_near_to_infinity_go_another_way():
     shape, rng = circle_shape(2, 2, 0, "soft"), np.random.default_rng(0)
     systems = [draw(shape, rng) for _ in range(32)][-2:]
-    start, points = _start(shape.name)
+    start, points = generic_solutions(shape.name)
     for p in systems:
         _, state = follow(shape, points, one(start), one(p))
         assert (state == 0).sum() == 1  # lost on the straight way
-        found = stationary(shape, one(p))[0]
-        assert (found.found, found.away, found.lost) == (33, 0, 0)
+        found = stationary_points(shape, one(p))[0]
+        assert (found.finite, found.away, found.lost) == (33, 0, 0)

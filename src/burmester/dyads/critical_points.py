@@ -10,7 +10,7 @@ triangle T, 7 x 7, and the critical points of F are the common zeros of its four
 generic poses there are 25 of them.
 
 All of them come from one eigenproblem (`macaulay`), with no start value; Newton's method on F
-takes off the rounding.
+removes the rounding.
 """
 
 from __future__ import annotations
@@ -22,23 +22,31 @@ from typing import Any, NamedTuple, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.dyads.macaulay import CHARTS, ComplexArray, eigen_points
+from burmester.dyads.macaulay import CHARTS, eigen_points
 from burmester.errors import InputError
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import RR
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray
+from burmester.numerics.arrays import ComplexArray, FloatArray
+from burmester.numerics.bundles import where
+from burmester.numerics.iteration import iterate
+from burmester.numerics.linear_algebra import matvec, solve_or_shortest
+from burmester.numerics.unique_rows import unique_rows
+from burmester.numerics.weights import shares, weights_or_ones
 
 __all__ = ["COUNT", "CriticalDyads", "critical_dyads", "residual_rows"]
 
 COUNT = 25  # finite critical points of generic poses (a Groebner basis over a finite field)
-NEWTON_STEPS = 40  # more than 5 only towards points that lie close together
-BALANCE = 0.4  # of pivots against products of them; tried, and not delicate
-FAR = 1e3  # characteristic lengths; a point beyond that Newton's method cannot hold is at infinity
-SINGULAR = 1e-14  # share of the Hessian's greatest singular value that rounding may be
-NOTHING = 1e-28  # the square of what rounding leaves of a residual, as a share of its terms
-SETTLED = 1e-8  # relative steps of Newton's method below this are rounding once they stop shrinking
-SAME = 1e-6  # relative distance below which two critical points are one
+MAX_NEWTON_STEPS = 40  # more than 5 are taken only towards points that lie close together
+BALANCE = 0.4  # target ratio of linear to bilinear terms; the result is not sensitive to it
+INFINITY_LENGTHS = 1e3  # a start so far out that Newton's method leaves is a point at infinity
+KEPT_SHARE = 0.1  # of a start's norm; a polished point farther from its start is another one
+REAL_TOLERANCE = 1e-8  # relative; a smaller imaginary part is rounding
+SINGULAR_SHARE = 1e-14  # of the Hessian's greatest singular value; a smaller one is rounding
+RESIDUAL_ROUNDING = 1e-28  # of its terms, squared; a smaller sum of squares is zero
+SETTLED_STEP = 1e-8  # relative; shorter steps are rounding once they no longer shrink
+LAST_STEP = 1e-13  # relative; a step as short as this is the last one in any case
+SAME_POINT = 1e-6  # relative; critical points nearer than this are one
 
 
 @final
@@ -127,7 +135,8 @@ def _blas() -> Any:
 def _mean(values: FloatArray, weights: FloatArray | None) -> FloatArray:
     """The weighted mean of values (*, k, N) over the poses: (*, k)."""
     share = np.ones(values.shape[-1]) if weights is None else weights[..., None, :]
-    return np.asarray((values * share).sum(axis=-1) / np.broadcast_to(share, values.shape).sum(-1))
+    share = weights_or_ones(share, values.shape)
+    return np.asarray((values * share).sum(axis=-1) / share.sum(axis=-1))
 
 
 def residual_rows(poses: Displacement) -> FloatArray:
@@ -141,8 +150,7 @@ def residual_rows(poses: Displacement) -> FloatArray:
 def _triangle(poses: Displacement, weights: FloatArray | None) -> FloatArray:
     """T (*, 7, 7) with |T v|² the weighted mean of the squared circle residuals."""
     a = residual_rows(poses)
-    share = np.ones(poses.shape) if weights is None else np.broadcast_to(weights, poses.shape)
-    share = share / share.sum(axis=-1, keepdims=True)
+    share = shares(weights, poses.shape)
     a = a - (share[..., None] * a).sum(axis=-2, keepdims=True)
     a = a * np.sqrt(share)[..., None]
     missing = max(0, 7 - a.shape[-2])
@@ -162,17 +170,17 @@ def _features(x: NDArray[Any]) -> NDArray[Any]:
 def _feature_gradients(x: NDArray[Any]) -> NDArray[Any]:
     """The derivatives (*, 4, 7) of v by c1, c2, m1, m2."""
     c1, c2, m1, m2 = np.moveaxis(x, -1, 0)
-    slope = np.zeros((*x.shape[:-1], 4, 7), dtype=x.dtype)
-    slope[..., range(4), range(1, 5)] = 1
-    slope[..., 5] = np.stack([m1, m2, c1, c2], axis=-1)
-    slope[..., 6] = np.stack([-m2, m1, c2, -c1], axis=-1)
-    return slope
+    gradients = np.zeros((*x.shape[:-1], 4, 7), dtype=x.dtype)
+    gradients[..., range(4), range(1, 5)] = 1
+    gradients[..., 5] = np.stack([m1, m2, c1, c2], axis=-1)
+    gradients[..., 6] = np.stack([-m2, m1, c2, -c1], axis=-1)
+    return gradients
 
 
-# The second derivatives of v: only its last two numbers have any.
-_CURVATURE = np.zeros((7, 4, 4))
+# The second derivatives of v; only its last two numbers have any.
+_SECOND = np.zeros((7, 4, 4))
 for _at, _i, _j, _sign in ((5, 0, 2, 1), (5, 1, 3, 1), (6, 1, 2, 1), (6, 0, 3, -1)):
-    _CURVATURE[_at, _i, _j] = _CURVATURE[_at, _j, _i] = _sign
+    _SECOND[_at, _i, _j] = _SECOND[_at, _j, _i] = _sign
 
 
 def _derivatives(x: NDArray[Any], triangle: FloatArray) -> tuple[NDArray[Any], NDArray[Any]]:
@@ -180,14 +188,16 @@ def _derivatives(x: NDArray[Any], triangle: FloatArray) -> tuple[NDArray[Any], N
 
     By way of T v, which is small where the dyad is good; G = TᵀT would lose half the digits.
     """
-    miss = _features(x) @ triangle.T
-    slope = _feature_gradients(x) @ triangle.T
-    bend = np.tensordot(miss @ triangle, _CURVATURE, axes=1)
-    gradient = (slope @ miss[..., None])[..., 0]
-    return gradient, np.asarray(slope @ np.swapaxes(slope, -1, -2) + bend)
+    residual = _features(x) @ triangle.T
+    transposed_jacobian = _feature_gradients(x) @ triangle.T
+    curvature = np.tensordot(residual @ triangle, _SECOND, axes=1)
+    gauss_newton = transposed_jacobian @ np.swapaxes(transposed_jacobian, -1, -2)
+    return matvec(transposed_jacobian, residual), np.asarray(gauss_newton + curvature)
 
 
 class _Points(NamedTuple):
+    """The critical points of one task, as `CriticalDyads` has them for all."""
+
     points: ComplexArray
     real: NDArray[np.bool_]
     minimum: NDArray[np.bool_]
@@ -198,7 +208,7 @@ class _Points(NamedTuple):
 
 def _all_points(triangle: FloatArray) -> _Points:
     """All finite critical points (k, 4), k <= 25, in the order of `CriticalDyads`."""
-    unit = _unit(triangle)
+    unit = _balancing_length(triangle)
     scaled = triangle * [1.0, *[unit] * 4, unit**2, unit**2]
     size = np.linalg.norm(scaled)
     scaled = scaled / size if size > 0 else scaled
@@ -208,27 +218,28 @@ def _all_points(triangle: FloatArray) -> _Points:
     while len(points) + far < COUNT and charts < CHARTS:
         start, health = eigen_points(gram, charts)
         end, sound = _polish(start, scaled)
-        points = _distinct(np.concatenate([points, end[sound]]))
-        held = sound & (np.linalg.norm(end - start, axis=1) < 0.1 * np.linalg.norm(start, axis=1))
-        far = int((~held & (unit * np.linalg.norm(start, axis=1) > FAR)).sum())
+        points = unique_rows(np.concatenate([points, end[sound]]), SAME_POINT, "euclidean")
+        norm = np.linalg.norm(start, axis=1)
+        kept = sound & (np.linalg.norm(end - start, axis=1) < KEPT_SHARE * norm)
+        far = int((~kept & (unit * norm > INFINITY_LENGTHS)).sum())
         charts += 1
         if len(points) + far < COUNT:
-            end, sound = _polish(_company(points), scaled)
-            points = _distinct(np.concatenate([points, end[sound]]))
+            end, sound = _polish(_beside_neighbours(points), scaled)
+            points = unique_rows(np.concatenate([points, end[sound]]), SAME_POINT, "euclidean")
     far = max(0, min(far, COUNT - len(points)))
     size = 1 + np.linalg.norm(points, axis=1)
-    real = np.linalg.norm(points.imag, axis=1) < 1e-8 * size
+    real = np.linalg.norm(points.imag, axis=1) < REAL_TOLERANCE * size
     points[real] = points[real].real
-    bend = np.linalg.eigvalsh(_derivatives(points.real, scaled)[1])[:, 0]
-    minimum = real & (bend > 0)
+    curvature = np.linalg.eigvalsh(_derivatives(points.real, scaled)[1])[:, 0]
+    minimum = real & (curvature > 0)
     cost = (np.abs(_features(points) @ scaled.T) ** 2).sum(axis=1)
-    cost[cost < NOTHING * size**4] = 0.0
+    cost[cost < RESIDUAL_ROUNDING * size**4] = 0.0
     order = np.lexsort((size, cost, ~real, ~minimum))[:COUNT]
-    found: ComplexArray = points[order] * complex(unit)
-    return _Points(found, real[order], minimum[order], far, charts, health)
+    ordered: ComplexArray = points[order] * complex(unit)
+    return _Points(ordered, real[order], minimum[order], far, charts, health)
 
 
-def _unit(triangle: FloatArray) -> float:
+def _balancing_length(triangle: FloatArray) -> float:
     """The length in which the pivots weigh as much in the residual as their products do.
 
     Where the body turns little that is long, as the pivots are then far away.
@@ -237,36 +248,43 @@ def _unit(triangle: FloatArray) -> float:
     return float(BALANCE * alone / products) if alone > 0 and products > 0 else 1.0
 
 
+class _Iterate(NamedTuple):
+    """Points x (k, 4) of Newton's method, with the last step's size and the Hessian before it."""
+
+    x: ComplexArray
+    step_size: FloatArray
+    hessian: ComplexArray
+
+
 def _polish(points: ComplexArray, triangle: FloatArray) -> tuple[ComplexArray, NDArray[np.bool_]]:
-    """Newton's method from each point (k, 4), and whether it came to rest at a simple point."""
-    x, last = points.copy(), np.full(len(points), np.inf)
-    hessian = np.zeros((len(x), 4, 4), dtype=complex)
-    moving = np.arange(len(x))
-    for _ in range(NEWTON_STEPS):
-        here, before = x[moving], last[moving]
-        gradient, hessian[moving] = _derivatives(here, triangle)
-        try:
-            step = np.linalg.solve(hessian[moving], gradient[..., None])[..., 0]
-        except np.linalg.LinAlgError:  # an exactly multiple point: the least step that helps
-            step = (np.linalg.pinv(hessian[moving]) @ gradient[..., None])[..., 0]
-        size = np.linalg.norm(step, axis=1) / (1 + np.linalg.norm(here, axis=1))
-        astray = ~(size < 1 / SAME)
-        x[moving] = here - np.where(astray[:, None], 0.0, step)
-        last[moving] = np.where(astray, np.inf, size)
-        settled = (size < 1e-13) | (size < SETTLED) & (size >= before)
-        moving = moving[~(settled | astray)]
-        if not len(moving):
-            break
-    # On a curve of critical points Newton's method comes to rest, too, wherever it likes: there
-    # the Hessian is singular, as far as the rounding of the products in it lets it be told.
+    """Newton's method from each point (k, 4).
+
+    Returns the points that it leads to, and whether it came to rest there, at a simple point.
+    """
+
+    def advance(_: NDArray[np.intp], here: _Iterate) -> tuple[_Iterate, NDArray[np.bool_]]:
+        gradient, hessian = _derivatives(here.x, triangle)
+        step = solve_or_shortest(hessian, gradient)
+        size = np.linalg.norm(step, axis=1) / (1 + np.linalg.norm(here.x, axis=1))
+        astray = ~(size < 1 / SAME_POINT)
+        there = _Iterate(here.x - step, size, hessian)
+        left = _Iterate(here.x, np.full(len(size), np.inf), hessian)
+        settled = (size < LAST_STEP) | (size < SETTLED_STEP) & (size >= here.step_size)
+        return where(astray, left, there), settled | astray
+
+    count = len(points)
+    start = _Iterate(points, np.full(count, np.inf), np.zeros((count, 4, 4), dtype=complex))
+    (x, last, hessian), _ = iterate(advance, start, np.arange(count), MAX_NEWTON_STEPS)
+    # On a curve of critical points Newton's method comes to rest wherever it likes: there the
+    # Hessian is singular, as far as the rounding of the products in it shows.
     terms = np.linalg.norm(_feature_gradients(x) @ triangle.T, axis=-1)
     terms = np.maximum(terms, np.finfo(float).tiny)
     spread = np.linalg.svd(hessian / terms[:, :, None] / terms[:, None], compute_uv=False)
-    return x, (last < SETTLED) & (spread[:, -1] > SINGULAR * spread[:, 0])
+    return x, (last < SETTLED_STEP) & (spread[:, -1] > SINGULAR_SHARE * spread[:, 0])
 
 
-def _company(points: ComplexArray) -> ComplexArray:
-    """Where a point may hide among close ones: between neighbours, and beyond.
+def _beside_neighbours(points: ComplexArray) -> ComplexArray:
+    """Starts between points (k, 4) and their nearest neighbours, and as far beyond them.
 
     Two exact dyads that nearly coincide have a third critical point in between.
     """
@@ -275,12 +293,3 @@ def _company(points: ComplexArray) -> ComplexArray:
     apart = np.linalg.norm(points[:, None] - points, axis=-1) + np.diag([np.inf] * len(points))
     other = points[apart.argmin(axis=1)]
     return np.concatenate([(points + other) / 2, 2 * points - other])
-
-
-def _distinct(points: ComplexArray) -> ComplexArray:
-    """Each point (k, 4) once."""
-    size = 1 + np.linalg.norm(points, axis=1)
-    apart = np.linalg.norm(points[:, None] - points[None], axis=-1)
-    earlier = np.tril(apart < SAME * size, -1).any(axis=1)
-    once: ComplexArray = points[~earlier]
-    return once

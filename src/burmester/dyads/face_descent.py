@@ -1,7 +1,8 @@
-"""Downhill within limits: from a dyad that is best on one face to one that no way leads down from.
+"""Active-set descent over faces: from a dyad within limits down to a local minimum within them.
 
-A dyad z moves along the faces on which it lies (`polish`).  Where that would leave a region it
-stops at the edge and goes on along it; where a way into a region leads down it lets go of the edge.
+A dyad z moves along the faces on which it lies (`minimise`).  Where that would leave a region it
+stops at the edge and goes on along it; where a direction into a region leads down it leaves the
+edge.
 """
 
 from __future__ import annotations
@@ -13,25 +14,26 @@ from typing import NamedTuple, TypeAlias, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.dyads.geometric_fit import Misses, Polished
+from burmester.dyads.geometric_fit import DistanceFunction, GeometricFit
 from burmester.geometry.regions import PLANE, Face, Region
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["Block", "Range", "descend", "inside", "lying_on"]
+__all__ = ["Block", "LengthRange", "descend", "inside", "lying_on"]
 
-INSIDE = 1e-9  # lengths (or shares of greater ones) outside a region that are rounding
-STEP = 100  # times what is rounding, to look across an edge
-DOWNHILL = 1e-7  # share of the pull that is rounding
-MOVES = 200
-TRIES, FINER = 65, 7  # places looked at on the way out of a region, and how often between two
+BOUNDARY_ROUNDING = 1e-9  # lengths, or a share of greater ones: a point so far outside is inside
+ON_FACE_ROUNDINGS = 10  # times the rounding; a point nearer to a face than this lies on it
+ACROSS_ROUNDINGS = 100  # times the distance from a face, to look whether a step across leads out
+STEEPNESS_ROUNDING = 1e-7  # share of the terms of a directional derivative that is rounding
+MAX_MOVES = 200  # along a face, or from one face to another
+BRACKETING_ROUNDS, BRACKETING_SAMPLES = 7, 65  # to find where a step leaves a region
 
-Polish: TypeAlias = Callable[[FloatArray, FloatArray], Polished]
-"""From a dyad z a step, or the whole way, to the best along given directions (columns)."""
+Minimise: TypeAlias = Callable[[FloatArray, FloatArray], GeometricFit]
+"""From a dyad z a step, or the whole way, to the minimum along given directions (columns)."""
 
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class Range:
+class LengthRange:
     """A link's length from least to most: a region of one dimension."""
 
     least: float
@@ -55,10 +57,10 @@ class Range:
 
 
 class Block(NamedTuple):
-    """The numbers of a dyad z that one region limits; None where nothing does."""
+    """The coordinates of a dyad z that one region limits; no region where they are free."""
 
     at: slice
-    region: Region | Range | None
+    region: Region | LengthRange | None
 
     def faces(self) -> list[Face]:
         """Its faces, each with the origin of its line as near to zero as can be."""
@@ -70,15 +72,15 @@ class Block(NamedTuple):
         ]
 
     def outside(self, z: FloatArray) -> NDArray[np.bool_]:
-        """Whether dyads z (*, k) lie outside, rounding apart."""
+        """Whether dyads z (*, k) lie outside by more than rounding."""
         if self.region is None:
             return np.zeros(z.shape[:-1], dtype=bool)
         return np.asarray(self.region.distance(z[..., self.at]) > _rounding(z[..., self.at]))
 
 
 def _rounding(points: FloatArray) -> FloatArray:
-    """How far outside (*,) a region points (*, d) are by rounding alone, far away ones more."""
-    return np.asarray(INSIDE * np.maximum(1.0, np.abs(points).max(axis=-1)))
+    """How far (*,) points (*, d) may lie outside a region by rounding alone: far ones farther."""
+    return np.asarray(BOUNDARY_ROUNDING * np.maximum(1.0, np.abs(points).max(axis=-1)))
 
 
 def inside(z: FloatArray, blocks: Sequence[Block]) -> bool:
@@ -93,45 +95,48 @@ def lying_on(z: FloatArray, blocks: Sequence[Block]) -> list[Face]:
 
 def descend(
     z: FloatArray,
-    misses: Misses,
-    polish: Polish,
+    distances: DistanceFunction,
+    minimise: Minimise,
     blocks: Sequence[Block],
-) -> Polished:
-    """The local minimum within limits to which a dyad z inside them leads; not settled: none."""
+) -> GeometricFit:
+    """The local minimum within limits to which a dyad z inside them leads.
+
+    Not settled where there is none.
+    """
     on = lying_on(z, blocks)
-    for _ in range(MOVES):
-        polished = polish(z, _directions(len(z), blocks, on))
-        if not np.isfinite(polished.z).all():
+    for _ in range(MAX_MOVES):
+        fit = minimise(z, _directions(len(z), blocks, on))
+        if not np.isfinite(fit.z).all():
             break
-        shares = [_share_inside(z, polished.z, block) for block in blocks]
+        shares = [_share_inside(z, fit.z, block) for block in blocks]
         first = int(np.argmin(shares))
         if shares[first] < 1:
-            z = z + shares[first] * (polished.z - z)
+            z = z + shares[first] * (fit.z - z)
             on[first] = _smallest(z, blocks[first], blocks[first].faces())
-            z[blocks[first].at] = _onto(on[first], z[blocks[first].at])
+            z[blocks[first].at] = _projection(on[first], z[blocks[first].at])
             continue
-        z = polished.z
-        if not polished.settled:
+        z = fit.z
+        if not fit.settled:
             continue
-        slope = misses(z).slope
-        ways = [
-            _way_down(slope[:, block.at], polished.pull, face)
+        jacobian = distances(z).jacobian
+        inward = [
+            _steepest_inward(jacobian[:, block.at], fit.by_distance, face)
             for block, face in zip(blocks, on, strict=True)
         ]
-        best = int(np.argmin([steep for steep, _ in ways]))
-        steep, d = ways[best]
-        if steep >= -DOWNHILL:
-            return polished
+        best = int(np.argmin([steepness for steepness, _ in inward]))
+        steepness, direction = inward[best]
+        if steepness >= -STEEPNESS_ROUNDING:
+            return fit
         at = z[blocks[best].at]
         wider = [
             face
             for face in blocks[best].faces()
             if _dimension(face) > _dimension(on[best])
-            and _off(face, at) < 10 * _rounding(at)
-            and np.abs(d - face.basis @ (face.basis.T @ d)).max() < INSIDE
+            and _distance(face, at) < ON_FACE_ROUNDINGS * _rounding(at)
+            and _holds(face, direction)
         ]
         on[best] = min(wider, key=_dimension)
-    return polished._replace(settled=False)
+    return fit._replace(settled=False)
 
 
 def _directions(size: int, blocks: Sequence[Block], faces: Sequence[Face]) -> FloatArray:
@@ -146,10 +151,10 @@ def _directions(size: int, blocks: Sequence[Block], faces: Sequence[Face]) -> Fl
 
 
 def _share_inside(z: FloatArray, to: FloatArray, block: Block) -> float:
-    """How far of the way from z to another dyad its block stays in its region: 1 is all of it."""
+    """The share of the way from z to another dyad on which a block stays in its region."""
     low, high = 0.0, 1.0
-    for _ in range(FINER):
-        shares = np.linspace(low, high, TRIES)
+    for _ in range(BRACKETING_ROUNDS):
+        shares = np.linspace(low, high, BRACKETING_SAMPLES)
         outside = block.outside(z + shares[:, None] * (to - z))
         if not outside.any():
             return high
@@ -165,14 +170,14 @@ def _smallest(z: FloatArray, block: Block, faces: Sequence[Face]) -> Face:
     There a step across it does not lead out, and z is not on that edge.
     """
     at = z[block.at]
-    near = 10 * float(_rounding(at))
+    near = ON_FACE_ROUNDINGS * float(_rounding(at))
 
     def on(face: Face) -> bool:
-        if _off(face, at) >= near:
+        if _distance(face, at) >= near:
             return False
         if face.basis.shape[1] != 1 or len(face.inward) != 1 or block.region is None:
             return True
-        across = block.region.distance(at - STEP * near * face.inward[0])
+        across = block.region.distance(at - ACROSS_ROUNDINGS * near * face.inward[0])
         return bool(across > near)
 
     return min(filter(on, faces), key=_dimension)
@@ -182,23 +187,32 @@ def _dimension(face: Face) -> int:
     return int(face.basis.shape[1])
 
 
-def _off(face: Face, at: FloatArray) -> float:
-    """How far a point (d,) is off a face."""
-    return float(np.abs(at - _onto(face, at)).max())
+def _distance(face: Face, at: FloatArray) -> float:
+    """The greatest coordinate of the way from a point (d,) to a face."""
+    return float(np.abs(at - _projection(face, at)).max())
 
 
-def _onto(face: Face, at: FloatArray) -> FloatArray:
+def _holds(face: Face, direction: FloatArray) -> bool:
+    """Whether a unit direction (d,) lies in a face."""
+    off = direction - face.basis @ (face.basis.T @ direction)
+    return bool(np.abs(off).max() < BOUNDARY_ROUNDING)
+
+
+def _projection(face: Face, at: FloatArray) -> FloatArray:
     """The point (d,) of a face that is nearest to another."""
     return np.asarray(face.origin + face.basis @ (face.basis.T @ (at - face.origin)))
 
 
-def _way_down(slope: FloatArray, pull: FloatArray, face: Face) -> tuple[float, FloatArray]:
-    """The steepest way (d,) into a region from a face of it, and how steep it is.
+def _steepest_inward(
+    jacobian: FloatArray, by_distance: FloatArray, face: Face
+) -> tuple[float, FloatArray]:
+    """The direction (d,) of steepest descent among those from a face into its region.
 
-    That is the objective's derivative as a share of what pulls either way, at most 0.
+    Returns how steep it is, the objective's derivative as a share of its terms, at most 0, and
+    the direction.
     """
-    along = slope @ face.inward.T
-    steep = (pull @ along) / np.maximum(np.abs(pull) @ np.abs(along), 1e-300)
-    if not len(steep) or steep.min() >= 0:
-        return 0.0, np.zeros(slope.shape[1])
-    return float(steep.min()), face.inward[steep.argmin()]
+    along = jacobian @ face.inward.T
+    steepness = (by_distance @ along) / np.maximum(np.abs(by_distance) @ np.abs(along), 1e-300)
+    if not len(steepness) or steepness.min() >= 0:
+        return 0.0, np.zeros(jacobian.shape[1])
+    return float(steepness.min()), face.inward[steepness.argmin()]

@@ -3,29 +3,37 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import final
+from typing import NamedTuple, final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from burmester.dyads.critical_points import CriticalDyads, critical_dyads
-from burmester.dyads.geometric_fit import SURE, circle_terms
+from burmester.dyads.geometric_fit import NEGLIGIBLE_GAIN, circle_terms
 from burmester.dyads.minima_within_limits import LimitedDyads, limited_dyads
 from burmester.dyads.sliders import fixed_lines, moving_lines
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
+from burmester.numerics.bundles import where
+from burmester.numerics.iteration import iterate, shortened
+from burmester.numerics.linear_algebra import matvec
+from burmester.numerics.unique_rows import unique_rows
+from burmester.numerics.weights import shares, weights_or_ones
 from burmester.tasks.limits import Limits
 from burmester.tasks.options import Norm
 
 __all__ = ["BestDyads", "best_dyads"]
 
-STEPS, SHORTER = 60, 20
-SETTLED, SAME = 1e-9, 1e-6  # relative: a step that is rounding; two circles that are one
-ONE_OF_TWO = np.sqrt([2.0, 3.0, 5.0, 7.0])  # tells a complex point from its conjugate
-LONG_LINK, ENDLESS = 20.0, 1e3  # characteristic lengths: of a start along a line; of no circle
-FLAT = 1e-14  # relative curvature below which a direction is as good as flat
+MAX_NEWTON_STEPS = 60  # from each start
+SETTLED_STEP = 1e-9  # relative; a shorter step of Newton's method is its last one
+SAME_DYAD = 1e-6  # relative; circles whose coordinates differ by less are one
+# Generic factors by which one of each pair of conjugate points is picked.
+CONJUGATE_PICK = np.sqrt([2.0, 3.0, 5.0, 7.0])
+START_LENGTH = 20.0  # characteristic lengths; the links that start along a line
+MAX_LENGTH = 1e3  # characteristic lengths; a circle with greater coordinates is a line
+FLAT_EIGENVALUE = 1e-14  # share of the greatest; smaller eigenvalues are taken for this one
 
 
 @final
@@ -80,102 +88,120 @@ def best_dyads(
     """
     if limits is not None or norm != "rms" or (exact is not None and exact.any()):
         search = limited_dyads(poses, weights, exact, limits, norm)
-        miss = search.circles[:, None].residual(search.frames.see(poses))
-        return _told(search, search.circles, search.sliders, miss)
+        distance = search.circles[:, None].residual(search.frames.see(poses))
+        return _with_errors(search, search.circles, search.sliders, distance)
     critical = critical_dyads(poses, weights)
     seen = critical.frames.see(poses)
-    share = np.ones(poses.shape) if weights is None else weights
     lines = [lines(seen, weights)[0][0] for lines in (fixed_lines, moving_lines)]
     points = critical.points[: int(critical.found)]
-    pivots = points[points.imag @ ONE_OF_TWO >= 0].real
+    pivots = points[points.imag @ CONJUGATE_PICK >= 0].real
     pivots = np.concatenate([pivots, np.zeros((1, 4))])  # where the frames' origins stay close
-    starts = [_circles_about(pivots, seen, share), *(_nearly(line, seen, share) for line in lines)]
-    z = _least_distance(np.concatenate(starts), seen, share / share.sum())
+    starts = [_circles_about(pivots, seen, weights)]
+    starts += [_circles_along(line, seen, weights) for line in lines]
+    z = _minima(np.concatenate(starts), seen, shares(weights, poses.shape))
     circles = RR(z[:, :2], z[:, 2:4], z[:, 4])
-    return _told(critical, circles, tuple(lines), circles[:, None].residual(seen))
+    return _with_errors(critical, circles, tuple(lines), circles[:, None].residual(seen))
 
 
-def _told(
+def _with_errors(
     search: CriticalDyads | LimitedDyads,
     circles: RR,
     sliders: tuple[PR | RP, ...],
-    miss: FloatArray,
+    distance: FloatArray,
 ) -> BestDyads:
+    """The dyads with the rms and the greatest of their distances (k, N)."""
     unit = search.frames.length
-    rms, worst = np.sqrt((miss**2).mean(axis=-1)), np.abs(miss).max(axis=-1)
+    rms, worst = np.sqrt((distance**2).mean(axis=-1)), np.abs(distance).max(axis=-1)
     return BestDyads(search, circles, sliders, rms * unit, worst * unit)
 
 
-def _circles_about(pivots: FloatArray, poses: Displacement, share: FloatArray) -> FloatArray:
+def _circles_about(
+    pivots: FloatArray, poses: Displacement, weights: FloatArray | None
+) -> FloatArray:
     """Circles (k, 5), c, m, r, with pivots (k, 4) and the best radius."""
+    share = weights_or_ones(weights, poses.shape)
     centred = RR(pivots[:, :2], pivots[:, 2:], np.zeros(len(pivots)))
     radius = centred[:, None].residual(poses) @ share / share.sum()
     return np.concatenate([pivots, radius[:, None]], axis=-1)
 
 
-def _nearly(line: PR | RP, poses: Displacement, share: FloatArray) -> FloatArray:
-    """Circles (k, 5) with long links, on either side of a line and nearly the same."""
+def _circles_along(line: PR | RP, poses: Displacement, weights: FloatArray | None) -> FloatArray:
+    """Circles (2, 5) with long links that nearly follow a line, one on either side of it."""
     n = np.stack([np.cos(line.normal_angle), np.sin(line.normal_angle)])
     if isinstance(line, RP):
-        swapped = PR(line.normal_angle, line.offset, line.fixed_pivot)
-        return _nearly(swapped, poses.inverse(), share)[:, [2, 3, 0, 1, 4]]
+        inverse = PR(line.normal_angle, line.offset, line.fixed_pivot)
+        return _circles_along(inverse, poses.inverse(), weights)[:, [2, 3, 0, 1, 4]]
     foot = poses.act(line.moving_pivot).mean(axis=0)
     foot = foot - (foot @ n - line.offset) * n
-    centres = foot + np.outer([-LONG_LINK, LONG_LINK], n)
+    centres = foot + np.outer([-START_LENGTH, START_LENGTH], n)
     pivots = np.concatenate([centres, np.tile(line.moving_pivot, (2, 1))], axis=-1)
-    return _circles_about(pivots, poses, share)
+    return _circles_about(pivots, poses, weights)
 
 
-def _least_distance(z: FloatArray, poses: Displacement, share: FloatArray) -> FloatArray:
+class _Point(NamedTuple):
+    """Circles z (k, 5), the terms of their distances, and whether they have come to rest (k,)."""
+
+    z: FloatArray
+    terms: tuple[FloatArray, ...]
+    settled: NDArray[np.bool_]
+
+
+def _minima(z: FloatArray, poses: Displacement, share: FloatArray) -> FloatArray:
     """The local minima (k, 5) of the sum of squares that circles (*, 5) lead to, each once.
 
     Newton's method; where the sum is not convex, Gauss and Newton's step; shortened until it
-    helps.  Left out is what comes to no rest, or to rest so far out that it is a slider.
+    helps.  A circle that does not come to rest, or grows so far that it is a slider, is left out.
     """
     terms = circle_terms(poses)
-    ends = []
-    here = terms(z)
-    for _ in range(STEPS):
-        step, convex, gain = _newton_step(here, share)
-        before, factor = here[0] ** 2 @ share, np.ones(len(z))
-        sure = convex & (gain < SURE * before)  # the sum itself would tell by its rounding only
-        for _ in range(SHORTER):
-            to = z + factor[:, None] * step
-            there = terms(to)
-            worse = ~sure & (there[0] ** 2 @ share > before)
-            if not worse.any():
-                break
-            factor = np.where(worse, factor / 4, factor)
-        to = np.where(worse[:, None], z, to)
-        size = 1 + np.abs(to).max(axis=-1)
-        settled = convex & (np.abs(to - z).max(axis=-1) < SETTLED * size)
-        ends.append(to[settled])
-        run = ~(settled | (worse & ~convex) | (size > ENDLESS))
-        if not run.any():
-            break
-        z, here = to[run], tuple(part[run] for part in (terms(to) if worse.any() else there))
-    found = np.concatenate(ends)
-    cost = terms(found)[0] ** 2 @ share
-    found = found[np.argsort(cost, kind="stable")]
-    apart = np.abs(found[:, None] - found[None]).max(axis=-1)
-    same = apart < SAME * (1 + np.abs(found).max(axis=-1))
-    return np.asarray(found[~np.tril(same, -1).any(axis=1)])
+
+    def cost(terms: tuple[FloatArray, ...]) -> FloatArray:
+        return np.asarray(terms[0] ** 2 @ share)
+
+    def point(z: FloatArray) -> _Point:
+        return _Point(z, terms(z), np.zeros(len(z), dtype=bool))
+
+    def advance(_: NDArray[np.intp], here: _Point) -> tuple[_Point, NDArray[np.bool_]]:
+        step, convex, gain = _newton_step(here.terms, share)
+        before = cost(here.terms)
+        # Newton's last steps gain so little that the sum would tell by its rounding only.
+        negligible = convex & (gain < NEGLIGIBLE_GAIN * before)
+        there, failed = shortened(
+            lambda step: point(here.z + step),
+            step,
+            lambda there: ~negligible & (cost(there.terms) > before),
+        )
+        there = where(failed, here, there)
+        size = 1 + np.abs(there.z).max(axis=-1)
+        moved = np.abs(there.z - here.z).max(axis=-1)
+        settled = convex & (moved < SETTLED_STEP * size)
+        ended = settled | (failed & ~convex) | (size > MAX_LENGTH)
+        return there._replace(settled=settled), ended
+
+    ends, ended_at = iterate(advance, point(z), np.arange(len(z)), MAX_NEWTON_STEPS)
+    settled = np.flatnonzero(ends.settled)
+    settled = settled[np.argsort(ended_at[settled], kind="stable")]
+    minima = ends.z[settled]
+    minima = minima[np.argsort(cost(terms(minima)), kind="stable")]
+    return unique_rows(minima, SAME_DYAD, "maximum")
 
 
 def _newton_step(
     terms: tuple[FloatArray, ...], share: FloatArray
 ) -> tuple[FloatArray, NDArray[np.bool_], FloatArray]:
-    """Newton's step (k, 5), where the sum of squares is convex (k,), and what the step gains."""
-    miss, slope, swing, size = terms
-    pull = share * miss
-    gradient = (pull[:, None] @ slope)[:, 0]
-    flat = np.swapaxes(share[:, None] * slope, -1, -2) @ slope
-    curved = flat + np.swapaxes((pull / size)[..., None] * swing, -1, -2) @ swing
-    values, axes = np.linalg.eigh(curved)
+    """Newton's step, or Gauss and Newton's where the sum of squares is not convex.
+
+    Returns the steps (k, 5), whether the sum is convex (k,), and what the steps gain (k,).
+    """
+    distance, jacobian, tangent, arm = terms
+    weighted = share * distance
+    gradient = (weighted[:, None] @ jacobian)[:, 0]
+    gauss_newton = np.swapaxes(share[:, None] * jacobian, -1, -2) @ jacobian
+    curvature = np.swapaxes((weighted / arm)[..., None] * tangent, -1, -2) @ tangent
+    values, axes = np.linalg.eigh(gauss_newton + curvature)
     convex = values[:, 0] > 0
     if not convex.all():
-        values[~convex], axes[~convex] = np.linalg.eigh(flat[~convex])
-    values = np.maximum(values, FLAT * values[:, -1:])
+        values[~convex], axes[~convex] = np.linalg.eigh(gauss_newton[~convex])
+    values = np.maximum(values, FLAT_EIGENVALUE * values[:, -1:])
     along = (gradient[:, None] @ axes)[:, 0] / values
-    step = -(axes @ along[..., None])[..., 0]
+    step = -matvec(axes, along)
     return step, convex, -(gradient * step).sum(axis=-1)

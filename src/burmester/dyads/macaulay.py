@@ -1,7 +1,7 @@
-"""All common zeros of the four derivatives of F = vᵀ G v, for `critical`, by linear algebra.
+"""All common zeros of the four derivatives of F = vᵀ G v, for `critical_points`, by linear algebra.
 
 In the isotropic coordinates z = (c, c*, m, m*), with c = c1 + i c2 and c* = c1 - i c2 taken for
-independent unknowns, the seven numbers of `critical` become (up to a change of basis) the
+independent unknowns, the seven numbers of `critical_points` become (up to a change of basis) the
 monomials V = (1, c, c*, m, m*, c* m, c m*), and the derivatives are sums of a few monomials only.
 Multiplied by further monomials, as long as all stays within the 150 products of three of V and
 one of its first five, they give 148 polynomials, of which 125 are independent (for a generic
@@ -15,6 +15,7 @@ imaginary parts, so complex zeros come in conjugate pairs.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import cache
 from itertools import product
 from typing import NamedTuple
@@ -22,15 +23,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.numerics.arrays import FloatArray
+from burmester.numerics.arrays import ComplexArray, FloatArray
 
-__all__ = ["CHARTS", "ZEROS", "ComplexArray", "eigen_points"]
+__all__ = ["CHARTS", "ZEROS", "eigen_points"]
 
-ComplexArray = NDArray[np.complex128]
 Exponents = tuple[int, int, int, int]  # of c, c*, m, m*
 
-ZEROS = 25
-CHARTS = 4  # pairs of linear forms to choose from
+ZEROS = 25  # common zeros of the derivatives, for a generic G
+CHARTS = 4  # pairs of linear forms, of which another is tried where zeros are lost
 
 _ONE, _C, _CC, _M, _MM = ((0, 0, 0, 0), (1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1))
 _V: list[Exponents] = [_ONE, _C, _CC, _M, _MM, (0, 1, 1, 0), (1, 0, 0, 1)]
@@ -95,62 +95,100 @@ def _template() -> _Template:
     """The sparsity pattern of the Macaulay matrix, with 125 independent rows picked."""
     columns = sorted({_add(_add(a, b), _add(c, d)) for a, b, c, d in product(_V, _V, _V, _V[:5])})
     at = {e: k for k, e in enumerate(columns)}
-    n = len(columns)
-    conjugate = np.array([at[b, a, d, c] for a, b, c, d in columns])
-
-    # A monomial is a column for its real part and one for its imaginary part; of two that are
-    # conjugates both use the same columns.
-    real, imaginary = np.minimum(np.arange(n), conjugate), np.maximum(np.arange(n), conjugate)
-    side = np.sign(conjugate - np.arange(n))
-    weights = np.array([np.where(side == 0, 1, np.sqrt(0.5)), 1j * np.sqrt(0.5) * side])
-
-    # The derivatives by c and by m times each monomial that keeps them within the columns; the
-    # other two are their conjugates, so real and imaginary parts stand for both.
-    basis = np.zeros((7, 7), dtype=complex)  # v of `critical` in the monomials V
-    basis[0, 0] = 1
-    for k in (1, 3):
-        basis[k, [k, k + 1]], basis[k + 1, [k, k + 1]] = [0.5, 0.5], [-0.5j, 0.5j]
-    basis[5, 5:], basis[6, 5:] = [0.5, 0.5], [0.5j, -0.5j]
-    pattern = []
-    for k in (0, 2):
-        terms = [
-            (_add(_lowered(_V[i], k), _V[j]), np.outer(basis[:, i], basis[:, j]).ravel())
-            for i, j in product(range(7), range(7))
-            if _V[i][k]
-        ]
-        low = min(e for e, _ in terms)
-        for e in columns:
-            shift = (e[0] - low[0], e[1] - low[1], e[2] - low[2], e[3] - low[3])
-            if min(shift) < 0 or not all(_add(shift, f) in at for f, _ in terms):
-                continue
-            row = np.zeros((n, 49), dtype=complex)  # coefficients, linear in G
-            for f, entries in terms:
-                place = at[_add(shift, f)]
-                row[real[place]] += weights[0, place] * entries
-                row[imaginary[place]] += weights[1, place] * entries
+    conjugates = _Conjugates.of(np.array([at[b, a, d, c] for a, b, c, d in columns]))
+    pattern: list[FloatArray] = []
+    for terms in (_derivative(0), _derivative(2)):
+        for shift in _shifts(terms, columns):
+            row = np.zeros((len(columns), 49), dtype=complex)  # coefficients, linear in G
+            for exponents, entries in terms:
+                conjugates.add(row, at[_add(shift, exponents)], entries)
             pattern += [row.real, row.imag]
-    whole = np.array(pattern)
-
-    a = np.random.default_rng(7).normal(size=(7, 7))
-    kept = _independent_rows(whole @ (a @ a.T).ravel(), n - ZEROS)
+    whole, rank = np.array(pattern), len(columns) - ZEROS
+    generic = np.random.default_rng(7).normal(size=(7, 7))
+    kept = _independent_rows(whole @ (generic @ generic.T).ravel(), rank)
     chosen = whole[kept].reshape(-1, 49)
     entry, source = np.nonzero(np.abs(chosen) > 1e-12)
 
-    def shifted(*steps: Exponents) -> NDArray[np.int_]:
-        fit = [e for e in columns if all(_add(e, step) in at for step in steps)]
-        return np.array([[at[_add(e, step)] for e in fit] for step in (_ONE, *steps)])
+    def products(*factors: Exponents) -> NDArray[np.int_]:
+        """The columns of monomials, and those of their products with each of some factors."""
+        fit = [e for e in columns if all(_add(e, factor) in at for factor in factors)]
+        return np.array([[at[_add(e, factor)] for e in fit] for factor in (_ONE, *factors)])
 
     return _Template(
         entry,
         source,
         chosen[entry, source],
-        (n - ZEROS, n),
-        real,
-        imaginary,
-        weights[..., None],
-        [shifted(step) for step in (_C, _CC, _M, _MM)],
-        shifted(_C, _CC),
+        (rank, len(columns)),
+        conjugates.real,
+        conjugates.imaginary,
+        conjugates.weights[..., None],
+        [products(factor) for factor in (_C, _CC, _M, _MM)],
+        products(_C, _CC),
     )
+
+
+class _Conjugates(NamedTuple):
+    """Complex monomials (n,) by real columns: one for the real part, one for the imaginary one.
+
+    Of two monomials that are conjugates, both use the same two columns.  A monomial is
+    weights[0] times the column `real` plus weights[1] times the column `imaginary`.
+    """
+
+    real: NDArray[np.int_]
+    imaginary: NDArray[np.int_]
+    weights: ComplexArray
+
+    @classmethod
+    def of(cls, conjugate: NDArray[np.int_]) -> _Conjugates:
+        """For monomials whose conjugates have the given numbers (n,)."""
+        own = np.arange(len(conjugate))
+        side = np.sign(conjugate - own)  # 0: the monomial is its own conjugate, and real
+        weights = np.array([np.where(side == 0, 1, np.sqrt(0.5)), 1j * np.sqrt(0.5) * side])
+        return cls(np.minimum(own, conjugate), np.maximum(own, conjugate), weights)
+
+    def add(self, row: ComplexArray, monomial: int, coefficients: ComplexArray) -> None:
+        """Add coefficients (49,) of a monomial to a row (n, 49) of real columns."""
+        row[self.real[monomial]] += self.weights[0, monomial] * coefficients
+        row[self.imaginary[monomial]] += self.weights[1, monomial] * coefficients
+
+
+def _features_by_monomials() -> ComplexArray:
+    """The matrix (7, 7) that makes v = (1, c1, c2, m1, m2, c · m, c x m) of the monomials V."""
+    matrix = np.zeros((7, 7), dtype=complex)
+    matrix[0, 0] = 1
+    for k in (1, 3):
+        matrix[k, [k, k + 1]], matrix[k + 1, [k, k + 1]] = [0.5, 0.5], [-0.5j, 0.5j]
+    matrix[5, 5:], matrix[6, 5:] = [0.5, 0.5], [0.5j, -0.5j]
+    return matrix
+
+
+def _derivative(unknown: int) -> list[tuple[Exponents, ComplexArray]]:
+    """The derivative of F by c (0) or m (2): exponents of its terms, and what they have of G.
+
+    A term's coefficient is the product of its (49,) numbers with the flattened G.  The derivatives
+    by c* and m* are the conjugates of these two, so real and imaginary parts stand for both.
+    """
+    basis = _features_by_monomials()
+    return [
+        (_add(_lowered(_V[i], unknown), _V[j]), np.outer(basis[:, i], basis[:, j]).ravel())
+        for i, j in product(range(7), range(7))
+        if _V[i][unknown]
+    ]
+
+
+def _shifts(
+    terms: list[tuple[Exponents, ComplexArray]], columns: list[Exponents]
+) -> Iterator[Exponents]:
+    """The monomials by which a polynomial is multiplied, so that all terms are among the columns.
+
+    The least term goes to each of the columns in turn.
+    """
+    among = set(columns)
+    low = min(exponents for exponents, _ in terms)
+    for e in columns:
+        shift = (e[0] - low[0], e[1] - low[1], e[2] - low[2], e[3] - low[3])
+        if min(shift) >= 0 and all(_add(shift, exponents) in among for exponents, _ in terms):
+            yield shift
 
 
 def _lowered(e: Exponents, k: int) -> Exponents:

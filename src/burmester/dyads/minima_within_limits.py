@@ -2,9 +2,9 @@
 
 A dyad that is best within limits lies on some face of them: the fixed pivot inside its region, on
 an edge or at a corner, the moving pivot likewise, the link's length free or at a bound.  On each of
-these faces all stationary points of the squared residual are found (`homotopy`), the minima among
-them are followed to minima of the true distance, and those are kept that lie within the limits and
-from which no way into them leads down.
+these faces all stationary points of the squared residual are found (`parameter_homotopy`), the
+minima among them are followed to minima of the true distance, and those are kept that lie within
+the limits and from which no direction into them leads down.
 """
 
 from __future__ import annotations
@@ -18,14 +18,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.dyads.critical_points import residual_rows
-from burmester.dyads.face_descent import Block, Range, descend, inside
+from burmester.dyads.face_descent import Block, LengthRange, descend, inside
 from burmester.dyads.geometric_fit import (
-    Misses,
-    Polished,
-    circle_misses,
+    DistanceFunction,
+    FitProblem,
+    GeometricFit,
+    circle_distances,
     least_squares,
     least_worst,
-    line_misses,
+    line_distances,
 )
 from burmester.dyads.parameter_homotopy import (
     Condition,
@@ -33,22 +34,24 @@ from burmester.dyads.parameter_homotopy import (
     Shape,
     circle_shape,
     line_shape,
-    stationary,
+    stationary_points,
 )
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Face, Region
 from burmester.numerics.arrays import FloatArray
+from burmester.numerics.weights import shares
 from burmester.tasks.limits import Limits
 from burmester.tasks.options import Norm
 
 __all__ = ["LimitedDyads", "limited_dyads"]
 
-
-SAME = 1e-7
-MET = 1e-9  # relative: an exact pose missed by less is met
-ENDLESS = 1e3  # in canonical lengths: a link this long whose worst distance still falls
+SAME_DYAD = 1e-7  # relative; dyads whose coordinates differ by less are one
+EXACT_TOLERANCE = 1e-9  # relative; an exact pose missed by less is met
+SLIDER_LENGTH = (
+    1e3  # characteristic lengths; a longer link that still grows is on its way to a line
+)
 
 _CIRCLE = circle_shape(2, 2, 0, "none")
 _LINE = line_shape(2, 0)
@@ -90,11 +93,9 @@ def limited_dyads(
     distance has none.
     """
     frames, seen = CanonicalFrames.of(poses, weights)
-    share = np.ones(poses.shape) if weights is None else weights
-    share = share / share.sum()
     held = np.zeros(poses.shape, dtype=bool) if exact is None else exact
-    limits = _seen(limits or Limits(), frames)
-    search = _Search(share, held, norm)
+    limits = _limits_in(frames, limits or Limits())
+    search = _Search(shares(weights, poses.shape), held, norm)
     kinds = limits.allowed
     rr = _circles(seen, limits, search) if "RR" in kinds else np.empty((0, 5))
     sliders: list[PR | RP] = []
@@ -116,7 +117,7 @@ def limited_dyads(
 
 @dataclass
 class _Search:
-    """What is minimised, and a count of what was found on the way."""
+    """What is minimised, and counts of the search: see `LimitedDyads`."""
 
     share: FloatArray
     exact: NDArray[np.bool_]
@@ -127,9 +128,11 @@ class _Search:
     unsettled: int = 0
 
     def centre(self, rows: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Residual rows (N, f): what is taken off all of them, G of the rest, and A.
+        """Residual rows (N, f) without the row of the best constant.
 
-        The mean where no pose is exact, or the first exact one's.
+        That row is the mean where no pose is exact, or the first exact one's.
+        Returns it, the Gram matrix G (f, f) of the rest, and the conditions A (k, f) of the other
+        exact poses.
         """
         marked = np.flatnonzero(self.exact)
         base, others = rows[marked[0]] if len(marked) else self.share @ rows, marked[1:]
@@ -142,9 +145,9 @@ class _Search:
         """The minima (k, n) of systems of one shape."""
         stacked = Parameters(*(np.stack(part) for part in zip(*parameters, strict=True)))
         minima = []
-        for one in stationary(shape, stacked):
+        for one in stationary_points(shape, stacked):
             self.systems += 1
-            self.found += one.found
+            self.found += one.finite
             self.lost += one.lost
             minima.append(one.points[one.minimum])
         return minima
@@ -153,44 +156,46 @@ class _Search:
         self,
         dyads: list[FloatArray],
         z: FloatArray,
-        misses: Misses,
+        distances: DistanceFunction,
         blocks: Sequence[Block],
     ) -> None:
         """Add the minimum of the norm to which a dyad z leads, if it is within limits and new."""
+        problem = FitProblem(distances, np.eye(len(z)), self.share, self.exact)
 
-        def step(z: FloatArray, basis: FloatArray) -> Polished:
-            return least_squares(misses, z, basis, self.share, self.exact, steps=1)
+        def newton_step(z: FloatArray, basis: FloatArray) -> GeometricFit:
+            return least_squares(problem._replace(basis=basis), z, max_steps=1)
 
-        def least(z: FloatArray, basis: FloatArray) -> Polished:
-            best = least_worst(misses, z, basis, self.share, self.exact)
-            if not best.settled and np.abs(best.z).max() > ENDLESS:
+        def minimax(z: FloatArray, basis: FloatArray) -> GeometricFit:
+            best = least_worst(problem._replace(basis=basis), z)
+            if not best.settled and np.abs(best.z).max() > SLIDER_LENGTH:
                 return best._replace(z=np.full_like(z, np.nan))  # on its way to a slider
             return best._replace(settled=True)
 
         if not inside(z, blocks):
             return
-        best = descend(z, misses, step, blocks)
+        best = descend(z, distances, newton_step, blocks)
         if best.settled and self.norm == "worst" and not self.exact.all():
-            best = descend(best.z, misses, least, blocks)
+            best = descend(best.z, distances, minimax, blocks)
         size = 1 + np.abs(best.z).max()
-        if not best.settled and not size < ENDLESS:
+        if not best.settled and not size < SLIDER_LENGTH:
             return  # on its way to a slider
         # On an edge or at a corner there may be too little freedom to meet the exact poses.
-        if not best.settled or np.abs(misses(best.z).miss[self.exact]).max(initial=0) > MET * size:
+        gap = np.abs(distances(best.z).distance[self.exact]).max(initial=0)
+        if not best.settled or gap > EXACT_TOLERANCE * size:
             self.unsettled += 1
             return
-        if all(np.abs(best.z - other).max() > SAME * size for other in dyads):
+        if all(np.abs(best.z - other).max() > SAME_DYAD * size for other in dyads):
             dyads.append(best.z)
 
 
 def _circles(seen: Displacement, limits: Limits, search: _Search) -> FloatArray:
     """The RR dyads (k, 5): c, m, r."""
     base, gram, conditions = search.centre(residual_rows(seen))
-    misses = circle_misses(seen)
+    distances = circle_distances(seen)
     blocks = (
         Block(slice(0, 2), limits.fixed_pivot),
         Block(slice(2, 4), limits.moving_pivot),
-        Block(slice(4, 5), Range(*limits.length)),
+        Block(slice(4, 5), LengthRange(*limits.length)),
     )
     dyads: list[FloatArray] = []
 
@@ -200,10 +205,10 @@ def _circles(seen: Displacement, limits: Limits, search: _Search) -> FloatArray:
         for x in minima:
             pivots = [fixed.origin + fixed.basis @ x[:i], moving.origin + moving.basis @ x[i:]]
             z = np.concatenate([*pivots, [0.0]])
-            distance, held = misses(z).miss, search.exact
+            distance, held = distances(z).distance, search.exact
             mean = distance[held].mean() if held.any() else search.share @ distance
             z[4:] = [mean] if length.basis.shape[1] else length.origin
-            search.follow_up(dyads, z, misses, blocks)
+            search.follow_up(dyads, z, distances, blocks)
 
     systems: dict[str, tuple[Shape, list[tuple[tuple[Face, ...], Parameters]]]] = {}
     for faces in product(*(block.faces() for block in blocks)):
@@ -216,22 +221,26 @@ def _circles(seen: Displacement, limits: Limits, search: _Search) -> FloatArray:
         if i + j == 0:
             follow_up(faces, np.empty((1, 0)))
             continue
-        at, turn = _circle_map(faces[0], faces[1])
-        linear = turn.T @ base
+        at, features = _circle_map(faces[0], faces[1])
+        linear = features.T @ base
         linear[0] += at @ at
         square = np.asarray(faces[2].origin[0] ** 2)
-        system = Parameters(turn.T @ gram @ turn, conditions @ turn, linear, square)
+        system = Parameters(features.T @ gram @ features, conditions @ features, linear, square)
         shape = circle_shape(i, j, len(conditions), kind)
         systems.setdefault(shape.name, (shape, []))[1].append((faces, system))
     for shape, members in systems.values():
         found = search.solve(shape, [system for _, system in members])
         for (faces, _), minima in zip(members, found, strict=True):
             follow_up(faces, minima)
-    return np.array(sorted(dyads, key=lambda z: _cost(misses, z))).reshape(-1, 5)
+    return np.array(sorted(dyads, key=lambda z: _cost(distances, z))).reshape(-1, 5)
 
 
 def _circle_map(fixed: Face, moving: Face) -> tuple[FloatArray, FloatArray]:
-    """The origin (c, m) of two faces, and what their features make of all seven: (7, f)."""
+    """How the features of a pair of faces make those of the whole plane.
+
+    Returns the origin (c, m) of the faces (4,), and the matrix (7, f) from their features to the
+    seven of two free pivots.
+    """
     i, j = fixed.basis.shape[1], moving.basis.shape[1]
     at = np.concatenate([fixed.origin, moving.origin])
     steps = np.zeros((i + j, 4))
@@ -253,28 +262,29 @@ def _lines(
         [seen.translation, np.cos(seen.angle)[:, None], np.sin(seen.angle)[:, None]], axis=-1
     )
     base, gram, conditions = search.centre(rows)
-    misses = line_misses(seen)
+    distances = line_distances(seen)
     block = Block(slice(2, 4), region)
     dyads: list[FloatArray] = []
     for face in block.faces():
         j = face.basis.shape[1]
         if 1 + j < len(conditions):
             continue
-        turn = _line_map(face)
+        features = _line_map(face)
         shape = line_shape(j, len(conditions))
-        nothing = np.zeros(turn.shape[1])
-        system = Parameters(turn.T @ gram @ turn, conditions @ turn, nothing, np.ones(()))
+        zero = np.zeros(features.shape[1])
+        gram_of_face = features.T @ gram @ features
+        system = Parameters(gram_of_face, conditions @ features, zero, np.ones(()))
         for x in search.solve(shape, [system])[0]:
             n, pivot = x[:2], face.origin + face.basis @ x[2:]
             offset = base @ _LINE.features(np.concatenate([n, pivot]))
             z = np.array([np.arctan2(n[1], n[0]), offset, *pivot])
-            search.follow_up(dyads, z, misses, (block,))
-    dyads.sort(key=lambda z: _cost(misses, z))
-    return [_upper(z) for z in dyads]
+            search.follow_up(dyads, z, distances, (block,))
+    dyads.sort(key=lambda z: _cost(distances, z))
+    return [_with_upper_normal(z) for z in dyads]
 
 
-def _upper(z: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """A line has two normals; take the one in the upper half plane."""
+def _with_upper_normal(z: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Normal angle, offset and pivot (2,) of a dyad z (4,), the normal in the upper half plane."""
     angle = np.arctan2(np.sin(z[0]), np.cos(z[0]))
     flip = angle < 0 or angle == np.pi
     angle = np.mod(angle, np.pi)
@@ -282,7 +292,7 @@ def _upper(z: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
 
 
 def _line_map(face: Face) -> FloatArray:
-    """What a face's features make of the four (n, n · m, n x m): (4, f)."""
+    """The matrix (4, f) from the features of a face to (n, n · m, n x m)."""
     normals, step = np.eye(2), face.basis.T
     at = [_LINE.features(np.concatenate([n, face.origin])) for n in normals]
     if len(step) == 2:
@@ -295,12 +305,12 @@ def _line_map(face: Face) -> FloatArray:
     return np.stack(at + more, axis=-1)
 
 
-def _cost(misses: Misses, z: FloatArray) -> float:
-    return float((misses(z).miss ** 2).sum())
+def _cost(distances: DistanceFunction, z: FloatArray) -> float:
+    return float((distances(z).distance ** 2).sum())
 
 
-def _seen(limits: Limits, frames: CanonicalFrames) -> Limits:
-    """Limits as the canonical frames see them."""
+def _limits_in(frames: CanonicalFrames, limits: Limits) -> Limits:
+    """Limits as canonical frames see them."""
 
     def moved(region: Region | None, origin: FloatArray) -> Any:
         if region is None:

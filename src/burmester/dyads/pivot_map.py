@@ -2,7 +2,7 @@
 
 With the fixed pivot given the circle residual is linear in the moving pivot and in the mean square
 it leaves, and the other way round; so the best partner of a pivot is a linear least-squares
-problem in two unknowns, solved here in closed form for as many pivots as are asked for.
+problem in two unknowns, solved here in closed form for any number of pivots.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import RR
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
+from burmester.numerics.weights import shares
 
 __all__ = ["PivotMap", "fixed_pivot_map", "grid", "moving_pivot_map"]
 
-BLOCK = 1 << 18  # residuals at a time
-ALIKE = (
-    1e-12  # sine of the angle below which two columns are one, and the partner is not determined
-)
+BLOCK_RESIDUALS = 1 << 18  # computed at a time, to bound the memory
+# Sine of the least angle between two columns; below it the partner is not determined.
+PARALLEL_SINE = 1e-12
 
 
 @final
@@ -63,12 +63,11 @@ def fixed_pivot_map(
     poses.require_finite()
     frames, seen = CanonicalFrames.of(poses, weights)
     at = (np.asarray(pivots, dtype=np.float64) - frames.fixed_origin) / frames.length
-    share = np.ones(poses.shape) if weights is None else weights
-    root = np.sqrt(share / share.sum())
-    flat = at.reshape(-1, 2)
-    parts = []
-    for start in range(0, len(flat), size := max(1, BLOCK // poses.shape[0])):
-        parts.append(_partners(seen, flat[start : start + size], root))
+    root = np.sqrt(shares(weights, poses.shape))
+    flat, block = at.reshape(-1, 2), max(1, BLOCK_RESIDUALS // poses.shape[0])
+    parts = [
+        _partners(seen, flat[start : start + block], root) for start in range(0, len(flat), block)
+    ]
     moving, radius, residual, rms, worst = (
         np.concatenate(part).reshape(at.shape[:-1] + part[0].shape[1:])
         for part in zip(*parts, strict=True)
@@ -93,8 +92,9 @@ def moving_pivot_map(
 def _partners(
     poses: Displacement, pivots: FloatArray, root: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Moving pivots (k, 2), radii, residuals, rms and worst errors (k,) of fixed pivots (k, 2).
+    """The best moving pivots of fixed pivots (k, 2).
 
+    Returns moving pivots (k, 2), radii, residuals, rms and worst errors (k,).
     With b = R⁻¹(d - c): |R m + d - c|² = |m|² + |b|² + 2 b · m; the means are taken off.
     """
     back = poses.inverse().act(pivots[:, None])  # R⁻¹(c - d), (k, N, 2)
@@ -111,16 +111,16 @@ def _partners(
         rest_square = (rest * rest).sum(axis=-1)
         second = (rest * right).sum(axis=-1) / rest_square
         first = (x * right).sum(axis=-1) / square - along * second
-        second = np.where(rest_square > ALIKE**2 * np.maximum(square, 1.0), second, np.nan)
+        second = np.where(rest_square > PARALLEL_SINE**2 * np.maximum(square, 1.0), second, np.nan)
         first = np.where(np.isnan(second), np.nan, first)
     moving = np.stack([first, second], axis=-1)
     moving = np.where(swap, moving[:, ::-1], moving)
     left = right - (columns * moving[:, None]).sum(axis=-1)
     distance = RR(pivots, moving, np.zeros(len(pivots)))[:, None].residual(poses)
     radius = np.sqrt(((root * distance) ** 2).sum(axis=-1))
-    miss = distance - radius[:, None]
-    rms = np.sqrt((miss * miss).mean(axis=-1))
-    return moving, radius, np.sqrt((left * left).sum(axis=-1)), rms, np.abs(miss).max(axis=-1)
+    error = distance - radius[:, None]
+    rms, worst = np.sqrt((error * error).mean(axis=-1)), np.abs(error).max(axis=-1)
+    return moving, radius, np.sqrt((left * left).sum(axis=-1)), rms, worst
 
 
 def _centred(values: FloatArray, root: FloatArray) -> FloatArray:

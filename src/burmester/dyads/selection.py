@@ -11,7 +11,7 @@ from burmester.dyads.five_poses import FivePoseDyads
 from burmester.dyads.local_minima import BestDyads
 from burmester.dyads.minima_within_limits import LimitedDyads
 from burmester.dyads.pencil import LEAST_POSES, Pencil, fit_pencil
-from burmester.dyads.sliders import straightened
+from burmester.dyads.sliders import nearest_slider
 from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.geometry import constraint_manifold
 from burmester.numerics.arrays import ROUNDING, FloatArray
@@ -22,13 +22,13 @@ __all__ = ["LONG", "Fit", "FoundDyad", "found_dyads", "known", "same_dyad"]
 Fit: TypeAlias = Pencil | FivePoseDyads | BestDyads
 Candidate: TypeAlias = tuple[Dyad, float, float]  # with its rms and greatest error
 
-# In characteristic lengths of the task, where they are lengths.
-NEARLY_STRAIGHT = 0.05  # a manifold nearer than this to a slider's may be that slider
-LONG = 100.0  # a longer link is a slider if that fits half as well, or is called nearly one
-LOST = 1e-6  # an error of this share is no longer rounding in a dyad that should be exact
-ENDLESS = 1e9  # no link is longer, and no pivot farther away
-SAME = 1e-6  # dyads with both pivots nearer than this are one
-NULL = 1e-9  # what rounding leaves of a coefficient that is zero
+# Lengths are in characteristic lengths of the task.
+MAX_SLIDER_ANGLE = 0.05  # sine; a manifold at a greater angle to a slider's is not that slider
+LONG = 100.0  # length; a longer link is a slider if that fits half as well, or is nearly one
+LOST_SHARE = 1e-6  # of the size; a greater error of an exact dyad is no longer rounding
+MAX_LENGTH = 1e9  # no link is longer, and no pivot farther away
+SAME_DYAD = 1e-6  # length or angle; dyads whose dimensions differ by less are one
+COEFFICIENT_ROUNDING = 1e-9  # share of a manifold's norm that rounding leaves of a zero
 
 
 @final
@@ -52,13 +52,13 @@ class FoundDyad:
 def found_dyads(fit: Fit, task: Task) -> tuple[list[FoundDyad], int]:
     """The dyads of a fit, each as the circle or the slider that it is, and each once.
 
-    With them, how many solutions were left out because they are no dyads: the link would be
-    infinitely long and no slider fits in its place, only the angle is said (`_two_angles`), or
-    a dyad that should pass exactly does not, for rounding has eaten its digits.
-
     A long link is a slider where the line it nearly follows fits the poses as well as the
     circle does, or as well as the poses are known.  For noisy poses that is a heuristic.
     Sorted by rms error; where errors are mere rounding, by the length of the link.
+
+    Returns the dyads, and how many solutions were left out because they are no dyads: the link
+    would be infinitely long and no slider fits in its place, the manifold determines nothing but
+    the angle (`_two_angles`), or a dyad that should be exact is not, as rounding took its digits.
     """
     length, unit = characteristic_length(task), float(fit.frames.length)
     seen = fit.frames.see(task.poses)
@@ -73,9 +73,9 @@ def found_dyads(fit: Fit, task: Task) -> tuple[list[FoundDyad], int]:
     def add_slider(line: PR | RP) -> None:
         slider = fit.frames.line_back(line)
         pivot = line.moving_pivot if isinstance(line, PR) else line.fixed_pivot
-        if np.abs(pivot).max() < ENDLESS:
-            miss = unit * line.residual(seen)
-            add(slider, float(np.sqrt((miss**2).mean())), float(np.abs(miss).max()))
+        if np.abs(pivot).max() < MAX_LENGTH:
+            distance = unit * line.residual(seen)
+            add(slider, float(np.sqrt((distance**2).mean())), float(np.abs(distance).max()))
 
     solutions = np.flatnonzero(np.isfinite(fit.coefficients).all(axis=-1))
     sliders = fit.sliders if isinstance(fit, BestDyads) else ()
@@ -83,19 +83,21 @@ def found_dyads(fit: Fit, task: Task) -> tuple[list[FoundDyad], int]:
     for k in solutions:
         p, circle = fit.coefficients[k], fit.dyads[k]
         rms, worst = float(fit.rms_error[k]), float(fit.max_error[k])
-        if not limited and abs(p[0]) < NEARLY_STRAIGHT * constraint_manifold.size(p):
-            line, error, _, apart = straightened(p, seen, task.weights)
+        if not limited and abs(p[0]) < MAX_SLIDER_ANGLE * constraint_manifold.size(p):
+            nearest = nearest_slider(p, seen, task.weights)
             share = 1 if circle.radius < LONG * length else 2
             rounding = np.finfo(float).eps * float(circle.radius)  # of a distance so great
             allowed = max(share * rms, known(task, length) * length, rounding)
-            fits = unit * error <= allowed or not np.isfinite(allowed)
-            if apart < near and fits:
-                add_slider(line)
+            fits = unit * nearest.rms_error <= allowed or not np.isfinite(allowed)
+            if nearest.angle_sine < near and fits:
+                add_slider(nearest.dyad)
                 continue
         if limited and circle.radius > LONG * length and sliders:
             continue  # on its way to one of them
-        lost = isinstance(fit, FivePoseDyads) and rms > LOST * max(length, float(circle.radius))
-        if lost or _two_angles(p) or not circle.radius < ENDLESS * length:
+        lost = isinstance(fit, FivePoseDyads) and rms > LOST_SHARE * max(
+            length, float(circle.radius)
+        )
+        if lost or _two_angles(p) or not circle.radius < MAX_LENGTH * length:
             left_out += 1
             continue
         if isinstance(fit, BestDyads):
@@ -117,20 +119,22 @@ def _nearly_straight(fit: Fit, task: Task, length: float) -> float:
     """The sine of the angle by which noise turns a manifold away from the slider that it is."""
     if isinstance(fit, BestDyads):
         if task.poses.shape[0] < LEAST_POSES:
-            return NEARLY_STRAIGHT
+            return MAX_SLIDER_ANGLE
         fit = fit_pencil(task.poses, task.weights)
     # Noise turns the null space, and so every manifold in it, by about this angle.
-    blur = max(float(fit.noise), known(task, length) * np.sqrt(task.poses.shape[0]), NULL)
-    return float(min(3 * blur / max(float(fit.gap), 1e-300), NEARLY_STRAIGHT))
+    blur = max(
+        float(fit.noise), known(task, length) * np.sqrt(task.poses.shape[0]), COEFFICIENT_ROUNDING
+    )
+    return float(min(3 * blur / max(float(fit.gap), 1e-300), MAX_SLIDER_ANGLE))
 
 
 def _two_angles(p: FloatArray) -> bool:
-    """Whether p (8,) says nothing of places, only that the angle is one of two: no dyad.
+    """Whether p (8,) holds the angle to one of two values and no place: it is no dyad.
 
     Such a quadric, two planes, holds the poses where they have but two different angles.  It
     is a double root, and so known to half the digits only.
     """
-    return bool(np.linalg.norm(p[[0, 2, 3, 4, 5]]) < SAME * constraint_manifold.size(p))
+    return bool(np.linalg.norm(p[[0, 2, 3, 4, 5]]) < SAME_DYAD * constraint_manifold.size(p))
 
 
 def known(task: Task, length: float) -> float:
@@ -144,4 +148,6 @@ def same_dyad(a: Dyad, b: Dyad, length: float) -> bool:
     if type(a) is not type(b):
         return False
     gaps = [(np.abs(getattr(a, f.name) - getattr(b, f.name)).max(), f.name) for f in fields(a)]
-    return all(gap < (SAME if name.endswith("angle") else SAME * length) for gap, name in gaps)
+    return all(
+        gap < (SAME_DYAD if name.endswith("angle") else SAME_DYAD * length) for gap, name in gaps
+    )

@@ -6,28 +6,32 @@ found a slider, and this module finds that slider itself instead of a radius of 
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from burmester.fourbar.dyad import PR, RP
 from burmester.geometry import constraint_manifold
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
+from burmester.numerics.weights import weights_or_ones
 
-__all__ = ["fixed_lines", "moving_lines", "straightened"]
+__all__ = ["NearestSlider", "fixed_lines", "moving_lines", "nearest_slider"]
 
 
 def fixed_lines(
     poses: Displacement, weights: FloatArray | None = None
 ) -> tuple[PR, FloatArray, FloatArray]:
-    """The two stationary PR dyads (*, 2) of poses (*, N), the best first.
+    """The two stationary PR dyads of poses (*, N), the best first.
 
-    With them their rms and greatest distance from the line, (*, 2) each, in the task's unit.
     The distance n · (R m + d) - h is linear in (n, u, v, h), with u and v the cosine and sine
     parts of n · R m; u, v and h are eliminated by least squares, and n is a right singular
     vector of the N x 2 matrix that is left: the one with the smaller value is the best line.
+
+    Returns the dyads (*, 2), and their rms and greatest distances from the line, (*, 2) each, in
+    the task's unit.
     """
-    share = np.ones(poses.shape) if weights is None else np.broadcast_to(weights, poses.shape)
-    root = np.sqrt(share)[..., None]
+    root = np.sqrt(weights_or_ones(weights, poses.shape))[..., None]
     middle = poses.translation.mean(axis=-2, keepdims=True)
     d = poses.translation - middle
     c, s = np.cos(poses.angle), np.sin(poses.angle)
@@ -43,28 +47,41 @@ def fixed_lines(
     # A line has two normals; take the one in the upper half plane.
     flip = np.where((n2 < 0) | ((n2 == 0) & (n1 < 0)), -1.0, 1.0)
     lines = PR(np.arctan2(n2 * flip, n1 * flip), h * flip, moving_pivot)
-    miss = lines[..., None].residual(poses[..., None, :])
-    return lines, np.sqrt((miss**2).mean(axis=-1)), np.abs(miss).max(axis=-1)
+    distance = lines[..., None].residual(poses[..., None, :])
+    return lines, np.sqrt((distance**2).mean(axis=-1)), np.abs(distance).max(axis=-1)
 
 
 def moving_lines(
     poses: Displacement, weights: FloatArray | None = None
 ) -> tuple[RP, FloatArray, FloatArray]:
-    """The two stationary RP dyads (*, 2) of poses (*, N), the best first; see `fixed_lines`.
+    """The two stationary RP dyads of poses (*, N), the best first; see `fixed_lines`.
 
     The inverse motion exchanges F and M.
+    Returns the dyads, and their rms and greatest distances, (*, 2) each.
     """
     lines, rms, worst = fixed_lines(poses.inverse(), weights)
     return RP(lines.moving_pivot, lines.normal_angle, lines.offset), rms, worst
 
 
-def straightened(
+class NearestSlider(NamedTuple):
+    """The slider nearest to a manifold.
+
+    rms_error, max_error: of its distances, in the unit of the poses; angle_sine: of the angle
+    between the two manifolds as vectors.
+    """
+
+    dyad: PR | RP
+    rms_error: float
+    max_error: float
+    angle_sine: float
+
+
+def nearest_slider(
     coefficients: FloatArray, poses: Displacement, weights: FloatArray | None = None
-) -> tuple[PR | RP, float, float, float]:
-    """The slider nearest to a manifold p (8,) with p1 ~ 0, its rms and greatest residual.
+) -> NearestSlider:
+    """The slider nearest to a manifold p (8,) with p1 ~ 0.
 
     Of the stationary sliders of the poses (N,), the one whose line points as that of p does.
-    Last comes how far it is from p: the sine of the angle between the two as vectors.
     """
     fixed, moving = constraint_manifold.prismatic_parts(coefficients)
     on_ground = np.linalg.norm(fixed) >= np.linalg.norm(moving)
@@ -78,4 +95,4 @@ def straightened(
         for v in (coefficients, line.coefficients())
     )
     apart = np.linalg.norm(p - (p @ q) * q)  # not from the cosine, which cannot tell below 1e-8
-    return line, float(rms[nearest]), float(worst[nearest]), float(apart)
+    return NearestSlider(line, float(rms[nearest]), float(worst[nearest]), float(apart))
