@@ -82,7 +82,7 @@ SLIPS = [  # suffix, what is replaced in the sound text, by what (with the mark)
     (".json", "\n  [1", " «/* no */»\n  [1", "no comments"),
     (".json", "60]]}", "60]]}«}»", "no bracket is open"),
     (".json", "60]]}", "60«]»", "is still open"),
-    (".json", "2, 30]", "2, 30«}»", "to be closed is a ["),
+    (".json", "2, 30]", "2, 30«}»", "still open is a ["),
     (".json", '"t"', '"«\\»qt"', "begins an escape"),
     (".json", '"t"', '"«\t»t"', "a tab"),
     (".toml", '"deg"', "«deg»", "no quotes"),

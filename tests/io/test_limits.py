@@ -317,9 +317,9 @@ FAULTS = [  # TOML, code, the path that is named, what the message holds
     ("[limits]\n«fixed» = 1\n", "E107", "limits.fixed", "not known"),
     ("[limits]\nfixed_pivot.«circle» = [1, 2]\n", "E107", "limits.fixed_pivot.circle", "not known"),
     ("[limits]\nlength.«max» = 2\n", "E107", "limits.length.max", "not known"),
-    ("[«limit»]\nlength.most = 2\n", "E107", "limit ", "limits nothing"),
-    ("«fixed_pivot» = { point = [1, 2] }\n", "E107", "fixed_pivot", "limits nothing"),
-    ("«exact» = [1, 5]\n", "E107", "exact", "limits nothing"),
+    ("[«limit»]\nlength.most = 2\n", "E107", "limit ", "has no effect"),
+    ("«fixed_pivot» = { point = [1, 2] }\n", "E107", "fixed_pivot", "has no effect"),
+    ("«exact» = [1, 5]\n", "E107", "exact", "has no effect"),
     (
         "[limits]\nfixed_pivot = «{ point = [1, 2], box = [[0, 0], [1, 1]] }»\n",
         "E108",

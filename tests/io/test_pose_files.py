@@ -284,9 +284,9 @@ H = "x,y,angle_deg\n"
 OK = "1,2,3\n"
 # suffix, content, code, what `where` ends its first line with, what the whole message holds
 BAD: list[tuple[str, str | bytes, str, str, str]] = [
-    ("", b"", "E102", "poses", "nothing in it"),
-    (".csv", b"\xef\xbb\xbf", "E102", "poses.csv", "nothing in it"),
-    (".json", " \n ", "E102", "poses.json", "nothing in it"),
+    ("", b"", "E102", "poses", "the file is empty"),
+    (".csv", b"\xef\xbb\xbf", "E102", "poses.csv", "the file is empty"),
+    (".json", " \n ", "E102", "poses.json", "the file is empty"),
     (".csv", "# x\n\n", "E102", "poses.csv", "only comments"),
     (".csv", H, "E102", "poses.csv", "only a header"),
     (".csv", H + "\n# 1,2,3\n", "E102", "poses.csv", "only a header"),
@@ -326,7 +326,7 @@ BAD: list[tuple[str, str | bytes, str, str, str]] = [
     (".csv", "x;y;angle_deg\n1,234.5;2;3\n", "E104", "poses.csv:2:1", "'1,234.5'"),
     (".csv", "x;y;angle_deg\n1.234,5;2;3\n", "E104", "poses.csv:2:1", "'1.234,5'"),
     (".csv", "x;y;angle_deg\n1,234,567;2;3\n", "E104", "poses.csv:2:1", "'1,234,567'"),
-    (".csv", "x;y;angle_deg\n7;1,234;3\n7;1;3\n", "E104", "poses.csv:2:3", "parts thousands"),
+    (".csv", "x;y;angle_deg\n7;1,234;3\n7;1;3\n", "E104", "poses.csv:2:3", "separates thousands"),
     (".csv", "x;y;angle_deg\n7;1,23;3\n7;1.5;3\n", "E104", "poses.csv:2:3", "two ways"),
     (".tsv", "x\ty\tangle_deg\n7\t8\t1.5\n7\t1,500\t3\n", "E104", "poses.csv:3:3", "two ways"),
     (".csv", ROWS, "E105", "poses.csv:1:1", "no header"),

@@ -124,7 +124,7 @@ def numeric_roles(columns: Container[str]) -> list[str]:
 def plain_number(cell: str, separator: str) -> tuple[str, str | None]:
     """A cell with a point for its decimal comma, and its mark: "", ".", "," or "?".
 
-    "?" is a comma that may part thousands; the mark is None if this is no finite number.  The
+    "?" is a comma that may separate thousands; the mark is None if this is no finite number.  The
     minus sign U+2212 is a minus.  What is nearer to 0 than to any other double is 0: 1e-400.
     """
     cell = cell.replace("\u2212", "-")
