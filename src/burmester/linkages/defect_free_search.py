@@ -127,9 +127,10 @@ def links_of_pivot_map(poses: Displacement, weights: FloatArray | None = None) -
 
 
 def _best_starts(stack: LinkageBatch, target: Target) -> _Starts:
-    """Of pairs (k,) of dyads the likeliest starts.
+    """The starts with the best scores, from pairs (k,) of dyads.
 
-    The first few pairs also from where they come nearest to the poses, on each of their circuits.
+    All pairs start at the poses; the first PAIRS_ON_CIRCUITS also from their nearest places on each
+    circuit.
     """
     starts, score = _starts_at_poses(stack, target)
     there = _starts_on_circuits(stack[:PAIRS_ON_CIRCUITS], target)
@@ -142,10 +143,9 @@ def _best_starts(stack: LinkageBatch, target: Target) -> _Starts:
 
 
 def _starts_at_poses(stack: LinkageBatch, target: Target) -> tuple[_Starts, FloatArray]:
-    """Starts from pairs (k,) as near to the poses as can be, and how unlikely they are, (k,).
+    """Starts of pairs (k,) projected from the poses, and their scores; lower is better.
 
-    Judged at the poses themselves, as if the pairs met them: by how far they miss them, on which
-    branch they are there, and in which order.
+    The score is taken at the poses themselves, as if the pairs met them: distance, branch, order.
     """
     count, number = len(stack), target.poses.shape[0]
     wanted = rows_of(target.poses, target.length)
@@ -189,7 +189,7 @@ def _starts_at_poses(stack: LinkageBatch, target: Target) -> tuple[_Starts, Floa
 def _projected(
     stack: LinkageBatch, rows: FloatArray, length: float
 ) -> tuple[FloatArray, NDArray[np.bool_]]:
-    """Places of linkages (k,) straight ahead of rows (k, N, 3), and where there are any, (k,)."""
+    """Places of linkages (k,) straight ahead of rows (k, N, 3), and whether all exist, (k,)."""
     surfaces = stack.surfaces()
     with np.errstate(all="ignore"):
         for _ in range(PROJECTION_STEPS):
@@ -239,9 +239,9 @@ def _starts_on_circuits(stack: LinkageBatch, target: Target) -> _Starts:
 
 
 def middle_input(stack: LinkageBatch, places: Displacement, side: int) -> FloatArray:
-    """The drive (k,) amid the dead points of the circuits on which places (k,) are.
+    """The input (k,) halfway between the dead points of the circuits on which places (k,) are.
 
-    nan where there are none, and for drives that slide.
+    nan where there are none, and for sliding inputs.
     """
     out = np.full(len(stack), np.nan)
     for index, linkage in (stack.exchanged() if side else stack).alike():

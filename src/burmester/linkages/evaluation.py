@@ -44,10 +44,10 @@ MAX_ROUNDED = 5  # round at most this many linkages
 
 
 class Candidates(NamedTuple):
-    """Linkages (k,) with the rows (k, N, 3) of their places, and the pairs that they come from.
+    """Linkages (k,) with the rows (k, N, 3) of their places, and the pairs of dyads behind them.
 
-    from_search: (k,), which were looked for under conditions.
-    own: the same in the task's own frames, where not a digit is to be lost.
+    from_search: (k,), which come from the search for defect-free linkages.
+    own: the same linkages in the task's own frames, with all their digits.
     """
 
     stack: LinkageBatch
@@ -60,7 +60,7 @@ class Candidates(NamedTuple):
 @final
 @dataclass(frozen=True, slots=True, eq=False)
 class Evaluation:
-    """What linkages are judged by."""
+    """The evaluation of linkages against a problem and its target."""
 
     problem: SynthesisProblem
     target: Target
@@ -71,12 +71,12 @@ class Evaluation:
         return self.problem.task
 
     def stacked(self, pairs: Sequence[Pair]) -> LinkageBatch:
-        """Pairs of dyads in the frames in which they are judged."""
+        """Pairs of dyads, in the frames of the target."""
         linkages = [Linkage(first.dyad, second.dyad) for first, second in pairs]
         return LinkageBatch.of(linkages).seen(self.target.frames)
 
     def evaluate(self, candidates: Candidates) -> list[FoundLinkage]:
-        """The linkages with all that is to be said of them, ranked."""
+        """The linkages with errors, verdicts, drivers and uncertainties, ranked."""
         candidates = take(candidates, np.flatnonzero(_sizable(candidates.stack)))
         own = (
             candidates.stack.back(self.target.frames) if candidates.own is None else candidates.own
@@ -88,15 +88,15 @@ class Evaluation:
         out = []
         for k, verdict in enumerate(verdicts):
             linkage = own.linkage(k)
-            better, missing, works = self._driver(linkage, verdict)
-            parts = linkage, verdict, better, candidates.pairs[k]
-            if better == "second" and len(self.task.limits) < 2:
+            driver, missing, usable = self._driver(linkage, verdict)
+            parts = linkage, verdict, driver, candidates.pairs[k]
+            if driver == "second" and len(self.task.limits) < 2:
                 sides[k] = (1, 0)
                 parts = _exchanged(linkage, verdict, candidates.pairs[k])
-            linkage, verdict, better, (one, two) = parts  # noqa: PLW2901
+            linkage, verdict, driver, (one, two) = parts  # noqa: PLW2901
             dyads = self.dyad(one, linkage.first), self.dyad(two, linkage.second)
-            said = (dyads, linkage, errors[k], verdict, better, works, missing)
-            out.append(FoundLinkage("", 0, *said, bool(candidates.from_search[k])))
+            values = (dyads, linkage, errors[k], verdict, driver, usable, missing)
+            out.append(FoundLinkage("", 0, *values, bool(candidates.from_search[k])))
         rows = np.arange(len(own))[:, None]
         stack = LinkageBatch(
             candidates.stack.kinds[rows, sides], candidates.stack.dimensions[rows, sides]
@@ -104,9 +104,9 @@ class Evaluation:
         return self.ranked(self._with_uncertainty(out, stack, candidates.rows))
 
     def ranked(self, found: list[FoundLinkage]) -> list[FoundLinkage]:
-        """Those that work first, then by worst error; the same linkage once.
+        """Usable linkages first, then by the worst error; equal linkages once.
 
-        Of one pair of dyads that does not work, whatever is made of it, the closest is told.
+        Of several failing linkages from one pair of dyads only the closest is kept.
         """
 
         def order(each: FoundLinkage) -> tuple[bool, float]:
@@ -127,7 +127,7 @@ class Evaluation:
         return out
 
     def rounded(self, found: list[FoundLinkage]) -> list[FoundLinkage]:
-        """The best of them with lengths and pivots rounded, judged again."""
+        """The first MAX_ROUNDED linkages with rounded dimensions, evaluated and ranked again."""
         out: list[FoundLinkage] = []
         frames, options = self.target.frames, self.problem.options
         for each in found[:MAX_ROUNDED]:
@@ -151,7 +151,7 @@ class Evaluation:
         return self.ranked(out)
 
     def dyad(self, origin: FoundDyad | str, dyad: Dyad) -> FoundDyad:
-        """A dyad with its own distance from the poses, called as that from which it comes."""
+        """A dyad with its own errors at the poses, and the id of its origin."""
         miss = np.abs(dyad.residual(self.task.poses))
         rms, worst = float(np.sqrt((miss**2).mean())), float(miss.max())
         if isinstance(origin, str):
@@ -195,13 +195,13 @@ class Evaluation:
     def _driver(
         self, linkage: Linkage, verdict: Verdict
     ) -> tuple[Side, tuple[Violation, ...], bool]:
-        """The better driver, what is unmet with it, and whether it leads through the poses."""
+        """The preferred driver, the violated requirements, and whether the linkage is usable."""
         asked = self.task.requirements
         sides: tuple[Side, ...] = ("first", "second")
         if asked.driver in sides:
             sides = (asked.driver,)
 
-        def judged(side: Side) -> tuple[tuple[float, ...], tuple[Violation, ...]]:
+        def merit(side: Side) -> tuple[tuple[float, ...], tuple[Violation, ...]]:
             driven = verdict.first if side == "first" else verdict.second
             missing = violations(
                 with_driver_first(linkage, side), driven, asked, self.task.length_unit
@@ -211,7 +211,7 @@ class Evaluation:
             poses = sum(len(each.poses) for each in driven.defects)
             return (*map(float, wrong), poses, 0.0 if driven.turns_fully else 1.0, weak), missing
 
-        ranked = {side: judged(side) for side in sides}
+        ranked = {side: merit(side) for side in sides}
         best = min(sides, key=lambda side: ranked[side][0])
         (defects, missing, *_), reasons = ranked[best]
         return best, reasons, not (verdict.defects or defects or missing)
@@ -219,7 +219,7 @@ class Evaluation:
     def _with_uncertainty(
         self, found: list[FoundLinkage], stack: LinkageBatch, rows: FloatArray
     ) -> list[FoundLinkage]:
-        """The linkages with what errors of the poses, and of building, do to them."""
+        """The linkages with the uncertainty that errors of the poses, and of building, leave."""
         sound = np.flatnonzero(np.isfinite(rows).all(axis=(1, 2)))
         if not len(sound):
             return found
@@ -269,7 +269,7 @@ def _sizable(stack: LinkageBatch) -> NDArray[np.bool_]:
 def _exchanged(
     linkage: Linkage, verdict: Verdict, pair: Pair
 ) -> tuple[Linkage, Verdict, Side, Pair]:
-    """The same with the second dyad first, as the better driver."""
+    """The same with the second dyad first, as the preferred driver."""
     turned = Verdict(verdict.defects, verdict.second, verdict.first)
     return with_driver_first(linkage, "second"), turned, "first", pair[::-1]
 
@@ -282,7 +282,7 @@ def _excess(z: FloatArray) -> float:
 
 
 def _same(a: Linkage, b: Linkage, size: float) -> bool:
-    """Whether two linkages are one, whichever dyad comes first."""
+    """Whether two linkages are equal, in either order of their dyads."""
     pairs = ((a.first, b.first), (a.second, b.second)), ((a.first, b.second), (a.second, b.first))
     return any(all(_alike(x, y, size) for x, y in pair) for pair in pairs)
 

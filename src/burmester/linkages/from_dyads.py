@@ -32,10 +32,8 @@ __all__ = ["linkages_from_dyads"]
 
 # Stay on one circuit if its worst error is at most this many times the unrestricted one.
 ONE_CIRCUIT_RATIO = 2.0
-FIRST_STEPS, FURTHER_STEPS = (
-    8,
-    52,
-)  # number of refinement steps: for all linkages, for the near ones
+# Number of refinement steps of all linkages, and of further steps of the near ones.
+FIRST_STEPS, FURTHER_STEPS = 8, 52
 # Refine fully the best MIN_REFINED and all within REFINED_COST_RATIO times the lowest cost.
 MIN_REFINED, REFINED_COST_RATIO = 4, 100.0
 # Refine on at most 1000 poses, search on at most 60, evenly thinned.
@@ -46,16 +44,16 @@ MAX_SEARCHED = 5  # number of linkages kept from the search for defect-free link
 def linkages_from_dyads(
     problem: SynthesisProblem, pairs: Sequence[Pair], *, refine: bool = True
 ) -> tuple[FoundLinkage, ...]:
-    """The linkages of pairs of dyads, those that work first, then by rising worst position error.
+    """The linkages of pairs of dyads, usable ones first, then by rising worst position error.
 
     refine: False leaves the dimensions as the dyads have them, whatever the options say.  Pairs
-    with a PP dyad are passed over: no single joint drives them.
+    with a PP dyad are left out: no single joint drives them.
     """
     options, refine = problem.options, refine and problem.options.refines
     pairs = [pair for pair in pairs if not any(isinstance(each.dyad, PP) for each in pair)]
     if not pairs:
         return ()
-    if len(problem.task.limits) < 2:  # pairs of the same kinds are looked at together
+    if len(problem.task.limits) < 2:  # pairs of the same kinds are computed together
         kind = {each.id: STACKED.index(type(each.dyad)) for pair in pairs for each in pair}
         pairs = [(b, a) if kind[b.id] < kind[a.id] else (a, b) for a, b in pairs]
     evaluation = Evaluation(problem, _target_of(problem))
@@ -93,7 +91,7 @@ def _target_of(problem: SynthesisProblem) -> Target:
 
 
 def _of_pairs(start: LinkageBatch, pairs: list[Pair], target: Target, refine: bool) -> Candidates:
-    """The pairs with their places, on one circuit where that is nearly as near as any."""
+    """The pairs with their places, on one circuit where that costs little, and refined."""
     every = np.arange(len(start))
     rows = rows_of(on_circuits(start, target.poses, target.length), target.length)
     one = rows[every, np.nan_to_num(target.cost(rows), nan=np.inf).argmin(axis=1)]
@@ -114,24 +112,22 @@ def _of_pairs(start: LinkageBatch, pairs: list[Pair], target: Target, refine: bo
     candidates = Candidates(start[index], rows, [pairs[k] for k in index], none)
     if refine:
         candidates = _refined(candidates, target)
-        if (
-            len(candidates.rows[0]) <= MAX_POSES_REFINED
-        ):  # refining leaves some in a valley that is not the nearest
+        # Refinement may leave places in local minima that are not the nearest.
+        if len(candidates.rows[0]) <= MAX_POSES_REFINED:
             rows = on_own_circuits(candidates.stack, candidates.rows, target.poses, target.length)
             candidates = candidates._replace(rows=rows)
-    # What was not touched keeps its digits.
+    # Linkages that did not change keep all their digits.
     own = LinkageBatch.of([Linkage(a.dyad, b.dyad) for a, b in candidates.pairs]).dimensions
-    touched = (candidates.stack.dimensions != start.dimensions[index]).any(
-        axis=(1, 2), keepdims=True
-    )
-    own = np.where(touched, candidates.stack.back(target.frames).dimensions, own)
+    changed = candidates.stack.dimensions != start.dimensions[index]
+    changed = changed.any(axis=(1, 2), keepdims=True)
+    own = np.where(changed, candidates.stack.back(target.frames).dimensions, own)
     return candidates._replace(own=LinkageBatch(candidates.stack.kinds, own))
 
 
 def _refined(candidates: Candidates, target: Target) -> Candidates:
-    """The linkages refined, but for those that meet the poses up to rounding already.
+    """The linkages, refined unless they meet the poses within rounding already.
 
-    All of them by some steps, and those that come near by as many as it takes.
+    All of them by FIRST_STEPS, the near ones by FURTHER_STEPS.
     """
     cost = target.cost(candidates.rows)
     some = np.flatnonzero(cost > ROUNDING**2 * candidates.rows.shape[1])
@@ -164,7 +160,7 @@ def _refined(candidates: Candidates, target: Target) -> Candidates:
 def _searched(
     start: LinkageBatch, pairs: list[Pair], evaluation: Evaluation, plain: list[FoundLinkage]
 ) -> list[FoundLinkage]:
-    """Linkages that work and come nearer to the poses than the plain ones that do."""
+    """Usable linkages of the search that come nearer to the poses than the plain usable ones."""
     best = min((each.error.worst for each in plain if each.usable), default=np.inf)
     target = evaluation.target.thinned(MAX_POSES_SEARCHED)
     stack, origin = _search_starts(start, pairs, evaluation)
@@ -185,7 +181,7 @@ def _searched(
 def _search_starts(
     start: LinkageBatch, pairs: list[Pair], evaluation: Evaluation
 ) -> tuple[LinkageBatch, list[Pair]]:
-    """Where the search starts from: the pairs, and links that are low in the pivot maps."""
+    """The starts of the search: the pairs, and pairs with links of low error in the pivot maps."""
     if evaluation.problem.task.limits:
         return start, pairs
     links = links_of_pivot_map(evaluation.target.poses, evaluation.problem.task.weights)
