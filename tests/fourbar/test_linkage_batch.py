@@ -58,17 +58,19 @@ def test_equations_of_every_pair_of_kinds():
     rng = np.random.default_rng(0)
     linkages = all_pairs(rng)
     places = some_places(rng, len(linkages), 7)
-    bearing = LinkageBatch.of(linkages).bearing(places)
+    jacobians = LinkageBatch.of(linkages).jacobians(places)
     for k, linkage in enumerate(linkages):
         for side, dyad in enumerate((linkage.first, linkage.second)):
-            assert np.allclose(bearing.miss[k, side], equation(dyad, at(places, k)), atol=1e-13)
+            assert np.allclose(
+                jacobians.residual[k, side], equation(dyad, at(places, k)), atol=1e-13
+            )
 
 
 def test_forces_are_gradients_of_the_equations_by_the_place():
     rng = np.random.default_rng(1)
     linkages = all_pairs(rng)
     places = some_places(rng, len(linkages), 5)
-    force = LinkageBatch.of(linkages).bearing(places).force
+    force = LinkageBatch.of(linkages).jacobians(places).force
     h = 1e-6
     for k, linkage in enumerate(linkages):
         here = at(places, k)
@@ -102,11 +104,11 @@ def test_on_the_linkage_the_force_is_the_dyads_own_gradient():
         rows.append([*place.translation, place.angle])
     rows = np.array(rows)
     places = Displacement(rows[:, None, :2], rows[:, None, 2])
-    bearing = LinkageBatch.of(linkages).bearing(places)
-    assert np.abs(bearing.miss).max() < 1e-13
+    jacobians = LinkageBatch.of(linkages).jacobians(places)
+    assert np.abs(jacobians.residual).max() < 1e-13
     for k, linkage in enumerate(linkages):
         for side, dyad in enumerate((linkage.first, linkage.second)):
-            assert np.allclose(bearing.force[k, side], dyad.gradient(at(places, k)), atol=1e-12)
+            assert np.allclose(jacobians.force[k, side], dyad.gradient(at(places, k)), atol=1e-12)
 
 
 def test_derivatives_by_the_dimensions():
@@ -129,7 +131,7 @@ def test_derivatives_by_the_dimensions():
                 pair = (dyad, other) if side == 0 else (other, dyad)
                 stack = LinkageBatch.of([Linkage(*pair)])
                 both = Displacement(place.translation[None], place.angle[None])
-                slope = stack.bearing(both).by_dimension[0, side, 0]
+                slope = stack.jacobians(both).by_dimension[0, side, 0]
                 row = stack.dimensions[0, side]
                 used = DIMENSIONS if kind is RR else DIMENSIONS - 1
                 for j in range(used):
@@ -147,7 +149,7 @@ def test_bend_is_the_second_derivative_along_a_straight_step():
     v, omega = rng.normal(size=(count, number, 2)), rng.normal(size=(count, number))
     d = places.translation @ [1, 1j]
     turn = np.exp(1j * places.angle)
-    surfaces = LinkageBatch.of(linkages).surfaces()
+    surfaces = LinkageBatch.of(linkages).forms()
     _, _, swing = surfaces.at(d[:, None], turn[:, None])
     bend = surfaces.bend(turn[:, None], swing, (v @ [1, 1j])[:, None], omega[:, None])
     for k, linkage in enumerate(linkages):
@@ -168,9 +170,9 @@ def test_some_surfaces_are_those_of_the_picked_linkages():
     rng = np.random.default_rng(5)
     linkages = all_pairs(rng, 1)
     stack, pick = LinkageBatch.of(linkages), np.array([7, 0, 4])
-    some = take(stack.surfaces(), pick)
+    some = take(stack.forms(), pick)
     for k, number in enumerate(pick):
-        one = LinkageBatch.of([linkages[number]]).surfaces()
+        one = LinkageBatch.of([linkages[number]]).forms()
         for mine, its in zip(some, one, strict=True):
             assert np.allclose(mine[k], its[0])
 
@@ -183,9 +185,9 @@ def test_seen_in_other_frames_and_back():
     places = some_places(rng, len(linkages), 6)
     stack = LinkageBatch.of(linkages)
     seen = stack.seen(frames)
-    there = seen.bearing(frames.see(places)).miss
-    assert np.allclose(2.5 * there, stack.bearing(places).miss, atol=1e-12)
-    assert (there != stack.bearing(places).miss).any()
+    there = seen.jacobians(frames.see(places)).residual
+    assert np.allclose(2.5 * there, stack.jacobians(places).residual, atol=1e-12)
+    assert (there != stack.jacobians(places).residual).any()
     assert np.allclose(seen.back(frames).dimensions, stack.dimensions, atol=1e-13)
     assert (seen.back(frames).kinds == stack.kinds).all()
 

@@ -219,7 +219,7 @@ def test_a_linkage_that_cannot_be_built_so_is_lost():
     assert np.isinf(built.position).any(axis=(1, 2)).all()
     some = np.isfinite(built.position[0]).all(axis=-1)
     for k in np.flatnonzero(some)[:3]:
-        miss, *_ = LinkageBatch(np.zeros((1, 2), dtype=np.int8), built.dimensions[:, k]).bearing(
+        miss, *_ = LinkageBatch(np.zeros((1, 2), dtype=np.int8), built.dimensions[:, k]).jacobians(
             built.places[:, k]
         )
         assert np.abs(miss).max() < 1e-8

@@ -191,7 +191,7 @@ def sampson_residuals(
     count, number = len(linkages), rows.shape[-2]
     rows = np.broadcast_to(rows, (count, number, 3))
     with np.errstate(all="ignore"):
-        miss, force, partial = linkages.bearing(Displacement(rows[..., :2], rows[..., 2]))
+        miss, force, partial = linkages.jacobians(Displacement(rows[..., :2], rows[..., 2]))
         a, b, c = ((force[:, i] * force[:, j]).sum(-1) for i, j in ((0, 0), (0, 1), (1, 1)))
         first, height = np.sqrt(a), np.sqrt(np.maximum(c - b * b / a, 1e-20 * c))
         root = np.sqrt(share)

@@ -61,7 +61,7 @@ class ConstraintNormals(NamedTuple):
 
 
 def constraint_normals(residual: FloatArray, force: FloatArray, length: float) -> ConstraintNormals:
-    """The normals, from residuals (k, 2, *) and forces (k, 2, *, 3) of `LinkageBatch.bearing`."""
+    """The normals, from residuals (k, 2, *) and forces (k, 2, *, 3) of `LinkageBatch.jacobians`."""
     force = np.moveaxis(force, 1, -2) / np.array([1.0, 1.0, length])
     one, two = force[..., 0, :], force[..., 1, :]
     a, b, c = (np.einsum("...i,...i->...", *pair) for pair in ((one, one), (one, two), (two, two)))
@@ -98,7 +98,7 @@ def foot_points(
     ends, target = start.reshape(-1, 3).copy(), np.broadcast_to(target, shape).reshape(-1, 3)
     run = np.flatnonzero(np.isfinite(ends).all(axis=-1))
     converged = np.zeros(len(ends), dtype=bool)
-    every = batch.surfaces()
+    every = batch.forms()
     for _ in range(max_steps):
         forms = take(every, linkage[run])
         step, size = newton_step(forms, ends[run, None], target[run, None], length)

@@ -1,8 +1,8 @@
-"""Linkages of any kinds in one stack: each dyad by five dimensions, its constraint and derivatives.
+"""Batches of linkages of mixed kinds: each dyad's five dimensions, its constraint and derivatives.
 
-What judges and improves linkages does the same to RR, PR and RP alike: each dyad is one equation
-f = 0 of the coupler's place, with a force that it can bear (its gradient), and dimensions on which
-it depends.  So a stack of pairs of any kinds is a few arrays.
+For RR, PR and RP alike each dyad is one equation f = 0 of the coupler's place, with a gradient (the
+force that the dyad can bear) and derivatives by its dimensions.  So a batch of pairs of any kinds
+is a few arrays.
 """
 
 from __future__ import annotations
@@ -21,21 +21,21 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
 from burmester.numerics.bundles import take
 
-__all__ = ["DIMENSIONS", "STACKED", "ConstraintForms", "ConstraintJacobians", "LinkageBatch"]
+__all__ = ["DIMENSIONS", "DYAD_KINDS", "ConstraintForms", "ConstraintJacobians", "LinkageBatch"]
 
-STACKED: Final = (RR, PR, RP)  # the kinds, by their number in a stack
-DIMENSIONS: Final = 5  # of a dyad; a slider leaves the last one unused
+DYAD_KINDS: Final = (RR, PR, RP)  # the kinds of dyads, by their number in a batch
+DIMENSIONS: Final = 5  # number of dimensions of a dyad; a slider leaves the last one unused
 
 
 class ConstraintJacobians(NamedTuple):
-    """What both dyads of linkages (k,) do at coupler places (k, *).
+    """The constraints of both dyads of linkages (k,) at coupler places (k, *), and derivatives.
 
-    miss: (k, 2, *), the equation f, near its zero the distance from being met.
+    residual: (k, 2, *), the equation f, near its zero the distance from the constraint.
     force: (k, 2, *, 3), its derivatives by d1, d2 and the angle: a force and its moment.
     by_dimension: (k, 2, *, 5), its derivatives by the dyad's dimensions.
     """
 
-    miss: FloatArray
+    residual: FloatArray
     force: FloatArray
     by_dimension: FloatArray
 
@@ -45,7 +45,7 @@ class ConstraintJacobians(NamedTuple):
 class LinkageBatch:
     """Linkages (k,) of two dyads each, RR, PR or RP.
 
-    kinds: (k, 2), indices in STACKED.
+    kinds: (k, 2), indices in DYAD_KINDS.
     dimensions: (k, 2, 5): RR fixed pivot, moving pivot, radius; PR normal angle, offset, moving
         pivot, 0; RP fixed pivot, normal angle, offset, 0.
     """
@@ -55,7 +55,7 @@ class LinkageBatch:
 
     @classmethod
     def of(cls, linkages: Sequence[Linkage]) -> Self:
-        """Single linkages without PP dyads, put in a stack."""
+        """The batch of single linkages without PP dyads."""
         kinds = np.zeros((len(linkages), 2), dtype=np.int8)
         dimensions = np.zeros((len(linkages), 2, DIMENSIONS))
         for k, linkage in enumerate(linkages):
@@ -67,8 +67,8 @@ class LinkageBatch:
                 elif isinstance(dyad, RP):
                     row = [*dyad.fixed_pivot, dyad.normal_angle, dyad.offset, 0.0]
                 else:
-                    raise TypeError("a PP dyad has no place in a stack")
-                kinds[k, side] = STACKED.index(type(dyad))
+                    raise TypeError("a batch has no PP dyads")
+                kinds[k, side] = DYAD_KINDS.index(type(dyad))
                 dimensions[k, side] = row
         return cls(kinds, dimensions)
 
@@ -80,7 +80,7 @@ class LinkageBatch:
         return take(self, index)
 
     def linkage(self, index: int) -> Linkage:
-        """One of them."""
+        """The linkage at an index."""
         return Linkage(*(self._dyads(side, index) for side in (0, 1)))
 
     def exchanged(self) -> LinkageBatch:
@@ -88,15 +88,15 @@ class LinkageBatch:
         return LinkageBatch(self.kinds[:, ::-1], self.dimensions[:, ::-1])
 
     def alike(self) -> Iterator[tuple[NDArray[np.intp], Linkage]]:
-        """The linkages (n,) of each pair of kinds, with their indices (n,)."""
-        number = self.kinds[:, 0] * len(STACKED) + self.kinds[:, 1]
+        """For each pair of kinds the indices (n,) and the linkages (n,)."""
+        number = self.kinds[:, 0] * len(DYAD_KINDS) + self.kinds[:, 1]
         for pair in np.unique(number):
             index = np.flatnonzero(number == pair)
             yield index, Linkage(*(self._dyads(side, index) for side in (0, 1)))
 
     def _dyads(self, side: int, index: Any) -> RR | PR | RP:
         """The dyads of one side; those indexed are of one kind."""
-        kind = STACKED[int(np.ravel(self.kinds[index, side])[0])]
+        kind = DYAD_KINDS[int(np.ravel(self.kinds[index, side])[0])]
         row = self.dimensions[index, side]
         if kind is RR:
             return RR(row[..., :2], row[..., 2:4], row[..., 4])
@@ -105,11 +105,11 @@ class LinkageBatch:
         return RP(row[..., :2], row[..., 2], row[..., 3])
 
     def seen(self, frames: CanonicalFrames) -> LinkageBatch:
-        """As the frames of one task see them."""
+        """The same linkages in the frames of one task."""
         return self._moved(-frames.fixed_origin, -frames.moving_origin, 1.0, 1 / frames.length)
 
     def back(self, frames: CanonicalFrames) -> LinkageBatch:
-        """What `seen` undoes."""
+        """The inverse of `seen`."""
         return self._moved(frames.fixed_origin, frames.moving_origin, frames.length, 1.0)
 
     def _moved(
@@ -128,8 +128,8 @@ class LinkageBatch:
         out[..., 4] *= before * after
         return LinkageBatch(self.kinds, out)
 
-    def surfaces(self) -> ConstraintForms:
-        """The constraint manifolds of both dyads, scaled as in `bearing`."""
+    def forms(self) -> ConstraintForms:
+        """The constraint manifolds of both dyads, scaled as in `jacobians`."""
         one, two, last = (
             self.dimensions[..., :2],
             self.dimensions[..., 2:4],
@@ -139,7 +139,7 @@ class LinkageBatch:
         out = ConstraintForms(
             *(np.zeros(c.shape, dtype) for dtype in (float, complex, complex, complex, float))
         )
-        rr, pr, rp = (self.kinds == kind for kind in range(len(STACKED)))
+        rr, pr, rp = (self.kinds == kind for kind in range(len(DYAD_KINDS)))
         if rr.any():
             fixed, moving, r = c[rr], m[rr], last[rr]
             constant = (np.abs(moving) ** 2 + np.abs(fixed) ** 2) / r - r
@@ -156,14 +156,14 @@ class LinkageBatch:
             out.constant[rp] = -two[rp][:, 1]
         return out
 
-    def bearing(self, places: Displacement) -> ConstraintJacobians:
-        """What both dyads do at coupler places (k, *)."""
+    def jacobians(self, places: Displacement) -> ConstraintJacobians:
+        """The constraints of both dyads at coupler places (k, *), and their derivatives."""
         d, turn = complex_of(places.translation)[:, None], np.exp(1j * places.angle)[:, None]
-        miss, push, swing = self.surfaces().at(d, turn)
+        miss, push, swing = self.forms().at(d, turn)
         force = np.stack([push.real, push.imag, -swing.imag], axis=-1)
         by_dimension = np.zeros((*miss.shape, DIMENSIONS))
         on_body = push * turn.conj()
-        for kind in range(len(STACKED)):
+        for kind in range(len(DYAD_KINDS)):
             row, side = np.nonzero(self.kinds == kind)
             if not len(row):
                 continue
@@ -189,7 +189,8 @@ class ConstraintForms(NamedTuple):
 
     f = round |d|² + Re(d* (still + turned turn)) + Re(both turn) + constant = 0.
 
-    The eight coefficients of `manifold` in another order; RR is scaled by 1 / (2 r), lines by 1.
+    The eight coefficients of `constraint_manifold` in another order; RR is scaled by 1 / (2 r),
+    lines by 1.
     """
 
     round: FloatArray
@@ -201,10 +202,10 @@ class ConstraintForms(NamedTuple):
     def at(
         self, d: ComplexArray, turn: ComplexArray
     ) -> tuple[FloatArray, ComplexArray, ComplexArray]:
-        """At places (k, 1, *), of surfaces (k, 2): f, the force, and what turning does (`swing`).
+        """f, the force and `swing` of forms (k, 2) at places (k, 1, *).
 
-        f and the force (a complex number) are (k, 2, *).  The moment of the force about the origin
-        of M is -swing.imag; f's second derivative by the angle is -swing.real.
+        All are (k, 2, *), the latter two complex.  The moment of the force about the origin of M
+        is -swing.imag; f's second derivative by the angle is -swing.real.
         """
         spread = (..., *[None] * (d.ndim - 2))
         round, still = self.round[spread], self.still[spread]

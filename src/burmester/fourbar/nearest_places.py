@@ -104,7 +104,7 @@ def on_own_circuits(
         own = both[index[:, None], side, every]
         nearer[index] = np.where((circuit >= 0)[..., None], own, rows[index])
     places = Displacement(rows[..., :2], rows[..., 2] / length)
-    off = np.abs(batch.bearing(places).miss).max(axis=1) > ON_LINKAGE
+    off = np.abs(batch.jacobians(places).residual).max(axis=1) > ON_LINKAGE
     least = _squares(rows, target) * (1 + EQUALLY_NEAR)
     better = off | (_squares(nearer, target) <= least)
     better &= np.isfinite(nearer).all(axis=-1)

@@ -270,7 +270,7 @@ def signed_transmission_sine(
     """
     every = np.arange(len(stack))
     d, turn = complex_of(rows), np.exp(1j * rows[..., 2] / length)
-    _, push, swing = stack.surfaces().at(d[:, None], turn[:, None])
+    _, push, swing = stack.forms().at(d[:, None], turn[:, None])
     moment = -swing.imag
     lead, follow = push[every, driver], push[every, 1 - driver]
     own, other = moment[every, driver], moment[every, 1 - driver]

@@ -152,7 +152,7 @@ def _starts_at_poses(stack: LinkageBatch, target: Target) -> tuple[_Starts, Floa
     rows = np.broadcast_to(wanted, (count, number, 3))
     share = np.ones(number) if target.weights is None else target.weights / target.weights.mean()
     d, turn = complex_of(wanted), np.exp(1j * target.poses.angle)
-    miss = (stack.surfaces().at(d[None, None], turn[None, None])[0] ** 2 @ share).sum(axis=1)
+    miss = (stack.forms().at(d[None, None], turn[None, None])[0] ** 2 @ share).sum(axis=1)
     found = []
     for side in _sides(target.requirements):
         lead = np.full(count, side)
@@ -190,12 +190,12 @@ def _projected(
     stack: LinkageBatch, rows: FloatArray, length: float
 ) -> tuple[FloatArray, NDArray[np.bool_]]:
     """Places of linkages (k,) straight ahead of rows (k, N, 3), and whether all exist, (k,)."""
-    surfaces = stack.surfaces()
+    surfaces = stack.forms()
     with np.errstate(all="ignore"):
         for _ in range(PROJECTION_STEPS):
             rows = rows + newton_step(surfaces, rows, rows, length)[0]
         places = Displacement(rows[..., :2], rows[..., 2] / length)
-        on = np.abs(stack.bearing(places).miss) < ON_LINKAGE
+        on = np.abs(stack.jacobians(places).residual) < ON_LINKAGE
         return rows, np.asarray(on.all(axis=(1, 2)))
 
 

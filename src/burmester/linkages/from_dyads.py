@@ -16,7 +16,7 @@ import numpy as np
 from burmester.fourbar.dyad import PP
 from burmester.fourbar.foot_points import rows_of
 from burmester.fourbar.linkage import Linkage
-from burmester.fourbar.linkage_batch import STACKED, LinkageBatch
+from burmester.fourbar.linkage_batch import DYAD_KINDS, LinkageBatch
 from burmester.fourbar.nearest_places import nearest, on_circuits, on_own_circuits
 from burmester.fourbar.pose_error import error_frames
 from burmester.geometry.displacement import Displacement
@@ -54,7 +54,7 @@ def linkages_from_dyads(
     if not pairs:
         return ()
     if len(problem.task.limits) < 2:  # pairs of the same kinds are computed together
-        kind = {each.id: STACKED.index(type(each.dyad)) for pair in pairs for each in pair}
+        kind = {each.id: DYAD_KINDS.index(type(each.dyad)) for pair in pairs for each in pair}
         pairs = [(b, a) if kind[b.id] < kind[a.id] else (a, b) for a, b in pairs]
     evaluation = Evaluation(problem, _target_of(problem))
     start = evaluation.stacked(pairs)

@@ -104,7 +104,7 @@ class Problem:
 
         With the constraints' normals there, and their derivatives by the dimensions.
         """
-        surfaces = stack.surfaces()
+        surfaces = stack.forms()
         for _ in range(MAX_NEWTON_STEPS):
             to = rows if target is None else target
             step, size = newton_step(surfaces, rows, to, self.length)
@@ -112,7 +112,7 @@ class Problem:
             if not (size > CLOSE_STEP).any():
                 break
         places = Displacement(rows[..., :2], rows[..., 2] / self.length)
-        residual, force, partial = stack.bearing(places)
+        residual, force, partial = stack.jacobians(places)
         off = ~(np.abs(residual) < OFF_LINKAGE).all(axis=(1, 2))
         rows[off] = np.nan
         return rows, constraint_normals(residual, force, self.length), partial

@@ -246,7 +246,7 @@ class _Rounding:
             rows = foot_points(stack, start, wanted, self.target.length)
             # Two equal dyads leave no direction back to the linkage: places off it are lost.
             at = Displacement(rows[..., :2], rows[..., 2] / self.target.length)
-            rows[~(np.abs(stack.bearing(at).miss) < OFF_LINKAGE).all(axis=(1, 2))] = np.nan
+            rows[~(np.abs(stack.jacobians(at).residual) < OFF_LINKAGE).all(axis=(1, 2))] = np.nan
             away = np.sqrt(((rows - wanted) ** 2).sum(axis=-1))
             away = away * np.sqrt(weights_of_mean_one(self.target.weights, rows.shape[1:2]))
             value, equal = self.constraints(stack, rows, np.arange(len(own)))
@@ -362,7 +362,7 @@ class _Rounding:
         target, stack = self.target, self._stack(candidates.own)
         found = on_circuits(stack, target.poses, target.length)
         rows = rows_of(found, target.length)[0]
-        miss = stack.bearing(found).miss[0]
+        miss = stack.jacobians(found).residual[0]
         rows[~(np.abs(miss) < OFF_LINKAGE).all(axis=(0, 2))] = np.nan
         away = ((rows - rows_of(target.poses, target.length)) ** 2).sum(axis=-1).max(axis=-1)
         return candidates.own[0], rows[int(np.nan_to_num(away, nan=np.inf).argmin())]

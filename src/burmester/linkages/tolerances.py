@@ -19,7 +19,7 @@ import numpy as np
 
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.foot_points import constraint_normals, newton_step, rows_of
-from burmester.fourbar.linkage_batch import DIMENSIONS, STACKED, LinkageBatch
+from burmester.fourbar.linkage_batch import DIMENSIONS, DYAD_KINDS, LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.uncertainty import line_middle
 from burmester.numerics.arrays import FloatArray
@@ -126,7 +126,7 @@ def sensitivity(
     Of their positions, by errors in the order of `LinkageBatch`, each as a length (see the top of
     the file); zero for unused slots.
     """
-    miss, force, by_dimension = stack.bearing(places)
+    miss, force, by_dimension = stack.jacobians(places)
     at = constraint_normals(miss, force, length)
     tangent, here = at.tangent, rows_of(places, length)
     gap = here - rows_of(poses, length)
@@ -134,7 +134,7 @@ def sensitivity(
     # tangent bends the distance.
     multipliers = -at.solve(np.einsum("knac,knc->kna", at.force, gap))
     nudge = TANGENT_STEP * length * tangent
-    ahead, behind = (stack.bearing(_places(here + sign * nudge, length)) for sign in (1, -1))
+    ahead, behind = (stack.jacobians(_places(here + sign * nudge, length)) for sign in (1, -1))
     step = 2 * TANGENT_STEP * length
     turning = np.einsum("kna,kanc->knc", multipliers, (ahead.force - behind.force) / step)
     turning[..., 2] /= length
@@ -190,7 +190,7 @@ def _nearest(
 ) -> FloatArray:
     """The places (n, N, 3) of linkages (n,) nearest to poses (N,), by Newton's steps from (N,)."""
     shape = (len(built), poses.shape[0], 3)
-    forms = built.surfaces()
+    forms = built.forms()
     rows = np.broadcast_to(rows_of(start, length), shape)
     wanted = np.broadcast_to(rows_of(poses, length), shape)
     size = np.full(shape[:2], np.inf)
@@ -206,9 +206,9 @@ def _dimensions_by_errors(stack: LinkageBatch, middle: FloatArray, length: float
     """Derivatives (k, 2, 5, 5) of the dimensions of each dyad by building errors, as lengths."""
     made = np.zeros((*stack.kinds.shape, DIMENSIONS, DIMENSIONS))
     made[:] = np.eye(DIMENSIONS)
-    made[stack.kinds != STACKED.index(RR), -1, -1] = 0.0
+    made[stack.kinds != DYAD_KINDS.index(RR), -1, -1] = 0.0
     for kind, at in ((PR, 0), (RP, 2)):
-        rows = stack.kinds == STACKED.index(kind)
+        rows = stack.kinds == DYAD_KINDS.index(kind)
         made[rows, at, at] = 1 / length
         made[rows, at + 1, at] = middle[rows] / length  # turned about the middle
     return made

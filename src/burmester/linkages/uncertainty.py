@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
-from burmester.fourbar.linkage_batch import DIMENSIONS, STACKED, LinkageBatch
+from burmester.fourbar.linkage_batch import DIMENSIONS, DYAD_KINDS, LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.weights import weights_or_ones
@@ -47,7 +47,7 @@ LOST_SINGULAR_VALUE = 8 * float(np.finfo(np.float64).eps)  # relative; a smaller
 UNKNOWN_DEVIATION = 1e3
 DEPENDENT = 1e-9  # relative singular value; smaller ones mean that fixed quantities are dependent
 
-_RR, _PR, _RP = (STACKED.index(kind) for kind in (RR, PR, RP))
+_RR, _PR, _RP = (DYAD_KINDS.index(kind) for kind in (RR, PR, RP))
 
 
 @final
@@ -178,7 +178,7 @@ def covariance(
     What the poses do not determine has a standard deviation of at least UNKNOWN_DEVIATION.
     """
     count = places.shape[1]
-    _, force, by_dimension = stack.bearing(places)
+    _, force, by_dimension = stack.jacobians(places)
     plane = _Across.of(force, length)
     # Two rows for each pose: the derivatives by the dimensions, and a root of its covariance.
     a: FloatArray = np.zeros((len(stack), count, 2, 2, DIMENSIONS))
