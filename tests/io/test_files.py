@@ -19,7 +19,7 @@ from pathlib import Path
 import pytest
 
 from burmester.errors import InputError
-from burmester.io.files import require_free, whole, write
+from burmester.io.files import atomic_file, require_writable, write
 from tests.oracles.kill import campaign, leftovers, state
 
 POSIX = os.name == "posix"
@@ -85,7 +85,7 @@ def test_nothing_is_replaced_without_force(links):
 
 def test_a_file_that_comes_meanwhile_is_not_touched(links):
     def late():
-        with whole("a") as temporary:
+        with atomic_file("a") as temporary:
             temporary.write_bytes(NEW)
             Path("a").write_bytes(OLD)
 
@@ -152,7 +152,7 @@ def test_links_are_written_through(here):
 
 def test_a_library_may_write_by_itself(here):
     """It gets a path with the suffix it goes by, in the folder of the target."""
-    with whole("drawing.zip") as temporary:
+    with atomic_file("drawing.zip") as temporary:
         assert temporary.suffix == ".zip"
         assert temporary.parent == Path(os.path.realpath(here))
         with zipfile.ZipFile(temporary, "w") as archive:
@@ -163,7 +163,7 @@ def test_a_library_may_write_by_itself(here):
 
 
 def _spoilt(name, fault):
-    with whole(name, force=True) as temporary:
+    with atomic_file(name, force=True) as temporary:
         temporary.write_bytes(NEW)
         raise fault
 
@@ -220,7 +220,7 @@ def test_an_interrupt_at_every_step(here, monkeypatch, links, force, moment):
     assert found.pop() == NEW
     assert len(found) >= 8
     if not links and not force and moment == "after":
-        found.remove(b"")  # the one moment that `whole` tells of
+        found.remove(b"")  # the one moment that `atomic_file` tells of
     assert set(found) == {old, NEW}
 
 
@@ -337,9 +337,9 @@ def test_ctrl_c_in_the_midst(here):
     process = child(
         """
         import sys, time
-        from burmester.io.files import whole
+        from burmester.io.files import atomic_file
 
-        with whole("a", force=True) as temporary, open(temporary, "wb") as file:
+        with atomic_file("a", force=True) as temporary, open(temporary, "wb") as file:
             file.write(b"half")
             file.flush()
             print("ready", flush=True)
@@ -356,7 +356,7 @@ def test_ctrl_c_in_the_midst(here):
 
 
 def test_a_folder_that_is_not_there_and_the_help(here):
-    for check in (require_free, lambda path: write(path, NEW)):
+    for check in (require_writable, lambda path: write(path, NEW)):
         error = refused("E141", check, "no such/folder/a b.toml")
         assert error.why == "there is no folder no such/folder"
     command = re.search("`(.*)`", error.help)[1]
@@ -389,7 +389,7 @@ def test_names_that_cannot_be_written(here, path, why, force):
         os.symlink("no folder/a", "nowhere")
         os.mkfifo("pipe")
     there = sorted(os.listdir())
-    for check in (require_free, lambda path, force: write(path, NEW, force=force)):
+    for check in (require_writable, lambda path, force: write(path, NEW, force=force)):
         error = refused("E141", check, path, force=force)
         assert why in error.why
         assert error.help
@@ -401,9 +401,9 @@ def test_names_that_cannot_be_written(here, path, why, force):
 
 def test_free_names_are_free(here):
     write("a", OLD)
-    require_free("b")
-    require_free("a", force=True)
-    refused("E140", require_free, "a")
+    require_writable("b")
+    require_writable("a", force=True)
+    refused("E140", require_writable, "a")
     assert os.listdir() == ["a"]
     assert Path("a").read_bytes() == OLD
 
@@ -432,14 +432,15 @@ def test_folders_and_files_that_are_closed():
             """
             import os, sys
             from burmester.errors import InputError
-            from burmester.io.files import require_free, write
+            from burmester.io.files import require_writable, write
 
             if os.geteuid() == 0:
                 os.setgid(65534)
                 os.setuid(65534)
             for name in ("closed/new", "closed/file", "fixed"):
                 path = os.path.join(sys.argv[1], name)
-                for check in (require_free, lambda path, force: write(path, b"new", force=force)):
+                writing = lambda path, force: write(path, b"new", force=force)  # noqa: E731
+                for check in (require_writable, writing):
                     try:
                         check(path, force=True)
                     except InputError as error:
@@ -499,7 +500,7 @@ def test_a_disk_that_is_full(here):
         assert (disk / "a").read_bytes() == OLD
         assert os.listdir(disk) == ["a"]
         subprocess.run(["mount", "-o", "remount,ro", str(disk)], check=True)
-        error = refused("E141", require_free, disk / "b")
+        error = refused("E141", require_writable, disk / "b")
         assert error.why.startswith("Read-only file system, in the folder ")
         refused("E141", write, disk / "a", NEW, force=True)
         assert (disk / "a").read_bytes() == OLD

@@ -426,7 +426,7 @@ def test_errors_are_drawn_as_long_as_the_note_says(ax):
     assert drawn.scale > 1
     assert f"errors drawn {drawn.scale:g} times as large" in drawn.achieved.x_axes.get_label()
     turn = points_of(drawn.achieved.x_axes).reshape(-1, 2)
-    wanted = points_of(drawn.wanted.x_axes).reshape(-1, 2)
+    wanted = points_of(drawn.prescribed.x_axes).reshape(-1, 2)
     turned = np.angle(np.diff(turn)[:, 0] / np.diff(wanted)[:, 0])
     assert turned == pytest.approx(drawn.scale * 0.01)
     assert "times" not in achieved(ax, moved, task.poses, scale=1).achieved.x_axes.get_label()

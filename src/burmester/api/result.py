@@ -159,7 +159,7 @@ class Result(_Shown[ResultLinkage], Synthesis):
         """
         from burmester.report import page  # noqa: PLC0415
 
-        files.require_free(path, force=force)
+        files.require_writable(path, force=force)
         files.write(path, page(self, title or Path(path).stem), force=force)
         return Path(path)
 

@@ -26,13 +26,13 @@ def check(poses: str, *, as_json: bool, **given: Any) -> int:
     from burmester.io import overview
     from burmester.io.files import quoted
 
-    found = diagnose(read_poses(poses, **given))
-    if (odd := disagreement(found.task, found.motion)) is not None:
-        found = replace(found, findings=(odd, *found.findings))
+    diagnosis = diagnose(read_poses(poses, **given))
+    if (odd := disagreement(diagnosis.task, diagnosis.motion)) is not None:
+        diagnosis = replace(diagnosis, findings=(odd, *diagnosis.findings))
     if as_json:
-        print_json(overview.check_data(found))
+        print_json(overview.check_data(diagnosis))
     else:
-        overview.show(found, console())
-        if found.sound:
+        overview.show(diagnosis, console())
+        if diagnosis.sound:
             click.echo(f"\nNothing stands out. Next: burmester synthesize {quoted(poses)}")
-    return EXIT_FOUND if found.sound else EXIT_NOTHING
+    return EXIT_FOUND if diagnosis.sound else EXIT_NOTHING

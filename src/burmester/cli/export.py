@@ -68,7 +68,7 @@ def export(
     """Write a linkage of RESULT, the file of `burmester synthesize POSES -o RESULT`."""
     from burmester.export import FORMATS, Options, format_of
     from burmester.export import export as run
-    from burmester.io.files import require_free
+    from burmester.io.files import require_writable
     from burmester.io.saved import read_result
 
     name = to or format_of(output)
@@ -79,7 +79,7 @@ def export(
             why=f"the formats are {', '.join(FORMATS)}",
             help="give --to dxf, or another of these",
         )
-    require_free(output, force=force)
+    require_writable(output, force=force)
     chosen = read_result(result).choose(linkage)
     for path in run(chosen, name, output, Options(**options), force):
         click.echo(f"wrote {path}: {chosen.id}, {chosen.type}; read back and compared")

@@ -38,8 +38,8 @@ def report(poses: str, *, output: str | None, title: str | None, force: bool, **
 
     name = {"-": "poses"}.get(poses, os.path.basename(poses.removeprefix("case:")))
     path = output or f"{os.path.splitext(name)[0]}.html"
-    files.require_free(path, force=force)
-    found = run_synthesis(poses, **given)
-    files.write(path, page(found, title or name), force=force)
-    click.echo(f"{found.outcome.message}\nwrote {path}; open it in any browser")
-    return EXIT_FOUND if found.determined else EXIT_NOTHING
+    files.require_writable(path, force=force)
+    synthesis = run_synthesis(poses, **given)
+    files.write(path, page(synthesis, title or name), force=force)
+    click.echo(f"{synthesis.outcome.message}\nwrote {path}; open it in any browser")
+    return EXIT_FOUND if synthesis.determined else EXIT_NOTHING

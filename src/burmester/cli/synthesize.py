@@ -45,17 +45,17 @@ def synthesize(
     from burmester.io.result import json_line, synthesis_data
 
     if output is not None:
-        files.require_free(output, force=force)
-    found = run_synthesis(poses, **given)
+        files.require_writable(output, force=force)
+    synthesis = run_synthesis(poses, **given)
     if output is not None:
-        files.write(output, json_line(synthesis_data(found)), force=force)
+        files.write(output, json_line(synthesis_data(synthesis)), force=force)
         click.echo(f"wrote {output}", err=True)
     if as_json:
-        print_json(synthesis_data(found))
+        print_json(synthesis_data(synthesis))
     else:
         from burmester.io.terminal import show_synthesis
 
-        show_synthesis(found, console())
+        show_synthesis(synthesis, console())
     # Whether a linkage was found that can be built: it works, and its pivots are determined.
-    good = found.determined or (accept_uncertain and bool(found.usable))
+    good = synthesis.determined or (accept_uncertain and bool(synthesis.usable))
     return EXIT_FOUND if good else EXIT_NOTHING

@@ -19,7 +19,7 @@ from typing import Final, final
 
 from burmester.errors import InputError
 from burmester.export.options import Options
-from burmester.io.files import whole
+from burmester.io.files import atomic_file
 from burmester.io.saved import SavedLinkage
 
 __all__ = ["FORMATS", "Format", "Options", "export", "format_of"]
@@ -167,7 +167,7 @@ def export(
         ) from None
     write = getattr(module, f"write_{name}", None) or module.write
     check = getattr(module, f"check_{name}", None) or module.check
-    with whole(path, force=force) as temporary:
+    with atomic_file(path, force=force) as temporary:
         write(chosen, temporary, options)
         check(chosen, temporary, options)
     return [Path(path)]

@@ -20,7 +20,7 @@ from pathlib import Path
 
 from burmester.errors import InputError
 
-__all__ = ["quoted", "require_free", "whole", "write"]
+__all__ = ["atomic_file", "quoted", "require_writable", "write"]
 
 STALE_SECONDS = 3600.0  # age above which a temporary file was left by a killed process
 
@@ -35,13 +35,13 @@ _NO_SYNC = (errno.EINVAL, errno.EACCES, errno.EBADF, errno.ENOSYS, errno.EOPNOTS
 
 
 def write(path: str | os.PathLike[str], data: bytes | str, *, force: bool = False) -> None:
-    """Write a whole file; text as UTF-8, its line ends as they are.  Errors: see `whole`."""
-    with whole(path, force=force) as temporary, open(temporary, "wb") as file:
+    """Write a whole file; text as UTF-8, its line ends as they are.  Errors: see `atomic_file`."""
+    with atomic_file(path, force=force) as temporary, open(temporary, "wb") as file:
         file.write(data.encode() if isinstance(data, str) else data)
 
 
 @contextmanager
-def whole(path: str | os.PathLike[str], *, force: bool = False) -> Iterator[Path]:
+def atomic_file(path: str | os.PathLike[str], *, force: bool = False) -> Iterator[Path]:
     """An empty file to write into, which becomes `path` when the block ends without an error.
 
     It lies in the folder of `path` and has its suffix.  A symbolic link is written through, and a
@@ -71,8 +71,8 @@ def whole(path: str | os.PathLike[str], *, force: bool = False) -> Iterator[Path
         raise _cannot(given, error, target) from None
 
 
-def require_free(path: str | os.PathLike[str], *, force: bool = False) -> None:
-    """Refuse now what `whole` would refuse later: to be called before a long computation.
+def require_writable(path: str | os.PathLike[str], *, force: bool = False) -> None:
+    """Refuse now what `atomic_file` would refuse later: to be called before a long computation.
 
     Tries the folder with an empty file.  Raises InputError E140 and E141.
     """

@@ -29,7 +29,7 @@ CURVE_REACH = 3.0  # spans of the poses; the curve is cut off beyond
 class DrawnMap(NamedTuple):
     """A pivot map as drawn: the map's numbers, its colours, and the lines of equal error."""
 
-    found: PivotMap
+    pivot_map: PivotMap
     mesh: QuadMesh
     lines: QuadContourSet
 
@@ -75,14 +75,14 @@ def pivot_map(
     >>> ax = plot.figure(4, 3).add_subplot()
     >>> task = read_task("case:ge2012-exact")
     >>> drawn = plot.pivot_map(ax, task.poses, (-5, -5), (5, 5), columns=20)
-    >>> drawn.found.rms_error.shape
+    >>> drawn.pivot_map.rms_error.shape
     (20, 20)
     """
     (x0, y0), (x1, y1) = np.asarray([low, high], dtype=np.float64)
     rows = max(2, round(columns * (y1 - y0) / (x1 - x0))) if rows is None else rows
     at = grid(low, high, columns, rows)
-    found = fixed_pivot_map(poses, at, weights)
-    error = np.where(np.isfinite(found.rms_error), found.rms_error, np.nan)
+    numbers = fixed_pivot_map(poses, at, weights)
+    error = np.where(np.isfinite(numbers.rms_error), numbers.rms_error, np.nan)
     greatest = float(np.nanmax(error))
     least = max(float(np.nanmin(error)), greatest * 10**-MAX_DECADES)
     if not 0 < least < greatest:  # every pivot does as well
@@ -111,7 +111,7 @@ def pivot_map(
         linestyles=["-" if abs(np.log10(v) % 1) < 0.1 else "--" for v in levels] or "-",
         zorder=0.7,
     )
-    return DrawnMap(found, mesh, lines)
+    return DrawnMap(numbers, mesh, lines)
 
 
 def centre_point_curve(ax: Axes, curve: DyadCurve, *, within: float | None = None) -> list[Line2D]:

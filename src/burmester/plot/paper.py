@@ -29,7 +29,7 @@ from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
 from burmester.io.cases import load
-from burmester.io.files import require_free, whole
+from burmester.io.files import atomic_file, require_writable
 from burmester.numerics.arrays import FloatArray
 from burmester.paper.fit import PaperFit
 from burmester.plot.camera import Box
@@ -105,18 +105,18 @@ def write_figures(
             why=error.strerror,
             help="give the name of a folder that is there, or can be made",
         ) from None
-    wanted = [(name, kind) for name in NAMES for kind in formats if kind != "gif"]
-    paths = [room / f"{name}.{kind}" for name, kind in wanted]
+    files = [(name, kind) for name in NAMES for kind in formats if kind != "gif"]
+    paths = [room / f"{name}.{kind}" for name, kind in files]
     moving = room / "walk.gif"
     for path in [*paths, *([moving] if "gif" in formats else [])]:
-        require_free(path, force=force)
+        require_writable(path, force=force)
     done = list[Path]()
     with house_style():
         for name in NAMES if paths else ():
             drawing = paper_figure(name)
             for path in (p for p in paths if p.stem == name):
                 kind = path.suffix[1:]
-                with whole(path, force=force) as temporary:
+                with atomic_file(path, force=force) as temporary:
                     drawing.savefig(temporary, format=kind, dpi="figure", metadata=_METADATA[kind])
                 done.append(path)
     if "gif" in formats:
@@ -266,22 +266,22 @@ def _table8() -> Figure:
     return _at_poses(_linkage(fit.printed["linkage_table8"]), fit.poses[0])
 
 
-def _at_poses(linkage: Linkage, wanted: Displacement) -> Figure:
-    """A linkage at one pose, faintly at the others; over the wanted poses; its errors."""
-    error = PoseError.of(linkage, wanted, span_of(wanted))
+def _at_poses(linkage: Linkage, prescribed: Displacement) -> Figure:
+    """A linkage at one pose, faintly at the others; over the prescribed poses; its errors."""
+    error = PoseError.of(linkage, prescribed, span_of(prescribed))
     drawing = figure(10.0, 5.2, 200)
     left, upper, lower = (
         drawing.add_axes(at)
         for at in ((0.05, 0.09, 0.40, 0.83), (0.52, 0.50, 0.42, 0.42), (0.54, 0.09, 0.38, 0.28))
     )
-    coupler_curve(left, linkage, size=span_of(wanted))
-    for k in range(len(wanted.angle)):
+    coupler_curve(left, linkage, size=span_of(prescribed))
+    for k in range(len(prescribed.angle)):
         draw_linkage(left, linkage, error.places[k], faint=k != DRAWN_POSE, names=k == DRAWN_POSE)
-    poses(left, wanted)
+    poses(left, prescribed)
     legend(left)
     finish(left)
     upper.set_anchor("W")
-    achieved(upper, error.places, wanted)
+    achieved(upper, error.places, prescribed)
     legend(upper)
     finish(upper)
     pose_errors(lower, error)

@@ -62,9 +62,9 @@ class CouplerCurve(NamedTuple):
 
 
 class Achieved(NamedTuple):
-    """Wanted and achieved poses, and lines from the former to the latter, `scale` times as long."""
+    """Prescribed poses, achieved places, and lines between them, `scale` times as long."""
 
-    wanted: Frames
+    prescribed: Frames
     achieved: Frames
     errors: LineCollection
     scale: float
@@ -294,7 +294,7 @@ def achieved(
             power = 10.0 ** np.floor(np.log10(exact))
             scale = float(max(1.0, *(m * power for m in (1, 2, 5) if m * power <= exact)))
     shown = Displacement(poses_.translation + scale * gap, poses_.angle + scale * turn)
-    wanted = poses(ax, poses_, size=size, color=GREY, linestyle=(0, (2, 1.2)), numbers=True)
+    prescribed = poses(ax, poses_, size=size, color=GREY, linestyle=(0, (2, 1.2)), numbers=True)
     got = poses(
         ax, shown, size=X_AXIS_LENGTH * span if size is None else size, color=BLUE, numbers=False
     )
@@ -305,11 +305,11 @@ def achieved(
         zorder=6,
     )
     ax.add_collection(errors)
-    wanted.x_axes.set_label("wanted")
+    prescribed.x_axes.set_label("wanted")
     got.x_axes.set_label(
         "achieved" if scale == 1 else f"achieved, errors drawn {scale:g} times as large"
     )
-    return Achieved(wanted, got, errors, scale)
+    return Achieved(prescribed, got, errors, scale)
 
 
 class DrawnCentrodes(NamedTuple):

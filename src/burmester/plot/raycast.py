@@ -260,7 +260,7 @@ def _lines(
         with np.errstate(divide="ignore", invalid="ignore"):
             near = np.flatnonzero(away < 2 * RING * slope)
             line = np.minimum(0.5 + RING / 2 - away[near] / slope[near], 1)
-            # Rings too close to be told apart would be a grey patch.
+            # Rings too close to be distinguished would be a grey patch.
             line *= np.clip(every / (6 * slope[near]) - 0.5, 0, 1)
         dark[near] = 0.55 * np.maximum(np.nan_to_num(line), 0)
     for axis in range(3):

@@ -61,7 +61,7 @@ DRAWING_MARGIN: Final = 0.07  # of a drawing's longer side: space left free arou
 LINE_COST: Final = 30.0  # cost of a piece of a line under a label; another label costs 10,000
 PIECE_LENGTH: Final = 3.0  # points: length of such a piece
 
-# The 32 places of a label: 4 distances in 8 directions, what was asked for first.
+# The 32 places of a label: 4 distances in 8 directions, the preferred one first.
 _FAR: Final = np.repeat([1.0, 1.5, 2.2, 3.3], 8)
 _ANGLES: Final = np.tile([0.0, 45, -45, 90, -90, 135, -135, 180], 4)
 _TURNS: Final = np.moveaxis(
@@ -265,7 +265,7 @@ def _extent(ax: Axes) -> tuple[FloatArray, FloatArray]:
 def settle_labels(ax: Axes, obstacles: Iterable[ArrayLike] = ()) -> list[Annotation]:
     """Move the labels of `label` to where they cover neither each other nor what is drawn.
 
-    Of 8 directions and 4 distances each takes the best that is left, the one it asked for first.
+    Of 8 directions and 4 distances each label takes the best one left, its preferred one first.
     obstacles: more points (*, 2) in data coordinates to keep free.
     """
     canvas = ax.figure.canvas
@@ -294,11 +294,11 @@ def settle_labels(ax: Axes, obstacles: Iterable[ArrayLike] = ()) -> list[Annotat
     inside = ax.get_window_extent(renderer).get_points()
     boxes = [t.get_points() for t in taken]
     for text in own:
-        wanted = np.array(text.get_position())
-        wanted = wanted / max(float(np.hypot(*wanted)), 1e-9)
+        preferred = np.array(text.get_position())
+        preferred = preferred / max(float(np.hypot(*preferred)), 1e-9)
         size = text.get_window_extent(renderer)
         half = np.array([size.width, size.height]) / 2
-        ways = wanted @ _TURNS  # (32, 2)
+        ways = preferred @ _TURNS  # (32, 2)
         # The label's near side, not its middle, is at the distance.
         reach = LABEL_STEP * 0.45 * _FAR * ax.figure.dpi / 72 + np.abs(ways) @ half
         away = reach[:, None] * ways
