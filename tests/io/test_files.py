@@ -439,7 +439,7 @@ def test_folders_and_files_that_are_closed():
                 os.setuid(65534)
             for name in ("closed/new", "closed/file", "fixed"):
                 path = os.path.join(sys.argv[1], name)
-                writing = lambda path, force: write(path, b"new", force=force)  # noqa: E731
+                writing = lambda path, force: write(path, b"new", force=force)
                 for check in (require_writable, writing):
                     try:
                         check(path, force=True)
