@@ -6,8 +6,13 @@ for what is fair to ask.
 
 import numpy as np
 
-from burmester import Displacement, Task, best_dyads, critical_dyads, synthesize
+from burmester import Displacement, Task, best_dyads, critical_dyads
 from burmester.fourbar.dyad import PR, RP, RR
+from burmester.synthesis.dyad_search import search_dyads
+from burmester.synthesis.method import with_method
+from burmester.tasks.motion_class import classify_motion
+from burmester.tasks.options import SynthesisOptions
+from burmester.tasks.problem import SynthesisProblem
 from tests.oracles.witness import random_four_bar, random_poses, span
 
 LIMIT, EPS, ENDLESS = 1e-8, 1e-15, 100
@@ -95,14 +100,16 @@ def gap(one, other):
 
 
 def solved(poses, method):
-    """The dyads by a method, a list."""
+    """The dyads by a method, a list, as `synthesize` has them; no linkages are made of them."""
     if method == "critical":
         found = critical_dyads(poses)
         return [found.dyads[k] for k in np.flatnonzero(found.real)]
     if method == "best_dyads":
         fit = best_dyads(poses)
         return [fit.dyads[k] for k in range(len(fit.rms_error))]
-    return [found.dyad for found in synthesize(Task(poses), method).dyads]
+    task = Task(poses)
+    problem = SynthesisProblem.of(task, classify_motion(task), SynthesisOptions(method))
+    return [found.dyad for found in search_dyads(with_method(problem)).dyads]
 
 
 def random_task(rng, method):
