@@ -32,7 +32,7 @@ from burmester.tasks.motion_task import Task, characteristic_length
 
 __all__ = ["Result", "SavedLinkage", "read_result"]
 
-AGREES = 1e-6  # of the motion's size; by how much errors computed anew may differ from those told
+ERROR_TOLERANCE = 1e-6  # characteristic lengths, between errors in the file and computed anew
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -136,16 +136,18 @@ def _linkage(data: dict[str, Any], task: Task) -> SavedLinkage:
     first, second = (_dyad(each) for each in data["dyads"])
     side: Side = data["driver"] or "first"
     own = Linkage(first, second)
-    told = data["position_error"]["max"]
+    stated = data["position_error"]["max"]
     size = characteristic_length(task)
-    if "coupler" in data and told is not None:
+    if "coupler" in data and stated is not None:
         places = Displacement(
             np.array([[place["x"], place["y"]] for place in data["coupler"]]),
             np.radians([place["angle_deg"] for place in data["coupler"]]),
         )
         error = PoseError.at(places, task.poses)
         off = max(float(np.abs(dyad.residual(places)).max()) for dyad in (first, second))
-        if not (off <= AGREES * size and abs(error.worst - told) <= AGREES * size):
+        if not (
+            off <= ERROR_TOLERANCE * size and abs(error.worst - stated) <= ERROR_TOLERANCE * size
+        ):
             raise InputError(
                 "E152",
                 f"linkage {data['id']} does not do what the file says of it",

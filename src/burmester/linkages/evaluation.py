@@ -1,4 +1,4 @@
-"""Linkages judged: their errors, defects, uncertainty, and whether they are as asked; ranked."""
+"""Linkages evaluated: their errors, defects, uncertainty and requirements; ranked."""
 
 from __future__ import annotations
 

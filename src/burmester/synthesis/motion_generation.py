@@ -40,9 +40,9 @@ def synthesize(
 
     Linkages are refined as a whole, but those of the pencil are the paper's.  Fewer than five
     conditions have infinitely many dyads: see `three_poses` and `burmester_curve` for them all.
-    Raises InputError E121 where the method does not take that number of poses, E123 where it does
-    not take what was asked, E130 where proofs lack their library, and E132 (limits that no link
-    can meet).
+    Raises InputError E121 (the method does not take that number of poses), E123 (it does not take
+    limits, exact poses, the norm or a certificate), E130 (proofs lack their library), and E132
+    (limits that no link can meet).
     """
     both = task.limits * (2 if len(task.limits) == 1 else 1)
     require_feasible(task.poses, both, task.exact)

@@ -165,7 +165,7 @@ def _none_usable(
     """Linkages, and none that works."""
     task, size = problem.given, problem.length
     nearest = by_nearness(linkages, size)[0]
-    works = "works as asked" if task.requirements.has_any else "works"
+    works = "works within the requirements" if task.requirements.has_any else "works"
     if len(linkages) == 1:
         none = f"which does not {works.replace('works', 'work')}"
         why = "it"

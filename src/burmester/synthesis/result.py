@@ -45,7 +45,7 @@ class Synthesis:
         position error.  Where the closest one is not usable, with linkages that a search under
         the conditions of use has found.
     fits: what the method learnt (singular values, all roots); two where the task has two limits.
-    certificate: what of it is proved, if a certificate was asked for.
+    certificate: what of it is proved, if the options ask for a certificate.
     """
 
     problem: SynthesisProblem
