@@ -102,7 +102,7 @@ def synthesize(
 def _task(
     poses: Task | Displacement | ArrayLike, angle_unit: AngleUnit | None, length_unit: str | None
 ) -> Task:
-    """The task that poses of any kind make; E110 where the unit of angles is open or stated twice."""
+    """The task that poses make; E110 where the unit of angles is open or stated twice."""
     if not isinstance(poses, Task | Displacement):
         return Task.from_rows(poses, angle_unit=angle_unit, length_unit=length_unit)
     if angle_unit is not None:

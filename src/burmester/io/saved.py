@@ -32,7 +32,7 @@ from burmester.tasks.motion_task import Task, characteristic_length
 
 __all__ = ["Result", "SavedLinkage", "read_result"]
 
-ERROR_TOLERANCE = 1e-6  # characteristic lengths, between errors in the file and computed anew
+ERROR_TOLERANCE = 1e-6  # characteristic lengths, between stated errors and those computed anew
 
 
 @dataclass(frozen=True, slots=True, eq=False)
