@@ -57,7 +57,7 @@ def test_the_wheel_holds_the_package_and_nothing_else(built):
         held = [name for name in wheel.namelist() if ".dist-info/" not in name]
         entry = wheel.read(f"burmester-{__version__}.dist-info/entry_points.txt").decode()
     # The page's script is in it as the bundle that is read, not as the modules it is made from.
-    package = below("src") - below("src/burmester/web/widget")
+    package = below("src/burmester") - below("src/burmester/web/widget")
     assert sorted(held) == sorted(each.removeprefix("src/") for each in package)
     assert set(DATA) <= set(held)
     assert "burmester = burmester.cli:main" in entry
