@@ -1,0 +1,51 @@
+"""Linkages of pairs of dyads, in cases made for one rule each."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from burmester import Displacement, read_task
+from burmester.linkages.from_dyads import linkages_from_dyads
+from burmester.linkages.target import Target
+from burmester.synthesis.dyad_search import search_dyads
+from burmester.synthesis.method import with_method
+from burmester.tasks.motion_class import classify_motion
+from burmester.tasks.options import SynthesisOptions
+from burmester.tasks.problem import SynthesisProblem
+
+
+def misses_of(linkages, length):
+    """The sum of squared distances of each linkage by the names of its dyads."""
+    return {
+        frozenset(dyad.id for dyad in each.dyads): float(
+            (each.error.position**2 + (length * each.error.angle) ** 2).sum()
+        )
+        for each in linkages
+    }
+
+
+def test_a_refinement_that_comes_out_worse_is_not_taken(monkeypatch):
+    """Refined for other poses on purpose, a linkage stays as its dyads make it."""
+    task = read_task("case:ge2012-exact")
+    problem = SynthesisProblem.of(task, classify_motion(task), SynthesisOptions())
+    problem = with_method(problem)
+    pairs, _ = search_dyads(problem).pairs(problem.length)
+
+    def misses(**how):
+        linkages = linkages_from_dyads(problem, pairs, **how)
+        return misses_of(linkages, problem.length_per_radian)
+
+    plain, better = misses(refine=False), misses()
+    assert better.keys() == plain.keys()
+    assert all(better[own] < plain[own] for own in plain)
+
+    def astray(self, *linkages, refine=Target.refine, **how):
+        away = np.array([0.3, 0.2]) * np.cos(np.arange(10))[:, None]
+        poses = Displacement(self.poses.translation + away, self.poses.angle)
+        return refine(replace(self, poses=poses), *linkages, **how)
+
+    monkeypatch.setattr(Target, "refine", astray)
+    kept = misses()
+    assert kept.keys() == plain.keys()
+    assert all(kept[own] <= plain[own] for own in plain)
+    assert kept[frozenset(("D1", "D2"))] == plain[frozenset(("D1", "D2"))]
