@@ -164,6 +164,7 @@ def folder(tmp_path):
     return tmp_path
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_every_block_does_what_it_shows(name, shims, folder, monkeypatch):
     wrong = troubles(Document.of(ROOT / name), shims, folder, monkeypatch)

@@ -33,6 +33,8 @@ from tests.oracles.limits_problems import (
 )
 from tests.oracles.witness import misses, random_four_bar, random_poses, span
 
+pytestmark = pytest.mark.slow
+
 # --- the witness: regions as pieces, distances, and many starts
 
 

@@ -34,6 +34,8 @@ from tests.oracles.hard_tasks import (
 )
 from tests.oracles.witness import places
 
+pytestmark = pytest.mark.slow
+
 # Tasks ----------------------------------------------------------------------------------------
 
 

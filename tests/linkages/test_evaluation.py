@@ -17,6 +17,8 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.requirements import Requirements
 from tests.oracles.witness import misses, random_four_bar, random_poses, span
 
+pytestmark = pytest.mark.slow
+
 FREE = Requirements(any_order=True)
 
 

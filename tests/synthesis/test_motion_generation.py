@@ -339,6 +339,7 @@ def test_three_and_four_poses_have_a_family(count):
     assert "infinitely many" in synthesis.outcome.message
 
 
+@pytest.mark.slow
 def test_no_real_dyad_is_said_and_the_nearest_is_shown():
     rng = np.random.default_rng(0)
     seen, told = set(), 0
@@ -389,6 +390,7 @@ def test_weights_that_do_not_fit_are_refused(weights):
     assert caught.value.code == "E122"
 
 
+@pytest.mark.slow
 def test_a_repeated_pose_is_exact_where_one_of_them_is_marked():
     rng = np.random.default_rng(6)
     rows = random_poses(random_four_bar(rng), rng, 8, ordered=True) + 0.01 * rng.normal(size=(8, 3))

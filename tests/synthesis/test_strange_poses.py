@@ -15,6 +15,8 @@ from burmester.io.terminal import show_synthesis
 from burmester.tasks.motion_task import Task
 from tests.oracles.strange_poses import STRANGE
 
+pytestmark = pytest.mark.slow
+
 
 def answer(task, method):
     try:
@@ -26,10 +28,13 @@ def answer(task, method):
 @pytest.mark.parametrize("method", ["auto", "pencil", "complete"])
 @pytest.mark.parametrize("name", STRANGE)
 def test_strange_poses(name, method, monkeypatch):
-    """The search for linkages that work takes a second: one task of twelve has it."""
+    """The search for linkages that work takes a second: one task of twelve has it.
+
+    "complete" is what "auto" chooses for six poses or more: once is enough.
+    """
     rng = np.random.default_rng(list(STRANGE).index(name))
     for number in range(12):
-        if number == 1:
+        if number == (1 if method == "auto" else 0):
             monkeypatch.setattr(
                 "burmester.linkages.from_dyads.defect_free_linkages", lambda *_: None
             )
