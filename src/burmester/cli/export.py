@@ -82,7 +82,7 @@ def export(
     require_writable(output, force=force)
     chosen = read_result(result).choose(linkage)
     for path in run(chosen, name, output, Options(**options), force):
-        click.echo(f"wrote {path}: {chosen.id}, {chosen.type}; read back and compared")
+        click.echo(f"wrote {path}: {chosen.id}, {chosen.type}; read back and verified")
     if not chosen.usable:
         click.echo(f"{chosen.id} is not usable: `burmester synthesize` says why", err=True)
     return EXIT_FOUND
