@@ -17,9 +17,9 @@ def test_whole_numbers_are_the_closest_of_all():
         cost = ((gap + (grid - at) @ slope.T) ** 2).sum(axis=1)
         best = grid[cost.argmin()]
         if np.abs(best).max() < 4:
-            told = closest_numbers(slope, gap, at, np.zeros(4, dtype=bool), 64)
+            told = closest_numbers(slope, gap, at, positive=np.zeros(4, dtype=bool), width=64)
             assert told[0].tolist() == best.tolist()
-        told = closest_numbers(slope, gap, at, np.arange(4) == 1, 64)
+        told = closest_numbers(slope, gap, at, positive=np.arange(4) == 1, width=64)
         assert (told[:, 1] >= 1).all()
 
 
@@ -38,7 +38,13 @@ def test_one_way_is_enough_if_the_firmest_number_is_fixed_first(columns):
     for gap in product((-1.7, -0.3, 0.4, 2.2), repeat=3):
         nearest = np.rint(-np.array(gap))
         told, loose = (
-            closest_numbers(slope[:, way], np.array(gap), np.zeros(3), np.zeros(3, dtype=bool), 1)
+            closest_numbers(
+                slope[:, way],
+                np.array(gap),
+                np.zeros(3),
+                positive=np.zeros(3, dtype=bool),
+                width=1,
+            )
             for way in (order, order[::-1])
         )
         assert (slope[:, order] @ told[0]).tolist() == nearest.tolist()

@@ -6,8 +6,8 @@ curve of degree four in which they meet.  Its fixed pivots make the centre-point
 its moving pivots the circle-point curve in M, both cubics (Burmester 1888; Bottema and Roth,
 Theoretical Kinematics, chapter 8).
 
-The curve is not followed step by step but written down (`chord`).  Fourteen of its points are
-known by linear algebra alone: its two sliders, and a dyad at each of the twelve poles.  Every
+The curve is not followed step by step but written down (`curve_chords`).  Fourteen of its points
+are known by linear algebra alone: its two sliders, and a dyad at each of the twelve poles.  Every
 plane through two of them meets it in two more points, the roots of a quadratic equation, and
 these make its closed loops.
 """
@@ -20,29 +20,31 @@ from typing import NoReturn, Self, final
 
 import numpy as np
 
-from burmester.dyads.curve_chords import DEPENDENT, DOUBLE, SAME, Chord, Loop, unit_rows
+from burmester.dyads.curve_chords import DOUBLE_ZERO, RANK_TOLERANCE, SAME_PLACE, Chord, Loop
 from burmester.errors import InputError
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import RR
 from burmester.geometry import constraint_manifold
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
+from burmester.numerics.linear_algebra import matvec, unit_vectors
 
 __all__ = ["DyadCurve", "dyad_curve"]
 
-BROKEN = 1e-6  # below this a plane through the chord holds a whole piece of the curve
-SLIDER = 1e-7  # a unit manifold with |p1| below this is a slider, and its pivots are noise
-FAR = 1e-5  # a unit manifold with |p1| below this has pivots hundreds of lengths away
-ROUGH, SMALL = 0.1, 1e-4  # a step of a loop that is noise; the length of one that is a point
-EXACT = 1e-9  # a dyad that misses its poses by more, relative to its size, is no answer
-START = 0.1  # where on a loop to begin: not at a place that symmetry makes special
-STEPS, MOST = 256, 20_000  # around a loop at first, and at last: more is noise
-SHORT = 1e-9  # a step of the parameter too short to be halved
-FINER = 4  # steps that a loop is measured with, for one between samples
+MIN_SOUNDNESS = 1e-6  # of a chord; below, one of its planes holds a whole piece of the curve
+SLIDER_P1 = 1e-7  # |p1| of a unit manifold; below, it is a slider and its pivots are noise
+DISTANT_P1 = 1e-5  # |p1| of a unit manifold; below, a pivot is hundreds of lengths away
+MAX_LOOP_STEP = 0.1  # chordal; a loop with a longer step is noise
+MIN_LOOP_LENGTH = 1e-4  # chordal; a shorter loop is a point
+EXACT_TOLERANCE = 1e-9  # relative to a dyad's size; it is no answer if it misses a pose by more
+START_PARAMETER = 0.1  # radians; a loop begins here, at no place that symmetry makes special
+FIRST_STEPS, MAX_STEPS = 256, 20_000  # around a loop; a loop that needs more is noise
+MIN_PARAMETER_STEP = 1e-9  # radians; a shorter step is not halved
+STEPS_PER_SAMPLE = 4  # with which a loop is measured
+DRAFT_SAMPLES = 50  # with which loops are compared before they are sampled
+MIN_SAMPLES = 12  # of the smallest loop
+NEWTON_STEPS = 3  # on the circle equations; they square the error
 PAIRS = np.triu_indices(4, 1)  # of poses
-DRAFT = 50  # samples to look at a loop with
-LEAST = 12  # samples that the smallest loop gets
-NEWTON_STEPS = 3
 
 
 @final
@@ -67,15 +69,44 @@ class DyadCurve:
 
 
 def dyad_curve(poses: Displacement, samples: int = 400) -> DyadCurve:
-    """The whole curve of RR dyads that pass through four poses (4,) exactly.
+    """The whole curve of RR dyads that pass through four poses exactly.
 
-    About `samples` dyads are shared out among the loops by length, and neighbours are equally
-    far apart, everywhere.  Length is that of both pivots on the sphere of directions: a pivot
-    is (X, Y, L) / norm up to sign in the canonical frames, with L their length, so infinity
+    About `samples` dyads are shared out among the closed loops by length, and neighbours are
+    equally far apart, everywhere.  Length is that of both pivots on the sphere of directions: a
+    pivot is (X, Y, L) / norm up to sign in the canonical frames, with L their length, so infinity
     is a place like others.
 
-    Raises InputError E121 (another number of poses), E103 (a number that is not finite) and
-    E124 (the four poses do not determine a curve).
+    Parameters
+    ----------
+    poses : Displacement, (4,)
+        Four different poses.
+    samples : int, default 400
+        The number of dyads on all loops together, about.
+
+    Returns
+    -------
+    DyadCurve
+        The dyads, loop by loop.
+
+    Raises
+    ------
+    InputError
+        E121 (another number of poses), E103 (a number that is not finite), E124 (the four poses
+        do not determine a curve).
+
+    Notes
+    -----
+    Burmester 1888; Bottema and Roth, Theoretical Kinematics, chapter 8.
+
+    Examples
+    --------
+    >>> t = np.linspace(0, 1.5, 4)  # the origin of M runs on the unit circle of F
+    >>> poses = Displacement.from_poses(np.stack([np.cos(t), np.sin(t), t**2 / 4], axis=-1))
+    >>> curve = dyad_curve(poses, samples=100)
+    >>> [loop.radius.size for loop in curve.components]
+    [50, 50]
+    >>> bool(np.abs(curve.components[0][:, None].residual(poses)).max() < 1e-9)
+    True
     """
     if poses.shape != (4,):
         got = poses.shape[-1] if poses.shape else 0
@@ -86,17 +117,17 @@ def dyad_curve(poses: Displacement, samples: int = 400) -> DyadCurve:
         )
     poses.require_finite()
     frames, seen = CanonicalFrames.of(poses)
-    turn = float(np.linalg.norm(np.std([np.cos(seen.angle), np.sin(seen.angle)], axis=-1)))
-    if turn < DEPENDENT:
+    spread = float(np.linalg.norm(np.std([np.cos(seen.angle), np.sin(seen.angle)], axis=-1)))
+    if spread < RANK_TOLERANCE:
         _refuse(seen)
     # A body that turns little has its pivots far away: measure in the size of the pole figure.
-    # Then Z1, Z2 and Z3 are as small as the turn, and Z4 has to become so.
-    frames = replace(frames, length=frames.length / turn)
-    seen = Displacement(seen.translation * turn, seen.angle)
-    balance = turn ** np.array([0, 0, 0, 0, 1, 1, 1, 2])
-    design = constraint_manifold.monomials(seen.as_image_point()) * balance / turn**2
+    # Then Z1, Z2 and Z3 are as small as the spread of the rotations, and Z4 has to become so.
+    frames = replace(frames, length=frames.length / spread)
+    seen = Displacement(seen.translation * spread, seen.angle)
+    balance = spread ** np.array([0, 0, 0, 0, 1, 1, 1, 2])
+    design = constraint_manifold.monomials(seen.as_image_point()) * balance / spread**2
     _, singular_values, v = np.linalg.svd(design)
-    if singular_values[3] < DEPENDENT * singular_values[0]:
+    if singular_values[3] < RANK_TOLERANCE * singular_values[0]:
         _refuse(seen)
     basis = v[4:] * balance
     known, quadrics = _known_points(seen, basis)
@@ -104,17 +135,20 @@ def dyad_curve(poses: Displacement, samples: int = 400) -> DyadCurve:
     if not traces:
         _refuse(seen)
     spacing = float(sum(trace.length[-1] for trace in traces) / samples)
-    found = [_polished(trace.sampled(spacing), seen) for trace in traces]
-    gap = max(_distance(x, np.roll(x, 1, axis=0)).max() for x in found)
-    circles, misses = zip(*(_circles(x, seen) for x in found), strict=True)
-    if gap > 2 * spacing or max(misses) > EXACT:
+    loops = [_polished(trace.sampled(spacing), seen) for trace in traces]
+    gap = max(_distance(x, np.roll(x, 1, axis=0)).max() for x in loops)
+    circles, errors = zip(*(_circles(x, seen) for x in loops), strict=True)
+    if gap > 2 * spacing or max(errors) > EXACT_TOLERANCE:
         _refuse(seen)  # nothing but sliders, or lost in rounding
     components = tuple(frames.circle_back(circle) for circle in circles)
     return DyadCurve(components, frames, singular_values, spacing)
 
 
 def _known_points(seen: Displacement, basis: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Points (n, 4) of the curve, at most fourteen, and the two quadrics (2, 4, 4) it lies on."""
+    """What is known of the curve by linear algebra alone.
+
+    Returns points (n, 4) of it, at most fourteen, and the two quadrics (2, 4, 4) it lies on.
+    """
     quadrics = np.moveaxis(constraint_manifold.condition_gradients(basis) @ basis.T, 1, 0)
     quadrics = np.linalg.svd(quadrics.reshape(2, 16), full_matrices=False)[2].reshape(2, 4, 4)
     points = np.empty((0, 4))
@@ -123,14 +157,14 @@ def _known_points(seen: Displacement, basis: FloatArray) -> tuple[FloatArray, Fl
         # The dyads with a given pivot are a line through the slider that has none; it meets
         # the curve once more.
         slider = np.linalg.svd(pivot)[2][3]
-        pole = unit_rows(poles) @ np.linalg.pinv(pivot).T
-        slope = 2 * np.einsum("kij,ni,j->nk", quadrics, pole, slider)
+        pole = unit_vectors(poles) @ np.linalg.pinv(pivot).T
+        linear = 2 * np.einsum("kij,ni,j->nk", quadrics, pole, slider)
         square = np.einsum("kij,ni,nj->nk", quadrics, pole, pole)
-        ahead = (slope**2).sum(-1)[:, None] * pole - (slope * square).sum(-1)[:, None] * slider
-        points = np.concatenate([points, slider[None], ahead])
-    points = unit_rows(points[np.linalg.norm(points, axis=-1) > DEPENDENT])
-    miss = np.abs(np.einsum("kij,ni,nj->nk", quadrics, points, points)).max(axis=-1)
-    return points[miss < SAME], quadrics  # of special poses some are not what they should be
+        other = (linear**2).sum(-1)[:, None] * pole - (linear * square).sum(-1)[:, None] * slider
+        points = np.concatenate([points, slider[None], other])
+    points = unit_vectors(points[np.linalg.norm(points, axis=-1) > RANK_TOLERANCE])
+    residual = np.abs(np.einsum("kij,ni,nj->nk", quadrics, points, points)).max(axis=-1)
+    return points[residual < SAME_PLACE], quadrics  # for special poses some are not on the curve
 
 
 @final
@@ -147,17 +181,17 @@ class _Trace:
     @classmethod
     def of(cls, chord: Chord, loop: Loop, samples: int) -> Self:
         """Fine enough to place that many samples."""
-        s = START + np.linspace(0, 2 * np.pi, STEPS + 1)
+        s = START_PARAMETER + np.linspace(0, 2 * np.pi, FIRST_STEPS + 1)
         while True:
             p = chord.manifolds(loop, s)
             pivots = _places(p)
             steps = _distance(pivots[1:], pivots[:-1])
-            wide = steps * FINER * samples > steps.sum()
+            wide = steps * STEPS_PER_SAMPLE * samples > steps.sum()
             # Near a zero of D, real or not, the curve may run far within a small angle.
             z = np.exp(2j * loop.at(s)[0])
-            near = np.abs(z[1:, None] - chord.zeros).min(axis=-1, initial=2.0) + 10 * DOUBLE
-            wide = (wide | (np.abs(np.diff(z)) > near)) & (np.diff(s) > SHORT)
-            if not wide.any() or s.size > MOST:
+            near = np.abs(z[1:, None] - chord.zeros).min(axis=-1, initial=2.0) + 10 * DOUBLE_ZERO
+            wide = (wide | (np.abs(np.diff(z)) > near)) & (np.diff(s) > MIN_PARAMETER_STEP)
+            if not wide.any() or s.size > MAX_STEPS:
                 break
             s = np.sort(np.concatenate([s, (s[1:] + s[:-1])[wide] / 2]))
         return cls(chord, loop, s, p, np.append(0.0, steps.cumsum()))
@@ -165,7 +199,7 @@ class _Trace:
     def sampled(self, spacing: float) -> FloatArray:
         """The pivots (n, 2, 3) at equal distances along the loop."""
         total = self.length[-1]
-        count = max(round(total / spacing), LEAST)
+        count = max(round(total / spacing), MIN_SAMPLES)
         at = np.interp((np.arange(count) + 0.5) / count * total, self.length, self.parameter)
         return _places(self.chord.manifolds(self.loop, at))
 
@@ -174,8 +208,9 @@ class _Trace:
 
         The poses of a two-slider motion have a loop of sliders.
         """
-        rough = np.diff(self.length).max() > ROUGH
-        return not rough and self.length[-1] > SMALL and np.abs(self.manifolds[:, 0]).max() > SLIDER
+        smooth = np.diff(self.length).max() <= MAX_LOOP_STEP
+        circles = np.abs(self.manifolds[:, 0]).max() > SLIDER_P1
+        return bool(smooth and self.length[-1] > MIN_LOOP_LENGTH and circles)
 
 
 def _traces(
@@ -189,25 +224,25 @@ def _traces(
     """
     every = [Chord.of(np.stack(xy), quadrics, basis) for xy in combinations(known, 2)]
     chords = sorted((x for x in every if x is not None), key=lambda chord: -chord.soundness)
-    sound = bool(chords) and chords[0].soundness > BROKEN
+    sound = bool(chords) and chords[0].soundness > MIN_SOUNDNESS
     for some in (chords[:1], chords) if sound else (chords,):
-        drafts = [_Trace.of(chord, loop, DRAFT) for chord in some for loop in chord.loops()]
-        found: list[_Trace] = []
+        drafts = [_Trace.of(chord, loop, DRAFT_SAMPLES) for chord in some for loop in chord.loops()]
+        distinct: list[_Trace] = []
         for draft in sorted(filter(_Trace.is_curve, drafts), key=lambda trace: trace.length[-1]):
-            if not found or not _covered(draft.manifolds[:: STEPS // 16], found):
-                found.append(draft)
+            if not distinct or not _covered(draft.manifolds[:: FIRST_STEPS // 16], distinct):
+                distinct.append(draft)
         # The known points have to be on it; if not, rounding has spoiled this chord.
-        if found and _covered(unit_rows(known @ basis), found):
-            return [_Trace.of(trace.chord, trace.loop, samples) for trace in found]
+        if distinct and _covered(unit_vectors(known @ basis), distinct):
+            return [_Trace.of(trace.chord, trace.loop, samples) for trace in distinct]
     return []
 
 
 def _covered(p: FloatArray, traces: list[_Trace]) -> bool:
-    """Whether the manifolds (n, 8) are on these loops, as far as their steps tell.
+    """Whether the manifolds (n, 8) are on these loops, within the steps of the loops.
 
-    Near a slider one of the pivots is noise, and says nothing.
+    Near a slider one of the pivots is noise, and is not looked at.
     """
-    pivots = _places(p[np.abs(p[:, 0]) > FAR])[:, None]
+    pivots = _places(p[np.abs(p[:, 0]) > DISTANT_P1])[:, None]
     nearest = [_distance(pivots, _places(trace.manifolds)).min(axis=-1) for trace in traces]
     step = max(np.diff(trace.length).max() for trace in traces)
     return bool(np.min(nearest, axis=0).max(initial=0.0) < 2 * step)
@@ -222,7 +257,7 @@ def _pivots(p: FloatArray) -> FloatArray:
 
 def _places(p: FloatArray) -> FloatArray:
     """Both pivots (*, 2, 3) of manifolds (*, 8) as unit vectors (X, Y, 1) / norm."""
-    return unit_rows(_pivots(p))
+    return unit_vectors(_pivots(p))
 
 
 def _distance(one: FloatArray, two: FloatArray) -> FloatArray:
@@ -250,15 +285,15 @@ def _polished(pivots: FloatArray, seen: Displacement) -> FloatArray:
     for _ in range(NEWTON_STEPS):
         by_c = np.einsum("ijk,nk->nij", forms, pivots[:, 1])
         by_m = np.einsum("ijk,nj->nik", forms, pivots[:, 0])
-        miss = np.einsum("nij,nj->ni", by_c, pivots[:, 0])
+        residual = np.einsum("nij,nj->ni", by_c, pivots[:, 0])
         # The same again from arms of finite length, which suffer less where they are short.
         scale = pivots[..., 2].prod(axis=-1)[:, None]
         square = _arms(pivots, seen)[2] ** 2 * scale
         short = np.abs(square).max(axis=-1, keepdims=True) < 1
-        miss = np.where(short, square - square.mean(axis=-1, keepdims=True), miss)
-        slope = np.concatenate([by_c, by_m], axis=-1)
-        step = np.linalg.pinv(slope, rcond=DEPENDENT) @ miss[..., None]
-        pivots = unit_rows(pivots - step.reshape(pivots.shape))
+        residual = np.where(short, square - square.mean(axis=-1, keepdims=True), residual)
+        jacobian = np.concatenate([by_c, by_m], axis=-1)
+        step = matvec(np.linalg.pinv(jacobian, rcond=RANK_TOLERANCE), residual)
+        pivots = unit_vectors(pivots - step.reshape(pivots.shape))
     return pivots
 
 
@@ -270,16 +305,16 @@ def _arms(pivots: FloatArray, seen: Displacement) -> tuple[FloatArray, FloatArra
 
 
 def _circles(pivots: FloatArray, seen: Displacement) -> tuple[RR, float]:
-    """The dyads (n,) with these pivots (n, 2, 3), and how far they miss the poses at most.
+    """The dyads with pivots (n, 2, 3), the radius the mean over the poses.
 
-    The radius is the mean over the poses; a miss is measured in it, or in the size of the
-    motion where that is larger.
+    Returns the dyads (n,) and their greatest distance from a pose, measured in the radius, or in
+    the size of the motion where that is larger.
     """
     fixed_pivot, moving_pivot, arms = _arms(pivots, seen)
     radius = arms.mean(axis=-1)
     size = np.maximum(radius, np.sqrt((seen.translation**2).sum(axis=-1).mean()))
-    miss = np.abs(arms - radius[:, None]).max(axis=-1) / size
-    return RR(fixed_pivot, moving_pivot, radius), float(miss.max())
+    error = np.abs(arms - radius[:, None]).max(axis=-1) / size
+    return RR(fixed_pivot, moving_pivot, radius), float(error.max())
 
 
 def _poles(seen: Displacement) -> tuple[FloatArray, FloatArray]:
@@ -297,18 +332,18 @@ def _refuse(seen: Displacement) -> NoReturn:
     name = [f"from pose {i + 1} to pose {j + 1}" for i, j in zip(*PAIRS, strict=True)]
     why = "every dyad of these poses is a slider, or rounding hides where the curve goes"
     help = "change one of the poses"
-    if size.min() <= SAME * size.max():
+    if size.min() <= SAME_PLACE * size.max():
         why = f"{name[int(size.argmin())]} nothing changes, so they are not four different poses"
         help = "change one of the two; with three poses every moving pivot has a fixed pivot"
-    elif np.abs(both[0][:, 2]).max() <= SAME * size.max():
+    elif np.abs(both[0][:, 2]).max() <= SAME_PLACE * size.max():
         why = "the body never turns, so all its points trace the same curve"
         help = "turn the body in one of the poses, or use two parallel equal links on a circle"
     else:
         for poles, of in zip(both, ("space", "the body"), strict=True):
-            turned = unit_rows(poles)
+            unit = unit_vectors(poles)
             a, b = np.triu_indices(6, 1)
-            same = np.linalg.norm(np.cross(turned[a], turned[b]), axis=-1) < SAME
-            same &= np.abs(turned[a, 2]) > SAME  # at infinity the body moves along, not around
+            same = np.linalg.norm(np.cross(unit[a], unit[b]), axis=-1) < SAME_PLACE
+            same &= np.abs(unit[a, 2]) > SAME_PLACE  # at infinity the body moves along, not around
             if same.all():
                 why = "the body only turns about one point"
                 help = "use a single pin there, or move two of the poses off that turn"

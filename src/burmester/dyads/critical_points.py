@@ -86,8 +86,35 @@ class CriticalDyads:
 def critical_dyads(poses: Displacement, weights: FloatArray | None = None) -> CriticalDyads:
     """Every critical point of the weighted sum of squared circle residuals over RR dyads.
 
-    poses: (*, N), N >= 5; weights: (*, N) or None.  Leading axes are tasks.
-    Raises InputError E121 (fewer than 5 poses) and E103 (a number that is not finite).
+    All of them come from one eigenproblem for each task, with no start value; leading axes are
+    tasks.
+
+    Parameters
+    ----------
+    poses : Displacement, (*, N)
+        N >= 5 poses.
+    weights : array, (*, N), optional
+        Of the squared residuals.
+
+    Returns
+    -------
+    CriticalDyads
+        The critical points, real and complex, which are minima, and how many are accounted for.
+
+    Raises
+    ------
+    InputError
+        E121 (fewer than 5 poses), E103 (a number that is not finite).
+
+    Examples
+    --------
+    >>> t = np.linspace(0, 3, 7)  # the origin of M runs on the unit circle of F
+    >>> poses = Displacement.from_poses(np.stack([np.cos(t), np.sin(t), t**2 / 4], axis=-1))
+    >>> critical = critical_dyads(poses)
+    >>> int(critical.found), int(critical.minimum.sum())
+    (25, 2)
+    >>> float(critical.dyads.radius[0].round(6))
+    1.0
     """
     count = poses.shape[-1] if poses.shape else 0
     if count < 5:

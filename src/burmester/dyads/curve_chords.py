@@ -19,17 +19,15 @@ from itertools import combinations
 from typing import Self, final
 
 import numpy as np
-from numpy.typing import NDArray
 
-from burmester.numerics.arrays import FloatArray
+from burmester.numerics.arrays import ComplexArray, FloatArray
+from burmester.numerics.linear_algebra import unit_vectors
 
-__all__ = ["DEPENDENT", "DOUBLE", "SAME", "Chord", "Loop", "unit_rows"]
+__all__ = ["DOUBLE_ZERO", "RANK_TOLERANCE", "SAME_PLACE", "Chord", "Loop"]
 
-ComplexArray = NDArray[np.complex128]
-
-DEPENDENT = 1e-12  # a singular value below this share of the first one is zero
-DOUBLE = 1e-6  # zeros of D nearer than this (radians of 2 psi) are one double zero
-SAME = 1e-7  # places nearer than this, in the size of the motion, are said to be the same
+RANK_TOLERANCE = 1e-12  # share of the first singular value; one below it is zero
+DOUBLE_ZERO = 1e-6  # radians of 2 psi; zeros of D nearer than this are one double zero
+SAME_PLACE = 1e-7  # sizes of the motion; places nearer than this are the same
 
 
 @final
@@ -47,7 +45,7 @@ class Loop:
     side: float
 
     def at(self, s: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """The angle of the plane and the sign of the root."""
+        """The angle psi of the plane and the sign of the root, at parameters (n,)."""
         psi = self.middle - self.half * np.cos(s) + self.rate * s
         return psi, np.sign(np.sin(s)) if self.side == 0 else np.full_like(s, self.side)
 
@@ -81,9 +79,9 @@ class Chord:
         k0, k1, k2 = np.moveaxis(_quadratics(conditions, psi)[0], -1, 0)
         rest = np.exp(2j * np.outer(np.arange(-2, 3), psi)) @ (k1 * k1 - 4 * k0 * k2) / 5
         alpha = float(np.linalg.norm(conditions[:, 0, 1]))
-        if min(alpha, np.abs(rest).max()) < SAME:
+        if min(alpha, np.abs(rest).max()) < SAME_PLACE:
             return None
-        rest[np.abs(rest) < DEPENDENT * np.abs(rest).max()] = 0
+        rest[np.abs(rest) < RANK_TOLERANCE * np.abs(rest).max()] = 0
         zeros = np.roots(rest).astype(complex)
         # Where a plane holds a piece of the curve a quadratic vanishes, and so D does twice.
         least = np.linalg.norm(
@@ -98,17 +96,17 @@ class Chord:
     def loops(self) -> list[Loop]:
         """The closed loops; each point of the curve is on one of them, once."""
         starts = self.simple if self.simple.size else np.zeros(1)
-        found = []
+        loops = []
         for start, end in zip(starts, np.append(starts[1:], starts[0] + np.pi), strict=True):
             if self.rest_at(np.linspace(start, end, 9)).sum() <= 0:
                 continue
             if self.simple.size:
-                found.append(Loop((start + end) / 2, (end - start) / 2, 0.0, 0.0))
+                loops.append(Loop((start + end) / 2, (end - start) / 2, 0.0, 0.0))
             elif self.double.size % 2:  # after half a turn the two roots have changed places
-                found.append(Loop(0.0, 0.0, 1.0, 1.0))
+                loops.append(Loop(0.0, 0.0, 1.0, 1.0))
             else:
-                found += [Loop(0.0, 0.0, 0.5, side) for side in (1.0, -1.0)]
-        return found
+                loops += [Loop(0.0, 0.0, 0.5, side) for side in (1.0, -1.0)]
+        return loops
 
     def rest_at(self, psi: FloatArray) -> FloatArray:
         """D without its double zeros, in planes (n,)."""
@@ -123,9 +121,9 @@ class Chord:
         root = sign * np.sqrt(np.maximum(self.rest_at(psi), 0))
         root = root * (2 * np.sin(psi - self.double[:, None])).prod(axis=0)
         by_b, by_a = _quadratics(self.conditions, psi)
-        (a0, a1), (b0, b1) = _solved(by_a, -root), _solved(by_b, root)
+        (a0, a1), (b0, b1) = _solution(by_a, -root), _solution(by_b, root)
         u = np.stack([np.cos(psi), np.sin(psi)])
-        return unit_rows(np.stack([a0 * b1, b0 * a1, *(a1 * b1 * u)], axis=-1) @ self.rows)
+        return unit_vectors(np.stack([a0 * b1, b0 * a1, *(a1 * b1 * u)], axis=-1) @ self.rows)
 
 
 def _quadratics(conditions: FloatArray, psi: FloatArray) -> FloatArray:
@@ -142,7 +140,7 @@ def _quadratics(conditions: FloatArray, psi: FloatArray) -> FloatArray:
     return np.stack([np.stack([bd, ad + bc, ac], -1), np.stack([cd, ad - bc, ab], -1)])
 
 
-def _solved(quadratic: FloatArray, root: FloatArray) -> FloatArray:
+def _solution(quadratic: FloatArray, root: FloatArray) -> FloatArray:
     """The homogeneous solution (2, n) of quadratics (n, 3) that goes with a root of D.
 
     Of its two forms, the one in which nothing cancels.
@@ -154,21 +152,16 @@ def _solved(quadratic: FloatArray, root: FloatArray) -> FloatArray:
     return solution
 
 
-def unit_rows(vectors: FloatArray) -> FloatArray:
-    unit: FloatArray = vectors / np.linalg.norm(vectors, axis=-1, keepdims=True)
-    return unit
-
-
 def _real_zeros(zeros: ComplexArray) -> tuple[FloatArray, FloatArray]:
     """Of zeros exp(2 i psi) the real ones, simple and double: psi within a half turn."""
-    turn = np.sort(np.angle(zeros[np.abs(np.abs(zeros) - 1) < DOUBLE]))
-    if turn.size:  # cut the circle where it cuts no pair
-        turn = np.roll(turn, -int(((turn - np.roll(turn, 1)) % (2 * np.pi)).argmax()))
-        turn = np.unwrap(turn)
+    angles = np.sort(np.angle(zeros[np.abs(np.abs(zeros) - 1) < DOUBLE_ZERO]))
+    if angles.size:  # cut the circle where it cuts no pair
+        angles = np.roll(angles, -int(((angles - np.roll(angles, 1)) % (2 * np.pi)).argmax()))
+        angles = np.unwrap(angles)
     simple: list[float] = []
     double: list[float] = []
-    while turn.size:
-        pair = 2 if turn.size > 1 and turn[1] - turn[0] < DOUBLE else 1
-        (double if pair == 2 else simple).append(turn[:pair].mean() / 2)
-        turn = turn[pair:]
+    while angles.size:
+        multiplicity = 2 if angles.size > 1 and angles[1] - angles[0] < DOUBLE_ZERO else 1
+        (double if multiplicity == 2 else simple).append(angles[:multiplicity].mean() / 2)
+        angles = angles[multiplicity:]
     return np.array(simple), np.array(double)

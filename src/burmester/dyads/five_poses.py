@@ -4,7 +4,7 @@ Every quadric through N < 6 image points lies in the null space of their N x 8 d
 its dyads are the points there that fulfil the two conditions of Eq. (17).
 
 Five poses: two conics in a projective plane, four intersections: all dyads, at most four
-real ones.  Four poses: a curve of dyads, traced by `burmester.curve`.  Three poses: every
+real ones.  Four poses: a curve of dyads (`burmester_curve`).  Three poses: every
 moving pivot has one fixed pivot.
 """
 
@@ -22,16 +22,18 @@ from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import RR, refitted_circles
 from burmester.geometry import constraint_manifold
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray
+from burmester.numerics.arrays import ComplexArray, FloatArray
+from burmester.numerics.linear_algebra import solve, solve_or_shortest
 
-__all__ = ["FivePoseDyads", "dyads_of_five"]
+__all__ = ["FivePoseDyads", "dyads_of_five", "require_count"]
 
-ComplexArray = NDArray[np.complex128]
-
-REAL = 1e-7  # imaginary share below which a polished root counts as real
-NEWTON_STEPS = 3
-SHARPER = 1e-5  # of a dyad's size; a longer step is not one of rounding
-STRAIGHT = 1e6  # characteristic lengths; a longer link is a slider up to rounding
+REAL_TOLERANCE = 1e-7  # of a unit vector; a polished root with less imaginary part is real
+NEWTON_STEPS = 3  # on the poses' own equations; they square the error
+MAX_NEWTON_STEP = 0.1  # of a unit vector; a longer step has lost its root
+SHARPENING_STEPS = 3  # in the longest floating point
+MAX_SHARPENING = 1e-5  # of a dyad's size; a longer step does not remove rounding
+SLIDER_LENGTH = 1e6  # characteristic lengths; a longer link is a slider up to rounding
+ISOLATED_TOLERANCE = 1e-10  # singular value of two unit conics; below, they share a curve
 
 # Monomials of degree 2 and 3 in three unknowns, and where a product of them lands.
 _QUADRATIC = list(combinations_with_replacement(range(3), 2))
@@ -89,13 +91,40 @@ class FivePoseDyads:
 
 
 def dyads_of_five(poses: Displacement) -> FivePoseDyads:
-    """All dyads that pass through five poses (*, 5) exactly.
+    """All dyads that pass through five poses exactly: at most four are real.
 
-    Raises InputError E121 (another number of poses) and E103 (a number that is not finite).
-    Source: the null space and Eq. (17); the intersection of the conics is read off the null
-    space of their degree-3 Macaulay matrix by one 4 x 4 eigenproblem, with no start values.
+    Parameters
+    ----------
+    poses : Displacement, (*, 5)
+        Leading axes are tasks.
+
+    Returns
+    -------
+    FivePoseDyads
+        The four dyads of each task, real or complex, with what is known of their accuracy.
+
+    Raises
+    ------
+    InputError
+        E121 (another number of poses), E103 (a number that is not finite).
+
+    Notes
+    -----
+    The null space of the design matrix and Eq. (17) of Ge et al. 2012; the intersection of the two
+    conics is read off the null space of their degree-3 Macaulay matrix by one 4 x 4 eigenproblem,
+    with no start values.
+
+    Examples
+    --------
+    >>> t = np.linspace(0, 2, 5)  # the origin of M runs on the unit circle of F
+    >>> poses = Displacement.from_poses(np.stack([np.cos(t), np.sin(t), t**2 / 4], axis=-1))
+    >>> four = dyads_of_five(poses)
+    >>> int(four.real.sum())
+    2
+    >>> sorted(four.dyads.radius[four.real].round(4).tolist())
+    [1.0, 1.8693]
     """
-    _require(poses, 5)
+    require_count(poses, 5)
     frames, seen = CanonicalFrames.of(poses)
     design = constraint_manifold.monomials(seen.as_image_point())
     _, singular_values, v = np.linalg.svd(design, full_matrices=True)
@@ -105,7 +134,7 @@ def dyads_of_five(poses: Displacement) -> FivePoseDyads:
     p = _polish(p / np.linalg.norm(p, axis=-1, keepdims=True), design)
     largest = np.take_along_axis(p, np.abs(p).argmax(axis=-1)[..., None], axis=-1)
     p *= largest.conj() / np.abs(largest)
-    real = np.linalg.norm(p.imag, axis=-1) < REAL
+    real = np.linalg.norm(p.imag, axis=-1) < REAL_TOLERANCE
     p = np.where(real[..., None], p.real, p)
     residual = np.linalg.norm(_equations(p, design), axis=-1)
     overlap = np.abs(p.conj() @ np.swapaxes(p, -1, -2)) * (1 - np.eye(4))
@@ -128,7 +157,8 @@ def dyads_of_five(poses: Displacement) -> FivePoseDyads:
     )
 
 
-def _require(poses: Displacement, count: int) -> None:
+def require_count(poses: Displacement, count: int) -> None:
+    """Refuse poses (*, N) with another N (InputError E121) or not finite (E103)."""
     got = poses.shape[-1] if poses.shape else 0
     if got != count:
         raise InputError(
@@ -181,7 +211,9 @@ def _conic_intersections(conics: FloatArray) -> tuple[ComplexArray, NDArray[np.b
         outer[..., i, j] = outer[..., j, i] = rows[..., at]
     best = np.abs(np.diagonal(outer, axis1=-2, axis2=-1)).argmax(axis=-1)
     points = np.take_along_axis(outer, best[..., None, None], axis=-1)[..., 0]
-    return points / np.linalg.norm(points, axis=-1, keepdims=True), values[..., 5] > 1e-10
+    return points / np.linalg.norm(points, axis=-1, keepdims=True), values[
+        ..., 5
+    ] > ISOLATED_TOLERANCE
 
 
 def _equations(p: ComplexArray, design: FloatArray) -> ComplexArray:
@@ -191,9 +223,9 @@ def _equations(p: ComplexArray, design: FloatArray) -> ComplexArray:
 
 
 def _polish(p: ComplexArray, design: FloatArray) -> ComplexArray:
-    """Newton on the poses' own equations, at p (*, 4, 8), with the norm of p held.
+    """Newton's method on the poses' own equations, at p (*, 4, 8), the norm of p being kept.
 
-    Takes off what rounding in the null space and the eigenproblem has left.
+    Removes the rounding of the null space and the eigenproblem.
     """
     jacobian = np.empty((*p.shape[:-1], 8, 8), dtype=complex)
     jacobian[..., :5, :] = design[..., None, :, :]
@@ -202,18 +234,16 @@ def _polish(p: ComplexArray, design: FloatArray) -> ComplexArray:
         jacobian[..., 5:7, :] = constraint_manifold.condition_gradients(p)
         jacobian[..., 7, :] = p.conj()
         values[..., :7] = _equations(p, design)
-        try:
-            step = np.linalg.solve(jacobian, values[..., None])[..., 0]
-        except np.linalg.LinAlgError:  # a double root, exactly: the least step that helps
-            step = (np.linalg.pinv(jacobian) @ values[..., None])[..., 0]
-        sound = np.isfinite(step).all(axis=-1) & (np.linalg.norm(step, axis=-1) < 0.1)
+        step = solve_or_shortest(jacobian, values)  # an exact double root has no other step
+        short = np.linalg.norm(step, axis=-1) < MAX_NEWTON_STEP
+        sound = np.isfinite(step).all(axis=-1) & short
         p = p - np.where(sound[..., None], step, 0.0)
         p = p / np.linalg.norm(p, axis=-1, keepdims=True)
     return p
 
 
 def _sharpened(dyads: RR, poses: Displacement, length: FloatArray) -> RR:
-    """Dyads (*, 4) with the digits that rounding in the fit has cost put right, as far as can be.
+    """Dyads (*, 4) with those digits restored that rounding took in the fit, where possible.
 
     Newton steps on the circle equations of the poses (*, 5) as they were given, with
     residuals in the machine's longest floating point (80 bits on x86, else 64: no loss).
@@ -224,16 +254,16 @@ def _sharpened(dyads: RR, poses: Displacement, length: FloatArray) -> RR:
     d1, d2 = np.moveaxis(poses.translation.astype(long), -1, 0)[..., None, :]
     cos, sin = (f(poses.angle.astype(long))[..., None, :] for f in (np.cos, np.sin))
     given = np.concatenate([dyads.fixed_pivot, dyads.moving_pivot], axis=-1)
-    size = np.where(dyads.radius < STRAIGHT * length, np.abs(given).max(axis=-1) + length, 0.0)
+    size = np.where(dyads.radius < SLIDER_LENGTH * length, np.abs(given).max(axis=-1) + length, 0.0)
     x = given.astype(long)
     best, radius, least = given, dyads.radius, np.full(size.shape, np.inf)
-    for _ in range(3):
+    for _ in range(SHARPENING_STEPS):
         c1, c2, m1, m2 = np.moveaxis(x, -1, 0)[..., None]
         a1, a2 = cos * m1 - sin * m2 + (d1 - c1), sin * m1 + cos * m2 + (d2 - c2)
         squared = a1 * a1 + a2 * a2
         mean = squared.mean(axis=-1)
-        miss = np.asarray(squared - mean[..., None], dtype=np.float64)
-        worst = np.abs(miss).max(axis=-1)
+        residual = np.asarray(squared - mean[..., None], dtype=np.float64)
+        worst = np.abs(residual).max(axis=-1)
         better = (worst < least) & (size > 0)
         best = np.where(better[..., None], np.asarray(x, dtype=np.float64), best)
         radius = np.where(better, np.asarray(np.sqrt(mean), dtype=np.float64), radius)
@@ -241,9 +271,9 @@ def _sharpened(dyads: RR, poses: Displacement, length: FloatArray) -> RR:
         columns = [-a1, -a2, cos * a1 + sin * a2, cos * a2 - sin * a1, np.full_like(a1, -0.5)]
         jacobian = np.asarray(2 * np.stack(columns, axis=-1), dtype=np.float64)
         try:
-            step = np.linalg.solve(jacobian, miss[..., None])[..., :4, 0]
+            step = solve(jacobian, residual)[..., :4]
         except np.linalg.LinAlgError:
             break
-        small = np.abs(step).max(axis=-1, keepdims=True) < SHARPER * size[..., None]
+        small = np.abs(step).max(axis=-1, keepdims=True) < MAX_SHARPENING * size[..., None]
         x = x - np.where(small, step, 0.0)
     return RR(best[..., :2], best[..., 2:], radius)

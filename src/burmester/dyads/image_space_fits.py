@@ -1,7 +1,7 @@
 """Three classical fits of RR dyads, each searching from a start value by Levenberg-Marquardt.
 
-They are the methods that the paper holds its own against (its Sec. 4 and Tables 1 and 9), kept
-here to be compared with; `pencil` and `optimal` need no start value and find more.
+They are the methods with which the paper compares its own (its Sec. 4 and Tables 1 and 9), kept
+here for comparison; `pencil` and `local_minima` need no start value and find more.
 
     algebraic_fit   the algebraic distance from one constraint manifold (row A of Table 1)
     larochelle      the exact normal distance from one constraint manifold (row L)
@@ -25,13 +25,13 @@ stopped, how Larochelle searched for the normal ("a direct search"), and which r
 parameters row A took.  The chart Z4 = 1, which is not used here, is singular at half turns.
 
 Sources: Ravani and Roth, J. Mech. Trans. Autom. Des. 105(3), 1983, 460-467; Larochelle's
-constraint manifold fitting and row A as told by Ge et al. 2012, Sec. 4.
+constraint manifold fitting and row A as described by Ge et al. 2012, Sec. 4.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple, TypeAlias, final
+from typing import Any, NamedTuple, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,7 +39,7 @@ from numpy.typing import NDArray
 from burmester.errors import InputError
 from burmester.fourbar.dyad import RR
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray
+from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.numerics.least_squares import Kernel, levenberg_marquardt
 
 __all__ = [
@@ -53,13 +53,13 @@ __all__ = [
     "ravani_roth",
 ]
 
-LEAST_POSES = 5  # below, a whole curve of dyads has distance zero
-SAMPLES = 65  # of the half angle, where the nearest point of a manifold is looked for
-VALLEYS = 5  # at most; a harmonic of order 2 squared has four, and t² hardly adds one
-NEWTON_STEPS = 20
-TINY = 1e-300  # instead of zero, to divide by
-
-ComplexArray: TypeAlias = NDArray[np.complex128]
+MIN_POSES = 5  # of a fit; with fewer a whole curve of dyads has distance zero
+SAMPLES = 65  # of the half angle, among which the nearest point of a manifold is bracketed
+MAX_VALLEYS = 5  # of the distance; a harmonic of order 2 squared has four, and t² hardly adds one
+MAX_NEWTON_STEPS = 20  # down a valley
+BRACKET_ROUNDING = 1e-12  # share of the sampled range; a Newton step so far outside is inside
+SETTLED_ROUNDINGS = 100  # times the rounding; after steps below this the next is rounding
+DIVISOR_FLOOR = 1e-300  # lengths; keeps 0 / 0 away
 
 
 @final
@@ -86,8 +86,34 @@ class NormalFit:
 def algebraic_fit(poses: Displacement, start: RR) -> NormalFit:
     """Least sum of squares of the algebraic distance Zᵀ C Z, a quarter of the circle equation.
 
-    poses: (N,), N >= 5; start: (*,), leading axes are start values.
-    Raises InputError E121 (fewer than 5 poses) and E103 (not finite), as the other two do.
+    Parameters
+    ----------
+    poses : Displacement, (N,)
+        N >= 5 poses, best in canonical frames.
+    start : RR, (*,)
+        Start values; leading axes are fits of their own.
+
+    Returns
+    -------
+    NormalFit
+        Where each start value has led.
+
+    Raises
+    ------
+    InputError
+        E121 (fewer than 5 poses), E103 (a number that is not finite).
+
+    Notes
+    -----
+    Row A of Table 1 of Ge et al. 2012.
+
+    Examples
+    --------
+    >>> t = np.linspace(0, 3, 7)  # the origin of M runs on the unit circle of F
+    >>> poses = Displacement.from_poses(np.stack([np.cos(t), np.sin(t), t**2 / 4], axis=-1))
+    >>> fit = algebraic_fit(poses, RR([0.1, 0], [0, 0.1], 1.2))
+    >>> float(fit.dyads.radius.round(6)), bool(fit.converged)
+    (1.0, True)
     """
     at = ImagePoints.of(poses)
     return _fit(lambda x: algebraic_distance(at, x), start, poses.shape[0])
@@ -96,8 +122,36 @@ def algebraic_fit(poses: Displacement, start: RR) -> NormalFit:
 def larochelle(poses: Displacement, start: RR) -> NormalFit:
     """Least sum of squares of the exact normal distance from one constraint manifold.
 
-    poses: (N,), N >= 5; start: (*,), leading axes are start values.  The nearest point of the
-    manifold is looked for anew at every evaluation.
+    The nearest point of the manifold is searched anew at every evaluation.
+
+    Parameters
+    ----------
+    poses : Displacement, (N,)
+        N >= 5 poses, best in canonical frames.
+    start : RR, (*,)
+        Start values; leading axes are fits of their own.
+
+    Returns
+    -------
+    NormalFit
+        Where each start value has led.
+
+    Raises
+    ------
+    InputError
+        E121 (fewer than 5 poses), E103 (a number that is not finite).
+
+    Notes
+    -----
+    Row L of Table 1 of Ge et al. 2012.
+
+    Examples
+    --------
+    >>> t = np.linspace(0, 3, 7)  # the origin of M runs on the unit circle of F
+    >>> poses = Displacement.from_poses(np.stack([np.cos(t), np.sin(t), t**2 / 4], axis=-1))
+    >>> fit = larochelle(poses, RR([0.1, 0], [0, 0.1], 1.2))
+    >>> float(fit.dyads.radius.round(6)), bool(fit.converged)
+    (1.0, True)
     """
     at = ImagePoints.of(poses)
     return _fit(lambda x: manifold_distance(at, x), start, poses.shape[0])
@@ -106,9 +160,39 @@ def larochelle(poses: Displacement, start: RR) -> NormalFit:
 def ravani_roth(poses: Displacement, start: RR) -> NormalFit:
     """Least sum of squares of the first-order normal distance from a curve of two manifolds.
 
-    poses: (N,), N >= 5; start: (*, 2), leading axes are start values.  With g the two algebraic
-    distances and J (2, 3) their derivatives by (Z1, Z2, psi), the squared distance to first
-    order is gᵀ (J Jᵀ)⁻¹ g.  It has no bound where the normals of the manifolds are parallel.
+    With g the two algebraic distances and J (2, 3) their derivatives by (Z1, Z2, psi), the squared
+    distance to first order is gᵀ (J Jᵀ)⁻¹ g.  It has no bound where the normals of the manifolds
+    are parallel.
+
+    Parameters
+    ----------
+    poses : Displacement, (N,)
+        N >= 5 poses, best in canonical frames.
+    start : RR, (*, 2)
+        Start values; leading axes are fits of their own.
+
+    Returns
+    -------
+    NormalFit
+        Where each start value has led.
+
+    Raises
+    ------
+    InputError
+        E121 (fewer than 5 poses), E103 (a number that is not finite).
+
+    Notes
+    -----
+    Ravani and Roth 1983; row R of Table 1 of Ge et al. 2012.
+
+    Examples
+    --------
+    >>> t = np.linspace(0, 3, 7)  # the origin of M runs on the unit circle of F
+    >>> poses = Displacement.from_poses(np.stack([np.cos(t), np.sin(t), t**2 / 4], axis=-1))
+    >>> start = RR([[0.1, 0], [-0.4, -0.6]], [[0, 0.1], [0.1, -0.8]], [1.1, 1.3])
+    >>> fit = ravani_roth(poses, start)
+    >>> fit.dyads.radius.shape, bool(fit.residual < 0.01)
+    ((2,), True)
     """
     at = ImagePoints.of(poses)
     return _fit(lambda x: curve_distance(at, x), start, poses.shape[0], together=2)
@@ -122,16 +206,16 @@ class ImagePoints(NamedTuple):
     """Unit image points (N,): w = Z1 + i Z2 and exp(i psi) = Z4 + i Z3."""
 
     place: ComplexArray
-    half_turn: ComplexArray
+    half_rotation: ComplexArray
 
     @classmethod
     def of(cls, poses: Displacement) -> ImagePoints:
         if len(poses.shape) != 1:
             raise ValueError(f"a fit takes poses of shape (N,), not {poses.shape}")
-        if poses.shape[0] < LEAST_POSES:
+        if poses.shape[0] < MIN_POSES:
             raise InputError(
                 "E121",
-                f"a fit by distance needs at least {LEAST_POSES} poses, not {poses.shape[0]}",
+                f"a fit by distance needs at least {MIN_POSES} poses, not {poses.shape[0]}",
                 why="four poses or fewer are met exactly by infinitely many dyads",
                 help="give more poses; dyad_curve takes 4 of them, dyad_with_moving_pivot 3",
             )
@@ -153,35 +237,39 @@ class _Surfaces(NamedTuple):
 
 
 def _surfaces(at: ImagePoints, x: FloatArray) -> _Surfaces:
-    fixed, moving = _arms(at.half_turn, x)
+    fixed, moving = _arms(at.half_rotation, x)
     radius = x[..., None, 4]
-    u, slope = at.place + fixed + moving, 1j * (moving - fixed)
-    u_by, slope_by = _arms_by(at.half_turn)
-    normal = np.stack([u.real, u.imag, _dot(u, slope)], axis=-1) * 2
+    u, velocity = at.place + fixed + moving, 1j * (moving - fixed)  # velocity: du/dpsi
+    u_by, velocity_by = _arms_by(at.half_rotation)
+    normal = np.stack([u.real, u.imag, _dot(u, velocity)], axis=-1) * 2
     by = np.empty((*u.shape, 5))
     by[..., :4] = 2 * _dot(u[..., None], u_by)
     by[..., 4] = -radius / 2
     normal_by = np.zeros((*u.shape, 3, 5))
     normal_by[..., 0, :4], normal_by[..., 1, :4] = 2 * u_by.real, 2 * u_by.imag
-    normal_by[..., 2, :4] = 2 * (_dot(slope[..., None], u_by) + _dot(u[..., None], slope_by))
+    by_psi = _dot(velocity[..., None], u_by) + _dot(u[..., None], velocity_by)
+    normal_by[..., 2, :4] = 2 * by_psi
     return _Surfaces(_square(u) - radius**2 / 4, normal, by, normal_by)
 
 
-def _arms(half_turn: ComplexArray, x: FloatArray) -> tuple[ComplexArray, ComplexArray]:
-    """The two parts (*, N) of u that turn with psi: the fixed pivot's back, the moving one's on."""
+def _arms(half_rotation: ComplexArray, x: FloatArray) -> tuple[ComplexArray, ComplexArray]:
+    """The two parts (*, N) of u that rotate with psi.
+
+    Returns that of the fixed pivot, which rotates backwards, and that of the moving pivot.
+    """
     c, m = (x[..., None, k] + 1j * x[..., None, k + 1] for k in (0, 2))
-    return -0.5j * half_turn.conj() * c, 0.5j * half_turn * m
+    return -0.5j * half_rotation.conj() * c, 0.5j * half_rotation * m
 
 
-def _arms_by(half_turn: ComplexArray) -> tuple[ComplexArray, ComplexArray]:
+def _arms_by(half_rotation: ComplexArray) -> tuple[ComplexArray, ComplexArray]:
     """The derivatives (*, 4) of u and of du/dpsi by c and m; both are linear in them."""
-    fixed, moving = -0.5j * half_turn.conj(), 0.5j * half_turn
+    fixed, moving = -0.5j * half_rotation.conj(), 0.5j * half_rotation
     u_by = np.stack([fixed, 1j * fixed, moving, 1j * moving], axis=-1)
     return u_by, u_by * np.array([-1j, -1j, 1j, 1j])
 
 
 def algebraic_distance(at: ImagePoints, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """The values (*, N) of g for manifolds x (*, 5), and their derivatives."""
+    """The values (*, N) of g for manifolds x (*, 5), and their derivatives (*, N, 5)."""
     surface = _surfaces(at, x)
     return surface.value, surface.by
 
@@ -224,64 +312,86 @@ def manifold_distance(at: ImagePoints, x: FloatArray) -> tuple[FloatArray, Float
     it; the nearest point is at the least a² + t².  As this foot moves freely, the distance
     changes with the parameters as a does, tilted.
     """
-    fixed, moving = _arms(at.half_turn, x)
+    fixed, moving = _arms(at.half_rotation, x)
     half = np.abs(x[..., None, 4]) / 2
     parts = tuple(v[..., None] for v in np.broadcast_arrays(at.place, fixed, moving, half))
     t = _feet(parts)
-    u, a, tilt, _, turn = (v[..., 0] for v in _gap(parts, t))
+    foot = _circle_distance(parts, t)
+    u, a, a_by_t = foot.u[..., 0], foot.distance[..., 0], foot.derivative[..., 0]
     by = np.empty((*a.shape, 5))
-    u_by, _ = _arms_by(at.half_turn * turn)
-    by[..., :4] = _dot((u / np.maximum(np.abs(u), TINY))[..., None], u_by)
+    u_by, _ = _arms_by(at.half_rotation * foot.rotation[..., 0])
+    by[..., :4] = _dot((u / np.maximum(np.abs(u), DIVISOR_FLOOR))[..., None], u_by)
     by[..., 4] = -np.sign(x[..., None, 4]) / 2
     # At the foot t = -a da/dt, and the distance is |a| sqrt(1 + (da/dt)²): smooth through zero.
-    return np.copysign(np.hypot(a, t[..., 0]), a), by / np.sqrt(1 + tilt**2)[..., None]
+    return np.copysign(np.hypot(a, t[..., 0]), a), by / np.sqrt(1 + a_by_t**2)[..., None]
 
 
 def _feet(parts: tuple[Any, ...]) -> FloatArray:
     """The t (*, N, 1) of the nearest points.
 
     It has |t| <= |a(0)| and |t| <= pi.  There t is sampled, and every valley of a² + t² that
-    shows is followed to its ground by Newton's method, held between the neighbouring samples.
+    shows is followed to its minimum by Newton's method, kept between the neighbouring samples.
     Narrow valleys can hide: of 240,000 random points, most of them far away, 25 got a farther foot.
     """
-    _, a, *_ = _gap(parts, np.zeros_like(parts[-1]))
-    reach = np.minimum(np.abs(a), np.pi)
+    here = _circle_distance(parts, np.zeros_like(parts[-1]))
+    reach = np.minimum(np.abs(here.distance), np.pi)
     t = reach * np.linspace(-1, 1, SAMPLES)
-    _, a, tilt, *_ = _gap(parts, t)
-    force, height = a * tilt + t, a**2 + t**2
-    # A valley shows by a lowest sample, or by the slope turning up between two of them.
+    gradient, height = _circle_distance(parts, t).descent(t)[0], _height(parts, t)
+    # A valley shows by a lowest sample, or by a derivative that becomes positive between two.
     floor = height[..., 1:-1]
     dip = (floor <= height[..., :-2]) & (floor <= height[..., 2:])
-    turns = (force[..., :-2] <= 0) & (force[..., 1:-1] >= 0)
-    floor = np.where(dip | turns, floor, np.inf)
-    order = np.argsort(floor, axis=-1)[..., :VALLEYS]
+    upward = (gradient[..., :-2] <= 0) & (gradient[..., 1:-1] >= 0)
+    floor = np.where(dip | upward, floor, np.inf)
+    order = np.argsort(floor, axis=-1)[..., :MAX_VALLEYS]
     order = np.where(np.isinf(np.take_along_axis(floor, order, axis=-1)), order[..., :1], order)
     t = np.take_along_axis(t, order + 1, axis=-1)
-    gap = reach * (2 / (SAMPLES - 1))
-    low, high, slack = t - gap, t + gap, 1e-12 * reach
-    for _ in range(NEWTON_STEPS):
-        _, a, tilt, bend, _ = _gap(parts, t)
-        force, stiff = a * tilt + t, tilt**2 + a * bend + 1
-        low, high = np.where(force < 0, t, low), np.where(force < 0, high, t)
-        newton = t - np.divide(force, stiff, out=np.full_like(t, np.inf), where=stiff > 0)
+    spacing = reach * (2 / (SAMPLES - 1))
+    low, high, slack = t - spacing, t + spacing, BRACKET_ROUNDING * reach
+    for _ in range(MAX_NEWTON_STEPS):
+        gradient, second = _circle_distance(parts, t).descent(t)
+        low, high = np.where(gradient < 0, t, low), np.where(gradient < 0, high, t)
+        newton = t - np.divide(gradient, second, out=np.full_like(t, np.inf), where=second > 0)
         inside = (newton >= low - slack) & (newton <= high + slack)
         before, t = t, np.where(inside, newton, (low + high) / 2)
-        if (np.abs(t - before) <= 100 * slack).all():  # the next step would square it
+        if (np.abs(t - before) <= SETTLED_ROUNDINGS * slack).all():  # the next would square it
             break
-    _, a, *_ = _gap(parts, t)
-    return np.take_along_axis(t, np.argmin(a**2 + t**2, axis=-1)[..., None], axis=-1)
+    return np.take_along_axis(t, np.argmin(_height(parts, t), axis=-1)[..., None], axis=-1)
 
 
-def _gap(parts: tuple[Any, ...], t: FloatArray) -> tuple[Any, ...]:
-    """u, a, da/dt, d²a/dt² and exp(i t) at the half angles psi + t."""
+def _height(parts: tuple[Any, ...], t: FloatArray) -> FloatArray:
+    """The squared distances a² + t² of the points of a manifold nearest at psi + t."""
+    return np.asarray(_circle_distance(parts, t).distance ** 2 + t**2)
+
+
+class _CircleDistance(NamedTuple):
+    """The distance a = |u| - r/2 from a manifold's circle at half angles psi + t, (*, N, k) each.
+
+    derivative, second: da/dt and d²a/dt²; rotation: exp(i t).
+    """
+
+    u: ComplexArray
+    distance: FloatArray
+    derivative: FloatArray
+    second: FloatArray
+    rotation: ComplexArray
+
+    def descent(self, t: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Half the first and second derivatives of a² + t²."""
+        gradient = self.distance * self.derivative + t
+        return gradient, self.derivative**2 + self.distance * self.second + 1
+
+
+def _circle_distance(parts: tuple[Any, ...], t: FloatArray) -> _CircleDistance:
+    """The distance at half angles psi + t; parts: w, both arms, and half the radius."""
     place, fixed, moving, half = parts
-    turn = np.exp(1j * t)
-    back, on = fixed * turn.conj(), moving * turn
-    u, slope = place + back + on, 1j * (on - back)
-    size = np.maximum(np.abs(u), TINY)
-    tilt = _dot(u, slope) / size
-    bend = (_square(slope) - _dot(u, back + on) - tilt**2) / size
-    return u, size - half, tilt, bend, turn
+    rotation: ComplexArray = np.exp(1j * t)
+    fixed, moving = fixed * rotation.conj(), moving * rotation
+    u: ComplexArray = place + fixed + moving
+    velocity: ComplexArray = 1j * (moving - fixed)
+    size = np.maximum(np.abs(u), DIVISOR_FLOOR)
+    derivative = _dot(u, velocity) / size
+    second = (_square(velocity) - _dot(u, fixed + moving) - derivative**2) / size
+    return _CircleDistance(u, size - half, derivative, second, rotation)
 
 
 def _dot(a: ComplexArray, b: ComplexArray) -> FloatArray:

@@ -77,14 +77,46 @@ def best_dyads(
     limits: Limits | None = None,
     norm: Norm = "rms",
 ) -> BestDyads:
-    """The locally best dyads of poses (N,), by distance from their circles and lines.
+    """The locally best dyads of poses, by distance from their circles and lines.
 
-    Without limits, exact poses and `norm`, N >= 5: the minima of the distance |R m + d - c| - r to
+    Without limits, exact poses and another norm: the minima of the distance |R m + d - c| - r to
     which Newton's method leads from every critical point of the squared residual (from the real
     part of a complex one) and from long links along the best lines; and the best slider of each
-    kind; else as `limited_dyads` says.  That the distance has no minimum elsewhere is not proved;
-    its minima go over into those of the residual as the errors become small.
-    Raises InputError as `critical_dyads` does.
+    kind; else as `limited_dyads` describes.  That the distance has no minimum elsewhere is not
+    proved; its minima go over into those of the residual as the errors become small.
+
+    Parameters
+    ----------
+    poses : Displacement, (N,)
+        N >= 5 poses.
+    weights : array, (N,), optional
+        Of the squared distances.
+    exact : array of bool, (N,), optional
+        Poses that a dyad has to meet exactly.
+    limits : Limits, optional
+        Regions of the pivots and bounds of the link's length.
+    norm : {"rms", "worst"}, default "rms"
+        Whether the sum of squares or the worst distance is minimised.
+
+    Returns
+    -------
+    BestDyads
+        The dyads by rising error, the sliders, and the search that they come from.
+
+    Raises
+    ------
+    InputError
+        E121 (fewer than 5 poses), E103 (a number that is not finite).
+
+    Examples
+    --------
+    >>> t = np.linspace(0, 3, 7)  # the origin of M runs on the unit circle of F
+    >>> poses = Displacement.from_poses(np.stack([np.cos(t), np.sin(t), t**2 / 4], axis=-1))
+    >>> best = best_dyads(poses)
+    >>> best.dyads.radius.round(4)
+    array([1.    , 1.3538])
+    >>> best.rms_error.round(4)
+    array([0.    , 0.0027])
     """
     if limits is not None or norm != "rms" or (exact is not None and exact.any()):
         search = limited_dyads(poses, weights, exact, limits, norm)

@@ -13,7 +13,7 @@ Both conditions are quadratic in p, so with psi = 2 theta the point g = g1 + i g
 around an ellipse, and sqrt(E) is its distance from zero: the stationary points of E are the
 feet of the normals of an ellipse that pass through one point.  They are the roots of a
 quartic, at most four, at most two of them minima, and `_normal_feet` gives them in closed
-form, told apart.
+form, each by its role.
 """
 
 from __future__ import annotations
@@ -33,8 +33,9 @@ from burmester.numerics.arrays import FloatArray
 
 __all__ = ["Pencil", "fit_pencil", "stationary_angles"]
 
-LEAST_POSES = 6  # below, the quadrics through the poses are more than a pencil
-BLOCK = 1024  # rows reduced at a time; small enough that BLAS starts no threads for them
+MIN_POSES = 6  # of a fit; the quadrics through fewer are more than a pencil
+BLOCK_ROWS = 1024  # reduced at a time; few enough that BLAS starts no threads for them
+MAX_CORRECTION = 1e-3  # radians; a longer Newton step on a foot does not remove rounding
 
 
 @final
@@ -85,19 +86,47 @@ class Pencil:
 def fit_pencil(
     poses: Displacement, weights: FloatArray | None = None, *, normalise: bool = True
 ) -> Pencil:
-    """The pencil of quadrics through or near poses (*, N), N >= 6, and its two dyads.
+    """The pencil of quadrics through or near poses, and its two dyads: the paper's method.
 
-    weights: (*, N) or None; a row of the design matrix counts by the root of its weight.
-    normalise: fit in canonical frames (see `frames`), so that the dyads do not depend on the
-        frames and the unit of the poses; False fits the numbers as they come, as the paper does.
     Leading axes are tasks: 100,000 are one call.
-    Raises InputError E121 (fewer than 6 poses) and E103 (a number that is not finite).
+
+    Parameters
+    ----------
+    poses : Displacement, (*, N)
+        N >= 6 poses.
+    weights : array, (*, N), optional
+        A row of the design matrix counts by the root of its weight.
+    normalise : bool, default True
+        Fit in canonical frames (see `canonical_frames`), so that the dyads do not depend on the
+        frames and the unit of the poses; False fits the numbers as they come, as the paper does.
+
+    Returns
+    -------
+    Pencil
+        The pencil, its stationary points and its dyads, with errors.
+
+    Raises
+    ------
+    InputError
+        E121 (fewer than 6 poses), E103 (a number that is not finite).
+
+    Notes
+    -----
+    Eqs. (14) to (18) of Ge et al. 2012.
+
+    Examples
+    --------
+    >>> t = np.linspace(0, 3, 7)  # the origin of M runs on the unit circle of F
+    >>> poses = Displacement.from_poses(np.stack([np.cos(t), np.sin(t), t**2 / 4], axis=-1))
+    >>> fit = fit_pencil(poses)
+    >>> float(fit.dyads.radius[0].round(6)), float(fit.rms_error[0].round(6))
+    (1.0, 0.0)
     """
     count = poses.shape[-1] if poses.shape else 0
-    if count < LEAST_POSES:
+    if count < MIN_POSES:
         raise InputError(
             "E121",
-            f"a pencil needs at least {LEAST_POSES} poses, not {count}",
+            f"a pencil needs at least {MIN_POSES} poses, not {count}",
             why="the quadrics through five poses or fewer are more than a pencil",
             help="use the exact method for 3, 4 or 5 poses, or give more poses",
         )
@@ -137,14 +166,14 @@ def _design(poses: Displacement, weights: FloatArray | None, metric: FloatArray)
     Many poses are reduced block by block (QR), so that memory and time stay linear in N.
     """
     blocks: list[FloatArray] = []
-    for start in range(0, poses.shape[-1], BLOCK):
-        rows = slice(start, start + BLOCK)
+    for start in range(0, poses.shape[-1], BLOCK_ROWS):
+        rows = slice(start, start + BLOCK_ROWS)
         part = Displacement(poses.translation[..., rows, :], poses.angle[..., rows])
         block = constraint_manifold.monomials(part.as_image_point()) * metric
         if weights is not None:
             block *= np.sqrt(weights[..., rows, None])
         blocks.append(block)
-        if block.shape[-2] == BLOCK:
+        if block.shape[-2] == BLOCK_ROWS:
             blocks = [np.asarray(np.linalg.qr(np.concatenate(blocks, axis=-2), mode="r"))]
     if poses.shape[-1] < 8:  # rows of zeros, so that a thin SVD keeps the null space
         blocks.append(np.zeros((*poses.shape[:-1], 8 - poses.shape[-1], 8)))
@@ -210,12 +239,12 @@ def _normal_feet(a: FloatArray, b: FloatArray, point: NDArray[np.complex128]) ->
     feet = np.stack(
         [to_nearest - nearest, to_other - other, to_other + other, to_nearest + nearest], axis=-1
     )
-    # One Newton step on F takes off what rounding in the root has left.
+    # One Newton step on F removes the rounding of the root.
     k, p, q = k[..., None], p[..., None], q[..., None]
     s, c = np.sin(feet), np.cos(feet)
-    slope = k * (c * c - s * s) - p * c - q * s
-    step = np.divide(k * s * c - p * s + q * c, slope, out=np.zeros_like(feet), where=slope != 0)
-    feet -= np.where(np.abs(step) < 1e-3, step, 0.0)
+    derivative, value = k * (c * c - s * s) - p * c - q * s, k * s * c - p * s + q * c
+    step = np.divide(value, derivative, out=np.zeros_like(feet), where=derivative != 0)
+    feet -= np.where(np.abs(step) < MAX_CORRECTION, step, 0.0)
     feet = np.where(mirror_q[..., None], -feet, feet)
     return np.where(mirror_p[..., None], np.pi - feet, feet)
 

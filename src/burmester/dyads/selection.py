@@ -10,7 +10,7 @@ import numpy as np
 from burmester.dyads.five_poses import FivePoseDyads
 from burmester.dyads.local_minima import BestDyads
 from burmester.dyads.minima_within_limits import LimitedDyads
-from burmester.dyads.pencil import LEAST_POSES, Pencil, fit_pencil
+from burmester.dyads.pencil import MIN_POSES, Pencil, fit_pencil
 from burmester.dyads.sliders import nearest_slider
 from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.geometry import constraint_manifold
@@ -118,7 +118,7 @@ def found_dyads(fit: Fit, task: Task) -> tuple[list[FoundDyad], int]:
 def _nearly_straight(fit: Fit, task: Task, length: float) -> float:
     """The sine of the angle by which noise turns a manifold away from the slider that it is."""
     if isinstance(fit, BestDyads):
-        if task.poses.shape[0] < LEAST_POSES:
+        if task.poses.shape[0] < MIN_POSES:
             return MAX_SLIDER_ANGLE
         fit = fit_pencil(task.poses, task.weights)
     # Noise turns the null space, and so every manifold in it, by about this angle.

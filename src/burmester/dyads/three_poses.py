@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from burmester.dyads.five_poses import _require
+from burmester.dyads.five_poses import require_count
 from burmester.fourbar.dyad import RR
 from burmester.geometry.displacement import Displacement
 
@@ -13,13 +13,36 @@ __all__ = ["dyad_with_fixed_pivot", "dyad_with_moving_pivot"]
 
 
 def dyad_with_moving_pivot(poses: Displacement, moving_pivot: ArrayLike) -> RR:
-    """Three poses (3,): the one RR dyad with each moving pivot (*, 2) of M.
+    """The one RR dyad of three poses with each moving pivot.
 
     The fixed pivot is the centre of the circle through the three places of the moving pivot;
     it is infinite where they lie on a line, and the dyad a slider.
-    Raises InputError E121 (another number of poses) and E103.
+
+    Parameters
+    ----------
+    poses : Displacement, (3,)
+        Three poses.
+    moving_pivot : array_like, (*, 2)
+        Points of M.
+
+    Returns
+    -------
+    RR
+        The dyads (*,).
+
+    Raises
+    ------
+    InputError
+        E121 (another number of poses), E103 (a number that is not finite).
+
+    Examples
+    --------
+    >>> poses = Displacement.from_poses([[1, 0, 0], [0, 1, 0.3], [-1, 0, 0.9]])
+    >>> dyad = dyad_with_moving_pivot(poses, [0, 0])  # on the unit circle
+    >>> dyad.fixed_pivot, float(dyad.radius)
+    (array([0., 0.]), 1.0)
     """
-    _require(poses, 3)
+    require_count(poses, 3)
     m = np.asarray(moving_pivot, dtype=np.float64)
     a, b, c = (poses[i].act(m) for i in range(3))
     u, v = b - a, c - a
@@ -32,10 +55,33 @@ def dyad_with_moving_pivot(poses: Displacement, moving_pivot: ArrayLike) -> RR:
 
 
 def dyad_with_fixed_pivot(poses: Displacement, fixed_pivot: ArrayLike) -> RR:
-    """Three poses (3,): the one RR dyad with each fixed pivot (*, 2) of F.
+    """The one RR dyad of three poses with each fixed pivot.
 
-    The inverse motion exchanges fixed and moving pivots.
-    Raises InputError E121 (another number of poses) and E103.
+    The inverse motion exchanges fixed and moving pivots; see `dyad_with_moving_pivot`.
+
+    Parameters
+    ----------
+    poses : Displacement, (3,)
+        Three poses.
+    fixed_pivot : array_like, (*, 2)
+        Points of F.
+
+    Returns
+    -------
+    RR
+        The dyads (*,).
+
+    Raises
+    ------
+    InputError
+        E121 (another number of poses), E103 (a number that is not finite).
+
+    Examples
+    --------
+    >>> poses = Displacement.from_poses([[1, 0, 0], [0, 1, 0.3], [-1, 0, 0.9]])
+    >>> dyad = dyad_with_fixed_pivot(poses, [0, 0])
+    >>> bool(np.abs(dyad.moving_pivot).max() < 1e-12), float(dyad.radius.round(6))
+    (True, 1.0)
     """
     dyad = dyad_with_moving_pivot(poses.inverse(), fixed_pivot)
     return RR(dyad.moving_pivot, dyad.fixed_pivot, dyad.radius)

@@ -177,15 +177,39 @@ class QuadricFit:
 
 
 def fit_quadric(points: ArrayLike) -> QuadricFit:
-    """The quadric with least sum of squared residuals at points (*, N, 4), N >= 1, |q| = 1.
+    """The quadric |q| = 1 with the least sum of squared residuals at image points.
 
     Meant for unit image points: a point of another scale has another weight.  Nine points in
     general position determine a quadric.  Fewer, or points on a curve, leave a null space of
     higher dimension; then the coefficients are any one of it, and fewer than ten points have
     their singular values padded with zeros.  |q| = 1 weighs lengths against angles: for an
-    answer that does not depend on the unit, give points seen in canonical frames.
-    Raises InputError E121 (no point) and E103 (a number that is not finite).
-    Source: Eq. (11) fitted as in Sec. 5.1; with ten coefficients, Hayes and Rusu [21].
+    answer that does not depend on the unit, give points in canonical frames.
+
+    Parameters
+    ----------
+    points : array_like, (*, N, 4)
+        N >= 1 image points; leading axes are fits of their own.
+
+    Returns
+    -------
+    QuadricFit
+        The quadric and all singular values.
+
+    Raises
+    ------
+    InputError
+        E121 (no point), E103 (a number that is not finite).
+
+    Notes
+    -----
+    Eq. (11) of Ge et al. 2012 fitted as in its Sec. 5.1; with ten coefficients, its reference [21].
+
+    Examples
+    --------
+    >>> t = np.linspace(0, 3, 12)  # the body moves along a line and does not rotate
+    >>> fit = fit_quadric(np.stack([t / 2, -t, 0 * t, 1 + 0 * t], axis=-1))
+    >>> int((fit.singular_values < 1e-12).sum()), bool(fit.rms < 1e-12)
+    (7, True)
     """
     z = np.asarray(points, dtype=np.float64)
     if z.ndim < 2 or z.shape[-1] != 4:

@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 
 from burmester.fourbar.linkage_batch import DIMENSIONS
 from burmester.numerics.arrays import FloatArray
-from burmester.numerics.integer_least_squares import ALIKE
 
 __all__ = ["Grid", "multiple"]
 
@@ -21,6 +20,7 @@ SIZE = 2 * DIMENSIONS
 # A rounded value differs from the dimension by at most MAX_STEPS_OFF steps or MAX_SIZES_OFF sizes
 # of the motion (radians for lines), whichever is more.
 MAX_STEPS_OFF, MAX_SIZES_OFF = 1.5, 0.5
+STEP_ROUNDING = 1e-12  # steps; a value that much beyond its reach is within it
 EXACT_INTEGERS = 2.0**53  # every whole number below this is a double
 
 
@@ -95,7 +95,7 @@ class Grid:
         """
         least, most = (0, len(self.stock) - 1) if len(self.stock) else (1, np.inf)
         links = number[..., self.links]
-        near = np.abs(number - start) <= self.reach() + ALIKE
+        near = np.abs(number - start) <= self.reach() + STEP_ROUNDING
         return np.asarray(((links >= least) & (links <= most)).all(axis=-1) & near.all(axis=-1))
 
     def reach(self) -> FloatArray:

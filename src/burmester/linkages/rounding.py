@@ -292,7 +292,9 @@ class _Rounding:
         order = firmest_last(slope)
         some, number = some[order], grid.number(own)
         width = min(MAX_ROUNDINGS, max(MIN_ROUNDINGS, MAX_PLACES // len(rows)))
-        whole = closest_numbers(slope[:, order], gap, number[some], grid.links[some], width)
+        whole = closest_numbers(
+            slope[:, order], gap, number[some], positive=grid.links[some], width=width
+        )
         number = np.tile(np.rint(number), (len(whole), 1))
         number[:, some] = whole
         number = number[grid.possible(number, grid.number(own))]

@@ -7,31 +7,35 @@ from numpy.typing import NDArray
 
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["ALIKE", "closest_numbers", "firmest_last"]
-
-ALIKE = 1e-12  # lengths; distances that differ by less are the same
+__all__ = ["closest_numbers", "firmest_last"]
 
 
-def firmest_last(slope: FloatArray) -> NDArray[np.intp]:
-    """Columns (m, n) in the order in which the last are fixed best when all others are free."""
-    left = list(range(slope.shape[1]))
+def firmest_last(jacobian: FloatArray) -> NDArray[np.intp]:
+    """The order of columns (m, n) in which the last are best determined, all others being free."""
+    left = list(range(jacobian.shape[1]))
     order: list[int] = []
     while left:
-        rows = np.linalg.pinv(slope[:, left])
-        firm = 1 / np.linalg.norm(rows, axis=1)
-        order.insert(0, left.pop(int(firm.argmax())))
+        rows = np.linalg.pinv(jacobian[:, left])
+        firmness = 1 / np.linalg.norm(rows, axis=1)
+        order.insert(0, left.pop(int(firmness.argmax())))
     return np.array(order)
 
 
 def closest_numbers(
-    slope: FloatArray, gap: FloatArray, at: FloatArray, positive: NDArray[np.bool_], width: int
+    jacobian: FloatArray,
+    residual: FloatArray,
+    at: FloatArray,
+    *,
+    positive: NDArray[np.bool_],
+    width: int,
 ) -> FloatArray:
-    """Whole numbers (w, n) with about the least |gap + slope (numbers - at)|², the least first.
+    """Whole numbers (w, n) with about the least |residual + jacobian (numbers - at)|², best first.
 
-    positive: (n,), which are at least 1.  width: how many go on from number to number.
+    A breadth-first (K-best) search from the last number to the first.
+    positive: (n,), which are at least 1; width: how many partial solutions are kept.
     """
-    basis, upper = np.linalg.qr(slope)
-    right, last = -(basis.T @ gap), len(at)
+    basis, upper = np.linalg.qr(jacobian)
+    right, last = -(basis.T @ residual), len(at)
     x, cost = np.zeros((1, last)), np.zeros(1)
     for j in range(last - 1, -1, -1):
         centre = (right[j] - x[:, j + 1 :] @ upper[j, j + 1 :]) / upper[j, j]
