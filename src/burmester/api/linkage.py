@@ -68,16 +68,8 @@ class _Shown:
             E130 (a library is missing), E140 (the file exists), E141 (it cannot be written), E161
             (no such format), E162 and E163 (dimensions that cannot be made).
         """
-        from burmester.export import FORMATS, Options, export, format_of  # noqa: PLC0415
+        from burmester.export import Options, export  # noqa: PLC0415
 
-        name = to or format_of(path)
-        if name is None:
-            raise InputError(
-                "E161",
-                f"the name {os.fspath(path)} does not say which format is wanted",
-                why=f"the formats are {', '.join(FORMATS)}",
-                help='say to="dxf", or another of these',
-            )
         known = [each.name for each in fields(Options)]
         for each in dimensions:
             if each not in known:
@@ -86,7 +78,7 @@ class _Shown:
                     f"an export has no option {each!r}",
                     help=f"choose among {', '.join(known)}",
                 )
-        (written,) = export(self.saved(), name, path, Options(**dimensions), force)
+        (written,) = export(self.saved(), to, path, Options(**dimensions), force)
         return written
 
     def plot(self, ax: Axes | None = None) -> Figure:

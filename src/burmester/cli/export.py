@@ -7,7 +7,6 @@ from typing import Any
 import click
 
 from burmester.cli.output import EXIT_FOUND
-from burmester.errors import InputError
 
 __all__ = ["export"]
 
@@ -66,19 +65,12 @@ def export(
     **options: Any,
 ) -> int:
     """Write a linkage of RESULT, the file of `burmester synthesize POSES -o RESULT`."""
-    from burmester.export import FORMATS, Options, format_of
+    from burmester.export import Options, require_format
     from burmester.export import export as run
     from burmester.io.files import require_writable
     from burmester.io.saved import read_result
 
-    name = to or format_of(output)
-    if name is None:
-        raise InputError(
-            "E161",
-            f"the name {output} does not determine a format",
-            why=f"the formats are {', '.join(FORMATS)}",
-            help="give --to dxf, or another of these",
-        )
+    name = require_format(output, to)
     require_writable(output, force=force)
     chosen = read_result(result).choose(linkage)
     for path in run(chosen, name, output, Options(**options), force):

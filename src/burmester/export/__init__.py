@@ -22,7 +22,7 @@ from burmester.export.options import Options
 from burmester.io.files import atomic_file
 from burmester.io.saved import SavedLinkage
 
-__all__ = ["FORMATS", "Format", "Options", "export", "format_of"]
+__all__ = ["FORMATS", "Format", "Options", "export", "format_of", "require_format"]
 
 
 @final
@@ -99,9 +99,24 @@ def format_of(path: str | os.PathLike[str]) -> str | None:
     return next((name for name, each in FORMATS.items() if each.suffix == suffix), None)
 
 
+def require_format(path: str | os.PathLike[str], to: str | None = None) -> str:
+    """The key of `FORMATS` that is named, or that belongs to the suffix of a file; else E161."""
+    name = format_of(path) if to is None else to.lower()
+    if name is not None and name in FORMATS:
+        return name
+    raise InputError(
+        "E161",
+        f"the name {os.fspath(path)} does not determine a format"
+        if to is None
+        else f"there is no format {to!r}",
+        why=f"the formats are {', '.join(FORMATS)}",
+        help="give --to dxf, or another of these",
+    )
+
+
 def export(
     chosen: SavedLinkage,
-    to: str,
+    to: str | None,
     path: str | os.PathLike[str],
     options: Options = Options(),  # noqa: B008  frozen
     force: bool = False,
@@ -112,8 +127,8 @@ def export(
     ----------
     chosen : SavedLinkage
         The linkage.
-    to : str
-        A key of `FORMATS`.
+    to : str or None
+        A key of `FORMATS`; None leaves the choice to the suffix of `path`.
     path : str or path
         The file.
     options : Options
@@ -145,14 +160,7 @@ def export(
     >>> path.name
     'linkage.svg'
     """
-    name = to.lower()
-    if name not in FORMATS:
-        raise InputError(
-            "E161",
-            f"there is no format {to!r}",
-            why=f"the formats are {', '.join(FORMATS)}",
-            help="give --to dxf, or another of these",
-        )
+    name = require_format(path, to)
     form = FORMATS[name]
     try:
         for library in form.libraries:
