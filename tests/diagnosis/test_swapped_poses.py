@@ -1,5 +1,7 @@
 """Two poses in each other's place, in cases made for one rule each."""
 
+from itertools import combinations
+
 import numpy as np
 import pytest
 
@@ -31,3 +33,24 @@ def test_one_exchange_is_told(pair):
 def test_of_two_exchanges_none_is_told():
     """Mended by one, the order would still be wrong: the second saves a third of what is left."""
     assert swapped_poses(task_of(exchanged((1, 8), (4, 6)))) is None
+
+
+def test_of_two_exchanges_that_shorten_the_path_alike_none_is_told():
+    """Either of them saves a third and more: which two poses stand wrong is not known."""
+    points = np.array([(3, 0), (1, 3), (4, 3), (0, 3), (3, 3), (0, 2)], dtype=float)
+
+    def path(points):
+        return np.hypot(*np.diff(points, axis=0).T).sum()
+
+    paths = []
+    for first, second in combinations(range(6), 2):
+        order = np.arange(6)
+        order[[first, second]] = second, first
+        paths.append(path(points[order]))
+    one, other, third = sorted(paths)[:3]
+    assert other < 0.65 * path(points)
+    assert other < 1.05 * one < third
+    assert swapped_poses(Task(Displacement(points, np.zeros(6)))) is None
+    points[4] = 3, 4  # a little farther off, and one of them is clearly the better one
+    found = swapped_poses(Task(Displacement(points, np.zeros(6))))
+    assert (found.first, found.second) == (2, 5)
