@@ -205,7 +205,7 @@ def test_many_poses_block_by_block(monkeypatch):
     rng = np.random.default_rng(9)
     poses = Displacement.from_poses(noisy_rows(rng, 1000))
     whole = fit_pencil(poses)
-    monkeypatch.setattr(pencil, "BLOCK", 64)
+    monkeypatch.setattr(pencil, "BLOCK_ROWS", 64)
     blocks = fit_pencil(poses)
     assert np.allclose(whole.singular_values, blocks.singular_values, rtol=1e-12)
     assert np.allclose(as_rows(whole.dyads), as_rows(blocks.dyads), atol=1e-10)
