@@ -75,7 +75,7 @@ def test_all_of_them_at_once(run):
     arguments += ["--link-ratio", "7", "--within", "2", "--any-order", "--kinds", "RR"]
     found = run(*arguments).task
     assert values(found.requirements) == {
-        "transmission": math.radians(37.5),
+        "transmission_deg": 37.5,
         "types": {"crank-rocker", "double slider"},
         "driver": "crank",
         "footprint": SQUARE,

@@ -402,7 +402,7 @@ def test_weak_transmission_is_a_warning_unless_it_was_asked_for(cases):
     other = next(each for each in data["linkages"] if each["id"] == named[1])
     assert other["usable"]
     assert other["min_transmission_angle_deg"]["range"] >= float(named[2]) > least
-    asked = replace(synthesis.task, requirements=Requirements(transmission=math.radians(20)))
+    asked = replace(synthesis.task, requirements=Requirements(transmission_deg=20))
     _, data, _ = synthesized(asked)
     assert not [each for each in data["warnings"] if each["code"] == "W210"]
     assert data["task"]["requirements"] == {"transmission_deg": pytest.approx(20)}
@@ -516,7 +516,7 @@ def test_names_of_poses_are_used_in_what_is_said():
     assert closest["defects"][0]["poses"] == [3, 4]
 
 
-ASKED_IN_VAIN = Requirements(transmission=math.radians(89.9))
+ASKED_IN_VAIN = Requirements(transmission_deg=89.9)
 
 
 @pytest.mark.parametrize("width", [60, 80, 200])

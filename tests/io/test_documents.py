@@ -498,7 +498,7 @@ def some_task(rng):
             exact=rng.choice([None, np.array([i == 2 for i in range(count)])]),
             limits=some_limits(rng),
             requirements=Requirements(
-                transmission=rng.choice([0.0, rng.uniform(0, 1.5)]),
+                transmission_deg=rng.choice([0.0, rng.uniform(0, 89)]),
                 types=rng.choice([None, frozenset(rng.sample([*TYPES, *GROUPS], 3))]),
                 driver=rng.choice(DRIVERS),
                 footprint=rng.choice([None, Polygon(np.array([[0, 0], [90, 0], [0, 90.5]]))]),

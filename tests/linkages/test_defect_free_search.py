@@ -109,7 +109,7 @@ def test_mixed_poses_that_motiongen_publishes():
 
 
 ASKED = {
-    "transmission": Requirements(transmission=np.radians(35)),
+    "transmission": Requirements(transmission_deg=35),
     "crank": Requirements(driver="crank"),
     "type": Requirements(types=frozenset({"crank-rocker", "double-rocker"})),
     "ratio": Requirements(link_ratio=3.0),

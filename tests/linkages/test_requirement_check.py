@@ -52,7 +52,7 @@ def test_every_requirement_is_told_just_where_it_is_not_met():
         first, second = linkage.first, linkage.second
         least = np.degrees(np.arcsin(np.abs(sines(first, second, d, phi)).min()))
         if abs(least - 20) > 0.1:
-            wrong = kinds(linkage, driven, transmission=np.radians(20)) == {"transmission"}
+            wrong = kinds(linkage, driven, transmission_deg=20) == {"transmission"}
             assert wrong == (least < 20)
             told["transmission"].append(wrong)
         whole = np.isfinite(places(first, second, np.linspace(-np.pi, np.pi, 20001))[1]).all()
@@ -91,7 +91,7 @@ def test_what_is_said_has_the_numbers():
     said = 0
     for linkage, driven, d, phi in driven_linkages(rng, 40):
         least = np.degrees(np.arcsin(np.abs(sines(linkage.first, linkage.second, d, phi)).min()))
-        for each in violations(linkage, driven, Requirements(transmission=np.radians(45))):
+        for each in violations(linkage, driven, Requirements(transmission_deg=45)):
             number = float(each.message.split("falls to ")[1].split("°")[0])
             assert np.isclose(number, least, rtol=0.02, atol=0.05)
             assert "45°" in each.message

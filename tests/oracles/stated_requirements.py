@@ -1,7 +1,5 @@
 """Requirements as files and options state them, and what is compared of them."""
 
-import math
-
 import numpy as np
 import pytest
 
@@ -35,7 +33,7 @@ def values(found):
     """Requirements as plain data, so that two of them can be compared."""
     area = found.footprint
     return {
-        "transmission": found.transmission,
+        "transmission_deg": found.transmission_deg,
         "types": found.types,
         "driver": found.driver,
         "footprint": None if area is None else area.vertices.tolist(),
@@ -64,10 +62,10 @@ SAID = {  # TOML, options, a field and its value
     "transmission": (
         "transmission_deg = 37.5",
         ["--min-transmission", "37.5"],
-        "transmission",
-        math.radians(37.5),
+        "transmission_deg",
+        37.5,
     ),
-    "no transmission": ("transmission_deg = 0", ["--min-transmission", "0"], "transmission", 0),
+    "no transmission": ("transmission_deg = 0", ["--min-transmission", "0"], "transmission_deg", 0),
     "types": (
         'types = ["crank-rocker", "Double Slider"]',
         ["--type", "crank-rocker, Double Slider"],

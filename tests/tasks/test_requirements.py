@@ -106,7 +106,7 @@ def test_nothing_is_asked_by_default():
     assert not Requirements().has_any
     assert Task(THREE).requirements == Requirements()
     one_each = {
-        "transmission": 0.1,
+        "transmission_deg": 0.1,
         "types": frozenset({"grashof"}),
         "driver": "crank",
         "footprint": box([0, 0], [1, 1]),
@@ -121,12 +121,12 @@ def test_nothing_is_asked_by_default():
 
 
 MALFORMED = [  # a field, its value, and what the message holds
-    ("transmission", -0.1, "-5.7"),
-    ("transmission", math.pi / 2, "90°"),
-    ("transmission", 40, "2291.83°"),
-    ("transmission", math.nan, "not a finite number"),
-    ("transmission", "40", "'40', not a number"),
-    ("transmission", True, "True, not a number"),
+    ("transmission_deg", -0.1, "-0.1"),
+    ("transmission_deg", 90, "90°"),
+    ("transmission_deg", 2291.83, "2291.83°"),
+    ("transmission_deg", math.nan, "not a finite number"),
+    ("transmission_deg", "40", "'40', not a number"),
+    ("transmission_deg", True, "True, not a number"),
     ("types", frozenset(), "no linkage type is left"),
     ("types", "crank-rocker", "not a set of names"),
     ("types", 3, "not a set of names"),
@@ -159,8 +159,8 @@ def test_malformed_requirements_are_refused(fault):
 @pytest.mark.parametrize(
     ("field", "value"),
     [
-        ("transmission", 0),
-        ("transmission", np.float64(1.57)),
+        ("transmission_deg", 0),
+        ("transmission_deg", np.float64(89.99)),
         ("link_ratio", 1),
         ("link_ratio", INF),
         ("within", 1e-12),

@@ -224,7 +224,7 @@ def linkage_advice(task: Task, linkages: Sequence[FoundLinkage], code: str) -> l
                 "give more digits, or poses with more rotation between them",
             )
         )
-    if usable and not task.requirements.transmission:
+    if usable and not task.requirements.transmission_deg:
         best = usable[0]
         least = best.driven.least_over_range
         if least < GOOD_TRANSMISSION:

@@ -54,9 +54,9 @@ class Requirements:
 
     Parameters
     ----------
-    transmission : float
-        The least transmission angle over the range that the poses use, in radians, from 0 to
-        below pi/2.
+    transmission_deg : float
+        The least transmission angle over the range that the poses use, in degrees, from 0 to
+        below 90.
     types : set of str or None
         The types allowed, by the names in `TYPES` (in any case, with hyphens or spaces), or the
         words in `GROUPS` for some 4R types together; None allows all.
@@ -81,7 +81,7 @@ class Requirements:
 
     Examples
     --------
-    >>> wanted = Requirements(transmission=math.radians(40), types={"Crank Rocker"})
+    >>> wanted = Requirements(transmission_deg=40, types={"Crank Rocker"})
     >>> wanted.types
     frozenset({'crank-rocker'})
     >>> Requirements(link_ratio=0.5)
@@ -92,7 +92,7 @@ class Requirements:
       help: give a ratio of 1 or more, such as 5
     """
 
-    transmission: float = 0.0
+    transmission_deg: float = 0.0
     types: frozenset[str] | None = None
     driver: Driver = "any"
     footprint: Polygon | None = None
@@ -101,15 +101,15 @@ class Requirements:
     any_order: bool = False
 
     def __post_init__(self) -> None:
-        angle = _number(self.transmission, "the least transmission angle")
-        if not 0 <= angle < math.pi / 2:
+        angle = _number(self.transmission_deg, "the least transmission angle")
+        if not 0 <= angle < 90:
             raise InputError(
                 "E134",
-                f"a least transmission angle of {math.degrees(angle):g}° is impossible",
+                f"a least transmission angle of {angle:g}° is impossible",
                 why="a transmission angle is between 0° and 90°",
-                help="give an angle from 0° to below 90° (below 1.57 in radians)",
+                help="give an angle from 0° to below 90°",
             )
-        object.__setattr__(self, "transmission", angle)
+        object.__setattr__(self, "transmission_deg", angle)
         if self.types is not None:
             object.__setattr__(self, "types", frozenset(_type_names(self.types)))
         if not isinstance(self.driver, str) or self.driver not in DRIVERS:
@@ -158,6 +158,11 @@ class Requirements:
                 why=f"no driver of a {_types_in_words(allowed)} turns fully",
                 help=f"allow another type as well, such as {turning[0]}, or any driver",
             )
+
+    @property
+    def transmission(self) -> float:
+        """The least transmission angle in radians."""
+        return math.radians(self.transmission_deg)
 
     @property
     def has_any(self) -> bool:

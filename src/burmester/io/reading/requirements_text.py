@@ -7,7 +7,7 @@ below the text (a malformed region is E131, as for pivots).
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 from burmester.io.reading.limits_text import (
     ANY,
@@ -41,7 +41,7 @@ def requirements_from_options(
     """
     out = []
     if min_transmission is not None:
-        out.append(_number("transmission", "--min-transmission", min_transmission, math.radians))
+        out.append(_number("transmission_deg", "--min-transmission", min_transmission))
     if types:
         names = frozenset(name for text in types for name in _types(Source("--type", text)))
         out.append(StatedRequirement("types", names, option_text("--type", types)))
@@ -100,11 +100,9 @@ def pose_sigma(text: str) -> tuple[float, float]:
     return values[0], math.radians(values[1])
 
 
-def _number(
-    field: str, option: str, text: str, into: Callable[[float], float] = float
-) -> StatedRequirement:
+def _number(field: str, option: str, text: str) -> StatedRequirement:
     source = Source(option, text)
-    value = into(number_from_text(source, text, 0, "E134"))
+    value = number_from_text(source, text, 0, "E134")
     return checked_requirement(
         field, value, option_text(option, [text]), source.where(0, len(text))
     )

@@ -5,7 +5,6 @@ Imported on first use, as pydantic is slow to import.
 
 from __future__ import annotations
 
-import math
 from typing import Annotated, Any
 
 import numpy as np
@@ -43,7 +42,6 @@ class _Requirements(Model):
     any_order: bool | None = None
 
 
-_KEYS = tuple(FILE_KEYS)
 _FOOTPRINT = (
     "a footprint has one key: box with two points [[X, Y], [X, Y]], or polygon with three or more"
 )
@@ -56,7 +54,7 @@ _HELP = {
     "within": "within is one length in the unit of the poses, such as 0.5",
     "any_order": "write true or false",
 }
-_TABLE = f"a table of requirements has {listed(_KEYS)}, or some of them"
+_TABLE = f"a table of requirements has {listed(FILE_KEYS)}, or some of them"
 
 
 def read_requirements(tree: dict[str, Any], document: Document) -> tuple[StatedRequirement, ...]:
@@ -79,21 +77,19 @@ def read_requirements(tree: dict[str, Any], document: Document) -> tuple[StatedR
     except ValidationError as error:
         raise _requirements_fault(document, error.errors(include_url=False)[0]) from None
     out = []
-    for key, field in FILE_KEYS.items():
+    for key in FILE_KEYS:
         value = getattr(table, key)
         if value is None:
             continue
-        if key == "transmission_deg":
-            value = math.radians(value)
-        elif key == "types" and value:
+        if key == "types" and value:
             names = [
-                _requirement(document, field, [name], path, key, i).value
+                _requirement(document, key, [name], path, key, i).value
                 for i, name in enumerate(value)
             ]
             value = frozenset(name for each in names for name in each)
         elif key == "footprint":
             value = _footprint(value, document)
-        stated = _requirement(document, field, value, path, key)
+        stated = _requirement(document, key, value, path, key)
         out.append(stated._replace(where=document.where(path, key, key=True)))
     return tuple(out)
 
@@ -126,7 +122,9 @@ def _requirements_fault(document: Document, fault: Any) -> InputError:
     if fault["type"] == "extra_forbidden":
         if keys[-1] in LIMIT_KEYS:
             help = f"write {keys[-1]} under limits, which holds for single dyads"
-        elif near := close_match(str(keys[-1]), _KEYS if len(keys) == 1 else ("box", "polygon")):
+        elif near := close_match(
+            str(keys[-1]), FILE_KEYS if len(keys) == 1 else ("box", "polygon")
+        ):
             help = f"write {near} in its place; {help}"
     item = "a name of a type" if keys[:1] == ["types"] else "one of its names"
     return model_fault(document, ("requirements", *keys), fault, item, help)

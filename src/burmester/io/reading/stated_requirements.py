@@ -6,7 +6,8 @@ Each requirement is stated once: in the file or on the command line.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
+from dataclasses import fields
 from typing import Any, NamedTuple
 
 from burmester.errors import InputError
@@ -22,22 +23,14 @@ __all__ = [
     "requirements_data",
 ]
 
-# Under `requirements` in a file, and the field of `Requirements` that it sets.
-FILE_KEYS: Mapping[str, str] = {
-    "transmission_deg": "transmission",
-    "types": "types",
-    "driver": "driver",
-    "footprint": "footprint",
-    "link_ratio": "link_ratio",
-    "within": "within",
-    "any_order": "any_order",
-}
+# Under `requirements` in a file: the fields of `Requirements`, in their order.
+FILE_KEYS = tuple(field.name for field in fields(Requirements))
 
 # `requirements`, and keys that may stand beside the poses by mistake, where they require nothing.
 REQUIREMENT_KEYS = ("requirements", "requirement", *FILE_KEYS)
 
 _SUBJECTS = {  # of the message about a requirement that is given twice
-    "transmission": "the least transmission angle is",
+    "transmission_deg": "the least transmission angle is",
     "types": "the types are",
     "driver": "the driver is",
     "footprint": "the footprint is",
@@ -101,8 +94,8 @@ def combined_requirements(stated: Sequence[StatedRequirement]) -> Requirements:
 def requirements_data(requirements: Requirements) -> dict[str, Any]:
     """The table `requirements` of a file with the same ones; empty where there are none."""
     data: dict[str, Any] = {}
-    if requirements.transmission:
-        data["transmission_deg"] = math.degrees(requirements.transmission)
+    if requirements.transmission_deg:
+        data["transmission_deg"] = requirements.transmission_deg
     if requirements.types is not None:
         data["types"] = [name for name in (*TYPES, *GROUPS) if name in requirements.types]
     if requirements.driver != "any":
