@@ -90,3 +90,28 @@ def test_no_random_start_finds_a_nearer_circle(turn):
         starts = rng.normal(scale=3, size=(100, 4))
         _, rms = local_fits(distance, starts, d, t)
         assert best.rms_error.min() <= rms.min() * (1 + 1e-6)
+
+
+@pytest.mark.parametrize("seed", [23, 46, 145])
+def test_poses_that_mirror_each_other_lead_to_no_saddle(seed):
+    """From a start on the mirror line Newton's method stays on it, and there are saddles there."""
+    rng = np.random.default_rng(seed)
+    half = rng.normal(size=(3, 3)) * [1, 1, 0.7]
+    rows = np.concatenate([half, half * [1, -1, -1]])
+    best = best_dyads(Displacement.from_poses(rows))
+    assert len(best.rms_error) > 0
+    for dyad in (best.dyads[k] for k in range(len(best.rms_error))):
+        z = np.array([*dyad.fixed_pivot, *dyad.moving_pivot])
+        steps = 1e-3 * np.linalg.norm(z) * rng.normal(size=(2000, 4))
+        assert (squared(z + steps, rows) > squared(z, rows)).all()
+
+
+def squared(z, rows):
+    """The sum of squared distances from the best circles about pivots z (*, 4)."""
+    x, y, angle = rows.T
+    c1, c2, m1, m2 = np.moveaxis(np.asarray(z), -1, 0)[..., None]
+    arm = np.hypot(
+        np.cos(angle) * m1 - np.sin(angle) * m2 + x - c1,
+        np.sin(angle) * m1 + np.cos(angle) * m2 + y - c2,
+    )
+    return ((arm - arm.mean(axis=-1, keepdims=True)) ** 2).sum(axis=-1)
