@@ -25,6 +25,8 @@ from burmester.fourbar.dyad import PR
 from burmester.geometry.displacement import Displacement
 from tests.oracles.witness import random_four_bar, random_poses
 
+pytestmark = pytest.mark.slow
+
 SHAPES = [
     circle_shape(i, j, k, kind)
     for i in range(3)

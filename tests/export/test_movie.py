@@ -21,6 +21,8 @@ from burmester.fourbar.dyad import PR, RP, RR
 from tests.oracles import witness
 from tests.oracles.saved_linkages import PAPER, paper, saved
 
+pytestmark = pytest.mark.slow
+
 imageio_ffmpeg = pytest.importorskip("imageio_ffmpeg", reason="films need imageio-ffmpeg")
 
 SMALL = Options(seconds=1.2, frames_per_second=20, width_px=321)
