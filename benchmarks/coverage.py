@@ -107,9 +107,9 @@ def by_refining(dyads, rows, length):
         return None
     frames = error_frames(poses, length)
     seen, unit = frames.see(poses), length / float(frames.length)
-    stack = LinkageBatch.of(linkages).seen(frames)
-    refined = refine(stack, nearest(on_circuits(stack, seen, unit), seen, unit), seen, unit)
-    fitted, best, least = refined.stack.back(frames), None, np.inf
+    batch = LinkageBatch.of(linkages).seen(frames)
+    refined = refine(batch, nearest(on_circuits(batch, seen, unit), seen, unit), seen, unit)
+    fitted, best, least = refined.batch.back(frames), None, np.inf
     for k in np.flatnonzero(np.isfinite(refined.cost)):
         linkage, there = fitted.linkage(k), refined.rows[k]
         here = frames.unseen(Displacement(there[:, :2], there[:, 2] / unit))
@@ -165,10 +165,10 @@ def judged(found, at, rows, sigma, length):
     """Of a fitted linkage the regions of both dyads, in the frames where errors are looked at."""
     frames = error_frames(Displacement.from_poses(rows), length)
     unit = float(frames.length)
-    stack = LinkageBatch.of([Linkage(*found)]).seen(frames)
+    batch = LinkageBatch.of([Linkage(*found)]).seen(frames)
     there = frames.see(Displacement.from_poses(at))[None]
-    spread = covariance(stack, there, length / unit, (sigma[0] / unit, sigma[1]))
-    return uncertainties(spread, stack, there, unit)[0]
+    spread = covariance(batch, there, length / unit, (sigma[0] / unit, sigma[1]))
+    return uncertainties(spread, batch, there, unit)[0]
 
 
 def main():

@@ -110,13 +110,13 @@ def test_distances_to_first_order_are_those_of_a_linkage_driven():
     rng = np.random.default_rng(4)
     dyads = random_four_bar(rng)
     rows = random_poses(dyads, rng, 6)
-    stack, share = LinkageBatch.of([Linkage(*dyads)]), np.ones((1, 6))
+    batch, share = LinkageBatch.of([Linkage(*dyads)]), np.ones((1, 6))
     off = rows + 1e-3 * rng.normal(size=rows.shape)
-    near = np.linalg.norm(sampson_residuals(stack, off, share)[0].reshape(6, 2), axis=1)
+    near = np.linalg.norm(sampson_residuals(batch, off, share)[0].reshape(6, 2), axis=1)
     assert near == pytest.approx(misses(Linkage(*dyads), Displacement.from_poses(off), 1.0), 0.03)
-    miss, slope = sampson_residuals(stack, rows, share)  # on the linkage: there they are exact
+    miss, slope = sampson_residuals(batch, rows, share)  # on the linkage: there they are exact
     step = 1e-7 * rng.normal(size=(2, 5))
-    moved = LinkageBatch(stack.kinds, stack.dimensions + step)
+    moved = LinkageBatch(batch.kinds, batch.dimensions + step)
     change = sampson_residuals(moved, rows, share)[0] - miss
     assert change[0] == pytest.approx(slope[0] @ step.ravel(), abs=1e-11)
 
@@ -174,11 +174,11 @@ def test_a_multiple_lands_by_chance_as_often_as_is_told():
     dyads = random_four_bar(rng)
     rows = random_poses(dyads, rng, 200)
     seen = NormalizedPoses.of(Displacement.from_poses(rows), None)
-    stack = LinkageBatch.of([Linkage(*dyads)]).seen(seen.frames)
-    near = Prediction.of(seen, stack, 0, 1e-3)
+    batch = LinkageBatch.of([Linkage(*dyads)]).seen(seen.frames)
+    near = Prediction.of(seen, batch, 0, 1e-3)
     low, high = seen.rows.min(axis=0), seen.rows.max(axis=0)
     tries = rng.uniform(low, high, size=(20000, 3))
-    miss, _ = sampson_residuals(stack, tries, np.ones((1, len(tries))))
+    miss, _ = sampson_residuals(batch, tries, np.ones((1, len(tries))))
     off = (miss.reshape(-1, 2) ** 2).sum(axis=1)
     for reach in (1e-4, 1e-3):
         told = coincidence_chance(seen, near, Multiple(0, 0, seen.rows[1]), reach)

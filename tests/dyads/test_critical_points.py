@@ -209,14 +209,14 @@ def test_weights_count_as_repetition_and_stacks_are_their_members():
     rows += 0.01 * rng.normal(size=rows.shape)
     weights = np.ones((3, 9))
     weights[:, 4] = 2
-    stack = critical_dyads(Displacement.from_poses(rows), weights)
+    batch = critical_dyads(Displacement.from_poses(rows), weights)
     for i in range(3):
         doubled = critical_dyads(Displacement.from_poses(np.vstack([rows[i], rows[i, 4]])))
         n = doubled.minimum.sum()
-        assert stack.minimum[i].sum() == n
-        assert np.allclose(stack.dyads[i].fixed_pivot[:n], doubled.dyads.fixed_pivot[:n], atol=1e-6)
-        assert np.allclose(stack.residual[i, :n], doubled.residual[:n], rtol=1e-6)
-        assert np.allclose(stack.dyads[i].radius[:n], doubled.dyads.radius[:n], atol=1e-6)
+        assert batch.minimum[i].sum() == n
+        assert np.allclose(batch.dyads[i].fixed_pivot[:n], doubled.dyads.fixed_pivot[:n], atol=1e-6)
+        assert np.allclose(batch.residual[i, :n], doubled.residual[:n], rtol=1e-6)
+        assert np.allclose(batch.dyads[i].radius[:n], doubled.dyads.radius[:n], atol=1e-6)
 
 
 def test_too_few_poses():

@@ -115,11 +115,11 @@ def test_all_four_roots_are_accounted_for():
 def test_a_stack_of_tasks_is_its_members():
     rng = np.random.default_rng(11)
     rows = rng.normal(size=(3, 2, 5, 3))
-    stack = dyads_of_five(Displacement.from_poses(rows))
+    batch = dyads_of_five(Displacement.from_poses(rows))
     for i, j in np.ndindex(3, 2):
         one = dyads_of_five(Displacement.from_poses(rows[i, j]))
-        assert np.array_equal(stack.real[i, j], one.real)
-        assert np.allclose(as_rows(stack.dyads[i, j]), as_rows(one.dyads), rtol=1e-9)
+        assert np.array_equal(batch.real[i, j], one.real)
+        assert np.allclose(as_rows(batch.dyads[i, j]), as_rows(one.dyads), rtol=1e-9)
 
 
 def test_a_slider_has_no_first_coefficient():

@@ -192,13 +192,13 @@ def test_weight_two_is_the_pose_given_twice():
 def test_a_stack_of_tasks_is_its_members():
     rng = np.random.default_rng(5)
     rows = np.stack([[noisy_rows(rng) for _ in range(3)] for _ in range(2)])
-    stack = fit_pencil(Displacement.from_poses(rows))
+    batch = fit_pencil(Displacement.from_poses(rows))
     for i, j in np.ndindex(2, 3):
         one = fit_pencil(Displacement.from_poses(rows[i, j]))
-        assert np.allclose(stack.theta[i, j], one.theta, atol=1e-12, equal_nan=True)
-        assert np.allclose(stack.dyads[i, j].radius, one.dyads.radius, equal_nan=True)
-        assert np.allclose(stack.dyads.fixed_pivot[i, j], one.dyads.fixed_pivot, equal_nan=True)
-        assert np.allclose(stack.rms_error[i, j], one.rms_error, equal_nan=True)
+        assert np.allclose(batch.theta[i, j], one.theta, atol=1e-12, equal_nan=True)
+        assert np.allclose(batch.dyads[i, j].radius, one.dyads.radius, equal_nan=True)
+        assert np.allclose(batch.dyads.fixed_pivot[i, j], one.dyads.fixed_pivot, equal_nan=True)
+        assert np.allclose(batch.rms_error[i, j], one.rms_error, equal_nan=True)
 
 
 def test_many_poses_block_by_block(monkeypatch):

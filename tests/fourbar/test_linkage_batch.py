@@ -34,7 +34,7 @@ def some_places(rng, count, number):
 
 
 def dyad_of(row, kind):
-    """The dyad that a stack's five numbers stand for, as the docstring of LinkageBatch says."""
+    """The dyad that a batch's five numbers stand for, as the docstring of LinkageBatch says."""
     if kind is RR:
         return RR(row[:2], row[2:4], row[4])
     if kind is PR:
@@ -129,10 +129,10 @@ def test_derivatives_by_the_dimensions():
             for side in (0, 1):
                 other = RR([0.3, 0.1], [1.0, 2.0], 1.0)
                 pair = (dyad, other) if side == 0 else (other, dyad)
-                stack = LinkageBatch.of([Linkage(*pair)])
+                batch = LinkageBatch.of([Linkage(*pair)])
                 both = Displacement(place.translation[None], place.angle[None])
-                slope = stack.jacobians(both).by_dimension[0, side, 0]
-                row = stack.dimensions[0, side]
+                slope = batch.jacobians(both).by_dimension[0, side, 0]
+                row = batch.dimensions[0, side]
                 used = DIMENSIONS if kind is RR else DIMENSIONS - 1
                 for j in range(used):
                     step = h * np.eye(DIMENSIONS)[j]
@@ -169,8 +169,8 @@ def test_bend_is_the_second_derivative_along_a_straight_step():
 def test_some_surfaces_are_those_of_the_picked_linkages():
     rng = np.random.default_rng(5)
     linkages = all_pairs(rng, 1)
-    stack, pick = LinkageBatch.of(linkages), np.array([7, 0, 4])
-    some = take(stack.forms(), pick)
+    batch, pick = LinkageBatch.of(linkages), np.array([7, 0, 4])
+    some = take(batch.forms(), pick)
     for k, number in enumerate(pick):
         one = LinkageBatch.of([linkages[number]]).forms()
         for mine, its in zip(some, one, strict=True):
@@ -183,13 +183,13 @@ def test_seen_in_other_frames_and_back():
     linkages = all_pairs(rng)
     frames = CanonicalFrames(np.array([2.0, -1.0]), np.array([0.7, 3.0]), np.array(2.5))
     places = some_places(rng, len(linkages), 6)
-    stack = LinkageBatch.of(linkages)
-    seen = stack.seen(frames)
+    batch = LinkageBatch.of(linkages)
+    seen = batch.seen(frames)
     there = seen.jacobians(frames.see(places)).residual
-    assert np.allclose(2.5 * there, stack.jacobians(places).residual, atol=1e-12)
-    assert (there != stack.jacobians(places).residual).any()
-    assert np.allclose(seen.back(frames).dimensions, stack.dimensions, atol=1e-13)
-    assert (seen.back(frames).kinds == stack.kinds).all()
+    assert np.allclose(2.5 * there, batch.jacobians(places).residual, atol=1e-12)
+    assert (there != batch.jacobians(places).residual).any()
+    assert np.allclose(seen.back(frames).dimensions, batch.dimensions, atol=1e-13)
+    assert (seen.back(frames).kinds == batch.kinds).all()
 
 
 def test_alike_are_all_linkages_once_in_groups_of_one_kind():
@@ -214,21 +214,21 @@ def test_alike_are_all_linkages_once_in_groups_of_one_kind():
 def test_one_linkage_exchanged_picked_and_joined():
     rng = np.random.default_rng(8)
     linkages = all_pairs(rng, 1)
-    stack = LinkageBatch.of(linkages)
+    batch = LinkageBatch.of(linkages)
     places = some_places(rng, 1, 4)
     for k, linkage in enumerate(linkages):
-        back, swapped = stack.linkage(k), stack.exchanged().linkage(k)
+        back, swapped = batch.linkage(k), batch.exchanged().linkage(k)
         for mine, its in ((back.first, linkage.first), (back.second, linkage.second)):
             assert np.allclose(mine.residual(places), its.residual(places), atol=1e-14)
         for mine, its in ((swapped.first, linkage.second), (swapped.second, linkage.first)):
             assert np.allclose(mine.residual(places), its.residual(places), atol=1e-14)
-    picked = stack[np.array([5, 2])]
-    assert (picked.dimensions == stack.dimensions[[5, 2]]).all()
-    both = concatenate([picked, stack[:1]])
+    picked = batch[np.array([5, 2])]
+    assert (picked.dimensions == batch.dimensions[[5, 2]]).all()
+    both = concatenate([picked, batch[:1]])
     assert [type(both.linkage(k).first) for k in range(3)] == [
         type(linkages[k].first) for k in (5, 2, 0)
     ]
-    assert (both.dimensions[2] == stack.dimensions[0]).all()
+    assert (both.dimensions[2] == batch.dimensions[0]).all()
 
 
 def test_a_coupler_that_cannot_turn_has_no_place_in_a_stack():

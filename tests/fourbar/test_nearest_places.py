@@ -55,8 +55,8 @@ def rows_at(places):
 def compare(dyads, poses, length, told):
     """Both circuits' nearest places beside the sweep's; counts of those missed go to told."""
     found, which = circuits(*dyads)
-    stack = LinkageBatch.of([Linkage(*dyads)])
-    places = on_circuits(stack, Displacement.from_poses(poses), length)
+    batch = LinkageBatch.of([Linkage(*dyads)])
+    places = on_circuits(batch, Displacement.from_poses(poses), length)
     seen = []
     for side in (0, 1):
         rows = rows_at(places[0, side])
@@ -236,8 +236,8 @@ def test_a_place_in_another_valley_is_brought_to_the_nearest_of_its_circuit(seco
         start = np.array(
             [swept[k].rows(rng.uniform(swept[k].low, swept[k].high, 1))[0] for k in on]
         )
-        stack = LinkageBatch.of([Linkage(*dyads)])
-        ours = on_own_circuits(stack, start[None], Displacement.from_poses(poses), 1.0)[0]
+        batch = LinkageBatch.of([Linkage(*dyads)])
+        ours = on_own_circuits(batch, start[None], Displacement.from_poses(poses), 1.0)[0]
         assert on_both(dyads, ours) < 1e-9
         mixed = len(set(on)) > 1
         wanted = near.min(axis=0) if mixed else near[on[0]]

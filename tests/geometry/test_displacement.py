@@ -75,14 +75,14 @@ def test_half_turns_and_whole_turns_are_ordinary(a):
 def test_a_stack_is_its_members():
     rng = np.random.default_rng(0)
     rows = rng.normal(size=(3, 4, 3))
-    stack = Displacement.from_poses(rows)
+    batch = Displacement.from_poses(rows)
     other = Displacement.from_poses(rng.normal(size=3))
     for i, j in np.ndindex(3, 4):
         one = Displacement.from_poses(rows[i, j])
-        same(stack[i, j], one)
-        same((stack @ other)[i, j], one @ other)
-        same(stack.inverse()[i, j], one.inverse())
-        assert np.array_equal(stack.as_image_point()[i, j], one.as_image_point())
+        same(batch[i, j], one)
+        same((batch @ other)[i, j], one @ other)
+        same(batch.inverse()[i, j], one.inverse())
+        assert np.array_equal(batch.as_image_point()[i, j], one.as_image_point())
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])

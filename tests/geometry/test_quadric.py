@@ -248,8 +248,8 @@ def test_a_length_decides_what_is_small():
     nearly_slider = np.array([[1e-8, 0, 1, 0], [0, 1e-8, 0, 1], [1, 0, 1, 0], [0, 1, 0, 1]])
     assert classify(nearly_slider, tolerance=1e-6) == Kind.ONE_SHEET
     assert classify(nearly_slider, tolerance=1e-6, length=1.0) == Kind.HYPERBOLIC_PARABOLOID
-    stack = classify([nearly_slider] * 2, tolerance=1e-6, length=[1e6, 1.0])
-    assert stack.tolist() == [Kind.ONE_SHEET, Kind.HYPERBOLIC_PARABOLOID]
+    batch = classify([nearly_slider] * 2, tolerance=1e-6, length=[1e6, 1.0])
+    assert batch.tolist() == [Kind.ONE_SHEET, Kind.HYPERBOLIC_PARABOLOID]
 
 
 @pytest.mark.parametrize("zero", [(0, 0), (0, 1), (1, 1)])
@@ -397,15 +397,15 @@ def test_the_fit_is_numpys_svd(count):
 @pytest.mark.parametrize("count", [4, 9, 30])
 def test_a_stack_of_fits_is_the_single_fits(count):
     z = random_unit_points(np.random.default_rng(7), 2, 3, count)
-    stack = fit_quadric(z)
+    batch = fit_quadric(z)
     for index in np.ndindex(2, 3):
         single = fit_quadric(z[index])
-        np.testing.assert_allclose(stack.singular_values[index], single.singular_values, atol=1e-13)
-        np.testing.assert_allclose(stack.rms[index], single.rms, atol=1e-13)
-        np.testing.assert_allclose(stack.length[index], single.length, rtol=1e-13)
+        np.testing.assert_allclose(batch.singular_values[index], single.singular_values, atol=1e-13)
+        np.testing.assert_allclose(batch.rms[index], single.rms, atol=1e-13)
+        np.testing.assert_allclose(batch.length[index], single.length, rtol=1e-13)
         if count >= 9:
-            assert same_up_to_scale(stack.coefficients[index], single.coefficients, 1e-10)
-            assert stack.kind()[index] == single.kind()
+            assert same_up_to_scale(batch.coefficients[index], single.coefficients, 1e-10)
+            assert batch.kind()[index] == single.kind()
 
 
 @pytest.mark.parametrize("count", range(1, 10))

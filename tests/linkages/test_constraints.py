@@ -51,8 +51,8 @@ def swept(first, second, drive):
 
 def sine_of(linkage, rows, side=0):
     """`signed_transmission_sine` of one linkage at rows (n, 3)."""
-    stack = LinkageBatch.of([linkage])
-    return signed_transmission_sine(stack, rows[None], LENGTH, np.array([side]))[0]
+    batch = LinkageBatch.of([linkage])
+    return signed_transmission_sine(batch, rows[None], LENGTH, np.array([side]))[0]
 
 
 @pytest.mark.parametrize("pair", PAIRS, ids=lambda pair: f"{pair[0].__name__}-{pair[1].__name__}")
@@ -100,12 +100,12 @@ def test_drives_are_those_the_linkage_is_assembled_at(pair):
         linkage = Linkage(a_dyad(pair[0], rng), a_dyad(pair[1], rng))
         drive = rng.uniform(-3, 3, 10)
         both = DrivenLoop.of(linkage).closed_at(drive)
-        stack = LinkageBatch.of([linkage])
+        batch = LinkageBatch.of([linkage])
         for side in (0, 1):
             at = both.translation[:, side], both.angle[:, side]
             sound = np.isfinite(at[1])
             rows = np.column_stack([at[0], LENGTH * at[1]])[sound]
-            told, turns = input_of(stack, rows[None], LENGTH, np.array([0]))
+            told, turns = input_of(batch, rows[None], LENGTH, np.array([0]))
             gap = told[0] - drive[sound]
             assert turns[0] == (pair[0] is not PR)
             assert np.abs(np.exp(1j * gap) - 1 if turns[0] else gap).max(initial=0) < 1e-7
@@ -150,9 +150,9 @@ def test_the_least_sine_of_a_stretch_is_at_its_ends_or_where_it_is_said(pair):
 
 
 def journey_of(linkage, rows, sign, asked=ANY, middle=np.nan):
-    stack = LinkageBatch.of([linkage])
-    return stack, BranchAndOrder.of(
-        stack,
+    batch = LinkageBatch.of([linkage])
+    return batch, BranchAndOrder.of(
+        batch,
         rows[None],
         LENGTH,
         DrivenBranch(np.array([0]), np.array([sign]), np.array([middle])),
@@ -190,20 +190,20 @@ def test_a_journey_is_kept_just_where_a_sweep_keeps_to_it():
             if np.isfinite(swept(first, second, np.linspace(-3.2, 3.2, 200))).all()
             else drive.mean()
         )
-        stack, journey = journey_of(linkage, rows, sign, middle=middle)
-        value, equal = journey(stack, rows[None], np.array([0]))
+        batch, journey = journey_of(linkage, rows, sign, middle=middle)
+        value, equal = journey(batch, rows[None], np.array([0]))
         assert not equal.any()
         kept = ordered and sine > np.sin(np.radians(5))
         assert (value <= 0).all() == kept
         verdicts.append(kept)
         if np.ptp(drive) < 3.0:  # in any order, only the branch counts
-            stack, loose = journey_of(linkage, rows, sign, Requirements(any_order=True), middle)
-            assert (loose(stack, rows[None], np.array([0]))[0] <= 0).all() == (
+            batch, loose = journey_of(linkage, rows, sign, Requirements(any_order=True), middle)
+            assert (loose(batch, rows[None], np.array([0]))[0] <= 0).all() == (
                 sine > np.sin(np.radians(5))
             )
         # On the other branch nothing is right.
-        stack, other = journey_of(linkage, rows, -sign, middle=middle)
-        assert (other(stack, rows[None], np.array([0]))[0] > 0).any()
+        batch, other = journey_of(linkage, rows, -sign, middle=middle)
+        assert (other(batch, rows[None], np.array([0]))[0] > 0).any()
     assert 20 < sum(verdicts) < len(verdicts) - 20
 
 
@@ -214,10 +214,10 @@ def test_a_crank_meets_all_poses_within_one_turn(step, sense):
     first, second = RR([0, 0], [0, 0], 1.0), RR([4, 0], [4, 0], 3.0)  # a crank-rocker
     drive = sense * np.radians(step) * np.arange(5)
     rows = swept(first, second, drive)[0]
-    stack, journey = journey_of(
+    batch, journey = journey_of(
         Linkage(first, second), rows, np.sign(sine_of(Linkage(first, second), rows)[0])
     )
-    value, equal = journey(stack, rows[None], np.array([0]))
+    value, equal = journey(batch, rows[None], np.array([0]))
     assert not equal.any()
     if step == 80.0:
         assert (value <= 0).all()
@@ -238,8 +238,8 @@ def test_types_are_grashofs():
             own = Links(ground, ends[driver], coupler, ends[1 - driver])
             name = grashof(own)
             met.add(name)
-            stack = LinkageBatch.of([linkage] * 5)
-            excess = type_excess(stack, np.full(5, driver), names)
+            batch = LinkageBatch.of([linkage] * 5)
+            excess = type_excess(batch, np.full(5, driver), names)
             assert [names[k] for k in np.flatnonzero((excess <= 0).all(axis=1))] == [name]
     assert met == set(names)
 
@@ -255,7 +255,7 @@ def test_ratio_of_links_and_room_for_the_pivots():
         if not np.isfinite(rows).all():
             continue
         frames = CanonicalFrames(np.array([0.3, -0.2]), np.zeros(2), np.array(2.0))
-        stack = LinkageBatch.of([linkage]).seen(frames)
+        batch = LinkageBatch.of([linkage]).seen(frames)
         seen = (rows - [0.3, -0.2, 0.0]) / 2.0
         part = LinkProportions(LENGTH / 2, frames, asked, np.array([0]), np.array([""]))
         only = {
@@ -278,7 +278,7 @@ def test_ratio_of_links_and_room_for_the_pivots():
             )
             pivots += [np.array([p.real, p.imag]) for p in pin]
         right = max(links) / min(links) <= 2.5, np.abs(pivots).max() <= 1.5
-        here = stack, seen[None], np.array([0])
+        here = batch, seen[None], np.array([0])
         assert (only["ratio"](*here)[0] <= 0).all() == right[0]
         assert (only["room"](*here)[0] <= 0).all() == right[1]
         value, equal = AllConstraints((part,))(*here)
@@ -293,11 +293,11 @@ def test_limits_count_in_the_frames_unit():
     frames = CanonicalFrames(np.array([1.0, 2.0]), np.array([-0.5, 0.25]), np.array(4.0))
     dyad = RR([3.0, 1.0], [0.5, -2.0], 2.5)
     other = RR([0.0, 0.0], [1.0, 1.0], 1.0)
-    stack = LinkageBatch.of([Linkage(dyad, other)]).seen(frames)
+    batch = LinkageBatch.of([Linkage(dyad, other)]).seen(frames)
     rows, which = np.zeros((1, 2, 3)), np.array([0])
 
     def held(side, **limits):
-        return DyadLimitsConstraint(side, Limits(**limits), frames)(stack, rows, which)
+        return DyadLimitsConstraint(side, Limits(**limits), frames)(batch, rows, which)
 
     value, equal = held(0, length=(1.0, 2.0))
     assert np.allclose(value[0], [(1.0 - 2.5) / 4, (2.5 - 2.0) / 4])

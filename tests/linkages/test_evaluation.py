@@ -56,12 +56,12 @@ def test_uncertainty_stands_with_the_dyad_that_it_is_of():
         frames = error_frames(task.poses, result.length)
         unit = float(frames.length)
         for found in result.linkages[:4]:
-            stack = LinkageBatch.of([found.linkage]).seen(frames)
+            batch = LinkageBatch.of([found.linkage]).seen(frames)
             places = frames.see(found.error.places)[None]
             position, angle = pose_sigma(task)
-            spread = covariance(stack, places, result.length / unit, (position / unit, angle))
+            spread = covariance(batch, places, result.length / unit, (position / unit, angle))
             for mine, wanted in zip(
-                found.uncertainty, uncertainties(spread, stack, places, unit)[0], strict=True
+                found.uncertainty, uncertainties(spread, batch, places, unit)[0], strict=True
             ):
                 assert mine.half_width == pytest.approx(wanted.half_width, rel=1e-3)
                 assert (mine.fixed is None) == (wanted.fixed is None)

@@ -165,7 +165,7 @@ def test_least_squares_as_scipy_has_them(pair, length):
         assert ours.cost[0] < theirs * 1.01
         done += bool(np.isclose(ours.cost[0], theirs, rtol=1e-6))
         # The cost is that of the linkage as it came out, driven by the witness.
-        out = ours.stack.linkage(0)
+        out = ours.batch.linkage(0)
         plain = ours.rows[0] / [1, 1, length]
         again = Witness(out, plain, wanted, length)
         assert np.isclose((again.gaps(again.start) ** 2).sum() / 2, ours.cost[0], rtol=1e-6)
@@ -187,9 +187,9 @@ def test_weights_count_as_repeated_poses():
     assert np.isclose(ours.cost[0], theirs, rtol=1e-6)
     twice = np.repeat(np.arange(12), weights.astype(int))
     often = refined(linkage, rows[twice], wanted[twice])
-    assert np.allclose(often.stack.dimensions, ours.stack.dimensions, atol=1e-6)
+    assert np.allclose(often.batch.dimensions, ours.batch.dimensions, atol=1e-6)
     plain = refined(linkage, rows, wanted)
-    assert not np.allclose(plain.stack.dimensions, ours.stack.dimensions, atol=1e-3)
+    assert not np.allclose(plain.batch.dimensions, ours.batch.dimensions, atol=1e-3)
 
 
 @pytest.mark.parametrize("pair", PAIRS)
@@ -200,7 +200,7 @@ def test_exact_poses_are_met_and_the_rest_as_near_as_scipy_comes(pair):
     ours = refined(linkage, rows, wanted, exact=exact)
     assert ours.met[0]
     assert np.abs(ours.rows[0] - wanted)[exact].max() < 1e-10
-    out = ours.stack.linkage(0)
+    out = ours.batch.linkage(0)
     for dyad in (out.first, out.second):
         assert np.abs(dyad.residual(as_places(wanted[exact]))).max() < 1e-10
     witness = Witness(linkage, rows, wanted, 1.0)
@@ -220,7 +220,7 @@ def test_dimensions_that_are_not_free_stay():
     free[0, [0, 3, 5]] = False
     ours = refined(linkage, rows, wanted, free=free)
     before = LinkageBatch.of([linkage]).dimensions.reshape(10)
-    after = ours.stack.dimensions.reshape(10)
+    after = ours.batch.dimensions.reshape(10)
     assert (before[[0, 3, 5]] == after[[0, 3, 5]]).all()
     theirs = Witness(linkage, rows, wanted, 1.0).least(loose=free[0, :9])
     assert np.isclose(ours.cost[0], theirs, rtol=1e-6)
@@ -243,7 +243,7 @@ def test_what_is_found_does_not_depend_on_the_others_beside_it():
         steps=STEPS,
     )
     one = refined(linkage, rows, wanted)
-    assert np.allclose(one.stack.dimensions[0], both.stack.dimensions[0], atol=1e-9)
+    assert np.allclose(one.batch.dimensions[0], both.batch.dimensions[0], atol=1e-9)
     assert np.isnan(both.cost[-1])
     assert not both.settled[-1]
     alone = refine(  # nothing is left at all
@@ -261,7 +261,7 @@ def test_the_greatest_distance_is_levelled(seed):
     gap = np.linalg.norm(ours.rows[0] - wanted, axis=1)
     assert np.isclose(gap.max(), ours.cost[0], rtol=1e-9)
     assert ours.cost[0] < np.linalg.norm(squares.rows[0] - wanted, axis=1).max()
-    assert ours.cost[0] < 1.01 * minimax(ours.stack.linkage(0), ours.rows[0], wanted)
+    assert ours.cost[0] < 1.01 * minimax(ours.batch.linkage(0), ours.rows[0], wanted)
 
 
 def minimax(linkage, rows, wanted, length=1.0):
@@ -312,12 +312,12 @@ def test_limits_hold_and_scipy_comes_no_lower(what, seed):
     frames = CanonicalFrames.as_given()
     ours = refined(linkage, rows, wanted, constraints=DyadLimitsConstraint(0, limits, frames))
     assert ours.met[0]
-    z = ours.stack.dimensions[0, 0]
+    z = ours.batch.dimensions[0, 0]
     if zero:
         assert np.abs(zero(z)).max() < 1e-9
     if below:
         assert np.max(below(z)) < 1e-9
-    witness = Witness(ours.stack.linkage(0), ours.rows[0], wanted, 1.0)
+    witness = Witness(ours.batch.linkage(0), ours.rows[0], wanted, 1.0)
     kept = []
     if zero:
         kept.append({"type": "eq", "fun": lambda v: np.array(zero(v[:5]))})
@@ -362,12 +362,12 @@ def test_the_same_task_in_other_frames_and_units():
     )
     for each, own, unit in ((linkage, here, length), (moved, there, 1000 * length)):
         frames = error_frames(own, unit)
-        stack, seen = LinkageBatch.of([each]).seen(frames), frames.see(own)
+        batch, seen = LinkageBatch.of([each]).seen(frames), frames.see(own)
         small = unit / float(frames.length)
-        start = nearest(on_circuits(stack, seen, small), seen, small)
-        costs.append(refine(stack, start, seen, small))
+        start = nearest(on_circuits(batch, seen, small), seen, small)
+        costs.append(refine(batch, start, seen, small))
     assert np.isclose(costs[0].cost[0], costs[1].cost[0], rtol=1e-6)
-    assert np.allclose(costs[0].stack.dimensions, costs[1].stack.dimensions, atol=1e-5)
+    assert np.allclose(costs[0].batch.dimensions, costs[1].batch.dimensions, atol=1e-5)
 
 
 def test_most_noisy_tasks_settle():
@@ -386,7 +386,7 @@ def statistics(tasks, seed, levelled=True):
         if levelled:
             ratio.append(ours.cost[0] / Witness(linkage, rows, wanted, 1.0).least() - 1)
             worst = refined(linkage, rows, wanted, worst=True)
-            least = minimax(worst.stack.linkage(0), worst.rows[0], wanted)
+            least = minimax(worst.batch.linkage(0), worst.rows[0], wanted)
             level.append(worst.cost[0] / least - 1)
     return np.mean(settled), np.array(ratio), np.array(level)
 

@@ -53,13 +53,13 @@ def problem(seed, second, *, count=8, off=0.02, unit=1.0, shift=0.0):
         poses, aim = aim_at(rows, LENGTH * unit)
         scaled = LinkageBatch.of([Linkage(*dyads)])
         moved = type(aim.frames)(np.full(2, shift), np.zeros(2), np.asarray(unit))
-        stack = scaled.back(moved).seen(aim.frames)
-        found = rows_of(on_circuits(stack, aim.poses, aim.length), aim.length)
+        batch = scaled.back(moved).seen(aim.frames)
+        found = rows_of(on_circuits(batch, aim.poses, aim.length), aim.length)
         found = found[:, np.nan_to_num(aim.cost(found), nan=np.inf)[0].argmin()]
-        refined = aim.refine(stack, found)
+        refined = aim.refine(batch, found)
         # What is fitted must not have lost its way, nor be a linkage of giants.
-        if refined.settled[0] and np.abs(refined.stack.dimensions[0]).max() < 10:
-            return poses, aim, refined.stack, refined.rows
+        if refined.settled[0] and np.abs(refined.batch.dimensions[0]).max() < 10:
+            return poses, aim, refined.batch, refined.rows
 
 
 def greatest(aim, rows):
@@ -107,22 +107,22 @@ def turn_of(aim, step):
     return turn
 
 
-def places_in(stack, aim, step):
+def places_in(batch, aim, step):
     """The unit of each of the ten dimensions of one linkage, 0 of those not in use."""
     out = np.full((2, 5), float(step))
-    for side, kind in enumerate(stack.kinds[0]):
+    for side, kind in enumerate(batch.kinds[0]):
         if kind:
             out[side, 4] = 0.0
             out[side, LINES[kind]] = np.radians(turn_of(aim, step))
     return out
 
 
-def all_at_once(stack, aim, step):
+def all_at_once(batch, aim, step):
     """The linkage rounded naively."""
-    unit = places_in(stack, aim, step)
-    own = stack.back(aim.frames).dimensions[0]
+    unit = places_in(batch, aim, step)
+    own = batch.back(aim.frames).dimensions[0]
     new = np.where(unit > 0, np.rint(own / np.where(unit > 0, unit, 1)) * unit, 0.0)
-    return LinkageBatch(stack.kinds, new[None]).linkage(0)
+    return LinkageBatch(batch.kinds, new[None]).linkage(0)
 
 
 def test_multiples_are_the_nearest_doubles():
@@ -139,8 +139,8 @@ def test_multiples_are_the_nearest_doubles():
 def test_numbers_are_multiples_to_the_last_digit(second, unit, shift):
     step = 0.1 * unit if unit == 1 else 0.5
     for seed in range(2):
-        _, aim, stack, rows = problem(seed, second, unit=unit, shift=shift)
-        own, _ = rounded(stack, rows, aim, step=step)
+        _, aim, batch, rows = problem(seed, second, unit=unit, shift=shift)
+        own, _ = rounded(batch, rows, aim, step=step)
         turn = turn_of(aim, step)
         for kind, row in zip(own.kinds[0], own.dimensions[0], strict=True):
             line = LINES.get(int(kind))
@@ -156,8 +156,8 @@ def test_numbers_are_multiples_to_the_last_digit(second, unit, shift):
 @EACH
 def test_the_error_is_that_of_the_rounded_linkage_driven_again(second):
     for seed in range(3):
-        poses, aim, stack, rows = problem(seed, second, count=6)
-        own, rows = rounded(stack, rows, aim, step=0.05)
+        poses, aim, batch, rows = problem(seed, second, count=6)
+        own, rows = rounded(batch, rows, aim, step=0.05)
         told = np.linalg.norm(rows[0] - rows_of(aim.poses, aim.length), axis=-1)
         told = told * float(aim.frames.length)
         again = simulated(own.linkage(0), poses, LENGTH)
@@ -166,9 +166,9 @@ def test_the_error_is_that_of_the_rounded_linkage_driven_again(second):
 
 def compared(seed, second, step, **how):
     """The greatest distance rounded here and all at once, by another simulation, and before."""
-    poses, aim, stack, rows = problem(seed, second, **how)
-    _, new = rounded(stack, rows, aim, step=step)
-    naive = simulated(all_at_once(stack, aim, step), poses, LENGTH).max()
+    poses, aim, batch, rows = problem(seed, second, **how)
+    _, new = rounded(batch, rows, aim, step=step)
+    naive = simulated(all_at_once(batch, aim, step), poses, LENGTH).max()
     return greatest(aim, new), naive, greatest(aim, rows)
 
 
@@ -182,10 +182,10 @@ def test_it_is_never_worse_than_rounding_all_at_once(second):
     assert np.median(ratios) < 0.6
 
 
-def by_brute_force(poses, stack, aim, rows, step):
+def by_brute_force(poses, batch, aim, rows, step):
     """The least greatest distance of all floors and ceilings, crank driven by small steps."""
-    unit = places_in(stack, aim, step).ravel()
-    own = stack.back(aim.frames).dimensions.reshape(10)
+    unit = places_in(batch, aim, step).ravel()
+    own = batch.back(aim.frames).dimensions.reshape(10)
     some = unit > 0
     at = Displacement.from_poses(np.c_[rows[0, :, :2], rows[0, :, 2] / aim.length])
     at = aim.frames.unseen(at)
@@ -195,7 +195,7 @@ def by_brute_force(poses, stack, aim, rows, step):
     for up in product((0, 1), repeat=int(some.sum())):
         z = np.zeros(10)
         z[some] = (low + up) * unit[some]
-        linkage = LinkageBatch(stack.kinds, z.reshape(1, 2, 5)).linkage(0)
+        linkage = LinkageBatch(batch.kinds, z.reshape(1, 2, 5)).linkage(0)
         arm = at.act(linkage.first.moving_pivot) - linkage.first.fixed_pivot
         drive = np.arctan2(arm[:, 1], arm[:, 0])[:, None] + np.linspace(-0.5, 0.5, 201)
         where, phi = places(linkage.first, linkage.second, drive)
@@ -208,9 +208,9 @@ def by_brute_force(poses, stack, aim, rows, step):
 @EACH
 def test_it_is_as_good_as_the_best_of_all_floors_and_ceilings(second):
     for seed, step in ((1, 0.02), (2, 0.1)):
-        poses, aim, stack, rows = problem(seed, second, count=5)
-        _, new = rounded(stack, rows, aim, step=step)
-        assert greatest(aim, new) <= by_brute_force(poses, stack, aim, rows, step) * 1.001
+        poses, aim, batch, rows = problem(seed, second, count=5)
+        _, new = rounded(batch, rows, aim, step=step)
+        assert greatest(aim, new) <= by_brute_force(poses, batch, aim, rows, step) * 1.001
 
 
 def stock_fit(kinds, own, lengths, poses):
@@ -245,8 +245,8 @@ def stock_fit(kinds, own, lengths, poses):
 def test_links_come_from_stock(step):
     stock = (0.5, 0.75, 1.1, 1.6, 2.5)
     for seed in range(3):
-        poses, aim, stack, rows = problem(seed, RR)
-        own, new = rounded(stack, rows, aim, step=step, stock=stock)
+        poses, aim, batch, rows = problem(seed, RR)
+        own, new = rounded(batch, rows, aim, step=step, stock=stock)
         links = own.dimensions[0, :, 4]
         assert set(links) <= set(stock)
         again = simulated(own.linkage(0), poses, LENGTH)
@@ -259,15 +259,15 @@ def test_links_come_from_stock(step):
 def test_of_stock_the_choice_is_the_best_of_four():
     stock = np.array([0.5, 0.75, 1.1, 1.6, 2.5])
     for seed in range(2):
-        poses, aim, stack, rows = problem(seed, RR)
-        before = stack.back(aim.frames)
-        own, new = rounded(stack, rows, aim, step=None, stock=list(stock))
+        poses, aim, batch, rows = problem(seed, RR)
+        before = batch.back(aim.frames)
+        own, new = rounded(batch, rows, aim, step=None, stock=list(stock))
         sides = []
         for r in before.dimensions[0, :, 4]:
             at = np.searchsorted(stock, r)
             sides.append({stock[max(at - 1, 0)], stock[min(at, 4)]})
         told = {
-            choice: stock_fit(stack.kinds, before.linkage(0), choice, poses)
+            choice: stock_fit(batch.kinds, before.linkage(0), choice, poses)
             for choice in product(*sides)
         }
         assert tuple(own.dimensions[0, :, 4]) == min(told, key=told.__getitem__)
@@ -278,8 +278,8 @@ def test_of_stock_the_choice_is_the_best_of_four():
 @EACH
 def test_a_step_far_too_coarse_gives_a_great_error_or_no_place(second):
     for seed, step in ((0, 3.0), (1, 3.0), (0, 40.0)):
-        poses, aim, stack, rows = problem(seed, second)
-        own, new = rounded(stack, rows, aim, step=step)
+        poses, aim, batch, rows = problem(seed, second)
+        own, new = rounded(batch, rows, aim, step=step)
         lengths = own.dimensions[0].copy()
         for side, kind in enumerate(own.kinds[0]):
             if kind:
@@ -298,14 +298,14 @@ def test_a_step_far_too_coarse_gives_a_great_error_or_no_place(second):
 def test_pivots_stay_in_their_regions():
     left = 0
     for seed in range(6):
-        _, aim, stack, rows = problem(seed, RR)
-        c = stack.back(aim.frames).dimensions[0, 0, :2]
+        _, aim, batch, rows = problem(seed, RR)
+        c = batch.back(aim.frames).dimensions[0, 0, :2]
         # The region ends just beyond the pivot, on the side to which it would be rounded.
         ends = np.where(np.rint(c / 0.1) * 0.1 > c, c + 1e-4, c + 1.0)
         x, y = np.stack([ends - 1.5, ends], axis=1)
         box = Polygon([(x[0], y[0]), (x[1], y[0]), (x[1], y[1]), (x[0], y[1])])
         aim = replace(aim, kept=(DyadLimitsConstraint(0, Limits(fixed_pivot=box), aim.frames),))
-        own, _ = rounded(stack, rows, aim, step=0.1)
+        own, _ = rounded(batch, rows, aim, step=0.1)
         new, naive = own.dimensions[0, 0, :2], np.rint(c / 0.1) * 0.1
         left += bool((naive > ends + 1e-9).any())
         assert (new <= ends + 1e-9).all()
@@ -320,8 +320,8 @@ def test_a_pivot_beside_its_line_is_no_excuse_to_pass_another_limit(seed):
     A pivot half a step off its line is as near as can be, so it breaks nothing, and the length
     that does break its limit is not taken, be it nearer to the poses.
     """
-    _, aim, stack, rows = problem(seed, RR)
-    own = stack.back(aim.frames).dimensions[0, 0]
+    _, aim, batch, rows = problem(seed, RR)
+    own = batch.back(aim.frames).dimensions[0, 0]
     height, length = own[1], own[4]
     halves = abs(height) / (np.arange(1, 400) + 0.5)
     steps = [step for step in halves if 0.05 < step < 0.15 and 0.55 < (length / step) % 1 < 0.85]
@@ -329,7 +329,7 @@ def test_a_pivot_beside_its_line_is_no_excuse_to_pass_another_limit(seed):
     assert np.rint(length / step) * step > length + 0.1 * step  # the nearest multiple is too long
     limits = Limits(fixed_pivot=Line((0, height), (1, height)), length=(0.0, length + 1e-4))
     aim = replace(aim, kept=(DyadLimitsConstraint(0, limits, aim.frames),))
-    new, _ = rounded(stack, rows, aim, step=step)
+    new, _ = rounded(batch, rows, aim, step=step)
     at, radius = new.dimensions[0, 0, :2], new.dimensions[0, 0, 4]
     assert abs(at[1] - height) == pytest.approx(step / 2)
     assert radius < length
@@ -355,17 +355,17 @@ def test_poses_stay_in_order():
         linkage = LinkageBatch.of([Linkage(first, second)])
         for _ in range(2):  # the poses, put in the order in which they are met
             _, aim = aim_at(rows)
-            stack = linkage.seen(aim.frames)
-            found = rows_of(on_circuits(stack, aim.poses, aim.length), aim.length)
+            batch = linkage.seen(aim.frames)
+            found = rows_of(on_circuits(batch, aim.poses, aim.length), aim.length)
             found = found[:, np.nan_to_num(aim.cost(found), nan=np.inf)[0].argmin()]
             here = steps(linkage, found, aim.frames, aim.length)
             rows = rows[np.argsort(here)]
         if (np.diff(here) < 4e-3).any():
             continue
-        kept = steps(*rounded(stack, found, aim, step=0.2), aim.frames, aim.length)
+        kept = steps(*rounded(batch, found, aim, step=0.2), aim.frames, aim.length)
         assert (np.diff(kept) > 0).all()
         free = replace(aim, requirements=Requirements(any_order=True))
-        loose = steps(*rounded(stack, found, free, step=0.2), aim.frames, aim.length)
+        loose = steps(*rounded(batch, found, free, step=0.2), aim.frames, aim.length)
         confused += bool((np.diff(loose) <= 0).any())
     assert confused
 
@@ -373,10 +373,10 @@ def test_poses_stay_in_order():
 def test_exact_poses_and_weights_count_more():
     plain, exact, heavy = [], [], []
     for seed in range(5):
-        _, aim, stack, rows = problem(seed, RR, off=0.05)
+        _, aim, batch, rows = problem(seed, RR, off=0.05)
 
-        def first(aim, stack=stack, rows=rows):
-            _, new = rounded(stack, rows, aim, step=0.1)
+        def first(aim, batch=batch, rows=rows):
+            _, new = rounded(batch, rows, aim, step=0.1)
             return np.linalg.norm((new - rows_of(aim.poses, aim.length))[0, 0])
 
         plain.append(first(aim))
@@ -393,12 +393,12 @@ def test_linkages_together_are_as_one_by_one():
         dyad = PR(0.3, 0.4, [0.2, 0.9]) if second is PR else RP([0.3, 0.2], 0.4, 0.5)
         many.append(LinkageBatch.of([Linkage(one.linkage(0).first, dyad)]))
     kinds = np.concatenate([each.kinds for each in many])
-    stack = LinkageBatch(kinds, np.concatenate([each.dimensions for each in many]))
-    found = rows_of(on_circuits(stack, aim.poses, aim.length), aim.length)[:, 0]
+    batch = LinkageBatch(kinds, np.concatenate([each.dimensions for each in many]))
+    found = rows_of(on_circuits(batch, aim.poses, aim.length), aim.length)[:, 0]
     found[0] = rows[0]
-    own, new = rounded(stack, found, aim, step=0.1)
+    own, new = rounded(batch, found, aim, step=0.1)
     for k in range(3):
-        single, its = rounded(stack[k : k + 1], found[k : k + 1], aim, step=0.1)
+        single, its = rounded(batch[k : k + 1], found[k : k + 1], aim, step=0.1)
         assert np.array_equal(single.dimensions[0], own.dimensions[k])
         assert np.array_equal(its[0], new[k], equal_nan=True)
 

@@ -55,8 +55,8 @@ def problem(seed, second, off=OFF):
 
 
 def asked(dyads, rows, found):
-    stack = LinkageBatch.of([Linkage(*dyads)])
-    return stack, Displacement.from_poses(rows), Displacement.from_poses(found[None]), LENGTH
+    batch = LinkageBatch.of([Linkage(*dyads)])
+    return batch, Displacement.from_poses(rows), Displacement.from_poses(found[None]), LENGTH
 
 
 def built_amiss(dyads, found):
@@ -105,11 +105,11 @@ def test_places_move_as_those_of_a_linkage_that_is_driven(second):
 @KINDS
 def test_built_linkages_come_where_a_witness_finds_them(second):
     dyads, rows, drive, found = problem(10, second)
-    stack, poses, at, length = asked(dyads, rows, found)
-    built = monte_carlo(stack, poses, at, length, 0.01, draws=4, seed=3)
+    batch, poses, at, length = asked(dyads, rows, found)
+    built = monte_carlo(batch, poses, at, length, 0.01, draws=4, seed=3)
     assert not built.lost.any()
     for k in range(4):
-        one = LinkageBatch(stack.kinds, built.dimensions[:, k]).linkage(0)
+        one = LinkageBatch(batch.kinds, built.dimensions[:, k]).linkage(0)
         told = driven((one.first, one.second), rows, drive)
         here = built.places[0, k]
         assert np.abs(here.translation - told[:, :2]).max() < 1e-7
@@ -125,9 +125,9 @@ def test_built_linkages_come_where_a_witness_finds_them(second):
 @KINDS
 def test_what_is_built_is_spread_evenly_within_the_tolerance(second):
     dyads, rows, _, found = problem(2, second)
-    stack, poses, at, length = asked(dyads, rows, found)
-    built = monte_carlo(stack, poses, at, length, 0.01, draws=2000, seed=0)
-    off = (built.dimensions[0] - stack.dimensions[0]).reshape(2000, 10)
+    batch, poses, at, length = asked(dyads, rows, found)
+    built = monte_carlo(batch, poses, at, length, 0.01, draws=2000, seed=0)
+    off = (built.dimensions[0] - batch.dimensions[0]).reshape(2000, 10)
     columns, slots = built_amiss(dyads, found)
     use = np.zeros((len(slots), 10))
     use[:, slots] = columns
@@ -141,10 +141,10 @@ def test_what_is_built_is_spread_evenly_within_the_tolerance(second):
 @KINDS
 def test_the_greatest_error_is_that_of_the_worst_corner(second):
     dyads, rows, _, found = problem(3, second)
-    stack, poses, at, length = asked(dyads, rows, found)
+    batch, poses, at, length = asked(dyads, rows, found)
     tolerance = 0.02
-    told = spread(stack, poses, at, length, tolerance)
-    slope = tolerance * sensitivity(stack, poses, at, length)[0]
+    told = spread(batch, poses, at, length, tolerance)
+    slope = tolerance * sensitivity(batch, poses, at, length)[0]
     gap = found[:, :2] - rows[:, :2]
     corners = np.array(list(product((-1, 1), repeat=10)))
     greatest = np.linalg.norm(gap + np.einsum("sj,ncj->snc", corners, slope), axis=-1).max(axis=0)
@@ -156,10 +156,10 @@ def test_the_greatest_error_is_that_of_the_worst_corner(second):
 @KINDS
 def test_the_linear_spread_is_that_of_linkages_built(second):
     dyads, rows, _, found = problem(4, second)
-    stack, poses, at, length = asked(dyads, rows, found)
+    batch, poses, at, length = asked(dyads, rows, found)
     tolerance = 1e-3
-    told = spread(stack, poses, at, length, tolerance)
-    built = monte_carlo(stack, poses, at, length, tolerance, draws=4000, seed=1)
+    told = spread(batch, poses, at, length, tolerance)
+    built = monte_carlo(batch, poses, at, length, tolerance, draws=4000, seed=1)
     moved = np.linalg.norm(built.places.translation[0] - found[:, :2], axis=-1)
     assert np.allclose(np.sqrt((moved**2).mean(axis=0)), told.deviation[0], rtol=0.04)
     assert np.isclose(np.sqrt((built.position[0] ** 2).mean()), told.rms[0], rtol=0.01)
@@ -185,9 +185,9 @@ def tenth(dyad):
 
 def test_several_linkages_of_several_kinds_at_once():
     one, rows, _, found = problem(6, RR)
-    stack = LinkageBatch.of([Linkage(*one), Linkage(one[1], one[0])])
+    batch = LinkageBatch.of([Linkage(*one), Linkage(one[1], one[0])])
     poses, at = Displacement.from_poses(rows), Displacement.from_poses(np.stack([found, found]))
-    both = sensitivity(stack, poses, at, LENGTH)
+    both = sensitivity(batch, poses, at, LENGTH)
     assert np.allclose(both[0], both[1][..., [5, 6, 7, 8, 9, 0, 1, 2, 3, 4]], atol=1e-9)
     other, more, _, there = problem(7, PR)
     alone = spread(*asked(other, more, there), 0.01)

@@ -29,14 +29,14 @@ SIGMA = (2e-6, 5e-6)
 
 
 def in_use(kinds):
-    """Where the numbers in use are among the ten of a stack."""
+    """Where the numbers in use are among the ten of a batch."""
     return np.concatenate([5 * side + np.arange(USED[kind]) for side, kind in enumerate(kinds)])
 
 
 def ours(dyads, rows, weights=None, held=None, sigma=SIGMA):
-    stack = LinkageBatch.of([Linkage(*dyads)])
+    batch = LinkageBatch.of([Linkage(*dyads)])
     at = Displacement.from_poses(rows[None])
-    return stack, at, covariance(stack, at, LENGTH, sigma, weights=weights, fixed=held)
+    return batch, at, covariance(batch, at, LENGTH, sigma, weights=weights, fixed=held)
 
 
 @pytest.mark.parametrize(
@@ -93,10 +93,10 @@ def test_a_pose_of_large_weight_passes_its_errors_on():
 def test_regions_hold_the_truth_in_95_of_100_draws(second):
     dyads, rows, drive = case({RR: 7, PR: 8, RP: 9}[second], second, 12)
     rng = np.random.default_rng(0)
-    stack, at, spread = ours(dyads, rows)
-    ((one, other),) = uncertainties(spread, stack, at)
+    batch, at, spread = ours(dyads, rows)
+    ((one, other),) = uncertainties(spread, batch, at)
     hits, draws = [], 120
-    middle = line_middle(stack, at)[0, 1]
+    middle = line_middle(batch, at)[0, 1]
     for _ in range(draws):
         noise = rng.normal(size=rows.shape) * [SIGMA[0], SIGMA[0], SIGMA[1]]
         first, last = dyads_of([RR, second], refitted(dyads, rows + noise, drive))
@@ -126,8 +126,8 @@ def test_an_ellipse_holds_what_it_should():
     root = rng.normal(size=(2, 2))
     spread = np.zeros((1, 10, 10))
     spread[0, :2, :2] = root @ root.T
-    stack = LinkageBatch.of([Linkage(RR([0, 0], [1, 0], 1.0), RR([2, 0], [0, 1], 1.0))])
-    ((one, other),) = uncertainties(spread, stack, Displacement.identity((1, 3)), unit=3.0)
+    batch = LinkageBatch.of([Linkage(RR([0, 0], [1, 0], 1.0), RR([2, 0], [0, 1], 1.0))])
+    ((one, other),) = uncertainties(spread, batch, Displacement.identity((1, 3)), unit=3.0)
     draws = rng.normal(size=(40000, 2)) @ root.T
     level = np.einsum("ni,ni->n", draws, np.linalg.solve(root @ root.T, draws.T).T)
     assert np.array_equal(one.fixed.contains(3 * draws), level <= 5.991464547107979)
@@ -140,13 +140,13 @@ def test_an_ellipse_holds_what_it_should():
 @pytest.mark.parametrize("second", [RR, PR, RP])
 def test_regions_do_not_depend_on_frames_and_units(second):
     dyads, rows, _ = case(11, second, 9)
-    stack, at, spread = ours(dyads, rows)
-    plain = uncertainties(spread, stack, at)[0]
+    batch, at, spread = ours(dyads, rows)
+    plain = uncertainties(spread, batch, at)[0]
     poses = Displacement.from_poses(rows)
     unit = 0.37
     frames = CanonicalFrames(np.array([200.0, -50.0]), np.zeros(2), np.array(unit))
     seen = frames.see(poses)
-    there = stack.seen(frames)
+    there = batch.seen(frames)
     spread = covariance(there, seen[None], LENGTH / unit, (SIGMA[0] / unit, SIGMA[1]))
     for a, b in zip(plain, uncertainties(spread, there, seen[None], unit)[0], strict=True):
         for region, same in ((a.fixed, b.fixed), (a.moving, b.moving)):
@@ -170,8 +170,8 @@ def test_a_body_that_hardly_moves_leaves_its_pivots_open(second):
         turned = drive[0] + spread * np.linspace(-0.5, 0.5, 12)
         where, phi = places(*dyads, turned)
         rows = np.column_stack([where[0].real, where[0].imag, phi[0]])
-        stack, at, found = ours(dyads, rows, sigma=(1e-4, 1e-4))
-        out += [each.half_width for each in uncertainties(found, stack, at)[0]]
+        batch, at, found = ours(dyads, rows, sigma=(1e-4, 1e-4))
+        out += [each.half_width for each in uncertainties(found, batch, at)[0]]
     assert min(narrow) > 10
     assert min(narrow) > 100 * max(wide)
 
@@ -182,8 +182,8 @@ def test_a_body_that_hardly_moves_leaves_its_pivots_open(second):
 def test_too_few_poses_leave_dyads_open(count, second, sides):
     # A slider has four dimensions, and four poses determine it.
     dyads, rows, _ = case(6, second, 8)
-    stack, at, found = ours(dyads, rows[:count])
-    told = uncertainties(found, stack, at)[0]
+    batch, at, found = ours(dyads, rows[:count])
+    told = uncertainties(found, batch, at)[0]
     for each in told[:sides]:
         assert each.half_width > 100
         assert each.line is None or each.line.angle <= np.pi
@@ -195,10 +195,10 @@ def test_what_exact_poses_do_not_determine_is_unknown_all_the_same():
     # Errors as small as rounding, but nothing to divide them by.
     dyads, rows, _ = case(6)
     sigma = pose_sigma(Task(Displacement.from_poses(rows[:3])))
-    stack, at, found = ours(dyads, rows[:3], sigma=sigma)
-    assert min(each.half_width for each in uncertainties(found, stack, at)[0]) > 100
-    stack, at, found = ours([dyads[0], dyads[0]], rows, sigma=sigma)
-    one, other = uncertainties(found, stack, at)[0]
+    batch, at, found = ours(dyads, rows[:3], sigma=sigma)
+    assert min(each.half_width for each in uncertainties(found, batch, at)[0]) > 100
+    batch, at, found = ours([dyads[0], dyads[0]], rows, sigma=sigma)
+    one, other = uncertainties(found, batch, at)[0]
     assert one.half_width < 1e-9
     assert other.half_width > 100
 
@@ -208,8 +208,8 @@ def test_a_parallelogram_is_open_along_its_family():
     dyads = [RR([0, 0], [1, 0], 1.3), RR([2, 0], [3, 0], 1.3)]
     turn = np.linspace(0.2, 2.5, 12)
     rows = np.column_stack([1.3 * np.cos(turn) - 1, 1.3 * np.sin(turn), 0 * turn])
-    stack, at, found = ours(dyads, rows)
-    for each in uncertainties(found, stack, at)[0]:
+    batch, at, found = ours(dyads, rows)
+    for each in uncertainties(found, batch, at)[0]:
         assert each.fixed.half_width > 100
         assert each.moving.half_width > 100
         assert each.length < 1e-4
@@ -217,8 +217,8 @@ def test_a_parallelogram_is_open_along_its_family():
 
 def test_one_dyad_twice_is_one_constraint():
     dyads, rows, _ = case(7)
-    stack, at, found = ours([dyads[0], dyads[0]], rows)
-    one, other = uncertainties(found, stack, at)[0]
+    batch, at, found = ours([dyads[0], dyads[0]], rows)
+    one, other = uncertainties(found, batch, at)[0]
     assert one.half_width < 1e-3
     assert other.half_width > 100
 
@@ -235,8 +235,8 @@ def test_exact_poses_are_known_to_rounding():
     task = Task(Displacement.from_poses(rows))
     sigma = pose_sigma(task)
     assert 1e-16 < sigma[0] < 1e-14 * np.abs(rows).max()
-    stack, at, found = ours(dyads, rows, sigma=sigma)
-    assert max(each.half_width for each in uncertainties(found, stack, at)[0]) < 1e-11
+    batch, at, found = ours(dyads, rows, sigma=sigma)
+    assert max(each.half_width for each in uncertainties(found, batch, at)[0]) < 1e-11
 
 
 def test_the_deviation_of_poses_is_that_of_rounding():
@@ -253,9 +253,9 @@ def test_the_deviation_of_poses_is_that_of_rounding():
 def test_the_excess_of_grashof_errs_as_its_links_do(seed):
     rng = np.random.default_rng(seed)
     pairs = [random_four_bar(rng) for _ in range(3)] + [random_four_bar(rng, PR)]
-    stack = LinkageBatch.of([Linkage(*pair) for pair in pairs])
+    batch = LinkageBatch.of([Linkage(*pair) for pair in pairs])
     root = 1e-7 * rng.normal(size=(4, 10, 10))
-    found = links_deviation(stack, root @ root.swapaxes(1, 2))
+    found = links_deviation(batch, root @ root.swapaxes(1, 2))
 
     def excess(z):
         links = [abs(complex(*(z[5:7] - z[:2]))), z[4], abs(complex(*(z[7:9] - z[2:4]))), z[9]]

@@ -227,4 +227,4 @@ def refine_best(
         cost = (weights * ((fine.rows - rows) ** 2).sum(axis=-1)).sum(axis=-1)
     cost = np.nan_to_num(cost, nan=np.inf)
     best = int(cost.argmin())
-    return float(cost[best]), fine.stack[[best]]
+    return float(cost[best]), fine.batch[[best]]

@@ -61,8 +61,8 @@ class PoseError:
         """
         frames = error_frames(poses, length)
         seen, unit = frames.see(poses), length / float(frames.length)
-        stack = LinkageBatch.of([linkage]).seen(frames)
-        found = nearest(on_circuits(stack, seen, unit), seen, unit)
+        batch = LinkageBatch.of([linkage]).seen(frames)
+        found = nearest(on_circuits(batch, seen, unit), seen, unit)
         return cls.at(frames.unseen(found)[0], poses)
 
     @property

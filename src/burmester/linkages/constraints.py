@@ -54,7 +54,7 @@ class Constraints(Protocol):
     """
 
     def __call__(
-        self, stack: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
+        self, batch: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
     ) -> ConstraintValues: ...
 
 
@@ -71,9 +71,9 @@ class AllConstraints:
         return any(getattr(part, "uses_places", True) for part in self.parts)
 
     def __call__(
-        self, stack: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
+        self, batch: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
     ) -> ConstraintValues:
-        values, equal = zip(*(part(stack, rows, which) for part in self.parts), strict=True)
+        values, equal = zip(*(part(batch, rows, which) for part in self.parts), strict=True)
         return np.concatenate(values, axis=1), np.concatenate(equal)
 
 
@@ -88,9 +88,9 @@ class DyadLimitsConstraint:
     uses_places: ClassVar[bool] = False
 
     def __call__(
-        self, stack: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
+        self, batch: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
     ) -> ConstraintValues:
-        own = stack.back(self.frames)
+        own = batch.back(self.frames)
         kind, z = own.kinds[:, self.side], own.dimensions[:, self.side]
         least, most = self.limits.length
         with np.errstate(invalid="ignore"):
@@ -159,7 +159,7 @@ class BranchAndOrder:
     @classmethod
     def of(
         cls,
-        stack: LinkageBatch,
+        batch: LinkageBatch,
         rows: FloatArray,
         length: float,
         branch: DrivenBranch,
@@ -168,7 +168,7 @@ class BranchAndOrder:
         """The constraint on a branch, in the order nearest to that of places rows (k, N, 3)."""
         driver, sign, middle = branch
         clear = float(np.sin(max(CLEARANCE_ANGLE, requirements.transmission + TRANSMISSION_MARGIN)))
-        drive, turns = input_of(stack, rows, length, driver)
+        drive, turns = input_of(batch, rows, length, driver)
         round_ = turns & np.isnan(middle)
         between = drive - np.nan_to_num(middle)[:, None]
         between = np.where((turns & ~round_)[:, None], wrapped_angle(between), between)
@@ -186,12 +186,12 @@ class BranchAndOrder:
         return cls(length, driver, sign, clear, sense, ways, not requirements.any_order)
 
     def __call__(
-        self, stack: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
+        self, batch: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
     ) -> ConstraintValues:
         driver, sense, ways = self.driver[which], self.sense[which, None], self.ways[which]
-        sine = self.sign[which, None] * signed_transmission_sine(stack, rows, self.length, driver)
+        sine = self.sign[which, None] * signed_transmission_sine(batch, rows, self.length, driver)
         out = [self.clear - sine]
-        drive, turns = input_of(stack, rows, self.length, driver)
+        drive, turns = input_of(batch, rows, self.length, driver)
         more = sense * np.diff(drive, axis=1) - ways
         step = ways + np.where(turns[:, None], wrapped_angle(more), more)
         along = np.concatenate([np.zeros((len(drive), 1)), np.cumsum(step, axis=1)], axis=1)
@@ -199,7 +199,7 @@ class BranchAndOrder:
             whole = along[:, -1:] - 2 * np.pi + MIN_INPUT_STEP
             out += [MIN_INPUT_STEP - step, np.where(turns[:, None], whole, -1.0)]
         # Between the poses, too, it stays clear.
-        at, cosine = least_transmission_inputs(stack, driver)
+        at, cosine = least_transmission_inputs(batch, driver)
         start = along.min(axis=1, keepdims=True)
         ahead = sense * (at - drive[:, :1]) - start
         ahead = np.where(turns[:, None], ahead % (2 * np.pi), ahead)
@@ -224,28 +224,28 @@ class LinkProportions:
     uses_places: ClassVar[bool] = True
 
     def __call__(
-        self, stack: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
+        self, batch: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
     ) -> ConstraintValues:
-        out = [np.full((len(stack), 1), -1.0)]
-        links = _links(stack, self.driver[which])
+        out = [np.full((len(batch), 1), -1.0)]
+        links = _links(batch, self.driver[which])
         if np.isfinite(self.requirements.link_ratio):
             ratio = self.requirements.link_ratio * (1 - PROPORTION_MARGIN)
             excess = links[:, :, None] - ratio * links[:, None]
-            out.append(excess.reshape(len(stack), -1))
+            out.append(excess.reshape(len(batch), -1))
         if (self.types != "").any():
-            out.append(type_excess(stack, self.driver[which], self.types[which].tolist()))
+            out.append(type_excess(batch, self.driver[which], self.types[which].tolist()))
         if self.requirements.footprint is not None:
-            out.append(self._footprint(self.requirements.footprint, stack, rows))
+            out.append(self._footprint(self.requirements.footprint, batch, rows))
         value, equal = _at_most(out)
         return np.where(np.isfinite(value), value, -1.0), equal
 
-    def _footprint(self, footprint: Polygon, stack: LinkageBatch, rows: FloatArray) -> FloatArray:
+    def _footprint(self, footprint: Polygon, batch: LinkageBatch, rows: FloatArray) -> FloatArray:
         """Distances of fixed pivots, and moving pivots at the places, outside; -1 for lines."""
         unit, origin = float(self.frames.length), self.frames.fixed_origin
         out = []
         turn = np.exp(1j * rows[..., 2] / self.length)
         for side in (0, 1):
-            kind, z = stack.kinds[:, side], stack.dimensions[:, side]
+            kind, z = batch.kinds[:, side], batch.dimensions[:, side]
             off = footprint.signed_distance(z[:, :2] * unit + origin)
             out.append(np.where(kind == 1, -1.0, off)[:, None])
             pin = complex_of(rows) + complex_of(z[:, 2:4])[:, None] * turn
@@ -260,7 +260,7 @@ def _at_most(parts: list[FloatArray]) -> ConstraintValues:
 
 
 def signed_transmission_sine(
-    stack: LinkageBatch, rows: FloatArray, length: float, driver: NDArray[np.intp]
+    batch: LinkageBatch, rows: FloatArray, length: float, driver: NDArray[np.intp]
 ) -> FloatArray:
     """The sine (k, n) of the transmission angle at rows (k, n, 3), signed.
 
@@ -268,14 +268,14 @@ def signed_transmission_sine(
     driver transmits: the determinant of three wrenches (the driver's effort and both constraints),
     over its lever.
     """
-    every = np.arange(len(stack))
+    every = np.arange(len(batch))
     d, turn = complex_of(rows), np.exp(1j * rows[..., 2] / length)
-    _, push, swing = stack.forms().at(d[:, None], turn[:, None])
+    _, push, swing = batch.forms().at(d[:, None], turn[:, None])
     moment = -swing.imag
     lead, follow = push[every, driver], push[every, 1 - driver]
     own, other = moment[every, driver], moment[every, 1 - driver]
-    z, z2 = stack.dimensions[every, driver], stack.dimensions[every, 1 - driver]
-    kind, kind2 = stack.kinds[every, driver], stack.kinds[every, 1 - driver]
+    z, z2 = batch.dimensions[every, driver], batch.dimensions[every, 1 - driver]
+    kind, kind2 = batch.kinds[every, driver], batch.kinds[every, 1 - driver]
     slot, slot2 = (kind == 2)[:, None], (kind2 == 2)[:, None]
     hand, hand2 = complex_of(z[:, 2:4])[:, None], complex_of(z2[:, 2:4])[:, None]
     effort, turning = 1j * lead, ((hand * turn).conj() * lead).real
@@ -292,16 +292,16 @@ def signed_transmission_sine(
 
 
 def least_transmission_inputs(
-    stack: LinkageBatch, driver: NDArray[np.intp]
+    batch: LinkageBatch, driver: NDArray[np.intp]
 ) -> tuple[FloatArray, FloatArray]:
     """Inputs (k, 2) where the transmission angle may be least between two places, and its cosine.
 
     These are the ends of the range of f (see `loop_closure`).  The cosine is above 1 where the
     linkage does not close there.  nan for pairs without such a minimum.
     """
-    every = np.arange(len(stack))
-    z, z2 = stack.dimensions[every, driver].T, stack.dimensions[every, 1 - driver].T
-    kind, kind2 = stack.kinds[every, driver], stack.kinds[every, 1 - driver]
+    every = np.arange(len(batch))
+    z, z2 = batch.dimensions[every, driver].T, batch.dimensions[every, 1 - driver].T
+    kind, kind2 = batch.kinds[every, driver], batch.kinds[every, 1 - driver]
     c, m, c2, m2 = (complex_of(part[at : at + 2].T) for part in (z, z2) for at in (0, 2))
     both = np.array([[1.0], [-1.0]])
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
@@ -328,11 +328,11 @@ def least_transmission_inputs(
 
 
 def input_of(
-    stack: LinkageBatch, rows: FloatArray, length: float, driver: NDArray[np.intp]
+    batch: LinkageBatch, rows: FloatArray, length: float, driver: NDArray[np.intp]
 ) -> tuple[FloatArray, NDArray[np.bool_]]:
     """The input (k, n), see `loop_closure`, at rows (k, n, 3), and whether it turns, (k,)."""
-    every = np.arange(len(stack))
-    z, kind = stack.dimensions[every, driver], stack.kinds[every, driver]
+    every = np.arange(len(batch))
+    z, kind = batch.dimensions[every, driver], batch.kinds[every, driver]
     d, angle = complex_of(rows), rows[..., 2] / length
     pin = d + complex_of(z[:, 2:4])[:, None] * np.exp(1j * angle)
     crank = np.angle(pin - complex_of(z[:, :2])[:, None])
@@ -341,18 +341,18 @@ def input_of(
     return np.select([kind_ == 0, kind_ == 1], [crank, slide], angle + z[:, 2:3]), kind != 1
 
 
-def _links(stack: LinkageBatch, driver: NDArray[np.intp]) -> FloatArray:
+def _links(batch: LinkageBatch, driver: NDArray[np.intp]) -> FloatArray:
     """Ground, driver, coupler and follower (k, 4) of 4R linkages; nan of others."""
-    every = np.arange(len(stack))
-    z, z2 = stack.dimensions[every, driver], stack.dimensions[every, 1 - driver]
+    every = np.arange(len(batch))
+    z, z2 = batch.dimensions[every, driver], batch.dimensions[every, 1 - driver]
     ground, coupler = (np.linalg.norm((z2 - z)[:, at : at + 2], axis=-1) for at in (0, 2))
     links = np.stack([ground, z[:, 4], coupler, z2[:, 4]], axis=1)
-    return np.where((stack.kinds == 0).all(axis=1)[:, None], links, np.nan)
+    return np.where((batch.kinds == 0).all(axis=1)[:, None], links, np.nan)
 
 
-def type_excess(stack: LinkageBatch, driver: NDArray[np.intp], types: Sequence[str]) -> FloatArray:
+def type_excess(batch: LinkageBatch, driver: NDArray[np.intp], types: Sequence[str]) -> FloatArray:
     """Three relative numbers (k, 3), all at most 0 where 4R linkages (k,) are of types (k,)."""
-    links, names = _links(stack, driver), np.array(types, dtype=str)
+    links, names = _links(batch, driver), np.array(types, dtype=str)
     out = np.full((len(links), 3), -1.0)
     for name, shortest in SHORTEST_LINK.items():
         some = links[names == name]

@@ -68,22 +68,22 @@ class _Starts(NamedTuple):
     """Starts (k,) of the search: pair, dimensions, rows (k, N, 3) of places, branch."""
 
     pair: NDArray[np.intp]
-    stack: LinkageBatch
+    batch: LinkageBatch
     rows: FloatArray
     branch: DrivenBranch
 
 
-def defect_free_linkages(stack: LinkageBatch, target: Target) -> SearchResult | None:
+def defect_free_linkages(batch: LinkageBatch, target: Target) -> SearchResult | None:
     """The best linkages under all constraints, from pairs (k,) of dyads; None if there are none.
 
     All starts get some steps, the best of them more (`STAGES`).
     """
-    starts = _best_starts(stack, target)
+    starts = _best_starts(batch, target)
     if not len(starts.pair):
         return None
     for steps, best in STAGES:
         found = target.refine(
-            starts.stack,
+            starts.batch,
             starts.rows,
             constraints=_all_constraints(starts, target),
             worst=target.worst and best is None,
@@ -97,7 +97,7 @@ def defect_free_linkages(stack: LinkageBatch, target: Target) -> SearchResult | 
         order = _distinct(found.rows, order[np.isfinite(found.cost[order])], best)
         if not len(order):  # all were lost
             return None
-        starts = take(starts, order)._replace(stack=found.stack[order], rows=found.rows[order])
+        starts = take(starts, order)._replace(batch=found.batch[order], rows=found.rows[order])
     return SearchResult(found, starts.pair)
 
 
@@ -126,38 +126,38 @@ def links_of_pivot_map(poses: Displacement, weights: FloatArray | None = None) -
     return [link for _, link in found[:MAX_MAP_LINKS]]
 
 
-def _best_starts(stack: LinkageBatch, target: Target) -> _Starts:
+def _best_starts(batch: LinkageBatch, target: Target) -> _Starts:
     """The starts with the best scores, from pairs (k,) of dyads.
 
     All pairs start at the poses; the first PAIRS_ON_CIRCUITS also from their nearest places on each
     circuit.
     """
-    starts, score = _starts_at_poses(stack, target)
-    there = _starts_on_circuits(stack[:PAIRS_ON_CIRCUITS], target)
+    starts, score = _starts_at_poses(batch, target)
+    there = _starts_on_circuits(batch[:PAIRS_ON_CIRCUITS], target)
     if len(there.pair):
-        sine = signed_transmission_sine(there.stack, there.rows, target.length, there.branch.driver)
+        sine = signed_transmission_sine(there.batch, there.rows, target.length, there.branch.driver)
         wrong = (there.branch.sign[:, None] * sine < 0).sum(axis=1)
         score = np.concatenate([score, target.cost(there.rows) + WRONG_BRANCH_SCORE * wrong])
         starts = concatenate([starts, there])
     return take(starts, np.argsort(score, kind="stable")[:MAX_STARTS])
 
 
-def _starts_at_poses(stack: LinkageBatch, target: Target) -> tuple[_Starts, FloatArray]:
+def _starts_at_poses(batch: LinkageBatch, target: Target) -> tuple[_Starts, FloatArray]:
     """Starts of pairs (k,) projected from the poses, and their scores; lower is better.
 
     The score is taken at the poses themselves, as if the pairs met them: distance, branch, order.
     """
-    count, number = len(stack), target.poses.shape[0]
+    count, number = len(batch), target.poses.shape[0]
     wanted = rows_of(target.poses, target.length)
     rows = np.broadcast_to(wanted, (count, number, 3))
     share = np.ones(number) if target.weights is None else target.weights / target.weights.mean()
     d, turn = complex_of(wanted), np.exp(1j * target.poses.angle)
-    miss = (stack.forms().at(d[None, None], turn[None, None])[0] ** 2 @ share).sum(axis=1)
+    miss = (batch.forms().at(d[None, None], turn[None, None])[0] ** 2 @ share).sum(axis=1)
     found = []
     for side in _sides(target.requirements):
         lead = np.full(count, side)
-        sine = signed_transmission_sine(stack, rows, target.length, lead)
-        drive, turns = input_of(stack, rows, target.length, lead)
+        sine = signed_transmission_sine(batch, rows, target.length, lead)
+        drive, turns = input_of(batch, rows, target.length, lead)
         step = np.diff(drive, axis=1)
         step = np.where(turns[:, None], wrapped_angle(step), step)
         back = np.min([np.maximum(way * step, 0.0).sum(axis=1) for way in (1, -1)], axis=0)
@@ -174,28 +174,28 @@ def _starts_at_poses(stack: LinkageBatch, target: Target) -> tuple[_Starts, Floa
     best = np.argsort(np.nan_to_num(scores, nan=np.inf), axis=1, kind="stable")
     best = np.unique(best[:, : MAX_STARTS // len(VIOLATION_WEIGHTS)])
     pair, driver = pair[best], lead[best].astype(np.intp)
-    rows, sound = _projected(stack[pair], rows[pair], target.length)
+    rows, sound = _projected(batch[pair], rows[pair], target.length)
     pair, driver, best, rows = pair[sound], driver[sound], best[sound], rows[sound]
     middle, places = np.full(len(pair), np.nan), target.places_of(rows[:, 0])
     for side in (0, 1):
         some = driver == side
         if some.any():
-            middle[some] = middle_input(stack[pair[some]], places[some], side)
+            middle[some] = middle_input(batch[pair[some]], places[some], side)
     branch = DrivenBranch(driver, sign[best], middle)
-    starts = _Starts(pair, stack[pair], rows, branch)
+    starts = _Starts(pair, batch[pair], rows, branch)
     return starts, scores[0, best]
 
 
 def _projected(
-    stack: LinkageBatch, rows: FloatArray, length: float
+    batch: LinkageBatch, rows: FloatArray, length: float
 ) -> tuple[FloatArray, NDArray[np.bool_]]:
     """Places of linkages (k,) straight ahead of rows (k, N, 3), and whether all exist, (k,)."""
-    surfaces = stack.forms()
+    surfaces = batch.forms()
     with np.errstate(all="ignore"):
         for _ in range(PROJECTION_STEPS):
             rows = rows + newton_step(surfaces, rows, rows, length)[0]
         places = Displacement(rows[..., :2], rows[..., 2] / length)
-        on = np.abs(stack.jacobians(places).residual) < ON_LINKAGE
+        on = np.abs(batch.jacobians(places).residual) < ON_LINKAGE
         return rows, np.asarray(on.all(axis=(1, 2)))
 
 
@@ -215,17 +215,17 @@ def _sides(asked: Requirements) -> tuple[int, ...]:
     return {"first": (0,), "second": (1,)}.get(asked.driver, (0, 1))
 
 
-def _starts_on_circuits(stack: LinkageBatch, target: Target) -> _Starts:
+def _starts_on_circuits(batch: LinkageBatch, target: Target) -> _Starts:
     """Starts of each pair on each circuit, with each driver, on each branch with a pose."""
-    places = on_circuits(stack, target.poses, target.length)
+    places = on_circuits(batch, target.poses, target.length)
     rows = rows_of(places, target.length)
     found = []
     for side in _sides(target.requirements):
         for circuit in (0, 1):
             some = np.flatnonzero(np.isfinite(rows[:, circuit]).all(axis=(1, 2)))
             leads = np.full(len(some), side)
-            sine = signed_transmission_sine(stack[some], rows[some, circuit], target.length, leads)
-            middle = middle_input(stack[some], places[some, circuit, 0], side)
+            sine = signed_transmission_sine(batch[some], rows[some, circuit], target.length, leads)
+            middle = middle_input(batch[some], places[some, circuit, 0], side)
             for sign in (1.0, -1.0):
                 on = (sign * sine > 0).any(axis=1)
                 whole = np.empty((5, int(on.sum())))
@@ -235,16 +235,16 @@ def _starts_on_circuits(stack: LinkageBatch, target: Target) -> _Starts:
     table = np.concatenate(found, axis=1)
     pair, on_circuit, driver = table[:3].astype(np.intp)
     branch = DrivenBranch(driver, table[3], table[4])
-    return _Starts(pair, stack[pair], rows[pair, on_circuit], branch)
+    return _Starts(pair, batch[pair], rows[pair, on_circuit], branch)
 
 
-def middle_input(stack: LinkageBatch, places: Displacement, side: int) -> FloatArray:
+def middle_input(batch: LinkageBatch, places: Displacement, side: int) -> FloatArray:
     """The input (k,) halfway between the dead points of the circuits on which places (k,) are.
 
     nan where there are none, and for sliding inputs.
     """
-    out = np.full(len(stack), np.nan)
-    for index, linkage in (stack.exchanged() if side else stack).alike():
+    out = np.full(len(batch), np.nan)
+    for index, linkage in (batch.exchanged() if side else batch).alike():
         circuits = Circuits.of(linkage, as_given=True)
         own = circuit_of(linkage, places[index], as_given=True).circuit
         if not circuits.loop.turns:
@@ -257,17 +257,17 @@ def middle_input(stack: LinkageBatch, places: Displacement, side: int) -> FloatA
 def _all_constraints(starts: _Starts, target: Target) -> AllConstraints:
     """All that the linkages are to keep to."""
     asked = target.requirements
-    _, stack, rows, branch = starts
-    branch_and_order = BranchAndOrder.of(stack, rows, target.length, branch, asked)
+    _, batch, rows, branch = starts
+    branch_and_order = BranchAndOrder.of(batch, rows, target.length, branch, asked)
     driver = branch.driver
-    types = np.array([_nearest_type(stack, k, int(side), asked) for k, side in enumerate(driver)])
+    types = np.array([_nearest_type(batch, k, int(side), asked) for k, side in enumerate(driver)])
     proportions = LinkProportions(target.length, target.frames, asked, driver, types)
     return AllConstraints((branch_and_order, proportions, *target.kept))
 
 
-def _nearest_type(stack: LinkageBatch, index: int, driver: int, asked: Requirements) -> str:
+def _nearest_type(batch: LinkageBatch, index: int, driver: int, asked: Requirements) -> str:
     """Of the 4R types allowed the one nearest to a linkage, "" where it is one of them."""
-    if (stack.kinds[index] != 0).any():
+    if (batch.kinds[index] != 0).any():
         return ""
     four_bars = {*SHORTEST_LINK, "triple-rocker"}
     allowed = four_bars if asked.allowed_types is None else four_bars & asked.allowed_types
@@ -276,5 +276,5 @@ def _nearest_type(stack: LinkageBatch, index: int, driver: int, asked: Requireme
     elif asked.types is None:
         return ""
     names = sorted(allowed)
-    excess = type_excess(stack[[index] * len(names)], np.full(len(names), driver), names)
+    excess = type_excess(batch[[index] * len(names)], np.full(len(names), driver), names)
     return names[int(excess.max(axis=1).argmin())] if names else ""

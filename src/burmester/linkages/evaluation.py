@@ -50,7 +50,7 @@ class Candidates(NamedTuple):
     own: the same linkages in the task's own frames, with all their digits.
     """
 
-    stack: LinkageBatch
+    batch: LinkageBatch
     rows: FloatArray
     pairs: list[Pair]
     from_search: NDArray[np.bool_]
@@ -77,9 +77,9 @@ class Evaluation:
 
     def evaluate(self, candidates: Candidates) -> list[FoundLinkage]:
         """The linkages with errors, verdicts, drivers and uncertainties, ranked."""
-        candidates = take(candidates, np.flatnonzero(_sizable(candidates.stack)))
+        candidates = take(candidates, np.flatnonzero(_sizable(candidates.batch)))
         own = (
-            candidates.stack.back(self.target.frames) if candidates.own is None else candidates.own
+            candidates.batch.back(self.target.frames) if candidates.own is None else candidates.own
         )
         places = self.target.frames.unseen(self._places(candidates.rows))
         errors = [PoseError.at(places[k], self.task.poses) for k in range(len(own))]
@@ -98,10 +98,10 @@ class Evaluation:
             values = (dyads, linkage, errors[k], verdict, driver, usable, missing)
             out.append(FoundLinkage("", 0, *values, bool(candidates.from_search[k])))
         rows = np.arange(len(own))[:, None]
-        stack = LinkageBatch(
-            candidates.stack.kinds[rows, sides], candidates.stack.dimensions[rows, sides]
+        batch = LinkageBatch(
+            candidates.batch.kinds[rows, sides], candidates.batch.dimensions[rows, sides]
         )
-        return self.ranked(self._with_uncertainty(out, stack, candidates.rows))
+        return self.ranked(self._with_uncertainty(out, batch, candidates.rows))
 
     def ranked(self, found: list[FoundLinkage]) -> list[FoundLinkage]:
         """Usable linkages first, then by the worst error; equal linkages once.
@@ -131,11 +131,11 @@ class Evaluation:
         out: list[FoundLinkage] = []
         frames, options = self.target.frames, self.problem.options
         for each in found[:MAX_ROUNDED]:
-            stack = LinkageBatch.of([each.linkage]).seen(frames)
+            batch = LinkageBatch.of([each.linkage]).seen(frames)
             rows = rows_of(frames.see(each.error.places), self.target.length)[None]
             driver = np.array([int(each.preferred_driver == "second")])
             own, rows = rounded(
-                stack,
+                batch,
                 rows,
                 self.target,
                 step=options.rounding_step,
@@ -217,7 +217,7 @@ class Evaluation:
         return best, reasons, not (verdict.defects or defects or missing)
 
     def _with_uncertainty(
-        self, found: list[FoundLinkage], stack: LinkageBatch, rows: FloatArray
+        self, found: list[FoundLinkage], batch: LinkageBatch, rows: FloatArray
     ) -> list[FoundLinkage]:
         """The linkages with the uncertainty that errors of the poses, and of building, leave."""
         sound = np.flatnonzero(np.isfinite(rows).all(axis=(1, 2)))
@@ -229,36 +229,36 @@ class Evaluation:
         if self.task.exact is not None:
             weights = weights_or_ones(weights, self.task.exact.shape)
             weights = np.where(self.task.exact, EXACT_WEIGHT, weights)
-        active = _active_limits(self.target, stack[sound], rows[sound])
+        active = _active_limits(self.target, batch[sound], rows[sound])
         spreads = covariance(
-            stack[sound],
+            batch[sound],
             places,
             self.target.length,
             (position / unit, angle),
             weights=weights,
             fixed=active,
         )
-        regions = uncertainties(spreads, stack[sound], places, unit)
-        deviation = links_deviation(stack[sound], spreads)
+        regions = uncertainties(spreads, batch[sound], places, unit)
+        deviation = links_deviation(batch[sound], spreads)
         built = None
         if self.problem.options.manufacturing_tolerance is not None:
             tolerance = self.problem.options.manufacturing_tolerance / unit
-            built = spread(stack[sound], self.target.poses, places, self.target.length, tolerance)
+            built = spread(batch[sound], self.target.poses, places, self.target.length, tolerance)
         span = np.linalg.norm(np.ptp(self.task.poses.translation, axis=0))
         size = max(float(span), self.problem.length_per_radian)
         out = list(found)
         for at, k in enumerate(sound):
             determined = max(each.half_width for each in regions[at]) <= DETERMINED_SHARE * size
-            tie = bool(abs(_excess(stack.dimensions[k])) <= 2 * deviation[at])
+            tie = bool(abs(_excess(batch.dimensions[k])) <= 2 * deviation[at])
             out[k] = replace(out[k], uncertainty=regions[at], determined=determined, tie=tie)
             if built is not None:
                 out[k] = replace(out[k], spread=built.one(at, unit))
         return out
 
 
-def _sizable(stack: LinkageBatch) -> NDArray[np.bool_]:
+def _sizable(batch: LinkageBatch) -> NDArray[np.bool_]:
     """Whether ground links and couplers (k,) between pins have a length."""
-    kinds, z = stack.kinds, stack.dimensions
+    kinds, z = batch.kinds, batch.dimensions
     ground, coupler = (np.linalg.norm(z[:, 1, at] - z[:, 0, at], axis=-1) for at in (FIXED, MOVING))
     return np.asarray(
         ((kinds == 1).any(axis=1) | (ground > MIN_LINK))
@@ -305,15 +305,15 @@ def _with_numbers(verdict: Verdict, numbers: Sequence[int]) -> Verdict:
     return Verdict(numbered(verdict.defects), first, second)
 
 
-def _active_limits(target: Target, stack: LinkageBatch, rows: FloatArray) -> FloatArray | None:
+def _active_limits(target: Target, batch: LinkageBatch, rows: FloatArray) -> FloatArray | None:
     """The limits that hold linkages (k,): their derivatives (k, m, 10), zero where they do not."""
     if not target.kept:
         return None
     keep = AllConstraints(target.kept)
-    count, size = len(stack), 2 * DIMENSIONS
-    z = QUOTIENTS.points(stack.dimensions.reshape(count, size), np.eye(size)[:, None])
+    count, size = len(batch), 2 * DIMENSIONS
+    z = QUOTIENTS.points(batch.dimensions.reshape(count, size), np.eye(size)[:, None])
     every, times = np.tile(np.arange(count), len(z)), (len(z), 1, 1)
-    beside = LinkageBatch(stack.kinds[every], z.reshape(-1, 2, DIMENSIONS))
+    beside = LinkageBatch(batch.kinds[every], z.reshape(-1, 2, DIMENSIONS))
     value, equal = keep(beside, np.tile(rows, times), every)
     value = value.reshape(len(z), count, -1)
     jacobian = QUOTIENTS.jacobian(value)

@@ -114,14 +114,14 @@ def _of_pairs(start: LinkageBatch, pairs: list[Pair], target: Target, refine: bo
         candidates = _refined(candidates, target)
         # Refinement may leave places in local minima that are not the nearest.
         if len(candidates.rows[0]) <= MAX_POSES_REFINED:
-            rows = on_own_circuits(candidates.stack, candidates.rows, target.poses, target.length)
+            rows = on_own_circuits(candidates.batch, candidates.rows, target.poses, target.length)
             candidates = candidates._replace(rows=rows)
     # Linkages that did not change keep all their digits.
     own = LinkageBatch.of([Linkage(a.dyad, b.dyad) for a, b in candidates.pairs]).dimensions
-    changed = candidates.stack.dimensions != start.dimensions[index]
+    changed = candidates.batch.dimensions != start.dimensions[index]
     changed = changed.any(axis=(1, 2), keepdims=True)
-    own = np.where(changed, candidates.stack.back(target.frames).dimensions, own)
-    return candidates._replace(own=LinkageBatch(candidates.stack.kinds, own))
+    own = np.where(changed, candidates.batch.back(target.frames).dimensions, own)
+    return candidates._replace(own=LinkageBatch(candidates.batch.kinds, own))
 
 
 def _refined(candidates: Candidates, target: Target) -> Candidates:
@@ -134,19 +134,19 @@ def _refined(candidates: Candidates, target: Target) -> Candidates:
     if not len(some):
         return candidates
     if (thin := target.thinned(MAX_POSES_REFINED)) is not target:
-        stack = _refined(candidates._replace(rows=thin.places(candidates.stack)), thin).stack
-        return candidates._replace(stack=stack, rows=target.places(stack))
+        batch = _refined(candidates._replace(rows=thin.places(candidates.batch)), thin).batch
+        return candidates._replace(batch=batch, rows=target.places(batch))
     kept = AllConstraints(target.kept) if target.kept else None
-    dimensions, rows = candidates.stack.dimensions.copy(), candidates.rows.copy()
+    dimensions, rows = candidates.batch.dimensions.copy(), candidates.rows.copy()
     plain = not target.worst and kept is None and target.exact is None
     for steps in (FIRST_STEPS, FURTHER_STEPS) if plain else (FURTHER_STEPS,):
-        stack = LinkageBatch(candidates.stack.kinds[some], dimensions[some])
+        batch = LinkageBatch(candidates.batch.kinds[some], dimensions[some])
         refined = target.refine(
-            stack, rows[some], constraints=kept, worst=target.worst, steps=steps
+            batch, rows[some], constraints=kept, worst=target.worst, steps=steps
         )
         with np.errstate(invalid="ignore"):
             better = refined.met & (target.worst | (target.cost(refined.rows) <= cost[some]))
-        dimensions[some[better]] = refined.stack.dimensions[better]
+        dimensions[some[better]] = refined.batch.dimensions[better]
         rows[some[better]] = refined.rows[better]
         cost = target.cost(rows)
         near = np.sort(np.nan_to_num(cost, nan=np.inf))[: min(MIN_REFINED, len(cost))]
@@ -154,7 +154,7 @@ def _refined(candidates: Candidates, target: Target) -> Candidates:
         some = some[cost[some] <= max(REFINED_COST_RATIO * near[0], near[-1])]
         if not len(some):
             break
-    return candidates._replace(stack=LinkageBatch(candidates.stack.kinds, dimensions), rows=rows)
+    return candidates._replace(batch=LinkageBatch(candidates.batch.kinds, dimensions), rows=rows)
 
 
 def _searched(
@@ -163,17 +163,17 @@ def _searched(
     """Usable linkages of the search that come nearer to the poses than the plain usable ones."""
     best = min((each.error.worst for each in plain if each.usable), default=np.inf)
     target = evaluation.target.thinned(MAX_POSES_SEARCHED)
-    stack, origin = _search_starts(start, pairs, evaluation)
-    found = defect_free_linkages(stack, target)
+    batch, origin = _search_starts(start, pairs, evaluation)
+    found = defect_free_linkages(batch, target)
     if found is None:
         return []
     index = np.flatnonzero(found.refined.met)
-    stack, rows = found.refined.stack[index], found.refined.rows[index]
+    batch, rows = found.refined.batch[index], found.refined.rows[index]
     if target is not evaluation.target:
-        rows = evaluation.target.places(stack)
+        rows = evaluation.target.places(batch)
     origins = [origin[k] for k in found.pair[index]]
     evaluated = evaluation.evaluate(
-        Candidates(stack, rows, origins, np.ones(len(index), dtype=bool))
+        Candidates(batch, rows, origins, np.ones(len(index), dtype=bool))
     )
     return [each for each in evaluated if each.usable and each.error.worst < best][:MAX_SEARCHED]
 

@@ -61,7 +61,7 @@ class Refined:
     settled: (k,), whether the steps converged; met: (k,), whether all constraints hold.
     """
 
-    stack: LinkageBatch
+    batch: LinkageBatch
     rows: FloatArray
     cost: FloatArray
     settled: NDArray[np.bool_]
@@ -69,7 +69,7 @@ class Refined:
 
 
 def refine(
-    stack: LinkageBatch,
+    batch: LinkageBatch,
     places: Displacement,
     poses: Displacement,
     length: float,
@@ -89,7 +89,7 @@ def refine(
 
     Parameters
     ----------
-    stack : LinkageBatch
+    batch : LinkageBatch
         The linkages (k,) to start from.
     places : Displacement
         (k, N), their places nearest to the poses.
@@ -111,15 +111,15 @@ def refine(
     steps, constrained_steps : int
         The numbers of steps at most, without and with constraints.
     """
-    count, number = len(stack), poses.shape[0]
+    count, number = len(batch), poses.shape[0]
     exact = np.zeros(number, dtype=bool) if exact is None else exact
     share = np.where(exact, 0.0, np.sqrt(weights_of_mean_one(weights, (number,))))
     slots = np.ones((count, 2, DIMENSIONS), dtype=bool)
-    slots[..., -1] = stack.kinds == 0
+    slots[..., -1] = batch.kinds == 0
     used = slots.reshape(count, SIZE) & (True if free is None else free)
-    problem = Problem(stack.kinds, rows_of(poses, length), length, share, exact, constraints, used)
+    problem = Problem(batch.kinds, rows_of(poses, length), length, share, exact, constraints, used)
     state = problem.state(
-        np.arange(count), stack.dimensions.reshape(count, SIZE), rows_of(places, length)
+        np.arange(count), batch.dimensions.reshape(count, SIZE), rows_of(places, length)
     )
     keeping = bool(exact.any()) or constraints is not None
     rows, met = state.rows, np.ones(count, dtype=bool)
@@ -135,7 +135,7 @@ def refine(
     size = share * np.sqrt(((rows - problem.wanted) ** 2).sum(axis=-1))
     cost = size.max(axis=-1) if worst else (size * size).sum(axis=-1) / 2
     lost = ~np.isfinite(cost)
-    return Refined(problem.stack(np.arange(count), state.z), rows, cost, done & ~lost, met & ~lost)
+    return Refined(problem.batch(np.arange(count), state.z), rows, cost, done & ~lost, met & ~lost)
 
 
 class _Point(NamedTuple):

@@ -87,24 +87,24 @@ class Problem:
     constraints: Constraints | None
     free: NDArray[np.bool_]
 
-    def stack(self, which: NDArray[np.intp], z: FloatArray) -> LinkageBatch:
+    def batch(self, which: NDArray[np.intp], z: FloatArray) -> LinkageBatch:
         """The linkages at the indices with dimensions z."""
         return LinkageBatch(self.kinds[which], z.reshape(-1, 2, DIMENSIONS))
 
     def state(self, which: NDArray[np.intp], z: FloatArray, rows: FloatArray) -> State:
         """The linkages z (k, 10) with their places nearest to the poses, by steps from rows."""
         with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-            rows, at, partial = self._foot_points(self.stack(which, z), rows, self.wanted)
+            rows, at, partial = self._foot_points(self.batch(which, z), rows, self.wanted)
             return State(z, rows, *_normal_part(at, rows - self.wanted, partial))
 
     def _foot_points(
-        self, stack: LinkageBatch, rows: FloatArray, target: FloatArray | None
+        self, batch: LinkageBatch, rows: FloatArray, target: FloatArray | None
     ) -> tuple[FloatArray, ConstraintNormals, FloatArray]:
         """The rows nearest to target (None: straight ahead of rows), nan where they are lost.
 
         With the constraints' normals there, and their derivatives by the dimensions.
         """
-        surfaces = stack.forms()
+        surfaces = batch.forms()
         for _ in range(MAX_NEWTON_STEPS):
             to = rows if target is None else target
             step, size = newton_step(surfaces, rows, to, self.length)
@@ -112,7 +112,7 @@ class Problem:
             if not (size > CLOSE_STEP).any():
                 break
         places = Displacement(rows[..., :2], rows[..., 2] / self.length)
-        residual, force, partial = stack.jacobians(places)
+        residual, force, partial = batch.jacobians(places)
         off = ~(np.abs(residual) < OFF_LINKAGE).all(axis=(1, 2))
         rows[off] = np.nan
         return rows, constraint_normals(residual, force, self.length), partial
@@ -132,7 +132,7 @@ class Problem:
         if not self.places_are_free:
             return self.state(which, z, rows)
         with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-            rows, at, partial = self._foot_points(self.stack(which, z), rows, None)
+            rows, at, partial = self._foot_points(self.batch(which, z), rows, None)
             gap, every = rows - self.wanted, np.arange(rows.shape[1])
             place_jacobian = np.zeros((*gap.shape, SIZE + len(every)))
             place_jacobian[..., :SIZE] = _normal_part(at, gap, partial)[2]
@@ -152,7 +152,7 @@ class Problem:
         count, number = len(which), state.rows.shape[1]
         every = np.tile(which, unknowns + 1)
         value, equal = self.constraints(
-            self.stack(every, z.reshape(-1, SIZE)), rows.reshape(-1, number, 3), every
+            self.batch(every, z.reshape(-1, SIZE)), rows.reshape(-1, number, 3), every
         )
         value = value.reshape(unknowns + 1, count, -1)
         jacobian = QUOTIENTS.jacobian(value)

@@ -65,7 +65,7 @@ SAME_DISTANCE = 1e-12  # lengths; distances that differ by less are equal
 
 
 def rounded(
-    stack: LinkageBatch,
+    batch: LinkageBatch,
     rows: FloatArray,
     target: Target,
     *,
@@ -75,9 +75,9 @@ def rounded(
 ) -> tuple[LinkageBatch, FloatArray]:
     """Linkages (k,) with rounded dimensions, in the task's own frames and unit.
 
-    stack, and rows (k, N, 3) of places near the poses, in the frames of `target`; the rows returned
+    batch, and rows (k, N, 3) of places near the poses, in the frames of `target`; the rows returned
     are in these, too, and on the circuits where they were if any rounding tried leads there; nan
-    where the linkage has no place.  The stack returned is in the task's own frames, for changing
+    where the linkage has no place.  The batch returned is in the task's own frames, for changing
     frames would cost its numbers their last digits.
     step: pivots, link lengths and sliders' offsets are multiples of it, each the nearest double;
         sliders' lines are at multiples of a decimal part of a degree (10, 1, 0.1, ...) that moves
@@ -88,13 +88,13 @@ def rounded(
     The rounding chosen has the least greatest (weighted) distance from the poses of all candidates.
     """
     stock = sorted({float(length) for length in stock})
-    out, places = stack.back(target.frames).dimensions.copy(), rows.copy()
-    for k in range(len(stack)):
+    out, places = batch.back(target.frames).dimensions.copy(), rows.copy()
+    for k in range(len(batch)):
         side = 0 if driver is None else int(driver[k])
-        one = _Rounding.of(stack[k : k + 1], rows[k], target, step=step, stock=stock, driver=side)
+        one = _Rounding.of(batch[k : k + 1], rows[k], target, step=step, stock=stock, driver=side)
         own, places[k] = one.best(out[k].reshape(SIZE))
         out[k] = own.reshape(2, DIMENSIONS)
-    return LinkageBatch(stack.kinds, out), places
+    return LinkageBatch(batch.kinds, out), places
 
 
 @final
@@ -106,9 +106,9 @@ class _PreviouslyMet:
     before: NDArray[np.bool_]
 
     def __call__(
-        self, stack: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
+        self, batch: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
     ) -> ConstraintValues:
-        value, equal = self.inner(stack, rows, np.zeros(len(which), dtype=np.intp))
+        value, equal = self.inner(batch, rows, np.zeros(len(which), dtype=np.intp))
         return np.where(self.before, value, np.where(equal, 0.0, -1.0)), equal
 
 
@@ -167,7 +167,7 @@ class _Rounding:
     @classmethod
     def of(
         cls,
-        stack: LinkageBatch,
+        batch: LinkageBatch,
         rows: FloatArray,
         target: Target,
         *,
@@ -183,17 +183,17 @@ class _Rounding:
             weights = np.where(target.exact, EXACT_WEIGHT * weights.max(), weights)
             target = replace(target, weights=weights, exact=None)
         lead, here = np.array([driver]), rows[None]
-        sine = _branch_sign(stack, here, target.length, lead)
-        middle = middle_input(stack, target.places_of(rows[None, 0]), driver)
+        sine = _branch_sign(batch, here, target.length, lead)
+        middle = middle_input(batch, target.places_of(rows[None, 0]), driver)
         branch_and_order = BranchAndOrder.of(
-            stack, here, target.length, DrivenBranch(lead, sine, middle), target.requirements
+            batch, here, target.length, DrivenBranch(lead, sine, middle), target.requirements
         )
         clear = max(MIN_CLEARANCE_SINE, float(np.sin(target.requirements.transmission)))
         branch_and_order = replace(branch_and_order, clear=clear)
-        types = np.array([_required_type(stack, driver, target)])
+        types = np.array([_required_type(batch, driver, target)])
         links = LinkProportions(target.length, target.frames, target.requirements, lead, types)
         inner = AllConstraints((branch_and_order, links, *target.kept))
-        value, equal = inner(stack, here, np.zeros(1, dtype=np.intp))
+        value, equal = inner(batch, here, np.zeros(1, dtype=np.intp))
         with np.errstate(invalid="ignore"):
             before = (np.where(equal, np.abs(value), value) < CONSTRAINT_ROUNDING)[0]
         # Without a step (stock lengths only) a tenth of the unit stands for it.
@@ -201,9 +201,9 @@ class _Rounding:
         near_limit = bool((before & (equal | (value[0] > -reach))).any())
         half = 0.0 if step is None else step / np.sqrt(2) / unit
         slack = np.where(equal, half + CONSTRAINT_ROUNDING, CONSTRAINT_ROUNDING)
-        grid = Grid.of(stack.kinds[0], step, stock, unit)
+        grid = Grid.of(batch.kinds[0], step, stock, unit)
         return cls(
-            stack.kinds, rows, target, grid, _PreviouslyMet(inner, before), near_limit, slack
+            batch.kinds, rows, target, grid, _PreviouslyMet(inner, before), near_limit, slack
         )
 
     def best(self, own: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -233,7 +233,7 @@ class _Rounding:
             return self._on_nearer_circuit(naive)
         return first.own[0], first.rows[0]
 
-    def _stack(self, own: FloatArray) -> LinkageBatch:
+    def _batch(self, own: FloatArray) -> LinkageBatch:
         """Dimensions (n, 10) in the task's frames, as those of `target` see them."""
         kinds = np.broadcast_to(self.kinds, (len(own), 2))
         return LinkageBatch(kinds, own.reshape(-1, 2, DIMENSIONS)).seen(self.target.frames)
@@ -241,15 +241,15 @@ class _Rounding:
     def _candidates(self, own: FloatArray, rows: FloatArray | None = None) -> _Candidates:
         """Dimensions (n, 10), with the places that rows (N, 3) or (n, N, 3) lead to."""
         start = np.broadcast_to(self.rows if rows is None else rows, (len(own), *self.rows.shape))
-        stack, wanted = self._stack(own), rows_of(self.target.poses, self.target.length)
+        batch, wanted = self._batch(own), rows_of(self.target.poses, self.target.length)
         with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-            rows = foot_points(stack, start, wanted, self.target.length)
+            rows = foot_points(batch, start, wanted, self.target.length)
             # Two equal dyads leave no direction back to the linkage: places off it are lost.
             at = Displacement(rows[..., :2], rows[..., 2] / self.target.length)
-            rows[~(np.abs(stack.jacobians(at).residual) < OFF_LINKAGE).all(axis=(1, 2))] = np.nan
+            rows[~(np.abs(batch.jacobians(at).residual) < OFF_LINKAGE).all(axis=(1, 2))] = np.nan
             away = np.sqrt(((rows - wanted) ** 2).sum(axis=-1))
             away = away * np.sqrt(weights_of_mean_one(self.target.weights, rows.shape[1:2]))
-            value, equal = self.constraints(stack, rows, np.arange(len(own)))
+            value, equal = self.constraints(batch, rows, np.arange(len(own)))
             off = np.where(equal, np.abs(value), value) - self.slack
             violation = np.where(off > 0, off, 0.0).max(axis=1, initial=0.0)
         worst = np.nan_to_num(away.max(axis=-1), nan=np.inf)
@@ -311,15 +311,15 @@ class _Rounding:
         sound = np.flatnonzero(np.isfinite(before.worst))
         if not len(sound):
             return before
-        stack = self._stack(own[sound])
+        batch = self._batch(own[sound])
         refined = self.target.refine(
-            stack,
+            batch,
             before.rows[sound],
             free=np.broadcast_to(free, (len(sound), SIZE)),
             constraints=self.constraints if self.near_limit else None,
             worst=self.target.worst,
         )
-        new = refined.stack.back(self.target.frames).dimensions.reshape(-1, SIZE)
+        new = refined.batch.back(self.target.frames).dimensions.reshape(-1, SIZE)
         new = np.where(fixed, own[sound], new)
         after = self._candidates(new, refined.rows)
         # Where the refit diverges, the candidates before it stay.
@@ -345,10 +345,10 @@ class _Rounding:
     def _on_circuits(self, candidates: _Candidates) -> NDArray[np.bool_]:
         """Whether all places (n,) are on one circuit, if they were before."""
 
-        def on_one(stack: LinkageBatch, rows: FloatArray) -> NDArray[np.bool_]:
-            out = np.zeros(len(stack), dtype=bool)
+        def on_one(batch: LinkageBatch, rows: FloatArray) -> NDArray[np.bool_]:
+            out = np.zeros(len(batch), dtype=bool)
             places = Displacement(rows[..., :2], rows[..., 2] / self.target.length)
-            for index, linkage in stack.alike():
+            for index, linkage in batch.alike():
                 circuit = circuit_of(linkage, places[index], as_given=True).circuit
                 out[index] = (circuit == circuit[:, :1]).all(axis=1)
             return out
@@ -356,15 +356,15 @@ class _Rounding:
         sound = np.isfinite(candidates.worst)
         out = np.ones(len(sound), dtype=bool)
         with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-            out[sound] = on_one(self._stack(candidates.own[sound]), candidates.rows[sound])
+            out[sound] = on_one(self._batch(candidates.own[sound]), candidates.rows[sound])
         return out
 
     def _on_nearer_circuit(self, candidates: _Candidates) -> tuple[FloatArray, FloatArray]:
         """A rounding whose places were lost, with those on its nearer circuit; nan if none."""
-        target, stack = self.target, self._stack(candidates.own)
-        found = on_circuits(stack, target.poses, target.length)
+        target, batch = self.target, self._batch(candidates.own)
+        found = on_circuits(batch, target.poses, target.length)
         rows = rows_of(found, target.length)[0]
-        miss = stack.jacobians(found).residual[0]
+        miss = batch.jacobians(found).residual[0]
         rows[~(np.abs(miss) < OFF_LINKAGE).all(axis=(0, 2))] = np.nan
         away = ((rows - rows_of(target.poses, target.length)) ** 2).sum(axis=-1).max(axis=-1)
         return candidates.own[0], rows[int(np.nan_to_num(away, nan=np.inf).argmin())]
@@ -378,19 +378,19 @@ def _moves(some: NDArray[np.bool_], pairs: bool) -> FloatArray:
 
 
 def _branch_sign(
-    stack: LinkageBatch, rows: FloatArray, length: float, driver: NDArray[np.intp]
+    batch: LinkageBatch, rows: FloatArray, length: float, driver: NDArray[np.intp]
 ) -> FloatArray:
     """The sign (k,) of the transmission angle at most of the places (k, N, 3)."""
     with np.errstate(invalid="ignore"):
-        positive = (signed_transmission_sine(stack, rows, length, driver) > 0).mean(axis=1)
+        positive = (signed_transmission_sine(batch, rows, length, driver) > 0).mean(axis=1)
     return np.where(positive >= 0.5, 1.0, -1.0)
 
 
-def _required_type(stack: LinkageBatch, driver: int, target: Target) -> str:
+def _required_type(batch: LinkageBatch, driver: int, target: Target) -> str:
     """The type of a 4R linkage if something is asked of types, else ""."""
     asked = target.requirements
-    if (stack.kinds != 0).any() or (asked.types is None and asked.driver != "crank"):
+    if (batch.kinds != 0).any() or (asked.types is None and asked.driver != "crank"):
         return ""
-    led = stack.exchanged() if driver else stack
+    led = batch.exchanged() if driver else batch
     name = led.linkage(0).type
     return name if name in SHORTEST_LINK or name == "triple-rocker" else ""

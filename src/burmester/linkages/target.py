@@ -41,10 +41,10 @@ class Target:
     exact: NDArray[np.bool_] | None = None
     worst: bool = False
 
-    def refine(self, stack: LinkageBatch, rows: FloatArray, **how: Any) -> Refined:
+    def refine(self, batch: LinkageBatch, rows: FloatArray, **how: Any) -> Refined:
         """Linkages (k,) with places (k, N, 3), refined to the least error; how: as in `refine`."""
         return refine(
-            stack,
+            batch,
             self.places_of(rows),
             self.poses,
             self.length,
@@ -68,11 +68,11 @@ class Target:
             exact=None if self.exact is None else self.exact[index],
         )
 
-    def places(self, stack: LinkageBatch) -> FloatArray:
+    def places(self, batch: LinkageBatch) -> FloatArray:
         """Rows (k, N, 3) of the places nearest to the poses, on the circuit with the least cost."""
-        rows = rows_of(on_circuits(stack, self.poses, self.length), self.length)
+        rows = rows_of(on_circuits(batch, self.poses, self.length), self.length)
         cost = np.nan_to_num(self.cost(rows), nan=np.inf)
-        return np.asarray(rows[np.arange(len(stack)), cost.argmin(axis=1)])
+        return np.asarray(rows[np.arange(len(batch)), cost.argmin(axis=1)])
 
     def places_of(self, rows: FloatArray) -> Displacement:
         """Rows (*, 3) as displacements."""

@@ -86,7 +86,7 @@ class Built:
 
 
 def spread(
-    stack: LinkageBatch,
+    batch: LinkageBatch,
     poses: Displacement,
     places: Displacement,
     length: float,
@@ -98,7 +98,7 @@ def spread(
 
     poses: (N,); places: (k, N), the nominal linkages' nearest to them.
     """
-    slope = tolerance * sensitivity(stack, poses, places, length)
+    slope = tolerance * sensitivity(batch, poses, places, length)
     gap = places.translation - poses.translation
     deviation = np.sqrt((slope**2).sum(axis=(-2, -1)) / 3)
     # The farthest point of a convex figure is farthest in its own direction.
@@ -110,7 +110,7 @@ def spread(
     worst /= np.cos(np.pi / (2 * DIRECTIONS))  # a bound for directions in between, too
     square = (gap**2).sum(axis=-1) + deviation**2
     off = np.random.default_rng(seed).uniform(-1, 1, size=(DRAWS, slope.shape[-1]))
-    greatest = np.zeros((len(stack), DRAWS))
+    greatest = np.zeros((len(batch), DRAWS))
     for at in _blocks(poses):
         moved = gap[:, None, at] + np.einsum("sj,kncj->ksnc", off, slope[:, at])
         greatest = np.maximum(greatest, np.hypot(moved[..., 0], moved[..., 1]).max(axis=-1))
@@ -119,14 +119,14 @@ def spread(
 
 
 def sensitivity(
-    stack: LinkageBatch, poses: Displacement, places: Displacement, length: float
+    batch: LinkageBatch, poses: Displacement, places: Displacement, length: float
 ) -> FloatArray:
     """Derivatives (k, N, 2, 10) of the places nearest to poses (N,) by errors of the dimensions.
 
     Of their positions, by errors in the order of `LinkageBatch`, each as a length (see the top of
     the file); zero for unused slots.
     """
-    miss, force, by_dimension = stack.jacobians(places)
+    miss, force, by_dimension = batch.jacobians(places)
     at = constraint_normals(miss, force, length)
     tangent, here = at.tangent, rows_of(places, length)
     gap = here - rows_of(poses, length)
@@ -134,7 +134,7 @@ def sensitivity(
     # tangent bends the distance.
     multipliers = -at.solve(np.einsum("knac,knc->kna", at.force, gap))
     nudge = TANGENT_STEP * length * tangent
-    ahead, behind = (stack.jacobians(_places(here + sign * nudge, length)) for sign in (1, -1))
+    ahead, behind = (batch.jacobians(_places(here + sign * nudge, length)) for sign in (1, -1))
     step = 2 * TANGENT_STEP * length
     turning = np.einsum("kna,kanc->knc", multipliers, (ahead.force - behind.force) / step)
     turning[..., 2] /= length
@@ -149,14 +149,14 @@ def sensitivity(
             back = -np.einsum("kna,knac->knc", at.solve(values), at.force)
             along = (turning * back).sum(axis=-1) + multipliers[..., side] * partial[:, side, :, j]
             moved[..., side, j] = back - (along / curvature)[..., None] * tangent
-    errors = _dimensions_by_errors(stack, line_middle(stack, places), length)
+    errors = _dimensions_by_errors(batch, line_middle(batch, places), length)
     return np.asarray(np.einsum("kncsj,ksji->kncsi", moved[..., :2, :, :], errors)).reshape(
         *places.shape, 2, 2 * DIMENSIONS
     )
 
 
 def monte_carlo(
-    stack: LinkageBatch,
+    batch: LinkageBatch,
     poses: Displacement,
     places: Displacement,
     length: float,
@@ -171,12 +171,12 @@ def monte_carlo(
     linkage stays on its circuit as long as the circuits are apart.
     """
     rng = np.random.default_rng(seed)
-    errors = _dimensions_by_errors(stack, line_middle(stack, places), length)
-    off = tolerance * rng.uniform(-1, 1, size=(len(stack), draws, 2, DIMENSIONS))
-    dimensions = stack.dimensions[:, None] + np.einsum("ksji,knsi->knsj", errors, off)
-    rows = np.empty((len(stack), draws, poses.shape[0], 3))
-    for k in range(len(stack)):
-        built = LinkageBatch(np.broadcast_to(stack.kinds[k], (draws, 2)), dimensions[k])
+    errors = _dimensions_by_errors(batch, line_middle(batch, places), length)
+    off = tolerance * rng.uniform(-1, 1, size=(len(batch), draws, 2, DIMENSIONS))
+    dimensions = batch.dimensions[:, None] + np.einsum("ksji,knsi->knsj", errors, off)
+    rows = np.empty((len(batch), draws, poses.shape[0], 3))
+    for k in range(len(batch)):
+        built = LinkageBatch(np.broadcast_to(batch.kinds[k], (draws, 2)), dimensions[k])
         for at in _blocks(poses):
             rows[k, :, at] = _nearest(built, poses[at], places[k, at], length)
     reached = _places(rows, length)
@@ -202,13 +202,13 @@ def _nearest(
     return np.where((size <= CONVERGED_STEP)[..., None], rows, np.nan)
 
 
-def _dimensions_by_errors(stack: LinkageBatch, middle: FloatArray, length: float) -> FloatArray:
+def _dimensions_by_errors(batch: LinkageBatch, middle: FloatArray, length: float) -> FloatArray:
     """Derivatives (k, 2, 5, 5) of the dimensions of each dyad by building errors, as lengths."""
-    made = np.zeros((*stack.kinds.shape, DIMENSIONS, DIMENSIONS))
+    made = np.zeros((*batch.kinds.shape, DIMENSIONS, DIMENSIONS))
     made[:] = np.eye(DIMENSIONS)
-    made[stack.kinds != DYAD_KINDS.index(RR), -1, -1] = 0.0
+    made[batch.kinds != DYAD_KINDS.index(RR), -1, -1] = 0.0
     for kind, at in ((PR, 0), (RP, 2)):
-        rows = stack.kinds == DYAD_KINDS.index(kind)
+        rows = batch.kinds == DYAD_KINDS.index(kind)
         made[rows, at, at] = 1 / length
         made[rows, at + 1, at] = middle[rows] / length  # turned about the middle
     return made

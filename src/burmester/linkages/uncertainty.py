@@ -155,7 +155,7 @@ def pose_sigma(task: Task) -> tuple[float, float]:
 
 
 def covariance(
-    stack: LinkageBatch,
+    batch: LinkageBatch,
     places: Displacement,
     length: float,
     sigma: tuple[float, float],
@@ -165,7 +165,7 @@ def covariance(
 ) -> FloatArray:
     """Covariances (k, 10, 10) of the dimensions of linkages fitted to poses with errors.
 
-    stack: (k,) linkages, refined: least sum of w (|position error|² + (length x angle error)²).
+    batch: (k,) linkages, refined: least sum of w (|position error|² + (length x angle error)²).
     places: (k, N), nearest to the poses; nan places are left out.
     sigma: standard deviations of a coordinate and of an angle, independent of each other.
     weights: (N,), of the poses in the fit, not of the knowledge of them: a pose of large weight is
@@ -178,22 +178,22 @@ def covariance(
     What the poses do not determine has a standard deviation of at least UNKNOWN_DEVIATION.
     """
     count = places.shape[1]
-    _, force, by_dimension = stack.jacobians(places)
+    _, force, by_dimension = batch.jacobians(places)
     plane = _Across.of(force, length)
     # Two rows for each pose: the derivatives by the dimensions, and a root of its covariance.
-    a: FloatArray = np.zeros((len(stack), count, 2, 2, DIMENSIONS))
+    a: FloatArray = np.zeros((len(batch), count, 2, 2, DIMENSIONS))
     a[..., 0, 0, :] = by_dimension[:, 0] / plane.first[..., None]
     a[..., 1, 0, :] = -(plane.mixed / plane.second)[..., None] * a[..., 0, 0, :]
     a[..., 1, 1, :] = by_dimension[:, 1] / plane.second[..., None]
-    a = a.reshape(len(stack), count, 2, 2 * DIMENSIONS)
+    a = a.reshape(len(batch), count, 2, 2 * DIMENSIONS)
     noise = plane.normals * [sigma[0], sigma[0], length * sigma[1]]
     known = np.asarray(np.isfinite(a).all(axis=(-2, -1)))
     share = np.sqrt(weights_or_ones(weights, (count,))) * known
     share = share[..., None, None]
     a, noise = (share * np.where(known[..., None, None], each, 0.0) for each in (-a, noise))
-    a = a.reshape(len(stack), 2 * count, -1)
+    a = a.reshape(len(batch), 2 * count, -1)
 
-    fixed_part = _fixed_projector(stack, fixed)
+    fixed_part = _fixed_projector(batch, fixed)
     free = np.eye(2 * DIMENSIONS) - fixed_part
     a = a @ free
     size = np.linalg.norm(a, axis=(-2, -1), keepdims=True)
@@ -201,8 +201,8 @@ def covariance(
     # Rows without errors for the fixed directions: singular values that remain 0 are unknown.
     u, s, vt = np.linalg.svd(np.concatenate([a, size * fixed_part], axis=1), full_matrices=False)
     lost = s < LOST_SINGULAR_VALUE * size[..., 0]
-    u = u[:, : 2 * count].reshape(len(stack), count, 2, -1)
-    moved = np.einsum("knac,knad->kcnd", u, noise).reshape(len(stack), 2 * DIMENSIONS, -1)
+    u = u[:, : 2 * count].reshape(len(batch), count, 2, -1)
+    moved = np.einsum("knac,knad->kcnd", u, noise).reshape(len(batch), 2 * DIMENSIONS, -1)
     moved = np.where(lost, 0.0, 1 / np.where(lost, 1.0, s))[..., None] * moved
     greatest = np.sqrt((noise**2).sum(axis=(-2, -1)).max(axis=-1, initial=0.0))[:, None]
     unknown = greatest / (LOST_SINGULAR_VALUE * size[..., 0])
@@ -215,12 +215,12 @@ def covariance(
     return np.asarray(root @ root.swapaxes(1, 2))
 
 
-def _fixed_projector(stack: LinkageBatch, fixed: FloatArray | None) -> FloatArray:
+def _fixed_projector(batch: LinkageBatch, fixed: FloatArray | None) -> FloatArray:
     """Projectors (k, 10, 10) on the directions in which dimensions are fixed, or unused."""
-    unused = np.zeros((len(stack), 2, 2, DIMENSIONS))
+    unused = np.zeros((len(batch), 2, 2, DIMENSIONS))
     for side in (0, 1):
-        unused[:, side, side, -1] = stack.kinds[:, side] != _RR
-    rows = unused.reshape(len(stack), 2, -1)
+        unused[:, side, side, -1] = batch.kinds[:, side] != _RR
+    rows = unused.reshape(len(batch), 2, -1)
     if fixed is not None:
         rows = np.concatenate([rows, fixed], axis=1)
     size = np.linalg.norm(rows, axis=-1, keepdims=True)
@@ -230,21 +230,21 @@ def _fixed_projector(stack: LinkageBatch, fixed: FloatArray | None) -> FloatArra
 
 
 def uncertainties(
-    covariance: FloatArray, stack: LinkageBatch, places: Displacement, unit: float = 1.0
+    covariance: FloatArray, batch: LinkageBatch, places: Displacement, unit: float = 1.0
 ) -> list[tuple[DyadUncertainty, DyadUncertainty]]:
-    """The 95 % regions of both dyads of linkages (k,), from `covariance` of the same stack.
+    """The 95 % regions of both dyads of linkages (k,), from `covariance` of the same batch.
 
     places: (k, N), as there; they bound the stretch of a line that is in use.
     unit: the length of its frames, in the task's unit, which is that of the result.
     """
-    middle = line_middle(stack, places)
+    middle = line_middle(batch, places)
     regions = []
-    for k in range(len(stack)):
+    for k in range(len(batch)):
         pair = []
         for side in (0, 1):
             slots = slice(DIMENSIONS * side, DIMENSIONS * (side + 1))
             pair.append(
-                _of_dyad(covariance[k, slots, slots], stack.kinds[k, side], middle[k, side], unit)
+                _of_dyad(covariance[k, slots, slots], batch.kinds[k, side], middle[k, side], unit)
             )
         regions.append((pair[0], pair[1]))
     return regions
@@ -273,14 +273,14 @@ def _ellipse(spread: FloatArray, unit: float) -> PivotRegion:
     return PivotRegion(float(major), float(minor), direction)
 
 
-def line_middle(stack: LinkageBatch, places: Displacement) -> FloatArray:
+def line_middle(batch: LinkageBatch, places: Displacement) -> FloatArray:
     """The middle of each slider's travel along its line, (k, 2); 0 for an RR.
 
     Measured from the foot of the normal through the origin, in the direction a quarter turn ahead
     of the normal.
     """
-    middle = np.zeros(stack.kinds.shape)
-    for index, pair in stack.alike():
+    middle = np.zeros(batch.kinds.shape)
+    for index, pair in batch.alike():
         here = places[index]
         for side, dyad in enumerate((pair.first, pair.second)):
             if isinstance(dyad, RR):
@@ -298,13 +298,13 @@ def line_middle(stack: LinkageBatch, places: Displacement) -> FloatArray:
     return middle
 
 
-def links_deviation(stack: LinkageBatch, covariance: FloatArray) -> FloatArray:
+def links_deviation(batch: LinkageBatch, covariance: FloatArray) -> FloatArray:
     """Standard deviations (k,) of Grashof's excess s + l - p - q; nan where a dyad is a slider.
 
     With an excess up to twice that, the poses do not exclude a change point.
     """
-    deviation = np.full(len(stack), np.nan)
-    for index, pair in stack.alike():
+    deviation = np.full(len(batch), np.nan)
+    for index, pair in batch.alike():
         a, b = pair.first, pair.second
         if not (isinstance(a, RR) and isinstance(b, RR)):
             continue
