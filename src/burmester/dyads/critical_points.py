@@ -161,8 +161,7 @@ def _blas() -> Any:
 
 def _mean(values: FloatArray, weights: FloatArray | None) -> FloatArray:
     """The weighted mean of values (*, k, N) over the poses: (*, k)."""
-    share = np.ones(values.shape[-1]) if weights is None else weights[..., None, :]
-    share = weights_or_ones(share, values.shape)
+    share = weights_or_ones(None if weights is None else weights[..., None, :], values.shape)
     return np.asarray((values * share).sum(axis=-1) / share.sum(axis=-1))
 
 

@@ -33,7 +33,7 @@ SAME_PLACE = 1e-7  # sizes of the motion; places nearer than this are the same
 @final
 @dataclass(frozen=True, slots=True, eq=False)
 class Loop:
-    """The planes and roots of one closed loop, as functions of s, in a turn.
+    """The planes and roots of one closed loop, as functions of s in [0, 2 pi].
 
     psi = middle - half cos s + rate s; the sign of the root is `side`, or where that is zero
     the sign of sin s.

@@ -247,8 +247,8 @@ def _sharpened(dyads: RR, poses: Displacement, length: FloatArray) -> RR:
 
     Newton steps on the circle equations of the poses (*, 5) as they were given, with
     residuals in the machine's longest floating point (80 bits on x86, else 64: no loss).
-    Left as they are: sliders (`length` is (*, 1), see `frames`), and double roots, which have
-    no more digits to gain.
+    Left as they are: sliders (`length` is (*, 1), see `canonical_frames`), and double roots, which
+    have no more digits to gain.
     """
     long = np.longdouble
     d1, d2 = np.moveaxis(poses.translation.astype(long), -1, 0)[..., None, :]

@@ -12,8 +12,8 @@ The metric.  A displacement is its unit image point, a point of the cylinder Z3�
 the metric is the one the cylinder has in the four-space of Z: flat, with w = Z1 + i Z2 and the
 half angle psi as Cartesian coordinates, ds² = |dw|² + dpsi².  It is not invariant: it changes
 with the origins of F and M, and the unit of length decides what a radian weighs.  Poses are
-taken as they come, so give them in canonical frames (`frames`) for an answer that changes with
-nothing.  The circle of an RR dyad is a circle at every half angle,
+taken as they come, so give them in canonical frames (`canonical_frames`) for an answer that
+changes with nothing.  The circle of an RR dyad is a circle at every half angle,
 
     g = Zᵀ C Z = |u|² - r²/4,   u = w + (i/2)(exp(i psi) m - exp(-i psi) c),            (6)
 
@@ -71,8 +71,8 @@ class NormalFit:
     residual: (*,), the root mean square over the poses of the distance that was minimised, in
         the metric of this module (the algebraic one in squared lengths).
     iterations: (*,), steps taken; evaluations: (*,), times the residuals were computed.
-    converged: (*,), the fit has settled; in a local minimum as a rule, which nothing here
-        tells from a global one.  One whose pivots run away to infinity does not settle.
+    converged: (*,), the fit has settled; in a local minimum as a rule, perhaps not the global
+        one.  One whose pivots run away to infinity does not settle.
     A start value without a distance (see `ravani_roth`) stays where it is, with residual inf.
     """
 

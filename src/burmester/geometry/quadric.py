@@ -5,8 +5,8 @@ A quadric has ten coefficients, Eq. (11),
     q1 Z1² + q2 Z2² + q3 Z3² + q4 Z1 Z2 + q5 Z1 Z3 + q6 Z2 Z3 + q7 Z1 Z4 + q8 Z2 Z4
     + q9 Z3 Z4 + q10 Z4² = 0;
 
-with q1 = q2 and q4 = 0, Eq. (12), they are the eight of `manifold`.  Its kind is the one seen
-in the chart Z4 = 1, where the plane at infinity holds the half turns.
+with q1 = q2 and q4 = 0, Eq. (12), they are the eight of `constraint_manifold`.  Its kind is
+the one seen in the chart Z4 = 1, where the plane at infinity holds the half turns.
 """
 
 from __future__ import annotations

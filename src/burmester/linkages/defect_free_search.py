@@ -36,6 +36,7 @@ from burmester.linkages.refinement import Refined
 from burmester.linkages.target import Target
 from burmester.numerics.arrays import FloatArray, complex_of, wrapped_angle
 from burmester.numerics.bundles import concatenate, take
+from burmester.numerics.weights import weights_of_mean_one
 from burmester.tasks.requirements import Requirements
 
 __all__ = ["SearchResult", "defect_free_linkages", "links_of_pivot_map", "middle_input"]
@@ -150,7 +151,7 @@ def _starts_at_poses(batch: LinkageBatch, target: Target) -> tuple[_Starts, Floa
     count, number = len(batch), target.poses.shape[0]
     wanted = rows_of(target.poses, target.length)
     rows = np.broadcast_to(wanted, (count, number, 3))
-    share = np.ones(number) if target.weights is None else target.weights / target.weights.mean()
+    share = weights_of_mean_one(target.weights, (number,))
     d, turn = complex_of(wanted), np.exp(1j * target.poses.angle)
     miss = (batch.forms().at(d[None, None], turn[None, None])[0] ** 2 @ share).sum(axis=1)
     found = []

@@ -179,7 +179,7 @@ class _Rounding:
         unit = float(target.frames.length)
         if target.exact is not None:
             number = target.poses.shape[0]
-            weights = np.ones(number) if target.weights is None else target.weights
+            weights = weights_or_ones(target.weights, (number,))
             weights = np.where(target.exact, EXACT_WEIGHT * weights.max(), weights)
             target = replace(target, weights=weights, exact=None)
         lead, here = np.array([driver]), rows[None]

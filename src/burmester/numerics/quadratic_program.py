@@ -19,7 +19,7 @@ from burmester.numerics.linear_algebra import matvec, solve
 
 __all__ = ["SoftProgram"]
 
-STEPS = 14  # of the interior-point method; each takes about a digit off the gap
+INTERIOR_POINT_STEPS = 14  # of the interior-point method; each takes about a digit off the gap
 CENTRING = 0.1  # share of the complementarity gap that a step aims at
 BOUNDARY_SHARE = 0.99  # of the way to the nearest bound; a step goes no farther
 MIN_ROOM = 1e-15  # of the range of a multiplier, which it keeps off its bounds
@@ -61,7 +61,7 @@ class SoftProgram(NamedTuple):
         start = 0.01 + 0.1 * np.abs(w)
         u = np.maximum(w, 0.0) + start
         v = u - w
-        for _ in range(STEPS):
+        for _ in range(INTERIOR_POINT_STEPS):
             u, v = np.maximum(u, MIN_ROOM), np.maximum(v, MIN_ROOM)
             above, below = (np.maximum(room, MIN_ROOM * width) for room in (high - y, y - low))
             target = CENTRING * (u * above + v * below).mean(axis=1, keepdims=True) / 2
