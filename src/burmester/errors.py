@@ -21,9 +21,27 @@ __all__ = ["Advice", "BurmesterError", "InputError", "printable"]
 class BurmesterError(Exception):
     """An error that a user can act on.
 
-    `code` is stable and may be relied on; `message` says what happened; `where` (a file
-    with line and column, and the line itself), `why` (with numbers) and `help` (something
-    that works when followed literally) are given where they are known.
+    Attributes
+    ----------
+    code : str
+        Stable, and may be relied on; `burmester explain CODE` has its page.
+    message : str
+        What happened.
+    where : str or None
+        A file with line and column, and the line itself.
+    why : str or None
+        The reason, with numbers.
+    help : str or None
+        What to do: it works when it is followed to the letter.
+
+    Examples
+    --------
+    >>> import burmester
+    >>> try:
+    ...     burmester.read_task("case:no-such-case")
+    ... except burmester.BurmesterError as error:
+    ...     print(error.code, error.exit_code)
+    E101 2
     """
 
     exit_code = 3
@@ -56,7 +74,18 @@ class BurmesterError(Exception):
 
 
 class InputError(BurmesterError):
-    """Bad input or usage: nothing was computed and nothing was written."""
+    """Bad input or usage: nothing was computed and nothing was written.
+
+    Examples
+    --------
+    >>> import burmester
+    >>> burmester.synthesize([(0, 0, 0), (1, 1, 20), (3, 2, 40)])
+    Traceback (most recent call last):
+        ...
+    burmester.errors.InputError: error[E110]: the angle unit is not stated
+      why: the unit of angles is never guessed
+      help: say angle_unit="deg" or angle_unit="rad"
+    """
 
     exit_code = 2
 

@@ -123,6 +123,13 @@ class Result(_Shown[ResultLinkage], Synthesis):
     Iterate over its linkages, ask for one by its id (`result["L2"]`) or by rank (`result[0]`).
     Beside what is listed here it has all of `Synthesis`: task, outcome, dyads, warnings, fits,
     certificate, motion, method, options.
+
+    Examples
+    --------
+    >>> import burmester
+    >>> result = burmester.synthesize(burmester.read_task("case:motiongen-shoulder"))
+    >>> len(result), len(result.usable), result["L2"].type
+    (6, 3, 'crank-rocker')
     """
 
     linkages: tuple[ResultLinkage, ...] = ()
@@ -210,6 +217,15 @@ def read_result(source: str | os.PathLike[str]) -> ReadResult:
     InputError
         E101 (not readable), E109 (not JSON), E150 (not of a synthesis), E152 (a linkage that does
         not do what the file says).
+
+    Examples
+    --------
+    >>> import burmester, tempfile
+    >>> result = burmester.synthesize(burmester.read_task("case:motiongen-shoulder"))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     again = burmester.read_result(result.save(f"{folder}/shoulder.json"))
+    >>> [linkage.id for linkage in again.usable]
+    ['L1', 'L2', 'L3']
     """
     read = saved.read_result(source)
     linkages = tuple(map(ReadLinkage.of, read.linkages))

@@ -29,9 +29,28 @@ __all__ = ["Displacement", "image_multiply"]
 class Displacement:
     """Rigid displacements of the plane, one or a million, from M to F.
 
-    translation: (*, 2), the origin of M in F, in the task's length unit.
-    angle: (*,), the orientation of M in F, in radians, any number of turns.
-    Leading axes broadcast against each other.
+    Leading axes of the two broadcast against each other.
+
+    Parameters
+    ----------
+    translation : (*, 2) array_like
+        The origin of M in F, in the task's length unit.
+    angle : (*,) array_like
+        The orientation of M in F, in radians, any number of turns.
+
+    Raises
+    ------
+    InputError
+        E125 (no real numbers, or of shapes that do not belong together).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> pose = Displacement([3.0, 1.0], np.radians(90))
+    >>> pose.act([2.0, 0.0]).round(12) + 0
+    array([3., 3.])
+    >>> (pose.inverse() @ pose).translation.round(12) + 0
+    array([0., 0.])
     """
 
     translation: FloatArray
