@@ -40,6 +40,14 @@ class Diagnosis:
         The class of its motion; None for one or two poses.
     findings : tuple of Advice
         What to look at, in the order of the checks; nothing is changed by them.
+
+    Examples
+    --------
+    >>> import burmester
+    >>> rows = [(0, 0, 0), (1, 1, 20), (3, 2, 40), (1, 1, 20)]
+    >>> found = burmester.diagnose(burmester.Task.from_rows(rows, angle_unit="deg"))
+    >>> found.sound, [finding.code for finding in found.findings]
+    (False, ['W208'])
     """
 
     task: Task
