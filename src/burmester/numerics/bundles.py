@@ -74,7 +74,9 @@ def _for_each_array(function: Callable[..., Any], *bundles: Bundle) -> Bundle:
     """A bundle of what a function makes of the arrays (or lists) that bundles of one type hold."""
     first: Any = bundles[0]
     made: Any
-    if first is None:
+    if isinstance(first, np.ndarray):  # most often, so first
+        made = function(*bundles)
+    elif first is None:
         made = None
     elif isinstance(first, tuple):
         columns = zip(*cast(Any, bundles), strict=True)

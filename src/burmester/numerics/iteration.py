@@ -35,9 +35,10 @@ def iterate(
         if not len(rows):
             break
         here, ended = advance(rows, here)
-        put(points, rows[ended], take(here, ended))
-        ended_at[rows[ended]] = step
-        rows, here = rows[~ended], take(here, ~ended)
+        if ended.any():
+            put(points, rows[ended], take(here, ended))
+            ended_at[rows[ended]] = step
+            rows, here = rows[~ended], take(here, ~ended)
     put(points, rows, here)
     return points, ended_at
 
