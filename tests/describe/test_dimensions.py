@@ -5,11 +5,11 @@ import re
 
 import pytest
 
-from burmester import synthesize
 from burmester.describe.dimensions import dimensions
 from burmester.describe.sentences import notes
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.io.reading.poses import read_task
+from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.options import SynthesisOptions
 
 NUMBER = re.compile(r"-?\d+(?:\.(\d+))?")
