@@ -205,7 +205,7 @@ def test_limits_of_the_wrong_type_are_refused(field, value):
 
 
 BAD_REQUIREMENTS = {
-    "transmission": (1j, None, [0.5], np.array([0.1, 0.2]), 10**400, np.ma.masked),
+    "transmission_deg": (1j, None, [0.5], np.array([0.1, 0.2]), 10**400, np.ma.masked),
     "types": (b"crank-rocker", {"crank-rocker": 1}, [["crank-rocker"]], [None], np.array(["a"])),
     "driver": (["first"], np.array(["first", "second"]), 1, True),
     "footprint": ("box", (0, 1), [[0, 0], [1, 1]], True),

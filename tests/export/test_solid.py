@@ -341,7 +341,7 @@ def test_parts_in_each_others_way_are_refused(made, tmp_path):
         parts["coupler"] = parts["coupler"].moved(cad.Location((0, 0, -low + 1)))
 
     path = rewritten(made, tmp_path / "x.step", change)
-    assert "way" in refused(solid.check_step, made.chosen, path, OPTIONS)
+    assert "collide" in refused(solid.check_step, made.chosen, path, OPTIONS)
 
 
 def test_a_missing_part_and_a_thicker_one_are_refused(made, tmp_path):
