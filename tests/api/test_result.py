@@ -298,6 +298,25 @@ def test_the_figure_shows_the_way_of_the_origin_through_the_poses(five):
     assert five.plot(ax=own.axes[0]) is own
 
 
+@pytest.mark.parametrize("verb", ["plot", "animate"])
+def test_a_missing_library_is_named_with_what_brings_it(verb):
+    program = f"""
+import sys
+sys.modules["matplotlib"] = None
+import burmester
+result = burmester.synthesize({ROWS}, angle_unit="deg")
+assert "<svg" in result._repr_html_()
+try:
+    result.{verb}()
+except burmester.InputError as error:
+    print(error.code, error.help)
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    )
+    assert re.match(r"E130 pip install 'burmester\[(plot|export)\]'", done.stdout)
+
+
 def test_a_moving_picture_moves(five, tmp_path):
     picture = five.animate("L2", seconds=0.5, width_px=200)
     with Image.open(io.BytesIO(picture.gif)) as gif:

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from burmester import plot
 from burmester.fourbar.dyad import PP
 from burmester.io.saved import SavedLinkage
 from burmester.plot.plane import span_of
 from burmester.web.still import own_circuit
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 __all__ = ["linkage_figure"]
 

@@ -64,7 +64,10 @@ def export(
     force: bool,
     **options: Any,
 ) -> int:
-    """Write a linkage of RESULT, the file of `burmester synthesize POSES -o RESULT`."""
+    """Write one linkage of RESULT for another program.
+
+    RESULT is the file of `burmester synthesize POSES -o RESULT`.
+    """
     from burmester.export import Options, require_format
     from burmester.export import export as run
     from burmester.io.files import require_writable

@@ -29,9 +29,9 @@ __all__ = ["report"]
 @click.option("--title", metavar="TEXT", help="Title of the page; by default the name of POSES.")
 @click.option("--force", is_flag=True, help="Write FILE even if it exists.")
 def report(poses: str, *, output: str | None, title: str | None, force: bool, **given: Any) -> int:
-    """Write a page with the linkages for POSES as animations; it needs no network.
+    """Write a page on which the linkages for POSES move.
 
-    The options are those of `burmester synthesize`, where REGION and NAME are explained.
+    It is one file, and needs no network.  The options are those of `burmester synthesize`, where REGION and NAME are explained.
     """
     from burmester.io import files
     from burmester.report import page
