@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 from rich.console import Console
 
-from burmester import cli, synthesize
+from burmester import cli
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
@@ -24,6 +24,7 @@ from burmester.io.cases import names
 from burmester.io.reading.poses import read_task
 from burmester.io.result import synthesis_data
 from burmester.io.terminal import show_synthesis
+from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.motion_task import Task
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.requirements import Requirements
