@@ -31,7 +31,8 @@ __all__ = ["report"]
 def report(poses: str, *, output: str | None, title: str | None, force: bool, **given: Any) -> int:
     """Write a page on which the linkages for POSES move.
 
-    It is one file, and needs no network.  The options are those of `burmester synthesize`, where REGION and NAME are explained.
+    It is one file, and needs no network.  The options are those of `burmester synthesize`, where
+    REGION and NAME are explained.
     """
     from burmester.io import files
     from burmester.report import page
