@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 __all__ = ["ReadLinkage", "ResultLinkage"]
 
 
-class _Shown:
+class _Handover:
     """What can be done with a linkage, wherever it comes from."""
 
     __slots__ = ()
@@ -130,7 +130,7 @@ class _Shown:
 
 @final
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class ResultLinkage(_Shown, FoundLinkage):
+class ResultLinkage(_Handover, FoundLinkage):
     """A `FoundLinkage` that knows its task, so that it can be drawn and handed over.
 
     Examples
@@ -169,7 +169,7 @@ class ResultLinkage(_Shown, FoundLinkage):
 
 @final
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class ReadLinkage(_Shown, SavedLinkage):
+class ReadLinkage(_Handover, SavedLinkage):
     """A `SavedLinkage` that can be drawn and handed over again."""
 
     @classmethod

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar, final
+from typing import TYPE_CHECKING, Any, Generic, Self, SupportsIndex, TypeVar, final, overload
 
 from burmester.api.linkage import ReadLinkage, ResultLinkage
 from burmester.api.moving_picture import MovingPicture
@@ -30,7 +30,7 @@ LINES = 12  # of a `repr`, at most
 AnyLinkage = TypeVar("AnyLinkage", ResultLinkage, ReadLinkage)
 
 
-class _Shown(Generic[AnyLinkage]):
+class _RankedLinkages(Generic[AnyLinkage]):
     """What can be done with linkages by rank, wherever they come from."""
 
     __slots__ = ()
@@ -48,13 +48,24 @@ class _Shown(Generic[AnyLinkage]):
     def __bool__(self) -> bool:
         return True
 
-    def __getitem__(self, which: int | str) -> AnyLinkage:
+    @overload
+    def __getitem__(self, which: SupportsIndex | str) -> AnyLinkage: ...
+
+    @overload
+    def __getitem__(self, which: slice) -> tuple[AnyLinkage, ...]: ...
+
+    def __getitem__(
+        self, which: SupportsIndex | str | slice
+    ) -> AnyLinkage | tuple[AnyLinkage, ...]:
         """A linkage by its id ("L2") or by its place in the ranking (from 0); raises E151."""
         outcome, linkages = self._parts()
+        if isinstance(which, slice):
+            return linkages[which]
         known = [each.id for each in linkages]
-        if isinstance(which, str) and which.upper() in known:
-            return linkages[known.index(which.upper())]
-        if isinstance(which, int) and -len(linkages) <= which < len(linkages):
+        if isinstance(which, str):
+            if which.upper() in known:
+                return linkages[known.index(which.upper())]
+        elif -len(linkages) <= which.__index__() < len(linkages):
             return linkages[which]
         raise InputError(
             "E151",
@@ -117,7 +128,7 @@ class _Shown(Generic[AnyLinkage]):
 
 @final
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Result(_Shown[ResultLinkage], Synthesis):
+class Result(_RankedLinkages[ResultLinkage], Synthesis):
     """A `Synthesis` that can be looked at, saved and handed over.
 
     Iterate over its linkages, ask for one by its id (`result["L2"]`) or by rank (`result[0]`).
@@ -180,7 +191,7 @@ class Result(_Shown[ResultLinkage], Synthesis):
 
 @final
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class ReadResult(_Shown[ReadLinkage]):
+class ReadResult(_RankedLinkages[ReadLinkage]):
     """A result that was saved: where, its task, its outcome, and its linkages by rank."""
 
     label: str
