@@ -106,13 +106,13 @@ def by_refining(dyads, rows, length):
     if not linkages:
         return None
     frames = error_frames(poses, length)
-    seen, unit = frames.see(poses), length / float(frames.length)
-    batch = LinkageBatch.of(linkages).seen(frames)
+    seen, unit = frames.to_canonical(poses), length / float(frames.length)
+    batch = LinkageBatch.of(linkages).to_canonical(frames)
     refined = refine(batch, nearest(on_circuits(batch, seen, unit), seen, unit), seen, unit)
-    fitted, best, least = refined.batch.back(frames), None, np.inf
+    fitted, best, least = refined.batch.from_canonical(frames), None, np.inf
     for k in np.flatnonzero(np.isfinite(refined.cost)):
         linkage, there = fitted.linkage(k), refined.rows[k]
-        here = frames.unseen(Displacement(there[:, :2], there[:, 2] / unit))
+        here = frames.from_canonical(Displacement(there[:, :2], there[:, 2] / unit))
         for pair in ((linkage.first, linkage.second), (linkage.second, linkage.first)):
             if (away := apart(pair, dyads)) < least:
                 best, least = (list(pair), np.column_stack([here.translation, here.angle])), away
@@ -165,8 +165,8 @@ def judged(found, at, rows, sigma, length):
     """Of a fitted linkage the regions of both dyads, in the frames where errors are looked at."""
     frames = error_frames(Displacement.from_poses(rows), length)
     unit = float(frames.length)
-    batch = LinkageBatch.of([Linkage(*found)]).seen(frames)
-    there = frames.see(Displacement.from_poses(at))[None]
+    batch = LinkageBatch.of([Linkage(*found)]).to_canonical(frames)
+    there = frames.to_canonical(Displacement.from_poses(at))[None]
     spread = covariance(batch, there, length / unit, (sigma[0] / unit, sigma[1]))
     return uncertainties(spread, batch, there, unit)[0]
 

@@ -141,7 +141,7 @@ def test_the_chance_of_one_number_is_that_of_an_f_test():
 def test_dyads_that_are_given_are_taken_in_their_own_frames():
     """They start the same fits: what is found is the same, to the last digit."""
     best = best_dyads(table(PRINTED).poses)
-    circles, line = best.dyads, best.frames.line_back
+    circles, line = best.dyads, best.frames.line_from_canonical
     dyads = [circles[k] for k in range(len(best.rms_error))] + [line(x) for x in best.sliders]
     for rows in (PRINTED, changed(2, x=-2.6392 * 25.4, y=0.292 * 25.4)):
         task = table(rows)
@@ -174,7 +174,7 @@ def test_a_multiple_lands_by_chance_as_often_as_is_told():
     dyads = random_four_bar(rng)
     rows = random_poses(dyads, rng, 200)
     seen = NormalizedPoses.of(Displacement.from_poses(rows), None)
-    batch = LinkageBatch.of([Linkage(*dyads)]).seen(seen.frames)
+    batch = LinkageBatch.of([Linkage(*dyads)]).to_canonical(seen.frames)
     near = Prediction.of(seen, batch, 0, 1e-3)
     low, high = seen.rows.min(axis=0), seen.rows.max(axis=0)
     tries = rng.uniform(low, high, size=(20000, 3))

@@ -73,7 +73,7 @@ def test_a_unit_comes_before_a_number_that_fits_better():
     odd = odd_pose(task)
     assert odd.pose == pose
     seen = NormalizedPoses.of(task.poses, None)
-    linkage = LinkageBatch.of([odd.linkage]).seen(seen.frames)
+    linkage = LinkageBatch.of([odd.linkage]).to_canonical(seen.frames)
     sigma = odd.error_without / odd.length * np.sqrt(9 / 8)
     unit, slip, *_ = repairs_of(seen, Prediction.of(seen, linkage, pose, sigma), pose, task)
     assert (unit.kind, slip.kind) == ("unit", "slip")

@@ -207,7 +207,7 @@ def test_the_least_worst_dyad_is_never_worse_than_that_of_least_squares(seed):
     for kind in {type(line) for line in by_rms.sliders}:
         lines = [
             [
-                np.abs(line.residual(best.frames.see(poses))).max() * best.frames.length
+                np.abs(line.residual(best.frames.to_canonical(poses))).max() * best.frames.length
                 for line in best.sliders
                 if isinstance(line, kind)
             ]

@@ -314,7 +314,10 @@ def test_limits_go_along_with_frames_and_units():
         Line(moving.act(line.start) * unit, moving.act(line.end) * unit),
     )
     one, other = solved(problem), limited_dyads(moved, limits=limits)
-    a, b = one.frames.circle_back(one.circles), other.frames.circle_back(other.circles)
+    a, b = (
+        one.frames.circle_from_canonical(one.circles),
+        other.frames.circle_from_canonical(other.circles),
+    )
     assert len(a.radius) == len(b.radius) > 0
     assert np.allclose(b.radius / unit, a.radius, rtol=1e-6)
     assert np.allclose(b.fixed_pivot / unit, fixed.act(a.fixed_pivot), rtol=1e-6)
@@ -347,7 +350,7 @@ def test_a_given_length_is_a_condition_like_the_others(mix, seed):
     ]
     limits = Limits(*regions, (float(d.radius), float(d.radius)), frozenset({"RR"}))
     found = limited_dyads(poses, None, np.ones(count, bool), limits)
-    circles = found.frames.circle_back(found.circles)
+    circles = found.frames.circle_from_canonical(found.circles)
     assert np.abs(circles.radius - d.radius).max() < 1e-9
     gaps = np.hypot(*(circles.fixed_pivot - d.fixed_pivot).T)
     gaps = gaps + np.hypot(*(circles.moving_pivot - d.moving_pivot).T)
@@ -365,7 +368,9 @@ def test_a_slider_that_meets_as_many_conditions_as_it_can_is_found(kind, count, 
     region = region_through(rng, pivot, conditions)
     limits = Limits(None, region) if kind is PR else Limits(region)
     found = limited_dyads(poses, None, np.ones(count, bool), limits)
-    lines = [found.frames.line_back(each) for each in found.sliders if isinstance(each, kind)]
+    lines = [
+        found.frames.line_from_canonical(each) for each in found.sliders if isinstance(each, kind)
+    ]
     assert all(np.abs(each.residual(poses)).max() < 1e-9 for each in lines)
     pivots = [each.moving_pivot if kind is PR else each.fixed_pivot for each in lines]
     assert min(np.abs(each - pivot).max() for each in pivots) < 1e-6

@@ -25,7 +25,7 @@ def test_no_other_pair_of_points_stays_closer(seed):
     assert np.allclose(ours, found.x, atol=1e-4)
     rest = (weights * (seen.translation**2).sum(axis=1)).sum() / weights.sum()
     assert np.isclose(rest, 1.0)
-    assert np.allclose(frames.see(poses).translation, seen.translation, atol=1e-12)
+    assert np.allclose(frames.to_canonical(poses).translation, seen.translation, atol=1e-12)
 
 
 def test_dyads_come_back_to_the_task_frames():
@@ -33,13 +33,13 @@ def test_dyads_come_back_to_the_task_frames():
     poses = Displacement.from_poses(rng.normal(size=(7, 3)) * [50, 50, 1] + [1e3, -500, 2])
     frames, seen = CanonicalFrames.of(poses)
     circles = RR(*rng.normal(size=(2, 3, 2)), rng.uniform(1, 2, 3))
-    back = frames.circle_back(circles)
+    back = frames.circle_from_canonical(circles)
     for k in range(3):
         wanted = circles[k].residual(seen) * frames.length
         assert np.allclose(back[k].residual(poses), wanted, atol=1e-9)
     for line in (PR(0.7, 0.3, [1, 2]), RP([1, 2], 0.7, 0.3)):
         wanted = line.residual(seen) * frames.length
-        assert np.allclose(frames.line_back(line).residual(poses), wanted, atol=1e-9)
+        assert np.allclose(frames.line_from_canonical(line).residual(poses), wanted, atol=1e-9)
 
 
 @pytest.mark.parametrize("angle", [0.0, 0.3, 1.0, np.pi])

@@ -184,12 +184,12 @@ def test_seen_in_other_frames_and_back():
     frames = CanonicalFrames(np.array([2.0, -1.0]), np.array([0.7, 3.0]), np.array(2.5))
     places = some_places(rng, len(linkages), 6)
     batch = LinkageBatch.of(linkages)
-    seen = batch.seen(frames)
-    there = seen.jacobians(frames.see(places)).residual
+    seen = batch.to_canonical(frames)
+    there = seen.jacobians(frames.to_canonical(places)).residual
     assert np.allclose(2.5 * there, batch.jacobians(places).residual, atol=1e-12)
     assert (there != batch.jacobians(places).residual).any()
-    assert np.allclose(seen.back(frames).dimensions, batch.dimensions, atol=1e-13)
-    assert (seen.back(frames).kinds == batch.kinds).all()
+    assert np.allclose(seen.from_canonical(frames).dimensions, batch.dimensions, atol=1e-13)
+    assert (seen.from_canonical(frames).kinds == batch.kinds).all()
 
 
 def test_alike_are_all_linkages_once_in_groups_of_one_kind():

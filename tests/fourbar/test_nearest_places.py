@@ -365,7 +365,7 @@ def test_error_frames_keep_the_bodys_origin():
     rows = np.array([[10, 5, 0.1], [14, 5, 0.2], [12, 9, 3.0]], float)
     poses = Displacement.from_poses(rows)
     frames = error_frames(poses, 1.0)
-    seen = frames.see(poses)
+    seen = frames.to_canonical(poses)
     gaps = np.linalg.norm(seen.translation[:, None] - seen.translation, axis=-1)
     wanted = np.linalg.norm(rows[:, None, :2] - rows[:, :2], axis=-1)
     assert np.allclose(gaps * float(frames.length), wanted)

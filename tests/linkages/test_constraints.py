@@ -32,7 +32,7 @@ from tests.oracles.witness import random_four_bar
 KINDS = (RR, PR, RP)
 PAIRS = list(itertools.product(KINDS, KINDS))
 LENGTH = 0.7  # what a radian counts as
-PLAIN = CanonicalFrames.as_given()
+PLAIN = CanonicalFrames.identity()
 ANY = Requirements()
 
 
@@ -255,7 +255,7 @@ def test_ratio_of_links_and_room_for_the_pivots():
         if not np.isfinite(rows).all():
             continue
         frames = CanonicalFrames(np.array([0.3, -0.2]), np.zeros(2), np.array(2.0))
-        batch = LinkageBatch.of([linkage]).seen(frames)
+        batch = LinkageBatch.of([linkage]).to_canonical(frames)
         seen = (rows - [0.3, -0.2, 0.0]) / 2.0
         part = LinkProportions(LENGTH / 2, frames, asked, np.array([0]), np.array([""]))
         only = {
@@ -293,7 +293,7 @@ def test_limits_count_in_the_frames_unit():
     frames = CanonicalFrames(np.array([1.0, 2.0]), np.array([-0.5, 0.25]), np.array(4.0))
     dyad = RR([3.0, 1.0], [0.5, -2.0], 2.5)
     other = RR([0.0, 0.0], [1.0, 1.0], 1.0)
-    batch = LinkageBatch.of([Linkage(dyad, other)]).seen(frames)
+    batch = LinkageBatch.of([Linkage(dyad, other)]).to_canonical(frames)
     rows, which = np.zeros((1, 2, 3)), np.array([0])
 
     def held(side, **limits):

@@ -56,8 +56,8 @@ def test_uncertainty_stands_with_the_dyad_that_it_is_of():
         frames = error_frames(task.poses, result.length)
         unit = float(frames.length)
         for found in result.linkages[:4]:
-            batch = LinkageBatch.of([found.linkage]).seen(frames)
-            places = frames.see(found.error.places)[None]
+            batch = LinkageBatch.of([found.linkage]).to_canonical(frames)
+            places = frames.to_canonical(found.error.places)[None]
             position, angle = pose_sigma(task)
             spread = covariance(batch, places, result.length / unit, (position / unit, angle))
             for mine, wanted in zip(

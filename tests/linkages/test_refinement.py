@@ -309,7 +309,7 @@ WITHIN = {
 def test_limits_hold_and_scipy_comes_no_lower(what, seed):
     limits, zero, below = WITHIN[what]
     linkage, rows, wanted = a_task((RR, RR), seed)
-    frames = CanonicalFrames.as_given()
+    frames = CanonicalFrames.identity()
     ours = refined(linkage, rows, wanted, constraints=DyadLimitsConstraint(0, limits, frames))
     assert ours.met[0]
     z = ours.batch.dimensions[0, 0]
@@ -362,7 +362,7 @@ def test_the_same_task_in_other_frames_and_units():
     )
     for each, own, unit in ((linkage, here, length), (moved, there, 1000 * length)):
         frames = error_frames(own, unit)
-        batch, seen = LinkageBatch.of([each]).seen(frames), frames.see(own)
+        batch, seen = LinkageBatch.of([each]).to_canonical(frames), frames.to_canonical(own)
         small = unit / float(frames.length)
         start = nearest(on_circuits(batch, seen, small), seen, small)
         costs.append(refine(batch, start, seen, small))

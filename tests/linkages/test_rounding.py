@@ -40,7 +40,7 @@ def aim_at(rows, length=LENGTH, **how):
     poses = Displacement.from_poses(rows)
     frames = error_frames(poses, length)
     unit = length / float(frames.length)
-    return poses, Target(frames.see(poses), unit, frames, Requirements(), **how)
+    return poses, Target(frames.to_canonical(poses), unit, frames, Requirements(), **how)
 
 
 def problem(seed, second, *, count=8, off=0.02, unit=1.0, shift=0.0):
@@ -53,7 +53,7 @@ def problem(seed, second, *, count=8, off=0.02, unit=1.0, shift=0.0):
         poses, aim = aim_at(rows, LENGTH * unit)
         scaled = LinkageBatch.of([Linkage(*dyads)])
         moved = type(aim.frames)(np.full(2, shift), np.zeros(2), np.asarray(unit))
-        batch = scaled.back(moved).seen(aim.frames)
+        batch = scaled.from_canonical(moved).to_canonical(aim.frames)
         found = rows_of(on_circuits(batch, aim.poses, aim.length), aim.length)
         found = found[:, np.nan_to_num(aim.cost(found), nan=np.inf)[0].argmin()]
         refined = aim.refine(batch, found)
@@ -120,7 +120,7 @@ def places_in(batch, aim, step):
 def all_at_once(batch, aim, step):
     """The linkage rounded naively."""
     unit = places_in(batch, aim, step)
-    own = batch.back(aim.frames).dimensions[0]
+    own = batch.from_canonical(aim.frames).dimensions[0]
     new = np.where(unit > 0, np.rint(own / np.where(unit > 0, unit, 1)) * unit, 0.0)
     return LinkageBatch(batch.kinds, new[None]).linkage(0)
 
@@ -185,10 +185,10 @@ def test_it_is_never_worse_than_rounding_all_at_once(second):
 def by_brute_force(poses, batch, aim, rows, step):
     """The least greatest distance of all floors and ceilings, crank driven by small steps."""
     unit = places_in(batch, aim, step).ravel()
-    own = batch.back(aim.frames).dimensions.reshape(10)
+    own = batch.from_canonical(aim.frames).dimensions.reshape(10)
     some = unit > 0
     at = Displacement.from_poses(np.c_[rows[0, :, :2], rows[0, :, 2] / aim.length])
-    at = aim.frames.unseen(at)
+    at = aim.frames.from_canonical(at)
     low = np.floor(own[some] / unit[some])
     d = poses.translation @ [1, 1j]
     best = np.inf
@@ -260,7 +260,7 @@ def test_of_stock_the_choice_is_the_best_of_four():
     stock = np.array([0.5, 0.75, 1.1, 1.6, 2.5])
     for seed in range(2):
         poses, aim, batch, rows = problem(seed, RR)
-        before = batch.back(aim.frames)
+        before = batch.from_canonical(aim.frames)
         own, new = rounded(batch, rows, aim, step=None, stock=list(stock))
         sides = []
         for r in before.dimensions[0, :, 4]:
@@ -290,7 +290,7 @@ def test_a_step_far_too_coarse_gives_a_great_error_or_no_place(second):
         assert again.max() > 0.1
         if np.isfinite(new).all():
             assert greatest(aim, new) >= again.max() - 1e-9
-            at = aim.frames.unseen(Displacement(new[0, :, :2], new[0, :, 2] / aim.length))
+            at = aim.frames.from_canonical(Displacement(new[0, :, :2], new[0, :, 2] / aim.length))
             for dyad in (own.linkage(0).first, own.linkage(0).second):
                 assert np.abs(dyad.residual(at)).max() < 1e-9 * step
 
@@ -299,7 +299,7 @@ def test_pivots_stay_in_their_regions():
     left = 0
     for seed in range(6):
         _, aim, batch, rows = problem(seed, RR)
-        c = batch.back(aim.frames).dimensions[0, 0, :2]
+        c = batch.from_canonical(aim.frames).dimensions[0, 0, :2]
         # The region ends just beyond the pivot, on the side to which it would be rounded.
         ends = np.where(np.rint(c / 0.1) * 0.1 > c, c + 1e-4, c + 1.0)
         x, y = np.stack([ends - 1.5, ends], axis=1)
@@ -321,7 +321,7 @@ def test_a_pivot_beside_its_line_is_no_excuse_to_pass_another_limit(seed):
     that does break its limit is not taken, be it nearer to the poses.
     """
     _, aim, batch, rows = problem(seed, RR)
-    own = batch.back(aim.frames).dimensions[0, 0]
+    own = batch.from_canonical(aim.frames).dimensions[0, 0]
     height, length = own[1], own[4]
     halves = abs(height) / (np.arange(1, 400) + 0.5)
     steps = [step for step in halves if 0.05 < step < 0.15 and 0.55 < (length / step) % 1 < 0.85]
@@ -347,7 +347,7 @@ def test_poses_stay_in_order():
         rows = np.c_[where[0].real, where[0].imag, phi[0]] + 0.1 * rng.normal(size=(6, 3))
 
         def steps(own, rows, frames, length):
-            at = frames.unseen(Displacement(rows[0, :, :2], rows[0, :, 2] / length))
+            at = frames.from_canonical(Displacement(rows[0, :, :2], rows[0, :, 2] / length))
             dyad = own.linkage(0).first
             arm = at.act(dyad.moving_pivot) - dyad.fixed_pivot
             return np.unwrap(np.arctan2(arm[:, 1], arm[:, 0]))
@@ -355,7 +355,7 @@ def test_poses_stay_in_order():
         linkage = LinkageBatch.of([Linkage(first, second)])
         for _ in range(2):  # the poses, put in the order in which they are met
             _, aim = aim_at(rows)
-            batch = linkage.seen(aim.frames)
+            batch = linkage.to_canonical(aim.frames)
             found = rows_of(on_circuits(batch, aim.poses, aim.length), aim.length)
             found = found[:, np.nan_to_num(aim.cost(found), nan=np.inf)[0].argmin()]
             here = steps(linkage, found, aim.frames, aim.length)

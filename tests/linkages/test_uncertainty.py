@@ -145,8 +145,8 @@ def test_regions_do_not_depend_on_frames_and_units(second):
     poses = Displacement.from_poses(rows)
     unit = 0.37
     frames = CanonicalFrames(np.array([200.0, -50.0]), np.zeros(2), np.array(unit))
-    seen = frames.see(poses)
-    there = batch.seen(frames)
+    seen = frames.to_canonical(poses)
+    there = batch.to_canonical(frames)
     spread = covariance(there, seen[None], LENGTH / unit, (SIGMA[0] / unit, SIGMA[1]))
     for a, b in zip(plain, uncertainties(spread, there, seen[None], unit)[0], strict=True):
         for region, same in ((a.fixed, b.fixed), (a.moving, b.moving)):

@@ -218,9 +218,11 @@ def outside(point, pieces):
 def ours(problem, found, kind):
     """The dyads of a kind as z (k, ...), in the task's own frames."""
     if kind is RR:
-        d = found.frames.circle_back(found.circles)
+        d = found.frames.circle_from_canonical(found.circles)
         return np.column_stack([d.fixed_pivot, d.moving_pivot, d.radius])
-    lines = [found.frames.line_back(line) for line in found.sliders if isinstance(line, kind)]
+    lines = [
+        found.frames.line_from_canonical(line) for line in found.sliders if isinstance(line, kind)
+    ]
     pivots = [line.moving_pivot if kind is PR else line.fixed_pivot for line in lines]
     return np.array(
         [

@@ -65,7 +65,9 @@ def test_counts_are_those_of_single_searches(task, name):
     for k in range(40):
         fit = SEARCHES[name](seen, starts[k] if name == "Ravani-Roth" else starts[k, 0])
         settled += int(fit.converged)
-        ends = flat(frames.circle_back(fit.dyads if name == "Ravani-Roth" else fit.dyads[None]))
+        ends = flat(
+            frames.circle_from_canonical(fit.dyads if name == "Ravani-Roth" else fit.dyads[None])
+        )
         near = [np.abs(ends - dyad).max(axis=1).min() < 1e-3 for dyad in flat(answer.dyads)]
         reached += np.array(near) & fit.converged
     if name == "Ravani-Roth":

@@ -64,7 +64,9 @@ class LeaveOneOut(NamedTuple):
         """
         given = len(dyads) > 2
         pairs = (
-            _paired(dyads, poses).seen(normalized.frames) if given else _best_pairs(normalized, -1)
+            _paired(dyads, poses).to_canonical(normalized.frames)
+            if given
+            else _best_pairs(normalized, -1)
         )
         none = np.full(len(pairs), -1)
         return pairs, fit_in_two_steps(
@@ -143,7 +145,7 @@ def _dyads(poses: Displacement, weights: FloatArray | None) -> list[Dyad]:
     """The best dyads of poses (N,)."""
     best = best_dyads(poses, weights)
     circles: list[Dyad] = [best.dyads[i] for i in range(len(best.rms_error))]
-    return circles + [best.frames.line_back(line) for line in best.sliders]
+    return circles + [best.frames.line_from_canonical(line) for line in best.sliders]
 
 
 def _paired(dyads: Sequence[Dyad], poses: Displacement) -> LinkageBatch:

@@ -308,7 +308,7 @@ def _described(
         miss * length,
         length,
         min(1.0, chance),
-        linkages.back(normalized.frames).linkage(0),
+        linkages.from_canonical(normalized.frames).linkage(0),
         repairs,
         other_unit.extents if other_unit is not None and other_unit.far_apart else None,
     )

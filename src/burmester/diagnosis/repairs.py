@@ -163,7 +163,7 @@ def unit_repair(normalized: NormalizedPoses, pose: int, factor: float, miss: flo
 
 def _pose_as_given(normalized: NormalizedPoses, pose: int) -> FloatArray:
     """A pose (3,) in the task's frames."""
-    place = normalized.frames.unseen(normalized.poses[pose])
+    place = normalized.frames.from_canonical(normalized.poses[pose])
     return np.append(place.translation, place.angle)
 
 

@@ -72,7 +72,7 @@ class NormalizedPoses(NamedTuple):
         away = np.sort(((poses.translation - middle) ** 2).sum(axis=-1))[:-1]
         length = np.sqrt(UNIFORM_EXTENT_SQUARED * away.mean())
         frames = CanonicalFrames(middle, np.zeros(2), length if length > 0 else np.ones(()))
-        own = frames.see(poses)
+        own = frames.to_canonical(poses)
         return cls(own, rows_of(own, 1.0), share, frames)
 
     def mask_without(self, pose: int | None) -> NDArray[np.bool_]:

@@ -140,7 +140,7 @@ def dyad_curve(poses: Displacement, samples: int = 400) -> DyadCurve:
     circles, errors = zip(*(_circles(x, seen) for x in loops), strict=True)
     if gap > 2 * spacing or max(errors) > EXACT_TOLERANCE:
         _refuse(seen)  # nothing but sliders, or lost in rounding
-    components = tuple(frames.circle_back(circle) for circle in circles)
+    components = tuple(frames.circle_from_canonical(circle) for circle in circles)
     return DyadCurve(components, frames, singular_values, spacing)
 
 

@@ -147,7 +147,7 @@ def critical_dyads(poses: Displacement, weights: FloatArray | None = None) -> Cr
     with np.errstate(invalid="ignore"):
         distance = centred.residual(seen[..., None, :])
     radius = np.sqrt(_mean(distance**2, weights))
-    dyads = frames.circle_back(RR(x[..., :2], x[..., 2:], radius))
+    dyads = frames.circle_from_canonical(RR(x[..., :2], x[..., 2:], radius))
     return CriticalDyads(frames, points, found, far, charts, health, real, minimum, dyads, residual)
 
 

@@ -151,7 +151,7 @@ def dyads_of_five(poses: Displacement) -> FivePoseDyads:
         residual,
         separation,
         determined,
-        _sharpened(frames.circle_back(circles), poses, length),
+        _sharpened(frames.circle_from_canonical(circles), poses, length),
         rms_error * length,
         max_error * length,
     )

@@ -62,7 +62,7 @@ class BestDyads:
     @property
     def dyads(self) -> RR:
         """The RR dyads (k,), in the task's own frames."""
-        return self.frames.circle_back(self.circles)
+        return self.frames.circle_from_canonical(self.circles)
 
     @property
     def coefficients(self) -> FloatArray:
@@ -120,10 +120,10 @@ def best_dyads(
     """
     if limits is not None or norm != "rms" or (exact is not None and exact.any()):
         search = limited_dyads(poses, weights, exact, limits, norm)
-        distance = search.circles[:, None].residual(search.frames.see(poses))
+        distance = search.circles[:, None].residual(search.frames.to_canonical(poses))
         return _with_errors(search, search.circles, search.sliders, distance)
     critical = critical_dyads(poses, weights)
-    seen = critical.frames.see(poses)
+    seen = critical.frames.to_canonical(poses)
     lines = [lines(seen, weights)[0][0] for lines in (fixed_lines, moving_lines)]
     points = critical.points[: int(critical.found)]
     pivots = points[points.imag @ CONJUGATE_PICK >= 0].real

@@ -135,7 +135,7 @@ def fit_pencil(
         frames, seen = CanonicalFrames.of(poses, weights)
         metric = constraint_manifold.INVARIANT
     else:
-        frames, seen = CanonicalFrames.as_given(poses.shape[:-1]), poses
+        frames, seen = CanonicalFrames.identity(poses.shape[:-1]), poses
         metric = np.ones(8)
     design = _design(seen, weights, metric)
     _, descending, v = np.linalg.svd(design, full_matrices=False)
@@ -154,7 +154,7 @@ def fit_pencil(
         theta,
         error,
         p[..., :2, :],
-        frames.circle_back(dyads),
+        frames.circle_from_canonical(dyads),
         rms_error * frames.length[..., None],
         max_error * frames.length[..., None],
     )

@@ -17,7 +17,7 @@ from burmester.geometry import constraint_manifold
 from burmester.numerics.arrays import ROUNDING, FloatArray
 from burmester.tasks.motion_task import COARSE, Task, characteristic_length
 
-__all__ = ["LONG", "Fit", "FoundDyad", "found_dyads", "known", "same_dyad"]
+__all__ = ["LONG", "Fit", "FoundDyad", "found_dyads", "relative_resolution", "same_dyad"]
 
 Fit: TypeAlias = Pencil | FivePoseDyads | BestDyads
 Candidate: TypeAlias = tuple[Dyad, float, float]  # with its rms and greatest error
@@ -61,7 +61,7 @@ def found_dyads(fit: Fit, task: Task) -> tuple[list[FoundDyad], int]:
     the angle (`_two_angles`), or a dyad that should be exact is not, as rounding took its digits.
     """
     length, unit = characteristic_length(task), float(fit.frames.length)
-    seen = fit.frames.see(task.poses)
+    seen = fit.frames.to_canonical(task.poses)
     limited = isinstance(fit, BestDyads) and isinstance(fit.search, LimitedDyads)
     near = 0.0 if limited else _nearly_straight(fit, task, length)
     found: list[Candidate] = []
@@ -71,7 +71,7 @@ def found_dyads(fit: Fit, task: Task) -> tuple[list[FoundDyad], int]:
             found.append((dyad, rms, worst))
 
     def add_slider(line: PR | RP) -> None:
-        slider = fit.frames.line_back(line)
+        slider = fit.frames.line_from_canonical(line)
         pivot = line.moving_pivot if isinstance(line, PR) else line.fixed_pivot
         if np.abs(pivot).max() < MAX_LENGTH:
             distance = unit * line.residual(seen)
@@ -87,7 +87,7 @@ def found_dyads(fit: Fit, task: Task) -> tuple[list[FoundDyad], int]:
             nearest = nearest_slider(p, seen, task.weights)
             share = 1 if circle.radius < LONG * length else 2
             rounding = np.finfo(float).eps * float(circle.radius)  # of a distance so great
-            allowed = max(share * rms, known(task, length) * length, rounding)
+            allowed = max(share * rms, relative_resolution(task, length) * length, rounding)
             fits = unit * nearest.rms_error <= allowed or not np.isfinite(allowed)
             if nearest.angle_sine < near and fits:
                 add_slider(nearest.dyad)
@@ -123,7 +123,9 @@ def _nearly_straight(fit: Fit, task: Task, length: float) -> float:
         fit = fit_pencil(task.poses, task.weights)
     # Noise turns the null space, and so every manifold in it, by about this angle.
     blur = max(
-        float(fit.noise), known(task, length) * np.sqrt(task.poses.shape[0]), COEFFICIENT_ROUNDING
+        float(fit.noise),
+        relative_resolution(task, length) * np.sqrt(task.poses.shape[0]),
+        COEFFICIENT_ROUNDING,
     )
     return float(min(3 * blur / max(float(fit.gap), 1e-300), MAX_SLIDER_ANGLE))
 
@@ -137,7 +139,7 @@ def _two_angles(p: FloatArray) -> bool:
     return bool(np.linalg.norm(p[[0, 2, 3, 4, 5]]) < SAME_DYAD * constraint_manifold.size(p))
 
 
-def known(task: Task, length: float) -> float:
+def relative_resolution(task: Task, length: float) -> float:
     """How exactly the poses are known, as a share of the characteristic length."""
     position, angle = task.resolution
     return max(min(position / length + angle, COARSE), ROUNDING)

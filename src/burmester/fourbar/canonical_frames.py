@@ -42,7 +42,7 @@ class CanonicalFrames:
     length: FloatArray
 
     @classmethod
-    def as_given(cls, shape: tuple[int, ...] = ()) -> Self:
+    def identity(cls, shape: tuple[int, ...] = ()) -> Self:
         """The task's own frames and unit: nothing changes."""
         return cls(np.zeros((*shape, 2)), np.zeros((*shape, 2)), np.ones(shape))
 
@@ -72,17 +72,17 @@ class CanonicalFrames:
         frames = cls(_pair(c[..., 0]), _pair(m[..., 0]), length)
         return frames, Displacement(_pair(rest / length[..., None]), poses.angle)
 
-    def see(self, poses: Displacement) -> Displacement:
+    def to_canonical(self, poses: Displacement) -> Displacement:
         """Poses (N,) as these frames, of one task, see them."""
         moved = poses.act(self.moving_origin) - self.fixed_origin
         return Displacement(moved / self.length, poses.angle)
 
-    def unseen(self, places: Displacement) -> Displacement:
+    def from_canonical(self, places: Displacement) -> Displacement:
         """Places (*,) found in these frames, of one task, as its own see them."""
         own = self.length * places.translation + self.fixed_origin
         return Displacement(own - places.rotate(self.moving_origin), places.angle)
 
-    def circle_back(self, circle: RR) -> RR:
+    def circle_from_canonical(self, circle: RR) -> RR:
         """RR dyads (*, k) found in these frames (*,), as the task's own frames see them."""
         length = self.length[..., None]
         return RR(
@@ -91,7 +91,7 @@ class CanonicalFrames:
             circle.radius * length,
         )
 
-    def line_back(self, line: PR | RP) -> PR | RP:
+    def line_from_canonical(self, line: PR | RP) -> PR | RP:
         """A PR or RP dyad found in these frames, of one task, as its own frames see it."""
         normal = np.stack([np.cos(line.normal_angle), np.sin(line.normal_angle)], axis=-1)
         if isinstance(line, PR):

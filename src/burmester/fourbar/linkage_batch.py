@@ -104,12 +104,12 @@ class LinkageBatch:
             return PR(row[..., 0], row[..., 1], row[..., 2:4])
         return RP(row[..., :2], row[..., 2], row[..., 3])
 
-    def seen(self, frames: CanonicalFrames) -> LinkageBatch:
+    def to_canonical(self, frames: CanonicalFrames) -> LinkageBatch:
         """The same linkages in the frames of one task."""
         return self._moved(-frames.fixed_origin, -frames.moving_origin, 1.0, 1 / frames.length)
 
-    def back(self, frames: CanonicalFrames) -> LinkageBatch:
-        """The inverse of `seen`."""
+    def from_canonical(self, frames: CanonicalFrames) -> LinkageBatch:
+        """The inverse of `to_canonical`."""
         return self._moved(frames.fixed_origin, frames.moving_origin, frames.length, 1.0)
 
     def _moved(

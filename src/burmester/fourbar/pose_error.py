@@ -60,10 +60,10 @@ class PoseError:
         length: the length that a radian counts as, in the poses' unit.
         """
         frames = error_frames(poses, length)
-        seen, unit = frames.see(poses), length / float(frames.length)
-        batch = LinkageBatch.of([linkage]).seen(frames)
+        seen, unit = frames.to_canonical(poses), length / float(frames.length)
+        batch = LinkageBatch.of([linkage]).to_canonical(frames)
         found = nearest(on_circuits(batch, seen, unit), seen, unit)
-        return cls.at(frames.unseen(found)[0], poses)
+        return cls.at(frames.from_canonical(found)[0], poses)
 
     @property
     def worst(self) -> float:

@@ -90,7 +90,7 @@ class DyadLimitsConstraint:
     def __call__(
         self, batch: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
     ) -> ConstraintValues:
-        own = batch.back(self.frames)
+        own = batch.from_canonical(self.frames)
         kind, z = own.kinds[:, self.side], own.dimensions[:, self.side]
         least, most = self.limits.length
         with np.errstate(invalid="ignore"):

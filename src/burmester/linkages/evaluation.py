@@ -73,15 +73,17 @@ class Evaluation:
     def stacked(self, pairs: Sequence[Pair]) -> LinkageBatch:
         """Pairs of dyads, in the frames of the target."""
         linkages = [Linkage(first.dyad, second.dyad) for first, second in pairs]
-        return LinkageBatch.of(linkages).seen(self.target.frames)
+        return LinkageBatch.of(linkages).to_canonical(self.target.frames)
 
     def evaluate(self, candidates: Candidates) -> list[FoundLinkage]:
         """The linkages with errors, verdicts, drivers and uncertainties, ranked."""
         candidates = take(candidates, np.flatnonzero(_sizable(candidates.batch)))
         own = (
-            candidates.batch.back(self.target.frames) if candidates.own is None else candidates.own
+            candidates.batch.from_canonical(self.target.frames)
+            if candidates.own is None
+            else candidates.own
         )
-        places = self.target.frames.unseen(self._places(candidates.rows))
+        places = self.target.frames.from_canonical(self._places(candidates.rows))
         errors = [PoseError.at(places[k], self.task.poses) for k in range(len(own))]
         verdicts = self._verdicts(own, places, errors)
         sides = np.tile(np.arange(2), (len(own), 1))
@@ -131,8 +133,8 @@ class Evaluation:
         out: list[FoundLinkage] = []
         frames, options = self.target.frames, self.problem.options
         for each in found[:MAX_ROUNDED]:
-            batch = LinkageBatch.of([each.linkage]).seen(frames)
-            rows = rows_of(frames.see(each.error.places), self.target.length)[None]
+            batch = LinkageBatch.of([each.linkage]).to_canonical(frames)
+            rows = rows_of(frames.to_canonical(each.error.places), self.target.length)[None]
             driver = np.array([int(each.preferred_driver == "second")])
             own, rows = rounded(
                 batch,
@@ -143,7 +145,9 @@ class Evaluation:
                 driver=driver,
             )
             from_search = np.array([each.from_search])
-            new = self.evaluate(Candidates(own.seen(frames), rows, [each.dyads], from_search, own))
+            new = self.evaluate(
+                Candidates(own.to_canonical(frames), rows, [each.dyads], from_search, own)
+            )
             if not new:
                 lost = Violation("rounding", "rounded so coarsely its pivots would fall together")
                 new = [replace(each, usable=False, violations=(*each.violations, lost))]

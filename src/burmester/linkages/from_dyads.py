@@ -79,7 +79,7 @@ def _target_of(problem: SynthesisProblem) -> Target:
             for side in (0, 1)
         )
     return Target(
-        frames.see(task.poses),
+        frames.to_canonical(task.poses),
         length / float(frames.length),
         frames,
         task.requirements,
@@ -120,7 +120,7 @@ def _of_pairs(start: LinkageBatch, pairs: list[Pair], target: Target, refine: bo
     own = LinkageBatch.of([Linkage(a.dyad, b.dyad) for a, b in candidates.pairs]).dimensions
     changed = candidates.batch.dimensions != start.dimensions[index]
     changed = changed.any(axis=(1, 2), keepdims=True)
-    own = np.where(changed, candidates.batch.back(target.frames).dimensions, own)
+    own = np.where(changed, candidates.batch.from_canonical(target.frames).dimensions, own)
     return candidates._replace(own=LinkageBatch(candidates.batch.kinds, own))
 
 
@@ -187,7 +187,7 @@ def _search_starts(
     links = links_of_pivot_map(evaluation.target.poses, evaluation.problem.task.weights)
     own = {each.id: each for pair in pairs for each in pair}
     map_ = [
-        evaluation.dyad(f"M{number}", evaluation.target.frames.circle_back(link[None])[0])
+        evaluation.dyad(f"M{number}", evaluation.target.frames.circle_from_canonical(link[None])[0])
         for number, link in enumerate(links, start=1)
     ]
     every = [*pairs, *combinations(map_, 2), *product(own.values(), map_)]

@@ -88,7 +88,7 @@ def rounded(
     The rounding chosen has the least greatest (weighted) distance from the poses of all candidates.
     """
     stock = sorted({float(length) for length in stock})
-    out, places = batch.back(target.frames).dimensions.copy(), rows.copy()
+    out, places = batch.from_canonical(target.frames).dimensions.copy(), rows.copy()
     for k in range(len(batch)):
         side = 0 if driver is None else int(driver[k])
         one = _Rounding.of(batch[k : k + 1], rows[k], target, step=step, stock=stock, driver=side)
@@ -236,7 +236,7 @@ class _Rounding:
     def _batch(self, own: FloatArray) -> LinkageBatch:
         """Dimensions (n, 10) in the task's frames, as those of `target` see them."""
         kinds = np.broadcast_to(self.kinds, (len(own), 2))
-        return LinkageBatch(kinds, own.reshape(-1, 2, DIMENSIONS)).seen(self.target.frames)
+        return LinkageBatch(kinds, own.reshape(-1, 2, DIMENSIONS)).to_canonical(self.target.frames)
 
     def _candidates(self, own: FloatArray, rows: FloatArray | None = None) -> _Candidates:
         """Dimensions (n, 10), with the places that rows (N, 3) or (n, N, 3) lead to."""
@@ -319,7 +319,7 @@ class _Rounding:
             constraints=self.constraints if self.near_limit else None,
             worst=self.target.worst,
         )
-        new = refined.batch.back(self.target.frames).dimensions.reshape(-1, SIZE)
+        new = refined.batch.from_canonical(self.target.frames).dimensions.reshape(-1, SIZE)
         new = np.where(fixed, own[sound], new)
         after = self._candidates(new, refined.rows)
         # Where the refit diverges, the candidates before it stay.

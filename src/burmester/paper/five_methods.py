@@ -104,7 +104,7 @@ def _searched(
     poses: Displacement,
 ) -> Answer:
     began = time.perf_counter()
-    fit = method(frames.see(poses), starts)
+    fit = method(frames.to_canonical(poses), starts)
     seconds = time.perf_counter() - began
     count, pairs = len(fit.residual), starts.radius.ndim == 2
     parts = (fit.dyads.fixed_pivot, fit.dyads.moving_pivot, fit.dyads.radius[..., None])
@@ -127,7 +127,7 @@ def _searched(
     x = np.concatenate([*lowest, np.empty((0, 5))])
     return _answer(
         name,
-        frames.circle_back(RR(x[:, :2], x[:, 2:4], x[:, 4])),
+        frames.circle_from_canonical(RR(x[:, :2], x[:, 2:4], x[:, 4])),
         poses,
         seconds,
         starts=count,

@@ -86,13 +86,13 @@ class Box:
         """Half of the sides (3,) that the eye sees; the middle is its origin."""
         return np.asarray((self.high - self.low) / 2 * self.scale)
 
-    def seen(self, points: ArrayLike) -> FloatArray:
+    def to_box(self, points: ArrayLike) -> FloatArray:
         """Points (*, 3) of the chart, as the eye has them."""
         p = np.asarray(points, dtype=np.float64)
         return np.asarray((p - (self.low + self.high) / 2) * self.scale)
 
-    def unseen(self, points: FloatArray) -> FloatArray:
-        """What `seen` undoes."""
+    def from_box(self, points: FloatArray) -> FloatArray:
+        """What `to_box` undoes."""
         return np.asarray(points / self.scale + (self.low + self.high) / 2)
 
     def forms(self, matrices: ArrayLike) -> FloatArray:

@@ -75,7 +75,7 @@ def scene_of(
     forms = forms.reshape(-1, 4, 4)
     ticks = 2 * box.half[2] / RINGS
     # Rings where Z3 = 0, and from there.
-    zero = float(box.seen(np.zeros(3))[2])
+    zero = float(box.to_box(np.zeros(3))[2])
     surfaces = tuple(
         Surface(
             form / np.abs(form).max(),
@@ -203,8 +203,8 @@ def image_space(
         ax.set_xlim(limits[0])
         ax.set_ylim(limits[1])
     frame = box_axes(ax, box, camera, unit)
-    lines = [line for loop in loops for line in _curve(ax, scene, box.seen(chart(loop)))]
-    markers, labels = _points(ax, scene, box.seen(chart(places)), numbers)
+    lines = [line for loop in loops for line in _curve(ax, scene, box.to_box(chart(loop)))]
+    markers, labels = _points(ax, scene, box.to_box(chart(places)), numbers)
     if names:
         patches = [
             Patch(facecolor=colours[k % len(colours)], edgecolor=BLACK, label=name)
