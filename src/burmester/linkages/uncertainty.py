@@ -173,8 +173,9 @@ def covariance(
     fixed: (k, m, 10), derivatives of quantities that do not change, such as active limits; zero
         rows are left out.  An exact pose has a large weight instead, as its own errors count.
     Order of the dimensions: dyad by dyad as in `LinkageBatch`; unused slots are zero.  All in one
-    frame and unit, where lengths are about 1: `pose_error.error_frames` with `LinkageBatch.to_canonical`,
-    and sigma in that unit; the origin of M stays, as pose errors are those of this point.
+    frame and unit, where lengths are about 1: `pose_error.error_frames` with
+    `LinkageBatch.to_canonical`, and sigma in that unit; the origin of M stays, as pose errors are
+    those of this point.
     What the poses do not determine has a standard deviation of at least UNKNOWN_DEVIATION.
     """
     count = places.shape[1]
