@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.fourbar.canonical_frames import CanonicalFrames
-from burmester.fourbar.foot_points import foot_points, rows_of
+from burmester.fourbar.foot_points import foot_points, places_of, rows_of
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.refinement import refine
@@ -191,7 +191,7 @@ def sampson_residuals(
     count, number = len(linkages), rows.shape[-2]
     rows = np.broadcast_to(rows, (count, number, 3))
     with np.errstate(all="ignore"):
-        miss, force, partial = linkages.jacobians(Displacement(rows[..., :2], rows[..., 2]))
+        miss, force, partial = linkages.jacobians(Displacement.from_poses(rows))
         a, b, c = ((force[:, i] * force[:, j]).sum(-1) for i, j in ((0, 0), (0, 1), (1, 1)))
         first, height = np.sqrt(a), np.sqrt(np.maximum(c - b * b / a, 1e-20 * c))
         root = np.sqrt(share)
@@ -222,7 +222,7 @@ def refine_best(
         start = foot_points(
             linkages, np.broadcast_to(rows, (len(linkages), *rows.shape)), rows, length
         )
-        places = Displacement(start[..., :2], start[..., 2] / length)
+        places = places_of(start, length)
         fine = refine(linkages, places, poses, length, weights=weights)
         cost = (weights * ((fine.rows - rows) ** 2).sum(axis=-1)).sum(axis=-1)
     cost = np.nan_to_num(cost, nan=np.inf)

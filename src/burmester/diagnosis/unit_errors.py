@@ -148,7 +148,7 @@ def _fit_multiples(left_out: LeaveOneOut, candidates: NDArray[np.intp]) -> tuple
         linkages, labels = concatenate([linkages, new]), np.append(labels, np.full(len(new), k))
     if len(normalized.rows) <= MAX_POSES_ALL_LEFT_OUT:
         weights = np.broadcast_to(normalized.weights, rows.shape[:2])
-        pencils, _ = pencil_pairs(Displacement(rows[..., :2], rows[..., 2]), weights)
+        pencils, _ = pencil_pairs(Displacement.from_poses(rows), weights)
         linkages, labels = concatenate([linkages, pencils]), np.append(labels, index)
     share = np.broadcast_to(normalized.weights, (len(linkages), len(normalized.rows)))
     return rows, fit_in_two_steps(linkages, labels, rows[labels], share)
@@ -209,7 +209,7 @@ def _candidates(left_out: LeaveOneOut) -> NDArray[np.intp]:
         every[np.arange(len(multiples)), :, np.arange(len(multiples))] = multiples
         every = every.reshape(-1, len(multiples), 3)
         weights = np.broadcast_to(normalized.weights, every.shape[:2])
-        _, distances = pencil_pairs(Displacement(every[..., :2], every[..., 2]), weights)
+        _, distances = pencil_pairs(Displacement.from_poses(every), weights)
         best = np.argsort(distances, kind="stable")[:CANDIDATES]
         chosen += [(int(k // count), int(k % count)) for k in best]
     return np.array(list(dict.fromkeys(chosen)), dtype=np.intp).reshape(-1, 2)

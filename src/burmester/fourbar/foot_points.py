@@ -20,6 +20,7 @@ __all__ = [
     "constraint_normals",
     "foot_points",
     "newton_step",
+    "places_of",
     "rows_of",
     "wrapped",
 ]
@@ -72,6 +73,11 @@ def constraint_normals(residual: FloatArray, force: FloatArray, length: float) -
 def rows_of(places: Displacement, length: float) -> FloatArray:
     """Places (*,) as rows (*, 3) of x, y, length x angle."""
     return np.concatenate([places.translation, length * places.angle[..., None]], axis=-1)
+
+
+def places_of(rows: FloatArray, length: float) -> Displacement:
+    """Rows (*, 3) of x, y, length x angle as places (*,): the inverse of `rows_of`."""
+    return Displacement(rows[..., :2], rows[..., 2] / length)
 
 
 def wrapped(gap: FloatArray, length: float) -> FloatArray:

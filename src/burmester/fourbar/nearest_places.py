@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.fourbar.circuits import Circuits, circuit_of, locate
-from burmester.fourbar.foot_points import foot_points, rows_of, wrapped
+from burmester.fourbar.foot_points import foot_points, places_of, rows_of, wrapped
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
@@ -81,7 +81,7 @@ def on_circuits(batch: LinkageBatch, poses: Displacement, length: float) -> Disp
             own = ends[done : done + len(start)]
             out[each.index, :, at : at + POSES_PER_BLOCK] = each.nearest(start, sample, own, block)
             done += len(start)
-    return Displacement(out[..., :2], out[..., 2] / length)
+    return places_of(out, length)
 
 
 def on_own_circuits(
@@ -103,7 +103,7 @@ def on_own_circuits(
         side = np.where(mixed[:, None], _nearest_of(both[index], target, 1), np.maximum(circuit, 0))
         own = both[index[:, None], side, every]
         nearer[index] = np.where((circuit >= 0)[..., None], own, rows[index])
-    places = Displacement(rows[..., :2], rows[..., 2] / length)
+    places = places_of(rows, length)
     off = np.abs(batch.jacobians(places).residual).max(axis=1) > ON_LINKAGE
     least = _squares(rows, target) * (1 + EQUALLY_NEAR)
     better = off | (_squares(nearer, target) <= least)

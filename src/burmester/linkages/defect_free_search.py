@@ -17,7 +17,7 @@ from burmester.dyads.pivot_map import fixed_pivot_map, grid
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.circuits import Circuits, circuit_of
 from burmester.fourbar.dyad import RR
-from burmester.fourbar.foot_points import newton_step, rows_of
+from burmester.fourbar.foot_points import newton_step, places_of, rows_of
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.nearest_places import on_circuits
 from burmester.geometry.displacement import Displacement
@@ -195,7 +195,7 @@ def _projected(
     with np.errstate(all="ignore"):
         for _ in range(PROJECTION_STEPS):
             rows = rows + newton_step(surfaces, rows, rows, length)[0]
-        places = Displacement(rows[..., :2], rows[..., 2] / length)
+        places = places_of(rows, length)
         on = np.abs(batch.jacobians(places).residual) < ON_LINKAGE
         return rows, np.asarray(on.all(axis=(1, 2)))
 

@@ -83,7 +83,7 @@ class Evaluation:
             if candidates.own is None
             else candidates.own
         )
-        places = self.target.frames.from_canonical(self._places(candidates.rows))
+        places = self.target.frames.from_canonical(self.target.places_of(candidates.rows))
         errors = [PoseError.at(places[k], self.task.poses) for k in range(len(own))]
         verdicts = self._verdicts(own, places, errors)
         sides = np.tile(np.arange(2), (len(own), 1))
@@ -162,9 +162,6 @@ class Evaluation:
             return FoundDyad(origin, dyad, rms, worst, False)
         return replace(origin, dyad=dyad, rms_error=rms, max_error=worst)
 
-    def _places(self, rows: FloatArray) -> Displacement:
-        return Displacement(rows[..., :2], rows[..., 2] / self.target.length)
-
     def _verdicts(
         self, own: LinkageBatch, places: Displacement, errors: list[PoseError]
     ) -> list[Verdict]:
@@ -227,7 +224,7 @@ class Evaluation:
         sound = np.flatnonzero(np.isfinite(rows).all(axis=(1, 2)))
         if not len(sound):
             return found
-        unit, places = float(self.target.frames.length), self._places(rows[sound])
+        unit, places = float(self.target.frames.length), self.target.places_of(rows[sound])
         position, angle = pose_sigma(self.task)
         weights = self.task.weights
         if self.task.exact is not None:

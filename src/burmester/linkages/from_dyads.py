@@ -19,7 +19,6 @@ from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import DYAD_KINDS, LinkageBatch
 from burmester.fourbar.nearest_places import nearest, on_circuits, on_own_circuits
 from burmester.fourbar.pose_error import error_frames
-from burmester.geometry.displacement import Displacement
 from burmester.linkages.constraints import AllConstraints, Constraints, DyadLimitsConstraint
 from burmester.linkages.defect_free_search import defect_free_linkages, links_of_pivot_map
 from burmester.linkages.evaluation import Candidates, Evaluation
@@ -95,9 +94,7 @@ def _of_pairs(start: LinkageBatch, pairs: list[Pair], target: Target, refine: bo
     every = np.arange(len(start))
     rows = rows_of(on_circuits(start, target.poses, target.length), target.length)
     one = rows[every, np.nan_to_num(target.cost(rows), nan=np.inf).argmin(axis=1)]
-    places = nearest(
-        Displacement(rows[..., :2], rows[..., 2] / target.length), target.poses, target.length
-    )
+    places = nearest(target.places_of(rows), target.poses, target.length)
     best = rows_of(places, target.length)
     wanted = rows_of(target.poses, target.length)
     away, least = (

@@ -13,9 +13,13 @@ from typing import NamedTuple, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.fourbar.foot_points import ConstraintNormals, constraint_normals, newton_step
+from burmester.fourbar.foot_points import (
+    ConstraintNormals,
+    constraint_normals,
+    newton_step,
+    places_of,
+)
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
-from burmester.geometry.displacement import Displacement
 from burmester.linkages.constraints import Constraints
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.differences import DifferenceQuotients
@@ -111,7 +115,7 @@ class Problem:
             rows = rows + step
             if not (size > CLOSE_STEP).any():
                 break
-        places = Displacement(rows[..., :2], rows[..., 2] / self.length)
+        places = places_of(rows, self.length)
         residual, force, partial = batch.jacobians(places)
         off = ~(np.abs(residual) < OFF_LINKAGE).all(axis=(1, 2))
         rows[off] = np.nan

@@ -25,7 +25,6 @@ from burmester.fourbar.circuits import circuit_of
 from burmester.fourbar.foot_points import foot_points, rows_of
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.fourbar.nearest_places import on_circuits
-from burmester.geometry.displacement import Displacement
 from burmester.linkages.constraints import (
     SHORTEST_LINK,
     AllConstraints,
@@ -245,7 +244,7 @@ class _Rounding:
         with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
             rows = foot_points(batch, start, wanted, self.target.length)
             # Two equal dyads leave no direction back to the linkage: places off it are lost.
-            at = Displacement(rows[..., :2], rows[..., 2] / self.target.length)
+            at = self.target.places_of(rows)
             rows[~(np.abs(batch.jacobians(at).residual) < OFF_LINKAGE).all(axis=(1, 2))] = np.nan
             away = np.sqrt(((rows - wanted) ** 2).sum(axis=-1))
             away = away * np.sqrt(weights_of_mean_one(self.target.weights, rows.shape[1:2]))
@@ -347,7 +346,7 @@ class _Rounding:
 
         def on_one(batch: LinkageBatch, rows: FloatArray) -> NDArray[np.bool_]:
             out = np.zeros(len(batch), dtype=bool)
-            places = Displacement(rows[..., :2], rows[..., 2] / self.target.length)
+            places = self.target.places_of(rows)
             for index, linkage in batch.alike():
                 circuit = circuit_of(linkage, places[index], as_given=True).circuit
                 out[index] = (circuit == circuit[:, :1]).all(axis=1)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.fourbar.canonical_frames import CanonicalFrames
-from burmester.fourbar.foot_points import rows_of
+from burmester.fourbar.foot_points import places_of, rows_of
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.nearest_places import on_circuits
 from burmester.geometry.displacement import Displacement
@@ -76,7 +76,7 @@ class Target:
 
     def places_of(self, rows: FloatArray) -> Displacement:
         """Rows (*, 3) as displacements."""
-        return Displacement(rows[..., :2], rows[..., 2] / self.length)
+        return places_of(rows, self.length)
 
     def cost(self, rows: FloatArray) -> FloatArray:
         """The weighted sum of squared distances (*,) of rows (*, N, 3) from the poses."""

@@ -18,7 +18,7 @@ from typing import final
 import numpy as np
 
 from burmester.fourbar.dyad import PR, RP, RR
-from burmester.fourbar.foot_points import constraint_normals, newton_step, rows_of
+from burmester.fourbar.foot_points import constraint_normals, newton_step, places_of, rows_of
 from burmester.fourbar.linkage_batch import DIMENSIONS, DYAD_KINDS, LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.uncertainty import line_middle
@@ -134,7 +134,7 @@ def sensitivity(
     # tangent bends the distance.
     multipliers = -at.solve(np.einsum("knac,knc->kna", at.force, gap))
     nudge = TANGENT_STEP * length * tangent
-    ahead, behind = (batch.jacobians(_places(here + sign * nudge, length)) for sign in (1, -1))
+    ahead, behind = (batch.jacobians(places_of(here + sign * nudge, length)) for sign in (1, -1))
     step = 2 * TANGENT_STEP * length
     turning = np.einsum("kna,kanc->knc", multipliers, (ahead.force - behind.force) / step)
     turning[..., 2] /= length
@@ -179,7 +179,7 @@ def monte_carlo(
         built = LinkageBatch(np.broadcast_to(batch.kinds[k], (draws, 2)), dimensions[k])
         for at in _blocks(poses):
             rows[k, :, at] = _nearest(built, poses[at], places[k, at], length)
-    reached = _places(rows, length)
+    reached = places_of(rows, length)
     gap = reached.translation - poses.translation
     position = np.nan_to_num(np.hypot(gap[..., 0], gap[..., 1]), nan=np.inf)
     return Built(dimensions, reached, position)
@@ -212,10 +212,6 @@ def _dimensions_by_errors(batch: LinkageBatch, middle: FloatArray, length: float
         made[rows, at, at] = 1 / length
         made[rows, at + 1, at] = middle[rows] / length  # turned about the middle
     return made
-
-
-def _places(rows: FloatArray, length: float) -> Displacement:
-    return Displacement(rows[..., :2], rows[..., 2] / length)
 
 
 def _percentile_95(greatest: FloatArray) -> FloatArray:
