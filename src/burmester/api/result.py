@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 __all__ = ["ReadResult", "Result", "read_result"]
 
 LINES = 12  # of a `repr`, at most
+SENTENCES = 4  # of these, on the best linkage and as warnings; `warnings` has them all
 
 AnyLinkage = TypeVar("AnyLinkage", ResultLinkage, ReadLinkage)
 
@@ -182,8 +183,8 @@ class Result(_RankedLinkages[ResultLinkage], Synthesis):
         return Path(path)
 
     def __repr__(self) -> str:
-        warned = [f"{each.code}: {each.message}" for each in self.warnings]
-        return self._text([*best_sentences(self), *warned][:4])
+        warnings = (f"{each.code}: {each.message}" for each in self.warnings)
+        return self._text([*best_sentences(self), *warnings][:SENTENCES])
 
     def _repr_html_(self) -> str:
         return self._html([*best_sentences(self), *(each.message for each in self.warnings)])
