@@ -263,10 +263,12 @@ def test_five_conditions_of_any_mix_are_met_exactly_and_the_generating_linkage_i
         far = max([size] + [float(x.dyad.radius) for x in found.dyads if isinstance(x.dyad, RR)])
         if found.from_search:  # it misses the poses, and by no less than it says
             assert found.usable
-            ours = np.hypot(found.error.position, synthesis.length * found.error.angle)
-            assert (ours > misses(found.linkage, poses, synthesis.length) - 1e-6 * far).all()
+            ours = np.hypot(found.error.position, synthesis.length_per_radian * found.error.angle)
+            assert (
+                ours > misses(found.linkage, poses, synthesis.length_per_radian) - 1e-6 * far
+            ).all()
         elif not any(each.kind == "assembly" for each in found.defects):
-            assert misses(found.linkage, poses, synthesis.length).max() < 1e-5 * far
+            assert misses(found.linkage, poses, synthesis.length_per_radian).max() < 1e-5 * far
     # All pairs meet the poses, be it on two circuits.
     pairs = {tuple(dyad.id for dyad in found.dyads) for found in synthesis.linkages}
     met = {
@@ -296,7 +298,7 @@ def test_each_dyad_obeys_its_own_of_two_limits(seed):
         assert [dyad.limits for dyad in found.dyads] == [1, 2]
         if all(isinstance(dyad.dyad, RR) for dyad in found.dyads):
             # Every pose is as near as the linkage's own figure says.
-            driven = misses(found.linkage, one.poses, synthesis.length)
+            driven = misses(found.linkage, one.poses, synthesis.length_per_radian)
             assert driven[3] < 1e-6 * synthesis.length
 
 

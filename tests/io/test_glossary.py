@@ -23,6 +23,7 @@ TASK = {
         {"x": -2.7383, "y": 1.4471, "angle_deg": 43.11},
         {"x": -2.9116, "y": 0.9103, "angle_deg": 44.55},
     ],
+    "body": [[0, 0], [1, 0], [0, 1]],
     "limits": {"kinds": ["RR", "PR", "RP"]},
     "requirements": {"footprint": {"box": [[-50, -50], [50, 50]]}, "any_order": True},
 }

@@ -163,8 +163,8 @@ def test_it_is_solved(name):
     best = synthesis.usable[0]
     assert best.determined
     assert not [each for each in synthesis.warnings if each.code != "W209"]
-    misses = witness.misses(best.linkage, task.poses, synthesis.length)
-    ours = np.hypot(best.error.position, synthesis.length * best.error.angle)
+    misses = witness.misses(best.linkage, task.poses, synthesis.length_per_radian)
+    ours = np.hypot(best.error.position, synthesis.length_per_radian * best.error.angle)
     assert misses == pytest.approx(ours, abs=1e-5 * synthesis.length)
     assert misses.max() < 0.02 * synthesis.length
     driven = least_transmission(best.linkage, task.poses)
@@ -176,7 +176,7 @@ def test_it_is_as_its_file_asks(name):
     task, synthesis = solved(name)
     best, tree = synthesis.usable[0], tomllib.loads(templates.text(name))
     marked = [isinstance(pose, dict) and pose.get("exact", False) for pose in tree["poses"]]
-    misses = witness.misses(best.linkage, task.poses, synthesis.length)
+    misses = witness.misses(best.linkage, task.poses, synthesis.length_per_radian)
     assert (misses[marked] < 1e-6 * synthesis.length).all()
     limits = tree.get("limits", {})
     tables = limits if isinstance(limits, list) else [limits, limits]

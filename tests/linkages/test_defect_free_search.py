@@ -76,7 +76,7 @@ def test_a_linkage_that_works_is_found_where_the_closest_does_not(count, seed):
         assert all(found.error.worst < worst for worst in plain)
     best = min(squares(found, result) for found in result.usable)
     # The known one, refined by SciPy, is not much nearer.
-    assert np.sqrt(best) < 1.05 * np.sqrt(known_cost(rows, known, result.length)) + 1e-9
+    assert np.sqrt(best) < 1.05 * np.sqrt(known_cost(rows, known, result.length_per_radian)) + 1e-9
 
 
 @pytest.mark.parametrize(("count", "seed"), [(5, 4), (5, 21), (5, 29)])
@@ -100,7 +100,7 @@ def test_scipy_comes_no_lower_from_there(count, seed):
             (way for way in ways if (np.diff(way) > 0).all() or (np.diff(way) < 0).all()),
             key=np.ptp,
         )
-        value, ok = slsqp(rows, result.length, led, drive)
+        value, ok = slsqp(rows, result.length_per_radian, led, drive)
         if ok:
             compared += 1
             assert np.sqrt(value) > 0.97 * np.sqrt(squares(found, result))
@@ -225,15 +225,15 @@ def main(tasks, seed):
         rows, known, result = solved("noisy", 5 if number % 2 else 8, number)
         ours = min((squares(found, result) for found in result.usable), default=np.inf)
         rng = np.random.default_rng(number)
-        best = known_cost(rows, known, result.length)
-        middle, unit = unit_of(rows, result.length)
+        best = known_cost(rows, known, result.length_per_radian)
+        middle, unit = unit_of(rows, result.length_per_radian)
         for _ in range(20):
             dyads = []
             for _ in range(2):
                 c, m = middle + 2 * unit * rng.normal(size=2), unit * rng.normal(size=2)
                 arm = result.task.poses.act(m) - c
                 dyads.append(RR(c, m, np.hypot(*arm.T).mean()))
-            value, ok = slsqp(rows, result.length, Linkage(*dyads), steps=150)
+            value, ok = slsqp(rows, result.length_per_radian, Linkage(*dyads), steps=150)
             best = min(best, value if ok else np.inf)
         ratios.append(np.sqrt((ours + 1e-12) / (best + 1e-12)))
         print(number, f"ours {np.sqrt(ours):.4g} SciPy {np.sqrt(best):.4g}", flush=True)

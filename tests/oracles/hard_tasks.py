@@ -141,9 +141,11 @@ def unit_of(rows, length):
 def squares(found, result):
     """The sum of squared distances of a linkage, in the motion's size."""
     at = result.task.poses
-    _, unit = unit_of(np.column_stack([at.translation, at.angle]), result.length)
+    _, unit = unit_of(np.column_stack([at.translation, at.angle]), result.length_per_radian)
     error = found.error
-    return ((error.position**2).sum() + result.length**2 * (error.angle**2).sum()) / unit**2
+    return (
+        (error.position**2).sum() + result.length_per_radian**2 * (error.angle**2).sum()
+    ) / unit**2
 
 
 def slsqp(  # noqa: PLR0917

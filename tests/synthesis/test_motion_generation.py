@@ -23,7 +23,7 @@ def drive_all(synthesis, slack=0.0):
     On the circuit where it says that the coupler is; and those called usable lead through the
     poses.  Far from the poses the nearest place is a heuristic, and may be short of it by `slack`.
     """
-    poses, length = synthesis.task.poses, synthesis.length
+    poses, length = synthesis.task.poses, synthesis.length_per_radian
     rows = np.column_stack([poses.translation, poses.angle])
     assert synthesis.linkages
     for found in synthesis.linkages:
@@ -213,7 +213,7 @@ def test_round_trip_of_random_linkages(second, count, seed):
         assert min(gaps) < 1e-6 * span(rows)
 
 
-def test_ranking_is_by_worst_error_and_does_not_depend_on_pose_order():
+def test_ranking_is_by_both_errors_and_does_not_depend_on_pose_order():
     rng = np.random.default_rng(5)
     rows = random_poses(random_four_bar(rng), rng, 5, ordered=True)
     first = synthesize(Task(Displacement.from_poses(rows)))
@@ -224,9 +224,19 @@ def test_ranking_is_by_worst_error_and_does_not_depend_on_pose_order():
     noisy = rng.normal(scale=0.02, size=(20, 3)) + random_poses(
         random_four_bar(rng), rng, 20, ordered=True
     )
-    ranked = synthesize(Task(Displacement.from_poses(noisy))).linkages
-    worst = [(not found.usable, found.error.worst) for found in ranked]
-    assert worst == sorted(worst)
+    synthesis = synthesize(Task(Displacement.from_poses(noisy)))
+    keys = []
+    for found in synthesis.linkages:
+        both = np.hypot(found.error.position, synthesis.length_per_radian * found.error.angle)
+        error = float(np.sqrt((both**2).mean()))
+        assert found.combined_error == pytest.approx(error, rel=1e-9)
+        keys.append((not found.usable, bool(found.shortcomings), error))
+    assert any(usable for usable, *_ in keys)
+    least = min((error for failed, _, error in keys if not failed), default=np.inf)
+    keys = [(failed, poor or error > 3 * least, error) for failed, poor, error in keys]
+    failing = [key[0] for key in keys]
+    assert failing == sorted(failing)
+    assert keys[1:] == sorted(keys[1:], key=lambda key: (key[0], not key[0] and key[1], key[2]))
 
 
 @pytest.mark.parametrize(

@@ -5,11 +5,15 @@ import pytest
 from burmester import read_task
 from burmester.synthesis.motion_generation import synthesize
 from burmester.synthesis.outcome import linkage_advice
+from burmester.tasks.motion_task import characteristic_length
+from burmester.tasks.options import SynthesisOptions
 
 
 @pytest.fixture(scope="module")
 def synthesis():
-    return synthesize(read_task("case:ge2012-exact"))
+    task = read_task("case:ge2012-exact")
+    options = SynthesisOptions(length_per_radian=characteristic_length(task))
+    return synthesize(task, options)
 
 
 def test_a_better_transmission_is_named_only_where_it_is_better(synthesis):

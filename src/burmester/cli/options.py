@@ -169,6 +169,12 @@ SPECIFICATION: tuple[Decorator, ...] = (
     ),
     _specification("--within", metavar="LENGTH", help="Largest position error allowed at a pose."),
     _specification(
+        "--within-angle",
+        metavar="DEG",
+        help="Largest angle error allowed at a pose; by default the angle that counts as much as "
+        "the position error of --within.",
+    ),
+    _specification(
         "--any-order",
         is_flag=True,
         help="The poses may be met in any order.",
@@ -196,8 +202,8 @@ METHOD: tuple[Decorator, ...] = (
         "--angle-weight",
         "length_per_radian",
         metavar="LENGTH",
-        help="The position error that counts as much as one radian of angle error; by default the "
-        "size of the motion.",
+        help="The position error that counts as much as one radian of angle error; by default a "
+        "third of the travel per radian of turn, or the radius of gyration of the body.",
     ),
     _method("--certify", is_flag=True, help="Prove with interval arithmetic what can be proved."),
     _method(
@@ -295,5 +301,6 @@ _REQUIREMENTS = (
     "footprint",
     "link_ratio",
     "within",
+    "within_angle",
     "any_order",
 )

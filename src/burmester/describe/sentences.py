@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from burmester.describe.digits import degrees
 from burmester.describe.dimensions import certain
 from burmester.linkages import explanation
 from burmester.linkages.found_linkage import FoundLinkage
+from burmester.linkages.ranking import TRADE_GAIN, closest_usable, is_trade
 from burmester.linkages.uncertainty import pose_sigma
 from burmester.numerics.arrays import ROUNDING
 from burmester.synthesis.result import Synthesis
@@ -35,13 +37,14 @@ def best_sentences(synthesis: Synthesis) -> Iterator[str]:
         f"Best: {best.id}, {with_article(kind)} driven by {best.dyads_driver_first[0].id}, "
         f"{_passes(synthesis, best)}, transmission angle {least} or more."
     )
-    nearest = explanation.by_nearness(synthesis.linkages, size)[0]
-    if not nearest.usable and _nearer(nearest, best, size):
+    nearest = explanation.by_nearness(synthesis.linkages)[0]
+    if not nearest.usable and _nearer(nearest, best):
         yield (
             f"This one works and {explanation.nearness(best, task, size)}; "
             f"the closest one, {nearest.id}, "
             f"{explanation.in_short(nearest, task, size)}."
         )
+    yield from _prices(synthesis, best)
     if not best.determined:
         better = next((each for each in synthesis.usable if each.determined), None)
         if better is not None:
@@ -58,8 +61,29 @@ def _passes(synthesis: Synthesis, best: FoundLinkage) -> str:
     return f"passes every pose within {worst} and {degrees(float(best.error.angle.max()))}"
 
 
-def _nearer(one: FoundLinkage, other: FoundLinkage, size: float) -> bool:
-    return one.error.worst < other.error.worst - ROUNDING * size
+def _nearer(one: FoundLinkage, other: FoundLinkage) -> bool:
+    return one.combined_error < (1 - ROUNDING) * other.combined_error
+
+
+def _prices(synthesis: Synthesis, best: FoundLinkage) -> Iterator[str]:
+    """What the closest usable linkage, and others that trade one error for the other, cost."""
+    task, size = synthesis.task, synthesis.length
+    closest = closest_usable(synthesis.linkages)
+    assert closest is not None
+    if closest.shortcomings and not best.shortcomings and _nearer(closest, best):
+        near = explanation.nearness(closest, task, size)
+        yield f"Closest: {closest.id}, which {near}, but {' and '.join(closest.shortcomings)}."
+    others = [each for each in synthesis.usable if is_trade(each, best)]
+    for text, error in (
+        ("nearer in position", lambda each: each.error.worst),
+        ("truer in angle", lambda each: float(each.error.angle.max())),
+    ):
+        gains = [each for each in others if error(each) <= TRADE_GAIN * error(best)]
+        if gains:
+            other = min(gains, key=lambda each: each.combined_error)
+            short = f", but {' and '.join(other.shortcomings)}" if other.shortcomings else ""
+            near = explanation.nearness(other, task, size)
+            yield f"{text[0].upper()}{text[1:]}: {other.id}, which {near}{short}."
 
 
 def notes(synthesis: Synthesis, found: FoundLinkage) -> list[str]:
@@ -119,10 +143,15 @@ def rounding_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
 
 def footnotes(synthesis: Synthesis) -> str:
     """What the columns of the tables are, and the order of their rows."""
-    unit = synthesis.task.length_unit or "the unit of the poses"
+    task = synthesis.task
+    unit = task.length_unit or "the unit of the poses"
     text = f"Lengths in {unit}; F is the ground, M the body."
     if synthesis.linkages:
-        text += " Usable linkages come first, then those that miss least."
+        counts = notation.length_of(math.radians(synthesis.length_per_radian), task)
+        text += (
+            " Usable linkages come first, sound ones before others, then the nearest; "
+            f"1° counts as {counts}."
+        )
     if any(dyad.id[0] == "M" for found in synthesis.linkages for dyad in found.dyads):
         text += " Dyads M come from the pivot map."
     if synthesis.usable:

@@ -65,6 +65,13 @@ class PoseError:
         found = nearest(on_circuits(batch, seen, unit), seen, unit)
         return cls.at(frames.from_canonical(found)[0], poses)
 
+    def combined(self, length: float) -> FloatArray:
+        """Both errors in one, (N,): the position error, and the angle's as if `length` a radian.
+
+        This is what a refinement makes least.  Infinite where there is no place near the pose.
+        """
+        return np.nan_to_num(np.hypot(self.position, length * self.angle), nan=np.inf)
+
     @property
     def worst(self) -> float:
         """The greatest position error; infinite where there is no place near some pose."""

@@ -82,6 +82,8 @@ def linkage_data(found: FoundLinkage, tolerance: float | None = None) -> dict[st
         "dyads": [dyad_data(dyad) for dyad in found.dyads],
         "position_error": _errors(found.error.position),
         "angle_error_deg": _errors(np.degrees(found.error.angle)),
+        "combined_error": number(found.combined_error),
+        "shortcomings": list(found.shortcomings),
         "defects": [_defect(each) for each in found.defects],
         "unmet": [{"kind": each.kind, "message": each.message} for each in found.violations],
         "sought": found.from_search,

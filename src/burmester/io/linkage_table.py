@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 
 from rich import box
@@ -12,7 +11,7 @@ from rich.table import Table
 from rich.text import Text
 
 from burmester.describe import sentences
-from burmester.describe.digits import degrees, links, worst_errors
+from burmester.describe.digits import links, worst_errors
 from burmester.describe.dimensions import certain, dimensions
 from burmester.linkages import explanation
 from burmester.linkages.found_linkage import FoundLinkage
@@ -49,7 +48,7 @@ def closest_three(synthesis: Synthesis) -> list[FoundLinkage]:
     """The closest linkages where none is usable, else none."""
     if synthesis.usable:
         return []
-    return explanation.by_nearness(synthesis.linkages, synthesis.length)[:CLOSEST]
+    return explanation.by_nearness(synthesis.linkages)[:CLOSEST]
 
 
 def usable_table(synthesis: Synthesis, console: Console) -> Table:
@@ -65,7 +64,7 @@ def usable_table(synthesis: Synthesis, console: Console) -> Table:
 
 
 def _usable(synthesis: Synthesis, usable: Sequence[FoundLinkage], pins: bool, gap: int) -> Table:
-    table = new_table("Usable, by worst miss", gap)
+    table = new_table("Usable, the best first", gap)
     table.add_column("", no_wrap=True)
     table.add_column("type")
     table.add_column("dyads", no_wrap=True)
@@ -93,9 +92,6 @@ def unusable(synthesis: Synthesis, found: Sequence[FoundLinkage]) -> Group:
     for each in found[:MOST_UNUSABLE]:
         dyads = " ".join(dyad.id for dyad in each.dyads_driver_first)
         how = explanation.nearness(each, synthesis.task, synthesis.length)
-        angle = float(each.error.angle.max())
-        if math.isfinite(angle) and not explanation.meets_exactly(each, synthesis.length):
-            how += f" and {degrees(angle)}"
         if each.error_before_rounding is not None:
             before = notation.length_of(each.error_before_rounding.worst, synthesis.task)
             how += f" (before rounding {before})"

@@ -51,6 +51,7 @@ def synthesis_data(synthesis: Synthesis) -> dict[str, Any]:
         "linkages": [linkage_data(each, tolerance) for each in synthesis.linkages],
         "warnings": list(map(message_data, synthesis.warnings)),
         "characteristic_length": synthesis.length,
+        "length_per_radian": synthesis.length_per_radian,
         "singular_values": _singular_values(synthesis),
         **_critical_points(synthesis),
         "search": [_search(fit) for fit in synthesis.fits],
@@ -82,6 +83,8 @@ def task_data(task: Task) -> dict[str, Any]:
     data: dict[str, Any] = {"poses": poses, "length_unit": task.length_unit}
     if task.limits:
         data["limits"] = [_limits(each) for each in task.limits]
+    if task.body is not None:
+        data["body"] = task.body.vertices.tolist()
     if task.requirements.has_any:
         data["requirements"] = requirements_data(task.requirements)
     position, angle = (given / math.sqrt(3) for given in task.resolution)

@@ -39,7 +39,13 @@ from burmester.numerics.bundles import concatenate, take
 from burmester.numerics.weights import weights_of_mean_one
 from burmester.tasks.requirements import Requirements
 
-__all__ = ["SearchResult", "defect_free_linkages", "links_of_pivot_map", "middle_input"]
+__all__ = [
+    "SearchResult",
+    "defect_free_linkages",
+    "links_of_pivot_map",
+    "middle_input",
+    "refined_on_branch",
+]
 
 MAX_STARTS = 96  # number of starts at most
 # Number of refinement steps, and of the best starts that the next stage keeps.
@@ -100,6 +106,23 @@ def defect_free_linkages(batch: LinkageBatch, target: Target) -> SearchResult | 
             return None
         starts = take(starts, order)._replace(batch=found.batch[order], rows=found.rows[order])
     return SearchResult(found, starts.pair)
+
+
+def refined_on_branch(
+    batch: LinkageBatch, rows: FloatArray, target: Target, side: int, *, steps: int
+) -> Refined:
+    """Linkages (k,) refined under all constraints, on the branches of their places (k, N, 3).
+
+    side: the dyad that drives.
+    """
+    every, lead = np.arange(len(batch)), np.full(len(batch), side)
+    sine = signed_transmission_sine(batch, rows, target.length, lead)
+    middle = middle_input(batch, target.places_of(rows[:, 0]), side)
+    branch = DrivenBranch(lead, np.where(np.nansum(sine, axis=1) < 0, -1.0, 1.0), middle)
+    constraints = _all_constraints(_Starts(every, batch, rows, branch), target)
+    return target.refine(
+        batch, rows, constraints=constraints, worst=target.worst, constrained_steps=steps
+    )
 
 
 def links_of_pivot_map(poses: Displacement, weights: FloatArray | None = None) -> list[RR]:

@@ -1,7 +1,8 @@
-"""Linkages evaluated: their errors, defects, uncertainty and requirements; ranked."""
+"""Linkages evaluated: their errors, defects, uncertainty, requirements and standard; ranked."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple, final
@@ -9,9 +10,9 @@ from typing import NamedTuple, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.dyads.selection import FoundDyad, same_dyad
+from burmester.dyads.selection import FoundDyad
 from burmester.fourbar.defects import Defect, Verdict, judge
-from burmester.fourbar.dyad import RR, Dyad
+from burmester.fourbar.dyad import Dyad
 from burmester.fourbar.foot_points import rows_of
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
@@ -19,12 +20,14 @@ from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.constraints import AllConstraints
 from burmester.linkages.found_linkage import FoundLinkage, Pair, Side, with_driver_first
+from burmester.linkages.quality import Standard
+from burmester.linkages.ranking import ranked
 from burmester.linkages.requirement_check import Violation, violations
 from burmester.linkages.rounding import rounded
 from burmester.linkages.target import Target
 from burmester.linkages.tolerances import spread
 from burmester.linkages.uncertainty import covariance, links_deviation, pose_sigma, uncertainties
-from burmester.numerics.arrays import ROUNDING, FloatArray
+from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import take
 from burmester.numerics.differences import DifferenceQuotients
 from burmester.numerics.weights import weights_or_ones
@@ -33,7 +36,8 @@ from burmester.tasks.problem import SynthesisProblem
 
 __all__ = ["Candidates", "Evaluation"]
 
-ASSEMBLY_REACH = 0.1  # motion sizes; a pose missed by more is an assembly defect
+# Motion sizes; a pose that is missed by more, or by as much in its angle, is an assembly defect.
+ASSEMBLY_REACH = 0.1
 MIN_LINK = 1e-6  # motion sizes; linkages with a shorter ground link or coupler are dropped
 DETERMINED_SHARE = 0.05  # spans of the motion; pivots with larger regions are not determined
 EXACT_WEIGHT = 1e8  # weight of an exact pose in the covariance
@@ -86,6 +90,8 @@ class Evaluation:
         places = self.target.frames.from_canonical(self.target.places_of(candidates.rows))
         errors = [PoseError.at(places[k], self.task.poses) for k in range(len(own))]
         verdicts = self._verdicts(own, places, errors)
+        combined = self.target.combined_error(candidates.rows) * float(self.target.frames.length)
+        standard = Standard.of(self.task)
         sides = np.tile(np.arange(2), (len(own), 1))
         out = []
         for k, verdict in enumerate(verdicts):
@@ -97,36 +103,25 @@ class Evaluation:
                 parts = _exchanged(linkage, verdict, candidates.pairs[k])
             linkage, verdict, driver, (one, two) = parts  # noqa: PLW2901
             dyads = self.dyad(one, linkage.first), self.dyad(two, linkage.second)
-            values = (dyads, linkage, errors[k], verdict, driver, usable, missing)
-            out.append(FoundLinkage("", 0, *values, bool(candidates.from_search[k])))
+            found = FoundLinkage(
+                "",
+                0,
+                dyads,
+                linkage,
+                errors[k],
+                float(combined[k]),
+                verdict,
+                driver,
+                usable,
+                missing,
+                from_search=bool(candidates.from_search[k]),
+            )
+            out.append(replace(found, shortcomings=standard.shortcomings(found, self.task)))
         rows = np.arange(len(own))[:, None]
         batch = LinkageBatch(
             candidates.batch.kinds[rows, sides], candidates.batch.dimensions[rows, sides]
         )
-        return self.ranked(self._with_uncertainty(out, batch, candidates.rows))
-
-    def ranked(self, found: list[FoundLinkage]) -> list[FoundLinkage]:
-        """Usable linkages first, then by the worst error; equal linkages once.
-
-        Of several failing linkages from one pair of dyads only the closest is kept.
-        """
-
-        def order(each: FoundLinkage) -> tuple[bool, float]:
-            worst = np.round(each.error.worst / (ROUNDING * self.problem.length_per_radian))
-            return not each.usable, float(worst)
-
-        size = float(self.target.frames.length)
-        out: list[FoundLinkage] = []
-        failed = set()
-        for each in sorted(found, key=order):  # stable: the order of the dyads stays
-            pair = frozenset(dyad.id for dyad in each.dyads)
-            if any(_same(each.linkage, other.linkage, size) for other in out):
-                continue
-            if each.usable or pair not in failed:
-                out.append(each)
-            if not each.usable:
-                failed.add(pair)
-        return out
+        return ranked(self._with_uncertainty(out, batch, candidates.rows), self.problem)
 
     def rounded(self, found: list[FoundLinkage]) -> list[FoundLinkage]:
         """The first MAX_ROUNDED linkages with rounded dimensions, evaluated and ranked again."""
@@ -152,7 +147,7 @@ class Evaluation:
                 lost = Violation("rounding", "rounded so coarsely its pivots would fall together")
                 new = [replace(each, usable=False, violations=(*each.violations, lost))]
             out += [replace(one, error_before_rounding=each.error) for one in new]
-        return self.ranked(out)
+        return ranked(out, self.problem)
 
     def dyad(self, origin: FoundDyad | str, dyad: Dyad) -> FoundDyad:
         """A dyad with its own errors at the poses, and the id of its origin."""
@@ -168,13 +163,11 @@ class Evaluation:
         shape = (len(own), self.task.poses.shape[0])
         position = np.array([error.position for error in errors]).reshape(shape)
         turn = np.array([error.angle for error in errors]).reshape(shape)
-        asked, within = self.task.requirements, self.task.requirements.within
-        missed = (
-            position
-            if within is not None
-            else np.hypot(position, self.problem.length_per_radian * turn)
-        )
-        reach = ASSEMBLY_REACH * float(self.target.frames.length) if within is None else within
+        asked, length = self.task.requirements, self.problem.length_per_radian
+        reach = asked.within or ASSEMBLY_REACH * float(self.target.frames.length)
+        if asked.within_deg is not None:
+            length = reach / math.radians(asked.within_deg)
+        missed = np.maximum(position, length * turn)
         numbers = self.problem.pose_numbers
         given = self.task.names or ("",) * len(numbers)
         names = [name or str(number + 1) for name, number in zip(given, numbers, strict=True)]
@@ -185,7 +178,7 @@ class Evaluation:
                 places[index],
                 missed=missed[index],
                 reach=reach,
-                length=self.problem.length_per_radian,
+                length=length,
                 names=names,
                 any_order=asked.any_order,
             )
@@ -280,18 +273,6 @@ def _excess(z: FloatArray) -> float:
     ground, coupler = (float(np.linalg.norm(z[1, at] - z[0, at])) for at in (FIXED, MOVING))
     s, p, q, longest = sorted((ground, coupler, float(z[0, 4]), float(z[1, 4])))
     return s + longest - p - q
-
-
-def _same(a: Linkage, b: Linkage, size: float) -> bool:
-    """Whether two linkages are equal, in either order of their dyads."""
-    pairs = ((a.first, b.first), (a.second, b.second)), ((a.first, b.second), (a.second, b.first))
-    return any(all(_alike(x, y, size) for x, y in pair) for pair in pairs)
-
-
-def _alike(a: Dyad, b: Dyad, size: float) -> bool:
-    if isinstance(a, RR) and isinstance(b, RR):
-        size = max(size, float(a.radius))
-    return same_dyad(a, b, size)
 
 
 def _with_numbers(verdict: Verdict, numbers: Sequence[int]) -> Verdict:

@@ -12,6 +12,7 @@ from burmester.linkages.found_linkage import FoundLinkage
 from burmester.numerics.arrays import ROUNDING
 from burmester.tasks.motion_task import CONDITIONS, Task
 from burmester.tasks.notation import figure, length_of, poses_in_words
+from burmester.tasks.problem import SynthesisProblem
 
 __all__ = ["by_nearness", "hints", "in_short", "meets_exactly", "nearness", "reasons"]
 
@@ -26,21 +27,25 @@ def meets_exactly(found: FoundLinkage, size: float) -> bool:
 
 
 def nearness(found: FoundLinkage, task: Task, size: float) -> str:
-    """How near a linkage comes: "passes every pose exactly", "misses by 0.15 mm"."""
+    """How near a linkage comes: "passes every pose exactly", "misses by 0.15 mm and 2.1°"."""
     if not math.isfinite(found.error.worst):
         return "cannot be assembled near every pose"
     if meets_exactly(found, size):
         return "passes every pose exactly"
-    return f"misses by {length_of(found.error.worst, task)}"
+    return f"misses by {length_of(found.error.worst, task)} and {_worst_angle(found)}"
 
 
-def by_nearness(linkages: Sequence[FoundLinkage], size: float) -> list[FoundLinkage]:
-    """Sorted by the worst position error; linkages equal within rounding keep their order."""
+def _worst_angle(found: FoundLinkage) -> str:
+    return f"{figure(math.degrees(float(found.error.angle.max())))}°"
 
-    def worst(each: FoundLinkage) -> float:
-        return float(np.round(each.error.worst / (ROUNDING * size)))
 
-    return sorted(linkages, key=worst)
+def by_nearness(linkages: Sequence[FoundLinkage]) -> list[FoundLinkage]:
+    """Sorted by both errors in one; linkages equal within rounding keep their order."""
+
+    def error(each: FoundLinkage) -> float:
+        return float(f"{each.combined_error:.9g}")
+
+    return sorted(linkages, key=error)
 
 
 def reasons(found: FoundLinkage, task: Task) -> list[str]:
@@ -75,16 +80,16 @@ def _too_far(found: FoundLinkage, task: Task, defect: Defect) -> str | None:
     return f"too far from {which} ({'' if len(poses) == 1 else 'up to '}{away} and {turned}°)"
 
 
-def hints(linkages: Sequence[FoundLinkage], task: Task, size: float) -> str:
+def hints(linkages: Sequence[FoundLinkage], problem: SynthesisProblem) -> str:
     """What to change where none of the linkages is usable, so that one becomes usable."""
-    near = by_nearness(linkages, size)
+    task, near = problem.given, by_nearness(linkages)
     # For each set of options the nearest linkage that they make usable.
     nearest_with: dict[tuple[str, ...], FoundLinkage] = {}
     for each in near:
-        options = _options(each, task)
+        options = _options(each, problem)
         if options:
             nearest_with.setdefault(tuple(option.split()[0] for option in options), each)
-    nearest = sorted(nearest_with.values(), key=lambda each: len(_options(each, task)))
+    nearest = sorted(nearest_with.values(), key=lambda each: len(_options(each, problem)))
     softer = nearest_with.get(("--min-transmission",))
     if softer is not None:  # beside the nearest one, the one with the best transmission angle
         alike = [
@@ -95,7 +100,7 @@ def hints(linkages: Sequence[FoundLinkage], task: Task, size: float) -> str:
         best = max(alike, key=lambda each: each.driven.least_over_range)
         if best is not softer:
             nearest.insert(1, best)
-    texts = [_would_do(each, task, size) for each in nearest[:MAX_HINTS]]
+    texts = [_would_do(each, problem) for each in nearest[:MAX_HINTS]]
     if near[0].error_before_rounding is not None:
         texts.insert(0, "round less")
     stuck = next((each for each in near[0].defects if each.kind in ("circuit", "branch")), None)
@@ -110,23 +115,19 @@ def hints(linkages: Sequence[FoundLinkage], task: Task, size: float) -> str:
     return "; or ".join(texts) or "move a pose"
 
 
-def _would_do(found: FoundLinkage, task: Task, size: float) -> str:
-    options = _options(found, task)
-    how = nearness(found, task, size)
-    if options[0].startswith("--within"):
-        turned = figure(math.degrees(float(found.error.angle.max())))
-        how = f"is off by {length_of(found.error.worst, task)} and {turned}°"
-    return f"with {' '.join(options)} {found.id} would do (it {how})"
+def _would_do(found: FoundLinkage, problem: SynthesisProblem) -> str:
+    how = nearness(found, problem.given, problem.length)
+    return f"with {' '.join(_options(found, problem))} {found.id} would do (it {how})"
 
 
-def _options(found: FoundLinkage, task: Task) -> tuple[str, ...]:
+def _options(found: FoundLinkage, problem: SynthesisProblem) -> tuple[str, ...]:
     """The options that would make the linkage usable; none where no option helps."""
-    asked, options = task.requirements, []
+    asked, options = problem.given.requirements, []
     for defect in found.defects:
         if defect.kind == "order" and not asked.any_order:
             options.append("--any-order")
         elif defect.kind == "assembly" and math.isfinite(found.error.worst):
-            options.append(f"--within {_above(found.error.worst)}")
+            options += _bounds(found, problem)
         else:
             return ()
     links = found.linkage.links
@@ -145,6 +146,16 @@ def _options(found: FoundLinkage, task: Task) -> tuple[str, ...]:
         else:
             return ()
     return tuple(sorted(set(options), reverse=True))  # --within first
+
+
+def _bounds(found: FoundLinkage, problem: SynthesisProblem) -> list[str]:
+    """The options that bound both errors of a linkage from above."""
+    asked = problem.given.requirements
+    within = _above(max(found.error.worst, ROUNDING * problem.length))
+    turned = math.degrees(float(found.error.angle.max()))
+    bound = asked.within_deg or math.degrees(float(within) / problem.length_per_radian)
+    options = [f"--within {within}"]
+    return options if turned <= bound else [*options, f"--within-angle {_above(turned)}"]
 
 
 def _above(value: float) -> str:

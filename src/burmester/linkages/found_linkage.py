@@ -33,7 +33,7 @@ class FoundLinkage:
     id : str
         "L1", "L2", ... by rank.
     rank : int
-        From 1; usable linkages first, then by the worst position error.
+        From 1; see `ranking`.
     dyads : tuple of two FoundDyad
         With their dimensions in this linkage, the preferred driver first, unless the task has two
         limits, whose order they keep.  The ids name the dyads from which they come.
@@ -42,6 +42,10 @@ class FoundLinkage:
     error : PoseError
         Of the coupler's places nearest to the poses, on one circuit unless there is a circuit
         defect.
+    combined_error : float
+        What was made least: the weighted root mean square (with the norm "worst" the greatest)
+        over the poses of position and angle error in one, `PoseError.combined`; infinite where
+        some pose is out of reach.
     verdict : Verdict
         The defects, and the motion with either driver.
     preferred_driver : "first" or "second"
@@ -50,6 +54,9 @@ class FoundLinkage:
         Whether the linkage, with that driver, leads through all poses and meets all requirements.
     violations : tuple of Violation
         The requirements that it violates with that driver.
+    shortcomings : tuple of str
+        Where it falls short of what a linkage to build is to be, where the task asks for nothing
+        (`quality.Standard`).
     from_search : bool
         Whether it comes from the search for defect-free linkages.
     uncertainty : tuple of two DyadUncertainty, optional
@@ -76,10 +83,12 @@ class FoundLinkage:
     dyads: Pair
     linkage: Linkage
     error: PoseError
+    combined_error: float
     verdict: Verdict
     preferred_driver: Side
     usable: bool
     violations: tuple[Violation, ...] = ()
+    shortcomings: tuple[str, ...] = ()
     from_search: bool = False
     uncertainty: tuple[DyadUncertainty, DyadUncertainty] | None = None
     determined: bool = True

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import combinations, product
+from math import inf
 
 import numpy as np
 
@@ -23,7 +24,15 @@ from burmester.linkages.constraints import AllConstraints, Constraints, DyadLimi
 from burmester.linkages.defect_free_search import defect_free_linkages, links_of_pivot_map
 from burmester.linkages.evaluation import Candidates, Evaluation
 from burmester.linkages.found_linkage import FoundLinkage, Pair
+from burmester.linkages.quality import Standard
+from burmester.linkages.ranking import (
+    closest_usable,
+    digits_leave_open,
+    farthest_recommended,
+    ranked,
+)
 from burmester.linkages.target import Target
+from burmester.linkages.trade import trades
 from burmester.numerics.arrays import ROUNDING
 from burmester.tasks.problem import SynthesisProblem
 
@@ -43,7 +52,7 @@ MAX_SEARCHED = 5  # number of linkages kept from the search for defect-free link
 def linkages_from_dyads(
     problem: SynthesisProblem, pairs: Sequence[Pair], *, refine: bool = True
 ) -> tuple[FoundLinkage, ...]:
-    """The linkages of pairs of dyads, usable ones first, then by rising worst position error.
+    """The linkages of pairs of dyads, in the order of `ranking`.
 
     refine: False leaves the dimensions as the dyads have them, whatever the options say.  Pairs
     with a PP dyad are left out: no single joint drives them.
@@ -58,9 +67,10 @@ def linkages_from_dyads(
     evaluation = Evaluation(problem, _target_of(problem))
     start = evaluation.stacked(pairs)
     found = evaluation.evaluate(_of_pairs(start, pairs, evaluation.target, refine))
-    closest = min(found, key=lambda each: each.error.worst, default=None)
-    if refine and closest is not None and not closest.usable:
-        found = evaluation.ranked(found + _searched(start, pairs, evaluation, found))
+    if refine and found:
+        found = _with_search(start, pairs, evaluation, found)
+        if found[0].usable:
+            found = ranked([*found, *trades(found[0], evaluation)], problem)
     if options.rounds:
         found = evaluation.rounded(found)
     return tuple(
@@ -154,13 +164,42 @@ def _refined(candidates: Candidates, target: Target) -> Candidates:
     return candidates._replace(batch=LinkageBatch(candidates.batch.kinds, dimensions), rows=rows)
 
 
-def _searched(
-    start: LinkageBatch, pairs: list[Pair], evaluation: Evaluation, plain: list[FoundLinkage]
+def _with_search(
+    start: LinkageBatch, pairs: list[Pair], evaluation: Evaluation, found: list[FoundLinkage]
 ) -> list[FoundLinkage]:
-    """Usable linkages of the search that come nearer to the poses than the plain usable ones."""
-    best = min((each.error.worst for each in plain if each.usable), default=np.inf)
+    """The linkages, and those of the searches where none of them is the closest and good.
+
+    The first search looks for linkages that work, where the closest one does not; the second for
+    such as meet the standard, where no usable one near enough does.
+    """
+    problem = evaluation.problem
+    nearest = min(found, key=lambda each: each.combined_error)
+    starts = None
+    if not nearest.usable:
+        starts = _search_starts(start, pairs, evaluation)
+        best = closest_usable(found)
+        more = _searched(*starts, evaluation, inf if best is None else best.combined_error)
+        found = ranked(found + more, problem)
+    closest = closest_usable(found)
+    if closest is None or not found[0].shortcomings:
+        return found
+    most = farthest_recommended(closest, problem)
+    # Poses that determine a linkage within their digits leave no other one but the pairs.
+    unique = closest.determined and closest.combined_error <= digits_leave_open(problem)
+    if most == inf or not unique:
+        standard = Standard.of(problem.task).requirements(problem.task.requirements)
+        starts = starts or _search_starts(start, pairs, evaluation)
+        strict = replace(evaluation, target=replace(evaluation.target, requirements=standard))
+        more = _searched(*starts, strict, most)
+        found = ranked(found + more, problem)
+    return found
+
+
+def _searched(
+    batch: LinkageBatch, origin: list[Pair], evaluation: Evaluation, most: float
+) -> list[FoundLinkage]:
+    """Usable linkages of the search whose combined error is below `most`."""
     target = evaluation.target.thinned(MAX_POSES_SEARCHED)
-    batch, origin = _search_starts(start, pairs, evaluation)
     found = defect_free_linkages(batch, target)
     if found is None:
         return []
@@ -172,7 +211,7 @@ def _searched(
     evaluated = evaluation.evaluate(
         Candidates(batch, rows, origins, np.ones(len(index), dtype=bool))
     )
-    return [each for each in evaluated if each.usable and each.error.worst < best][:MAX_SEARCHED]
+    return [each for each in evaluated if each.usable and each.combined_error < most][:MAX_SEARCHED]
 
 
 def _search_starts(

@@ -18,6 +18,7 @@ from burmester.linkages.constraints import (
 )
 from burmester.linkages.refinement import Refined, refine
 from burmester.numerics.arrays import FloatArray
+from burmester.numerics.weights import shares
 from burmester.tasks.requirements import Requirements
 
 __all__ = ["Target"]
@@ -77,6 +78,15 @@ class Target:
     def places_of(self, rows: FloatArray) -> Displacement:
         """Rows (*, 3) as displacements."""
         return places_of(rows, self.length)
+
+    def combined_error(self, rows: FloatArray) -> FloatArray:
+        """The error (*,) of rows (*, N, 3) that a refinement makes least; infinite where nan."""
+        gap = np.linalg.norm(rows - rows_of(self.poses, self.length), axis=-1)
+        gap = np.nan_to_num(gap, nan=np.inf)
+        if self.worst:
+            return np.asarray(gap.max(axis=-1))
+        share = shares(self.weights, self.poses.shape)
+        return np.asarray(np.sqrt((gap * gap) @ share))
 
     def cost(self, rows: FloatArray) -> FloatArray:
         """The weighted sum of squared distances (*,) of rows (*, N, 3) from the poses."""

@@ -164,7 +164,7 @@ def _none_usable(
 ) -> Outcome:
     """Linkages, and none that works."""
     task, size = problem.given, problem.length
-    nearest = by_nearness(linkages, size)[0]
+    nearest = by_nearness(linkages)[0]
     works = "works within the requirements" if task.requirements.has_any else "works"
     if len(linkages) == 1:
         none = f"which does not {works.replace('works', 'work')}"
@@ -175,7 +175,7 @@ def _none_usable(
     return Outcome(
         "R301",
         f"no usable linkage: {all_of_them}, {none}{aside}",
-        hints(linkages, task, size),
+        hints(linkages, problem),
         f"{why} {in_short(nearest, task, size)}",
     )
 

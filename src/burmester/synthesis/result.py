@@ -41,9 +41,8 @@ class Synthesis:
     problem: the task, the class of its motion, its characteristic length, and the options, with
         the method that was chosen.
     dyads: every dyad found, by rising rms error (shorter links first among exact ones).
-    linkages: every pair of them, refined as a whole; usable ones first, then by rising worst
-        position error.  Where the closest one is not usable, with linkages that a search under
-        the conditions of use has found.
+    linkages: every pair of them, refined as a whole, in the order of `ranking`.  Where the closest
+        one is not usable, or none near it is sound, with linkages that a search has found.
     fits: what the method learnt (singular values, all roots); two where the task has two limits.
     certificate: what of it is proved, if the options ask for a certificate.
     """
@@ -70,6 +69,11 @@ class Synthesis:
     def length(self) -> float:
         """The characteristic length of the task, in its unit (`CanonicalFrames`)."""
         return self.problem.length
+
+    @property
+    def length_per_radian(self) -> float:
+        """What a radian of angle error counts as, in the task's unit."""
+        return self.problem.length_per_radian
 
     @property
     def options(self) -> SynthesisOptions:

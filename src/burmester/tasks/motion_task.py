@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from burmester.errors import InputError, printable
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.geometry.displacement import Displacement
+from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.limits import Limits
 from burmester.tasks.requirements import Requirements, require_possible
@@ -63,6 +64,8 @@ class Task:
         None; one for both dyads of a linkage; or two, one for each.
     requirements : Requirements
         The conditions on the whole linkage, none by default.
+    body : Polygon, optional
+        The outline of the body, in M.  It says what an angle error counts as.
 
     A task keeps its own copy of its numbers, which cannot be written to.
 
@@ -91,6 +94,7 @@ class Task:
     exact: NDArray[np.bool_] | None = None
     limits: tuple[Limits, ...] = ()
     requirements: Requirements = field(default=Requirements())
+    body: Polygon | None = None
 
     def __post_init__(self) -> None:
         self._own_values()
@@ -198,6 +202,8 @@ class Task:
         require_instance(
             self.requirements, Requirements, "the requirements of a task", "give a Requirements"
         )
+        if self.body is not None:
+            require_instance(self.body, Polygon, "the body of a task", "give a Polygon")
         for name, value in own.items():
             object.__setattr__(self, name, value)
 
@@ -210,6 +216,7 @@ class Task:
         length_unit: str | None = None,
         limits: tuple[Limits, ...] = (),
         requirements: Requirements = Requirements(),  # noqa: B008  frozen
+        body: Polygon | None = None,
     ) -> Task:
         """A task from rows of numbers.
 
@@ -219,7 +226,7 @@ class Task:
             x, y and angle of the body's frame M, seen in F.
         angle_unit : {"deg", "rad"}
             The unit of the angles; it is never guessed.
-        length_unit, limits, requirements
+        length_unit, limits, requirements, body
             As in `Task`.
 
         Raises
@@ -231,7 +238,9 @@ class Task:
         table = real_numbers(rows, (None, 3), "the poses")
         angle = np.radians(table[:, 2]) if angle_unit == "deg" else table[:, 2]
         poses = Displacement(table[:, :2], angle)
-        return cls(poses, length_unit=length_unit, limits=limits, requirements=requirements)
+        return cls(
+            poses, length_unit=length_unit, limits=limits, requirements=requirements, body=body
+        )
 
 
 def require_angle_unit(unit: object) -> None:

@@ -40,7 +40,7 @@ class SynthesisOptions:
         Whether a certificate is made, of a task without limits.
     length_per_radian
         The length, in the task's unit, that counts as much as one radian of angle error; None for
-        the characteristic length of the task.
+        that of the body's outline or of its travel (`default_length_per_radian`).
     manufacturing_tolerance
         How exactly links and pivots are built, in the task's unit: the spread of the errors is
         reported.  None for no report.

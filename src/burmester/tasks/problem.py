@@ -7,6 +7,7 @@ from typing import Self, final
 
 import numpy as np
 
+from burmester.tasks.length_per_radian import default_length_per_radian
 from burmester.tasks.motion_class import MotionClass
 from burmester.tasks.motion_kinds import FewPoses, Undetermined
 from burmester.tasks.motion_task import CONDITIONS, Task, characteristic_length
@@ -41,7 +42,7 @@ class SynthesisProblem:
     @property
     def length_per_radian(self) -> float:
         """What a radian of angle error counts as, in the task's unit."""
-        return self.options.length_per_radian or self.length
+        return self.options.length_per_radian or default_length_per_radian(self.given)
 
     @property
     def is_special(self) -> bool:

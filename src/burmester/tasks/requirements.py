@@ -71,6 +71,9 @@ class Requirements:
         sliders have no four links, and pass.
     within : float or None
         The greatest acceptable position error at any pose, in the task's unit.
+    within_deg : float or None
+        The greatest acceptable angle error at any pose, in degrees; without it the angle that
+        counts as much as `within` (see `length_per_radian`).
     any_order : bool
         Whether the poses may be met in another order than that of the task.
 
@@ -98,6 +101,7 @@ class Requirements:
     footprint: Polygon | None = None
     link_ratio: float = math.inf
     within: float | None = None
+    within_deg: float | None = None
     any_order: bool = False
 
     def __post_init__(self) -> None:
@@ -131,16 +135,21 @@ class Requirements:
                 help="give a ratio of 1 or more, such as 5",
             )
         object.__setattr__(self, "link_ratio", ratio)
-        if self.within is not None:
-            within = _number(self.within, "the greatest acceptable error")
-            if within <= 0:
+        for name, what, of, such in (
+            ("within", "the greatest acceptable error", "", "a length"),
+            ("within_deg", "the greatest acceptable angle error", "°", "an angle"),
+        ):
+            if (value := getattr(self, name)) is None:
+                continue
+            bound = _number(value, what)
+            if bound <= 0:
                 raise InputError(
                     "E134",
-                    f"an error of at most {within:g} is impossible",
+                    f"an error of at most {bound:g}{of} is impossible",
                     why="no pose is met better than rounding allows",
-                    help="give a length above zero, and mark poses that must be met exactly",
+                    help=f"give {such} above zero, and mark poses that must be met exactly",
                 )
-            object.__setattr__(self, "within", within)
+            object.__setattr__(self, name, bound)
         if not isinstance(self.any_order, bool | np.bool_):
             raise InputError(
                 "E134",

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.errors import InputError, printable
+from burmester.geometry.regions import Polygon
 from burmester.io.reading.specification import Specification
 from burmester.numerics.arrays import FloatArray
 
@@ -90,6 +91,7 @@ class PoseTable(NamedTuple):
     where: str  # the location where the angle unit is stated, or should be
     say_unit: str  # how to state it there
     specification: Specification = Specification()
+    body: Polygon | None = None  # its outline, in M
     pose_sigma: tuple[float, float] | None = None  # standard deviations of the poses, if stated
     # where a row stands, by its number from 0; None is for where they begin
     locate_row: Callable[[int | None], str] | None = None

@@ -76,6 +76,11 @@ def read_tree(tree: Any, document: Document, example: str) -> PoseTable:
         return document.where("poses", row)
 
     given = whole.pose_sigma
+    body = None
+    if "body" in tree:
+        from burmester.io.reading.body_tree import read_body
+
+        body = read_body(tree, document)
     return PoseTable(
         rows,
         length_unit=whole.length_unit or None,
@@ -83,6 +88,7 @@ def read_tree(tree: Any, document: Document, example: str) -> PoseTable:
         where=where,
         say_unit=f"write {example}",
         specification=specification,
+        body=body,
         pose_sigma=given and (given.position, math.radians(given.angle_deg)),
         locate_row=locate_row,
     )

@@ -193,6 +193,7 @@ def _task(
             exact=marks[kept] if marks is not None and marks[kept].any() else None,
             limits=whole.limits(),
             requirements=combined_requirements(whole.requirements),
+            body=table.body,
         )
     except InputError as error:
         if error.code in ("E132", "E134"):  # limits and requirements, not the poses

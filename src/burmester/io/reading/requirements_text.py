@@ -33,6 +33,7 @@ def requirements_from_options(
     footprint: str | None = None,
     link_ratio: str | None = None,
     within: str | None = None,
+    within_angle: str | None = None,
     any_order: bool = False,
 ) -> tuple[StatedRequirement, ...]:
     """The requirements in the texts of the options; raises E134, E131 and E132.
@@ -56,6 +57,8 @@ def requirements_from_options(
         out.append(_number("link_ratio", "--link-ratio", link_ratio))
     if within is not None:
         out.append(_number("within", "--within", within))
+    if within_angle is not None:
+        out.append(_number("within_deg", "--within-angle", within_angle))
     if any_order:
         out.append(checked_requirement("any_order", True, "--any-order"))
     return tuple(out)

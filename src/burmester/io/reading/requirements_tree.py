@@ -39,6 +39,7 @@ class _Requirements(Model):
     footprint: _Footprint | None = None
     link_ratio: Number | None = None
     within: Number | None = None
+    within_deg: Number | None = None
     any_order: bool | None = None
 
 
@@ -52,6 +53,7 @@ _HELP = {
     "footprint": _FOOTPRINT,
     "link_ratio": "link_ratio is one number, such as 5",
     "within": "within is one length in the unit of the poses, such as 0.5",
+    "within_deg": "within_deg is one angle in degrees, such as 2",
     "any_order": "write true or false",
 }
 _TABLE = f"a table of requirements has {listed(FILE_KEYS)}, or some of them"

@@ -36,6 +36,7 @@ _SUBJECTS = {  # of the message about a requirement that is given twice
     "footprint": "the footprint is",
     "link_ratio": "the greatest link ratio is",
     "within": "the greatest acceptable error is",
+    "within_deg": "the greatest acceptable angle error is",
     "any_order": "the order of the poses is",
 }
 
@@ -106,6 +107,8 @@ def requirements_data(requirements: Requirements) -> dict[str, Any]:
         data["link_ratio"] = requirements.link_ratio
     if requirements.within is not None:
         data["within"] = requirements.within
+    if requirements.within_deg is not None:
+        data["within_deg"] = requirements.within_deg
     if requirements.any_order:
         data["any_order"] = True
     return data

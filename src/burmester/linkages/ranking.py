@@ -1,0 +1,179 @@
+"""The order of linkages: the one to build first, each once.
+
+Usable linkages stand before others.  Among them those that meet the standard (`quality`) come
+first, if they come near enough to the poses; within each group the nearest one, by both errors.
+What the digits of the poses leave open makes no linkage nearer than another.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import fields
+
+import numpy as np
+
+from burmester.fourbar.dyad import RR, Dyad
+from burmester.linkages.found_linkage import FoundLinkage
+from burmester.linkages.uncertainty import DyadUncertainty
+from burmester.numerics.arrays import ROUNDING
+from burmester.tasks.notation import span
+from burmester.tasks.problem import SynthesisProblem
+
+__all__ = [
+    "TRADE_GAIN",
+    "closest_usable",
+    "digits_leave_open",
+    "farthest_recommended",
+    "is_trade",
+    "ranked",
+]
+
+# A linkage that meets the standard comes first if its error is at most this many times the least.
+ERROR_RATIO = 3.0
+SAME_TOLERANCE = 0.1  # sizes of the motion: a pose's tolerance where the task states none
+SAME_SHARE = 1e-3  # tolerances of a pose: linkages whose dimensions differ by less are one
+SAME_SPAN = 1e-2  # spans of the motion: farther apart, two linkages are never taken for one
+# Ratios of the greatest errors of two linkages: it is a trade where one error falls to this, and
+# the other rises to no more than that.
+TRADE_GAIN, TRADE_PRICE = 0.5, 3.0
+ALIKE = 1e-6  # relative; errors that differ by less are rounding
+
+
+def digits_leave_open(problem: SynthesisProblem) -> float:
+    """The combined error, in the task's unit, that the digits of the poses make by themselves.
+
+    Both coordinates and the angle err evenly up to the resolution, so their variances are a third
+    of its square.
+    """
+    position, angle = problem.task.resolution
+    length = problem.length_per_radian
+    open_ = math.sqrt((2 * position**2 + (length * angle) ** 2) / 3)
+    return max(open_, ROUNDING * length)
+
+
+def closest_usable(found: Iterable[FoundLinkage]) -> FoundLinkage | None:
+    """The usable linkage of the least combined error."""
+    usable = [each for each in found if each.usable]
+    return min(usable, key=lambda each: each.combined_error, default=None)
+
+
+def farthest_recommended(closest: FoundLinkage, problem: SynthesisProblem) -> float:
+    """The greatest combined error with which a linkage may stand before the closest usable one.
+
+    Any where the task states a tolerance, which all usable ones keep; else ERROR_RATIO times the
+    closest one's, or what the digits leave open.
+    """
+    if problem.task.requirements.within is not None:
+        return math.inf
+    return ERROR_RATIO * max(closest.combined_error, digits_leave_open(problem))
+
+
+def is_trade(other: FoundLinkage, best: FoundLinkage) -> bool:
+    """Whether a linkage gains much in one of its greatest errors, and pays little in the other."""
+    far, turned = (
+        one / max(two, ROUNDING)
+        for one, two in (
+            (other.error.worst, best.error.worst),
+            (_turned(other), _turned(best)),
+        )
+    )
+    return min(far, turned) <= TRADE_GAIN and max(far, turned) <= TRADE_PRICE
+
+
+def ranked(found: Sequence[FoundLinkage], problem: SynthesisProblem) -> list[FoundLinkage]:
+    """The order of linkages, equal ones once.
+
+    Of several failing linkages from one pair of dyads only the closest is kept.  The first is never
+    one that another of its group beats in both errors.
+    """
+    floor, closest = digits_leave_open(problem), closest_usable(found)
+    most = 0.0 if closest is None else farthest_recommended(closest, problem)
+
+    def order(each: FoundLinkage) -> tuple[bool, bool, float, float]:
+        good = each.usable and not each.shortcomings and each.combined_error <= most
+        error = max(each.combined_error, floor)
+        error = float(np.round(np.log(error) / ALIKE)) if math.isfinite(error) else math.inf
+        least = float(np.nan_to_num(each.driven.least_over_range))
+        return not each.usable, not good, error, -round(least, 6)
+
+    kept: list[FoundLinkage] = []
+    failed = set()
+    for each in sorted(found, key=order):  # stable: the order of the dyads stays
+        pair = frozenset(dyad.id for dyad in each.dyads)
+        if any(_same(each, other, problem) for other in kept):
+            continue
+        if each.usable or pair not in failed:
+            kept.append(each)
+        if not each.usable:
+            failed.add(pair)
+    group = [each for each in kept if order(each)[:2] == order(kept[0])[:2]]
+    first = next(
+        (each for each in group if not any(_beats(one, each, floor) for one in group)), None
+    )
+    if first is not None:
+        kept.remove(first)
+        kept.insert(0, first)
+    return kept
+
+
+def _beats(one: FoundLinkage, other: FoundLinkage, floor: float) -> bool:
+    """Whether both greatest errors of a linkage are less, by more than what nobody can tell."""
+    if other.combined_error <= floor:
+        return False
+    (far, turned), (far2, turned2) = ((e.error.worst, _turned(e)) for e in (one, other))
+    return far < (1 - ALIKE) * far2 and turned < (1 - ALIKE) * turned2
+
+
+def _turned(found: FoundLinkage) -> float:
+    return float(np.nan_to_num(found.error.angle, nan=np.inf).max())
+
+
+def _same(one: FoundLinkage, other: FoundLinkage, problem: SynthesisProblem) -> bool:
+    """Whether two linkages are one, in either order of their dyads.
+
+    They are where they differ by less than SAME_SHARE of the tolerance of a pose, and where both
+    work, or both do not, by less than the poses determine of the first.
+    """
+    size = max(span(problem.task), problem.length)
+    within = problem.task.requirements.within
+    least = SAME_SHARE * (SAME_TOLERANCE * size if within is None else within)
+    regions = other.uncertainty if one.usable == other.usable else None
+    known = regions or (None, None)
+    mine = one.linkage.first, one.linkage.second
+    return any(
+        all(
+            _alike(a, b, region, least, size)
+            for a, b, region in zip(
+                pair, (other.linkage.first, other.linkage.second), known, strict=True
+            )
+        )
+        for pair in (mine, mine[::-1])
+    )
+
+
+def _alike(a: Dyad, b: Dyad, region: DyadUncertainty | None, least: float, size: float) -> bool:
+    """Whether two dyads differ by `least` or less, or by less than b's region leaves open.
+
+    size: of the motion; beyond SAME_SPAN of it no region makes two dyads one.
+    """
+    if type(a) is not type(b):
+        return False
+    if isinstance(a, RR):
+        least = max(least, ROUNDING * float(a.radius))
+    open_ = dict.fromkeys((field.name for field in fields(a)), 0.0)
+    if region is not None:
+        if region.fixed is not None:
+            open_["fixed_pivot"] = region.fixed.half_width
+        if region.moving is not None:
+            open_["moving_pivot"] = region.moving.half_width
+        if region.line is not None:
+            open_ |= {"normal_angle": size * region.line.angle, "offset": region.line.offset}
+        open_["radius"] = region.length or 0.0
+
+    def near(name: str) -> bool:
+        gap = float(np.abs(getattr(a, name) - getattr(b, name)).max())
+        gap *= size if name.endswith("angle") else 1.0
+        return gap <= max(least, min(open_[name], SAME_SPAN * size))
+
+    return all(near(field.name) for field in fields(a))
