@@ -72,7 +72,8 @@ def test_all_of_them_at_once(run):
     arguments = [
         each for name in ("transmission", "types", "crank", "box") for each in SAID[name][1]
     ]
-    arguments += ["--link-ratio", "7", "--within", "2", "--any-order", "--kinds", "RR"]
+    arguments += ["--link-ratio", "7", "--within", "2", "--within-angle", "0.5"]
+    arguments += ["--any-order", "--kinds", "RR"]
     found = run(*arguments).task
     assert values(found.requirements) == {
         "transmission_deg": 37.5,
@@ -81,6 +82,7 @@ def test_all_of_them_at_once(run):
         "footprint": SQUARE,
         "link_ratio": 7,
         "within": 2,
+        "within_deg": 0.5,
         "any_order": True,
     }
     assert [limits.kinds for limits in found.limits] == [{"RR"}]

@@ -287,6 +287,17 @@ FAULTS = [  # suffix, text with a mark, code, what the message begins with
     (".toml", POSES + "«lenght_unit» = 'mm'", "E107", "lenght_unit is not known"),
     (".toml", POSES + "«'angel-unit'» = 'mm'", "E107", "angel-unit is not"),
     (".toml", POSES + "[«requirment»]\nwithin = 1", "E107", "requirment is not known"),
+    (".toml", POSES + "body = [[0, 0], [4, 0], [0, «'1'»]]", "E104", "body[2][1] is '1', not a"),
+    (".toml", POSES + "body = «[[0, 0], [4, 0]]»", "E106", "body has 2 of 3"),
+    (".toml", POSES + "body = [[0, 0], [4, 0], «[4]»]", "E106", "body[2] has 1 of 2 numbers"),
+    (".toml", POSES + "body = «[[0, 0], [4, 0], [8, 0]]»", "E131", "body: a polygon has no inside"),
+    (
+        ".toml",
+        POSES + "body = «[[0, 0], [1, 1], [1, 0], [0, 1]]»",
+        "E131",
+        "body: a polygon crosses itself",
+    ),
+    (".toml", POSES + "body = «{box = [[0, 0], [1, 1]]}»", "E104", "body does not fit"),
     (".toml", POSES + "«weights» = [1, 2, 3]", "E107", "weights stands beside the poses"),
     (".toml", "«x» = [1]\ny = [2]\n" + POSES, "E107", "x stands beside the poses"),
     (".toml", "[[poses]]\nx=1\ny=2\n«angel_deg»=3", "E107", "poses[0].angel_deg is not known"),
@@ -504,8 +515,10 @@ def some_task(rng):
                 footprint=rng.choice([None, Polygon(np.array([[0, 0], [90, 0], [0, 90.5]]))]),
                 link_ratio=rng.choice([math.inf, rng.uniform(1, 20)]),
                 within=rng.choice([None, rng.uniform(1e-9, 1e3)]),
+                within_deg=rng.choice([None, rng.uniform(1e-9, 180)]),
                 any_order=rng.random() < 0.5,
             ),
+            body=rng.choice([None, Polygon(np.array([[0, -3], [90, 0], [0, 90.5], [-7, 12]]))]),
         )
     except InputError:
         return None

@@ -53,13 +53,15 @@ def test_uncertainty_stands_with_the_dyad_that_it_is_of():
         rows = rows + rng.normal(scale=1e-4, size=rows.shape)
         task = Task(Displacement.from_poses(rows), resolution=(1e-4, 1e-4))
         result = synthesize(task)
-        frames = error_frames(task.poses, result.length)
+        frames = error_frames(task.poses, result.length_per_radian)
         unit = float(frames.length)
         for found in result.linkages[:4]:
             batch = LinkageBatch.of([found.linkage]).to_canonical(frames)
             places = frames.to_canonical(found.error.places)[None]
             position, angle = pose_sigma(task)
-            spread = covariance(batch, places, result.length / unit, (position / unit, angle))
+            spread = covariance(
+                batch, places, result.length_per_radian / unit, (position / unit, angle)
+            )
             for mine, wanted in zip(
                 found.uncertainty, uncertainties(spread, batch, places, unit)[0], strict=True
             ):
@@ -77,19 +79,48 @@ def test_a_pose_beyond_reach_is_no_pose_met():
     rows[3, :2] += [0.35, -0.3]
     wild = Task(Displacement.from_poses(rows), requirements=FREE)
     result = synthesize(wild)
-    size = error_frames(wild.poses, result.length).length
+    length = result.length_per_radian
+    size = error_frames(wild.poses, length).length
     for found in result.linkages:
-        missed = np.hypot(found.error.position, result.length * found.error.angle)
+        missed = np.maximum(found.error.position, length * found.error.angle)
         far = {k for k in range(8) if missed[k] > 0.1 * size}
         said = {k for each in found.verdict.defects if each.kind == "assembly" for k in each.poses}
         assert said == far
         # The witness comes no nearer than is said.
-        assert (misses(found.linkage, wild.poses, result.length) > missed * (1 - 0.06) - 1e-9).all()
+        assert (misses(found.linkage, wild.poses, length) > missed * (1 - 0.06) - 1e-9).all()
     near = min(found.error.worst for found in result.linkages)
     asked = Requirements(any_order=True, within=near / 2)
     strict = synthesize(Task(wild.poses, requirements=asked))
     for found in strict.linkages:
         assert found.usable == (found.error.worst <= near / 2 and not found.defects)
+
+
+@pytest.mark.parametrize("share", [0.5, 0.99, 1.01])
+def test_a_pose_is_met_where_both_errors_are_within_their_bounds(share):
+    place = Circuits.of(four_bar(3.0, 1.0, 2.5, 2.2))[0].couplers(np.linspace(0.5, 2.5, 8))
+    noise = np.random.default_rng(8).normal(scale=0.02, size=(8, 3))
+    rows = np.column_stack([place.translation, place.angle]) + noise
+    poses = Displacement.from_poses(rows)
+
+    def usable(**bounds):
+        """The first two dyads' linkage, under other bounds: whether it works."""
+        asked = Requirements(any_order=True, **bounds)
+        every = synthesize(Task(poses, requirements=asked)).linkages
+        return next(e.usable for e in every if not e.from_search and same_pair(e, plain))
+
+    free = synthesize(Task(poses, requirements=Requirements(any_order=True)))
+    plain = next(e for e in free.usable if not e.from_search)
+    far, turned = plain.error.worst, float(plain.error.angle.max())
+    length = free.length_per_radian
+    assert usable(within=share * far, within_deg=179) == (share > 1)
+    assert usable(within=100 * far, within_deg=share * np.degrees(turned)) == (share > 1)
+    # An angle that is not bounded may err by as much as counts the same.
+    least = max(far, length * turned)
+    assert usable(within=share * least) == (share > 1)
+
+
+def same_pair(one, other):
+    return {dyad.id for dyad in one.dyads} == {dyad.id for dyad in other.dyads}
 
 
 def test_the_driver_of_the_second_limits_drives():

@@ -39,6 +39,7 @@ def values(found):
         "footprint": None if area is None else area.vertices.tolist(),
         "link_ratio": found.link_ratio,
         "within": found.within,
+        "within_deg": found.within_deg,
         "any_order": found.any_order,
     }
 
@@ -59,6 +60,7 @@ def reader(folder):
 
 SQUARE = [[0, 0], [4, 0], [4, 2.5], [0, 2.5]]
 SAID = {  # TOML, options, a field and its value
+    "within an angle": ("within_deg = 1.5", ["--within-angle", "1.5"], "within_deg", 1.5),
     "transmission": (
         "transmission_deg = 37.5",
         ["--min-transmission", "37.5"],

@@ -112,6 +112,7 @@ def test_nothing_is_asked_by_default():
         "footprint": box([0, 0], [1, 1]),
         "link_ratio": 3,
         "within": 0.5,
+        "within_deg": 2,
         "any_order": True,
     }
     assert set(one_each) == set(NOTHING)
@@ -142,6 +143,9 @@ MALFORMED = [  # a field, its value, and what the message holds
     ("link_ratio", math.nan, "not a finite number"),
     ("link_ratio", None, "None, not a number"),
     ("within", 0, "at most 0"),
+    ("within_deg", 0, "at most 0°"),
+    ("within_deg", -3, "at most -3°"),
+    ("within_deg", INF, "not a finite number"),
     ("within", -1.5, "at most -1.5"),
     ("within", INF, "not a finite number"),
     ("within", "1", "'1', not a number"),

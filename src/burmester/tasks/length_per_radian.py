@@ -18,7 +18,7 @@ from burmester.tasks.motion_task import Task
 __all__ = ["default_length_per_radian"]
 
 # Of the travel per radian; bodies between a tenth and six tenths of it lose least by this share
-# (`benchmarks/angle_weight`).
+# (`python -m benchmarks.angle_weight`).
 TRAVEL_SHARE = 1 / 3
 
 

@@ -9,8 +9,8 @@ from pydantic import Field, TypeAdapter, ValidationError
 
 from burmester.errors import InputError
 from burmester.geometry.regions import Polygon
-from burmester.io.reading.locations import Document
 from burmester.io.reading.limits_tree import Pair, model_fault
+from burmester.io.reading.locations import Document
 
 __all__ = ["read_body"]
 
