@@ -59,9 +59,8 @@ def test_uncertainty_stands_with_the_dyad_that_it_is_of():
             batch = LinkageBatch.of([found.linkage]).to_canonical(frames)
             places = frames.to_canonical(found.error.places)[None]
             position, angle = pose_sigma(task)
-            spread = covariance(
-                batch, places, result.length_per_radian / unit, (position / unit, angle)
-            )
+            length = result.length_per_radian / unit
+            spread = covariance(batch, places, length, (position / unit, angle))
             for mine, wanted in zip(
                 found.uncertainty, uncertainties(spread, batch, places, unit)[0], strict=True
             ):

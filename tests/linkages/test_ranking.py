@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-
 from benchmarks.practical_tasks import practical_tasks
+
 from burmester import RR, Linkage, read_task
 from burmester.fourbar.pose_error import PoseError
 from burmester.linkages.quality import Standard
@@ -104,7 +104,7 @@ def test_linkages_that_differ_by_less_than_the_poses_determine_are_one(synthesis
 
     def moved(by):
         dyad = best.linkage.second
-        other = RR(dyad.fixed_pivot + [by, 0], dyad.moving_pivot, dyad.radius)
+        other = RR(dyad.fixed_pivot + np.array([by, 0]), dyad.moving_pivot, dyad.radius)
         return replace(best, id="L2", linkage=Linkage(best.linkage.first, other))
 
     assert order(synthesis, best, moved(0.9 * region)) == ["L1"]
@@ -122,8 +122,9 @@ def test_linkages_that_differ_by_less_than_the_poses_determine_are_one(synthesis
     assert order(synthesis, exact, wide, within=tolerance) == ["L1"]
 
 
-def four_bar(found, ground, driver, coupler, follower, transmission=50.0):
-    """A found linkage with other links."""
+def four_bar(found, links, transmission):
+    """A found linkage with other links (ground, driver, coupler, follower)."""
+    ground, driver, coupler, follower = map(float, links)
     linkage = Linkage(
         RR([0.0, 0.0], [0.0, 0.0], driver), RR([ground, 0.0], [coupler, 0.0], follower)
     )
@@ -156,7 +157,7 @@ def test_the_standard(synthesis, links, transmission, asked, short):
     rows = [(0, 0, 0), (30, 40, 10), (60, 70, 20), (80, 60, 30), (100, 50, 45)]  # span 122
     task = type(synthesis.task).from_rows(rows, angle_unit="deg")
     task = replace(task, requirements=Requirements(**asked))
-    found = four_bar(synthesis.usable[0], *map(float, links), transmission)
+    found = four_bar(synthesis.usable[0], links, transmission)
     assert " and ".join(Standard.of(task).shortcomings(found, task)) == short
 
 
