@@ -3,7 +3,8 @@
     python -m benchmarks.recommended --count 40
 
 Of each practical task the first linkage is looked at: its transmission angle, its links beside the
-span of the motion, its errors, and whether another usable linkage in the list is better in both.
+span of the motion, its errors, and whether another usable linkage in the list, as sound in its
+transmission angle, is better in both.
 """
 
 from __future__ import annotations
@@ -36,7 +37,8 @@ def main() -> None:
         links = sorted(float(link) for link in best.linkage.links or ())
         turned = float(np.degrees(best.error.angle.max()))
         beaten = any(
-            each.error.worst < 0.99 * best.error.worst
+            each.driven.least_over_range >= min(np.radians(30), best.driven.least_over_range)
+            and each.error.worst < 0.99 * best.error.worst
             and each.error.angle.max() < 0.99 * best.error.angle.max()
             for each in usable
         )

@@ -21,6 +21,7 @@ __all__ = [
     "footnotes",
     "notes",
     "rounding_note",
+    "standard_note",
     "tolerance_note",
     "uncertainty_note",
 ]
@@ -87,9 +88,16 @@ def _prices(synthesis: Synthesis, best: FoundLinkage) -> Iterator[str]:
 
 
 def notes(synthesis: Synthesis, found: FoundLinkage) -> list[str]:
-    """What stands under the dimensions: of uncertainty, tolerance and rounding."""
-    every = (uncertainty_note, tolerance_note, rounding_note)
+    """What stands under the dimensions: of soundness, uncertainty, tolerance and rounding."""
+    every = (standard_note, uncertainty_note, tolerance_note, rounding_note)
     return [text for note in every if (text := note(synthesis, found)) is not None]
+
+
+def standard_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
+    """Why nobody would build it as it is, though it works."""
+    if not (found.usable and found.shortcomings):
+        return None
+    return f"It works, but {' and '.join(found.shortcomings)}."
 
 
 def uncertainty_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
