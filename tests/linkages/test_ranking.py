@@ -149,6 +149,7 @@ def four_bar(found, links, transmission):
         ((1500, 400, 900, 1100), 50, {}, "has a link of 1500"),
         ((100, 40, 100, 40), 50, {}, "is at a change point"),
         ((100, 40, 100, 40.2), 50, {}, "is at a change point"),
+        ((100, 40, 80, 60), 50, {}, "is at a change point"),
         ((100, 40, 100, 45), 50, {}, ""),
         ((100, 40, 100, 40), 50, {"types": {"change-point"}}, ""),
     ],
