@@ -28,6 +28,7 @@ from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.motion_task import Task
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.requirements import Requirements
+from burmester.web.data import report_data
 from tests.oracles import witness
 
 # What other programs rely on; more may be required here, nothing less.
@@ -543,3 +544,51 @@ def test_failures_and_units_fit_the_screen_as_well(width, tmp_path):
             above = text.split("\nDyads")[0]
             for each in nearest:
                 assert re.search(rf"^{each['id']} +{each['type']}", above, re.MULTILINE)
+
+
+def test_another_type_within_the_uncertainty_is_told_beside_the_type():
+    """Poses of three decimals of a four-bar whose Grashof sums differ by a thousandth."""
+    dyads = RR([0, 0], [0, 0], 1.0), RR([3.0, 0], [2.3, 0], 1.699)
+    z, phi = (each[0] for each in witness.places(*dyads, np.linspace(0.4, 2.2, 9)))
+    rows = np.column_stack([z.real, z.imag, phi]).round(3)
+    requirements = Requirements(types=frozenset({"triple-rocker", "crank-rocker"}))
+    task = Task(Displacement.from_poses(rows), resolution=(5e-4, 5e-4), requirements=requirements)
+    synthesis, data, screen = synthesized(task)
+    best = synthesis.usable[0]
+    first = next(each for each in data["linkages"] if each["id"] == best.id)
+    g, a, h, b = (first["links"][name] for name in ("ground", "driver", "coupler", "follower"))
+    own = (
+        "triple-rocker"
+        if 2 * (max(g, a, h, b) + min(g, a, h, b)) > g + a + h + b
+        else "crank-rocker"
+    )
+    (other,) = {"triple-rocker", "crank-rocker"} - {own}
+    assert first["type"] == own
+    assert first["possible_types"] == [own, other]
+    text = screen()
+    doubt = f"could be a {other} within ±"
+    assert f"Best: {best.id}, a {own} ({doubt}) driven by" in text
+    assert f"{own} ±" in text
+    assert f"{best.id} is a {own}, and {doubt}." in text
+    page = report_data(synthesis)
+    shown = next(each for each in page["linkages"] if each["id"] == best.id)
+    assert f"{best.id} is a {own}, and {doubt}." in shown["said"]["notes"]
+    # Sharper poses leave no doubt, and none is told.
+    exact = np.column_stack([z.real, z.imag, phi])
+    _sharp, data, screen = synthesized(
+        replace(task, poses=Displacement.from_poses(exact), resolution=(0.0, 0.0))
+    )
+    assert data["linkages"][0]["possible_types"] == ["triple-rocker"]
+    assert "could be" not in screen()
+
+
+def test_rounded_dimensions_leave_no_type_open():
+    dyads = RR([0, 0], [0, 0], 1.0), RR([3.0, 0], [2.3, 0], 1.69)
+    z, phi = (each[0] for each in witness.places(*dyads, np.linspace(0.4, 2.2, 9)))
+    rows = np.column_stack([z.real, z.imag, phi]).round(2)
+    task = Task(Displacement.from_poses(rows), resolution=(5e-3, 5e-3))
+    _, data, _ = synthesized(task)
+    assert any(len(each["possible_types"]) > 1 for each in data["linkages"])
+    _, data, _ = synthesized(task, rounding_step=0.01)
+    assert all(len(each["possible_types"]) == 1 for each in data["linkages"] if "rounded" in each)
+    assert any("rounded" in each for each in data["linkages"])

@@ -6,11 +6,15 @@ import numpy as np
 import pytest
 
 from burmester import synthesize
+from burmester.api.linkage import ReadLinkage
 from burmester.errors import InputError
+from burmester.fourbar.dyad import RR
+from burmester.geometry.displacement import Displacement
 from burmester.io import templates
 from burmester.io.reading.poses import read_task
 from burmester.io.result import synthesis_data
 from burmester.io.saved import read_result
+from burmester.tasks.motion_task import Task
 from tests.oracles.witness import places
 
 
@@ -33,6 +37,7 @@ def test_every_linkage_comes_back(name, tmp_path):
     assert [each.id for each in result.linkages] == [each.id for each in found.linkages]
     for mine, saved in zip(found.linkages, result.linkages, strict=True):
         assert (saved.usable, saved.type) == (mine.usable, mine.type)
+        assert saved.other_types == mine.other_types
         led = mine.driver_first if mine.usable else mine.linkage
         for one, other in ((led.first, saved.linkage.first), (led.second, saved.linkage.second)):
             assert type(one) is type(other)
@@ -40,6 +45,22 @@ def test_every_linkage_comes_back(name, tmp_path):
                 assert b == pytest.approx(a, abs=1e-14, rel=1e-14)
         if np.isfinite(mine.error.worst):
             assert saved.error.worst == pytest.approx(mine.error.worst, abs=1e-12)
+
+
+def test_other_types_come_back_and_an_older_file_has_none(tmp_path):
+    dyads = RR([0, 0], [0, 0], 1.0), RR([3.0, 0], [2.3, 0], 1.699)
+    z, phi = (each[0] for each in places(*dyads, np.linspace(0.4, 2.2, 9)))
+    rows = np.column_stack([z.real, z.imag, phi]).round(3)
+    task = Task(Displacement.from_poses(rows), resolution=(5e-4, 5e-4))
+    _found, path = written(task, tmp_path)
+    saved = read_result(path).choose()
+    assert {saved.type, *saved.other_types} == {"triple-rocker", "crank-rocker"}
+    assert f"{saved.type} (or {saved.other_types[0]} within ±) of" in repr(ReadLinkage.of(saved))
+    older = json.loads(path.read_text())
+    for each in older["linkages"]:
+        del each["possible_types"]
+    path.write_text(json.dumps(older))
+    assert read_result(path).choose().other_types == ()
 
 
 def test_the_driver_is_first_also_where_limits_order_the_dyads(tmp_path):

@@ -35,13 +35,57 @@ def told(linkage, decimals, first=0.4, last=2.2, count=9):
     return min(result.linkages, key=lambda each: each.error.worst)
 
 
-def test_grashofs_type_is_left_open_where_the_digits_leave_it_open():
+def test_the_type_is_that_of_the_dimensions_and_the_digits_leave_others_open():
     # Shortest and longest link exceed the others by 1e-3.
     lengths = np.array([3.0, 1.0, 2.3, 1.7 - 1e-3])
-    assert four_bar(*lengths).type == "triple-rocker"
-    assert told(four_bar(*lengths), 9).type == "triple-rocker"
-    assert told(four_bar(*lengths), 3).type == "change-point"
-    assert told(four_bar(3.0, 1.0, 2.3, 1.9), 5).type == "crank-rocker"
+    sharp = told(four_bar(*lengths), 9)
+    assert (sharp.type, sharp.other_types) == ("triple-rocker", ())
+    blunt = told(four_bar(*lengths), 3)
+    assert blunt.type == blunt.driver_first.type != "change-point"
+    assert {blunt.type, *blunt.other_types} == {"triple-rocker", "crank-rocker"}
+    clear = told(four_bar(3.0, 1.0, 2.3, 1.9), 5)
+    assert (clear.type, clear.other_types) == ("crank-rocker", ())
+
+
+def test_a_change_point_is_an_exact_equality():
+    tied = told(four_bar(3.0, 1.0, 2.3, 1.7), 15, count=7)
+    assert (tied.type, tied.other_types) == ("change-point", ())
+
+
+def test_the_other_types_are_named_from_the_driver_that_is_preferred():
+    """Whichever of two limits the short link has; it is the better driver."""
+    linkage = four_bar(3.0, 1.0, 2.3, 1.7 - 1e-3)
+    place = Circuits.of(linkage, as_given=True)[0].couplers(np.linspace(0.4, 2.2, 9))
+    rows = np.column_stack([place.translation, place.angle]).round(3)
+    near = [
+        Limits(moving_pivot=box((-0.5, -1), (0.5, 1))),
+        Limits(moving_pivot=box((1.5, -1), (3, 1))),
+    ]
+    drivers = set()
+    for limits in (near, near[::-1]):
+        task = Task(Displacement.from_poses(rows), resolution=(5e-4, 5e-4), limits=tuple(limits))
+        found = synthesize(task).linkages[0]
+        drivers.add(found.preferred_driver)
+        assert found.driver_first.links.driver == min(found.linkage.links)
+        assert {found.type, *found.other_types} == {"triple-rocker", "crank-rocker"}
+    assert drivers == {"first", "second"}
+
+
+def test_a_type_that_is_required_is_that_of_the_dimensions():
+    linkage = four_bar(3.0, 1.0, 2.3, 1.7 - 1e-3)
+    place = Circuits.of(linkage, as_given=True)[0].couplers(np.linspace(0.4, 2.2, 9))
+    rows = np.column_stack([place.translation, place.angle]).round(3)
+    every = {"triple-rocker", "crank-rocker"}
+    for allowed in every:
+        task = Task(
+            Displacement.from_poses(rows),
+            resolution=(5e-4, 5e-4),
+            requirements=Requirements(types=frozenset({allowed})),
+        )
+        for found in synthesize(task).linkages:
+            wrong = [each for each in found.violations if each.kind == "type"]
+            assert bool(wrong) == (found.driver_first.type != allowed)
+            assert all(found.driver_first.type in each.message for each in wrong)
 
 
 def test_uncertainty_stands_with_the_dyad_that_it_is_of():

@@ -17,13 +17,12 @@ from burmester.linkages.uncertainty import (
     PivotRegion,
     covariance,
     line_middle,
-    links_deviation,
     pose_sigma,
     uncertainties,
 )
 from burmester.tasks.motion_task import Task
-from tests.oracles.refits import LENGTH, USED, case, dyads_of, numbers_of, refitted, slopes
-from tests.oracles.witness import places, random_four_bar
+from tests.oracles.refits import LENGTH, USED, case, dyads_of, refitted, slopes
+from tests.oracles.witness import places
 
 SIGMA = (2e-6, 5e-6)
 
@@ -247,22 +246,3 @@ def test_the_deviation_of_poses_is_that_of_rounding():
     position, angle = pose_sigma(task)
     assert abs(position / off - 1) < 0.02
     assert np.isclose(angle, position / 10)
-
-
-@pytest.mark.parametrize("seed", range(6))
-def test_the_excess_of_grashof_errs_as_its_links_do(seed):
-    rng = np.random.default_rng(seed)
-    pairs = [random_four_bar(rng) for _ in range(3)] + [random_four_bar(rng, PR)]
-    batch = LinkageBatch.of([Linkage(*pair) for pair in pairs])
-    root = 1e-7 * rng.normal(size=(4, 10, 10))
-    found = links_deviation(batch, root @ root.swapaxes(1, 2))
-
-    def excess(z):
-        links = [abs(complex(*(z[5:7] - z[:2]))), z[4], abs(complex(*(z[7:9] - z[2:4]))), z[9]]
-        return 2 * (min(links) + max(links)) - sum(links)
-
-    for k, pair in enumerate(pairs[:3]):
-        z = numbers_of(pair)
-        off = np.array([(excess(z + each) - excess(z - each)) / 2 for each in root[k].T])
-        assert np.isclose(found[k], np.linalg.norm(off), rtol=1e-5)
-    assert np.isnan(found[3])

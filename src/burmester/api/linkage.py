@@ -161,6 +161,7 @@ class ResultLinkage(_Handover, FoundLinkage):
             self.task,
             self.error,
             self.driven.least_over_range,
+            self.other_types,
         )
 
     def __repr__(self) -> str:

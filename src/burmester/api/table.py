@@ -11,6 +11,7 @@ from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import ROUNDING
 from burmester.tasks.motion_task import Task, characteristic_length
 from burmester.tasks.notation import least_angle, length_of
+from burmester.wording import listed
 
 __all__ = ["as_html", "as_line", "as_text"]
 
@@ -29,7 +30,10 @@ def as_line(linkage: SavedLinkage) -> str:
     else:
         how = f"misses by {worst} and {angle}"
     sure = f", transmission angle {least} or more" if linkage.usable else f", {verdict}"
-    return f"{linkage.id}: {linkage.type} of {first} and {second}, {how}{sure}"
+    kind = linkage.type
+    if linkage.other_types:
+        kind += f" (or {listed(linkage.other_types, 'or')} within ±)"
+    return f"{linkage.id}: {kind} of {first} and {second}, {how}{sure}"
 
 
 def as_text(linkages: Sequence[SavedLinkage], most: int) -> list[str]:

@@ -14,7 +14,7 @@ from burmester.linkages.uncertainty import pose_sigma
 from burmester.numerics.arrays import ROUNDING
 from burmester.synthesis.result import Synthesis
 from burmester.tasks import notation
-from burmester.wording import with_article
+from burmester.wording import listed, with_article
 
 __all__ = [
     "best_sentences",
@@ -23,8 +23,13 @@ __all__ = [
     "rounding_note",
     "standard_note",
     "tolerance_note",
+    "type_doubt",
+    "type_note",
     "uncertainty_note",
 ]
+
+
+MAX_NAMED_TYPES = 3  # other types that a sentence names; there are four
 
 
 def best_sentences(synthesis: Synthesis) -> Iterator[str]:
@@ -33,9 +38,11 @@ def best_sentences(synthesis: Synthesis) -> Iterator[str]:
         return
     best, task, size = synthesis.usable[0], synthesis.task, synthesis.length
     kind = best.type.replace("change-point", "change-point linkage")
+    doubt = type_doubt(synthesis, best)
+    kind = with_article(kind) + (f" ({doubt})" if doubt else "")
     least = notation.least_angle(best.driven.least_over_range)
     yield (
-        f"Best: {best.id}, {with_article(kind)} driven by {best.dyads_driver_first[0].id}, "
+        f"Best: {best.id}, {kind} driven by {best.dyads_driver_first[0].id}, "
         f"{_passes(synthesis, best)}, transmission angle {least} or more."
     )
     nearest = explanation.by_nearness(synthesis.linkages)[0]
@@ -87,9 +94,26 @@ def _prices(synthesis: Synthesis, best: FoundLinkage) -> Iterator[str]:
             yield f"{text[0].upper()}{text[1:]}: {other.id}, which {near}{short}."
 
 
+def type_doubt(synthesis: Synthesis, found: FoundLinkage) -> str | None:
+    """The other types that the poses leave possible: "could be a crank-rocker within ±"."""
+    if not found.other_types:
+        return None
+    within = "rounding" if certain(synthesis, found) else "±"
+    if len(found.other_types) > MAX_NAMED_TYPES:
+        return f"could be of any type within {within}"
+    others = listed([with_article(each) for each in found.other_types], "or")
+    return f"could be {others} within {within}"
+
+
+def type_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
+    """How certain Grashof's type is, where it is not."""
+    doubt = type_doubt(synthesis, found)
+    return None if doubt is None else f"{found.id} is {with_article(found.type)}, and {doubt}."
+
+
 def notes(synthesis: Synthesis, found: FoundLinkage) -> list[str]:
-    """What stands under the dimensions: of soundness, uncertainty, tolerance and rounding."""
-    every = (standard_note, uncertainty_note, tolerance_note, rounding_note)
+    """What stands under the dimensions: of soundness, uncertainty, type, tolerance, rounding."""
+    every = (standard_note, uncertainty_note, type_note, tolerance_note, rounding_note)
     return [text for note in every if (text := note(synthesis, found)) is not None]
 
 
@@ -167,4 +191,6 @@ def footnotes(synthesis: Synthesis) -> str:
             " The first of two dyads drives; worst and angle: the greatest misses at a pose; "
             "transm.: the least transmission angle between the poses."
         )
+    if any(found.other_types for found in synthesis.usable):
+        text += " A type with ± could be another within the uncertainty of the links; see --json."
     return text

@@ -7,6 +7,7 @@ circles meet: one formula for every pair of RR, PR and RP.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import NamedTuple, final
 
@@ -16,10 +17,26 @@ from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["Linkage", "Links", "grashof"]
+__all__ = ["GRASHOF_SUMS", "TYPE_OF_SIGNS", "Linkage", "Links", "grashof"]
 
 PARALLEL = 1e-9  # relative; lines whose cross product is smaller are parallel within rounding
-GRASHOF_TIE = 1e-9  # relative excess of link lengths; a smaller one is a change point
+GRASHOF_TIE = 1e-9  # of all links together; a sum as small is zero but for rounding
+
+# Two of the four links less the other two.  The signs of these sums tell Grashof's type: Murray and
+# Larochelle, A classification scheme for planar 4R, spherical 4R and spatial RCCC linkages, 1998.
+GRASHOF_SUMS = np.array(  # by ground, driver, coupler, follower
+    [[1.0, -1.0, 1.0, -1.0], [1.0, -1.0, -1.0, 1.0], [-1.0, -1.0, 1.0, 1.0]]
+)
+TYPE_OF_SIGNS: Mapping[tuple[int, ...], str] = {
+    (1, 1, 1): "crank-rocker",
+    (1, -1, -1): "rocker-crank",
+    (-1, -1, 1): "double-crank",
+    (-1, 1, -1): "double-rocker",
+    (-1, -1, -1): "triple-rocker",
+    (-1, 1, 1): "triple-rocker",
+    (1, -1, 1): "triple-rocker",
+    (1, 1, -1): "triple-rocker",
+}
 
 _TYPES = {
     frozenset({RR, PR}): "slider-crank",
@@ -129,17 +146,14 @@ class Linkage:
 def grashof(links: Links) -> str:
     """The type of one 4R linkage from its link lengths (Grashof's rule).
 
-    A tie of s + l and p + q within 1e-9 of their sum is called a change point.
+    By the signs of `GRASHOF_SUMS`; one of them is s + l - p - q but for its sign.  A sum within
+    GRASHOF_TIE of zero is a change point.
     """
     lengths = np.array([float(length) for length in links])
-    s, p, q, longest = np.sort(lengths)
-    excess = s + longest - p - q
-    if abs(excess) <= GRASHOF_TIE * lengths.sum():
+    sums = GRASHOF_SUMS @ lengths
+    if np.abs(sums).min() <= GRASHOF_TIE * lengths.sum():
         return "change-point"
-    if excess > 0:
-        return "triple-rocker"
-    names = ("double-crank", "crank-rocker", "double-rocker", "rocker-crank")
-    return names[int(lengths.argmin())]
+    return TYPE_OF_SIGNS[tuple(int(sign) for sign in np.sign(sums))]
 
 
 def _slice(p: FloatArray, s: FloatArray, c: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -79,6 +79,7 @@ def linkage_data(found: FoundLinkage, tolerance: float | None = None) -> dict[st
         "usable": found.usable,
         "driver": found.driver,
         "type": found.type,
+        "possible_types": [found.type, *found.other_types],
         "dyads": [dyad_data(dyad) for dyad in found.dyads],
         "position_error": _errors(found.error.position),
         "angle_error_deg": _errors(np.degrees(found.error.angle)),

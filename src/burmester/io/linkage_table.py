@@ -74,7 +74,7 @@ def _usable(synthesis: Synthesis, usable: Sequence[FoundLinkage], pins: bool, ga
         table.add_column(name, justify="right", no_wrap=True)
     for found in usable:
         # Of the longest name, the second word stands under the first.
-        kind = found.type.replace("inverted ", "inverted\n")
+        kind = found.type.replace("inverted ", "inverted\n") + (" ±" if found.other_types else "")
         table.add_row(
             found.id,
             kind,
@@ -95,7 +95,9 @@ def unusable(synthesis: Synthesis, found: Sequence[FoundLinkage]) -> Group:
         if each.error_before_rounding is not None:
             before = notation.length_of(each.error_before_rounding.worst, synthesis.task)
             how += f" (before rounding {before})"
-        head = Text(f"{each.id:<{INDENT - 1}} {each.type}, {dyads}: {how}")
+        doubt = sentences.type_doubt(synthesis, each)
+        kind = f"{each.type} ({doubt})" if doubt else each.type
+        head = Text(f"{each.id:<{INDENT - 1}} {kind}, {dyads}: {how}")
         reasons = "; ".join(explanation.reasons(each, synthesis.task))
         rows += [head, Padding(Text(reasons), (0, 0, 0, INDENT))]
     if len(found) > MOST_UNUSABLE:
@@ -116,7 +118,7 @@ def in_full(synthesis: Synthesis) -> Iterator[Text | Table]:
     uncertainty = sentences.uncertainty_note(synthesis, best)
     if uncertainty is not None:
         yield Text(uncertainty, style="dim")
-    for note in (sentences.tolerance_note, sentences.rounding_note):
+    for note in (sentences.type_note, sentences.tolerance_note, sentences.rounding_note):
         text = note(synthesis, best)
         if text is not None:
             yield Text(text)

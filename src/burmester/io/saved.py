@@ -43,6 +43,7 @@ class SavedLinkage:
     driver: which of the two dyads of the file is first here; it is None in the file where the
     linkage is not usable, and then the first one.
     least_transmission: the least transmission angle between the poses, in radians.
+    other_types: the other types that the uncertainty of the links leaves possible.
     """
 
     id: str
@@ -54,6 +55,7 @@ class SavedLinkage:
     task: Task
     error: PoseError
     least_transmission: float = math.nan
+    other_types: tuple[str, ...] = ()
 
     @property
     def unit(self) -> str | None:
@@ -169,6 +171,7 @@ def _linkage(data: dict[str, Any], task: Task) -> SavedLinkage:
         task,
         error,
         math.nan if least is None else math.radians(least),
+        tuple(map(str, data.get("possible_types", [])[1:])),
     )
 
 

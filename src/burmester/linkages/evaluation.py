@@ -20,13 +20,14 @@ from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.constraints import AllConstraints
 from burmester.linkages.found_linkage import FoundLinkage, Pair, Side, with_driver_first
+from burmester.linkages.possible_types import links_covariance, possible_types
 from burmester.linkages.quality import Standard
 from burmester.linkages.ranking import ranked
 from burmester.linkages.requirement_check import Violation, violations
 from burmester.linkages.rounding import rounded
 from burmester.linkages.target import Target
 from burmester.linkages.tolerances import spread
-from burmester.linkages.uncertainty import covariance, links_deviation, pose_sigma, uncertainties
+from burmester.linkages.uncertainty import covariance, pose_sigma, uncertainties
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import take
 from burmester.numerics.differences import DifferenceQuotients
@@ -146,7 +147,8 @@ class Evaluation:
             if not new:
                 lost = Violation("rounding", "rounded so coarsely its pivots would fall together")
                 new = [replace(each, usable=False, violations=(*each.violations, lost))]
-            out += [replace(one, error_before_rounding=each.error) for one in new]
+            # Rounded dimensions are exact, whatever the poses leave open.
+            out += [replace(one, error_before_rounding=each.error, other_types=()) for one in new]
         return ranked(out, self.problem)
 
     def dyad(self, origin: FoundDyad | str, dyad: Dyad) -> FoundDyad:
@@ -233,7 +235,7 @@ class Evaluation:
             fixed=active,
         )
         regions = uncertainties(spreads, batch[sound], places, unit)
-        deviation = links_deviation(batch[sound], spreads)
+        links = links_covariance(batch[sound], spreads) * unit**2
         built = None
         if self.problem.options.manufacturing_tolerance is not None:
             tolerance = self.problem.options.manufacturing_tolerance / unit
@@ -243,8 +245,12 @@ class Evaluation:
         out = list(found)
         for at, k in enumerate(sound):
             determined = max(each.half_width for each in regions[at]) <= DETERMINED_SHARE * size
-            tie = bool(abs(_excess(batch.dimensions[k])) <= 2 * deviation[at])
-            out[k] = replace(out[k], uncertainty=regions[at], determined=determined, tie=tie)
+            out[k] = replace(
+                out[k],
+                uncertainty=regions[at],
+                determined=determined,
+                other_types=_other_types(out[k], links[at]),
+            )
             if built is not None:
                 out[k] = replace(out[k], spread=built.one(at, unit))
         return out
@@ -268,11 +274,12 @@ def _exchanged(
     return with_driver_first(linkage, "second"), turned, "first", pair[::-1]
 
 
-def _excess(z: FloatArray) -> float:
-    """The shortest and the longest link less the others, of a 4R's dimensions (2, 5)."""
-    ground, coupler = (float(np.linalg.norm(z[1, at] - z[0, at])) for at in (FIXED, MOVING))
-    s, p, q, longest = sorted((ground, coupler, float(z[0, 4]), float(z[1, 4])))
-    return s + longest - p - q
+def _other_types(found: FoundLinkage, covariance: FloatArray) -> tuple[str, ...]:
+    """The other types within the covariance (4, 4) of the links, with the preferred driver."""
+    if (links := found.driver_first.links) is None:
+        return ()
+    order = [0, 1, 2, 3] if found.preferred_driver == "first" else [0, 3, 2, 1]
+    return possible_types(links, covariance[np.ix_(order, order)])[1:]
 
 
 def _with_numbers(verdict: Verdict, numbers: Sequence[int]) -> Verdict:

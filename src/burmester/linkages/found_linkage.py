@@ -63,8 +63,8 @@ class FoundLinkage:
         The 95 % regions of both dyads that errors of the poses leave.
     determined : bool
         Whether these regions are small compared with the motion.
-    tie : bool
-        Whether they leave Grashof's type open.
+    other_types : tuple of str
+        The other types of Grashof that errors of the poses leave possible (`possible_types`).
     spread : Spread, optional
         Of the error, for links and pivots built within a tolerance.
     error_before_rounding : PoseError, optional
@@ -92,14 +92,17 @@ class FoundLinkage:
     from_search: bool = False
     uncertainty: tuple[DyadUncertainty, DyadUncertainty] | None = None
     determined: bool = True
-    tie: bool = False
+    other_types: tuple[str, ...] = ()
     spread: Spread | None = None
     error_before_rounding: PoseError | None = None
 
     @property
     def type(self) -> str:
-        """Grashof's type, or the slider linkage's name, with the preferred driver; see `tie`."""
-        return "change-point" if self.tie else self.driver_first.type
+        """Grashof's type of the dimensions, or the slider linkage's name; see `other_types`.
+
+        With the preferred driver.
+        """
+        return self.driver_first.type
 
     @property
     def driver(self) -> Side | None:

@@ -19,7 +19,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.fourbar.dyad import PR, RP, RR
-from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import DIMENSIONS, DYAD_KINDS, LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
@@ -32,7 +31,6 @@ __all__ = [
     "PivotRegion",
     "covariance",
     "line_middle",
-    "links_deviation",
     "pose_sigma",
     "uncertainties",
 ]
@@ -297,35 +295,3 @@ def line_middle(batch: LinkageBatch, places: Displacement) -> FloatArray:
             low, high = np.fmin.reduce(along, axis=-1), np.fmax.reduce(along, axis=-1)
             middle[index, side] = np.nan_to_num((low + high) / 2)
     return middle
-
-
-def links_deviation(batch: LinkageBatch, covariance: FloatArray) -> FloatArray:
-    """Standard deviations (k,) of Grashof's excess s + l - p - q; nan where a dyad is a slider.
-
-    With an excess up to twice that, the poses do not exclude a change point.
-    """
-    deviation = np.full(len(batch), np.nan)
-    for index, pair in batch.alike():
-        a, b = pair.first, pair.second
-        if not (isinstance(a, RR) and isinstance(b, RR)):
-            continue
-        links = Linkage(a, b).links
-        assert links is not None
-        lengths = np.stack(links, axis=-1)
-        sign = np.full(lengths.shape, -1.0)
-        row = np.arange(len(index))
-        sign[row, lengths.argmin(axis=-1)] = sign[row, lengths.argmax(axis=-1)] = 1.0
-        slope = np.zeros((len(index), 2, DIMENSIONS))
-        for link, at, gap in (
-            (0, 0, b.fixed_pivot - a.fixed_pivot),
-            (2, 2, b.moving_pivot - a.moving_pivot),
-        ):
-            size = lengths[:, link, None]
-            toward = np.divide(gap, size, out=np.zeros_like(gap), where=size > 0)
-            slope[:, 1, at : at + 2] = sign[:, link, None] * toward
-            slope[:, 0, at : at + 2] = -slope[:, 1, at : at + 2]
-        slope[:, :, 4] = sign[:, [1, 3]]
-        flat = slope.reshape(len(index), -1)
-        variance = np.einsum("ki,kij,kj->k", flat, covariance[index], flat)
-        deviation[index] = np.sqrt(np.maximum(variance, 0.0))
-    return deviation
