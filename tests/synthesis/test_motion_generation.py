@@ -287,7 +287,8 @@ def test_special_motions_are_named_and_nothing_is_invented(code, count, method):
     assert synthesis.outcome.help
     for found in synthesis.linkages:  # of the parallelogram, and of two sliders with their crank
         assert code in ("R313", "R316")
-        assert found.error.worst < 1e-9
+        # A place at a change point is known to half of the digits; such a linkage is not usable.
+        assert found.error.worst < (1e-9 if found.usable else 1e-6)
         for dyad in found.dyads:
             assert np.abs(dyad.dyad.residual(synthesis.task.poses)).max() < 1e-9
 

@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 import pytest
+from benchmarks.two_slider_motions import recognised
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import least_squares
@@ -27,7 +28,9 @@ from burmester.tasks.motion_kinds import (
 )
 from burmester.tasks.motion_task import Task
 from tests.oracles.strange_poses import STRANGE
-from tests.oracles.witness import places, random_four_bar, random_poses, span
+from tests.oracles.two_slider_motions import best_pair, planted
+from tests.oracles.two_slider_motions import printed as rounded
+from tests.oracles.witness import misses, places, random_four_bar, random_poses, span
 
 PRINTED = (5e-5, np.radians(5e-5))  # half of the last digit of rows with four decimals
 
@@ -280,7 +283,7 @@ def test_a_driven_trammel_is_a_two_slider_motion(kind, seed):
 
 
 @pytest.mark.parametrize("kind", [PR, RP])
-def test_the_sliders_offered_are_equally_far_from_mid_stroke(kind):
+def test_the_first_slider_offered_is_in_mid_stroke_in_the_middle_of_the_range(kind):
     rng = np.random.default_rng(0)
     for _ in range(10):
         rows, _ = trammel(rng, 9, kind)
@@ -293,7 +296,73 @@ def test_the_sliders_offered_are_equally_far_from_mid_stroke(kind):
         else:
             back = place.inverse()
             at = [back.act(d.fixed_pivot) - motion.moving_centre for d in (first, second)]
-        assert np.allclose(np.linalg.norm(at, axis=1), np.sqrt(2) * motion.radius)
+        away = np.linalg.norm(at, axis=1)
+        assert np.allclose(away, [0, 2 * motion.radius], atol=1e-9 * motion.radius)
+        # No angle is farther from the middle than half of the rotation.
+        far = np.abs(np.angle(np.exp(1j * (rows[:, 2] - motion.middle)))).max()
+        assert np.isclose(2 * far, motion.rotation)
+
+
+@pytest.mark.parametrize("inverted", [False, True])
+@pytest.mark.parametrize("decimals", [4, 6, 16])
+@pytest.mark.parametrize("degrees", [40, 110, 160])
+def test_the_pair_offered_works_and_none_transmits_better(inverted, decimals, degrees):
+    """Against every pair of a grid of the family, moved by the bare definition of the motion."""
+    turn = np.radians(degrees)
+    rng = np.random.default_rng([degrees, decimals, inverted])
+    exact = planted(rng, 10, turn, inverted)
+    rows, resolution = rounded(exact, decimals) if decimals < 16 else (exact, (0.0, 0.0))
+    result = synthesize(task_of(rows, resolution))
+    assert result.outcome.code == "R316"
+    sliders = [
+        each for each in result.usable if not any(isinstance(d.dyad, RR) for d in each.dyads)
+    ]
+    best = max(each.driven.least_over_range for each in sliders)
+    assert best > (np.pi / 2 if inverted else best_pair(turn)) - np.radians(0.2)
+    # What is offered comes to the poses that were printed, driven by the witness.
+    reach = np.abs(rows[:, :2]).max()
+    for each in result.usable:
+        gap = misses(each.linkage, Displacement.from_poses(exact), reach)
+        assert gap.max() < max(40 * resolution[0], 1e-6) * (1 + reach)
+    # No better pair is promised where there is none.
+    if not inverted and degrees > 100:
+        (weak,) = [each for each in result.warnings if each.code == "W210"]
+        assert "no other pair of the family transmits better" in weak.help
+
+
+def test_half_a_turn_has_no_pair_without_a_dead_point():
+    rng = np.random.default_rng(2)
+    assert best_pair(np.radians(182)) == 0
+    result = synthesize(task_of(planted(rng, 12, np.radians(200), False)))
+    assert result.outcome.code == "R316"
+    assert not result.usable
+    assert "without a dead point" in result.outcome.help
+    turned = synthesize(task_of(planted(rng, 12, np.radians(200), True)))
+    assert turned.usable  # slots turn on
+
+
+def test_ten_poses_of_four_decimals_over_40_degrees_are_two_sliders_within_their_digits():
+    """A sample of `python -m benchmarks.two_slider_motions`."""
+    shares = recognised(3, 40, 4, 60)
+    assert min(shares[:2]) > 0.9
+    assert shares[2] < 0.03  # double-cranks with a short ground link nearly are such motions
+    rng = np.random.default_rng(4)
+    rows, resolution = rounded(planted(rng, 10, np.radians(40), True), 4)
+    few = kind_of(rows, resolution)
+    assert few.within_digits
+    assert few.message.startswith("within the digits given, a two-slider motion (inverted)")
+    assert "more digits" in few.help
+    full = kind_of(planted(rng, 10, np.radians(40), True))
+    assert not full.within_digits
+    assert "digits" not in full.message + full.help
+
+
+@pytest.mark.parametrize(("degrees", "decimals"), [(20, 5), (90, 3), (120, 3), (60, 16)])
+def test_two_sliders_are_told_from_general_motions_both_ways(degrees, decimals):
+    """A sample of `python -m benchmarks.two_slider_motions`."""
+    shares = recognised(3, degrees, decimals, 30)
+    assert min(shares[:2]) > 0.85
+    assert shares[2] < 0.03
 
 
 def drive_pair(first, second, angle):

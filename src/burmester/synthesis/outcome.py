@@ -230,6 +230,8 @@ def linkage_advice(task: Task, linkages: Sequence[FoundLinkage], code: str) -> l
         if least < GOOD_TRANSMISSION:
             limit = math.degrees(GOOD_TRANSMISSION)
             help = f"ask for more with --min-transmission {limit:.0f}"
+            if code == "R316":
+                help = "let the body turn less: no other pair of the family transmits better"
             other = max(usable, key=lambda each: each.driven.least_over_range)
             if other.driven.least_over_range > BETTER * least:
                 angle = least_angle(other.driven.least_over_range)

@@ -12,6 +12,7 @@ __all__ = [
     "COORDINATE_ROUNDING",
     "distinguishable",
     "exact_repeats",
+    "orientation_arc",
     "rotation_range",
     "spanning",
 ]
@@ -85,7 +86,14 @@ def spanning(rows: FloatArray, count: int) -> Indices:
 
 
 def rotation_range(angle: FloatArray) -> float:
-    """The least arc that holds all orientations (N,), in radians."""
+    """The length of the least arc that holds all orientations (N,), in radians."""
+    return orientation_arc(angle)[1]
+
+
+def orientation_arc(angle: FloatArray) -> tuple[float, float]:
+    """The least arc that holds all orientations (N,): its middle and its length, in radians."""
     around = np.sort(angle % (2 * np.pi))
     gaps = np.diff(around, append=around[0] + 2 * np.pi)
-    return float(2 * np.pi - gaps.max())
+    widest = int(gaps.argmax())
+    length = 2 * np.pi - gaps[widest]
+    return float(around[(widest + 1) % len(around)] + length / 2), float(length)

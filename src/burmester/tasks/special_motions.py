@@ -220,7 +220,8 @@ class TwoSliders(MotionKindBase):
 
     inverse: whether the lines are fixed in M (and all pass through `moving_centre`) or in F.
     fixed_centre (2,) in F, moving_centre (2,) in M, radius |b|, phase the angle of b;
-    middle: the angle about which the poses lie.  Radians.
+    middle, rotation: of the least arc of all angles, its middle and its length.  Radians.
+    within_digits: whether more digits could show another motion.
     """
 
     code: ClassVar[str] = "R316"
@@ -231,6 +232,8 @@ class TwoSliders(MotionKindBase):
     radius: float
     phase: float
     middle: float
+    rotation: float
+    within_digits: bool = False
     unit: str | None = None
 
     @property
@@ -239,9 +242,10 @@ class TwoSliders(MotionKindBase):
         own, other = self.fixed_centre, self.moving_centre
         if not self.inverse:
             own, other = other, own
+        within = "within the digits given, " if self.within_digits else ""
         return (
-            f"a two-slider motion{' (inverted)' if self.inverse else ''}: every point of the {on} "
-            "on the circle of radius "
+            f"{within}a two-slider motion{' (inverted)' if self.inverse else ''}: "
+            f"every point of the {on} on the circle of radius "
             f"{rounded_length(self.radius, self.radius, self.unit)} about its point "
             f"{_point(own, self.radius)} stays on a straight line of the {of} through "
             f"{_point(other, self.radius)}; so the sliders are a whole family, with one crank "
@@ -250,9 +254,17 @@ class TwoSliders(MotionKindBase):
 
     @property
     def help(self) -> str:
+        other = "for another four-bar give a pose off this motion"
+        if self.within_digits:
+            other = "for another four-bar give more digits, or a pose off this motion"
+        if not self.inverse and self.rotation >= np.pi:
+            return (
+                "no slider of the family drives the body through half a turn without a dead point: "
+                f"let it turn less; {other}"
+            )
         return (
-            "take any two sliders of the family (two square to each other are offered), or one "
-            "of them and the crank; for another four-bar give a pose off this motion"
+            "take the two sliders offered, which are square to each other: no pair of the family "
+            f"transmits better; or the crank and the second of them; {other}"
         )
 
     def slider(self, place: ArrayLike) -> PR | RP:
@@ -272,10 +284,19 @@ class TwoSliders(MotionKindBase):
 
     @property
     def dyads(self) -> tuple[Dyad, ...]:
-        """Two sliders square to each other, equally far from mid-stroke at `middle`; the crank."""
-        turn = -self.middle if self.inverse else self.middle
-        along = self.phase - 2 * turn
-        return self.slider(along + np.pi / 2), self.slider(along - np.pi / 2), self.crank
+        """Two sliders square to each other, the first in mid-stroke at `middle`; and the crank.
+
+        No pair transmits better.  PR: the instant centre is a point of the circle, and runs round
+        it by twice the rotation.  A driving slider sees the coupler and the normal of any other
+        line at the inscribed angle over the arc to that centre.  So the transmission angle is the
+        driver's alone: 90 deg in mid-stroke, less by as much as the body has turned from there.
+        The same holds for the crank that drives a slider, at the end of its stroke at `middle`.
+        RP: a slot drives any other slot by a pure couple, at 90 deg.
+
+        The second slider is opposite on the circle, as forces square to each other hold best.
+        """
+        along = self.phase + 2 * self.middle * (1 if self.inverse else -1)
+        return self.slider(along + np.pi), self.slider(along), self.crank
 
 
 # --- numbers for people
