@@ -9,6 +9,7 @@ import numpy as np
 
 from burmester.dyads.five_poses import FivePoseDyads
 from burmester.dyads.local_minima import BestDyads
+from burmester.dyads.long_links import SENSIBLE_SWING, swing
 from burmester.dyads.minima_within_limits import LimitedDyads
 from burmester.dyads.pencil import MIN_POSES, Pencil, fit_pencil
 from burmester.dyads.sliders import nearest_slider
@@ -17,14 +18,14 @@ from burmester.geometry import constraint_manifold
 from burmester.numerics.arrays import ROUNDING, FloatArray
 from burmester.tasks.motion_task import COARSE, Task, characteristic_length
 
-__all__ = ["LONG", "Fit", "FoundDyad", "found_dyads", "relative_resolution", "same_dyad"]
+__all__ = ["Fit", "FoundDyad", "found_dyads", "relative_resolution", "same_dyad"]
 
 Fit: TypeAlias = Pencil | FivePoseDyads | BestDyads
 Candidate: TypeAlias = tuple[Dyad, float, float]  # with its rms and greatest error
 
 # Lengths are in characteristic lengths of the task.
 MAX_SLIDER_ANGLE = 0.05  # sine; a manifold at a greater angle to a slider's is not that slider
-LONG = 100.0  # length; a longer link is a slider if that fits half as well, or is nearly one
+STRAIGHT_SWING = 0.02  # radians; a link that swings less is a slider if that fits half as well
 LOST_SHARE = 1e-6  # of the size; a greater error of an exact dyad is no longer rounding
 MAX_LENGTH = 1e9  # no link is longer, and no pivot farther away
 SAME_DYAD = 1e-6  # length or angle; dyads whose dimensions differ by less are one
@@ -53,7 +54,8 @@ def found_dyads(fit: Fit, task: Task) -> tuple[list[FoundDyad], int]:
     """The dyads of a fit, each as the circle or the slider that it is, and each once.
 
     A long link is a slider where the line it nearly follows fits the poses as well as the
-    circle does, or as well as the poses are known.  For noisy poses that is a heuristic.
+    circle does, or as well as the poses are known; for noisy poses that is a heuristic.  But a link
+    that swings by SENSIBLE_SWING, and meets the poses as the line does, is kept.
     Sorted by rms error; where errors are mere rounding, by the length of the link.
 
     Returns the dyads, and how many solutions were left out because they are no dyads: the link
@@ -85,14 +87,17 @@ def found_dyads(fit: Fit, task: Task) -> tuple[list[FoundDyad], int]:
         rms, worst = float(fit.rms_error[k]), float(fit.max_error[k])
         if not limited and abs(p[0]) < MAX_SLIDER_ANGLE * constraint_manifold.size(p):
             nearest = nearest_slider(p, seen, task.weights)
-            share = 1 if circle.radius < LONG * length else 2
+            swung = swing(circle, task.poses)
+            share = 2 if swung < STRAIGHT_SWING else 1
+            known = relative_resolution(task, length) * length
             rounding = np.finfo(float).eps * float(circle.radius)  # of a distance so great
-            allowed = max(share * rms, relative_resolution(task, length) * length, rounding)
-            fits = unit * nearest.rms_error <= allowed or not np.isfinite(allowed)
-            if nearest.angle_sine < near and fits:
+            allowed, miss = max(share * rms, known, rounding), unit * nearest.rms_error
+            fits = miss <= allowed or not np.isfinite(allowed)
+            sensible = swung > SENSIBLE_SWING and rms <= max(miss, known)
+            if nearest.angle_sine < near and fits and not sensible:
                 add_slider(nearest.dyad)
                 continue
-        if limited and circle.radius > LONG * length and sliders:
+        if limited and sliders and swing(circle, task.poses) < STRAIGHT_SWING:
             continue  # on its way to one of them
         lost = isinstance(fit, FivePoseDyads) and rms > LOST_SHARE * max(
             length, float(circle.radius)

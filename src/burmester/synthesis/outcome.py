@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from burmester.dyads.critical_points import COUNT, CriticalDyads
 from burmester.dyads.five_poses import FivePoseDyads
 from burmester.dyads.local_minima import BestDyads
+from burmester.dyads.long_links import is_nearly_slider, swing
 from burmester.dyads.minima_within_limits import LimitedDyads
-from burmester.dyads.selection import LONG
 from burmester.errors import Advice
 from burmester.fourbar.dyad import RR
 from burmester.linkages.explanation import by_nearness, hints, in_short, nearness
@@ -31,16 +31,17 @@ GOOD_TRANSMISSION = math.radians(40)  # least angle over the range; below it fri
 
 def dyad_advice(problem: SynthesisProblem, found: DyadSearch) -> list[Advice]:
     """What a user should know about the dyads."""
+    poses, size = problem.task.poses, max(span(problem.given), problem.length)  # as the page shows
     warnings = [
         Advice(
             "W204",
-            f"{each.id} has a link of {each.dyad.radius / problem.length:.0f} times the motion's "
-            "size: nearly a slider",
+            f"{each.id} has a link of {dyad.radius / size:.0f} times the span of the "
+            f"poses, and it swings by {figure(math.degrees(swing(dyad, poses)))}°: nearly a slider",
             "if a link that long cannot be built, allow sliders only with --kinds PR,RP, or say "
             "how long it may be with --length :MAX",
         )
         for each in found.dyads
-        if isinstance(each.dyad, RR) and each.dyad.radius > LONG * problem.length
+        if isinstance(dyad := each.dyad, RR) and is_nearly_slider(dyad, poses, size)
     ]
     for fit in found.fits:
         search = fit.search if isinstance(fit, BestDyads) else None

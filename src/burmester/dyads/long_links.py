@@ -1,0 +1,33 @@
+"""Long links: how far they swing, and which of them are nearly sliders.
+
+A link whose far pivot is fixed in F swings little in F; one whose far pivot is in M swings little
+against M.  In the limit the other pivot is on a line: a slider.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from burmester.fourbar.dyad import RR
+from burmester.geometry.displacement import Displacement
+from burmester.tasks.repeated_poses import rotation_range
+
+__all__ = ["SENSIBLE_SWING", "is_nearly_slider", "swing"]
+
+SENSIBLE_SWING = 0.1  # radians; a link that swings more is a link; arcs bend by 1 % of their chords
+OUT_OF_SIGHT = 10.0  # sizes of the picture; no picture shows both ends of a longer link
+
+
+def swing(dyad: RR, poses: Displacement) -> float:
+    """The angle, radians, by which one RR dyad's link turns over poses (N,).
+
+    Against F or against M, where it turns less.
+    """
+    arm = poses.act(dyad.moving_pivot) - dyad.fixed_pivot
+    direction = np.arctan2(arm[:, 1], arm[:, 0])
+    return min(rotation_range(direction), rotation_range(direction - poses.angle))
+
+
+def is_nearly_slider(dyad: RR, poses: Displacement, size: float) -> bool:
+    """Whether a link is out of sight and hardly swings; size: what a picture of the poses shows."""
+    return bool(dyad.radius > OUT_OF_SIGHT * size) and swing(dyad, poses) < SENSIBLE_SWING
