@@ -1,6 +1,7 @@
 """The dyads of a fit: their order, and which of them are links and which are sliders."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -102,6 +103,9 @@ def test_a_link_that_hardly_swings_is_the_slider_that_the_digits_cannot_tell_fro
         found, _ = found_dyads(best_dyads(task.poses), task)
         near = [each for each in found if each.rms_error < 1e-3]
         assert sorted(type(each.dyad).__name__ for each in near) == ["PR", "RR"]
+        few = replace(task, poses=task.poses[::2])
+        found, _ = found_dyads(dyads_of_five(few.poses), few)
+        assert any(isinstance(each.dyad, PR) and each.rms_error < 1e-3 for each in found)
     assert kept > 10
 
 

@@ -47,6 +47,17 @@ def test_the_type_is_that_of_the_dimensions_and_the_digits_leave_others_open():
     assert (clear.type, clear.other_types) == ("crank-rocker", ())
 
 
+@pytest.mark.parametrize("unit", [1e-3, 1.0, 1e3])
+def test_the_other_types_do_not_depend_on_the_unit(unit):
+    linkage = four_bar(3.0, 1.0, 2.3, 1.7 - 5e-3)
+    place = Circuits.of(linkage, as_given=True)[0].couplers(np.linspace(0.4, 2.2, 9))
+    rows = np.column_stack([place.translation, place.angle]).round(4) * [unit, unit, 1]
+    for digit, others in ((5e-5, ()), (2e-3, ("crank-rocker",))):
+        task = Task(Displacement.from_poses(rows), resolution=(digit * unit, digit))
+        best = min(synthesize(task).linkages, key=lambda each: each.error.worst)
+        assert (best.type, best.other_types) == ("triple-rocker", others)
+
+
 def test_a_change_point_is_an_exact_equality():
     tied = told(four_bar(3.0, 1.0, 2.3, 1.7), 15, count=7)
     assert (tied.type, tied.other_types) == ("change-point", ())

@@ -63,6 +63,15 @@ def test_the_triple_rocker_that_could_be_a_crank_rocker():
     assert possible_types(links, np.zeros((4, 4))) == ("triple-rocker",)
 
 
+def test_sums_that_err_together_change_their_signs_together():
+    """Driver and follower differ by 0.02, and this difference errs by 0.011 alone."""
+    links = Links(3.0, 1.0, 3.0, 1.02)
+    apart = np.array([0.0, 1.0, 0.0, -1.0])
+    spread = (0.02 / 3.6) ** 2 * np.outer(apart, apart)
+    assert "rocker-crank" in possible_types(links, spread)
+    assert possible_types(links, spread / 2) == ("crank-rocker",)
+
+
 @pytest.mark.parametrize("seed", range(6))
 def test_links_err_as_the_pivots_they_join(seed):
     rng = np.random.default_rng(seed)

@@ -45,6 +45,7 @@ EXACT_WEIGHT = 1e8  # weight of an exact pose in the covariance
 QUOTIENTS = DifferenceQuotients(stride=1e-7)  # of limits, by the dimensions
 ACTIVE_LIMIT = 1e-9  # lengths; a limit nearer than this is active
 FIXED, MOVING = slice(0, 2), slice(2, 4)  # the pivots' coordinates in an RR dyad's dimensions
+DRIVEN_FROM_THE_OTHER_SIDE = {"crank-rocker": "rocker-crank", "rocker-crank": "crank-rocker"}
 MAX_ROUNDED = 5  # round at most this many linkages
 
 
@@ -276,10 +277,12 @@ def _exchanged(
 
 def _other_types(found: FoundLinkage, covariance: FloatArray) -> tuple[str, ...]:
     """The other types within the covariance (4, 4) of the links, with the preferred driver."""
-    if (links := found.driver_first.links) is None:
+    if (links := found.linkage.links) is None:
         return ()
-    order = [0, 1, 2, 3] if found.preferred_driver == "first" else [0, 3, 2, 1]
-    return possible_types(links, covariance[np.ix_(order, order)])[1:]
+    others = possible_types(links, covariance)[1:]
+    if found.preferred_driver == "first":
+        return others
+    return tuple(DRIVEN_FROM_THE_OTHER_SIDE.get(each, each) for each in others)
 
 
 def _with_numbers(verdict: Verdict, numbers: Sequence[int]) -> Verdict:
