@@ -18,6 +18,7 @@ from tests.oracles.limits_problems import (
     ANYWHERE,
     CORNER,
     LONG,
+    PAIRS,
     Problem,
     breaches,
     circle_distance,
@@ -27,6 +28,7 @@ from tests.oracles.limits_problems import (
     ours,
     outside,
     random_problem,
+    random_problem_of,
     random_region,
     solved,
     verdict,
@@ -62,6 +64,15 @@ def test_no_start_finds_a_better_dyad_within_the_limits():
             told.append(what)
     assert sum(what in ("long", "no counterpart") for what in told) <= 1
     assert sum(what == "same" for what in told) > 0.8 * len(told)
+
+
+@pytest.mark.parametrize("task", [11, 13, 46, 48])
+def test_minima_of_the_distance_that_no_minimum_of_the_squared_residual_leads_to(task):
+    """Rough and weighted poses; the best dyad was missed here from the residual's minima alone."""
+    rng = np.random.default_rng([1, task])
+    problem = random_problem_of(rng, PAIRS[task % len(PAIRS)])
+    what, best, least, z = verdict(problem, solved(problem), RR, rng, 20)
+    assert what in ("same", "ours"), (best, least, z)
 
 
 def one_sort(rng, fixed, moving, noise=0.03, count=8):

@@ -180,13 +180,29 @@ def random_region(rng, what, size):
 SORTS = ["none", "point", "line", "segment", "box", "concave"]
 
 
+PAIRS = [pair for pair in product(SORTS, SORTS) if pair != ("none", "none")]
+
+
+def random_rows(rng, count, noises):
+    """Noisy poses of a random four-bar, and their span without the noise."""
+    rows = random_poses(random_four_bar(rng), rng, count)
+    noise, size = rng.choice(noises), span(rows)
+    return rows + noise * rng.normal(size=rows.shape) * [size, size, 1.0], size
+
+
+def random_problem_of(rng, sorts):
+    """A task of 5 to 12 poses, rough ones too, with limits of two sorts; half of them weighted."""
+    count = int(rng.integers(5, 13))
+    rows, size = random_rows(rng, count, [0.001, 0.01, 0.05, 0.15])
+    (fixed, in_f), (moving, in_m) = (random_region(rng, sort, size) for sort in sorts)
+    weights = 10 ** rng.uniform(-1, 1, count) if rng.random() < 0.5 else None
+    return Problem(rows, weights, np.zeros(count, bool), Limits(fixed, moving), in_f, in_m)
+
+
 def random_problem(rng, sorts=SORTS):
     """A task of 6 to 13 noisy poses with limits of all sorts, and up to as many exact poses."""
     count = int(rng.integers(6, 14))
-    rows = random_poses(random_four_bar(rng), rng, count)
-    noise = rng.choice([0.001, 0.01, 0.05])
-    size = span(rows)
-    rows = rows + noise * rng.normal(size=rows.shape) * [size, size, 1.0]
+    rows, size = random_rows(rng, count, [0.001, 0.01, 0.05])
     a, b = rng.choice(sorts), rng.choice(["none", "none", *sorts])
     if rng.random() < 0.5:
         a, b = b, a

@@ -98,9 +98,12 @@ def descend(
     distances: DistanceFunction,
     minimise: Minimise,
     blocks: Sequence[Block],
+    *,
+    may_leave: bool = True,
 ) -> GeometricFit:
     """The local minimum within limits to which a dyad z inside them leads.
 
+    may_leave: whether it may leave an edge into the region.
     Not settled where there is none.
     """
     on = lying_on(z, blocks)
@@ -127,6 +130,8 @@ def descend(
         steepness, direction = inward[best]
         if steepness >= -STEEPNESS_ROUNDING:
             return fit
+        if not may_leave:
+            break
         at = z[blocks[best].at]
         wider = [
             face

@@ -3,37 +3,28 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple, final
+from typing import final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.dyads.circle_minima import circle_minima
 from burmester.dyads.critical_points import CriticalDyads, critical_dyads
-from burmester.dyads.geometric_fit import NEGLIGIBLE_GAIN, circle_terms
 from burmester.dyads.minima_within_limits import LimitedDyads, limited_dyads
 from burmester.dyads.sliders import fixed_lines, moving_lines
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
-from burmester.numerics.bundles import where
-from burmester.numerics.iteration import iterate, shortened
-from burmester.numerics.linear_algebra import matvec
-from burmester.numerics.unique_rows import unique_rows
 from burmester.numerics.weights import shares, weights_or_ones
 from burmester.tasks.limits import Limits
 from burmester.tasks.options import Norm
 
 __all__ = ["BestDyads", "best_dyads"]
 
-MAX_NEWTON_STEPS = 60  # from each start
-SETTLED_STEP = 1e-9  # relative; a shorter step of Newton's method is its last one
-SAME_DYAD = 1e-6  # relative; circles whose coordinates differ by less are one
 # Generic factors by which one of each pair of conjugate points is picked.
 CONJUGATE_PICK = np.sqrt([2.0, 3.0, 5.0, 7.0])
 START_LENGTH = 20.0  # characteristic lengths; the links that start along a line
-MAX_LENGTH = 1e3  # characteristic lengths; a circle with greater coordinates is a line
-FLAT_EIGENVALUE = 1e-14  # share of the greatest; smaller eigenvalues are taken for this one
 
 
 @final
@@ -130,7 +121,7 @@ def best_dyads(
     pivots = np.concatenate([pivots, np.zeros((1, 4))])  # where the frames' origins stay close
     starts = [_circles_about(pivots, seen, weights)]
     starts += [_circles_along(line, seen, weights) for line in lines]
-    z = _minima(np.concatenate(starts), seen, shares(weights, poses.shape))
+    z = circle_minima(np.concatenate(starts), seen, shares(weights, poses.shape))
     circles = RR(z[:, :2], z[:, 2:4], z[:, 4])
     return _with_errors(critical, circles, tuple(lines), circles[:, None].residual(seen))
 
@@ -168,72 +159,3 @@ def _circles_along(line: PR | RP, poses: Displacement, weights: FloatArray | Non
     centres = foot + np.outer([-START_LENGTH, START_LENGTH], n)
     pivots = np.concatenate([centres, np.tile(line.moving_pivot, (2, 1))], axis=-1)
     return _circles_about(pivots, poses, weights)
-
-
-class _Point(NamedTuple):
-    """Circles z (k, 5), the terms of their distances, and whether they have come to rest (k,)."""
-
-    z: FloatArray
-    terms: tuple[FloatArray, ...]
-    settled: NDArray[np.bool_]
-
-
-def _minima(z: FloatArray, poses: Displacement, share: FloatArray) -> FloatArray:
-    """The local minima (k, 5) of the sum of squares that circles (*, 5) lead to, each once.
-
-    Newton's method; where the sum is not convex, Gauss and Newton's step; shortened until it
-    helps.  A circle that does not come to rest, or grows so far that it is a slider, is left out.
-    """
-    terms = circle_terms(poses)
-
-    def cost(terms: tuple[FloatArray, ...]) -> FloatArray:
-        return np.asarray(terms[0] ** 2 @ share)
-
-    def point(z: FloatArray) -> _Point:
-        return _Point(z, terms(z), np.zeros(len(z), dtype=bool))
-
-    def advance(_: NDArray[np.intp], here: _Point) -> tuple[_Point, NDArray[np.bool_]]:
-        step, convex, gain = _newton_step(here.terms, share)
-        before = cost(here.terms)
-        # Newton's last steps gain so little that the sum would tell by its rounding only.
-        negligible = convex & (gain < NEGLIGIBLE_GAIN * before)
-        there, failed = shortened(
-            lambda step: point(here.z + step),
-            step,
-            lambda there: ~negligible & (cost(there.terms) > before),
-        )
-        there = where(failed, here, there)
-        size = 1 + np.abs(there.z).max(axis=-1)
-        moved = np.abs(there.z - here.z).max(axis=-1)
-        settled = convex & (moved < SETTLED_STEP * size)
-        ended = settled | (failed & ~convex) | (size > MAX_LENGTH)
-        return there._replace(settled=settled), ended
-
-    ends, ended_at = iterate(advance, point(z), np.arange(len(z)), MAX_NEWTON_STEPS)
-    settled = np.flatnonzero(ends.settled)
-    settled = settled[np.argsort(ended_at[settled], kind="stable")]
-    minima = ends.z[settled]
-    minima = minima[np.argsort(cost(terms(minima)), kind="stable")]
-    return unique_rows(minima, SAME_DYAD, "maximum")
-
-
-def _newton_step(
-    terms: tuple[FloatArray, ...], share: FloatArray
-) -> tuple[FloatArray, NDArray[np.bool_], FloatArray]:
-    """Newton's step, or Gauss and Newton's where the sum of squares is not convex.
-
-    Returns the steps (k, 5), whether the sum is convex (k,), and what the steps gain (k,).
-    """
-    distance, jacobian, tangent, arm = terms
-    weighted = share * distance
-    gradient = (weighted[:, None] @ jacobian)[:, 0]
-    gauss_newton = np.swapaxes(share[:, None] * jacobian, -1, -2) @ jacobian
-    curvature = np.swapaxes((weighted / arm)[..., None] * tangent, -1, -2) @ tangent
-    values, axes = np.linalg.eigh(gauss_newton + curvature)
-    convex = values[:, 0] > 0
-    if not convex.all():
-        values[~convex], axes[~convex] = np.linalg.eigh(gauss_newton[~convex])
-    values = np.maximum(values, FLAT_EIGENVALUE * values[:, -1:])
-    along = (gradient[:, None] @ axes)[:, 0] / values
-    step = -matvec(axes, along)
-    return step, convex, -(gradient * step).sum(axis=-1)

@@ -2,9 +2,10 @@
 
 A dyad that is best within limits lies on some face of them: the fixed pivot inside its region, on
 an edge or at a corner, the moving pivot likewise, the link's length free or at a bound.  On each of
-these faces all stationary points of the squared residual are found (`parameter_homotopy`), the
-minima among them are followed to minima of the true distance, and those are kept that lie within
-the limits and from which no direction into them leads down.
+these faces all stationary points of the squared residual are found (`parameter_homotopy`).  All of
+them, complex ones by their real parts, and long links along the best lines are followed to minima
+of the true distance on the face, the minima among them down to minima within the limits.  Those are
+kept that lie within the limits and from which no direction into them leads down.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.dyads.circle_minima import circle_ends
 from burmester.dyads.critical_points import residual_rows
 from burmester.dyads.face_descent import Block, LengthRange, descend, inside
 from burmester.dyads.geometric_fit import (
@@ -32,6 +34,7 @@ from burmester.dyads.parameter_homotopy import (
     Condition,
     Parameters,
     Shape,
+    StationaryPoints,
     circle_shape,
     line_shape,
     stationary_points,
@@ -48,7 +51,11 @@ from burmester.tasks.options import Norm
 __all__ = ["LimitedDyads", "limited_dyads"]
 
 SAME_DYAD = 1e-7  # relative; dyads whose coordinates differ by less are one
+NEAR_DYAD = 1e-6  # relative; from a circle so near to a dyad no way down is looked for
 EXACT_TOLERANCE = 1e-9  # relative; an exact pose missed by less is met
+EXACT_WEIGHT = 1e4  # of an exact pose, where all weights are 1, on the way to its neighbourhood
+START_LENGTH = 20.0  # characteristic lengths; the links that start along a line
+NEARLY_EXACT = 0.01  # relative; an exact pose missed by more there has no dyad nearby
 SLIDER_LENGTH = (
     1e3  # characteristic lengths; a longer link that still grows is on its way to a line
 )
@@ -65,7 +72,8 @@ class LimitedDyads:
     circles: (k,), sliders: PR and RP dyads, all in `frames`; by rising rms error each.
     systems: how many faces were searched; found: their stationary points, complex ones included;
     lost: paths that ended nowhere: where there are any, a dyad may be missing.
-    unsettled: how many ways down were given up, and did not lead to a dyad.
+    unsettled: how many ways down from minima of the squared residual were given up, and did not
+        lead to a dyad.
     """
 
     frames: CanonicalFrames
@@ -141,16 +149,24 @@ class _Search:
         size = np.linalg.norm(conditions, axis=1, keepdims=True)
         return base, loose.T @ loose, conditions / np.where(size > 0, size, 1.0)
 
-    def solve(self, shape: Shape, parameters: list[Parameters]) -> list[FloatArray]:
-        """The minima (k, n) of systems of one shape."""
+    def solve(self, shape: Shape, parameters: list[Parameters]) -> list[StationaryPoints]:
+        """The stationary points of systems of one shape."""
         stacked = Parameters(*(np.stack(part) for part in zip(*parameters, strict=True)))
-        minima = []
-        for one in stationary_points(shape, stacked):
+        every = stationary_points(shape, stacked)
+        for one in every:
             self.systems += 1
             self.found += one.finite
             self.lost += one.lost
-            minima.append(one.points[one.minimum])
-        return minima
+        return every
+
+    def leaning(self) -> FloatArray:
+        """The weights (N,) of squared distances whose minima lie near those with exact poses."""
+        return np.where(self.exact, EXACT_WEIGHT, self.share)
+
+    def nearly_exact(self, distances: DistanceFunction, z: FloatArray) -> bool:
+        """Whether a dyad z nearly meets the exact poses."""
+        gap = np.abs(distances(z).distance[self.exact]).max(initial=0)
+        return bool(gap < NEARLY_EXACT * (1 + np.abs(z).max()))
 
     def follow_up(
         self,
@@ -158,8 +174,14 @@ class _Search:
         z: FloatArray,
         distances: DistanceFunction,
         blocks: Sequence[Block],
-    ) -> None:
-        """Add the minimum of the norm to which a dyad z leads, if it is within limits and new."""
+        *,
+        may_leave: bool = True,
+    ) -> bool:
+        """Add the minimum of the norm to which a dyad z leads, if it is within limits and new.
+
+        may_leave: whether the way down may leave the edges on which z lies.
+        Returns False where the way down was given up.
+        """
         problem = FitProblem(distances, np.eye(len(z)), self.share, self.exact)
 
         def newton_step(z: FloatArray, basis: FloatArray) -> GeometricFit:
@@ -171,21 +193,27 @@ class _Search:
                 return best._replace(z=np.full_like(z, np.nan))  # on its way to a slider
             return best._replace(settled=True)
 
-        if not inside(z, blocks):
-            return
-        best = descend(z, distances, newton_step, blocks)
+        if not inside(z, blocks) or _is_known(z, dyads, NEAR_DYAD):
+            return True
+        best = descend(z, distances, newton_step, blocks, may_leave=may_leave)
         if best.settled and self.norm == "worst" and not self.exact.all():
             best = descend(best.z, distances, minimax, blocks)
         size = 1 + np.abs(best.z).max()
         if not best.settled and not size < SLIDER_LENGTH:
-            return  # on its way to a slider
+            return True  # on its way to a slider
         # On an edge or at a corner there may be too little freedom to meet the exact poses.
         gap = np.abs(distances(best.z).distance[self.exact]).max(initial=0)
         if not best.settled or gap > EXACT_TOLERANCE * size:
-            self.unsettled += 1
-            return
-        if all(np.abs(best.z - other).max() > SAME_DYAD * size for other in dyads):
+            return False
+        if not _is_known(best.z, dyads, SAME_DYAD):
             dyads.append(best.z)
+        return True
+
+
+def _is_known(z: FloatArray, dyads: list[FloatArray], tolerance: float) -> bool:
+    """Whether a dyad z is one of some others, up to a share of its size."""
+    gap = tolerance * (1 + np.abs(z).max())
+    return any(np.abs(z - other).max() <= gap for other in dyads)
 
 
 def _circles(seen: Displacement, limits: Limits, search: _Search) -> FloatArray:
@@ -199,16 +227,18 @@ def _circles(seen: Displacement, limits: Limits, search: _Search) -> FloatArray:
     )
     dyads: list[FloatArray] = []
 
-    def follow_up(faces: tuple[Face, ...], minima: FloatArray) -> None:
+    def circles(faces: tuple[Face, ...], points: FloatArray) -> FloatArray:
+        """The circles (k, 5) of points (k, i + j) of a pair of faces, of the best length."""
         fixed, moving, length = faces
         i = fixed.basis.shape[1]
-        for x in minima:
-            pivots = [fixed.origin + fixed.basis @ x[:i], moving.origin + moving.basis @ x[i:]]
-            z = np.concatenate([*pivots, [0.0]])
-            distance, held = distances(z).distance, search.exact
-            mean = distance[held].mean() if held.any() else search.share @ distance
-            z[4:] = [mean] if length.basis.shape[1] else length.origin
-            search.follow_up(dyads, z, distances, blocks)
+        z = np.zeros((len(points), 5))
+        z[:, :2] = fixed.origin + points[:, :i] @ fixed.basis.T
+        z[:, 2:4] = moving.origin + points[:, i:] @ moving.basis.T
+        centred = RR(z[:, :2], z[:, 2:4], z[:, 4])
+        kept = np.where(search.exact, 1.0, 0.0) if search.exact.any() else search.share
+        mean = centred[:, None].residual(seen) @ (kept / kept.sum())
+        z[:, 4] = mean if length.basis.shape[1] else length.origin
+        return z
 
     systems: dict[str, tuple[Shape, list[tuple[tuple[Face, ...], Parameters]]]] = {}
     for faces in product(*(block.faces() for block in blocks)):
@@ -219,7 +249,8 @@ def _circles(seen: Displacement, limits: Limits, search: _Search) -> FloatArray:
         if i + j < len(conditions) + (kind == "hard"):
             continue
         if i + j == 0:
-            follow_up(faces, np.empty((1, 0)))
+            (z,) = circles(faces, np.empty((1, 0)))
+            search.unsettled += not search.follow_up(dyads, z, distances, blocks)
             continue
         at, features = _circle_map(faces[0], faces[1])
         linear = features.T @ base
@@ -229,10 +260,56 @@ def _circles(seen: Displacement, limits: Limits, search: _Search) -> FloatArray:
         shape = circle_shape(i, j, len(conditions), kind)
         systems.setdefault(shape.name, (shape, []))[1].append((faces, system))
     for shape, members in systems.values():
-        found = search.solve(shape, [system for _, system in members])
-        for (faces, _), minima in zip(members, found, strict=True):
-            follow_up(faces, minima)
+        starts, along, minima, far = [], [], [], []
+        points = search.solve(shape, [system for _, system in members])
+        for (faces, _), of_face in zip(members, points, strict=True):
+            far.append(circles(faces, _far_points(faces, seen, search.leaning())))
+            others = np.concatenate([of_face.complex_parts, np.zeros((1, shape.unknowns))])
+            starts += [circles(faces, of_face.points), circles(faces, others), far[-1]]
+            along += [_directions(faces)] * sum(map(len, starts[-3:]))
+            minima += [*of_face.minimum, *[False] * (len(others) + len(far[-1]))]
+        # The true distance has minima to which no minimum of the squared residual leads.
+        z = np.concatenate(starts)
+        ends, _ = circle_ends(z, seen, search.leaning(), np.stack(along))
+        for end in ends[np.isfinite(ends).all(axis=1)]:
+            if search.nearly_exact(distances, end):
+                search.follow_up(dyads, end, distances, blocks, may_leave=False)
+        for start, end in zip(z[minima], ends[minima], strict=True):
+            if not _is_known(end, dyads, NEAR_DYAD):
+                search.unsettled += not search.follow_up(dyads, start, distances, blocks)
+        if search.exact.any():  # long links come to rest slowly where exact poses weigh most
+            for start in np.concatenate(far):
+                search.follow_up(dyads, start, distances, blocks)
     return np.array(sorted(dyads, key=lambda z: _cost(distances, z))).reshape(-1, 5)
+
+
+def _far_points(faces: tuple[Face, ...], poses: Displacement, share: FloatArray) -> FloatArray:
+    """Points (*, i + j) of a pair of faces whose links are long: nearly the best lines across them.
+
+    Where a pivot moves along a line, it is far off on either side.
+    """
+    fixed, moving = faces[:2]
+    points = []
+    for far, near, motion in ((fixed, moving, poses), (moving, fixed, poses.inverse())):
+        if far.basis.shape[1] != 1:
+            continue
+        normal = far.basis[:, 0]
+        columns = [motion.rotate(along) @ normal for along in near.basis.T]
+        rows = np.stack([*columns, np.ones(poses.shape)], axis=-1)
+        root = np.sqrt(share)
+        best = np.linalg.lstsq(root[:, None] * rows, -root * (motion.act(near.origin) @ normal))[0]
+        for away in (-START_LENGTH, START_LENGTH):
+            points.append([away, *best[:-1]] if far is fixed else [*best[:-1], away])
+    return np.array(points).reshape(len(points), fixed.basis.shape[1] + moving.basis.shape[1])
+
+
+def _directions(faces: tuple[Face, ...]) -> FloatArray:
+    """The directions (5, d) in which a circle may move along its faces."""
+    fixed, moving, length = (face.basis for face in faces)
+    i, j = fixed.shape[1], moving.shape[1]
+    out = np.zeros((5, i + j + length.shape[1]))
+    out[:2, :i], out[2:4, i : i + j], out[4:, i + j :] = fixed, moving, length
+    return out
 
 
 def _circle_map(fixed: Face, moving: Face) -> tuple[FloatArray, FloatArray]:
@@ -274,11 +351,12 @@ def _lines(
         zero = np.zeros(features.shape[1])
         gram_of_face = features.T @ gram @ features
         system = Parameters(gram_of_face, conditions @ features, zero, np.ones(()))
-        for x in search.solve(shape, [system])[0]:
+        (found,) = search.solve(shape, [system])
+        for x in found.points[found.minimum]:
             n, pivot = x[:2], face.origin + face.basis @ x[2:]
             offset = base @ _LINE.features(np.concatenate([n, pivot]))
             z = np.array([np.arctan2(n[1], n[0]), offset, *pivot])
-            search.follow_up(dyads, z, distances, (block,))
+            search.unsettled += not search.follow_up(dyads, z, distances, (block,))
     dyads.sort(key=lambda z: _cost(distances, z))
     return [_with_upper_normal(z) for z in dyads]
 

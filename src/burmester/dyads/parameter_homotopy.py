@@ -116,12 +116,14 @@ class StationaryPoints(NamedTuple):
     """The real stationary points of one system, and how its paths ended.
 
     points: (k, n); minimum: (k,), which are local minima under the conditions.
+    complex_parts: (l, n), the real parts of the complex ones, of each conjugate pair once.
     finite: the number of different finite ends, complex ones included; away: of paths to infinity;
     lost: of paths that ended nowhere, so that a point may be missing.
     """
 
     points: FloatArray
     minimum: NDArray[np.bool_]
+    complex_parts: FloatArray
     finite: int
     away: int
     lost: int
@@ -237,7 +239,9 @@ def _summary(
     negative = (np.linalg.eigvalsh(jacobian(shape, x, p)) < 0).sum(axis=-1)
     minimum = negative == shape.size - shape.unknowns
     away, lost = int((state == AWAY).sum()), int((state == LOST).sum())
-    return StationaryPoints(x[:, : shape.unknowns], minimum, len(arrived), away, lost)
+    unknowns = slice(0, shape.unknowns)
+    pairs = unique_rows(arrived[~real, unknowns].real, SAME_POINT, "maximum")
+    return StationaryPoints(x[:, unknowns], minimum, pairs, len(arrived), away, lost)
 
 
 @cache
