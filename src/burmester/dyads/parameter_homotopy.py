@@ -86,6 +86,11 @@ class Shape(NamedTuple):
         """How many unknowns there are, multipliers included."""
         return self.unknowns + self.conditions + (self.quadratic != "none")
 
+    @property
+    def is_settled(self) -> bool:
+        """Whether the conditions alone leave finitely many points."""
+        return self.unknowns == self.conditions + (self.quadratic == "hard")
+
     def features(self, x: NDArray[Any]) -> NDArray[Any]:
         """The features w (*, f) at x (*, n)."""
         quadratic = np.einsum("...i,fij,...j->...f", x, self.second, x) / 2
