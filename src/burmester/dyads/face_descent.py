@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.dyads.geometric_fit import DistanceFunction, GeometricFit
-from burmester.geometry.regions import PLANE, Face, Region
+from burmester.geometry.regions import PLANE, Face, Polygon, Region
 from burmester.numerics.arrays import FloatArray
 
 __all__ = ["Block", "LengthRange", "descend", "inside", "lying_on"]
@@ -157,6 +157,11 @@ def _directions(size: int, blocks: Sequence[Block], faces: Sequence[Face]) -> Fl
 
 def _share_inside(z: FloatArray, to: FloatArray, block: Block) -> float:
     """The share of the way from z to another dyad on which a block stays in its region."""
+    if block.region is None:
+        return 1.0
+    straight = not isinstance(block.region, Polygon) or block.region.is_convex
+    if straight and not block.outside(to):  # so is all between
+        return 1.0
     low, high = 0.0, 1.0
     for _ in range(BRACKETING_ROUNDS):
         shares = np.linspace(low, high, BRACKETING_SAMPLES)

@@ -255,6 +255,13 @@ class Polygon:
             return f"in the box from {_shown(low)} to {_shown(high)}"
         return "in the polygon " + " ".join(map(_shown, self.vertices))
 
+    @property
+    def is_convex(self) -> bool:
+        """Whether no corner points into it."""
+        along = np.roll(self.vertices, -1, axis=0) - self.vertices
+        after = np.roll(along, -1, axis=0)
+        return bool((along[:, 0] * after[:, 1] >= along[:, 1] * after[:, 0]).all())
+
     def equations(self) -> FloatArray:
         """None: no linear conditions, (0, 3)."""
         return np.empty((0, 3))
