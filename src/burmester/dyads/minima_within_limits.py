@@ -27,6 +27,7 @@ from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Face, Region
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.weights import shares
+from burmester.tasks.frames import frames_of
 from burmester.tasks.limits import Limits
 from burmester.tasks.options import Norm
 
@@ -71,9 +72,10 @@ def limited_dyads(
     That the true distance has no other minima than those they lead to is not proved, nor that the
     worst distance has none.
     """
-    frames, seen = CanonicalFrames.of(poses, weights)
+    limits = limits or Limits()
+    frames, seen = frames_of(poses, weights, (limits,))
     held = np.zeros(poses.shape, dtype=bool) if exact is None else exact
-    limits = _limits_in(frames, limits or Limits())
+    limits = _limits_in(frames, limits)
     search = FaceSearch(shares(weights, poses.shape), held, norm)
     kinds = limits.allowed
     rr = circles_within_limits(seen, limits, search) if "RR" in kinds else np.empty((0, 5))

@@ -174,7 +174,7 @@ class BranchAndOrder:
         between = np.where((turns & ~round_)[:, None], wrapped_angle(between), between)
         step = np.diff(between, axis=1)
         step = np.where(round_[:, None], wrapped_angle(step), step)
-        forward = (step > 0).mean(axis=1) >= 0.5
+        forward = 2 * (step > 0).sum(axis=1) >= step.shape[1]  # also of one pose, which has no step
         # An input that turns fully may meet all poses within one turn, in one of the two senses.
         turn = np.stack([step, -step]) % (2 * np.pi)
         total = turn.sum(axis=-1)

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from burmester.errors import InputError, printable
-from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
+from burmester.tasks.frames import frames_of
 from burmester.tasks.limits import Limits
 from burmester.tasks.requirements import Requirements, require_possible
 from burmester.values import real_numbers, require_instance, shown
@@ -297,8 +297,8 @@ def _names(value: object) -> tuple[str, ...]:
 
 
 def characteristic_length(task: Task) -> float:
-    """The size of a task in its unit, the same in all frames (`CanonicalFrames`)."""
-    return float(CanonicalFrames.of(task.poses, task.weights)[0].length)
+    """The size of a task in its unit, the same in all frames (`frames_of`)."""
+    return float(frames_of(task.poses, task.weights, task.limits)[0].length)
 
 
 def _require_computable(poses: Displacement) -> None:
