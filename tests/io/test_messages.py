@@ -820,6 +820,13 @@ CASES: dict[str, Case] = {
         {"poses.csv": rows("7e9,0,0 7000000003,1,40 7000000004,3,70")},
         exit=1,
     ),
+    "a box thinner than rounding": Case(
+        "W212",
+        f"{S} --fixed-pivot box:-3,1:3,1.00000000001",
+        Args(f"{S} --fixed-pivot segment:-3,1:3,1"),
+        {"poses.csv": TEN},
+        exit=0,
+    ),
 }
 
 # --- running them

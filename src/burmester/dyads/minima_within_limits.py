@@ -30,6 +30,7 @@ from burmester.numerics.weights import shares
 from burmester.tasks.frames import frames_of
 from burmester.tasks.limits import Limits
 from burmester.tasks.options import Norm
+from burmester.tasks.thin_regions import without_thin_regions
 
 __all__ = ["LimitedDyads", "limited_dyads"]
 
@@ -67,7 +68,8 @@ def limited_dyads(
     """Every locally best dyad of poses (N,) within limits, and through the exact ones of them.
 
     weights: (N,) or None; exact: (N,), or None for no exact poses; norm: the sum of squared
-    distances is least, or the worst distance.
+    distances is least, or the worst distance.  A region thinner than rounding is its segment or its
+    point (`without_thin_regions`).
     On every face all stationary points of the squared residual are found, with probability one.
     That the true distance has no other minima than those they lead to is not proved, nor that the
     worst distance has none.
@@ -75,7 +77,7 @@ def limited_dyads(
     limits = limits or Limits()
     frames, seen = frames_of(poses, weights, (limits,))
     held = np.zeros(poses.shape, dtype=bool) if exact is None else exact
-    limits = _limits_in(frames, limits)
+    limits = _limits_in(frames, without_thin_regions(limits, frames, int(held.sum())))
     search = FaceSearch(shares(weights, poses.shape), held, norm)
     kinds = limits.allowed
     rr = circles_within_limits(seen, limits, search) if "RR" in kinds else np.empty((0, 5))

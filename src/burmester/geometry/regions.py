@@ -22,6 +22,7 @@ __all__ = [
     "Region",
     "Segment",
     "box",
+    "narrowed",
 ]
 
 MAX_CORNERS = 100  # of a polygon; every edge and corner is searched, a second or two for as many
@@ -227,9 +228,8 @@ class Polygon:
                 why="every edge and every corner is searched by itself",
                 help=f"take {MAX_CORNERS} of its corners at most",
             )
-        rounding = np.finfo(float).eps * len(v) * np.abs(v).max(initial=0)
         values = np.linalg.svd(v - v[:1], compute_uv=False) if len(v) > 2 else np.zeros(2)
-        if values[1] <= MIN_WIDTH * values[0] + rounding:
+        if len(v) < 3 or values[1] <= _least_width(v):
             raise InputError(
                 "E131",
                 "a polygon has no inside",
@@ -305,8 +305,10 @@ class Polygon:
 Region: TypeAlias = Point | Line | Segment | Polygon
 
 
-def box(low: Sequence[float], high: Sequence[float]) -> Polygon:
+def box(low: Sequence[float], high: Sequence[float]) -> Region:
     """The box between two opposite corners, with sides along X and Y.
+
+    Without a width that its numbers could tell it is a segment, without width and height a point.
 
     Parameters
     ----------
@@ -315,30 +317,75 @@ def box(low: Sequence[float], high: Sequence[float]) -> Polygon:
 
     Returns
     -------
-    Polygon
+    Polygon, Segment or Point
 
     Raises
     ------
     InputError
-        E131 (not two finite real numbers each), E132 (`high` not above and right of `low`), E112
+        E131 (not two finite real numbers each), E132 (`high` below or left of `low`), E112
         (too large).
 
     Examples
     --------
     >>> print(box((0, 0), (4, 2.5)))
     in the box from (0, 0) to (4, 2.5)
+    >>> print(box((0, 0), (4, 0)))
+    on the segment from (0, 0) to (4, 0)
     """
     x0, y0 = _coordinates(low, (2,), "the lower left corner of a box")
     x1, y1 = _coordinates(high, (2,), "the upper right corner of a box")
     for name, least, most in (("x", x0, x1), ("y", y0, y1)):
-        if not least < most:
+        if not least <= most:
             raise InputError(
                 "E132",
                 f"a box is empty: {name} from {least:g} to {most:g}",
-                why=f"its least {name}, {least:g}, is not below its greatest, {most:g}",
+                why=f"its least {name}, {least:g}, is above its greatest, {most:g}",
                 help="give the lower left corner first, then the upper right one",
             )
-    return Polygon(np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)]))
+    corners = np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)])
+    if min(x1 - x0, y1 - y0) > _least_width(corners):
+        return Polygon(corners)
+    return _flat(corners, _least_width(corners))
+
+
+def narrowed(region: Region, width: float) -> Region:
+    """What a region thinner than a width is: a segment, or a point if it is as short; else itself.
+
+    They run through its middle.
+    """
+    corners = region.corners()
+    if corners is None or isinstance(region, Point):
+        return region
+    (_, length), (_, across) = _extents(corners)
+    if across > width or (isinstance(region, Segment) and length > width):
+        return region
+    return _flat(corners, width)
+
+
+def _flat(corners: FloatArray, width: float) -> Segment | Point:
+    """The segment through the middle of corners (k, 2), or a point if it is not longer."""
+    (along, length), (across, _) = _extents(corners)
+    origin = corners[0]
+    shares = (corners - origin) @ np.stack([along, across], axis=-1)
+    low, high = shares.min(axis=0), shares.max(axis=0)
+    middle = origin + across * (low[1] + high[1]) / 2
+    if length <= width:
+        return Point(middle + along * (low[0] + high[0]) / 2)
+    return Segment(middle + along * low[0], middle + along * high[0])
+
+
+def _extents(corners: FloatArray) -> list[tuple[FloatArray, float]]:
+    """The directions (2,) in which corners (k, 2) reach farthest and least, and how far."""
+    offsets = corners - corners[0]
+    _, _, axes = np.linalg.svd(offsets - offsets.mean(axis=0), full_matrices=True)
+    return [(axis, float(np.ptp(offsets @ axis))) for axis in axes]
+
+
+def _least_width(corners: FloatArray) -> float:
+    """The width below which a polygon of corners (k, 2) has no inside that its numbers tell."""
+    rounding = np.finfo(float).eps * len(corners) * np.abs(corners).max(initial=0)
+    offsets = corners - corners[:1]
+    return float(MIN_WIDTH * np.linalg.norm(offsets, 2) + rounding)
 
 
 def _coordinates(values: object, shape: Shape, what: str) -> FloatArray:

@@ -104,9 +104,8 @@ def _linkages(
 ) -> tuple[FoundLinkage, ...]:
     """The linkages of pairs of dyads, with their errors at all poses, repeated ones too."""
     found = linkages_from_dyads(problem, pairs, refine=refine)
-    if problem.task is problem.given:
+    if problem.motion is None or problem.task.poses.shape == problem.given.poses.shape:
         return found
-    assert problem.motion is not None
     group, poses = problem.motion.group, problem.given.poses
     return tuple(
         replace(each, error=PoseError.at(each.error.places[group], poses)) for each in found

@@ -64,6 +64,7 @@ def dyad_advice(problem: SynthesisProblem, found: DyadSearch) -> list[Advice]:
                     "move a limit a little and compare",
                 )
             )
+    warnings += _thin_regions(problem)
     if found.left_out:
         warnings.append(
             Advice(
@@ -74,6 +75,23 @@ def dyad_advice(problem: SynthesisProblem, found: DyadSearch) -> list[Advice]:
             )
         )
     return warnings
+
+
+def _thin_regions(problem: SynthesisProblem) -> list[Advice]:
+    """Regions thinner than rounding, and what they were taken for."""
+    said: dict[str, Advice] = {}
+    for limits, searched in zip(problem.given.limits, problem.task.limits, strict=True):
+        pairs = {
+            "fixed": (limits.fixed_pivot, searched.fixed_pivot),
+            "moving": (limits.moving_pivot, searched.moving_pivot),
+        }
+        for name, (given, taken) in pairs.items():
+            if given is not taken:
+                kind = type(taken).__name__.lower()
+                message = f"the {name} pivot's region is thinner than rounding: taken for a {kind}"
+                help = f"give it as a {kind}, or give it more room"
+                said[message] = Advice("W212", message, help, f"this dyad's pivot is {taken}")
+    return list(said.values())
 
 
 def family(problem: SynthesisProblem) -> tuple[Outcome, Advice]:

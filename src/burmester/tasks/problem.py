@@ -12,6 +12,7 @@ from burmester.tasks.motion_class import MotionClass
 from burmester.tasks.motion_kinds import FewPoses, Undetermined
 from burmester.tasks.motion_task import CONDITIONS, Task, characteristic_length
 from burmester.tasks.options import SynthesisOptions
+from burmester.tasks.thin_regions import with_limits_to_search
 
 __all__ = ["SynthesisProblem"]
 
@@ -22,7 +23,8 @@ class SynthesisProblem:
     """A task with all that is known of it before any fit.
 
     given: the task as its user gave it.
-    task: the same, but every repeated pose once where dyads are looked for; weights add up.
+    task: the same, but every repeated pose once where dyads are looked for; weights add up.  A
+        region thinner than rounding is its segment or point.
     motion: the class of its motion; None for one or two poses.
     length: its characteristic length, in its unit.
     """
@@ -36,7 +38,8 @@ class SynthesisProblem:
     @classmethod
     def of(cls, task: Task, motion: MotionClass | None, options: SynthesisOptions) -> Self:
         """A task of a known class of motion, and how it is to be solved."""
-        problem = cls(task, task, motion, characteristic_length(task), options)
+        wide = with_limits_to_search(task)
+        problem = cls(task, wide, motion, characteristic_length(task), options)
         return problem if problem.is_special else problem.merged()
 
     @property
@@ -69,13 +72,13 @@ class SynthesisProblem:
     @property
     def pose_numbers(self) -> list[int]:
         """The numbers (from 0) that the poses of `task` have in the task as given."""
-        if self.task is self.given or self.motion is None:
+        if self.motion is None or self.task.poses.shape == self.given.poses.shape:
             return list(range(self.task.poses.shape[0]))
         return [int(number) for number in self.motion.first]
 
     def merged(self) -> Self:
         """The same problem, its task with every repeated pose once."""
-        motion, task = self.motion, self.given
+        motion, task = self.motion, self.task
         if motion is None or motion.distinct == task.poses.shape[0]:
             return self
         size, first, exact, weights = motion.distinct, motion.first, task.exact, task.weights
