@@ -204,7 +204,7 @@ def test_what_is_no_limit_is_refused(name):
 
 
 CONTRADICTIONS = {
-    "empty box": (lambda: box([0, 0], [0, 2]), ["x from 0 to 0"]),
+    "empty box": (lambda: box([1, 0], [0, 2]), ["x from 1 to 0"]),
     "box upside down": (lambda: box([0, 3], [1, 2]), ["y from 3 to 2"]),
     "length": (lambda: Limits(length=(5, 2)), ["at least 5 long", "at most 2 long"]),
     "slider with a fixed pivot": (

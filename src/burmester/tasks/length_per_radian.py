@@ -10,10 +10,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.geometry.regions import Polygon
 from burmester.numerics.weights import shares
-from burmester.tasks.motion_task import Task
+from burmester.tasks.motion_task import Task, characteristic_length
 
 __all__ = ["default_length_per_radian"]
 
@@ -40,7 +39,7 @@ def default_length_per_radian(task: Task) -> float:
     swing = float(np.sqrt(share @ np.abs(turn - share @ turn) ** 2))
     span = float(np.linalg.norm(np.ptp(d, axis=0)))
     if not span > 0:
-        return float(CanonicalFrames.of(task.poses, task.weights)[0].length)
+        return characteristic_length(task)
     return TRAVEL_SHARE * spread / max(swing, TRAVEL_SHARE * spread / span)
 
 
