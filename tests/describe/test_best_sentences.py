@@ -27,7 +27,8 @@ def test_a_linkage_that_fails_is_closest_only_if_it_is_nearer_than_by_rounding(m
     linkages = []
     for each in synthesis.linkages:
         off = rounding * np.full(5, miss if each.usable else 0.4)
-        linkages.append(replace(each, error=PoseError(each.error.places, off, np.zeros(5))))
+        error = PoseError(each.error.places, off, np.zeros(5))
+        linkages.append(replace(each, error=error, combined_error=off[0]))
     failing = next(each for each in linkages if not each.usable)
     sentences = list(best_sentences(replace(synthesis, linkages=tuple(linkages))))
     assert len(sentences) == said

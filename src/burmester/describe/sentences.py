@@ -9,7 +9,7 @@ from burmester.describe.digits import degrees
 from burmester.describe.dimensions import certain
 from burmester.linkages import explanation
 from burmester.linkages.found_linkage import FoundLinkage
-from burmester.linkages.ranking import TRADE_GAIN, closest_usable, is_trade
+from burmester.linkages.ranking import TRADE_GAIN, closest_usable, digits_leave_open, is_trade
 from burmester.linkages.uncertainty import pose_sigma
 from burmester.numerics.arrays import ROUNDING
 from burmester.synthesis.result import Synthesis
@@ -45,8 +45,8 @@ def best_sentences(synthesis: Synthesis) -> Iterator[str]:
         f"Best: {best.id}, {kind} driven by {best.dyads_driver_first[0].id}, "
         f"{_passes(synthesis, best)}, transmission angle {least} or more."
     )
-    nearest = explanation.by_nearness(synthesis.linkages)[0]
-    if not nearest.usable and _nearer(nearest, best):
+    nearest = explanation.by_nearness(synthesis.linkages, size)[0]
+    if not nearest.usable and _nearer(nearest, best, size):
         yield (
             f"This one works and {explanation.nearness(best, task, size)}; "
             f"the closest one, {nearest.id}, "
@@ -69,8 +69,8 @@ def _passes(synthesis: Synthesis, best: FoundLinkage) -> str:
     return f"passes every pose within {worst} and {degrees(float(best.error.angle.max()))}"
 
 
-def _nearer(one: FoundLinkage, other: FoundLinkage) -> bool:
-    return one.combined_error < (1 - ROUNDING) * other.combined_error
+def _nearer(one: FoundLinkage, other: FoundLinkage, size: float) -> bool:
+    return one.combined_error < other.combined_error - ROUNDING * size
 
 
 def _prices(synthesis: Synthesis, best: FoundLinkage) -> Iterator[str]:
@@ -78,9 +78,11 @@ def _prices(synthesis: Synthesis, best: FoundLinkage) -> Iterator[str]:
     task, size = synthesis.task, synthesis.length
     closest = closest_usable(synthesis.linkages)
     assert closest is not None
-    if closest.shortcomings and not best.shortcomings and _nearer(closest, best):
+    if closest.shortcomings and not best.shortcomings and _nearer(closest, best, size):
         near = explanation.nearness(closest, task, size)
         yield f"Closest: {closest.id}, which {near}, but {' and '.join(closest.shortcomings)}."
+    if best.combined_error <= digits_leave_open(synthesis.problem):
+        return
     others = [each for each in synthesis.usable if is_trade(each, best)]
     for text, error in (
         ("nearer in position", lambda each: each.error.worst),

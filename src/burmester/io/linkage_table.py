@@ -48,7 +48,7 @@ def closest_three(synthesis: Synthesis) -> list[FoundLinkage]:
     """The closest linkages where none is usable, else none."""
     if synthesis.usable:
         return []
-    return explanation.by_nearness(synthesis.linkages)[:CLOSEST]
+    return explanation.by_nearness(synthesis.linkages, synthesis.length)[:CLOSEST]
 
 
 def usable_table(synthesis: Synthesis, console: Console) -> Table:

@@ -39,11 +39,11 @@ def _worst_angle(found: FoundLinkage) -> str:
     return f"{figure(math.degrees(float(found.error.angle.max())))}°"
 
 
-def by_nearness(linkages: Sequence[FoundLinkage]) -> list[FoundLinkage]:
+def by_nearness(linkages: Sequence[FoundLinkage], size: float) -> list[FoundLinkage]:
     """Sorted by both errors in one; linkages equal within rounding keep their order."""
 
     def error(each: FoundLinkage) -> float:
-        return float(f"{each.combined_error:.9g}")
+        return float(np.round(each.combined_error / (ROUNDING * size)))
 
     return sorted(linkages, key=error)
 
@@ -82,7 +82,7 @@ def _too_far(found: FoundLinkage, task: Task, defect: Defect) -> str | None:
 
 def hints(linkages: Sequence[FoundLinkage], problem: SynthesisProblem) -> str:
     """What to change where none of the linkages is usable, so that one becomes usable."""
-    task, near = problem.given, by_nearness(linkages)
+    task, near = problem.given, by_nearness(linkages, problem.length)
     # For each set of options the nearest linkage that they make usable.
     nearest_with: dict[tuple[str, ...], FoundLinkage] = {}
     for each in near:

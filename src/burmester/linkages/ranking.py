@@ -71,14 +71,9 @@ def farthest_recommended(closest: FoundLinkage, problem: SynthesisProblem) -> fl
 
 def is_trade(other: FoundLinkage, best: FoundLinkage) -> bool:
     """Whether a linkage gains much in one of its greatest errors, and pays little in the other."""
-    far, turned = (
-        one / max(two, ROUNDING)
-        for one, two in (
-            (other.error.worst, best.error.worst),
-            (_turned(other), _turned(best)),
-        )
-    )
-    return min(far, turned) <= TRADE_GAIN and max(far, turned) <= TRADE_PRICE
+    pairs = (other.error.worst, best.error.worst), (_turned(other), _turned(best))
+    gains = any(one < TRADE_GAIN * two for one, two in pairs)
+    return other is not best and gains and all(one <= TRADE_PRICE * two for one, two in pairs)
 
 
 def ranked(found: Sequence[FoundLinkage], problem: SynthesisProblem) -> list[FoundLinkage]:

@@ -183,7 +183,7 @@ def _none_usable(
 ) -> Outcome:
     """Linkages, and none that works."""
     task, size = problem.given, problem.length
-    nearest = by_nearness(linkages)[0]
+    nearest = by_nearness(linkages, size)[0]
     works = "works within the requirements" if task.requirements.has_any else "works"
     if len(linkages) == 1:
         none = f"which does not {works.replace('works', 'work')}"
