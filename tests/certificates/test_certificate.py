@@ -1,5 +1,7 @@
 """Certificates: what they call proved is so, and what is not so they do not call proved."""
 
+import json
+import math
 import re
 import sys
 from dataclasses import replace
@@ -19,6 +21,10 @@ from burmester.dyads.sliders import fixed_lines, moving_lines
 from burmester.errors import InputError
 from burmester.fourbar.dyad import PP, PR, RP, RR
 from burmester.geometry.displacement import Displacement
+from burmester.io.result import synthesis_data
+from burmester.synthesis.motion_generation import synthesize
+from burmester.tasks.motion_task import Task
+from burmester.tasks.options import SynthesisOptions
 from tests.oracles.cases import poses_of
 from tests.oracles.witness import random_four_bar, random_poses
 
@@ -123,7 +129,7 @@ def gap_of_line(poses, weights, line):
     start = [float(v) for v in (line.normal_angle, line.offset, *pivot)]
     angle, h, m1, m2 = mpmath.findroot(equations, start, tol=1e-60, maxsteps=30)
     away = mpmath.hypot(start[2] - m1, start[3] - m2)
-    return max(abs(start[1] - h), away), abs(start[0] - angle)
+    return max(abs(start[1] - h), away), angle
 
 
 def check_dyads(poses, weights, certificate, dyads):
@@ -136,9 +142,28 @@ def check_dyads(poses, weights, certificate, dyads):
                 assert gap_of_circle(dyad, x) <= item.radius + TINY
                 assert (least > 0) == item.minimum
             else:
-                gap, turn = gap_of_line(poses, weights, dyad)
+                gap, angle = gap_of_line(poses, weights, dyad)
                 assert gap <= item.radius + TINY
-                assert turn <= item.angle_radius + TINY
+                radians = mpmath.mpf(float(dyad.normal_angle))
+                written = mpmath.radians(math.degrees(float(dyad.normal_angle)))
+                assert max(abs(radians - angle), abs(written - angle)) <= item.angle_radius + TINY
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_degrees_of_a_line_in_a_file_are_as_near_as_is_said(seed):
+    poses = noisy_task(seed)
+    synthesis = synthesize(Task(poses), SynthesisOptions(method="complete", certify=True))
+    data = json.loads(json.dumps(synthesis_data(synthesis)))
+    bounds = {each["id"]: each for each in data["certificate"]["dyads"]}
+    lines = [each for each in synthesis.dyads if isinstance(each.dyad, PR | RP)]
+    assert len(lines) == 2
+    with mpmath.workdps(50):
+        for found in lines:
+            (told,) = (each["line"] for each in data["dyads"] if each["id"] == found.id)
+            _, angle = gap_of_line(poses, None, found.dyad)
+            off = abs(mpmath.mpf(told["normal_deg"]) - mpmath.degrees(angle))
+            assert bounds[found.id]["proved"]
+            assert off <= bounds[found.id]["angle_radius_deg"] + TINY
 
 
 # --- the test for a zero

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from decimal import ROUND_CEILING, Context
-from math import inf
+from math import degrees, inf
 from typing import final
 
 from burmester.certificates.ball_arithmetic import (
@@ -69,7 +69,7 @@ class CertifiedDyad:
         A bound on the error of each pivot, of the length of the link and of a line's offset, in
         the task's unit; infinite where no exact one is known.
     angle_radius : float
-        A bound on the error of a line's normal, in radians.
+        A bound on the error of a line's normal, in radians; also of its double in degrees.
     minimum : bool
         Whether the exact one is surely a strict local minimum; of a line, the only global one.
     """
@@ -373,7 +373,10 @@ def _least_line(balls: BallPoses, index: int, line: PR | RP) -> tuple[CertifiedD
     )
     offset, *gap = (value - own for value, own in zip(in_task, reported, strict=True))
     size = upper_bound((1 + abs(h) + abs(x) + abs(y)) * balls.length)
-    radius, angle_radius = max(upper_bound(offset), upper_bound(_norm(*gap))), upper_bound(turn)
+    radius = max(upper_bound(offset), upper_bound(_norm(*gap)))
+    # Files hold the angle in degrees, rounded once more: the bound is for either number.
+    in_degrees = flint().arb(degrees(float(line.normal_angle))) * flint().arb.pi() / 180
+    angle_radius = max(upper_bound(turn), upper_bound(angle + turn - in_degrees))
     near = radius < MAX_RELATIVE_ERROR * size and angle_radius < MAX_RELATIVE_ERROR
     item = CertifiedDyad(index, type(line).__name__, near, radius, angle_radius, near and best)
     bound = f"{_rounded_up(radius)} and {_rounded_up(angle_radius)} rad"

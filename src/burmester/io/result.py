@@ -155,6 +155,11 @@ def _search(fit: Fit) -> dict[str, Any]:
     return {"kind": "faces", **{name: getattr(search, name) for name in names}}
 
 
+def _degrees_above(radius: float) -> float:
+    """A bound in radians as one in degrees that is no tighter."""
+    return math.degrees(radius) * (1 + 2.0**-50)  # more than both factors are rounded
+
+
 def _certificate(certificate: Certificate) -> dict[str, Any]:
     return {
         "complete": certificate.complete,
@@ -165,7 +170,7 @@ def _certificate(certificate: Certificate) -> dict[str, Any]:
                 "id": f"D{dyad.index + 1}",
                 "proved": dyad.proved,
                 "radius": number(dyad.radius),
-                "angle_radius_deg": number(math.degrees(dyad.angle_radius)),
+                "angle_radius_deg": number(_degrees_above(dyad.angle_radius)),
                 "minimum": dyad.minimum,
             }
             for dyad in certificate.dyads
