@@ -185,7 +185,11 @@ def _region(region: PivotRegion | None) -> dict[str, float | None] | None:
 
 
 def _spread(spread: Spread, tolerance: float | None) -> dict[str, Any]:
-    """Position errors of linkages that are built within the tolerance."""
+    """Position errors of linkages that are built within the tolerance.
+
+    method: "first_order", where `bound` is a bound to first order; or "monte_carlo", where it is
+    the greatest error that was found, and `lost` the share of linkages that cannot be assembled.
+    """
     return {
         "tolerance": tolerance,
         "rms": number(float(spread.rms)),
@@ -193,4 +197,6 @@ def _spread(spread: Spread, tolerance: float | None) -> dict[str, Any]:
         "bound": number(float(spread.bound)),
         "deviation_at_poses": [number(value) for value in spread.deviation],
         "bound_at_poses": [number(value) for value in spread.worst],
+        "method": "monte_carlo" if spread.monte_carlo else "first_order",
+        "lost": number(float(spread.lost)) if spread.monte_carlo else None,
     }

@@ -152,6 +152,23 @@ class Evaluation:
             out += [replace(one, error_before_rounding=each.error, other_types=()) for one in new]
         return ranked(out, self.problem)
 
+    def with_spreads(self, found: list[FoundLinkage]) -> list[FoundLinkage]:
+        """The linkages with the spread of errors as built, where a tolerance is given."""
+        tolerance = self.problem.options.manufacturing_tolerance
+        index = [k for k, each in enumerate(found) if np.isfinite(each.error.worst)]
+        if tolerance is None or not index:
+            return found
+        target, unit, out = self.target, float(self.target.frames.length), list(found)
+        batch = LinkageBatch.of([found[k].linkage for k in index]).to_canonical(target.frames)
+        rows = [
+            rows_of(target.frames.to_canonical(found[k].error.places), target.length) for k in index
+        ]
+        places = target.places_of(np.stack(rows))
+        spreads = spread(batch, target.poses, places, target.length, tolerance / unit)
+        for at, k in enumerate(index):
+            out[k] = replace(out[k], spread=spreads.one(at, unit))
+        return out
+
     def dyad(self, origin: FoundDyad | str, dyad: Dyad) -> FoundDyad:
         """A dyad with its own errors at the poses, and the id of its origin."""
         miss = np.abs(dyad.residual(self.task.poses))
@@ -216,7 +233,7 @@ class Evaluation:
     def _with_uncertainty(
         self, found: list[FoundLinkage], batch: LinkageBatch, rows: FloatArray
     ) -> list[FoundLinkage]:
-        """The linkages with the uncertainty that errors of the poses, and of building, leave."""
+        """The linkages with the uncertainty that errors of the poses leave."""
         sound = np.flatnonzero(np.isfinite(rows).all(axis=(1, 2)))
         if not len(sound):
             return found
@@ -237,10 +254,6 @@ class Evaluation:
         )
         regions = uncertainties(spreads, batch[sound], places, unit)
         links = links_covariance(batch[sound], spreads) * unit**2
-        built = None
-        if self.problem.options.manufacturing_tolerance is not None:
-            tolerance = self.problem.options.manufacturing_tolerance / unit
-            built = spread(batch[sound], self.target.poses, places, self.target.length, tolerance)
         span = np.linalg.norm(np.ptp(self.task.poses.translation, axis=0))
         size = max(float(span), self.problem.length_per_radian)
         out = list(found)
@@ -252,8 +265,6 @@ class Evaluation:
                 determined=determined,
                 other_types=_other_types(out[k], links[at]),
             )
-            if built is not None:
-                out[k] = replace(out[k], spread=built.one(at, unit))
         return out
 
 

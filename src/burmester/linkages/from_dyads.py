@@ -73,6 +73,7 @@ def linkages_from_dyads(
             found = ranked([*found, *trades(found[0], evaluation)], problem)
     if options.rounds:
         found = evaluation.rounded(found)
+    found = evaluation.with_spreads(found)
     return tuple(
         replace(each, id=f"L{rank}", rank=rank) for rank, each in enumerate(found, start=1)
     )

@@ -1,51 +1,69 @@
-"""The pose errors of a linkage that is built within tolerances.
+"""The spread of a linkage's error, as its links and pivots are built within a tolerance.
 
-Every dimension of the built linkage is off by up to a tolerance t, evenly spread and independent
-of the others: each coordinate of a pivot and each link length by +-t; a slider's line by +-t across
-it, in the middle of the stretch that the poses use, and by +-t / length in its angle.
+A tolerance t gives independent errors, spread evenly: each coordinate of a pivot and each link
+length by +-t; a slider's line by +-t across it, in the middle of the stretch that the poses use,
+and by +-t / length in its angle.
 The driver is adjusted: the built linkage meets a pose at the place of its coupler nearest to it.
 
 Near, here and everywhere, means the least |position error|² + (length x angle error)².  All
 arguments are in one frame and unit, where lengths are about 1 (`pose_error.error_frames`).
+
+The spread is computed to first order in the tolerance, and by linkages that are built at random
+(`built_linkages`) where these differ: short links and dead points make a tolerance no small one.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import final
+from typing import NamedTuple, final
 
 import numpy as np
+from numpy.typing import NDArray
 
-from burmester.fourbar.dyad import PR, RP, RR
-from burmester.fourbar.foot_points import constraint_normals, newton_step, places_of, rows_of
-from burmester.fourbar.linkage_batch import DIMENSIONS, DYAD_KINDS, LinkageBatch
+from burmester.fourbar.foot_points import constraint_normals, places_of, rows_of
+from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.geometry.displacement import Displacement
+from burmester.linkages.built_linkages import (
+    DRAWS,
+    Built,
+    BuiltLinkages,
+    dimensions_by_errors,
+    percentile_95,
+)
 from burmester.linkages.uncertainty import line_middle
 from burmester.numerics.arrays import FloatArray
+from burmester.numerics.bundles import concatenate, take
 
-__all__ = ["Built", "Spread", "monte_carlo", "sensitivity", "spread"]
+__all__ = ["Spread", "sensitivity", "spread"]
 
-DRAWS = 1000  # number of linkages built at random
-PERCENTILE = 95.0  # per cent of the built linkages within `greatest_95`
 TANGENT_STEP = 1e-5  # lengths along the coupler's curve, of the forces' difference quotients
 DIRECTIONS = 90  # number of directions on half a circle in which the greatest error is computed
-MAX_NEWTON_STEPS = 30  # number of steps to the nearest place of a built linkage at most
-CONVERGED_STEP = 1e-9  # lengths; after a smaller step the next would be rounding
 POSES_PER_BLOCK = 256  # number of poses computed at once; bounds the memory
+# First order is kept if it is right to this share: at CORNERS corners of the tolerance, for the
+# 95 % of PILOT_DRAWS linkages, and for the worst corner found from these.
+FIRST_ORDER_SHARE = 0.1
+CORNERS = 4
+PILOT_DRAWS = 64
+MAX_POSES_BUILT = 100  # number of poses at most that linkages are built for: those of most error
 
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
 class Spread:
-    """Position errors of built linkages at poses (N,), to first order in the tolerance.
+    """Position errors of built linkages (k,) at poses (N,).
 
     deviation: (k, N), the rms distance between the places of built linkages and the nominal one.
-    worst: (k, N), upper bound on the position error at that pose of linkages within the tolerance.
+    worst: (k, N), the greatest position error at that pose of linkages within the tolerance.
     rms: (k,), the root of the mean squared position error over built linkages and poses.
     greatest_95: (k,), 95 % of the built linkages come nearer than this to every pose; from
         1,000 draws, and so accurate to a few per cent.
     bound: (k,), the greatest `worst`.
+    monte_carlo: (k,), whether these numbers are those of linkages built at random; else they are
+        to first order in the tolerance, and `worst` is a bound to first order.  Of linkages built
+        at random, `worst` is the greatest error that was found, and no bound.
+    lost: (k,), the share of the linkages built at random that cannot be assembled; the other
+        numbers are about the rest, and infinite where there is none.
     """
 
     deviation: FloatArray
@@ -53,36 +71,35 @@ class Spread:
     rms: FloatArray
     greatest_95: FloatArray
     bound: FloatArray
+    monte_carlo: NDArray[np.bool_]
+    lost: FloatArray
 
     def one(self, index: int, unit: float) -> Spread:
         """The spread of one linkage, in the unit in which the length 1 is `unit`."""
         parts = (self.deviation, self.worst, self.rms, self.greatest_95, self.bound)
-        return Spread(*(unit * part[index] for part in parts))
+        deviation, worst, rms, greatest_95, bound = (unit * part[index] for part in parts)
+        how = self.monte_carlo[index], self.lost[index]
+        return Spread(deviation, worst, rms, greatest_95, bound, *how)
 
 
-@final
-@dataclass(frozen=True, slots=True, eq=False)
-class Built:
-    """Linkages built at random within a tolerance, with their places.
+class _FirstOrder(NamedTuple):
+    """Errors to first order: gap (k, N, 2) + slope (k, N, 2, 10) off, for errors off in tolerances.
 
-    dimensions: (k, draws, 2, 5), as built, in the order of `LinkageBatch`.
-    places: (k, draws, N), nearest to the poses; nan where Newton's method does not converge.
-    position: (k, draws, N), their position errors, infinite for nan places.
+    worst: (k, N), upper bounds on the lengths of these; corner: (k, N, 10), the off that has it.
     """
 
-    dimensions: FloatArray
-    places: Displacement
-    position: FloatArray
+    gap: FloatArray
+    slope: FloatArray
+    worst: FloatArray
+    corner: FloatArray
 
-    @property
-    def lost(self) -> FloatArray:
-        """The fraction (k,) of linkages without a place near some pose."""
-        return np.asarray(np.isinf(self.position).any(axis=-1).mean(axis=-1))
-
-    @property
-    def greatest_95(self) -> FloatArray:
-        """95 % of the linkages (k,) come nearer than this to every pose."""
-        return _percentile_95(self.position.max(axis=-1))
+    def greatest(self, off: FloatArray) -> FloatArray:
+        """The greatest errors (k, n) of linkages with errors (n, 10)."""
+        greatest = np.zeros((len(self.gap), len(off)))
+        for at in _blocks(self.gap.shape[1]):
+            moved = np.einsum("sj,kncj->ksnc", off, self.slope[:, at]) + self.gap[:, None, at]
+            greatest = np.maximum(greatest, np.hypot(moved[..., 0], moved[..., 1]).max(axis=-1))
+        return greatest
 
 
 def spread(
@@ -94,28 +111,96 @@ def spread(
     *,
     seed: int = 0,
 ) -> Spread:
-    """The position errors of linkages (k,) built within a tolerance, to first order.
+    """The position errors of linkages (k,) built within a tolerance.
 
     poses: (N,); places: (k, N), the nominal linkages' nearest to them.
     """
+    first = _first_order(batch, poses, places, length, tolerance)
+    off = np.random.default_rng(seed).uniform(-1, 1, size=(DRAWS, 2 * DIMENSIONS))
+    deviation = np.sqrt((first.slope**2).sum(axis=(-2, -1)) / 3)
+    square = (first.gap**2).sum(axis=-1) + deviation**2
+    greatest = first.greatest(off)
+    out = Spread(
+        deviation,
+        first.worst.copy(),
+        np.sqrt(square.mean(axis=-1)),
+        np.array([percentile_95(each) for each in greatest]),
+        first.worst.max(axis=-1),
+        np.zeros(len(batch), dtype=bool),
+        np.zeros(len(batch)),
+    )
+    for k in range(len(batch)):
+        at = np.sort(np.argsort(first.worst[k])[::-1][:MAX_POSES_BUILT])
+        here = places[[k]][:, at]
+        built = BuiltLinkages.of(batch[[k]], poses[at], here, length, tolerance)
+        alone = _FirstOrder(*(part[[k]][:, at] for part in first))
+        right, corner = _checked(alone, built, off)
+        if right:
+            out.worst[k, at] = np.maximum(out.worst[k, at], corner.position.max(axis=0))
+            out.bound[k] = out.worst[k].max()
+            continue
+        drawn = built.at_random(seed=seed)
+        out.monte_carlo[k], out.lost[k] = True, 1 - drawn.assembled.mean()
+        if not drawn.assembled.any():
+            for part in (out.deviation, out.worst, out.rms, out.greatest_95, out.bound):
+                part[k] = np.inf
+            continue
+        drawn = take(drawn, drawn.assembled)
+        worst = built.worst(concatenate([drawn, corner]))
+        moved = drawn.rows[..., :2] - built.start[:, :2]
+        out.deviation[k, at] = np.sqrt((moved**2).sum(axis=-1).mean(axis=0))
+        out.worst[k, at] = np.maximum(drawn.position.max(axis=0), worst.position[0])
+        out.rms[k] = np.sqrt((drawn.position**2).mean())
+        out.greatest_95[k] = percentile_95(drawn.greatest)
+        out.bound[k] = worst.position.max()
+    return out
+
+
+def _first_order(
+    batch: LinkageBatch,
+    poses: Displacement,
+    places: Displacement,
+    length: float,
+    tolerance: float,
+) -> _FirstOrder:
     slope = tolerance * sensitivity(batch, poses, places, length)
     gap = places.translation - poses.translation
-    deviation = np.sqrt((slope**2).sum(axis=(-2, -1)) / 3)
     # The farthest point of a convex figure is farthest in its own direction.
-    worst = np.zeros(gap.shape[:-1])
+    worst, corner = np.zeros(gap.shape[:-1]), np.zeros((*gap.shape[:-1], slope.shape[-1]))
     for angle in np.arange(DIRECTIONS) * (np.pi / DIRECTIONS):
         to = np.array([np.cos(angle), np.sin(angle)])
-        along = np.abs(np.einsum("c,kncj->knj", to, slope)).sum(axis=-1)
-        worst = np.maximum(worst, np.abs(gap @ to) + along)
+        along, off = np.einsum("c,kncj->knj", to, slope), gap @ to
+        value = np.abs(off) + np.abs(along).sum(axis=-1)
+        sign = np.where(off < 0, -1.0, 1.0)[..., None] * np.where(along < 0, -1.0, 1.0)
+        corner = np.where((value > worst)[..., None], sign, corner)
+        worst = np.maximum(worst, value)
     worst /= np.cos(np.pi / (2 * DIRECTIONS))  # a bound for directions in between, too
-    square = (gap**2).sum(axis=-1) + deviation**2
-    off = np.random.default_rng(seed).uniform(-1, 1, size=(DRAWS, slope.shape[-1]))
-    greatest = np.zeros((len(batch), DRAWS))
-    for at in _blocks(poses):
-        moved = gap[:, None, at] + np.einsum("sj,kncj->ksnc", off, slope[:, at])
-        greatest = np.maximum(greatest, np.hypot(moved[..., 0], moved[..., 1]).max(axis=-1))
-    rms = np.sqrt(square.mean(axis=-1))
-    return Spread(deviation, worst, rms, _percentile_95(greatest), worst.max(axis=-1))
+    return _FirstOrder(gap, slope, worst, corner)
+
+
+def _corners(first: _FirstOrder) -> FloatArray:
+    """The errors (n, 10) of the worst corners to first order, at the poses of most error."""
+    most = np.argsort(first.worst[0])[::-1][:CORNERS]
+    return np.unique(first.corner[0, most], axis=0)
+
+
+def _checked(first: _FirstOrder, built: BuiltLinkages, off: FloatArray) -> tuple[bool, Built]:
+    """Whether first order is right to a tenth, and the worst corner of the tolerance found.
+
+    Right at its own worst corners, for the 95 % of a few draws, and for the worst corner that a
+    search from these finds.
+    """
+    corners, draws = _corners(first), off[:PILOT_DRAWS]
+    some = built.with_errors(np.concatenate([corners, draws]))
+    if not some.assembled.any():
+        return False, take(some, slice(0))
+    worst = built.worst(some, corners_only=True)
+    true, linear, n = some.greatest, first.greatest(some.off)[0], len(corners)
+    pairs = [*zip(true[:n], linear[:n], strict=True)]
+    pairs.append((percentile_95(true[n:]), percentile_95(linear[n:])))
+    pairs.append((max(worst.greatest[0], first.worst.max()), first.worst.max()))
+    right = all(abs(one - other) <= FIRST_ORDER_SHARE * other for one, other in pairs)
+    return right and bool(some.assembled.all()), worst
 
 
 def sensitivity(
@@ -149,75 +234,11 @@ def sensitivity(
             back = -np.einsum("kna,knac->knc", at.solve(values), at.force)
             along = (turning * back).sum(axis=-1) + multipliers[..., side] * partial[:, side, :, j]
             moved[..., side, j] = back - (along / curvature)[..., None] * tangent
-    errors = _dimensions_by_errors(batch, line_middle(batch, places), length)
+    errors = dimensions_by_errors(batch, line_middle(batch, places), length)
     return np.asarray(np.einsum("kncsj,ksji->kncsi", moved[..., :2, :, :], errors)).reshape(
         *places.shape, 2, 2 * DIMENSIONS
     )
 
 
-def monte_carlo(
-    batch: LinkageBatch,
-    poses: Displacement,
-    places: Displacement,
-    length: float,
-    tolerance: float,
-    *,
-    draws: int = DRAWS,
-    seed: int = 0,
-) -> Built:
-    """Linkages built at random, each with its places nearest to the poses.
-
-    As in `spread`, without linearisation.  Newton's method starts from the nominal places, so every
-    linkage stays on its circuit as long as the circuits are apart.
-    """
-    rng = np.random.default_rng(seed)
-    errors = _dimensions_by_errors(batch, line_middle(batch, places), length)
-    off = tolerance * rng.uniform(-1, 1, size=(len(batch), draws, 2, DIMENSIONS))
-    dimensions = batch.dimensions[:, None] + np.einsum("ksji,knsi->knsj", errors, off)
-    rows = np.empty((len(batch), draws, poses.shape[0], 3))
-    for k in range(len(batch)):
-        built = LinkageBatch(np.broadcast_to(batch.kinds[k], (draws, 2)), dimensions[k])
-        for at in _blocks(poses):
-            rows[k, :, at] = _nearest(built, poses[at], places[k, at], length)
-    reached = places_of(rows, length)
-    gap = reached.translation - poses.translation
-    position = np.nan_to_num(np.hypot(gap[..., 0], gap[..., 1]), nan=np.inf)
-    return Built(dimensions, reached, position)
-
-
-def _nearest(
-    built: LinkageBatch, poses: Displacement, start: Displacement, length: float
-) -> FloatArray:
-    """The places (n, N, 3) of linkages (n,) nearest to poses (N,), by Newton's steps from (N,)."""
-    shape = (len(built), poses.shape[0], 3)
-    forms = built.forms()
-    rows = np.broadcast_to(rows_of(start, length), shape)
-    wanted = np.broadcast_to(rows_of(poses, length), shape)
-    size = np.full(shape[:2], np.inf)
-    for _ in range(MAX_NEWTON_STEPS):
-        step, size = newton_step(forms, rows, wanted, length)
-        rows = rows + step
-        if not (size > CONVERGED_STEP).any():
-            break
-    return np.where((size <= CONVERGED_STEP)[..., None], rows, np.nan)
-
-
-def _dimensions_by_errors(batch: LinkageBatch, middle: FloatArray, length: float) -> FloatArray:
-    """Derivatives (k, 2, 5, 5) of the dimensions of each dyad by building errors, as lengths."""
-    made = np.zeros((*batch.kinds.shape, DIMENSIONS, DIMENSIONS))
-    made[:] = np.eye(DIMENSIONS)
-    made[batch.kinds != DYAD_KINDS.index(RR), -1, -1] = 0.0
-    for kind, at in ((PR, 0), (RP, 2)):
-        rows = batch.kinds == DYAD_KINDS.index(kind)
-        made[rows, at, at] = 1 / length
-        made[rows, at + 1, at] = middle[rows] / length  # turned about the middle
-    return made
-
-
-def _percentile_95(greatest: FloatArray) -> FloatArray:
-    """The 95th percentile (k,) of (k, draws): one of the values, no interpolation."""
-    return np.asarray(np.percentile(greatest, PERCENTILE, axis=-1, method="higher"))
-
-
-def _blocks(poses: Displacement) -> Iterator[slice]:
-    return (slice(at, at + POSES_PER_BLOCK) for at in range(0, poses.shape[0], POSES_PER_BLOCK))
+def _blocks(count: int) -> Iterator[slice]:
+    return (slice(at, at + POSES_PER_BLOCK) for at in range(0, count, POSES_PER_BLOCK))
