@@ -204,9 +204,9 @@ def test_complete_method_says_what_it_accounted_for(poses):
 def test_a_certificate_says_what_is_proved(poses):
     pytest.importorskip("flint")
     done = run("synthesize", poses, "--certify")
-    proved, computed = done.stdout.split("Proved, for the poses as given:")[1].split(
-        "Computed, not"
-    )
+    proved, computed = done.stdout.split("Proved, of all digits (--json), for the poses as given:")[
+        1
+    ].split("Computed, not")
     assert "there are no others" in proved
     assert "may have minima other than those reported" in " ".join(computed.split())
     data = valid(run("synthesize", poses, "--certify", "--json").stdout)

@@ -10,7 +10,7 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, Self, final
 
 from burmester.api.moving_picture import MovingPicture
-from burmester.api.table import as_line
+from burmester.api.table import as_line, dimensions_as_html
 from burmester.errors import InputError
 from burmester.io.saved import SavedLinkage
 from burmester.linkages.found_linkage import FoundLinkage
@@ -125,7 +125,8 @@ class _Handover:
     def _repr_html_(self) -> str:
         saved = self.saved()
         drawing = still(saved.linkage, saved.error.places, saved.task.poses, self._title())
-        return f"<figure>{drawing}<figcaption>{escape(self._title())}</figcaption></figure>"
+        caption = f"<figcaption>{escape(self._title())}</figcaption>"
+        return f"<figure>{drawing}{caption}{dimensions_as_html(saved)}</figure>"
 
 
 @final

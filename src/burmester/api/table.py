@@ -6,14 +6,17 @@ import math
 from collections.abc import Sequence
 from html import escape
 
+from burmester.describe.decimals import decimals_of_linkage
 from burmester.describe.digits import angle_error, degrees
+from burmester.describe.dimensions import dimensions_of
 from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import ROUNDING
+from burmester.tasks.length_per_radian import default_length_per_radian
 from burmester.tasks.motion_task import Task, characteristic_length
 from burmester.tasks.notation import least_angle, length_of
 from burmester.wording import listed
 
-__all__ = ["as_html", "as_line", "as_text"]
+__all__ = ["as_html", "as_line", "as_text", "dimensions_as_html"]
 
 HEADS = ("", "type", "dyads", "worst", "angle", "transm.", "")
 NUMBERS = range(3, 6)  # columns of numbers, set to the right
@@ -67,6 +70,24 @@ def as_html(linkages: Sequence[SavedLinkage]) -> str:
 
     body = "".join(row(_cells(each), "td", faint=not each.usable) for each in linkages)
     return f"<table><thead>{row(HEADS, 'th')}</thead><tbody>{body}</tbody></table>"
+
+
+def dimensions_as_html(linkage: SavedLinkage) -> str:
+    """A table element of a linkage's dimensions, with the decimals that keep its error."""
+    task, own = linkage.task, linkage.linkage
+    decimals = decimals_of_linkage(
+        own,
+        task.poses,
+        linkage.error,
+        default_length_per_radian(task),
+        characteristic_length(task),
+    )
+    rows = "".join(
+        f"<tr><td>{escape(each.dyad)}</td><td>{each.what}</td>"
+        f'<td style="text-align:right">{each.value}</td></tr>'
+        for each in dimensions_of((own.first, own.second), linkage.ids, decimals)
+    )
+    return f"<table><tbody>{rows}</tbody></table>"
 
 
 def _cells(linkage: SavedLinkage) -> tuple[str, ...]:

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from burmester.describe.decimals import Decimals, decimals_of_dyad
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.numerics.arrays import ROUNDING
@@ -14,9 +15,9 @@ from burmester.tasks import notation
 
 __all__ = [
     "angle_error",
-    "decimals",
     "degrees",
     "dyad_error",
+    "fitted_decimals",
     "fixed",
     "links",
     "position_error",
@@ -25,34 +26,41 @@ __all__ = [
     "worst_errors",
 ]
 
-FINEST_PLACE = 1e-4  # characteristic lengths: the last place of a dyad's pivots, however exact
+
+def fitted_decimals(synthesis: Synthesis, dyad: Dyad) -> Decimals:
+    """The decimals with which a dyad as fitted keeps its errors."""
+    return decimals_of_dyad(dyad, synthesis.task.poses, synthesis.length or 1.0)
 
 
-def decimals(synthesis: Synthesis, error: float) -> int:
-    """Decimals of a dyad's dimensions: down to its error, for the poses determine no more."""
-    size = max(error if math.isfinite(error) else 0.0, FINEST_PLACE * (synthesis.length or 1.0))
-    return int(np.clip(-math.floor(math.log10(size)), 0, 12))
-
-
-def sides(dyad: Dyad, digits: int) -> tuple[str, str, str]:
+def sides(dyad: Dyad, decimals: Decimals) -> tuple[str, str, str]:
     """A dyad's pivots or lines on the ground and on the body, and its link's length or "slider"."""
+    digits = decimals.lengths
 
     def point(pivot: np.ndarray) -> str:
         return f"({fixed(pivot[0], digits)}, {fixed(pivot[1], digits)})"
 
+    def length(value: np.ndarray) -> str:
+        return fixed(float(value), digits)
+
+    def angle(value: np.ndarray) -> str:
+        return f"{fixed(math.degrees(float(value)), decimals.degrees)}°"
+
     def line(side: PR | RP) -> str:
-        angle = math.degrees(side.normal_angle)
-        return f"normal {fixed(angle, 2)}°,\noffset {fixed(float(side.offset), digits)}"
+        return f"normal {angle(side.normal_angle)},\noffset {length(side.offset)}"
 
     match dyad:
         case RR():
-            return point(dyad.fixed_pivot), point(dyad.moving_pivot), f"{dyad.radius:.{digits}f}"
+            return (
+                point(dyad.fixed_pivot),
+                point(dyad.moving_pivot),
+                length(dyad.radius),
+            )
         case PR():
             return line(dyad), point(dyad.moving_pivot), "slider"
         case RP():
             return point(dyad.fixed_pivot), line(dyad), "slider"
         case PP():
-            return f"angle {math.degrees(dyad.angle):.2f}°", "-", "slider"
+            return f"angle {angle(dyad.angle)}", "-", "slider"
 
 
 def dyad_error(synthesis: Synthesis, value: float) -> str:
@@ -92,8 +100,7 @@ def degrees(angle: float) -> str:
     return f"{notation.figure(math.degrees(angle))}°" if math.isfinite(angle) else "-"
 
 
-def links(synthesis: Synthesis, found: FoundLinkage) -> list[str]:
+def links(found: FoundLinkage, decimals: int) -> list[str]:
     """Ground, driver, coupler and follower; dashes where there are sliders."""
-    digits = decimals(synthesis, max(dyad.rms_error for dyad in found.dyads))
     lengths = found.driver_first.links
-    return ["-"] * 4 if lengths is None else [f"{length:.{digits}f}" for length in lengths]
+    return ["-"] * 4 if lengths is None else [fixed(float(each), decimals) for each in lengths]

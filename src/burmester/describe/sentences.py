@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from burmester.describe.digits import degrees
-from burmester.describe.dimensions import certain
+from burmester.describe.digits import degrees, fitted_decimals, sides, worst_errors
+from burmester.describe.dimensions import certain, decimals_of
 from burmester.linkages import explanation
+from burmester.linkages.built_linkages import DRAWS
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.linkages.ranking import TRADE_GAIN, closest_usable, digits_leave_open, is_trade
 from burmester.linkages.uncertainty import pose_sigma
@@ -18,6 +19,8 @@ from burmester.wording import listed, with_article
 
 __all__ = [
     "best_sentences",
+    "digits_note",
+    "dyads_title",
     "footnotes",
     "notes",
     "rounding_note",
@@ -114,8 +117,15 @@ def type_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
 
 
 def notes(synthesis: Synthesis, found: FoundLinkage) -> list[str]:
-    """What stands under the dimensions: of soundness, uncertainty, type, tolerance, rounding."""
-    every = (standard_note, uncertainty_note, type_note, tolerance_note, rounding_note)
+    """What stands under the dimensions: of soundness, digits, uncertainty and how it is made."""
+    every = (
+        standard_note,
+        digits_note,
+        uncertainty_note,
+        type_note,
+        tolerance_note,
+        rounding_note,
+    )
     return [text for note in every if (text := note(synthesis, found)) is not None]
 
 
@@ -124,6 +134,30 @@ def standard_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
     if not (found.usable and found.shortcomings):
         return None
     return f"It works, but {' and '.join(found.shortcomings)}."
+
+
+def digits_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
+    """What the printed dimensions miss by, where "exact" is said of the linkage."""
+    if "exact" not in worst_errors(synthesis, found):
+        return None
+    position, angle = decimals_of(synthesis, found).error
+    if not math.isfinite(position):
+        return None
+    away = notation.length_of(position, synthesis.task)
+    return f"Built from the digits above, {found.id} misses by {away} and {degrees(angle)} at most."
+
+
+def dyads_title(synthesis: Synthesis) -> str:
+    """The title of the table of dyads, which may have other numbers than the linkages have."""
+    fitted = {each.id: each.dyad for each in synthesis.dyads}
+    for dyad in (each for found in synthesis.linkages for each in found.dyads):
+        if dyad.id not in fitted:
+            continue
+        own = fitted[dyad.id]
+        decimals = fitted_decimals(synthesis, own)
+        if sides(own, decimals) != sides(dyad.dyad, decimals):
+            return "Dyads as fitted, before the linkages are refined"
+    return "Dyads"
 
 
 def uncertainty_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
@@ -146,12 +180,25 @@ def tolerance_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
     if found.spread is None:
         return None
     assert synthesis.options.manufacturing_tolerance is not None
-    task = synthesis.task
+    task, spread = synthesis.task, found.spread
+    built = f"Built to ±{notation.length_of(synthesis.options.manufacturing_tolerance, task)}"
+    most, worst = (
+        notation.length_of(float(each), task) for each in (spread.greatest_95, spread.bound)
+    )
+    if not spread.monte_carlo:
+        return (
+            f"{built}: position errors of up to {most} (95 % of linkages), at most {worst}, "
+            "to first order."
+        )
+    if not math.isfinite(spread.greatest_95):
+        return f"{built}: none of {DRAWS} linkages built at random can be assembled."
+    who, lost = "95 % of linkages", ""
+    if spread.lost > 0:
+        who = "95 % of the others"
+        lost = f"{notation.figure(100 * float(spread.lost))} % of them cannot be assembled, "
     return (
-        f"Built to ±{notation.length_of(synthesis.options.manufacturing_tolerance, task)}: "
-        "position errors of up to "
-        f"{notation.length_of(float(found.spread.greatest_95), task)} (95 % of linkages), "
-        f"at most {notation.length_of(float(found.spread.bound), task)}."
+        f"{built}: of {DRAWS} linkages built at random, {lost}"
+        f"position errors of up to {most} ({who}), {worst} for the worst one found."
     )
 
 

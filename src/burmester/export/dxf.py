@@ -19,7 +19,7 @@ import numpy as np
 from burmester.errors import BurmesterError
 from burmester.export.options import Options
 from burmester.export.plates import Assembly, assembly_of, slot_outline
-from burmester.export.reference import Reference, description, require_equal
+from burmester.export.reference import Reference, description, dimension_notes, require_equal
 from burmester.export.sheet import Sheet, beside, moved, notes_on, sheet_of
 from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
@@ -49,7 +49,8 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
     """Write the drawing."""
     assembly = assembly_of(chosen, options)
     poses = Reference.of(chosen, options).poses
-    notes = description(chosen, options, "mm") + notes_on(assembly)
+    notes = description(chosen, options, "mm") + dimension_notes(chosen, options)
+    notes += notes_on(assembly)
     sheet = sheet_of(assembly, poses, len(notes))
     fixed = ezdxf.options.write_fixed_meta_data_for_testing
     try:

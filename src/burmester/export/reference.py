@@ -12,15 +12,28 @@ from typing import final
 import numpy as np
 from numpy.typing import ArrayLike
 
+from burmester.describe.decimals import decimals_of_linkage
+from burmester.describe.dimensions import dimensions_of
 from burmester.errors import BurmesterError
 from burmester.export.options import MILLIMETRES, Options, unit_of
-from burmester.fourbar.dyad import PP, PR, RP, RR
+from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
+from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import FloatArray
+from burmester.tasks.length_per_radian import default_length_per_radian
+from burmester.tasks.motion_task import characteristic_length
 from burmester.wording import with_article
 
-__all__ = ["PRECISION", "Reference", "as_rows", "description", "require_equal"]
+__all__ = [
+    "PRECISION",
+    "Reference",
+    "as_rows",
+    "description",
+    "dimension_notes",
+    "require_equal",
+]
 
 PRECISION = 1e-9  # of the span: the largest deviation of a file from the linkage
 
@@ -177,3 +190,40 @@ def description(chosen: SavedLinkage, options: Options, unit: str | None) -> lis
             + (f", as --unit {own} states." if options.unit else "; --unit states another.")
         )
     return sentences
+
+
+def dimension_notes(chosen: SavedLinkage, options: Options) -> list[str]:
+    """The dimensions of both dyads in millimetres, a line each, and what a builder gets of them."""
+    own = Reference.of(chosen, options)
+    size = characteristic_length(chosen.task) * own.scale
+    linkage = Linkage(
+        *(_scaled(each, own.scale) for each in (chosen.linkage.first, chosen.linkage.second))
+    )
+    error = PoseError.at(own.places, own.poses)
+    length = default_length_per_radian(chosen.task) * own.scale
+    decimals = decimals_of_linkage(linkage, own.poses, error, length, size)
+    rows = dimensions_of((linkage.first, linkage.second), chosen.ids, decimals)
+    notes = []
+    for name in chosen.ids:
+        parts = ", ".join(f"{row.what} {row.value}" for row in rows if row.dyad == name)
+        notes.append(f"{name}: {parts}.")
+    position, angle = decimals.error
+    if math.isfinite(position):
+        turned = math.degrees(angle)
+        notes.append(
+            f"Built to these digits, it comes within {position:.2g} mm and {turned:.2g}° of them."
+        )
+    return notes
+
+
+def _scaled(dyad: Dyad, scale: float) -> Dyad:
+    """A dyad in another unit of length, `scale` of them for one."""
+    match dyad:
+        case RR():
+            return RR(dyad.fixed_pivot * scale, dyad.moving_pivot * scale, dyad.radius * scale)
+        case PR():
+            return PR(dyad.normal_angle, dyad.offset * scale, dyad.moving_pivot * scale)
+        case RP():
+            return RP(dyad.fixed_pivot * scale, dyad.normal_angle, dyad.offset * scale)
+        case PP():
+            return dyad

@@ -18,7 +18,13 @@ import numpy as np
 
 from burmester.export.options import Options
 from burmester.export.plates import Plate, assembly_of, slot_outline
-from burmester.export.reference import PRECISION, Reference, description, require_equal
+from burmester.export.reference import (
+    PRECISION,
+    Reference,
+    description,
+    dimension_notes,
+    require_equal,
+)
 from burmester.export.sheet import beside, moved, notes_on, sheet_of
 from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
@@ -42,7 +48,8 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
     """Write the drawing."""
     assembly = assembly_of(chosen, options)
     poses = Reference.of(chosen, options).poses
-    notes = description(chosen, options, "mm") + notes_on(assembly)
+    notes = description(chosen, options, "mm") + dimension_notes(chosen, options)
+    notes += notes_on(assembly)
     sheet = sheet_of(assembly, poses, len(notes))
     hair = min(LINE_WIDTH_MM, OF_WIDTH * assembly.dimensions.width)
     size = sheet.high - sheet.low

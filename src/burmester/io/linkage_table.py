@@ -12,11 +12,12 @@ from rich.text import Text
 
 from burmester.describe import sentences
 from burmester.describe.digits import links, worst_errors
-from burmester.describe.dimensions import certain, dimensions
+from burmester.describe.dimensions import certain, decimals_of, dimensions
 from burmester.linkages import explanation
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.synthesis.result import Synthesis
 from burmester.tasks import notation
+from burmester.wording import count
 
 __all__ = [
     "closest_three",
@@ -28,6 +29,8 @@ __all__ = [
 
 MOST_UNUSABLE = 8  # linkages in full; the rest are counted
 CLOSEST = 3  # linkages in the outcome, where none is usable
+LINKS = ("ground", "driver", "coupler", "follower")
+MOST_CUT = 3  # decimals that link lengths in the table may lose on a narrow screen
 INDENT = 5  # columns of reasons under their linkage
 
 
@@ -52,34 +55,44 @@ def closest_three(synthesis: Synthesis) -> list[FoundLinkage]:
 
 
 def usable_table(synthesis: Synthesis, console: Console) -> Table:
-    """Usable linkages, with as many columns as the console has room for."""
+    """Usable linkages, with as many columns and decimals as the console has room for."""
     usable = synthesis.usable
-    all_pins = any(found.linkage.links is not None for found in usable)
+    decimals = [decimals_of(synthesis, found).lengths for found in usable]
+    pins = [places for places, found in zip(decimals, usable, strict=True) if found.linkage.links]
+    most = max(pins, default=0)
     unlimited = console.options.update(max_width=10 * console.width)
-    for pins, gap in ((all_pins, 1), (all_pins, 0)):
-        table = _usable(synthesis, usable, pins, gap)
+    trials = [(most, 1), *((most - cut, 0) for cut in range(min(MOST_CUT, most) + 1))]
+    for places, gap in trials if pins else ():
+        table = _usable(synthesis, usable, [min(each, places) for each in decimals], gap)
+        if places < most:
+            table.title = f"{table.title}; links to {count(places, 'decimal')}"
         if console.measure(table, options=unlimited).maximum <= console.width:
             return table
-    return _usable(synthesis, usable, False, 1)
+    return _usable(synthesis, usable, None, 1)
 
 
-def _usable(synthesis: Synthesis, usable: Sequence[FoundLinkage], pins: bool, gap: int) -> Table:
+def _usable(
+    synthesis: Synthesis,
+    usable: Sequence[FoundLinkage],
+    decimals: Sequence[int] | None,
+    gap: int,
+) -> Table:
     table = new_table("Usable, the best first", gap)
     table.add_column("", no_wrap=True)
     table.add_column("type")
     table.add_column("dyads", no_wrap=True)
-    for name in ("ground", "driver", "coupler", "follower") if pins else ():
+    for name in LINKS if decimals is not None else ():
         table.add_column(name, justify="right", no_wrap=True)
     for name in ("worst", "angle", "transm."):
         table.add_column(name, justify="right", no_wrap=True)
-    for found in usable:
+    for k, found in enumerate(usable):
         # Of the longest name, the second word stands under the first.
         kind = found.type.replace("inverted ", "inverted\n") + (" ±" if found.other_types else "")
         table.add_row(
             found.id,
             kind,
             " ".join(dyad.id for dyad in found.dyads_driver_first),
-            *(links(synthesis, found) if pins else ()),
+            *(() if decimals is None else links(found, decimals[k])),
             *worst_errors(synthesis, found),
             notation.least_angle(found.driven.least_over_range),
         )
@@ -115,10 +128,9 @@ def in_full(synthesis: Synthesis) -> Iterator[Text | Table]:
         table.add_row("" if dyad == last else dyad, what, value, *(() if exact else (give,)))
         last = dyad
     yield table
-    uncertainty = sentences.uncertainty_note(synthesis, best)
-    if uncertainty is not None:
-        yield Text(uncertainty, style="dim")
-    for note in (sentences.type_note, sentences.tolerance_note, sentences.rounding_note):
+    digits, uncertainty = sentences.digits_note, sentences.uncertainty_note
+    made = (sentences.tolerance_note, sentences.rounding_note)
+    for note in (digits, uncertainty, sentences.type_note, *made):
         text = note(synthesis, best)
         if text is not None:
-            yield Text(text)
+            yield Text(text, style="dim" if note is uncertainty else "")

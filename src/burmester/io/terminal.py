@@ -9,7 +9,7 @@ from rich.table import Table
 from rich.text import Text
 
 from burmester.describe import sentences
-from burmester.describe.digits import decimals, dyad_error, sides
+from burmester.describe.digits import dyad_error, fitted_decimals, sides
 from burmester.io import linkage_table
 from burmester.io.linkage_table import new_table
 from burmester.io.message import draw, message, note, show
@@ -30,7 +30,10 @@ def show_synthesis(synthesis: Synthesis, console: Console) -> None:
     _linkages(synthesis, three, console)
     if synthesis.certificate is not None:
         for head, lines in (
-            ("Proved, for the poses as given", synthesis.certificate.proved),
+            (
+                "Proved, of all digits (--json), for the poses as given",
+                synthesis.certificate.proved,
+            ),
             ("Computed, not proved", synthesis.certificate.numerical),
         ):
             if lines:
@@ -74,7 +77,7 @@ def _linkages(synthesis: Synthesis, three: Sequence[FoundLinkage], console: Cons
 
 
 def _dyads(synthesis: Synthesis, width: int) -> Table:
-    table = new_table("Dyads", gap=1 if width >= 80 else 0)
+    table = new_table(sentences.dyads_title(synthesis), gap=1 if width >= 80 else 0)
     table.add_column("", no_wrap=True)
     table.add_column("kind", no_wrap=True)
     table.add_column("on the ground (F)")
@@ -84,7 +87,7 @@ def _dyads(synthesis: Synthesis, width: int) -> Table:
     if width >= 80:
         table.add_column("worst", justify="right", no_wrap=True)
     for found in synthesis.dyads:
-        ground, body, length = sides(found.dyad, decimals(synthesis, found.rms_error))
+        ground, body, length = sides(found.dyad, fitted_decimals(synthesis, found.dyad))
         errors = dyad_error(synthesis, found.rms_error), dyad_error(synthesis, found.max_error)
         row = found.id, type(found.dyad).__name__, ground, body, length, *errors
         table.add_row(*row[: len(table.columns)])

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from burmester.describe import digits, sentences
-from burmester.describe.dimensions import dimensions
+from burmester.describe.dimensions import decimals_of, dimensions
 from burmester.dyads.selection import FoundDyad
 from burmester.fourbar.dyad import Dyad
 from burmester.geometry.displacement import Displacement
@@ -60,6 +60,7 @@ def report_data(synthesis: Synthesis) -> dict[str, Any]:
             "name": synthesis.motion.kind.name,
             "message": synthesis.motion.kind.message,
         },
+        "dyads_title": sentences.dyads_title(synthesis),
         "dyads": [_dyad(synthesis, each) for each in synthesis.dyads],
         "linkages": linkages,
         "chart": chart,
@@ -89,8 +90,7 @@ def _poses(task: Task) -> list[dict[str, Any]]:
 
 def _dyad(synthesis: Synthesis, found: FoundDyad) -> dict[str, Any]:
     """A dyad alone: its numbers, and the words for them."""
-    places = digits.decimals(synthesis, found.rms_error)
-    ground, body, length = digits.sides(found.dyad, places)
+    ground, body, length = digits.sides(found.dyad, digits.fitted_decimals(synthesis, found.dyad))
     return {
         **dyad_data(found),
         "said": {
@@ -143,7 +143,8 @@ def _links(synthesis: Synthesis, found: FoundLinkage) -> dict[str, str] | None:
     if found.linkage.links is None:
         return None
     names = ("ground", "driver", "coupler", "follower")
-    return dict(zip(names, digits.links(synthesis, found), strict=True))
+    texts = digits.links(found, decimals_of(synthesis, found).lengths)
+    return dict(zip(names, texts, strict=True))
 
 
 def _manifold(dyad: Dyad) -> list[str]:

@@ -104,7 +104,7 @@ function dyadTable(data) {
   const rows = data.dyads.map(
     (dyad) => h("tr", {}, cells([dyad.id, dyad.kind, dyad.said.ground, dyad.said.body, dyad.said.length, dyad.said.rms, dyad.said.worst], [1]))
   );
-  return table("Dyads", heads, rows);
+  return table(data.dyads_title, heads, rows);
 }
 function linkageTable(data) {
   const names = ["ground", "driver", "coupler", "follower"];

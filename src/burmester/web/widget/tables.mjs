@@ -48,7 +48,7 @@ export function dyadTable(data) {
   const rows = data.dyads.map((dyad) =>
     h("tr", {}, cells([dyad.id, dyad.kind, dyad.said.ground, dyad.said.body, dyad.said.length, dyad.said.rms, dyad.said.worst], [1])),
   );
-  return table("Dyads", heads, rows);
+  return table(data.dyads_title, heads, rows);
 }
 
 export function linkageTable(data) {
