@@ -8,7 +8,8 @@ from scipy.stats import combine_pvalues, f
 
 from burmester import Displacement, Task
 from burmester.diagnosis.leave_one_out import LeaveOneOut
-from burmester.diagnosis.odd_pose import chance_of_number, chance_of_pose, odd_pose
+from burmester.diagnosis.noise_ratio import chance_of_number, chance_of_pose
+from burmester.diagnosis.odd_pose import odd_pose
 from burmester.diagnosis.repairs import Prediction
 from burmester.diagnosis.sampson_fits import NormalizedPoses, sampson_residuals
 from burmester.diagnosis.swapped_poses import (

@@ -3,12 +3,11 @@
 import numpy as np
 import pytest
 from scipy.optimize import least_squares
+from scipy.stats import multivariate_t
 
 from burmester import Displacement, Task
 from burmester.diagnosis.odd_pose import odd_pose
-from burmester.diagnosis.repairs import Prediction, repairs_of
-from burmester.diagnosis.sampson_fits import NormalizedPoses
-from burmester.fourbar.linkage_batch import LinkageBatch
+from burmester.diagnosis.repairs import Repair, by_evidence
 from burmester.io.cases import load
 
 RIGHT = np.array(load("ge2012-exact")["poses"])
@@ -63,21 +62,69 @@ def test_what_a_repair_misses_counts_in_standard_deviations(pose, number):
     assert repair.miss == pytest.approx(np.sqrt(more / (without / 8)), rel=0.04)
 
 
-def test_a_unit_comes_before_a_number_that_fits_better():
-    """Pose 3 has x of nearly nothing, and a tenth of its y: x and y times ten, or y alone."""
+@pytest.mark.parametrize(("x", "first"), [(2e-6, "unit"), (2e-4, "slip")])
+def test_the_likeliest_repair_comes_first(x, first):
+    """Pose 3 has x of nearly nothing, and a tenth of its y: x and y times ten, or y alone.
+
+    A unit comes first where it agrees as well, not where it misses by several deviations.
+    """
     pose, rows = 2, RIGHT.copy()
     rows[:, 0] -= rows[pose, 0]
-    rows[pose, 0] = 2e-4
+    rows[pose, 0] = x
     rows[pose, 1] /= 10
     task = task_of(rows, (5e-5, np.radians(5e-3)))
     odd = odd_pose(task)
     assert odd.pose == pose
-    seen = NormalizedPoses.of(task.poses, None)
-    linkage = LinkageBatch.of([odd.linkage]).to_canonical(seen.frames)
-    sigma = odd.error_without / odd.length * np.sqrt(9 / 8)
-    unit, slip, *_ = repairs_of(seen, Prediction.of(seen, linkage, pose, sigma), pose, task)
-    assert (unit.kind, slip.kind) == ("unit", "slip")
-    assert unit.values == pytest.approx([2e-3, RIGHT[pose, 1], np.radians(RIGHT[pose, 2])])
-    assert slip.values == pytest.approx([2e-4, RIGHT[pose, 1], np.radians(RIGHT[pose, 2])])
-    assert unit.miss > 2 * slip.miss
-    assert odd.repairs[0].kind == "unit"
+    by_kind = {each.kind: each for each in odd.repairs}
+    unit, slip = by_kind["unit"], by_kind["slip"]
+    assert unit.values == pytest.approx([10 * x, RIGHT[pose, 1], np.radians(RIGHT[pose, 2])])
+    assert slip.values == pytest.approx([x, RIGHT[pose, 1], np.radians(RIGHT[pose, 2])])
+    assert (unit.miss > slip.miss + 1) == (first == "slip")
+    assert odd.repairs[0].kind == first
+
+
+def test_evidence_weighs_a_miss_by_how_well_the_deviation_is_known():
+    """Student's distribution with 2 N - 12 degrees of freedom, against SciPy's."""
+    values = np.zeros(3)
+    for count in (7, 12, 40):
+        at, off = (Repair("unit", "", values, miss).evidence(count) for miss in (0.0, 3.0))
+        spare = 2 * count - 12  # two residuals
+        density = multivariate_t(shape=np.eye(2), df=spare)
+        assert at - off == pytest.approx(density.logpdf([0, 0]) - density.logpdf([3, 0]))
+    exact, near, far = (Repair("slip", "", values, miss) for miss in (0.0, 2.0, 100.0))
+    unit = Repair("unit", "", values, 100.0, prior=0.1)
+    assert by_evidence([unit, far, near, exact], 10) == (exact, near, unit, far)
+
+
+@pytest.mark.parametrize(
+    ("pose", "number", "off", "strays"), [(4, 2, 3.0, False), (4, 0, 0.3, True), (6, 1, 0.2, True)]
+)
+def test_a_number_away_from_its_neighbours_is_told(pose, number, off, strays):
+    """The turn lies between its neighbours; x and y are the extremes of the path."""
+    rows = RIGHT.copy()
+    rows[pose, number] += off
+    odd = odd_pose(task_of(rows, (5e-5, np.radians(5e-3))))
+    assert odd.pose == pose
+    for each in odd.repairs:
+        given, changed = rows[pose] * [1, 1, np.pi / 180], each.values
+        beside = RIGHT[[pose - 1, pose + 1]] * [1, 1, np.pi / 180]
+
+        def away(row, beside=beside):
+            gap = row - beside
+            turn = np.angle(np.exp(1j * gap[:, 2]))
+            return np.linalg.norm(gap[:, :2], axis=1).sum(), np.abs(turn).sum()
+
+        farther = any(b > a + 1e-9 for a, b in zip(away(given), away(changed), strict=True))
+        assert each.strays == farther
+        assert each.message.endswith(", but farther from its neighbours") == farther
+    assert odd.repairs[0].strays == strays
+
+
+def test_of_two_numbers_that_agree_the_one_near_its_neighbours_is_told():
+    """A coupler passes most of the lines x = const twice; both places agree, one is near."""
+    rows = RIGHT.copy()
+    rows[4, 0] += 0.3
+    odd = odd_pose(task_of(rows, (5e-5, np.radians(5e-3))))
+    assert odd.pose == 4
+    x = next(each for each in odd.repairs if each.kind == "x")
+    assert x.values[0] == pytest.approx(RIGHT[4, 0], abs=1e-3)

@@ -10,11 +10,10 @@ motion, of errors that are normal and equally large,
 
 (an F test with 2 and m - 2 degrees of freedom), N times that for the least of N such shares.  If
 one number of a pose may be any, one condition is left: an F test with 1 and m - 1 of them, 3 N
-times that.  The lesser chance counts, times two.  Lengths in another unit have a test of their own
-(`unit_errors`).
+times that.  The lesser chance counts, times two.  How large errors of angles are beside those of
+positions is unknown, and the chance is a mean over that ratio (`noise_ratio`).  Lengths in another
+unit have a test of their own (`unit_errors`).
 Poses of which most follow no linkage at all obey it well enough, too (`benchmarks.odd_pose`).
-Unknown is how large errors of angles are beside those of positions (`NormalizedPoses` states the
-assumption); where they are three times as large or as small, expect some more false alarms.
 """
 
 from __future__ import annotations
@@ -27,15 +26,29 @@ from typing import NamedTuple, final
 import numpy as np
 
 from burmester.diagnosis.leave_one_out import LeaveOneOut
-from burmester.diagnosis.repairs import NUMBERS, Prediction, Repair, repairs_of, unit_repair
+from burmester.diagnosis.noise_ratio import (
+    RATIOS,
+    chance_of_pose,
+    first_order_chances,
+    fits_by_ratio,
+    floor_by_ratio,
+)
+from burmester.diagnosis.repairs import (
+    Prediction,
+    Repair,
+    by_evidence,
+    repairs_of,
+    unit_repair,
+)
 from burmester.diagnosis.sampson_fits import NormalizedPoses, refine_best
 from burmester.diagnosis.unit_errors import UnitError, pose_apart, unit_error
 from burmester.errors import InputError
 from burmester.fourbar.dyad import Dyad
 from burmester.fourbar.foot_points import rows_of
 from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.nearest_places import on_circuits
-from burmester.numerics.arrays import ROUNDING
+from burmester.numerics.arrays import ROUNDING, FloatArray
 from burmester.numerics.bundles import concatenate
 from burmester.tasks.motion_class import MotionClass, classify_motion
 from burmester.tasks.motion_task import Task
@@ -43,16 +56,16 @@ from burmester.tasks.notation import figure, length_of, pose_labels
 from burmester.values import real_numbers, require_instance
 from burmester.wording import listed
 
-__all__ = ["OddPose", "chance_of_number", "chance_of_pose", "odd_pose"]
+__all__ = ["OddPose", "odd_pose"]
 
 MIN_POSES = 7  # distinct ones; fewer leave no residual to spare without one pose
 MAX_POSES = 1000  # distinct ones; more take too long
 FALSE_ALARM_CHANCE = 5e-3  # up to which a pose is named
 OTHER_POSE_CHANCE = 0.05  # above it another pose may be the odd one as well, and is named, too
-TESTS = 2  # per pose, one of all its numbers and one of each; the lesser chance counts
 MAX_SCREENING_CHANCE = 0.1  # by the first fits; above it better fits hardly turn up an odd pose
-MIN_ERROR_RATIO = 2.0  # of the error with the pose to that without it, or
-MIN_OUTLIER_DEVIATIONS = 10.0  # standard deviations of the pose from the motion; less is not named
+SUSPECTS = 3  # poses, by each of two first measures, that are looked at with every noise ratio
+MIN_ERROR_RATIO = 2.0  # of the error with the pose to that without it; else its distance is told
+FAR = 1e9  # extents; a pose that no place of a linkage comes near counts as so far away
 MAX_EXPLAINED_ERROR = 3.0  # times the error by digits; a fit as good leaves nothing to explain
 
 
@@ -80,9 +93,15 @@ class OddPose:
     linkage : Linkage
         That of the others.
     repairs : tuple of Repair
-        Changes that make the pose agree, the likeliest first; none if nothing simple does.
+        Changes that make the pose agree, the likeliest first (`repairs.by_evidence`); none if
+        nothing simple does.
     extents : float or None
-        How many times the others' extent away it lies, if it lies among them as repaired.
+        How many times the others' extent away it lies, if it lies among them in another unit.
+    factor : float
+        Of its lengths, that brings it into the unit of the others; 1 if that is not its fault.
+    deviations : float
+        The distance of the pose from the motion of the others, in standard deviations: those of
+        its own errors and of the motion, with the ratio of errors that is likeliest without it.
     """
 
     task: Task
@@ -96,6 +115,8 @@ class OddPose:
     linkage: Linkage
     repairs: tuple[Repair, ...]
     extents: float | None = None
+    factor: float = 1.0
+    deviations: float = math.nan
 
     @property
     def ratio(self) -> float:
@@ -114,8 +135,7 @@ class OddPose:
         """By which numbers."""
         which = f"pose {self.pose + 1}" if self.others else "it"
         if self.extents is not None:
-            factor = self.repairs[0].factor
-            how = f"times {factor:g}" if factor > 1 else f"divided by {1 / factor:g}"
+            how = f"times {self.factor:g}" if self.factor > 1 else f"divided by {1 / self.factor:g}"
             return (
                 f"it lies {figure(self.extents)} times the others' extent away; {how} it lies "
                 "among them"
@@ -130,7 +150,7 @@ class OddPose:
         else:
             text = (
                 f"{which} lies {length_of(self.miss, self.task)} from the motion that the others "
-                f"agree on, {figure(self.miss / self.error_without)} times as far as they do"
+                f"agree on, {figure(self.deviations)} standard deviations"
             )
         if self.others:
             others = listed([str(k + 1) for k in self.others], "or")
@@ -215,85 +235,111 @@ def odd_pose(
     )
     poses = task.poses[motion.first]
     normalized = NormalizedPoses.of(poses, weights)
-    position, angle = task.resolution
     length, count = float(normalized.frames.length), len(normalized.rows)
-    digit_error = max(max(position / length, angle) / math.sqrt(3), ROUNDING)
+    position, angle = (each / math.sqrt(3) for each in task.resolution)
+    digit_error = max(position / length, angle, ROUNDING)
     pairs, whole = LeaveOneOut.fit_all(normalized, dyads, poses)
     if whole.cost.min() <= (MAX_EXPLAINED_ERROR * digit_error) ** 2 * (2 * count - 10):
         return None
     fits = LeaveOneOut.from_shared_starts(normalized, pairs, whole)
-    floor = (2 * count - 12) * digit_error**2
+    floor = floor_by_ratio(count, position / length, angle)
+    equal_floor = (2 * count - 12) * digit_error**2
     least, of_all = fits.fits_without_one.cost.min(), fits.fits_to_all.cost.min()
-    hopeless = chance_of_pose(count, least + floor, of_all + floor) > max(
-        MAX_SCREENING_CHANCE, false_alarm_chance
-    )
+    by_fits = chance_of_pose(count, least + equal_floor, of_all + equal_floor)
+    screened = first_order_chances(normalized, fits.fits_to_all.of(-1).linkages[:1], floor)
+    hopeless = min(float(by_fits), screened.min()) > max(MAX_SCREENING_CHANCE, false_alarm_chance)
     if hopeless and pose_apart(normalized) is None:
         return None
-    other_unit = unit_error(fits, floor, false_alarm_chance)
+    other_unit = unit_error(fits, equal_floor, false_alarm_chance)
     if other_unit is None and hopeless:
         return None
     if other_unit is None:
         fits = fits.with_own_starts()
-        suspect = Suspect(fits.fits_without_one.labels_by_cost()[0], floor)
-    else:
-        suspect = Suspect(other_unit.pose, floor, other_unit)
-    odd = _described(task, motion, fits, suspect)
+    odd = _described(task, motion, fits, Suspects.of(fits, screened, floor, other_unit))
     if odd is None or false_alarm_chance >= 1 or odd.extents is not None:
         return odd
-    sigma = odd.error_without * math.sqrt((count - 1) / (2 * count - 12))
-    deviation = max(sigma, digit_error * odd.length)
-    significant = odd.ratio >= MIN_ERROR_RATIO or odd.miss >= MIN_OUTLIER_DEVIATIONS * deviation
-    return odd if significant and odd.chance <= false_alarm_chance else None
+    return odd if odd.chance <= false_alarm_chance else None
 
 
-class Suspect(NamedTuple):
-    """The likeliest odd pose; floor: the part of sums of squares that comes from digits alone."""
+class Suspects(NamedTuple):
+    """Poses that may be the odd one.
 
-    pose: int
-    floor: float
-    unit_error: UnitError | None = None
+    floor: (R,), the part of sums of squares that comes from digits alone, for each noise ratio.
+    unit_error: of the only suspect, where that is what stands out.
+    """
+
+    poses: list[int]
+    floor: FloatArray
+    unit_error: UnitError | None
+
+    @classmethod
+    def of(
+        cls,
+        fits: LeaveOneOut,
+        screened: FloatArray,
+        floor: FloatArray,
+        unit_error: UnitError | None,
+    ) -> Suspects:
+        """By the fits without each, and by their chances (N,) to first order."""
+        if unit_error is not None:
+            return cls([unit_error.pose], floor, unit_error)
+        likeliest = np.argsort(screened, kind="stable")[:SUSPECTS].tolist()
+        poses = fits.fits_without_one.labels_by_cost()[:SUSPECTS] + likeliest
+        return cls(list(dict.fromkeys(poses)), floor, None)
+
+    def starts(self, fits: LeaveOneOut, pose: int) -> LinkageBatch:
+        """Linkages that fit all poses but one."""
+        found = fits.fits_without_one.of(pose).linkages
+        return found if self.unit_error is None else concatenate([self.unit_error.linkages, found])
 
 
 def _described(
-    task: Task, motion: MotionClass, left_out: LeaveOneOut, suspect: Suspect
+    task: Task, motion: MotionClass, left_out: LeaveOneOut, suspects: Suspects
 ) -> OddPose | None:
-    """The suspect with all its numbers; None where a linkage cannot be followed to its places."""
-    normalized, fits = left_out.normalized, left_out.fits_without_one
-    pose, floor, other_unit = suspect
+    """The likeliest suspect with its numbers; None where a linkage cannot be followed."""
+    normalized, other_unit = left_out.normalized, suspects.unit_error
     count, length = len(normalized.rows), float(normalized.frames.length)
-    spare = 2 * count - 12
-    starts = fits.of(pose).linkages
-    if other_unit is not None:
-        starts = concatenate([other_unit.linkages, starts])
+    best_of_all = left_out.fits_to_all.linkages
+    by_ratio = {
+        k: fits_by_ratio(
+            normalized,
+            concatenate([suspects.starts(left_out, k), best_of_all[:1]]),
+            best_of_all,
+            k,
+            suspects.floor,
+        )
+        for k in suspects.poses
+    }
+    chances = {k: float(each.chance(count)) for k, each in by_ratio.items()}
+    pose = min(chances, key=lambda k: chances[k])
+    chosen, likeliest = by_ratio[pose], [by_ratio[pose].best_ratio()]
+    starts = concatenate([suspects.starts(left_out, pose), chosen.linkages[likeliest]])
     without, linkages = refine_best(normalized, starts, pose)
-    of_all, _ = refine_best(
-        normalized, concatenate([left_out.fits_to_all.linkages, linkages]), None
-    )
+    of_all, _ = refine_best(normalized, concatenate([best_of_all, linkages]), None)
     if not np.isfinite(without):
         return None
-    place = on_circuits(linkages, normalized.poses[[pose]], 1.0)
-    gap = rows_of(place, 1.0)[0, :, 0] - normalized.rows[pose]
-    miss = float(np.nanmin(np.append(np.linalg.norm(gap, axis=-1), 1e9)))
     # Refinement may stop in a local minimum; these are upper bounds.
+    miss = float(_misses(normalized, linkages, pose, np.ones(1))[0])
     bound = without + normalized.weights[pose] * miss**2
     of_all = min(of_all, float(left_out.fits_to_all.cost.min()), bound)
-    sigma = math.sqrt(max(without, floor) / spare)
-    prediction = Prediction.of(normalized, linkages, pose, sigma)
+    chosen = chosen.bounded(
+        normalized.weights[pose] * _misses(normalized, chosen.linkages, pose, RATIOS) ** 2
+    )
+    chance = float(chosen.chance(count))
+    sigma = math.sqrt(float(chosen.without[likeliest[0]]) / (2 * count - 12))
+    prediction = Prediction.of(
+        normalized, chosen.linkages[likeliest], pose, sigma, RATIOS[likeliest]
+    )
     repairs = repairs_of(normalized, prediction, pose, task)
-    chance = TESTS * chance_of_pose(count, without + floor, of_all + floor)
-    for each in repairs:
-        if each.kind in NUMBERS:
-            repaired = without + floor + (each.miss * sigma) ** 2
-            chance = min(chance, TESTS * chance_of_number(count, repaired, of_all + floor))
     others: list[int] = []
     if other_unit is None:
-        costs = {k: float(fits.of(k).cost[0]) for k in fits.labels_by_cost() if k != pose}
-        doubt = OTHER_POSE_CHANCE ** (1 / (count - 6))
-        others = [k for k, cost in costs.items() if without + floor > doubt * (cost + floor)]
+        others = [k for k in chances if k != pose and chances[k] * OTHER_POSE_CHANCE < chance]
+        others.sort(key=lambda k: chances[k])
     else:
         chance = min(chance, other_unit.chance)
         rest = [each for each in repairs if each.kind != "unit" or each.factor != other_unit.factor]
-        repairs = (unit_repair(normalized, pose, other_unit.factor, other_unit.miss), *rest)
+        unit = unit_repair(normalized, pose, other_unit.factor, other_unit.miss, task)
+        repairs = by_evidence([unit, *rest], count)
     total = normalized.weights.sum()
     shares = total, total - normalized.weights[pose]
     error, error_without = (
@@ -311,7 +357,19 @@ def _described(
         linkages.from_canonical(normalized.frames).linkage(0),
         repairs,
         other_unit.extents if other_unit is not None and other_unit.far_apart else None,
+        1.0 if other_unit is None else other_unit.factor,
+        chosen.deviations(count),
     )
+
+
+def _misses(
+    normalized: NormalizedPoses, linkages: LinkageBatch, pose: int, ratio: FloatArray
+) -> FloatArray:
+    """The distances (k,) of a pose from the motions of linkages (k,), one for each ratio (k,)."""
+    place = on_circuits(linkages, normalized.poses[[pose]], 1.0)
+    gap = rows_of(place, 1.0)[:, :, 0] - normalized.rows[pose]
+    gap[..., 2] /= ratio[:, None]
+    return np.asarray(np.fmin(np.fmin.reduce(np.linalg.norm(gap, axis=-1), axis=-1), FAR))
 
 
 def _is_general(task: Task, motion: MotionClass) -> bool:
@@ -321,20 +379,3 @@ def _is_general(task: Task, motion: MotionClass) -> bool:
     far = int(((poses.translation - middle) ** 2).sum(axis=-1).argmax())
     others = poses[np.arange(poses.shape[0]) != far]
     return classify_motion(Task(others, resolution=task.resolution)).determined
-
-
-def chance_of_pose(count: int, without: float, of_all: float) -> float:
-    """The chance that the least of N sums of squares without a pose is no greater, see above."""
-    return float(min(1.0, count * min(1.0, without / of_all) ** (count - 6)))
-
-
-def chance_of_number(count: int, repaired: float, of_all: float) -> float:
-    """The same of 3 N sums with one number free.
-
-    An upper bound, and close where the chance is small.
-    """
-    half, share = (2 * count - 11) / 2, min(1.0, repaired / of_all)
-    if share == 1.0:
-        return 1.0
-    beta = math.exp(math.lgamma(half) + math.lgamma(0.5) - math.lgamma(half + 0.5))
-    return float(min(1.0, 3 * count * share**half / (half * beta * math.sqrt(1 - share))))

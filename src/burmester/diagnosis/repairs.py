@@ -3,26 +3,40 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
 from typing import NamedTuple, final
 
 import numpy as np
 
-from burmester.diagnosis.sampson_fits import NormalizedPoses, sampson_residuals
+from burmester.diagnosis.sampson_fits import EQUAL_ERRORS, NormalizedPoses, sampson_residuals
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.numerics.arrays import ROUNDING, FloatArray, wrapped_angle
 from burmester.numerics.differences import DifferenceQuotients
 from burmester.tasks.motion_task import Task
 
-__all__ = ["NUMBERS", "UNIT_FACTORS", "Prediction", "Repair", "repairs_of", "unit_repair"]
+__all__ = [
+    "NUMBERS",
+    "UNIT_FACTORS",
+    "Prediction",
+    "Repair",
+    "by_evidence",
+    "repairs_of",
+    "unit_repair",
+]
 
 NUMBERS = ("x", "y", "angle")
 # Mahalanobis distances, squared, up to which a changed pose agrees with the others.  Generous, as
 # x, y and the angle may not be known equally well.
 MAX_DISTANCE_OF_NUMBER = 16.0  # with one number replaced by the best
 MAX_DISTANCE_OF_SLIP = 40.0  # with a slip undone, which leaves nothing to choose
+AS_NEAR = 4.0  # more than the best; a number as near agrees as well, and the neighbours decide
 MAX_DISTANCE_SHARE = 0.03  # of the squared distance of the pose as given, in either case
+# Chances beforehand, a guess: of one factor between units, and of each other slip.  That of one
+# number wrong in any way is its standard error over its range.
+UNIT_CHANCE = 0.1
+SLIP_CHANCE = 0.01
+NUMBER_RANGE = (1.0, 1.0, math.pi)  # extents, radians
 # Between two units of length, or a decimal point away; the first three are the usual ones.
 UNIT_FACTORS = (10.0, 25.4, 1000.0, 12.0, 100.0, 2.54, 304.8)
 SWEEP_ANGLES = 720  # coupler angles, half a degree apart, among which to look for places
@@ -43,6 +57,9 @@ class Repair:
     values: (3,), x, y and angle in radians as changed, without uncertain digits.
     miss: the Mahalanobis distance that remains, in standard deviations.
     factor: of units and slips, the factor for the numbers as given; else 1.
+    prior: its chance beforehand, a guess.
+    strays: whether a changed number is farther from those of the poses before and after than the
+        given one; the message says so.
     """
 
     kind: str
@@ -50,41 +67,64 @@ class Repair:
     values: FloatArray
     miss: float
     factor: float = 1.0
+    prior: float = SLIP_CHANCE
+    strays: bool = False
+
+    def evidence(self, count: int) -> float:
+        """The logarithm of prior times likelihood (Student's), up to a constant; count: of poses.
+
+        The standard deviation is known by the 2 N - 12 residuals to spare of all other poses.
+        """
+        spare = 2 * count - 12
+        return math.log(self.prior) - (spare + 2) / 2 * math.log1p(self.miss**2 / spare)
+
+
+def by_evidence(repairs: Iterable[Repair], count: int) -> tuple[Repair, ...]:
+    """Repairs of one of `count` poses, the likeliest first."""
+    return tuple(sorted(repairs, key=lambda each: -each.evidence(count)))
 
 
 class Prediction(NamedTuple):
     """What the other poses predict of one pose: it lies on the motion of their linkage (1,).
 
     covariance: (10, 10), of its dimensions, in variances of a pose.
-    sigma: the standard deviation of a pose.
+    sigma: the standard deviation of a position, in extents; ratio: (1,), that of an angle over it.
     """
 
     linkages: LinkageBatch
     covariance: FloatArray
     sigma: float
+    ratio: FloatArray = EQUAL_ERRORS
 
     @classmethod
     def of(
-        cls, normalized: NormalizedPoses, linkages: LinkageBatch, pose: int, sigma: float
+        cls,
+        normalized: NormalizedPoses,
+        linkages: LinkageBatch,
+        pose: int,
+        sigma: float,
+        ratio: FloatArray = EQUAL_ERRORS,
     ) -> Prediction:
         """By the linkage (1,) of all poses but one."""
         share = np.where(normalized.mask_without(pose), normalized.weights, 0.0)[None]
-        _, jacobian = sampson_residuals(linkages, normalized.rows, share)
+        _, jacobian = sampson_residuals(linkages, normalized.rows, share, ratio)
         size = np.linalg.norm(jacobian[0], axis=0)
         size = np.where(size > 0, size, 1.0)
         _, spread, axes = np.linalg.svd(jacobian[0] / size, full_matrices=False)
         determined = spread > ROUNDING * spread[0]
         axes = axes[determined] / spread[determined, None] / size
-        return cls(linkages, axes.T @ axes, sigma)
+        return cls(linkages, axes.T @ axes, sigma, ratio)
 
     def residuals(self, rows: FloatArray) -> FloatArray:
         """The residuals (n, 2) of poses (n, 3)."""
-        residuals, _ = sampson_residuals(self.linkages, rows, np.ones((1, len(rows))))
+        residuals, _ = sampson_residuals(self.linkages, rows, np.ones((1, len(rows))), self.ratio)
         return residuals.reshape(-1, 2)
 
     def residuals_and_covariance(self, row: FloatArray) -> tuple[FloatArray, FloatArray]:
         """The residuals (2,) of a pose (3,), and their covariance (2, 2) in sigma squared."""
-        residuals, jacobian = sampson_residuals(self.linkages, row[None], np.ones((1, 1)))
+        residuals, jacobian = sampson_residuals(
+            self.linkages, row[None], np.ones((1, 1)), self.ratio
+        )
         spread: FloatArray = np.eye(2) + jacobian[0] @ self.covariance @ jacobian[0].T
         return residuals[0], spread
 
@@ -133,32 +173,71 @@ class Change(NamedTuple):
 def repairs_of(
     normalized: NormalizedPoses, prediction: Prediction, pose: int, task: Task
 ) -> tuple[Repair, ...]:
-    """The changes that make a pose agree: slips first, units before all, then single numbers."""
+    """The changes that make a pose agree: slips and single numbers, the likeliest first."""
     length, origin = float(normalized.frames.length), normalized.frames.fixed_origin
     given = _pose_as_given(normalized, pose)
     limit = MAX_DISTANCE_SHARE * prediction.squared_distance(normalized.rows[pose])
-    slips: list[Repair] = []
+    found: list[Repair] = []
     for kind, factor, values, words in _slips(given):
         row = np.append((values[:2] - origin) / length, values[2])
         squared = prediction.squared_distance(row)
         if squared <= min(MAX_DISTANCE_OF_SLIP, limit):
-            slips.append(Repair(kind, words, values, math.sqrt(squared), factor))
-    slips.sort(key=lambda each: (each.kind != "unit", each.miss))
-    single: list[Repair] = []
+            prior = UNIT_CHANCE if kind == "unit" else SLIP_CHANCE
+            found.append(Repair(kind, words, values, math.sqrt(squared), factor, prior))
     for number, name in enumerate(NUMBERS):
         starts = _start_rows(prediction.linkages, normalized.rows[pose], number)
         changes = [prediction.best_change(start, number) for start in starts]
-        best = min(changes, key=lambda each: each.squared_distance)
-        if best.squared_distance <= min(MAX_DISTANCE_OF_NUMBER, limit):
-            values, words = _certain_digits(best, given, normalized, task)
-            single.append(Repair(name, words, values, math.sqrt(best.squared_distance)))
-    return (*slips, *sorted(single, key=lambda each: each.miss))
+        least = min(each.squared_distance for each in changes)
+        if least > min(MAX_DISTANCE_OF_NUMBER, limit):
+            continue
+        best = min(
+            (each for each in changes if each.squared_distance <= least + AS_NEAR),
+            key=lambda each: _away(normalized, pose, each.row, task)[number // 2],
+        )
+        values, words = _certain_digits(best, given, normalized, task)
+        prior = min(best.error / NUMBER_RANGE[number], SLIP_CHANCE)
+        miss = math.sqrt(best.squared_distance)
+        found.append(Repair(name, words, values, miss, prior=max(prior, ROUNDING)))
+    marked = [_marked(each, normalized, pose, task) for each in found]
+    return by_evidence(marked, len(normalized.rows))
 
 
-def unit_repair(normalized: NormalizedPoses, pose: int, factor: float, miss: float) -> Repair:
+def unit_repair(
+    normalized: NormalizedPoses, pose: int, factor: float, miss: float, task: Task
+) -> Repair:
     """A pose with x and y times a factor."""
     values = _pose_as_given(normalized, pose) * [factor, factor, 1.0]
-    return Repair("unit", _unit_in_words(factor), values, miss, factor)
+    agrees = miss**2 <= MAX_DISTANCE_OF_SLIP
+    words = _unit_in_words(factor, "would agree" if agrees else "would come nearer")
+    repair = Repair("unit", words, values, miss, factor, UNIT_CHANCE)
+    return _marked(repair, normalized, pose, task)
+
+
+def _away(
+    normalized: NormalizedPoses, pose: int, row: FloatArray, task: Task
+) -> tuple[float, float]:
+    """How far the position and the angle of a row (3,) are from those before and after a pose.
+
+    In sum; from those as given where the order of the poses has no meaning.
+    """
+    beside = [k for k in (pose - 1, pose + 1) if 0 <= k < len(normalized.rows)]
+    gap = row - normalized.rows[[pose] if task.requirements.any_order else beside]
+    turn = np.abs(wrapped_angle(gap[:, 2]))
+    return float(np.linalg.norm(gap[:, :2], axis=-1).sum()), float(turn.sum())
+
+
+def _marked(repair: Repair, normalized: NormalizedPoses, pose: int, task: Task) -> Repair:
+    """A repair that says so where its numbers are farther from the neighbours than the given."""
+    length, origin = float(normalized.frames.length), normalized.frames.fixed_origin
+    given = normalized.rows[pose]
+    changed = np.append((repair.values[:2] - origin) / length, repair.values[2])
+    before, after = (_away(normalized, pose, row, task) for row in (given, changed))
+    farther = any(b > a + ROUNDING for a, b in zip(before, after, strict=True))
+    if not farther or task.requirements.any_order:
+        return repair
+    which = "neighbours" if 0 < pose < len(normalized.rows) - 1 else "neighbour"
+    words = f"{repair.message}, but farther from its {which}"
+    return replace(repair, message=words, strays=True)
 
 
 def _pose_as_given(normalized: NormalizedPoses, pose: int) -> FloatArray:
@@ -208,9 +287,9 @@ def _certain_digits(
     return values, f"its {old}: {rounded:.{max(digits, 0)}f}{unit} would agree"
 
 
-def _unit_in_words(factor: float) -> str:
+def _unit_in_words(factor: float, how: str = "would agree") -> str:
     way = f"times {factor:g}" if factor > 1 else f"divided by {1 / factor:g}"
-    return f"its unit: x and y {way} would agree"
+    return f"its unit: x and y {way} {how}"
 
 
 def _slips(given: FloatArray) -> Iterator[tuple[str, float, FloatArray, str]]:

@@ -26,6 +26,7 @@ from burmester.numerics.linear_algebra import matvec, solve
 from burmester.numerics.weights import weights_of_mean_one
 
 __all__ = [
+    "EQUAL_ERRORS",
     "FITS_PER_LABEL",
     "FULL_STEPS",
     "SCREENING_STEPS",
@@ -44,6 +45,7 @@ FITS_PER_LABEL = 3  # linkages kept of each label
 UNIFORM_EXTENT_SQUARED = 12.0  # variances; the squared length of a line with points spread evenly
 MAX_IDLE_GAIN = 1e-4  # relative, of a step; a descent that gains less has ended
 START_DAMPING = 1e-3  # relative, of the normal equations with columns of length one
+EQUAL_ERRORS = np.ones(1)  # ratio of errors of angles (radians) to those of positions (extents)
 MIN_DAMPING, MAX_DAMPING = 1e-10, 1e6  # the same; at the greater one a descent ends
 
 
@@ -55,8 +57,7 @@ class NormalizedPoses(NamedTuple):
     frames: the way back to the task's frames.
 
     The extent is the length of a line over which poses of the same variance are spread evenly.  A
-    radian counts as one extent: relative errors of positions are taken to be as large as errors
-    of angles in radians.
+    radian counts as one extent, where no other ratio of errors is given (`noise_ratio`).
     """
 
     poses: Displacement
@@ -134,18 +135,24 @@ def _best(cost: FloatArray, labels: NDArray[np.intp], number: int) -> NDArray[np
 
 
 def fit_linkages(
-    linkages: LinkageBatch, rows: FloatArray, share: FloatArray, steps: int
+    linkages: LinkageBatch,
+    rows: FloatArray,
+    share: FloatArray,
+    steps: int,
+    ratio: FloatArray = EQUAL_ERRORS,
 ) -> tuple[LinkageBatch, FloatArray]:
     """Linkages (k,) fitted to poses (N, 3) or (k, N, 3) weighed by share (k, N), and their costs.
 
-    By at most `steps` steps of Levenberg and Marquardt's method.
+    By at most `steps` steps of Levenberg and Marquardt's method.  ratio: (k,) or (1,), see
+    `sampson_residuals`.
     """
     kinds, z = linkages.kinds, linkages.dimensions.reshape(-1, SIZE)
     rows = np.broadcast_to(rows, (len(linkages), *rows.shape[-2:]))
+    ratio = np.broadcast_to(ratio, (len(linkages),))
 
     def point(which: NDArray[np.intp], z: FloatArray) -> _Point:
         linkages = LinkageBatch(kinds[which], z.reshape(-1, 2, DIMENSIONS))
-        residual, jacobian = sampson_residuals(linkages, rows[which], share[which])
+        residual, jacobian = sampson_residuals(linkages, rows[which], share[which], ratio[which])
         return _Point(z, residual, jacobian, (residual * residual).sum(axis=-1))
 
     def attempt(which: NDArray[np.intp], here: _Point, damping: FloatArray) -> Attempt[_Point]:
@@ -181,17 +188,23 @@ class _Point(NamedTuple):
 
 
 def sampson_residuals(
-    linkages: LinkageBatch, rows: FloatArray, share: FloatArray
+    linkages: LinkageBatch,
+    rows: FloatArray,
+    share: FloatArray,
+    ratio: FloatArray = EQUAL_ERRORS,
 ) -> tuple[FloatArray, FloatArray]:
     """Distances (k, 2 N) of poses (k, N, 3) from the motions of linkages (k,), to first order.
 
     In two directions normal to the motion, times the roots of share (k, N).  With them the Jacobian
     (k, 2 N, 10) by the dimensions, in which the normals count as constant.
+    ratio: (k,) or (1,), errors of angles in radians over errors of positions in extents; an angle
+        that is wrong by `ratio` radians counts as one extent.
     """
     count, number = len(linkages), rows.shape[-2]
     rows = np.broadcast_to(rows, (count, number, 3))
     with np.errstate(all="ignore"):
         miss, force, partial = linkages.jacobians(Displacement.from_poses(rows))
+        force[..., 2] *= ratio[:, None, None]
         a, b, c = ((force[:, i] * force[:, j]).sum(-1) for i, j in ((0, 0), (0, 1), (1, 1)))
         first, height = np.sqrt(a), np.sqrt(np.maximum(c - b * b / a, 1e-20 * c))
         root = np.sqrt(share)
