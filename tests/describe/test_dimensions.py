@@ -2,6 +2,7 @@
 
 import math
 import re
+from dataclasses import replace
 
 import pytest
 
@@ -9,6 +10,7 @@ from burmester.describe.dimensions import dimensions
 from burmester.describe.sentences import notes
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.io.reading.poses import read_task
+from burmester.linkages.uncertainty import DyadUncertainty, LineRegion, PivotRegion
 from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.options import SynthesisOptions
 
@@ -56,6 +58,9 @@ def test_half_widths_are_those_of_the_regions(synthesis):
                     assert (dyad.id, what) not in given
                     continue
                 text, width = given[dyad.id, what], pivot.half_width
+                if not pivot.determined:
+                    assert text.startswith("not determined")
+                    continue
                 if not math.isfinite(width):
                     assert text == "-"
                     continue
@@ -65,6 +70,38 @@ def test_half_widths_are_those_of_the_regions(synthesis):
                     assert width < float(match[0])
                 else:
                     assert float(match[0]) == pytest.approx(width, abs=0.5001 * last), found.id
+
+
+def test_what_is_not_determined_has_no_half_width(synthesis):
+    """Regions of made-up sizes: words where first order is not trusted, and the direction."""
+    wide, narrow = PivotRegion(0.5, 0.3, 0.6, 0.1), PivotRegion(0.5, 1e-3, 0.6, 0.1)
+    small = PivotRegion(0.05, 1e-3, 0.6, 0.1)
+    for found in synthesis.linkages:
+        for fixed, moving, words in (
+            (wide, narrow, ["not determined", "not determined along 34°"]),
+            (small, wide, ["± ", "not determined"]),
+        ):
+            for length, offset, angle in ((0.5, 0.05, 0.2), (0.05, 0.5, 0.02)):
+                line = LineRegion(angle, offset, 0.1)
+                region = DyadUncertainty(fixed, moving, line, length, 0.1)
+                made = replace(found, uncertainty=(region, region))
+                rows = dimensions(synthesis, made)
+                for row in rows:
+                    open_length = length > 0.1 if row.what == "length" else offset > 0.1
+                    match row.what:
+                        case "fixed pivot":
+                            assert row.give.startswith(words[0])
+                        case "moving pivot":
+                            assert row.give == words[1]
+                        case "length" | "offset":
+                            assert (row.give == "not determined") == open_length
+                        case _:
+                            assert (row.give == "not determined") == (angle > 0.05)
+                    assert ("±" in row.give) == ("determined" not in row.give)
+                assert any("Not determined: " in note for note in notes(synthesis, made))
+    sure = DyadUncertainty(small, small, LineRegion(0.01, 0.01, 0.1), 0.01, 0.1)
+    made = replace(synthesis.linkages[0], uncertainty=(sure, sure))
+    assert not any("Not determined: " in note for note in notes(synthesis, made))
 
 
 def test_unusable_linkages_have_notes_of_their_own(synthesis):

@@ -417,7 +417,7 @@ def test_weak_transmission_is_a_warning_unless_it_was_asked_for(cases):
 
 def test_pivots_that_are_hardly_determined_are_a_warning():
     task = read_task("case:ge2012-exact")
-    _, data, screen = synthesized(replace(task, resolution=(2e-3, math.radians(0.2))))
+    synthesis, data, screen = synthesized(replace(task, resolution=(2e-3, math.radians(0.2))))
     warned = [each["message"] for each in data["warnings"] if each["code"] == "W209"]
     loose = [
         each["id"]
@@ -428,14 +428,9 @@ def test_pivots_that_are_hardly_determined_are_a_warning():
     assert len(loose) < sum(each["usable"] for each in data["linkages"])
     (message,) = warned
     assert all(re.search(rf"\b{name}\b", message) for name in loose)
-    best = next(each for each in data["linkages"] if each["id"] == loose[0])
-    widest = max(
-        region[key]["half_width"]
-        for region in best["pivot_uncertainty"]["dyads"]
-        for key in ("fixed_pivot", "moving_pivot")
-        if region[key]
-    )
-    said = float(re.search(r"±(\S+)", message)[1])
+    best = next(each for each in synthesis.linkages if each.id == loose[0])
+    widest = max(each.half_width for each in best.uncertainty)
+    said = float(re.search(r"about (\S+)", message)[1])
     assert said == pytest.approx(widest, rel=0.05)
     points = np.array([[pose["x"], pose["y"]] for pose in data["task"]["poses"]])
     span = float(re.search(r"the poses span (\S+)\)", message)[1])
@@ -443,6 +438,20 @@ def test_pivots_that_are_hardly_determined_are_a_warning():
     if loose[0] == "L1":
         sure = next(e["id"] for e in data["linkages"] if e["pivot_uncertainty"]["determined"])
         assert f"Its pivots are uncertain; those of {sure} are not" in " ".join(screen().split())
+    # Half-widths are given just where they reach no farther than a twentieth of the span.
+    size = np.hypot(*np.ptp(points, axis=0))
+    flags = []
+    for found, shown in zip(synthesis.linkages, data["linkages"], strict=True):
+        for one, region in zip(found.uncertainty, shown["pivot_uncertainty"]["dyads"], strict=True):
+            for part, of_pivot in ((one.fixed, "fixed_pivot"), (one.moving, "moving_pivot")):
+                if part is not None:
+                    given = region[of_pivot]
+                    flags.append(given["determined"])
+                    assert given["determined"] == (part.major <= 0.05 * size)
+                    assert given["half_width"] == (part.major if given["determined"] else None)
+                    across = part.minor <= 0.05 * size
+                    assert given["minor"] == (part.minor if across else None)
+    assert set(flags) == {True, False}
 
 
 def test_what_building_makes_of_the_error_is_told_with_its_unit():

@@ -18,10 +18,15 @@ from burmester.synthesis.result import Synthesis
 __all__ = ["Dimension", "certain", "decimals_of", "dimensions", "dimensions_of"]
 
 Regions = tuple[DyadUncertainty, DyadUncertainty] | tuple[None, None]
+NOT_DETERMINED = "not determined"
 
 
 class Dimension(NamedTuple):
-    """A dimension in words: the dyad's id, its name, its value, and its half-width or ""."""
+    """A dimension in words: the dyad's id, its name, its value, and its half-width or "".
+
+    Instead of a half-width it is said that the poses do not determine the dimension, and along
+    which direction (of F for a fixed pivot, of M for a moving one) if across it they do.
+    """
 
     dyad: str
     what: str
@@ -72,8 +77,10 @@ def _of_dyad(
     digits = decimals.lengths
 
     def point(pivot: np.ndarray, region: PivotRegion | None) -> tuple[str, str]:
-        give = region.half_width if region else 0.0
-        return f"({fixed(pivot[0], digits)}, {fixed(pivot[1], digits)})", _give(give, digits)
+        text = f"({fixed(pivot[0], digits)}, {fixed(pivot[1], digits)})"
+        if region is not None and not region.determined:
+            return text, _not_determined(region)
+        return text, _give(region.half_width if region else 0.0, digits)
 
     def degrees(angle: np.ndarray) -> str:
         return f"{fixed(math.degrees(float(angle)), decimals.degrees)}°"
@@ -83,21 +90,30 @@ def _of_dyad(
     if isinstance(dyad, RR | PR):
         yield "moving pivot", *point(dyad.moving_pivot, region.moving if region else None)
     if isinstance(dyad, RR):
-        give = region.length or 0.0 if region else 0.0
-        yield "length", fixed(float(dyad.radius), digits), _give(give, digits)
+        give = _give(region.length or 0.0 if region else 0.0, digits)
+        if region is not None and not region.length_determined:
+            give = NOT_DETERMINED
+        yield "length", fixed(float(dyad.radius), digits), give
     if isinstance(dyad, PR | RP):
         line = region.line if region else None
-        swing = math.degrees(line.angle) if line else 0.0
         frame = "line in F" if isinstance(dyad, PR) else "line in M"
-        yield (
-            f"{frame}, normal",
-            degrees(dyad.normal_angle),
-            _give(swing, decimals.degrees, "°"),
-        )
-        give = line.offset if line else 0.0
-        yield "offset", fixed(float(dyad.offset), digits), _give(give, digits, " at mid-travel")
+        give = _give(math.degrees(line.angle) if line else 0.0, decimals.degrees, "°")
+        if line is not None and not line.angle_determined:
+            give = NOT_DETERMINED
+        yield f"{frame}, normal", degrees(dyad.normal_angle), give
+        give = _give(line.offset if line else 0.0, digits, " at mid-travel")
+        if line is not None and not line.offset_determined:
+            give = NOT_DETERMINED
+        yield "offset", fixed(float(dyad.offset), digits), give
     if isinstance(dyad, PP):
         yield "angle", degrees(dyad.angle), ""
+
+
+def _not_determined(region: PivotRegion) -> str:
+    """A pivot's region that is too large for a half-width; in words, in which direction."""
+    if not region.determined_across:
+        return NOT_DETERMINED
+    return f"{NOT_DETERMINED} along {math.degrees(region.direction):.0f}°"
 
 
 def _give(value: float, digits: int, what: str = "") -> str:

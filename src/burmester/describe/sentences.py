@@ -166,12 +166,19 @@ def uncertainty_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
         return None
     task = synthesis.task
     position, angle = pose_sigma(task)
+    sure = found.uncertainty is None or all(each.determined for each in found.uncertainty)
     given = notation.length_of(position, task) if task.resolution[0] else "0"
     turned = degrees(angle) if task.resolution[1] else "0°"
     return (
         "±: 95 % regions, of a pivot in its worst direction, if the poses err by "
         f"{given} and {turned} "
         "(standard deviations: from their digits, or --pose-sigma)."
+        + (
+            ""
+            if sure
+            else " Not determined: wider than 5 % of the motion's size, or 2.9°, to "
+            "first order, which need not hold so far."
+        )
     )
 
 

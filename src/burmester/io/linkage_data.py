@@ -157,29 +157,38 @@ def _uncertainty(found: FoundLinkage) -> dict[str, Any] | None:
 
 
 def _regions(name: str, regions: DyadUncertainty) -> dict[str, Any]:
-    line = regions.line
-    return {
+    line, length = regions.line, regions.length
+    data: dict[str, Any] = {
         "dyad": name,
         "fixed_pivot": _region(regions.fixed),
         "moving_pivot": _region(regions.moving),
-        "line": None
-        if line is None
-        else {
-            "normal_deg": number(math.degrees(line.angle)),
-            "offset_at_mid_travel": number(line.offset),
-        },
-        "length": None if regions.length is None else number(regions.length),
+        "line": None,
+        "length": number(length) if length is not None and regions.length_determined else None,
     }
+    if length is not None:
+        data["length_determined"] = regions.length_determined
+    if line is not None:
+        data["line"] = {
+            "normal_deg": number(math.degrees(line.angle)) if line.angle_determined else None,
+            "offset_at_mid_travel": number(line.offset) if line.offset_determined else None,
+            "determined": line.angle_determined and line.offset_determined,
+        }
+    return data
 
 
-def _region(region: PivotRegion | None) -> dict[str, float | None] | None:
-    """An ellipse around the pivot, its direction in the pivot's own frame."""
+def _region(region: PivotRegion | None) -> dict[str, Any] | None:
+    """An ellipse around the pivot, its direction in the pivot's own frame.
+
+    Semi-axes that first order does not hold for are null; then the pivot is not determined along
+    the direction.
+    """
     if region is None:
         return None
     return {
-        "half_width": number(region.half_width),
-        "major": number(region.major),
-        "minor": number(region.minor),
+        "determined": region.determined,
+        "half_width": number(region.half_width) if region.determined else None,
+        "major": number(region.major) if region.determined else None,
+        "minor": number(region.minor) if region.determined_across else None,
         "direction_deg": number(math.degrees(region.direction)),
     }
 

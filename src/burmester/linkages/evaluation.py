@@ -252,13 +252,13 @@ class Evaluation:
             weights=weights,
             fixed=active,
         )
-        regions = uncertainties(spreads, batch[sound], places, unit)
-        links = links_covariance(batch[sound], spreads) * unit**2
         span = np.linalg.norm(np.ptp(self.task.poses.translation, axis=0))
-        size = max(float(span), self.problem.length_per_radian)
+        reach = DETERMINED_SHARE * max(float(span), self.problem.length_per_radian)
+        regions = uncertainties(spreads, batch[sound], places, unit, reach)
+        links = links_covariance(batch[sound], spreads) * unit**2
         out = list(found)
         for at, k in enumerate(sound):
-            determined = max(each.half_width for each in regions[at]) <= DETERMINED_SHARE * size
+            determined = max(each.half_width for each in regions[at]) <= reach
             out[k] = replace(
                 out[k],
                 uncertainty=regions[at],

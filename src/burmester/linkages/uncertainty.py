@@ -43,6 +43,7 @@ PARALLEL_FORCES = 1e-7
 LOST_SINGULAR_VALUE = 8 * float(np.finfo(np.float64).eps)  # relative; a smaller one is rounding
 # Lengths: floor on the standard deviation of what the poses do not determine.
 UNKNOWN_DEVIATION = 1e3
+MAX_DETERMINED_ANGLE = 0.05  # radians; of a line with a larger half-width first order may not hold
 DEPENDENT = 1e-9  # relative singular value; smaller ones mean that fixed quantities are dependent
 
 _RR, _PR, _RP = (DYAD_KINDS.index(kind) for kind in (RR, PR, RP))
@@ -55,11 +56,23 @@ class PivotRegion:
 
     major, minor: its semi-axes; direction: the angle of the major one in the pivot's own frame
     (F for a fixed pivot, M for a moving one), radians in (-pi/2, pi/2].
+    reach: how far first order is trusted; beyond it the probability need not hold.
     """
 
     major: float
     minor: float
     direction: float
+    reach: float = np.inf
+
+    @property
+    def determined(self) -> bool:
+        """Whether it is small enough for the 95 % to hold."""
+        return self.major <= self.reach
+
+    @property
+    def determined_across(self) -> bool:
+        """Whether it is small enough in one direction at least, at a right angle to the other."""
+        return self.minor <= self.reach
 
     @property
     def half_width(self) -> float:
@@ -82,10 +95,22 @@ class LineRegion:
 
     angle: of its direction, radians, at most half a turn.  offset: across it, in the middle of the
     stretch that the poses use; so neither depends on where the origins of F and M are.
+    reach: how far first order is trusted, of the offset.
     """
 
     angle: float
     offset: float
+    reach: float = np.inf
+
+    @property
+    def angle_determined(self) -> bool:
+        """Whether the half-width of the direction is small enough for the 95 % to hold."""
+        return self.angle <= MAX_DETERMINED_ANGLE
+
+    @property
+    def offset_determined(self) -> bool:
+        """The same of the offset."""
+        return self.offset <= self.reach
 
 
 @final
@@ -95,12 +120,26 @@ class DyadUncertainty:
 
     fixed, moving: of the pivots; line: of a slider's line.
     length: the half-width of an RR dyad's link length.
+    reach: how far first order is trusted, of the length.
     """
 
     fixed: PivotRegion | None
     moving: PivotRegion | None
     line: LineRegion | None
     length: float | None
+    reach: float = np.inf
+
+    @property
+    def determined(self) -> bool:
+        """Whether all of its dimensions are."""
+        pivots = all(each.determined for each in (self.fixed, self.moving) if each is not None)
+        line = self.line is None or (self.line.angle_determined and self.line.offset_determined)
+        return pivots and line and (self.length is None or self.length_determined)
+
+    @property
+    def length_determined(self) -> bool:
+        """Whether there is a link length whose half-width is small enough for the 95 % to hold."""
+        return self.length is not None and self.length <= self.reach
 
     @property
     def half_width(self) -> float:
@@ -229,12 +268,17 @@ def _fixed_projector(batch: LinkageBatch, fixed: FloatArray | None) -> FloatArra
 
 
 def uncertainties(
-    covariance: FloatArray, batch: LinkageBatch, places: Displacement, unit: float = 1.0
+    covariance: FloatArray,
+    batch: LinkageBatch,
+    places: Displacement,
+    unit: float = 1.0,
+    reach: float = np.inf,
 ) -> list[tuple[DyadUncertainty, DyadUncertainty]]:
     """The 95 % regions of both dyads of linkages (k,), from `covariance` of the same batch.
 
     places: (k, N), as there; they bound the stretch of a line that is in use.
     unit: the length of its frames, in the task's unit, which is that of the result.
+    reach: in the task's unit, the half-width up to which a region counts as determined.
     """
     middle = line_middle(batch, places)
     regions = []
@@ -242,34 +286,36 @@ def uncertainties(
         pair = []
         for side in (0, 1):
             slots = slice(DIMENSIONS * side, DIMENSIONS * (side + 1))
-            pair.append(
-                _of_dyad(covariance[k, slots, slots], batch.kinds[k, side], middle[k, side], unit)
-            )
+            part, kind = covariance[k, slots, slots], batch.kinds[k, side]
+            pair.append(_of_dyad(part, kind, middle[k, side], unit, reach))
         regions.append((pair[0], pair[1]))
     return regions
 
 
-def _of_dyad(spread: FloatArray, kind: int, middle: float, unit: float) -> DyadUncertainty:
+def _of_dyad(
+    spread: FloatArray, kind: int, middle: float, unit: float, reach: float
+) -> DyadUncertainty:
     """The 95 % regions of one dyad, from its covariance (5, 5)."""
-    fixed = None if kind == _PR else _ellipse(spread[:2, :2], unit)
-    moving = None if kind == _RP else _ellipse(spread[2:4, 2:4], unit)
+    fixed = None if kind == _PR else _ellipse(spread[:2, :2], unit, reach)
+    moving = None if kind == _RP else _ellipse(spread[2:4, 2:4], unit, reach)
     if kind == _RR:
-        return DyadUncertainty(fixed, moving, None, NORMAL_95 * unit * float(spread[4, 4]) ** 0.5)
+        length = NORMAL_95 * unit * float(spread[4, 4]) ** 0.5
+        return DyadUncertainty(fixed, moving, None, length, reach)
     at = 0 if kind == _PR else 2
     part = spread[at : at + 2, at : at + 2]
     # n · X = h turns about the middle of the stretch, where it moves by dh - middle x dangle.
     to = np.array([-middle, 1.0])
     angle, offset = float(part[0, 0]) ** 0.5, float(max(to @ part @ to, 0.0)) ** 0.5
-    line = LineRegion(min(NORMAL_95 * angle, float(np.pi)), NORMAL_95 * unit * offset)
-    return DyadUncertainty(fixed, moving, line, None)
+    line = LineRegion(min(NORMAL_95 * angle, float(np.pi)), NORMAL_95 * unit * offset, reach)
+    return DyadUncertainty(fixed, moving, line, None, reach)
 
 
-def _ellipse(spread: FloatArray, unit: float) -> PivotRegion:
+def _ellipse(spread: FloatArray, unit: float, reach: float) -> PivotRegion:
     values, vectors = np.linalg.eigh(spread)
     minor, major = unit * CIRCLE_95 * np.sqrt(np.maximum(values, 0.0))
     x, y = vectors[:, 1]
     direction = float(np.arctan2(y, x)) if x > 0 else float(np.arctan2(-y, -x))
-    return PivotRegion(float(major), float(minor), direction)
+    return PivotRegion(float(major), float(minor), direction, reach)
 
 
 def line_middle(batch: LinkageBatch, places: Displacement) -> FloatArray:

@@ -223,7 +223,7 @@ def _uncertain(found: FoundLinkage, task: Task) -> str:
     extent = f"the poses span {length_of(span(task), task)}"
     if widest > 100 * max(span(task), characteristic_length(task)):
         return f"far more than the motion's own size ({extent})"
-    return f"±{length_of(widest, task)} ({extent})"
+    return f"about {length_of(widest, task)} ({extent})"
 
 
 def linkage_advice(task: Task, linkages: Sequence[FoundLinkage], code: str) -> list[Advice]:
