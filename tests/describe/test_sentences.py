@@ -286,7 +286,7 @@ def test_the_precision_of_the_poses_is_what_the_regions_come_from(cases):
             a["pivot_uncertainty"]["dyads"], b["pivot_uncertainty"]["dyads"], strict=True
         ):
             for key in ("fixed_pivot", "moving_pivot"):
-                if one[key]:
+                if one[key] and one[key]["determined"]:
                     assert one[key]["half_width"] == pytest.approx(
                         10 * other[key]["half_width"], rel=1e-6
                     )
@@ -436,21 +436,33 @@ def test_pivots_that_are_hardly_determined_are_a_warning():
     span = float(re.search(r"the poses span (\S+)\)", message)[1])
     assert span == pytest.approx(np.hypot(*np.ptp(points, axis=0)), rel=0.05)
     if loose[0] == "L1":
-        sure = next(e["id"] for e in data["linkages"] if e["pivot_uncertainty"]["determined"])
+        sure = next(
+            each["id"]
+            for each in data["linkages"]
+            if each["usable"] and each["pivot_uncertainty"]["determined"]
+        )
         assert f"Its pivots are uncertain; those of {sure} are not" in " ".join(screen().split())
-    # Half-widths are given just where they reach no farther than a twentieth of the span.
+    # Half-widths are given just where they reach no farther than a twentieth of span and link,
+    # and the linkage's widest no farther than 0.3 spans.
     size = np.hypot(*np.ptp(points, axis=0))
     flags = []
     for found, shown in zip(synthesis.linkages, data["linkages"], strict=True):
-        for one, region in zip(found.uncertainty, shown["pivot_uncertainty"]["dyads"], strict=True):
+        runaway = max(each.half_width for each in found.uncertainty) > 0.3 * size
+        for dyad, one, region in zip(
+            found.dyads, found.uncertainty, shown["pivot_uncertainty"]["dyads"], strict=True
+        ):
+            link = float(dyad.dyad.radius) if isinstance(dyad.dyad, RR) else np.inf
+            reach = 0.0 if runaway else 0.05 * min(size, link)
             for part, of_pivot in ((one.fixed, "fixed_pivot"), (one.moving, "moving_pivot")):
                 if part is not None:
                     given = region[of_pivot]
                     flags.append(given["determined"])
-                    assert given["determined"] == (part.major <= 0.05 * size)
+                    assert given["determined"] == (part.major <= reach)
                     assert given["half_width"] == (part.major if given["determined"] else None)
-                    across = part.minor <= 0.05 * size
-                    assert given["minor"] == (part.minor if across else None)
+                    assert given["minor"] == (part.minor if part.minor <= reach else None)
+            if one.length is not None:
+                assert region["length"] == (one.length if one.length <= reach else None)
+                assert region["length_determined"] == (one.length <= reach)
     assert set(flags) == {True, False}
 
 

@@ -4,6 +4,8 @@ The other fit (`refitted`) has a driver's position for each pose among its unkno
 linkage joint by joint (`tests/oracles/witness.py`), and leaves the derivatives to SciPy.
 """
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.linalg import null_space
@@ -134,6 +136,45 @@ def test_an_ellipse_holds_what_it_should():
     assert one.half_width == one.fixed.half_width == one.fixed.major > one.fixed.minor
     assert other.half_width == 0
     assert PivotRegion(2, 1, np.pi / 2).contains(np.array([0.0, 1.9]))
+
+
+def test_a_region_is_determined_where_first_order_is_trusted():
+    """Up to 5 % of the motion's size and of the link, where no other region of it runs away."""
+    batch = LinkageBatch.of([Linkage(RR([0, 0], [1, 0], 1.0), PR(0.3, 1.0, [0, 1]))])
+    at = Displacement.identity((1, 3))
+
+    def regions(first, across, turn, size, unit=1.0):
+        """Half-widths of the first fixed pivot, across it, and of the line's direction."""
+        spread = np.zeros((1, 10, 10))
+        spread[0, 0, 0], spread[0, 1, 1] = (first / 2.4477) ** 2, (across / 2.4477) ** 2
+        spread[0, 5, 5] = (turn / 1.96) ** 2
+        spread[0, [2, 4, 7], [2, 4, 7]] = 1e-6
+        return uncertainties(spread, batch, at, unit, size)[0]
+
+    one, other = regions(0.03, 0.01, 0.04, 1.0)
+    assert one.determined
+    assert other.determined
+    one, _ = regions(0.06, 0.04, 0.04, 1.0)
+    assert (one.fixed.determined, one.fixed.determined_across) == (False, True)
+    assert one.length_determined
+    one, _ = regions(0.06, 0.055, 0.04, 1.0)
+    assert not one.fixed.determined_across
+    one, other = regions(0.06, 0.04, 0.06, 2.0)  # more than a twentieth of the link
+    assert not one.fixed.determined
+    assert not other.line.angle_determined
+    one, _ = regions(0.03, 0.01, 0.04, 0.5)  # of the motion
+    assert not one.fixed.determined
+    one, _ = regions(0.03, 0.01, 0.04, 5.0, 10.0)  # the same in another unit: 0.3 of 5 and of 10
+    assert not one.fixed.determined
+    one, other = regions(0.31, 0.01, 0.04, 1.0)  # one region takes all of its linkage with it
+    assert not other.line.angle_determined
+    assert not other.line.offset_determined
+    assert not other.moving.determined
+    assert not one.moving.determined
+    assert not one.length_determined
+    assert one.fixed.major == pytest.approx(0.31, rel=1e-3)
+    sure = replace(other.moving, major=0.0, minor=0.0)  # held by a limit: nothing can move it
+    assert sure.determined
 
 
 @pytest.mark.parametrize("second", [RR, PR, RP])

@@ -31,6 +31,11 @@ __all__ = [
     "uncertainty_note",
 ]
 
+NOT_DETERMINED = (
+    "Not determined: first order need not hold so far, with regions over 5 % of the motion's size "
+    "or of the link, or 2.9°."
+)
+
 
 MAX_NAMED_TYPES = 3  # other types that a sentence names; there are four
 
@@ -173,12 +178,7 @@ def uncertainty_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
         "±: 95 % regions, of a pivot in its worst direction, if the poses err by "
         f"{given} and {turned} "
         "(standard deviations: from their digits, or --pose-sigma)."
-        + (
-            ""
-            if sure
-            else " Not determined: wider than 5 % of the motion's size, or 2.9°, to "
-            "first order, which need not hold so far."
-        )
+        + ("" if sure else f" {NOT_DETERMINED}")
     )
 
 

@@ -27,7 +27,12 @@ from burmester.linkages.requirement_check import Violation, violations
 from burmester.linkages.rounding import rounded
 from burmester.linkages.target import Target
 from burmester.linkages.tolerances import spread
-from burmester.linkages.uncertainty import covariance, pose_sigma, uncertainties
+from burmester.linkages.uncertainty import (
+    DETERMINED_SHARE,
+    covariance,
+    pose_sigma,
+    uncertainties,
+)
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import take
 from burmester.numerics.differences import DifferenceQuotients
@@ -40,7 +45,6 @@ __all__ = ["Candidates", "Evaluation"]
 # Motion sizes; a pose that is missed by more, or by as much in its angle, is an assembly defect.
 ASSEMBLY_REACH = 0.1
 MIN_LINK = 1e-6  # motion sizes; linkages with a shorter ground link or coupler are dropped
-DETERMINED_SHARE = 0.05  # spans of the motion; pivots with larger regions are not determined
 EXACT_WEIGHT = 1e8  # weight of an exact pose in the covariance
 QUOTIENTS = DifferenceQuotients(stride=1e-7)  # of limits, by the dimensions
 ACTIVE_LIMIT = 1e-9  # lengths; a limit nearer than this is active
@@ -253,16 +257,16 @@ class Evaluation:
             fixed=active,
         )
         span = np.linalg.norm(np.ptp(self.task.poses.translation, axis=0))
-        reach = DETERMINED_SHARE * max(float(span), self.problem.length_per_radian)
-        regions = uncertainties(spreads, batch[sound], places, unit, reach)
+        size = max(float(span), self.problem.length_per_radian)
+        regions = uncertainties(spreads, batch[sound], places, unit, size)
         links = links_covariance(batch[sound], spreads) * unit**2
         out = list(found)
         for at, k in enumerate(sound):
-            determined = max(each.half_width for each in regions[at]) <= reach
+            widest = max(each.half_width for each in regions[at])
             out[k] = replace(
                 out[k],
                 uncertainty=regions[at],
-                determined=determined,
+                determined=widest <= DETERMINED_SHARE * size,
                 other_types=_other_types(out[k], links[at]),
             )
         return out

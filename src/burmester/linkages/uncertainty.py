@@ -12,7 +12,7 @@ the least-squares solution of  -L⁻¹ F dz = Qᵀ e,  to first order and for sm
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple, final
 
 import numpy as np
@@ -26,6 +26,7 @@ from burmester.numerics.weights import weights_or_ones
 from burmester.tasks.motion_task import Task
 
 __all__ = [
+    "DETERMINED_SHARE",
     "DyadUncertainty",
     "LineRegion",
     "PivotRegion",
@@ -43,7 +44,10 @@ PARALLEL_FORCES = 1e-7
 LOST_SINGULAR_VALUE = 8 * float(np.finfo(np.float64).eps)  # relative; a smaller one is rounding
 # Lengths: floor on the standard deviation of what the poses do not determine.
 UNKNOWN_DEVIATION = 1e3
-MAX_DETERMINED_ANGLE = 0.05  # radians; of a line with a larger half-width first order may not hold
+# Half-widths up to which the 95 % hold about: shares of the motion's size and of the link; radians.
+DETERMINED_SHARE = 0.05
+MAX_DETERMINED_ANGLE = 0.05
+RUNAWAY_SHARE = 0.3  # of the motion's size; with a larger half-width no region of a linkage holds
 DEPENDENT = 1e-9  # relative singular value; smaller ones mean that fixed quantities are dependent
 
 _RR, _PR, _RP = (DYAD_KINDS.index(kind) for kind in (RR, PR, RP))
@@ -105,7 +109,7 @@ class LineRegion:
     @property
     def angle_determined(self) -> bool:
         """Whether the half-width of the direction is small enough for the 95 % to hold."""
-        return self.angle <= MAX_DETERMINED_ANGLE
+        return self.angle <= (MAX_DETERMINED_ANGLE if self.reach > 0 else 0.0)
 
     @property
     def offset_determined(self) -> bool:
@@ -135,6 +139,14 @@ class DyadUncertainty:
         pivots = all(each.determined for each in (self.fixed, self.moving) if each is not None)
         line = self.line is None or (self.line.angle_determined and self.line.offset_determined)
         return pivots and line and (self.length is None or self.length_determined)
+
+    def beyond_first_order(self) -> DyadUncertainty:
+        """The same regions, none of which counts as determined."""
+        fixed, moving = (
+            None if each is None else replace(each, reach=0.0) for each in (self.fixed, self.moving)
+        )
+        line = None if self.line is None else replace(self.line, reach=0.0)
+        return DyadUncertainty(fixed, moving, line, self.length, 0.0)
 
     @property
     def length_determined(self) -> bool:
@@ -272,13 +284,15 @@ def uncertainties(
     batch: LinkageBatch,
     places: Displacement,
     unit: float = 1.0,
-    reach: float = np.inf,
+    size: float = np.inf,
 ) -> list[tuple[DyadUncertainty, DyadUncertainty]]:
     """The 95 % regions of both dyads of linkages (k,), from `covariance` of the same batch.
 
     places: (k, N), as there; they bound the stretch of a line that is in use.
     unit: the length of its frames, in the task's unit, which is that of the result.
-    reach: in the task's unit, the half-width up to which a region counts as determined.
+    size: of the motion, in the task's unit.  A region counts as determined up to a twentieth of it
+        and of the link, and none does where one of the linkage's reaches over RUNAWAY_SHARE of it:
+        `benchmarks.coverage` counts how often the 95 % hold.
     """
     middle = line_middle(batch, places)
     regions = []
@@ -287,7 +301,11 @@ def uncertainties(
         for side in (0, 1):
             slots = slice(DIMENSIONS * side, DIMENSIONS * (side + 1))
             part, kind = covariance[k, slots, slots], batch.kinds[k, side]
+            radius = unit * float(batch.dimensions[k, side, -1]) if kind == _RR else np.inf
+            reach = DETERMINED_SHARE * min(size, radius)
             pair.append(_of_dyad(part, kind, middle[k, side], unit, reach))
+        if max(each.half_width for each in pair) > RUNAWAY_SHARE * size:
+            pair = [each.beyond_first_order() for each in pair]
         regions.append((pair[0], pair[1]))
     return regions
 
