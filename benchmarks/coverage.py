@@ -181,6 +181,32 @@ def judged(found, at, rows, sigma, length):
     return uncertainties(spread, batch, there, unit, span(rows))[0]
 
 
+def counted(draws, seed, number, second=RR, stretch=None, fit="refine"):  # noqa: PLR0917
+    """Of so many draws with noise LEVELS[number]: which printed regions hold the truth, by names.
+
+    With them which others of pivots do, how many draws have no linkage near the truth, and the
+    greatest half-width of each dyad, in spans.
+    """
+    level, counts, open_hits, missing, widths = LEVELS[number], {}, [], 0, []
+    for draw in range(draws):
+        rng = np.random.default_rng([seed, number, draw])
+        dyads, true, side = problem(rng, second, stretch)
+        size = span(true)
+        rows = true + rng.normal(size=true.shape) * [level * size, level * size, level]
+        sigma = level * size, level
+        if (answer := fitted(fit, dyads, true, side, rows, sigma)) is None:
+            missing += 1
+            continue
+        for parts in zip(dyads, *answer, strict=True):
+            widths.append(parts[2].half_width / size)
+            for name, hit, printed in hits(*parts):
+                if printed:
+                    counts.setdefault(name, []).append(hit)
+                elif name.endswith("pivot"):
+                    open_hits.append(hit)
+    return counts, open_hits, missing, widths
+
+
 def main():
     """Run the campaign and print what came of it; exit code 1 beyond the goal."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
@@ -195,25 +221,10 @@ def main():
     )  # only the linkage behind the poses is asked for
     second, bad = {"RR": RR, "PR": PR, "RP": RP}[given.second], False
     for number, level in enumerate(LEVELS):
-        counts, open_hits, missing, widths = {}, [], 0, []
         begun = time.perf_counter()
-        for draw in range(given.draws):
-            rng = np.random.default_rng([given.seed, number, draw])
-            dyads, true, side = problem(rng, second, given.stretch)
-            size = span(true)
-            rows = true + rng.normal(size=true.shape) * [level * size, level * size, level]
-            sigma = level * size, level
-            if (answer := fitted(given.fit, dyads, true, side, rows, sigma)) is None:
-                missing += 1
-                continue
-            found, told = answer
-            for parts in zip(dyads, found, told, strict=True):
-                widths.append(parts[2].half_width / size)
-                for name, hit, printed in hits(*parts):
-                    if printed:
-                        counts.setdefault(name, []).append(hit)
-                    elif name.endswith("pivot"):
-                        open_hits.append(hit)
+        counts, open_hits, missing, widths = counted(
+            given.draws, given.seed, number, second, given.stretch, given.fit
+        )
         pivots = counts.get("fixed pivot", []) + counts.get("moving pivot", [])
         share = np.mean(pivots) if pivots else np.nan
         bad |= not 0.9 <= share <= 0.99

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from benchmarks import coverage as campaign
 from scipy.linalg import null_space
 
 from burmester.fourbar.canonical_frames import CanonicalFrames
@@ -287,3 +288,14 @@ def test_the_deviation_of_poses_is_that_of_rounding():
     position, angle = pose_sigma(task)
     assert abs(position / off - 1) < 0.02
     assert np.isclose(angle, position / 10)
+
+
+def test_printed_regions_hold_the_truth_and_others_need_not():
+    """A sample of `python -m benchmarks.coverage --fit refine --stretch 0.3`."""
+    counts, others, missing, _ = campaign.counted(12, 3, 1, stretch=0.3)
+    printed = counts["fixed pivot"] + counts["moving pivot"]
+    assert missing <= 1
+    assert len(printed) + len(others) >= 44
+    assert len(others) > 10
+    assert np.mean(printed) > 0.8
+    assert np.mean(counts["link length"]) > 0.8
