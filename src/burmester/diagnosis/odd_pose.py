@@ -366,10 +366,11 @@ def _misses(
     normalized: NormalizedPoses, linkages: LinkageBatch, pose: int, ratio: FloatArray
 ) -> FloatArray:
     """The distances (k,) of a pose from the motions of linkages (k,), one for each ratio (k,)."""
-    place = on_circuits(linkages, normalized.poses[[pose]], 1.0)
-    gap = rows_of(place, 1.0)[:, :, 0] - normalized.rows[pose]
-    gap[..., 2] /= ratio[:, None]
-    return np.asarray(np.fmin(np.fmin.reduce(np.linalg.norm(gap, axis=-1), axis=-1), FAR))
+    at, out = normalized.poses[[pose]], []
+    for k, radian in enumerate((1 / ratio).tolist()):
+        gap = rows_of(on_circuits(linkages[[k]], at, radian), radian) - rows_of(at, radian)
+        out.append(np.fmin.reduce(np.linalg.norm(gap, axis=-1), axis=None))
+    return np.asarray(np.fmin(out, FAR))
 
 
 def _is_general(task: Task, motion: MotionClass) -> bool:
