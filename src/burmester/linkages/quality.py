@@ -18,7 +18,7 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import figure, least_angle, length_of, span
 from burmester.tasks.requirements import Requirements
 
-__all__ = ["Standard"]
+__all__ = ["LEAST_TRANSMISSION", "Standard"]
 
 LEAST_TRANSMISSION = 30.0  # degrees; below it friction and play grow quickly
 MOST_LINK_RATIO = 10.0  # longest over shortest of four links

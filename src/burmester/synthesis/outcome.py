@@ -14,6 +14,7 @@ from burmester.errors import Advice
 from burmester.fourbar.dyad import RR
 from burmester.linkages.explanation import by_nearness, hints, in_short, nearness
 from burmester.linkages.found_linkage import FoundLinkage
+from burmester.linkages.quality import LEAST_TRANSMISSION
 from burmester.synthesis.dyad_search import DyadSearch
 from burmester.synthesis.result import Outcome
 from burmester.tasks.motion_task import CONDITIONS, Task, characteristic_length
@@ -26,7 +27,8 @@ __all__ = ["dyad_advice", "family", "linkage_advice", "summary"]
 
 BETTER = 1.2  # ratio of two least transmission angles; from it on the better linkage is named
 LITTLE = math.radians(30)  # rotation of the body below which the outcome says "only"
-GOOD_TRANSMISSION = math.radians(40)  # least angle over the range; below it friction may lock
+USUAL_TRANSMISSION = 40.0  # degrees; the least angle over the range that designers ask for
+SHOWN_ANGLE = 1e-6  # degrees; an angle lower by less is as good
 
 
 def dyad_advice(problem: SynthesisProblem, found: DyadSearch) -> list[Advice]:
@@ -246,9 +248,8 @@ def linkage_advice(task: Task, linkages: Sequence[FoundLinkage], code: str) -> l
     if usable and not task.requirements.transmission_deg:
         best = usable[0]
         least = best.driven.least_over_range
-        if least < GOOD_TRANSMISSION:
-            limit = math.degrees(GOOD_TRANSMISSION)
-            help = f"ask for more with --min-transmission {limit:.0f}"
+        if math.degrees(least) < LEAST_TRANSMISSION - SHOWN_ANGLE:
+            help = f"ask for more with --min-transmission {USUAL_TRANSMISSION:.0f}"
             if code == "R316":
                 help = "let the body turn less: no other pair of the family transmits better"
             other = max(usable, key=lambda each: each.driven.least_over_range)
@@ -260,7 +261,8 @@ def linkage_advice(task: Task, linkages: Sequence[FoundLinkage], code: str) -> l
                 Advice(
                     "W210",
                     f"{best.id} transmits badly: its transmission angle falls to "
-                    f"{least_angle(least)} between the poses, and {limit:.0f}° is a usual limit",
+                    f"{least_angle(least)} between the poses, and "
+                    f"{USUAL_TRANSMISSION:.0f}° is a usual limit",
                     help,
                 )
             )
