@@ -92,6 +92,18 @@ def test_no_random_start_finds_a_nearer_circle(turn):
         assert best.rms_error.min() <= rms.min() * (1 + 1e-6)
 
 
+def test_a_minimum_that_the_squared_residual_lacks_is_found_beside_complex_points():
+    """Thirteen wild poses; Newton's method reaches this circle from no real part of a point."""
+    rng = np.random.default_rng([9, 54])
+    rows = rng.normal(size=(int(rng.integers(6, 16)), 3)) * [1, 1, rng.choice([0.3, 1, 3])]
+    d, t = rows[:, 0] + 1j * rows[:, 1], np.exp(1j * rows[:, 2])
+    (end,), _ = local_fits(distance, np.array([[0.453, -0.403, 0.785, 1.05]]), d, t)
+    best = best_dyads(Displacement.from_poses(rows))
+    listed = np.column_stack([best.dyads.fixed_pivot, best.dyads.moving_pivot])
+    assert np.abs(end - [0.453, -0.403, 0.785, 1.05]).max() < 1e-3
+    assert np.abs(listed - end).max(axis=1).min() < 1e-6
+
+
 @pytest.mark.parametrize("seed", [23, 46, 145])
 def test_poses_that_mirror_each_other_lead_to_no_saddle(seed):
     """From a start on the mirror line Newton's method stays on it, and there are saddles there."""

@@ -13,13 +13,11 @@ from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import where
 from burmester.numerics.iteration import iterate, shortened
 from burmester.numerics.linear_algebra import matvec
-from burmester.numerics.unique_rows import unique_rows
 
-__all__ = ["circle_ends", "circle_minima"]
+__all__ = ["circle_ends", "newton_step"]
 
 MAX_NEWTON_STEPS = 60  # from each start
 SETTLED_STEP = 1e-9  # relative; a shorter step of Newton's method is its last one
-SAME_DYAD = 1e-6  # relative; circles whose coordinates differ by less are one
 MAX_LENGTH = 1e3  # characteristic lengths; a circle with greater coordinates is a line
 FLAT_EIGENVALUE = 1e-14  # share of the greatest; smaller eigenvalues are taken for this one
 
@@ -30,16 +28,6 @@ class _Point(NamedTuple):
     z: FloatArray
     terms: tuple[FloatArray, ...]
     settled: NDArray[np.bool_]
-
-
-def circle_minima(z: FloatArray, poses: Displacement, share: FloatArray) -> FloatArray:
-    """The local minima (k, 5) of the sum of squares that circles (*, 5) lead to, each once."""
-    ends, ended_at = circle_ends(z, poses, share)
-    settled = np.flatnonzero(np.isfinite(ends).all(axis=-1))
-    settled = settled[np.argsort(ended_at[settled], kind="stable")]
-    minima = ends[settled]
-    cost = circle_terms(poses)(minima)[0] ** 2 @ share
-    return unique_rows(minima[np.argsort(cost, kind="stable")], SAME_DYAD, "maximum")
 
 
 def circle_ends(
@@ -62,7 +50,7 @@ def circle_ends(
 
     def advance(rows: NDArray[np.intp], here: _Point) -> tuple[_Point, NDArray[np.bool_]]:
         along = None if basis is None else basis[rows]
-        step, convex, gain = _newton_step(here.terms, share, along)
+        step, convex, gain = newton_step(here.terms, share, along)
         before = cost(here.terms)
         # Newton's last steps gain so little that the sum would tell by its rounding only.
         negligible = convex & (gain < NEGLIGIBLE_GAIN * before)
@@ -82,8 +70,8 @@ def circle_ends(
     return np.where(ends.settled[:, None], ends.z, np.nan), ended_at
 
 
-def _newton_step(
-    terms: tuple[FloatArray, ...], share: FloatArray, basis: FloatArray | None
+def newton_step(
+    terms: tuple[FloatArray, ...], share: FloatArray, basis: FloatArray | None = None
 ) -> tuple[FloatArray, NDArray[np.bool_], FloatArray]:
     """Newton's step along a basis (k, 5, d), or Gauss and Newton's where the sum is not convex.
 

@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.dyads.macaulay import CHARTS, eigen_points
+from burmester.dyads.sliders import fixed_lines, moving_lines
 from burmester.errors import InputError
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import RR
@@ -39,8 +40,8 @@ __all__ = ["COUNT", "CriticalDyads", "critical_dyads", "residual_rows"]
 COUNT = 25  # finite critical points of generic poses (a Groebner basis over a finite field)
 MAX_NEWTON_STEPS = 40  # more than 5 are taken only towards points that lie close together
 BALANCE = 0.4  # target ratio of linear to bilinear terms; the result is not sensitive to it
-INFINITY_LENGTHS = 1e3  # a start so far out that Newton's method leaves is a point at infinity
-KEPT_SHARE = 0.1  # of a start's norm; a polished point farther from its start is another one
+POINTS_OF_SLIDER = 3  # at infinity, for each slider that meets the poses exactly
+SLIDER_ROUNDING = 64.0  # units in the last place; a slider that misses poses by less is exact
 REAL_TOLERANCE = 1e-8  # relative; a smaller imaginary part is rounding
 SINGULAR_SHARE = 1e-14  # of the Hessian's greatest singular value; a smaller one is rounding
 RESIDUAL_ROUNDING = 1e-28  # of its terms, squared; a smaller sum of squares is zero
@@ -59,9 +60,10 @@ class CriticalDyads:
         residual, then the other real ones, then the rest; nan beyond `found`.  Of residuals that
         are rounding alone, the nearer points come first.
     found: (*,), how many were found that are finite and simple, each once; 25 are all.
-    at_infinity: (*,), how many more have a pivot at infinity, or beyond telling: three for a
-        slider that meets the poses exactly.  What is then missing of 25 is multiple, on a curve of
-        critical points, or lost; the poses are special, or within rounding of such ones.
+    at_infinity: (*,), how many more have a pivot at infinity: three for each slider that meets the
+        poses to rounding, and nothing else.  What is then missing of 25 is not accounted for: far
+        away, multiple, on a curve of critical points, or lost; the poses are special, turn little,
+        or are within rounding of such ones.
     charts: (*,), how many charts it took: 1 but for hard tasks.
     health: (*,), the least relative pivot of the eigenproblem's 125 rows; rounding is magnified
         by its inverse, and below some 1e-12 points are lost.
@@ -129,17 +131,18 @@ def critical_dyads(poses: Displacement, weights: FloatArray | None = None) -> Cr
     lead = poses.shape[:-1]
     triangle = _triangle(seen, weights)
     points = np.full((*lead, COUNT, 4), np.nan + 0j)
-    found, far, charts = (np.zeros(lead, dtype=int) for _ in range(3))
+    found, charts = np.zeros(lead, dtype=int), np.zeros(lead, dtype=int)
+    far = np.asarray(POINTS_OF_SLIDER * _exact_sliders(poses, frames, seen, weights))
     health, real = np.zeros(lead), np.zeros((*lead, COUNT), dtype=bool)
     minimum = np.zeros((*lead, COUNT), dtype=bool)
     # Matrices this small are slower with several BLAS threads, much so on a busy machine.
     with _blas().limit(limits=1, user_api="blas"):
-        results = {task: _all_points(triangle[task]) for task in np.ndindex(lead)}
+        results = {task: _all_points(triangle[task], int(far[task])) for task in np.ndindex(lead)}
     for task, result in results.items():
         n = len(result.points)
         points[task][:n], found[task], charts[task] = result.points, n, result.charts
-        far[task] = result.at_infinity
         health[task], real[task][:n], minimum[task][:n] = result.health, result.real, result.minimum
+    far = np.minimum(far, COUNT - found)
     x = np.where(real[..., None], points.real, np.nan)
     squared = (_features(x) @ np.swapaxes(triangle, -1, -2)) ** 2
     residual = np.sqrt(squared.sum(axis=-1)) * frames.length[..., None] ** 2
@@ -227,32 +230,30 @@ class _Points(NamedTuple):
     points: ComplexArray
     real: NDArray[np.bool_]
     minimum: NDArray[np.bool_]
-    at_infinity: int
     charts: int
     health: float
 
 
-def _all_points(triangle: FloatArray) -> _Points:
-    """All finite critical points (k, 4), k <= 25, in the order of `CriticalDyads`."""
+def _all_points(triangle: FloatArray, at_infinity: int) -> _Points:
+    """All finite critical points (k, 4), k <= 25, in the order of `CriticalDyads`.
+
+    at_infinity: how many of the 25 are not finite.
+    """
     unit = _balancing_length(triangle)
     scaled = triangle * [1.0, *[unit] * 4, unit**2, unit**2]
     size = np.linalg.norm(scaled)
     scaled = scaled / size if size > 0 else scaled
     gram = scaled.T @ scaled
     points = np.empty((0, 4), dtype=complex)
-    health, charts, far = 0.0, 0, 0
-    while len(points) + far < COUNT and charts < CHARTS:
+    health, charts, finite = 0.0, 0, COUNT - at_infinity
+    while len(points) < finite and charts < CHARTS:
         start, health = eigen_points(gram, charts)
         end, sound = _polish(start, scaled)
         points = unique_rows(np.concatenate([points, end[sound]]), SAME_POINT, "euclidean")
-        norm = np.linalg.norm(start, axis=1)
-        kept = sound & (np.linalg.norm(end - start, axis=1) < KEPT_SHARE * norm)
-        far = int((~kept & (unit * norm > INFINITY_LENGTHS)).sum())
         charts += 1
-        if len(points) + far < COUNT:
+        if len(points) < finite:
             end, sound = _polish(_beside_neighbours(points), scaled)
             points = unique_rows(np.concatenate([points, end[sound]]), SAME_POINT, "euclidean")
-    far = max(0, min(far, COUNT - len(points)))
     size = 1 + np.linalg.norm(points, axis=1)
     real = np.linalg.norm(points.imag, axis=1) < REAL_TOLERANCE * size
     points[real] = points[real].real
@@ -262,7 +263,30 @@ def _all_points(triangle: FloatArray) -> _Points:
     cost[cost < RESIDUAL_ROUNDING * size**4] = 0.0
     order = np.lexsort((size, cost, ~real, ~minimum))[:COUNT]
     ordered: ComplexArray = points[order] * complex(unit)
-    return _Points(ordered, real[order], minimum[order], far, charts, health)
+    return _Points(ordered, real[order], minimum[order], charts, health)
+
+
+def _exact_sliders(
+    poses: Displacement,
+    frames: CanonicalFrames,
+    seen: Displacement,
+    weights: FloatArray | None,
+) -> NDArray[np.int_]:
+    """How many sliders meet the poses (*, N) to rounding, (*,); seen: the poses in their frames."""
+    count = np.zeros(poses.shape[:-1], dtype=int)
+    origins = [
+        np.linalg.norm(each, axis=-1) for each in (frames.fixed_origin, frames.moving_origin)
+    ]
+    size = np.linalg.norm(poses.translation, axis=-1).max(axis=-1) + origins[0] + origins[1]
+    turns = np.maximum(np.abs(poses.angle).max(axis=-1), 1.0)
+    for lines, pivot in ((fixed_lines, "moving_pivot"), (moving_lines, "fixed_pivot")):
+        line, _, worst = lines(seen, weights)
+        arm = 1 + np.linalg.norm(getattr(line, pivot), axis=-1)
+        ulp = np.finfo(np.float64).eps * (
+            (size / frames.length)[..., None] + arm * turns[..., None]
+        )
+        count = count + (worst < SLIDER_ROUNDING * ulp).sum(axis=-1)
+    return count
 
 
 def _balancing_length(triangle: FloatArray) -> float:

@@ -28,10 +28,11 @@ from burmester.numerics.linear_algebra import solve, solve_or_shortest
 __all__ = ["FivePoseDyads", "dyads_of_five", "require_count"]
 
 REAL_TOLERANCE = 1e-7  # of a unit vector; a polished root with less imaginary part is real
-NEWTON_STEPS = 3  # on the poses' own equations; they square the error
+NEWTON_STEPS = 12  # on the poses' own equations, at most; roots that are close together take more
+LAST_STEP = 1e-10  # of a unit vector; the error after a step as short as this is its square
 MAX_NEWTON_STEP = 0.1  # of a unit vector; a longer step has lost its root
-SHARPENING_STEPS = 3  # in the longest floating point
-MAX_SHARPENING = 1e-5  # of a dyad's size; a longer step does not remove rounding
+SHARPENING_STEPS = 20  # in the longest floating point, at most
+MAX_SHARPENING = 1e-3  # of a dyad's size; a longer step does not remove rounding
 SLIDER_LENGTH = 1e6  # characteristic lengths; a longer link is a slider up to rounding
 ISOLATED_TOLERANCE = 1e-10  # singular value of two unit conics; below, they share a curve
 
@@ -142,6 +143,11 @@ def dyads_of_five(poses: Displacement) -> FivePoseDyads:
     coefficients = np.where(real[..., None], p.real, np.nan)
     circles, rms_error, max_error = refitted_circles(coefficients, seen)
     length = frames.length[..., None]
+    dyads = _sharpened(frames.circle_from_canonical(circles), poses, length)
+    with np.errstate(invalid="ignore", over="ignore"):
+        distance = np.abs(dyads[..., None].residual(poses[..., None, :]))
+    rms_error = np.minimum(rms_error * length, np.sqrt((distance**2).mean(axis=-1)))
+    max_error = np.minimum(max_error * length, distance.max(axis=-1))
     return FivePoseDyads(
         frames,
         singular_values[..., ::-1],
@@ -151,9 +157,9 @@ def dyads_of_five(poses: Displacement) -> FivePoseDyads:
         residual,
         separation,
         determined,
-        _sharpened(frames.circle_from_canonical(circles), poses, length),
-        rms_error * length,
-        max_error * length,
+        dyads,
+        rms_error,
+        max_error,
     )
 
 
@@ -239,6 +245,8 @@ def _polish(p: ComplexArray, design: FloatArray) -> ComplexArray:
         sound = np.isfinite(step).all(axis=-1) & short
         p = p - np.where(sound[..., None], step, 0.0)
         p = p / np.linalg.norm(p, axis=-1, keepdims=True)
+        if not (sound & (np.linalg.norm(step, axis=-1) > LAST_STEP)).any():
+            break
     return p
 
 
@@ -255,7 +263,7 @@ def _sharpened(dyads: RR, poses: Displacement, length: FloatArray) -> RR:
     cos, sin = (f(poses.angle.astype(long))[..., None, :] for f in (np.cos, np.sin))
     given = np.concatenate([dyads.fixed_pivot, dyads.moving_pivot], axis=-1)
     size = np.where(dyads.radius < SLIDER_LENGTH * length, np.abs(given).max(axis=-1) + length, 0.0)
-    x = given.astype(long)
+    x = np.where(size[..., None] > 0, given, 0.0).astype(long)
     best, radius, least = given, dyads.radius, np.full(size.shape, np.inf)
     for _ in range(SHARPENING_STEPS):
         c1, c2, m1, m2 = np.moveaxis(x, -1, 0)[..., None]
@@ -268,6 +276,8 @@ def _sharpened(dyads: RR, poses: Displacement, length: FloatArray) -> RR:
         best = np.where(better[..., None], np.asarray(x, dtype=np.float64), best)
         radius = np.where(better, np.asarray(np.sqrt(mean), dtype=np.float64), radius)
         least = np.where(better, worst, least)
+        if not better.any():
+            break
         columns = [-a1, -a2, cos * a1 + sin * a2, cos * a2 - sin * a1, np.full_like(a1, -0.5)]
         jacobian = np.asarray(2 * np.stack(columns, axis=-1), dtype=np.float64)
         try:

@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.dyads.circle_minima import circle_minima
-from burmester.dyads.critical_points import CriticalDyads, critical_dyads
+from burmester.dyads.circle_descent import circle_minima, reach, sharpened_circles
+from burmester.dyads.critical_points import COUNT, CriticalDyads, critical_dyads
 from burmester.dyads.minima_within_limits import LimitedDyads, limited_dyads
 from burmester.dyads.sliders import fixed_lines, moving_lines
+from burmester.dyads.start_pivots import pivots_of_fits
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray
+from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.numerics.weights import shares, weights_or_ones
 from burmester.tasks.limits import Limits
 from burmester.tasks.options import Norm
@@ -25,6 +26,8 @@ __all__ = ["BestDyads", "best_dyads"]
 # Generic factors by which one of each pair of conjugate points is picked.
 CONJUGATE_PICK = np.sqrt([2.0, 3.0, 5.0, 7.0])
 START_LENGTH = 20.0  # characteristic lengths; the links that start along a line
+ROUGH_DISTANCE = 0.1  # characteristic lengths, rms; from it on for the best start, more are made
+LITTLE_TURN = 400.0  # inverse mean squared turn; from it on more starts are made
 
 
 @final
@@ -37,23 +40,22 @@ class BestDyads:
     sliders: PR and RP dyads in `frames`.
     rms_error, max_error: (k,), the distance of the moving pivot from its circle over the poses, in
         the task's unit.
+    unfinished: how many ways down were given up where they were better already than the second
+        dyad, so that a better one may be missing.
     """
 
     search: CriticalDyads | LimitedDyads
     circles: RR
+    dyads: RR
     sliders: tuple[PR | RP, ...]
     rms_error: FloatArray
     max_error: FloatArray
+    unfinished: int
 
     @property
     def frames(self) -> CanonicalFrames:
         """Where they were found."""
         return self.search.frames
-
-    @property
-    def dyads(self) -> RR:
-        """The RR dyads (k,), in the task's own frames."""
-        return self.frames.circle_from_canonical(self.circles)
 
     @property
     def coefficients(self) -> FloatArray:
@@ -72,7 +74,9 @@ def best_dyads(
 
     Without limits, exact poses and another norm: the minima of the distance |R m + d - c| - r to
     which Newton's method leads from every critical point of the squared residual (from the real
-    part of a complex one) and from long links along the best lines; and the best slider of each
+    part of a complex one; for rough poses from that part with the imaginary one added and taken
+    off, too) and from long links along the best lines; where the body turns little, or critical
+    points are lost, from dyads of the pencil and of five of the poses; and the best slider of each
     kind; else as `limited_dyads` describes.  That the distance has no minimum elsewhere is not
     proved; its minima go over into those of the residual as the errors become small.
 
@@ -114,16 +118,37 @@ def best_dyads(
         distance = search.circles[:, None].residual(search.frames.to_canonical(poses))
         return _with_errors(search, search.circles, search.sliders, distance)
     critical = critical_dyads(poses, weights)
-    seen = critical.frames.to_canonical(poses)
+    _, seen = CanonicalFrames.of(poses, weights)  # with less rounding than by these frames
+    share = shares(weights, poses.shape)
     lines = [lines(seen, weights)[0][0] for lines in (fixed_lines, moving_lines)]
     points = critical.points[: int(critical.found)]
     pivots = points[points.imag @ CONJUGATE_PICK >= 0].real
     pivots = np.concatenate([pivots, np.zeros((1, 4))])  # where the frames' origins stay close
+    hard = int(critical.found) < COUNT or reach(seen, share) > LITTLE_TURN
+    if hard:
+        origin = np.concatenate([critical.frames.fixed_origin, critical.frames.moving_origin])
+        more = (pivots_of_fits(poses, weights) - origin) / critical.frames.length
+        pivots = np.concatenate([pivots, more])
+    if _is_rough(pivots, seen, weights, share):
+        pivots = np.concatenate([pivots, _beside(points)])
     starts = [_circles_about(pivots, seen, weights)]
     starts += [_circles_along(line, seen, weights) for line in lines]
-    z = circle_minima(np.concatenate(starts), seen, shares(weights, poses.shape))
-    circles = RR(z[:, :2], z[:, 2:4], z[:, 4])
-    return _with_errors(critical, circles, tuple(lines), circles[:, None].residual(seen))
+    found = circle_minima(np.concatenate(starts), seen, share, narrow=hard)
+    circles = RR(found.z[:, :2], found.z[:, 2:4], found.z[:, 4])
+    # Ways down that were given up where they were better already than the second dyad.
+    second = np.append(found.cost, [np.inf, np.inf])[1]
+    unfinished = int((found.unfinished < second).sum())
+    if not hard:
+        return _with_errors(
+            critical, circles, tuple(lines), circles[:, None].residual(seen), unfinished
+        )
+    given = critical.frames.circle_from_canonical(circles)
+    dyads, distance, at_rest = sharpened_circles(given, poses, share)
+    order = np.argsort(distance**2 @ share, kind="stable")
+    unfinished += int((~at_rest[order][:2]).sum())
+    distance = distance[order] / critical.frames.length
+    best = _with_errors(critical, circles[order], tuple(lines), distance, unfinished)
+    return replace(best, dyads=dyads[order])
 
 
 def _with_errors(
@@ -131,11 +156,32 @@ def _with_errors(
     circles: RR,
     sliders: tuple[PR | RP, ...],
     distance: FloatArray,
+    unfinished: int = 0,
 ) -> BestDyads:
     """The dyads with the rms and the greatest of their distances (k, N)."""
-    unit = search.frames.length
+    unit, dyads = search.frames.length, search.frames.circle_from_canonical(circles)
     rms, worst = np.sqrt((distance**2).mean(axis=-1)), np.abs(distance).max(axis=-1)
-    return BestDyads(search, circles, sliders, rms * unit, worst * unit)
+    return BestDyads(search, circles, dyads, sliders, rms * unit, worst * unit, unfinished)
+
+
+def _is_rough(
+    pivots: FloatArray, seen: Displacement, weights: FloatArray | None, share: FloatArray
+) -> bool:
+    """Whether no circle about pivots (k, 4) comes near to the poses, so that there is no valley.
+
+    The true distance has minima of its own then.
+    """
+    circles = _circles_about(pivots, seen, weights)
+    distance = RR(circles[:, :2], circles[:, 2:4], circles[:, 4])[:, None].residual(seen)
+    return bool((distance**2 @ share).min() > ROUGH_DISTANCE**2)
+
+
+def _beside(points: ComplexArray) -> FloatArray:
+    """Real pivots (k, 4) beside the complex ones of critical points: real and imaginary parts."""
+    complex_ones = points[points.imag @ CONJUGATE_PICK > 0]
+    return np.concatenate(
+        [complex_ones.real + complex_ones.imag, complex_ones.real - complex_ones.imag]
+    )
 
 
 def _circles_about(

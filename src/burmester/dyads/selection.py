@@ -18,7 +18,14 @@ from burmester.geometry import constraint_manifold
 from burmester.numerics.arrays import ROUNDING, FloatArray
 from burmester.tasks.motion_task import COARSE, Task, characteristic_length
 
-__all__ = ["Fit", "FoundDyad", "found_dyads", "relative_resolution", "same_dyad"]
+__all__ = [
+    "Fit",
+    "FoundDyad",
+    "found_dyads",
+    "relative_resolution",
+    "same_dyad",
+    "within_digits",
+]
 
 Fit: TypeAlias = Pencil | FivePoseDyads | BestDyads
 Candidate: TypeAlias = tuple[Dyad, float, float]  # with its rms and greatest error
@@ -26,9 +33,12 @@ Candidate: TypeAlias = tuple[Dyad, float, float]  # with its rms and greatest er
 # Lengths are in characteristic lengths of the task.
 MAX_SLIDER_ANGLE = 0.05  # sine; a manifold at a greater angle to a slider's is not that slider
 STRAIGHT_SWING = 0.02  # radians; a link that swings less is a slider if that fits half as well
+SLIDER_AS_WELL = 1.01  # ratio of errors, up to which a slider stands for a long link beside it
 LOST_SHARE = 1e-6  # of the size; a greater error of an exact dyad is no longer rounding
 MAX_LENGTH = 1e9  # no link is longer, and no pivot farther away
 SAME_DYAD = 1e-6  # length or angle; dyads whose dimensions differ by less are one
+MAX_POSE_ERRORS = 2.0  # errors of a pose; a dyad that misses by no more meets it within its digits
+DISTANCE_ROUNDING = 64.0  # units in the last place of all that a distance is made of
 COEFFICIENT_ROUNDING = 1e-9  # share of a manifold's norm that rounding leaves of a zero
 
 
@@ -94,7 +104,9 @@ def found_dyads(fit: Fit, task: Task) -> tuple[list[FoundDyad], int]:
             allowed, miss = max(share * rms, known, rounding), unit * nearest.rms_error
             fits = miss <= allowed or not np.isfinite(allowed)
             sensible = swung > SENSIBLE_SWING and rms <= max(miss, known)
-            if nearest.angle_sine < near and fits and not sensible:
+            # A long link that gains next to nothing is no other dyad than its slider.
+            same = isinstance(fit, BestDyads) and share == 2 and miss <= SLIDER_AS_WELL * rms
+            if (nearest.angle_sine < near and fits and not sensible) or same:
                 add_slider(nearest.dyad)
                 continue
         if limited and sliders and swing(circle, task.poses) < STRAIGHT_SWING:
@@ -148,6 +160,19 @@ def relative_resolution(task: Task, length: float) -> float:
     """How exactly the poses are known, as a share of the characteristic length."""
     position, angle = task.resolution
     return max(min(position / length + angle, COARSE), ROUNDING)
+
+
+def within_digits(found: FoundDyad, task: Task) -> bool:
+    """Whether a dyad meets all poses of a task within the errors that their digits leave."""
+    dyad, (position, angle) = found.dyad, task.resolution
+    size = float(np.abs(task.poses.translation).max())
+    parts = [float(np.abs(getattr(dyad, each.name)).max()) for each in fields(dyad)]
+    lever = float(np.linalg.norm(dyad.moving_pivot)) if isinstance(dyad, RR | PR) else 0.0
+    if isinstance(dyad, RP):
+        lever = float(np.linalg.norm(dyad.fixed_pivot - task.poses.translation, axis=-1).max())
+    turns = max(1.0, float(np.abs(task.poses.angle).max()))
+    rounding = DISTANCE_ROUNDING * np.finfo(float).eps * (size + sum(parts) + lever * turns)
+    return bool(found.max_error <= MAX_POSE_ERRORS * (position + lever * angle) + rounding)
 
 
 def same_dyad(a: Dyad, b: Dyad, length: float) -> bool:

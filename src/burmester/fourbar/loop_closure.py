@@ -172,7 +172,9 @@ class DrivenLoop:
             n = np.exp(1j * second.normal_angle)
             to = complex_of(second.fixed_pivot) - pin
             e = second.offset - (n.conj() * hand).real
-            turn = (e + 1j * q) * to / (to.real * to.real + to.imag * to.imag) * n.conj()
+            size = to.real * to.real + to.imag * to.imag
+            with np.errstate(invalid="ignore", divide="ignore"):  # where the pins coincide
+                turn = (e + 1j * q) * to / size * n.conj()
         else:
             turn = np.exp(1j * second.angle)
         return pin - hand * turn, turn

@@ -149,8 +149,10 @@ def _search(fit: Fit) -> dict[str, Any]:
     search = fit.search
     if isinstance(search, CriticalDyads):
         found = {"found": int(search.found), "at_infinity": int(search.at_infinity)}
+        found["not_accounted"] = COUNT - found["found"] - found["at_infinity"]
         health = {"expected": COUNT, "health": number(float(search.health))}
-        return {"kind": "critical points", **found, **health}
+        ways = {"unfinished": fit.unfinished}
+        return {"kind": "critical points", **found, **health, **ways}
     names = ("systems", "found", "lost", "unsettled")
     return {"kind": "faces", **{name: getattr(search, name) for name in names}}
 

@@ -16,7 +16,9 @@ from burmester.dyads.selection import Fit, FoundDyad, found_dyads, same_dyad
 from burmester.linkages.found_linkage import Pair
 from burmester.tasks.problem import SynthesisProblem
 
-__all__ = ["DyadSearch", "search_dyads"]
+__all__ = ["DyadSearch", "exact_dyads", "search_dyads"]
+
+LINKAGE_QUADRICS = 2  # that hold all poses of a four-bar; poses of no linkage have none
 
 
 @final
@@ -74,6 +76,18 @@ def search_dyads(problem: SynthesisProblem) -> DyadSearch:
     dyads = (each for found in lists for each in found)
     numbered = tuple(replace(each, id=f"D{i}") for i, each in enumerate(dyads, start=1))
     return DyadSearch(fits, numbered, meeting, left_out)
+
+
+def exact_dyads(problem: SynthesisProblem) -> int:
+    """How many dyads meet all poses within their digits, by the rank of the design matrix.
+
+    Two where two quadrics hold more poses than any two quadrics can; else 0, which claims nothing.
+    """
+    motion = problem.motion
+    if motion is None:
+        return 0
+    by_count = max(0, 8 - problem.task.poses.shape[0])
+    return LINKAGE_QUADRICS if motion.nullity >= LINKAGE_QUADRICS > by_count else 0
 
 
 def _fits(problem: SynthesisProblem) -> tuple[Fit, ...]:

@@ -10,12 +10,13 @@ from burmester.dyads.five_poses import FivePoseDyads
 from burmester.dyads.local_minima import BestDyads
 from burmester.dyads.long_links import is_nearly_slider, swing
 from burmester.dyads.minima_within_limits import LimitedDyads
+from burmester.dyads.selection import within_digits
 from burmester.errors import Advice
 from burmester.fourbar.dyad import RR
 from burmester.linkages.explanation import by_nearness, hints, in_short, nearness
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.linkages.quality import LEAST_TRANSMISSION
-from burmester.synthesis.dyad_search import DyadSearch
+from burmester.synthesis.dyad_search import DyadSearch, exact_dyads
 from burmester.synthesis.result import Outcome
 from burmester.tasks.motion_task import CONDITIONS, Task, characteristic_length
 from burmester.tasks.notation import figure, least_angle, length_of, span
@@ -47,15 +48,23 @@ def dyad_advice(problem: SynthesisProblem, found: DyadSearch) -> list[Advice]:
     ]
     for fit in found.fits:
         search = fit.search if isinstance(fit, BestDyads) else None
-        if isinstance(search, CriticalDyads) and (known := _accounted(search)) < COUNT:
-            warnings.append(
-                Advice(
-                    "W207",
-                    f"{known} of {COUNT} critical points were told apart: a locally best "
-                    "dyad may be missing",
-                    "compare with --method pencil; poses of a special motion are the usual reason",
+        if isinstance(fit, BestDyads) and isinstance(search, CriticalDyads):
+            warnings += _unaccounted(problem, found, fit, search)
+        if isinstance(fit, FivePoseDyads):
+            off = [
+                each.id
+                for each in found.dyads[: found.meeting]
+                if not within_digits(each, problem.task)
+            ]
+            if off:
+                warnings.append(
+                    Advice(
+                        "W207",
+                        f"rounding took digits of {listed(off)}, which should meet all poses and "
+                        f"{'does' if len(off) == 1 else 'do'} not: a dyad may be missing",
+                        "give poses with more rotation between them, or origins nearer to them",
+                    )
                 )
-            )
         if isinstance(search, LimitedDyads) and (search.lost or search.unsettled):
             warnings.append(
                 Advice(
@@ -77,6 +86,34 @@ def dyad_advice(problem: SynthesisProblem, found: DyadSearch) -> list[Advice]:
             )
         )
     return warnings
+
+
+def _unaccounted(
+    problem: SynthesisProblem, found: DyadSearch, fit: BestDyads, search: CriticalDyads
+) -> list[Advice]:
+    """What is not accounted for of a task without limits, if anything."""
+    help = "compare with --method pencil; poses that turn little, or of a special motion, are the "
+    help += "usual reason"
+    known, exact = _accounted(search), exact_dyads(problem)
+    meeting = sum(within_digits(each, problem.task) for each in found.dyads)
+    if meeting < exact:
+        message = (
+            f"{exact} independent quadrics hold the poses within their digits, so that as many "
+            f"dyads should meet them, and {meeting or 'none'} of those listed "
+            f"{'does' if meeting < 2 else 'do'}: a dyad is missing, or the digits do not "
+            "determine it"
+        )
+        return [Advice("W207", message, help)]
+    if known < COUNT:
+        message = f"{known} of {COUNT} critical points were told apart: a locally best dyad may be "
+        return [Advice("W207", message + "missing", help)]
+    if fit.unfinished:
+        message = (
+            f"{count(fit.unfinished, 'way')} down to a nearer dyad had to be given up: a locally "
+            "best dyad may be missing"
+        )
+        return [Advice("W207", message, help)]
+    return []
 
 
 def _thin_regions(problem: SynthesisProblem) -> list[Advice]:
@@ -155,8 +192,11 @@ def _dyads(problem: SynthesisProblem, search: DyadSearch) -> tuple[str, str]:
             aside = f"; the nearest other one misses the poses by {error} rms"
         return count(search.meeting, "real dyad") + " (of the 4 that five poses have)", aside
     if isinstance(first, BestDyads) and isinstance(first.search, CriticalDyads):
-        known = f"({_accounted(first.search)} of {COUNT} critical points accounted for)"
-        return f"{count(len(found), 'locally best dyad')} {known}", ""
+        known = _accounted(first.search)
+        how = f"{known} of {COUNT} critical points accounted for"
+        if known < COUNT:
+            how = f"{known} of {COUNT} critical points found, {COUNT - known} not accounted for"
+        return f"{count(len(found), 'locally best dyad')} ({how})", ""
     if isinstance(first, BestDyads):
         faces = sum(
             fit.search.systems
