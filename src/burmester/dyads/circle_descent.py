@@ -195,17 +195,24 @@ def _narrow_step(
     if missing:
         rows = np.concatenate([rows, np.zeros((len(rows), missing, 6))], axis=-2)
     triangle = np.asarray(np.linalg.qr(rows, mode="r"))[:, :6]
+    # Not where a pivot went beyond all measure: there no step is made.
+    sound = np.isfinite(triangle).all(axis=(-2, -1))
+    triangle = np.where(sound[:, None, None], triangle, 0.0)
+    tangent = np.where(sound[:, None, None], tangent, 0.0)
+    distance = np.where(sound[:, None], distance, 0.0)
     unit = np.maximum(np.linalg.norm(triangle[:, :, :5], axis=1), np.finfo(float).tiny)
     left, values, right = np.linalg.svd(triangle[:, :5, :5] / unit[:, None])
     values = np.maximum(values, FLAT_SINGULAR_VALUE * values[:, :1])
     turned = root * tangent @ (np.swapaxes(right, -1, -2) / unit[..., None])
     counted = (distance / arm)[..., None]
-    scale = np.sqrt(values**2 + (np.abs(counted) * turned**2).sum(axis=-2))
+    scale = np.sqrt(np.finfo(float).tiny + values**2 + (np.abs(counted) * turned**2).sum(axis=-2))
     turned = turned / scale[:, None]
     hessian = np.swapaxes(counted * turned, -1, -2) @ turned
     hessian[:, range(5), range(5)] += (values / scale) ** 2
+    sound &= np.isfinite(hessian).all(axis=(-2, -1))
+    hessian[~sound] = np.eye(5)
     bend, axes = np.linalg.eigh(hessian)
-    convex = bend[:, 0] > 0
+    convex = sound & (bend[:, 0] > 0)
     gradient = (triangle[:, None, :5, 5] @ left)[:, 0] * values / scale
     steep = np.maximum(values, FLAT_NOT_CONVEX * values[:, :1]) / scale
     axes[~convex], bend[~convex] = np.eye(5), steep[~convex] ** 2
