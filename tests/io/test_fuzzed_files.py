@@ -233,7 +233,7 @@ def run(arguments, capsys):
 def test_the_command_answers_in_json(path, capsys, monkeypatch):
     """The search for linkages that work takes a second a file: it is left out."""
     monkeypatch.setattr("burmester.linkages.from_dyads.defect_free_linkages", lambda *_: None)
-    monkeypatch.setattr("burmester.linkages.from_dyads.links_of_pivot_map", lambda *_: [])
+    monkeypatch.setattr("burmester.linkages.further_pairs.links_of_pivot_map", lambda *_: [])
     rng, codes = random.Random(5), set()
     for seed in range(60):
         file = fuzzed_files.any_file(rng.choice(LANGUAGES), seed)

@@ -891,7 +891,9 @@ def hurried(monkeypatch):
             monkeypatch.setattr(
                 "burmester.linkages.from_dyads.defect_free_linkages", lambda *_: None
             )
-            monkeypatch.setattr("burmester.linkages.from_dyads.links_of_pivot_map", lambda *_: [])
+            monkeypatch.setattr(
+                "burmester.linkages.further_pairs.links_of_pivot_map", lambda *_: []
+            )
 
     return hurried
 

@@ -38,7 +38,9 @@ def test_strange_poses(name, method, monkeypatch):
             monkeypatch.setattr(
                 "burmester.linkages.from_dyads.defect_free_linkages", lambda *_: None
             )
-            monkeypatch.setattr("burmester.linkages.from_dyads.links_of_pivot_map", lambda *_: [])
+            monkeypatch.setattr(
+                "burmester.linkages.further_pairs.links_of_pivot_map", lambda *_: []
+            )
         rows = rng.normal(size=(int(rng.integers(3, 13)), 3)) * [10, 10, 1]
         task = Task(Displacement.from_poses(STRANGE[name](rows, rng)))
         synthesis = answer(task, method)

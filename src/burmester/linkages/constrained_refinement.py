@@ -247,7 +247,20 @@ def refine_constrained(
         value, _, _ = all_constraints(problem, every, also)
         good = np.array(met & (_greatest_violation(value, way.equal) < FEASIBLE), dtype=np.bool_)
         state = where(good, also, state)
-    return state.z, state.rows, done, met
+    # What kept all constraints from the start is not given up for less.
+    before = way.start.state
+    kept = _greatest_violation(way.start.constraints.residual, way.equal) < FEASIBLE
+    with np.errstate(invalid="ignore"):
+        worse = _cost(problem, before) < _cost(problem, state)
+    back = np.array(way.start.sound & kept & (~met | worse), dtype=np.bool_)
+    state = where(back, before, state)
+    return state.z, state.rows, done & ~back, met | back
+
+
+def _cost(problem: Problem, state: State) -> FloatArray:
+    """The weighted sum (k,) of squared distances from the poses."""
+    gap = problem.share[:, None] * (state.rows - problem.wanted)
+    return np.asarray((gap * gap).sum(axis=(1, 2)))
 
 
 def _greatest_violation(value: FloatArray, equal: NDArray[np.bool_]) -> FloatArray:

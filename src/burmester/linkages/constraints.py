@@ -40,6 +40,7 @@ TRANSMISSION_MARGIN: Final = 1e-7  # radians; kept above a required transmission
 MIN_INPUT_STEP: Final = 2e-3  # radians or lengths; least step of the input from pose to pose
 # The index of the shortest of ground, driver, coupler and follower in each of Grashof's types.
 SHORTEST_LINK: Final = {"double-crank": 0, "crank-rocker": 1, "double-rocker": 2, "rocker-crank": 3}
+MAX_SIDES: Final = 8  # number of sides of a convex polygon that are constraints each
 PROPORTION_MARGIN: Final = 1e-6  # relative; kept from the border of a type or a ratio
 
 
@@ -107,9 +108,16 @@ class DyadLimitsConstraint:
 
 
 def _outside(region: Region, points: FloatArray) -> FloatArray:
-    """Distances (k, m) of points (k, 2) from a region: its equations, then its inequalities."""
+    """Distances (k, m) of points (k, 2) from a region: its equations, then its inequalities.
+
+    Those from the sides of a convex polygon each by itself: its distance has a kink at a corner,
+    where a descent would be held.
+    """
     if isinstance(region, Polygon):
-        return region.signed_distance(points)[:, None]
+        sides = _sides(region)
+        if sides is None:
+            return region.signed_distance(points)[:, None]
+        return np.asarray(points @ sides[:, 1:].T + sides[:, 0])
     rows = region.equations()
     off = points @ rows[:, 1:].T + rows[:, 0]
     if len(rows) == 2:
@@ -121,6 +129,19 @@ def _outside(region: Region, points: FloatArray) -> FloatArray:
         along = (ends[1] - ends[0]) / np.linalg.norm(ends[1] - ends[0])
         beyond = np.stack([(ends[0] - points) @ along, (points - ends[1]) @ along], axis=1)
     return np.concatenate([off, beyond], axis=1)
+
+
+def _sides(polygon: Polygon) -> FloatArray | None:
+    """The sides of a convex polygon, (k, 3): row · (1, X, Y) at most 0; else None."""
+    v = polygon.corners()
+    along = np.roll(v, -1, axis=0) - v
+    along = along / np.linalg.norm(along, axis=1, keepdims=True)
+    after = np.roll(along, -1, axis=0)
+    turn = along[:, 0] * after[:, 1] - along[:, 1] * after[:, 0]
+    if len(v) > MAX_SIDES or (turn < 0).any():
+        return None
+    outward = np.stack([along[:, 1], -along[:, 0]], axis=1)
+    return np.column_stack([-(outward * v).sum(axis=1), outward])
 
 
 class DrivenBranch(NamedTuple):

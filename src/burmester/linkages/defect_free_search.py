@@ -13,11 +13,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.dyads.pivot_map import fixed_pivot_map, grid
-from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.circuits import Circuits, circuit_of
-from burmester.fourbar.dyad import RR
-from burmester.fourbar.foot_points import newton_step, places_of, rows_of
+from burmester.fourbar.foot_points import rows_of
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.nearest_places import on_circuits
 from burmester.geometry.displacement import Displacement
@@ -33,35 +30,29 @@ from burmester.linkages.constraints import (
     type_excess,
 )
 from burmester.linkages.refinement import Refined
+from burmester.linkages.starts import distinct, first_order_miss, projected, varied
 from burmester.linkages.target import Target
-from burmester.numerics.arrays import FloatArray, complex_of, wrapped_angle
+from burmester.numerics.arrays import FloatArray, wrapped_angle
 from burmester.numerics.bundles import concatenate, take
-from burmester.numerics.weights import weights_of_mean_one
 from burmester.tasks.requirements import Requirements
 
 __all__ = [
     "SearchResult",
     "defect_free_linkages",
-    "links_of_pivot_map",
     "middle_input",
     "refined_on_branch",
 ]
 
-MAX_STARTS = 96  # number of starts at most
+MAX_STARTS = 144  # number of starts at most
 # Number of refinement steps, and of the best starts that the next stage keeps.
-STAGES = (24, 24), (60, 8), (120, None)
+STAGES = (12, 32), (40, 12), (120, None)
 WRONG_BRANCH_SCORE = 0.1  # squared lengths; start score: penalty per pose on the wrong branch
 # Squared lengths; two weightings of branch violation and backtracking in the score; half of the
 # starts come from each.
 VIOLATION_WEIGHTS = 0.1, 1.0
 INFEASIBLE_SCORE = 10.0  # squared lengths; start score: penalty for violated constraints
 PAIRS_ON_CIRCUITS = 64  # number of first pairs of which each circuit gives starts
-SAME_PLACE = 1e-3  # lengths; starts whose places differ by less are one
-PROJECTION_STEPS = 12  # number of Newton's steps from the poses onto a linkage
-ON_LINKAGE = 1e-9  # residual, in lengths, of a place on the linkage
-MAP_POINTS, MAP_REACH = 17, 3.0  # pivot maps: points in each direction, half-width in motion sizes
-MAX_MAP_LINKS = 80  # number of links taken from both maps
-MIN_LENGTH, MAX_LENGTH = 0.01, 10.0  # lengths; range of these links and of their pivots' distances
+USES_OF_A_DYAD = 8  # number of starts from the poses, of each weighting, that one dyad is in
 
 
 class SearchResult(NamedTuple):
@@ -80,12 +71,15 @@ class _Starts(NamedTuple):
     branch: DrivenBranch
 
 
-def defect_free_linkages(batch: LinkageBatch, target: Target) -> SearchResult | None:
+def defect_free_linkages(
+    batch: LinkageBatch, target: Target, dyads: NDArray[np.intp]
+) -> SearchResult | None:
     """The best linkages under all constraints, from pairs (k,) of dyads; None if there are none.
 
-    All starts get some steps, the best of them more (`STAGES`).
+    dyads: (k, 2), the numbers of the dyads in the pairs, for variety.  All starts get some steps,
+    the best of them more (`STAGES`).
     """
-    starts = _best_starts(batch, target)
+    starts = _best_starts(batch, target, dyads)
     if not len(starts.pair):
         return None
     for steps, best in STAGES:
@@ -98,10 +92,8 @@ def defect_free_linkages(batch: LinkageBatch, target: Target) -> SearchResult | 
         )
         if best is None:
             break
-        order = np.argsort(
-            np.where(found.met, 0.0, INFEASIBLE_SCORE) + np.nan_to_num(found.cost, nan=np.inf)
-        )
-        order = _distinct(found.rows, order[np.isfinite(found.cost[order])], best)
+        score = np.where(found.met, 0.0, INFEASIBLE_SCORE) + 2 * found.cost
+        order = distinct(found.rows, score, best)
         if not len(order):  # all were lost
             return None
         starts = take(starts, order)._replace(batch=found.batch[order], rows=found.rows[order])
@@ -125,38 +117,13 @@ def refined_on_branch(
     )
 
 
-def links_of_pivot_map(poses: Displacement, weights: FloatArray | None = None) -> list[RR]:
-    """Links with the least errors on maps of fixed and of moving pivots, as further starts.
-
-    Poses in the frames of `pose_error.error_frames`.
-    """
-    found = []
-    for inverse in (False, True):
-        seen = poses.inverse() if inverse else poses
-        frames, _ = CanonicalFrames.of(seen, weights)
-        reach = MAP_REACH * float(frames.length)
-        at = grid(frames.fixed_origin - reach, frames.fixed_origin + reach, MAP_POINTS, MAP_POINTS)
-        map_ = fixed_pivot_map(seen, at, weights)
-        error = np.nan_to_num(map_.rms_error, nan=np.inf).ravel()
-        fixed, moving = (
-            getattr(map_.dyads, name).reshape(-1, 2) for name in ("fixed_pivot", "moving_pivot")
-        )
-        radius = map_.dyads.radius.ravel()
-        sound = np.isfinite(error) & (radius > MIN_LENGTH) & (radius < MAX_LENGTH)
-        sound &= np.abs(moving).max(axis=-1) < MAX_LENGTH
-        ends = (moving, fixed) if inverse else (fixed, moving)
-        found += [(error[k], RR(ends[0][k], ends[1][k], radius[k])) for k in np.flatnonzero(sound)]
-    found.sort(key=lambda each: each[0])
-    return [link for _, link in found[:MAX_MAP_LINKS]]
-
-
-def _best_starts(batch: LinkageBatch, target: Target) -> _Starts:
+def _best_starts(batch: LinkageBatch, target: Target, dyads: NDArray[np.intp]) -> _Starts:
     """The starts with the best scores, from pairs (k,) of dyads.
 
     All pairs start at the poses; the first PAIRS_ON_CIRCUITS also from their nearest places on each
     circuit.
     """
-    starts, score = _starts_at_poses(batch, target)
+    starts, score = _starts_at_poses(batch, target, dyads)
     there = _starts_on_circuits(batch[:PAIRS_ON_CIRCUITS], target)
     if len(there.pair):
         sine = signed_transmission_sine(there.batch, there.rows, target.length, there.branch.driver)
@@ -166,7 +133,9 @@ def _best_starts(batch: LinkageBatch, target: Target) -> _Starts:
     return take(starts, np.argsort(score, kind="stable")[:MAX_STARTS])
 
 
-def _starts_at_poses(batch: LinkageBatch, target: Target) -> tuple[_Starts, FloatArray]:
+def _starts_at_poses(
+    batch: LinkageBatch, target: Target, dyads: NDArray[np.intp]
+) -> tuple[_Starts, FloatArray]:
     """Starts of pairs (k,) projected from the poses, and their scores; lower is better.
 
     The score is taken at the poses themselves, as if the pairs met them: distance, branch, order.
@@ -174,9 +143,7 @@ def _starts_at_poses(batch: LinkageBatch, target: Target) -> tuple[_Starts, Floa
     count, number = len(batch), target.poses.shape[0]
     wanted = rows_of(target.poses, target.length)
     rows = np.broadcast_to(wanted, (count, number, 3))
-    share = weights_of_mean_one(target.weights, (number,))
-    d, turn = complex_of(wanted), np.exp(1j * target.poses.angle)
-    miss = (batch.forms().at(d[None, None], turn[None, None])[0] ** 2 @ share).sum(axis=1)
+    miss = first_order_miss(batch, target.poses, target.length, target.weights)
     found = []
     for side in _sides(target.requirements):
         lead = np.full(count, side)
@@ -195,10 +162,12 @@ def _starts_at_poses(batch: LinkageBatch, target: Target) -> tuple[_Starts, Floa
     pair = pair.astype(np.intp)
     with np.errstate(invalid="ignore"):
         scores = miss[pair] + np.array(VIOLATION_WEIGHTS)[:, None] * wrong
-    best = np.argsort(np.nan_to_num(scores, nan=np.inf), axis=1, kind="stable")
-    best = np.unique(best[:, : MAX_STARTS // len(VIOLATION_WEIGHTS)])
+    most = MAX_STARTS // len(VIOLATION_WEIGHTS)
+    best = np.unique(
+        np.concatenate([varied(score, dyads[pair], most, USES_OF_A_DYAD) for score in scores])
+    )
     pair, driver = pair[best], lead[best].astype(np.intp)
-    rows, sound = _projected(batch[pair], rows[pair], target.length)
+    rows, sound = projected(batch[pair], rows[pair], target.length)
     pair, driver, best, rows = pair[sound], driver[sound], best[sound], rows[sound]
     middle, places = np.full(len(pair), np.nan), target.places_of(rows[:, 0])
     for side in (0, 1):
@@ -208,30 +177,6 @@ def _starts_at_poses(batch: LinkageBatch, target: Target) -> tuple[_Starts, Floa
     branch = DrivenBranch(driver, sign[best], middle)
     starts = _Starts(pair, batch[pair], rows, branch)
     return starts, scores[0, best]
-
-
-def _projected(
-    batch: LinkageBatch, rows: FloatArray, length: float
-) -> tuple[FloatArray, NDArray[np.bool_]]:
-    """Places of linkages (k,) straight ahead of rows (k, N, 3), and whether all exist, (k,)."""
-    surfaces = batch.forms()
-    with np.errstate(all="ignore"):
-        for _ in range(PROJECTION_STEPS):
-            rows = rows + newton_step(surfaces, rows, rows, length)[0]
-        places = places_of(rows, length)
-        on = np.abs(batch.jacobians(places).residual) < ON_LINKAGE
-        return rows, np.asarray(on.all(axis=(1, 2)))
-
-
-def _distinct(rows: FloatArray, order: NDArray[np.intp], most: int) -> NDArray[np.intp]:
-    """Of places (k, N, 3), in an order (n,), the first that are not the same as others before."""
-    kept: list[int] = []
-    for k in order.tolist():
-        if all(np.abs(rows[k] - rows[other]).max() > SAME_PLACE for other in kept):
-            kept.append(k)
-        if len(kept) == most:
-            break
-    return np.array(kept, dtype=np.intp)
 
 
 def _sides(asked: Requirements) -> tuple[int, ...]:

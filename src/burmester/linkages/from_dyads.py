@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from itertools import combinations, product
 from math import inf
 
 import numpy as np
@@ -21,9 +20,15 @@ from burmester.fourbar.linkage_batch import DYAD_KINDS, LinkageBatch
 from burmester.fourbar.nearest_places import nearest, on_circuits, on_own_circuits
 from burmester.fourbar.pose_error import error_frames
 from burmester.linkages.constraints import AllConstraints, Constraints, DyadLimitsConstraint
-from burmester.linkages.defect_free_search import defect_free_linkages, links_of_pivot_map
+from burmester.linkages.defect_free_search import defect_free_linkages
 from burmester.linkages.evaluation import Candidates, Evaluation
 from burmester.linkages.found_linkage import FoundLinkage, Pair
+from burmester.linkages.further_pairs import (
+    MAX_POSES_SEARCHED,
+    FurtherPairs,
+    PairsToSearch,
+    closer_linkages,
+)
 from burmester.linkages.quality import Standard
 from burmester.linkages.ranking import (
     closest_usable,
@@ -36,7 +41,7 @@ from burmester.linkages.trade import trades
 from burmester.numerics.arrays import ROUNDING
 from burmester.tasks.problem import SynthesisProblem
 
-__all__ = ["linkages_from_dyads"]
+__all__ = ["linkages_from_dyads", "target_of"]
 
 # Stay on one circuit if its worst error is at most this many times the unrestricted one.
 ONE_CIRCUIT_RATIO = 2.0
@@ -44,8 +49,8 @@ ONE_CIRCUIT_RATIO = 2.0
 FIRST_STEPS, FURTHER_STEPS = 8, 52
 # Refine fully the best MIN_REFINED and all within REFINED_COST_RATIO times the lowest cost.
 MIN_REFINED, REFINED_COST_RATIO = 4, 100.0
-# Refine on at most 1000 poses, search on at most 60, evenly thinned.
-MAX_POSES_REFINED, MAX_POSES_SEARCHED = 1000, 60
+# Refine on at most so many poses, evenly thinned.
+MAX_POSES_REFINED = 1000
 MAX_SEARCHED = 5  # number of linkages kept from the search for defect-free linkages
 
 
@@ -64,7 +69,7 @@ def linkages_from_dyads(
     if len(problem.task.limits) < 2:  # pairs of the same kinds are computed together
         kind = {each.id: DYAD_KINDS.index(type(each.dyad)) for pair in pairs for each in pair}
         pairs = [(b, a) if kind[b.id] < kind[a.id] else (a, b) for a, b in pairs]
-    evaluation = Evaluation(problem, _target_of(problem))
+    evaluation = Evaluation(problem, target_of(problem))
     start = evaluation.stacked(pairs)
     found = evaluation.evaluate(_of_pairs(start, pairs, evaluation.target, refine))
     if refine and found:
@@ -79,7 +84,8 @@ def linkages_from_dyads(
     )
 
 
-def _target_of(problem: SynthesisProblem) -> Target:
+def target_of(problem: SynthesisProblem) -> Target:
+    """The target of a problem's linkages, in the frames in which errors are computed."""
     task, length = problem.task, problem.length_per_radian
     frames = error_frames(task.poses, length)
     kept: tuple[Constraints, ...] = ()
@@ -170,16 +176,23 @@ def _with_search(
 ) -> list[FoundLinkage]:
     """The linkages, and those of the searches where none of them is the closest and good.
 
-    The first search looks for linkages that work, where the closest one does not; the second for
-    such as meet the standard, where no usable one near enough does.
+    Where the closest one works, closer ones are looked for from further pairs.  The first search
+    looks for linkages that work, where the closest one does not; the second for such as meet the
+    standard, where no usable one near enough does.
     """
     problem = evaluation.problem
     nearest = min(found, key=lambda each: each.combined_error)
+    further = None
+    if nearest.usable and nearest.combined_error > digits_leave_open(problem):
+        further = FurtherPairs.of(pairs, evaluation)
+        found = ranked([*found, *closer_linkages(further, evaluation, found)], problem)
+        nearest = min(found, key=lambda each: each.combined_error)
     starts = None
     if not nearest.usable:
-        starts = _search_starts(start, pairs, evaluation)
+        further = further or FurtherPairs.of(pairs, evaluation)
+        starts = further.beside(start, pairs, found, evaluation)
         best = closest_usable(found)
-        more = _searched(*starts, evaluation, inf if best is None else best.combined_error)
+        more = _searched(starts, evaluation, inf if best is None else best.combined_error)
         found = ranked(found + more, problem)
     closest = closest_usable(found)
     if closest is None or not found[0].shortcomings:
@@ -189,43 +202,26 @@ def _with_search(
     unique = closest.determined and closest.combined_error <= digits_leave_open(problem)
     if most == inf or not unique:
         standard = Standard.of(problem.task).requirements(problem.task.requirements)
-        starts = starts or _search_starts(start, pairs, evaluation)
+        further = further or FurtherPairs.of(pairs, evaluation)
+        starts = starts or further.beside(start, pairs, found, evaluation)
         strict = replace(evaluation, target=replace(evaluation.target, requirements=standard))
-        more = _searched(*starts, strict, most)
+        more = _searched(starts, strict, most)
         found = ranked(found + more, problem)
     return found
 
 
-def _searched(
-    batch: LinkageBatch, origin: list[Pair], evaluation: Evaluation, most: float
-) -> list[FoundLinkage]:
+def _searched(starts: PairsToSearch, evaluation: Evaluation, most: float) -> list[FoundLinkage]:
     """Usable linkages of the search whose combined error is below `most`."""
     target = evaluation.target.thinned(MAX_POSES_SEARCHED)
-    found = defect_free_linkages(batch, target)
+    found = defect_free_linkages(starts.batch, target, starts.parts)
     if found is None:
         return []
     index = np.flatnonzero(found.refined.met)
     batch, rows = found.refined.batch[index], found.refined.rows[index]
     if target is not evaluation.target:
         rows = evaluation.target.places(batch)
-    origins = [origin[k] for k in found.pair[index]]
+    origins = [starts.origin(k) for k in found.pair[index].tolist()]
     evaluated = evaluation.evaluate(
         Candidates(batch, rows, origins, np.ones(len(index), dtype=bool))
     )
     return [each for each in evaluated if each.usable and each.combined_error < most][:MAX_SEARCHED]
-
-
-def _search_starts(
-    start: LinkageBatch, pairs: list[Pair], evaluation: Evaluation
-) -> tuple[LinkageBatch, list[Pair]]:
-    """The starts of the search: the pairs, and pairs with links of low error in the pivot maps."""
-    if evaluation.problem.task.limits:
-        return start, pairs
-    links = links_of_pivot_map(evaluation.target.poses, evaluation.problem.task.weights)
-    own = {each.id: each for pair in pairs for each in pair}
-    map_ = [
-        evaluation.dyad(f"M{number}", evaluation.target.frames.circle_from_canonical(link[None])[0])
-        for number, link in enumerate(links, start=1)
-    ]
-    every = [*pairs, *combinations(map_, 2), *product(own.values(), map_)]
-    return evaluation.stacked(every), every
