@@ -2,7 +2,7 @@
 
     python -m benchmarks.search_witness --count 200 --seed 0
 
-The tasks are those of `tests/oracles/practical_tasks.py`: lids, folds, landing gear, tailgates,
+The tasks are those of `tests/oracles/common_tasks.py`: lids, folds, landing gear, tailgates,
 hinges, lifts, pick and place, grippers and random boxes, in turns, five to nine poses, all with a
 transmission angle of 35 degrees.  The witness is `tests/oracles/multi_start.py`, which shares no
 code with the package: a sweep of 2,000 random linkages within the limits, and SciPy's SLSQP from
@@ -20,9 +20,9 @@ import time
 from collections import Counter
 
 import numpy as np
+from tests.oracles.common_tasks import TRANSMISSION, common_task
 from tests.oracles.hard_tasks import comes_by
 from tests.oracles.multi_start import MultiStart
-from tests.oracles.practical_tasks import TRANSMISSION, practical_task
 
 from burmester.fourbar.dyad import RR
 from burmester.fourbar.foot_points import rows_of
@@ -43,7 +43,7 @@ NEGLIGIBLE = 1e-5  # motion sizes; what is added to both errors, so that none co
 
 
 def task_of(given):
-    """A practical task as the package takes it."""
+    """A task as the package takes it."""
     limits = tuple(
         Limits(fixed_pivot=box(*fixed), moving_pivot=box(*moving), kinds=frozenset({"RR"}))
         for fixed, moving in given.boxes
@@ -76,7 +76,7 @@ def judged(result, z, rows):
 
 def compared(seed, witness=True):
     """One task: its family, both errors in motion sizes, both times, and what does not come by."""
-    given = practical_task(seed)
+    given = common_task(seed)
     start = time.process_time()
     result = synthesize(task_of(given), SynthesisOptions(length_per_radian=given.length))
     took = time.process_time() - start

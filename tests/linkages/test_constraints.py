@@ -312,3 +312,38 @@ def test_limits_count_in_the_frames_unit():
     assert max(value[0]) == pytest.approx(1.0 / 4)
     value, equal = held(1, moving_pivot=Polygon([[0, 0], [4, 0], [4, 4], [0, 4]]))
     assert max(value[0]) == pytest.approx(-1.0 / 4)
+
+
+# A box, a triangle given clockwise, and an L; and whether x, y lies in it, by rules of its own.
+REGIONS = {
+    "box": (
+        [[0, -1], [2, -1], [2, 1], [0, 1]],
+        lambda x, y: (x >= 0) & (x <= 2) & (abs(y) <= 1),
+    ),
+    "triangle": ([[0, 0], [0, 2], [2, 0]], lambda x, y: (x >= 0) & (y >= 0) & (x + y <= 2)),
+    "an L": (
+        [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]],
+        lambda x, y: (x >= 0) & (y >= 0) & (x <= 2) & (y <= 2) & ((x <= 1) | (y <= 1)),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", REGIONS)
+def test_a_region_is_kept_just_where_its_points_are(name):
+    corners, inside = REGIONS[name]
+    at = np.random.default_rng(8).uniform(-1, 3, (300, 2))
+    dyads = RR(at, np.zeros((300, 2)), np.ones(300))
+    other = RR([9.0, 9.0], [1.0, 1.0], 1.0)
+    batch = LinkageBatch.of([Linkage(each, other) for each in dyads])
+    keep = DyadLimitsConstraint(0, Limits(fixed_pivot=Polygon(corners)), PLAIN)
+    value, equal = keep(batch, np.zeros((300, 2, 3)), np.arange(300))
+    assert not equal.any()
+    assert ((value <= 0).all(axis=1) == inside(*at.T)).all()
+
+
+def test_the_sides_of_a_box_hold_one_by_one():
+    """At a corner both sides stand in the way, so that a descent need not run along one of them."""
+    keep = DyadLimitsConstraint(0, Limits(fixed_pivot=Polygon(REGIONS["box"][0])), PLAIN)
+    batch = LinkageBatch.of([Linkage(RR([2.25, 1.5], [0, 0], 1), RR([9, 9], [1, 1], 1))])
+    value, _ = keep(batch, np.zeros((1, 2, 3)), np.array([0]))
+    assert sorted(value[0][value[0] > 0]) == pytest.approx([0.25, 0.5])

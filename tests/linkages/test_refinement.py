@@ -20,7 +20,7 @@ from burmester.fourbar.pose_error import error_frames
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Line, Point, Polygon, Segment
 from burmester.io.reading.poses import read_task
-from burmester.linkages.constraints import DyadLimitsConstraint
+from burmester.linkages.constraints import AllConstraints, DyadLimitsConstraint
 from burmester.linkages.refinement import refine
 from burmester.tasks.limits import Limits
 from tests.oracles.witness import places
@@ -337,6 +337,32 @@ def test_limits_hold_and_scipy_comes_no_lower(what, seed):
     )
     assert not sound or ours.cost[0] < end.fun * 1.03 + 1e-12
     assert ours.cost[0] > refined(linkage, rows, wanted).cost[0] * (1 - 1e-9)
+
+
+@pytest.mark.parametrize("steps", [2, 5, 30])
+def test_what_keeps_to_its_limits_at_the_start_does_so_at_the_end_and_is_no_farther(steps):
+    """A star around the pivots, whose corners point inwards and outwards, holds many a descent."""
+    turn = np.arange(10) * np.pi / 5
+    arms = np.where(np.arange(10) % 2, 0.02, 0.2)
+    star = np.column_stack([arms * np.cos(turn), arms * np.sin(turn)])
+    for seed in range(12):
+        linkage, rows, wanted = a_task((RR, RR), seed, noise=0.1)
+        keep = AllConstraints(
+            tuple(
+                DyadLimitsConstraint(
+                    side,
+                    Limits(
+                        fixed_pivot=Polygon(star + dyad.fixed_pivot + [0.015, 0]),
+                        moving_pivot=Polygon(star + dyad.moving_pivot - [0, 0.015]),
+                    ),
+                    CanonicalFrames.identity(),
+                )
+                for side, dyad in enumerate((linkage.first, linkage.second))
+            )
+        )
+        end = refined(linkage, rows, wanted, constraints=keep, constrained_steps=steps)
+        assert end.met[0]
+        assert end.cost[0] <= ((rows - wanted) ** 2).sum() / 2 * (1 + 1e-12)
 
 
 def test_the_papers_ten_poses():

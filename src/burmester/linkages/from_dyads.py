@@ -60,21 +60,24 @@ def linkages_from_dyads(
     """The linkages of pairs of dyads, in the order of `ranking`.
 
     refine: False leaves the dimensions as the dyads have them, whatever the options say.  Pairs
-    with a PP dyad are left out: no single joint drives them.
+    with a PP dyad are left out: no single joint drives them.  Within limits there may be no pair,
+    and linkages nevertheless: of links that are not the locally best ones.
     """
     options, refine = problem.options, refine and problem.options.refines
     pairs = [pair for pair in pairs if not any(isinstance(each.dyad, PP) for each in pair)]
-    if not pairs:
+    if not pairs and not (refine and problem.task.limits and options.method == "complete"):
         return ()
     if len(problem.task.limits) < 2:  # pairs of the same kinds are computed together
         kind = {each.id: DYAD_KINDS.index(type(each.dyad)) for pair in pairs for each in pair}
         pairs = [(b, a) if kind[b.id] < kind[a.id] else (a, b) for a, b in pairs]
     evaluation = Evaluation(problem, target_of(problem))
     start = evaluation.stacked(pairs)
-    found = evaluation.evaluate(_of_pairs(start, pairs, evaluation.target, refine))
-    if refine and found:
+    found: list[FoundLinkage] = []
+    if pairs:
+        found = evaluation.evaluate(_of_pairs(start, pairs, evaluation.target, refine))
+    if refine and (found or not pairs):
         found = _with_search(start, pairs, evaluation, found)
-        if found[0].usable:
+        if found and found[0].usable:
             found = ranked([*found, *trades(found[0], evaluation)], problem)
     if options.rounds:
         found = evaluation.rounded(found)
@@ -181,12 +184,14 @@ def _with_search(
     standard, where no usable one near enough does.
     """
     problem = evaluation.problem
-    nearest = min(found, key=lambda each: each.combined_error)
+    nearest = min(found, key=lambda each: each.combined_error, default=None)
     further = None
-    if nearest.usable and nearest.combined_error > digits_leave_open(problem):
+    if nearest is None or (nearest.usable and nearest.combined_error > digits_leave_open(problem)):
         further = FurtherPairs.of(pairs, evaluation)
         found = ranked([*found, *closer_linkages(further, evaluation, found)], problem)
-        nearest = min(found, key=lambda each: each.combined_error)
+        nearest = min(found, key=lambda each: each.combined_error, default=None)
+    if nearest is None:
+        return found
     starts = None
     if not nearest.usable:
         further = further or FurtherPairs.of(pairs, evaluation)

@@ -151,7 +151,7 @@ def closer_linkages(
     index, rows = index[sound], rows[sound]
     batch, kept = further.batch[index], AllConstraints(target.kept) if target.kept else None
     known_rows = _rows(known, evaluation, target)
-    least = float(np.nan_to_num(target.cost(known_rows), nan=np.inf).min())
+    least = float(np.nan_to_num(target.cost(known_rows), nan=np.inf).min(initial=np.inf))
     for (steps, constrained), ratio in zip(STEPS, (HOPEFUL_COST_RATIO, 1.0), strict=True):
         if not len(index):
             return []
@@ -178,6 +178,8 @@ def closer_linkages(
 
 def _rows(found: list[FoundLinkage], evaluation: Evaluation, target: Target) -> FloatArray:
     """The rows (k, N, 3) of the places of linkages, at the poses of a target perhaps thinned."""
+    if not found:
+        return np.empty((0, target.poses.shape[0], 3))
     if target is not evaluation.target:
         return target.places(evaluation.stacked([each.dyads for each in found]))
     places = (target.frames.to_canonical(each.error.places) for each in found)

@@ -29,8 +29,9 @@ MAP_POINTS, MAP_REACH = 17, 3.0  # pivot maps: points in each direction, half-wi
 REGION_POINTS = 13  # number of points in each direction of a region
 MAX_LINKS = 80  # number of links taken from both maps
 SAME_PIVOTS = 0.15  # lengths; links whose pivots differ by less are one
-SAME_PLACE = 1e-3  # lengths; linkages whose places differ by less are one
-SAME_SHARE = 0.3  # of the rms error, the same where errors are small
+# Linkages are one if their places differ by less than this share of the rms error, within the
+# bounds, in lengths.
+SAME_SHARE, SAME_PLACE = 0.3, (1e-5, 1e-3)
 MIN_LENGTH, MAX_LENGTH = 0.01, 10.0  # lengths; range of these links and of their pivots' distances
 
 
@@ -191,7 +192,7 @@ def distinct(
     others = [] if known is None else list(known)
     order = np.argsort(cost, kind="stable")
     for k in order[np.isfinite(cost[order])].tolist():
-        same = min(SAME_PLACE, SAME_SHARE * float(np.sqrt(cost[k] / rows.shape[1])))
+        same = np.clip(SAME_SHARE * np.sqrt(cost[k] / rows.shape[1]), *SAME_PLACE)
         if not any(np.abs(rows[k] - other).max() < same for other in others):
             kept.append(k)
             others.append(rows[k])

@@ -169,6 +169,8 @@ def summary(
     if not linkages:
         return _none(problem.given, search, dyads + aside)
     usable = [each for each in linkages if each.usable]
+    if len(search.dyads) < 2:
+        dyads = f"links of low error beside {dyads}"
     all_of_them = f"{count(len(linkages), 'four-bar')} from {dyads}"
     if not usable:
         return _none_usable(problem, linkages, all_of_them, aside)

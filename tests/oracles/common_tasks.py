@@ -16,7 +16,7 @@ QUARTER = 0.25  # share of the travel per radian that a radian counts as
 
 
 @dataclass(frozen=True)
-class PracticalTask:
+class CommonTask:
     """Poses with what is asked of their linkage.
 
     rows: (N, 3), x, y, angle (radians).
@@ -57,7 +57,7 @@ MARGIN = (-0.03, 0.4)  # shares of a box's size: how far a box of one's own goes
 DEVIATION = (0.005, 0.1)  # of the travel: how much poses are bent, and blurred a third as much
 
 
-def practical_task(seed):
+def common_task(seed):
     """One task; the families take turns."""
     rng = np.random.default_rng([13, seed])
     name = list(FAMILIES)[seed % len(FAMILIES)]
@@ -95,7 +95,7 @@ def _drawn(rng, name):
         boxes = tuple(
             tuple(_around(rng, pivot) for pivot in pivots[list(at)]) for at in ((0, 2), (1, 3))
         )
-    return PracticalTask(name, rows, boxes, ratio, float(length))
+    return CommonTask(name, rows, boxes, ratio, float(length))
 
 
 def _shaken(rng, corners):
