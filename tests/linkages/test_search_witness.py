@@ -5,11 +5,22 @@ pairs of dyads was taken though others are closer (23), a descent ended at a cor
 only one locally best dyad lies within the limits (50).
 """
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
-from benchmarks.search_witness import WORSE, compared, ratio_of
+from benchmarks.search_witness import WORSE, compared, ratio_of, task_of
 
+from burmester.linkages.from_dyads import linkages_from_dyads
+from burmester.synthesis.dyad_search import search_dyads
+from burmester.synthesis.method import with_method
+from burmester.synthesis.outcome import summary
+from burmester.tasks.motion_class import classify_motion
+from burmester.tasks.options import SynthesisOptions
+from burmester.tasks.problem import SynthesisProblem
 from tests.oracles import multi_start
+from tests.oracles.common_tasks import TRANSMISSION, common_task
+from tests.oracles.hard_tasks import comes_by
 
 pytestmark = pytest.mark.slow
 
@@ -22,3 +33,21 @@ def test_an_independent_search_is_not_nearer(seed, monkeypatch):
     assert not wrong
     assert np.isfinite(theirs)
     assert ratio_of(ours, theirs) < WORSE
+
+
+def test_one_dyad_within_the_limits_does_not_mean_that_there_is_no_linkage():
+    """All but the best dyad of a task taken away, there are linkages nevertheless."""
+    task = task_of(common_task(50))
+    problem = SynthesisProblem.of(task, classify_motion(task), SynthesisOptions())
+    problem = with_method(problem)
+    search = search_dyads(problem)
+    alone = replace(search, dyads=search.dyads[:1])
+    assert alone.pairs(problem.length) == ([], [])
+    found = linkages_from_dyads(problem, [])
+    assert found[0].usable
+    assert all(dyad.id.startswith("M") for each in found for dyad in each.dyads)
+    assert comes_by(found[0], TRANSMISSION)
+    told = summary(problem, alone, found)
+    assert told.code == "R300"
+    assert "from links of low error beside 1 locally best dyad within the limits" in told.message
+    assert linkages_from_dyads(problem, [], refine=False) == ()
