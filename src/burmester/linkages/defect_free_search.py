@@ -39,6 +39,7 @@ from burmester.tasks.requirements import Requirements
 __all__ = [
     "SearchResult",
     "defect_free_linkages",
+    "driving_sides",
     "middle_input",
     "refined_on_branch",
 ]
@@ -101,19 +102,22 @@ def defect_free_linkages(
 
 
 def refined_on_branch(
-    batch: LinkageBatch, rows: FloatArray, target: Target, side: int, *, steps: int
+    batch: LinkageBatch, rows: FloatArray, target: Target, driver: NDArray[np.intp], *, steps: int
 ) -> Refined:
     """Linkages (k,) refined under all constraints, on the branches of their places (k, N, 3).
 
-    side: the dyad that drives.
+    driver: (k,), the side that drives.
     """
-    every, lead = np.arange(len(batch)), np.full(len(batch), side)
-    sine = signed_transmission_sine(batch, rows, target.length, lead)
-    middle = middle_input(batch, target.places_of(rows[:, 0]), side)
-    branch = DrivenBranch(lead, np.where(np.nansum(sine, axis=1) < 0, -1.0, 1.0), middle)
-    constraints = _all_constraints(_Starts(every, batch, rows, branch), target)
+    sine = signed_transmission_sine(batch, rows, target.length, driver)
+    middle = _middle_inputs(batch, target.places_of(rows[:, 0]), driver)
+    branch = DrivenBranch(driver, np.where(np.nansum(sine, axis=1) < 0, -1.0, 1.0), middle)
+    starts = _Starts(np.arange(len(batch)), batch, rows, branch)
     return target.refine(
-        batch, rows, constraints=constraints, worst=target.worst, constrained_steps=steps
+        batch,
+        rows,
+        constraints=_all_constraints(starts, target),
+        worst=target.worst,
+        constrained_steps=steps,
     )
 
 
@@ -145,7 +149,7 @@ def _starts_at_poses(
     rows = np.broadcast_to(wanted, (count, number, 3))
     miss = first_order_miss(batch, target.poses, target.length, target.weights)
     found = []
-    for side in _sides(target.requirements):
+    for side in driving_sides(target.requirements):
         lead = np.full(count, side)
         sine = signed_transmission_sine(batch, rows, target.length, lead)
         drive, turns = input_of(batch, rows, target.length, lead)
@@ -169,17 +173,13 @@ def _starts_at_poses(
     pair, driver = pair[best], lead[best].astype(np.intp)
     rows, sound = projected(batch[pair], rows[pair], target.length)
     pair, driver, best, rows = pair[sound], driver[sound], best[sound], rows[sound]
-    middle, places = np.full(len(pair), np.nan), target.places_of(rows[:, 0])
-    for side in (0, 1):
-        some = driver == side
-        if some.any():
-            middle[some] = middle_input(batch[pair[some]], places[some], side)
+    middle = _middle_inputs(batch[pair], target.places_of(rows[:, 0]), driver)
     branch = DrivenBranch(driver, sign[best], middle)
     starts = _Starts(pair, batch[pair], rows, branch)
     return starts, scores[0, best]
 
 
-def _sides(asked: Requirements) -> tuple[int, ...]:
+def driving_sides(asked: Requirements) -> tuple[int, ...]:
     """The sides that are allowed to drive."""
     return {"first": (0,), "second": (1,)}.get(asked.driver, (0, 1))
 
@@ -189,7 +189,7 @@ def _starts_on_circuits(batch: LinkageBatch, target: Target) -> _Starts:
     places = on_circuits(batch, target.poses, target.length)
     rows = rows_of(places, target.length)
     found = []
-    for side in _sides(target.requirements):
+    for side in driving_sides(target.requirements):
         for circuit in (0, 1):
             some = np.flatnonzero(np.isfinite(rows[:, circuit]).all(axis=(1, 2)))
             leads = np.full(len(some), side)
@@ -205,6 +205,17 @@ def _starts_on_circuits(batch: LinkageBatch, target: Target) -> _Starts:
     pair, on_circuit, driver = table[:3].astype(np.intp)
     branch = DrivenBranch(driver, table[3], table[4])
     return _Starts(pair, batch[pair], rows[pair, on_circuit], branch)
+
+
+def _middle_inputs(
+    batch: LinkageBatch, places: Displacement, driver: NDArray[np.intp]
+) -> FloatArray:
+    """`middle_input` (k,) of linkages with drivers (k,)."""
+    middle = np.full(len(batch), np.nan)
+    for side in (0, 1):
+        if (some := driver == side).any():
+            middle[some] = middle_input(batch[some], places[some], side)
+    return middle
 
 
 def middle_input(batch: LinkageBatch, places: Displacement, side: int) -> FloatArray:

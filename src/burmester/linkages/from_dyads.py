@@ -29,13 +29,13 @@ from burmester.linkages.further_pairs import (
     PairsToSearch,
     closer_linkages,
 )
-from burmester.linkages.quality import Standard
 from burmester.linkages.ranking import (
     closest_usable,
     digits_leave_open,
     farthest_recommended,
     ranked,
 )
+from burmester.linkages.sound_linkages import sound_linkages
 from burmester.linkages.target import Target
 from burmester.linkages.trade import trades
 from burmester.numerics.arrays import ROUNDING
@@ -179,9 +179,8 @@ def _with_search(
 ) -> list[FoundLinkage]:
     """The linkages, and those of the searches where none of them is the closest and good.
 
-    Where the closest one works, closer ones are looked for from further pairs.  The first search
-    looks for linkages that work, where the closest one does not; the second for such as meet the
-    standard, where no usable one near enough does.
+    Where the closest one works, closer ones are looked for from further pairs; where it does not,
+    such as work.  Where none near enough is sound, the closest ones are made sound.
     """
     problem = evaluation.problem
     nearest = min(found, key=lambda each: each.combined_error, default=None)
@@ -192,7 +191,6 @@ def _with_search(
         nearest = min(found, key=lambda each: each.combined_error, default=None)
     if nearest is None:
         return found
-    starts = None
     if not nearest.usable:
         further = further or FurtherPairs.of(pairs, evaluation)
         starts = further.beside(start, pairs, found, evaluation)
@@ -206,12 +204,7 @@ def _with_search(
     # Poses that determine a linkage within their digits leave no other one but the pairs.
     unique = closest.determined and closest.combined_error <= digits_leave_open(problem)
     if most == inf or not unique:
-        standard = Standard.of(problem.task).requirements(problem.task.requirements)
-        further = further or FurtherPairs.of(pairs, evaluation)
-        starts = starts or further.beside(start, pairs, found, evaluation)
-        strict = replace(evaluation, target=replace(evaluation.target, requirements=standard))
-        more = _searched(starts, strict, most)
-        found = ranked(found + more, problem)
+        found = ranked([*found, *sound_linkages(found, evaluation, most)], problem)
     return found
 
 

@@ -52,9 +52,8 @@ def _refined(best: FoundLinkage, target: Target) -> LinkageBatch | None:
     batch = LinkageBatch.of([best.linkage]).to_canonical(target.frames)
     rows = rows_of(target.frames.to_canonical(best.error.places), target.length)[None]
     if best.from_search or target.requirements.has_any:
-        found = refined_on_branch(
-            batch, rows, target, int(best.preferred_driver == "second"), steps=STEPS
-        )
+        driver = np.array([int(best.preferred_driver == "second")])
+        found = refined_on_branch(batch, rows, target, driver, steps=STEPS)
     else:
         kept = AllConstraints(target.kept) if target.kept else None
         found = target.refine(batch, rows, constraints=kept, worst=target.worst, steps=STEPS)

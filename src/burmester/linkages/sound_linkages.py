@@ -1,0 +1,56 @@
+"""Linkages to build, from those that are close and not sound.
+
+The closest linkages are refined again, with either dyad driving, under the standard (`quality`):
+they give up some nearness for a transmission angle and sane links.  A heuristic: that no other
+linkage within the bound is sound is not proved.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from burmester.fourbar.foot_points import rows_of
+from burmester.fourbar.linkage_batch import LinkageBatch
+from burmester.linkages.defect_free_search import driving_sides, refined_on_branch
+from burmester.linkages.evaluation import Candidates, Evaluation
+from burmester.linkages.found_linkage import FoundLinkage
+from burmester.linkages.quality import Standard
+
+__all__ = ["sound_linkages"]
+
+MOST_CLOSEST = 12  # number of linkages that are refined again
+STEPS = 40  # number of steps of these refinements
+
+
+def sound_linkages(
+    found: Sequence[FoundLinkage], evaluation: Evaluation, most: float
+) -> list[FoundLinkage]:
+    """Usable linkages that meet the standard, with a combined error of `most` or less."""
+    asked = evaluation.task.requirements
+    target = replace(
+        evaluation.target, requirements=Standard.of(evaluation.task).requirements(asked)
+    )
+    near = [each for each in found if np.isfinite(each.combined_error)]
+    near = sorted(near, key=lambda each: each.combined_error)[:MOST_CLOSEST]
+    sides = driving_sides(asked)
+    every, lead = np.repeat(np.arange(len(near)), len(sides)), np.tile(sides, len(near))
+    batch = LinkageBatch.of([each.linkage for each in near]).to_canonical(target.frames)
+    rows = np.stack(
+        [rows_of(target.frames.to_canonical(each.error.places), target.length) for each in near]
+    )
+    refined = refined_on_branch(batch[every], rows[every], target, lead, steps=STEPS)
+    index = np.flatnonzero(refined.met)
+    candidates = Candidates(
+        refined.batch[index],
+        refined.rows[index],
+        [near[k].dyads for k in every[index].tolist()],
+        np.ones(len(index), dtype=bool),
+    )
+    return [
+        each
+        for each in evaluation.evaluate(candidates)
+        if each.usable and not each.shortcomings and each.combined_error <= most
+    ]
