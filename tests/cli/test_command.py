@@ -342,7 +342,7 @@ def test_limits_in_a_file_are_those_of_the_command_line(tmp_path, poses):
 
 REFUSED = {
     "region": (["--fixed-pivot", "box:0,0:a,2"], "E131", ["--fixed-pivot:1:9", "'a'", "^"]),
-    "empty": (["--moving-pivot", "box:0,0:0,2"], "E132", ["x from 0 to 0"]),
+    "empty": (["--moving-pivot", "box:1,0:0,2"], "E132", ["x from 1 to 0"]),
     "length": (["--length", "5:2"], "E132", ["at least 5 long", "at most 2 long"]),
     "kinds": (["--kinds", "PR", "--fixed-pivot", "1,2"], "E132", ["at (1, 2)", "PR only"]),
     "pose": (["--exact", "11"], "E122", ["no pose '11'", "1 to 10"]),

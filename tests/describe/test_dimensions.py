@@ -124,13 +124,13 @@ def test_unusable_linkages_have_notes_of_their_own(synthesis):
 
 
 def test_rounded_dimensions_have_no_half_widths():
-    task = read_task("case:ge2012-approximate")
+    task = read_task("case:motiongen-rrpr")
     synthesis = synthesize(task, SynthesisOptions(rounding_step=0.1))
     rounded = [each for each in synthesis.linkages if each.error_before_rounding is not None]
     assert {each.usable for each in rounded} == {True, False}
     for found in rounded:
         assert {row.give for row in dimensions(synthesis, found)} == {""}
-        (note,) = notes(synthesis, found)
+        (note,) = (each for each in notes(synthesis, found) if not each.startswith("It works, but"))
         errors = re.fullmatch(
             rf"Rounded to 0\.1: {found.id} misses by ([^ ]+), instead of by ([^ ]+)\.",
             note.replace(f" {task.length_unit}", ""),

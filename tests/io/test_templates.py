@@ -23,6 +23,7 @@ from burmester.fourbar.linkage import Linkage
 from burmester.io import templates
 from burmester.io.reading.poses import read_task
 from burmester.io.reading.stated_requirements import FILE_KEYS
+from burmester.tasks.length_per_radian import default_length_per_radian
 from tests.oracles import witness
 
 TRADES = (
@@ -227,10 +228,11 @@ def uncommented(start):
 
 
 def test_every_block_is_tried_below():
-    starts = ["{ x = 55.20", "poses = [", "pose_sigma", "[limits]", "[[limits]]", "[requirements]"]
+    starts = ["{ x = 55.20", "poses = [", "body", "pose_sigma", "[limits]", "[[limits]]"]
+    starts.append("[requirements]")
     assert [start.startswith(each) for start, each in zip(blocks(), starts, strict=True)] == [
         True
-    ] * 6
+    ] * 7
     keys = ("weight", "name", "exact", "fixed_pivot", "moving_pivot", "length", "kinds", *FILE_KEYS)
     for key in keys:
         assert re.search(rf"\b{key} = ", templates.text()), key
@@ -251,6 +253,10 @@ def test_blocks_of_the_poses():
     assert points.poses.angle == pytest.approx(base.poses.angle, abs=math.radians(0.01))
     for pose in tomllib.loads(uncommented("poses = ["))["poses"]:
         assert math.dist(pose["p"], pose["q"]) == pytest.approx(60, abs=0.01)
+    (body,) = (start for start in blocks() if start.startswith("body"))
+    # A bar of 100 by 20 about (40, 0).
+    gyration = math.sqrt((100**2 + 20**2) / 12 + 40**2)
+    assert default_length_per_radian(read(uncommented(body))) == pytest.approx(gyration)
     (sigma,) = (start for start in blocks() if start.startswith("pose_sigma"))
     resolution = read(uncommented(sigma)).resolution
     assert resolution == pytest.approx((math.sqrt(3) * 0.01, math.sqrt(3) * math.radians(0.01)))

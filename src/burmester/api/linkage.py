@@ -139,7 +139,7 @@ class ResultLinkage(_Handover, FoundLinkage):
     >>> import burmester
     >>> best = burmester.synthesize(burmester.read_task("case:motiongen-shoulder")).best
     >>> best
-    L1: crank-rocker of D1 and D3, passes every pose exactly, transmission angle 13.9° or more
+    L1: crank-rocker of D2 and D3, passes every pose exactly, transmission angle 29.1° or more
     """
 
     task: Task = field(kw_only=True)

@@ -162,8 +162,10 @@ def relative_resolution(task: Task, length: float) -> float:
     return max(min(position / length + angle, COARSE), ROUNDING)
 
 
-def within_digits(found: FoundDyad, task: Task) -> bool:
-    """Whether a dyad meets all poses of a task within the errors that their digits leave."""
+def within_digits(found: FoundDyad, task: Task, times: float = 1.0) -> bool:
+    """Whether a dyad meets all poses of a task within the errors, or a number of times as much,
+    that their digits leave.
+    """
     dyad, (position, angle) = found.dyad, task.resolution
     size = float(np.abs(task.poses.translation).max())
     parts = [float(np.abs(getattr(dyad, each.name)).max()) for each in fields(dyad)]
@@ -172,7 +174,8 @@ def within_digits(found: FoundDyad, task: Task) -> bool:
         lever = float(np.linalg.norm(dyad.fixed_pivot - task.poses.translation, axis=-1).max())
     turns = max(1.0, float(np.abs(task.poses.angle).max()))
     rounding = DISTANCE_ROUNDING * np.finfo(float).eps * (size + sum(parts) + lever * turns)
-    return bool(found.max_error <= MAX_POSE_ERRORS * (position + lever * angle) + rounding)
+    allowed = MAX_POSE_ERRORS * (position + lever * angle) + rounding
+    return bool(found.max_error <= times * allowed)
 
 
 def same_dyad(a: Dyad, b: Dyad, length: float) -> bool:
