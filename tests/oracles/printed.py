@@ -41,7 +41,8 @@ def in_full(text):
     rows, name = [], None
     for line in re.split(r"\nL1 in full.*\n", text)[1].splitlines():
         match = re.match(
-            r"(\w*) +(fixed pivot|moving pivot|length|line in [FM], normal|offset) +(.+?)(?: *±.*| *not determined.*)?$",
+            r"(\w*) +(fixed pivot|moving pivot|length|line in [FM], normal|offset) +"
+            r"(.+?)(?: *±.*| *not determined.*)?$",
             line,
         )
         if match is None:
