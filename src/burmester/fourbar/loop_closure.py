@@ -192,12 +192,13 @@ class DrivenLoop:
         if isinstance(second, PR):
             n, hand = np.exp(1j * second.normal_angle), complex_of(second.moving_pivot) * back
             off = (n.conj() * (c + j * (hand - first.offset))).real - second.offset
-            along = -off / (n.conj() * j).imag
+            along, slope = -off, (n.conj() * j).imag
         else:
             between = np.exp(1j * second.normal_angle) * back
             to = (complex_of(second.fixed_pivot) - c) * j.conj() + first.offset
-            along = (second.offset - (between.conj() * to).real) / between.imag
-        return c - j * (first.offset + 1j * along), j * back
+            along, slope = second.offset - (between.conj() * to).real, between.imag
+        with np.errstate(invalid="ignore", divide="ignore"):  # where both lines are parallel
+            return c - j * (first.offset + 1j * (along / slope)), j * back
 
     def closure_at(self, pose: Displacement) -> tuple[FloatArray | ComplexArray, ComplexArray]:
         """e^(i psi) (or psi) and e + iq at coupler places (*,): the inverse of `place`.
