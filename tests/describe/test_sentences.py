@@ -337,7 +337,7 @@ def run(*arguments):
 
 
 NEEDED = {
-    "transmission": (["--min-transmission", "89.9"], "transmission"),
+    "transmission": (["--min-transmission", "89.9", "--type", "crank-rocker"], "transmission"),
     "type": (["--type", "double-crank"], "type"),
     "within": (["--within", "1e-6"], "assembly"),
     "ratio": (["--link-ratio", "1.5", "--kinds", "RR"], "link ratio"),
@@ -542,7 +542,7 @@ def test_names_of_poses_are_used_in_what_is_said():
     assert closest["defects"][0]["poses"] == [3, 4]
 
 
-ASKED_IN_VAIN = Requirements(transmission_deg=89.9)
+ASKED_IN_VAIN = Requirements(transmission_deg=89.9, types=frozenset({"crank-rocker"}))
 
 
 @pytest.mark.parametrize("width", [60, 80, 200])

@@ -81,10 +81,16 @@ def test_a_linkage_that_works_is_found_where_the_closest_does_not(count, seed):
 
 @pytest.mark.parametrize(("count", "seed"), [(5, 4), (5, 21), (5, 29)])
 def test_scipy_comes_no_lower_from_there(count, seed):
-    """What is found is a minimum under its conditions: SLSQP, started there, ends there."""
+    """What is found is a minimum under its conditions: SLSQP, started there, ends there.
+
+    The sound ones and the trades have conditions of their own.
+    """
     rows, _, result = solved("noisy", count, seed)
     compared = 0
+    nearest = min(found.combined_error for found in result.usable)
     for found in result.usable:
+        if found.combined_error > nearest:
+            continue
         led = found.driver_first
         if not found.from_search or not isinstance(led.first, RR) or not isinstance(led.second, RR):
             continue

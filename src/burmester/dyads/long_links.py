@@ -21,8 +21,10 @@ OUT_OF_SIGHT = 10.0  # sizes of the picture; no picture shows both ends of a lon
 def swing(dyad: RR, poses: Displacement) -> float:
     """The angle, radians, by which one RR dyad's link turns over poses (N,).
 
-    Against F or against M, where it turns less.
+    Against F or against M, where it turns less.  An endless link does not turn.
     """
+    if not np.isfinite(dyad.radius):
+        return 0.0
     arm = poses.act(dyad.moving_pivot) - dyad.fixed_pivot
     direction = np.arctan2(arm[:, 1], arm[:, 0])
     return min(rotation_range(direction), rotation_range(direction - poses.angle))
