@@ -16,15 +16,9 @@ from burmester import InputError
 from burmester.fourbar.dyad import RR
 from burmester.geometry.displacement import Displacement
 from burmester.tasks.motion_task import Task
+from tests.oracles.five_poses import ROWS
 from tests.oracles.witness import places
 
-ROWS = [
-    (-3.9696, -2.6338, 37.23),
-    (-0.2223, -0.3211, 27.48),
-    (3.3279, 3.9568, 8.17),
-    (7.7225, 10.0149, -14.86),
-    (5.7615, 18.8535, -25.64),
-]
 CASES = ("ge2012-approximate", "motiongen-mixed5", "motiongen-prpr", "motiongen-rrpr")
 
 

@@ -9,14 +9,7 @@ from burmester import PoseError, Task
 from burmester.describe.sentences import best_sentences
 from burmester.numerics.arrays import ROUNDING
 from burmester.synthesis.motion_generation import synthesize
-
-ROWS = [
-    (-3.9696, -2.6338, 37.23),
-    (-0.2223, -0.3211, 27.48),
-    (3.3279, 3.9568, 8.17),
-    (7.7225, 10.0149, -14.86),
-    (5.7615, 18.8535, -25.64),
-]
+from tests.oracles.five_poses import ROWS
 
 
 @pytest.mark.parametrize(("miss", "said"), [(0.6, 1), (1.3, 1), (1e6, 2)])

@@ -14,15 +14,8 @@ from burmester.synthesis.outcome import dyad_advice
 from burmester.tasks.motion_class import classify_motion
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
+from tests.oracles.five_poses import ROWS
 from tests.oracles.witness import places
-
-ROWS = [
-    (-3.9696, -2.6338, 37.23),
-    (-0.2223, -0.3211, 27.48),
-    (3.3279, 3.9568, 8.17),
-    (7.7225, 10.0149, -14.86),
-    (5.7615, 18.8535, -25.64),
-]
 
 
 def test_dyads_that_are_all_exact_come_by_the_lengths_of_their_links():

@@ -7,15 +7,8 @@ from burmester import Limits, Point, Task, box, read_task, synthesize
 from burmester.fourbar.dyad import RR
 from burmester.geometry.displacement import Displacement
 from burmester.tasks.motion_kinds import Undetermined
+from tests.oracles.five_poses import ROWS as FIVE
 from tests.oracles.witness import places
-
-FIVE = [
-    (-3.9696, -2.6338, 37.23),
-    (-0.2223, -0.3211, 27.48),
-    (3.3279, 3.9568, 8.17),
-    (7.7225, 10.0149, -14.86),
-    (5.7615, 18.8535, -25.64),
-]
 
 
 def test_a_heavier_radian_buys_smaller_angle_errors_with_greater_position_errors():

@@ -88,7 +88,8 @@ def _prices(synthesis: Synthesis, best: FoundLinkage) -> Iterator[str]:
     assert closest is not None
     if closest.shortcomings and not best.shortcomings and _nearer(closest, best, size):
         near = explanation.nearness(closest, task, size)
-        yield f"Closest: {closest.id}, which {near}, but {' and '.join(closest.shortcomings)}."
+        short = " and ".join(closest.shortcomings)
+        yield f"Closest that works: {closest.id}, which {near}, but {short}."
     if best.combined_error <= digits_leave_open(synthesis.problem):
         return
     others = [each for each in synthesis.usable if is_trade(each, best)]
@@ -237,7 +238,8 @@ def footnotes(synthesis: Synthesis) -> str:
     if synthesis.linkages:
         counts = notation.length_of(math.radians(synthesis.length_per_radian), task)
         text += (
-            " Usable linkages come first, sound ones before others, then the nearest; "
+            " Usable linkages come first, of these the ones with good transmission and "
+            "proportions, then the nearest; "
             f"1° counts as {counts}."
         )
     if any(dyad.id[0] == "M" for found in synthesis.linkages for dyad in found.dyads):

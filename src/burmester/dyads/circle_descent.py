@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.dyads.circle_minima import newton_step
 from burmester.dyads.geometric_fit import DIVISOR_FLOOR, NEGLIGIBLE_GAIN, circle_terms
+from burmester.dyads.plain_circle_descent import newton_step
 from burmester.fourbar.dyad import RR
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray

@@ -7,7 +7,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from burmester.dyads.circle_minima import circle_ends
 from burmester.dyads.critical_points import residual_rows
 from burmester.dyads.face_descent import Block, LengthRange
 from burmester.dyads.face_search import Descents, FaceSearch
@@ -19,6 +18,7 @@ from burmester.dyads.parameter_homotopy import (
     StationaryPoints,
     circle_shape,
 )
+from burmester.dyads.plain_circle_descent import circle_ends
 from burmester.fourbar.dyad import RR
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Face

@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from burmester.dyads.selection import FoundDyad
 from burmester.fourbar.defects import Defect, Verdict, judge
 from burmester.fourbar.dyad import Dyad
-from burmester.fourbar.foot_points import rows_of
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.fourbar.pose_error import PoseError
@@ -22,7 +21,7 @@ from burmester.linkages.constraints import AllConstraints
 from burmester.linkages.found_linkage import FoundLinkage, Pair, Side, with_driver_first
 from burmester.linkages.possible_types import links_covariance, possible_types
 from burmester.linkages.quality import Standard
-from burmester.linkages.ranking import ranked
+from burmester.linkages.ranking import DEFAULT_TOLERANCE, ranked
 from burmester.linkages.requirement_check import Violation, violations
 from burmester.linkages.rounding import rounded
 from burmester.linkages.target import Target
@@ -42,8 +41,6 @@ from burmester.tasks.problem import SynthesisProblem
 
 __all__ = ["Candidates", "Evaluation"]
 
-# Motion sizes; a pose that is missed by more, or by as much in its angle, is an assembly defect.
-ASSEMBLY_REACH = 0.1
 MIN_LINK = 1e-6  # motion sizes; linkages with a shorter ground link or coupler are dropped
 EXACT_WEIGHT = 1e8  # weight of an exact pose in the covariance
 QUOTIENTS = DifferenceQuotients(stride=1e-7)  # of limits, by the dimensions
@@ -135,7 +132,7 @@ class Evaluation:
         frames, options = self.target.frames, self.problem.options
         for each in found[:MAX_ROUNDED]:
             batch = LinkageBatch.of([each.linkage]).to_canonical(frames)
-            rows = rows_of(frames.to_canonical(each.error.places), self.target.length)[None]
+            rows = self.target.rows_at(each.error.places)[None]
             driver = np.array([int(each.preferred_driver == "second")])
             own, rows = rounded(
                 batch,
@@ -164,10 +161,7 @@ class Evaluation:
             return found
         target, unit, out = self.target, float(self.target.frames.length), list(found)
         batch = LinkageBatch.of([found[k].linkage for k in index]).to_canonical(target.frames)
-        rows = [
-            rows_of(target.frames.to_canonical(found[k].error.places), target.length) for k in index
-        ]
-        places = target.places_of(np.stack(rows))
+        places = target.places_of(np.stack([target.rows_at(found[k].error.places) for k in index]))
         spreads = spread(batch, target.poses, places, target.length, tolerance / unit)
         for at, k in enumerate(index):
             out[k] = replace(out[k], spread=spreads.one(at, unit))
@@ -188,7 +182,7 @@ class Evaluation:
         position = np.array([error.position for error in errors]).reshape(shape)
         turn = np.array([error.angle for error in errors]).reshape(shape)
         asked, length = self.task.requirements, self.problem.length_per_radian
-        reach = asked.within or ASSEMBLY_REACH * float(self.target.frames.length)
+        reach = asked.within or DEFAULT_TOLERANCE * float(self.target.frames.length)
         if asked.within_deg is not None:
             length = reach / math.radians(asked.within_deg)
         missed = np.maximum(position, length * turn)

@@ -182,5 +182,4 @@ def _rows(found: list[FoundLinkage], evaluation: Evaluation, target: Target) -> 
         return np.empty((0, target.poses.shape[0], 3))
     if target is not evaluation.target:
         return target.places(evaluation.stacked([each.dyads for each in found]))
-    places = (target.frames.to_canonical(each.error.places) for each in found)
-    return np.stack([rows_of(each, target.length) for each in places])
+    return np.stack([target.rows_at(each.error.places) for each in found])

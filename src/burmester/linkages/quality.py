@@ -13,6 +13,7 @@ from typing import Self, final
 import numpy as np
 
 from burmester.fourbar.dyad import RR
+from burmester.fourbar.linkage import GRASHOF_SUMS
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import figure, least_angle, length_of, span
@@ -88,12 +89,7 @@ class Standard:
             out.append(f"has a link of {length_of(min(built), task)}")
         elif built and max(built) > LONGEST_LINK * self.span:
             out.append(f"has a link of {length_of(max(built), task)}")
-        if links and not self.change_point and abs(_excess(links)) < CHANGE_POINT * sum(links):
+        excess = float(np.abs(GRASHOF_SUMS @ links).min()) if links else math.inf
+        if not self.change_point and excess < CHANGE_POINT * sum(links):
             out.append("is at a change point")
         return tuple(out)
-
-
-def _excess(links: list[float]) -> float:
-    """The shortest and the longest link less the two others: 0 at a change point."""
-    ordered = np.sort(links)
-    return float(ordered[0] + ordered[3] - ordered[1] - ordered[2])

@@ -21,6 +21,7 @@ from burmester.tasks.notation import span
 from burmester.tasks.problem import SynthesisProblem
 
 __all__ = [
+    "DEFAULT_TOLERANCE",
     "TRADE_GAIN",
     "closest_usable",
     "digits_leave_open",
@@ -31,7 +32,9 @@ __all__ = [
 
 # A linkage that meets the standard comes first if its error is at most this many times the least.
 ERROR_RATIO = 3.0
-SAME_TOLERANCE = 0.1  # sizes of the motion: a pose's tolerance where the task states none
+# Sizes of the motion; a pose that is missed by more, or by as much in its angle, is not met, where
+# the task states no tolerance.
+DEFAULT_TOLERANCE = 0.1
 SAME_SHARE = 1e-3  # tolerances of a pose: linkages whose dimensions differ by less are one
 SAME_SPAN = 1e-2  # spans of the motion: farther apart, two linkages are never taken for one
 # Ratios of the greatest errors of two linkages: it is a trade where one error falls to this, and
@@ -132,7 +135,7 @@ def _same(one: FoundLinkage, other: FoundLinkage, problem: SynthesisProblem) -> 
     """
     size = max(span(problem.task), problem.length)
     within = problem.task.requirements.within
-    least = SAME_SHARE * (SAME_TOLERANCE * size if within is None else within)
+    least = SAME_SHARE * (DEFAULT_TOLERANCE * size if within is None else within)
     regions = other.uncertainty if one.usable == other.usable else None
     known = regions or (None, None)
     mine = one.linkage.first, one.linkage.second

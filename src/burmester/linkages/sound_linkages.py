@@ -12,7 +12,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from burmester.fourbar.foot_points import rows_of
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.linkages.defect_free_search import driving_sides, refined_on_branch
 from burmester.linkages.evaluation import Candidates, Evaluation
@@ -38,9 +37,7 @@ def sound_linkages(
     sides = driving_sides(asked)
     every, lead = np.repeat(np.arange(len(near)), len(sides)), np.tile(sides, len(near))
     batch = LinkageBatch.of([each.linkage for each in near]).to_canonical(target.frames)
-    rows = np.stack(
-        [rows_of(target.frames.to_canonical(each.error.places), target.length) for each in near]
-    )
+    rows = np.stack([target.rows_at(each.error.places) for each in near])
     refined = refined_on_branch(batch[every], rows[every], target, lead, steps=STEPS)
     index = np.flatnonzero(refined.met)
     candidates = Candidates(

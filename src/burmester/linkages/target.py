@@ -79,6 +79,10 @@ class Target:
         """Rows (*, 3) as displacements."""
         return places_of(rows, self.length)
 
+    def rows_at(self, places: Displacement) -> FloatArray:
+        """Rows (*, 3) of places in the task's own frames, the inverse of `places_of` and frames."""
+        return rows_of(self.frames.to_canonical(places), self.length)
+
     def combined_error(self, rows: FloatArray) -> FloatArray:
         """The error (*,) of rows (*, N, 3) that a refinement makes least; infinite where nan."""
         gap = np.linalg.norm(rows - rows_of(self.poses, self.length), axis=-1)

@@ -11,7 +11,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from burmester.fourbar.foot_points import rows_of
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.linkages.constraints import AllConstraints
 from burmester.linkages.defect_free_search import refined_on_branch
@@ -50,7 +49,7 @@ def trades(best: FoundLinkage, evaluation: Evaluation) -> list[FoundLinkage]:
 def _refined(best: FoundLinkage, target: Target) -> LinkageBatch | None:
     """A linkage refined for another length per radian; None where it was lost."""
     batch = LinkageBatch.of([best.linkage]).to_canonical(target.frames)
-    rows = rows_of(target.frames.to_canonical(best.error.places), target.length)[None]
+    rows = target.rows_at(best.error.places)[None]
     if best.from_search or target.requirements.has_any:
         driver = np.array([int(best.preferred_driver == "second")])
         found = refined_on_branch(batch, rows, target, driver, steps=STEPS)
