@@ -189,3 +189,14 @@ def test_tasks_of_practice_recommend_what_one_would_build():
         assert np.degrees(best.error.angle.max()) < 5
     assert sound >= 6
     assert trades >= 3
+
+
+def test_the_closest_linkage_is_made_sound_where_that_costs_little():
+    """Of the paper's ten poses the closest linkage transmits at 26 degrees."""
+    synthesis = synthesize(read_task("case:ge2012-approximate"))
+    best = synthesis.usable[0]
+    closest = min(synthesis.usable, key=lambda each: each.combined_error)
+    assert closest.shortcomings
+    assert not best.shortcomings
+    assert best.combined_error < 1.1 * closest.combined_error
+    assert comes_by(best, np.radians(30))
