@@ -117,10 +117,11 @@ def test_no_fewer_decimals_would_do(seed, second):
     linkage = Linkage(*dyads)
     error = PoseError.of(linkage, poses, 1.0)
     decimals = decimals_of_linkage(linkage, poses, error, 1.0, 1.0)
-    bounds = error.worst, error.angle.max()
+    bounds, middles = (error.worst, error.angle.max()), decimals.middles
 
     def kept(places, degrees):
-        errors = printed.errors_at([rounded(each, places, degrees) for each in dyads], poses, 1.0)
+        read = [rounded(a, places, degrees, b) for a, b in zip(dyads, middles, strict=True)]
+        errors = printed.errors_at(read, poses, 1.0)
         return all(e.max() <= GROWTH * b for e, b in zip(errors, bounds, strict=True))
 
     assert kept(decimals.lengths, decimals.degrees)
@@ -139,27 +140,30 @@ def test_of_many_poses_none_is_missed_by_more():
     poses, linkage = Displacement.from_poses(rows), Linkage(*dyads)
     error = PoseError.of(linkage, poses, 1.0)
     decimals = decimals_of_linkage(linkage, poses, error, 1.0, 1.0)
-    one = [rounded(each, decimals.lengths, decimals.degrees) for each in dyads]
+    one = [rounded(each, decimals.lengths, decimals.degrees, None) for each in dyads]
     position, angle = printed.errors_at(one, poses, 1.0)
     assert position.max() <= GROWTH * error.worst
     assert angle.max() <= GROWTH * error.angle.max()
 
 
-def rounded(dyad, places, degrees):
-    """A dyad as read from its printed numbers."""
+def rounded(dyad, places, degrees, middle):
+    """A dyad as read from its printed numbers; middle: of the line, if it has one."""
 
     def text(value, decimals):
         return np.array([float(f"{each:.{decimals}f}") for each in np.ravel(value)])
 
-    values = []
-    for name in dyad.__slots__:
-        value = getattr(dyad, name)
-        if name == "normal_angle":
-            values.append(np.radians(text(np.degrees(value), degrees))[0])
-        else:
-            shown = text(value, places)
-            values.append(shown if name.endswith("pivot") else shown[0])
-    return type(dyad)(*map(np.array, values))
+    if isinstance(dyad, RR):
+        return RR(
+            *(text(getattr(dyad, name), places) for name in dyad.__slots__[:2]),
+            text(dyad.radius, places)[0],
+        )
+    normal = np.radians(text(np.degrees(dyad.normal_angle) - 90, degrees)[0] + 90)
+    line = {
+        "normal_angle": normal,
+        "offset": text(middle, places) @ [np.cos(normal), np.sin(normal)],
+    }
+    side = "moving_pivot" if isinstance(dyad, PR) else "fixed_pivot"
+    return type(dyad)(**line, **{side: text(getattr(dyad, side), places)})
 
 
 @pytest.mark.parametrize("kind", ["svg", "dxf"])
@@ -200,7 +204,7 @@ def test_a_dyad_alone_keeps_its_errors(synthesis):
     poses = synthesis.task.poses
     for found in synthesis.dyads:
         decimals = decimals_of_dyad(found.dyad, poses, synthesis.length)
-        one = rounded(found.dyad, decimals.lengths, decimals.degrees)
+        one = rounded(found.dyad, decimals.lengths, decimals.degrees, decimals.middles[0])
         value = residual_of(one, poses)
         least = 1e-6 * synthesis.length if found.max_error < 1e-11 * synthesis.length else 0.0
         assert np.abs(value).max() <= GROWTH * max(found.max_error, least)

@@ -4,6 +4,7 @@ import math
 import re
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from burmester.describe.dimensions import dimensions
@@ -27,12 +28,21 @@ def synthesis(request):
     return found
 
 
-def numbers_of(dyad):
-    """All dimensions of a dyad, in the order in which people read them."""
+def numbers_of(dyad, places):
+    """All dimensions of a dyad, in the order in which people read them; places: x + iy and turn."""
     if isinstance(dyad, RR):
         return [*dyad.fixed_pivot, *dyad.moving_pivot, dyad.radius]
-    pivot = dyad.fixed_pivot if isinstance(dyad, RP) else dyad.moving_pivot
-    return [*pivot, math.degrees(dyad.normal_angle), dyad.offset]
+    d, turn = places.translation @ [1, 1j], np.exp(1j * places.angle)
+    if isinstance(dyad, PR):
+        pivot, point = dyad.moving_pivot, d + turn * complex(*dyad.moving_pivot)
+    else:
+        pivot, point = dyad.fixed_pivot, (complex(*dyad.fixed_pivot) - d) / turn
+    normal = np.exp(1j * float(dyad.normal_angle))
+    ahead = 1j * normal if (1j * normal).real > 0 else -1j * normal
+    along = (point * np.conj(ahead)).real
+    along = along[np.isfinite(along)]
+    middle = dyad.offset * normal + (along.min() + along.max()) / 2 * ahead
+    return [*pivot, middle.real, middle.imag, math.degrees(np.angle(ahead))]
 
 
 def test_every_dimension_is_its_number_rounded(synthesis):
@@ -43,7 +53,7 @@ def test_every_dimension_is_its_number_rounded(synthesis):
         for dyad in found.dyads:
             kinds.add(type(dyad.dyad))
             shown = [m for row in rows if row.dyad == dyad.id for m in NUMBER.finditer(row.value)]
-            for match, value in zip(shown, numbers_of(dyad.dyad), strict=True):
+            for match, value in zip(shown, numbers_of(dyad.dyad, found.error.places), strict=True):
                 last = 10.0 ** -len(match[1] or "")
                 assert abs(float(match[0]) - float(value)) <= 0.5001 * last, (found.id, match[0])
     assert kinds == {RR, PR, RP}
@@ -93,7 +103,7 @@ def test_what_is_not_determined_has_no_half_width(synthesis):
                             assert row.give.startswith(words[0])
                         case "moving pivot":
                             assert row.give == words[1]
-                        case "length" | "offset":
+                        case "length" | "line in F, through" | "line in M, through":
                             assert (row.give == "not determined") == open_length
                         case _:
                             assert (row.give == "not determined") == (angle > 0.05)

@@ -9,7 +9,8 @@ from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
 from tests.oracles.tracer import back_on, directions, gap
 
-WHAT = r"(fixed pivot|moving pivot|length|line in [FM], normal|offset)"  # names of dimensions
+# Names of dimensions.
+WHAT = r"(fixed pivot|moving pivot|length|line in [FM], through|direction)"
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 STEPS = 200  # along the coupler's motion, to the place nearest to a pose
 
@@ -20,14 +21,14 @@ def numbers(text):
 
 def dyad_of(rows):
     """A dyad from its printed dimensions: pairs of a name and a value."""
-    told = {re.sub(r" in [FM], normal", "", name): numbers(value) for name, value in rows}
+    told = {re.sub(r" in [FM], through", "", name): numbers(value) for name, value in rows}
     fixed, moving = (np.array(told.get(f"{each} pivot", ())) for each in ("fixed", "moving"))
     if "length" in told:
         return RR(fixed, moving, np.array(told["length"][0]))
-    (angle,), (offset,) = told["line"], told["offset"]
-    if len(fixed):
-        return RP(fixed, np.array(math.radians(angle)), np.array(offset))
-    return PR(np.array(math.radians(angle)), np.array(offset), moving)
+    (direction,), through = told["direction"], complex(*told["line"])
+    angle = math.radians(direction) - math.pi / 2
+    line = np.array(angle), np.array((through * np.exp(-1j * angle)).real)
+    return RP(fixed, *line) if len(fixed) else PR(*line, moving)
 
 
 def dyads_of(rows):
@@ -41,8 +42,7 @@ def in_full(text):
     rows, name = [], None
     for line in re.split(r"\nL1 in full.*\n", text)[1].splitlines():
         match = re.match(
-            r"(\w*) +(fixed pivot|moving pivot|length|line in [FM], normal|offset) +"
-            r"(.+?)(?: *±.*| *not determined.*)?$",
+            rf"(\w*) +{WHAT} +(.+?)(?: *±.*| *not determined.*)?$",
             line,
         )
         if match is None:

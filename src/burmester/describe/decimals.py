@@ -9,7 +9,7 @@ back, and the linkage that they make is moved to the poses.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import final
 
 import numpy as np
@@ -23,7 +23,7 @@ from burmester.fourbar.pose_error import PoseError, error_frames
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ROUNDING, FloatArray
 
-__all__ = ["Decimals", "decimals_of_dyad", "decimals_of_linkage", "figures_of"]
+__all__ = ["Decimals", "decimals_of_dyad", "decimals_of_linkage", "direction_deg", "figures_of"]
 
 GROWTH = 1.1  # times the promised error; the printed dimensions miss by no more
 FINEST = 1e-6  # lengths and radians; where "exact" is promised, printed dimensions miss by no more
@@ -37,31 +37,48 @@ class Decimals:
     """Decimals of printed dimensions: of `lengths`, and of angles in `degrees`.
 
     error: the greatest position and angle (radians) errors of what is printed.
+    middles: of each dyad the point (2,) by which its line is told, or None where it has no line.
     """
 
     lengths: int
     degrees: int
     error: tuple[float, float]
+    middles: tuple[FloatArray | None, ...]
 
-    def printed(self, dyad: Dyad) -> Dyad:
-        """The dyad that somebody has who reads the printed dimensions."""
+    def printed(self, *dyads: Dyad) -> tuple[Dyad, ...]:
+        """The dyads that somebody has who reads the printed dimensions."""
+        return tuple(map(self._printed, dyads, self.middles))
+
+    def _printed(self, dyad: Dyad, middle: FloatArray | None) -> Dyad:
 
         def length(value: FloatArray) -> FloatArray:
             texts = [f"{each:.{self.lengths}f}" for each in np.ravel(value).tolist()]
             return np.array([float(text) for text in texts]).reshape(np.shape(value))
 
-        def angle(value: FloatArray) -> FloatArray:
-            return np.array(math.radians(float(f"{math.degrees(float(value)):.{self.degrees}f}")))
+        def angle(value: float) -> FloatArray:
+            return np.array(math.radians(float(f"{value:.{self.degrees}f}")))
+
+        def line(side: PR | RP) -> tuple[FloatArray, FloatArray]:
+            assert middle is not None
+            normal = angle(direction_deg(side)) + math.pi / 2
+            n = np.array([math.cos(normal), math.sin(normal)])
+            return normal, np.asarray(length(middle) @ n)
 
         match dyad:
             case RR():
                 return RR(*map(length, (dyad.fixed_pivot, dyad.moving_pivot, dyad.radius)))
             case PR():
-                return PR(angle(dyad.normal_angle), length(dyad.offset), length(dyad.moving_pivot))
+                return PR(*line(dyad), length(dyad.moving_pivot))
             case RP():
-                return RP(length(dyad.fixed_pivot), angle(dyad.normal_angle), length(dyad.offset))
+                return RP(length(dyad.fixed_pivot), *line(dyad))
             case PP():
-                return PP(angle(dyad.angle))
+                return PP(angle(math.degrees(float(dyad.angle))))
+
+
+def direction_deg(line: PR | RP) -> float:
+    """The direction of a slider's line in its own frame, degrees in (-90, 90]."""
+    turned = math.degrees(float(line.normal_angle)) % 180  # that of the normal, in [0, 180)
+    return turned - 90 if turned > 0 else 90.0
 
 
 def figures_of(size: float) -> int:
@@ -101,7 +118,7 @@ def decimals_of_linkage(
     if not len(here) or any(isinstance(dyad, PP) for dyad in dyads):
         return trials[0]
     errors = _errors_of(
-        [linkage, *(Linkage(*map(each.printed, dyads)) for each in trials)],
+        [linkage, *(Linkage(*each.printed(*dyads)) for each in trials)],
         poses[here],
         error.places[here],
         length,
@@ -126,7 +143,7 @@ def decimals_of_dyad(dyad: Dyad, poses: Displacement, size: float) -> Decimals:
     exact = worst < ROUNDING * (1.0 if isinstance(dyad, PP) else size)
     promised = np.array([least, least] if exact else [rms, worst])
     trials = _trials((dyad,), poses, promised[[0, 0]], 0)
-    values = np.array([errors(each.printed(dyad)) for each in trials])
+    values = np.array([errors(each.printed(dyad)[0]) for each in trials])
     return _first(trials, np.asarray((values <= GROWTH * promised).all(axis=-1)), values)
 
 
@@ -149,25 +166,29 @@ def _trials(
     """
     position, angle = promised.tolist()
     first = max(figures_of(position), at_least)
+    middles = tuple(
+        dyad.middle_of_travel(places) if isinstance(dyad, PR | RP) else None for dyad in dyads
+    )
     lines = [dyad for dyad in dyads if isinstance(dyad, PR | RP)]
-    lever = max((_lever(dyad, places) for dyad in lines), default=0.0)
+    lever = max((_half_travel(dyad, places) for dyad in lines), default=0.0)
     turned = figures_of(math.degrees(angle))
     out = []
     for lengths in range(first, first + MOST_TRIALS):
         along = lengths + math.log10(math.radians(lever)) if lever > 0 else 0.0
-        out.append(Decimals(lengths, max(turned, math.ceil(along)), (math.nan, math.nan)))
+        decimals = max(turned, math.ceil(along))
+        out.append(Decimals(lengths, decimals, (math.nan, math.nan), middles))
     return out
 
 
-def _lever(line: PR | RP, places: Displacement) -> float:
-    """The distance of the farthest point in use of a line from the foot of its normal."""
+def _half_travel(line: PR | RP, places: Displacement) -> float:
+    """The distance of the farthest point in use of a line from the middle of these points."""
     if isinstance(line, PR):
         point = places.act(line.moving_pivot)
     else:
         point = places.inverse().act(line.fixed_pivot)
     angle = float(line.normal_angle)
     along = point @ np.array([-math.sin(angle), math.cos(angle)])
-    return float(np.abs(along).max(initial=0.0))
+    return float(np.ptp(along)) / 2 if len(along) else 0.0
 
 
 def _errors_of(
@@ -192,4 +213,4 @@ def _first(trials: list[Decimals], kept: NDArray[np.bool_], errors: FloatArray) 
     """The first of the trials that keeps what is promised, else the last one."""
     index = int(np.argmax(kept)) if kept.any() else len(trials) - 1
     position, angle = errors[index].tolist()
-    return Decimals(trials[index].lengths, trials[index].degrees, (position, angle))
+    return replace(trials[index], error=(position, angle))

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
-from burmester.describe.decimals import Decimals, decimals_of_dyad
+from burmester.describe.decimals import Decimals, decimals_of_dyad, direction_deg
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.linkages.found_linkage import FoundLinkage
-from burmester.numerics.arrays import ROUNDING
+from burmester.numerics.arrays import ROUNDING, FloatArray
 from burmester.synthesis.result import Synthesis
 from burmester.tasks import notation
 
@@ -36,31 +34,30 @@ def sides(dyad: Dyad, decimals: Decimals) -> tuple[str, str, str]:
     """A dyad's pivots or lines on the ground and on the body, and its link's length or "slider"."""
     digits = decimals.lengths
 
-    def point(pivot: np.ndarray) -> str:
+    def point(pivot: FloatArray) -> str:
         return f"({fixed(pivot[0], digits)}, {fixed(pivot[1], digits)})"
 
-    def length(value: np.ndarray) -> str:
-        return fixed(float(value), digits)
-
-    def angle(value: np.ndarray) -> str:
-        return f"{fixed(math.degrees(float(value)), decimals.degrees)}°"
+    def angle(value: float) -> str:
+        return f"{fixed(value, decimals.degrees)}°"
 
     def line(side: PR | RP) -> str:
-        return f"normal {angle(side.normal_angle)},\noffset {length(side.offset)}"
+        (middle,) = decimals.middles
+        assert middle is not None
+        return f"through {point(middle)},\nat {angle(direction_deg(side))}"
 
     match dyad:
         case RR():
             return (
                 point(dyad.fixed_pivot),
                 point(dyad.moving_pivot),
-                length(dyad.radius),
+                fixed(float(dyad.radius), digits),
             )
         case PR():
             return line(dyad), point(dyad.moving_pivot), "slider"
         case RP():
             return point(dyad.fixed_pivot), line(dyad), "slider"
         case PP():
-            return f"angle {angle(dyad.angle)}", "-", "slider"
+            return f"angle {angle(math.degrees(float(dyad.angle)))}", "-", "slider"
 
 
 def dyad_error(synthesis: Synthesis, value: float) -> str:

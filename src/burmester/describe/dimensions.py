@@ -6,13 +6,17 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-import numpy as np
-
-from burmester.describe.decimals import Decimals, decimals_of_linkage, figures_of
+from burmester.describe.decimals import (
+    Decimals,
+    decimals_of_linkage,
+    direction_deg,
+    figures_of,
+)
 from burmester.describe.digits import fixed
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.linkages.uncertainty import DyadUncertainty, PivotRegion
+from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Synthesis
 
 __all__ = ["Dimension", "certain", "decimals_of", "dimensions", "dimensions_of"]
@@ -65,25 +69,31 @@ def dimensions_of(
     """All dimensions of two dyads to these decimals, with half-widths where regions are given."""
     return [
         Dimension(name, what, value, "" if region is None else give)
-        for dyad, name, region in zip(dyads, ids, regions, strict=True)
-        for what, value, give in _of_dyad(dyad, decimals, region)
+        for dyad, name, region, middle in zip(dyads, ids, regions, decimals.middles, strict=True)
+        for what, value, give in _of_dyad(dyad, decimals, region, middle)
     ]
 
 
 def _of_dyad(
-    dyad: Dyad, decimals: Decimals, region: DyadUncertainty | None
+    dyad: Dyad, decimals: Decimals, region: DyadUncertainty | None, middle: FloatArray | None
 ) -> Iterator[tuple[str, str, str]]:
-    """Each dimension of a dyad: its name, its value and its half-width."""
+    """Each dimension of a dyad: its name, its value and its half-width.
+
+    middle: the point by which its line is told, if it has one.
+    """
     digits = decimals.lengths
 
-    def point(pivot: np.ndarray, region: PivotRegion | None) -> tuple[str, str]:
-        text = f"({fixed(pivot[0], digits)}, {fixed(pivot[1], digits)})"
+    def place(pivot: FloatArray) -> str:
+        return f"({fixed(pivot[0], digits)}, {fixed(pivot[1], digits)})"
+
+    def point(pivot: FloatArray, region: PivotRegion | None) -> tuple[str, str]:
+        text = place(pivot)
         if region is not None and not region.determined:
             return text, _not_determined(region)
         return text, _give(region.half_width if region else 0.0, digits)
 
-    def degrees(angle: np.ndarray) -> str:
-        return f"{fixed(math.degrees(float(angle)), decimals.degrees)}°"
+    def degrees(angle: float) -> str:
+        return f"{fixed(angle, decimals.degrees)}°"
 
     if isinstance(dyad, RR | RP):
         yield "fixed pivot", *point(dyad.fixed_pivot, region.fixed if region else None)
@@ -97,16 +107,17 @@ def _of_dyad(
     if isinstance(dyad, PR | RP):
         line = region.line if region else None
         frame = "line in F" if isinstance(dyad, PR) else "line in M"
+        give = _give(line.offset if line else 0.0, digits, " across")
+        if line is not None and not line.offset_determined:
+            give = NOT_DETERMINED
+        assert middle is not None
+        yield f"{frame}, through", place(middle), give
         give = _give(math.degrees(line.angle) if line else 0.0, decimals.degrees, "°")
         if line is not None and not line.angle_determined:
             give = NOT_DETERMINED
-        yield f"{frame}, normal", degrees(dyad.normal_angle), give
-        give = _give(line.offset if line else 0.0, digits, " at mid-travel")
-        if line is not None and not line.offset_determined:
-            give = NOT_DETERMINED
-        yield "offset", fixed(float(dyad.offset), digits), give
+        yield "direction", degrees(direction_deg(dyad)), give
     if isinstance(dyad, PP):
-        yield "angle", degrees(dyad.angle), ""
+        yield "angle", degrees(math.degrees(float(dyad.angle))), ""
 
 
 def _not_determined(region: PivotRegion) -> str:

@@ -135,6 +135,17 @@ class PR(_Dimensions):
         normal = np.stack([np.cos(self.normal_angle), np.sin(self.normal_angle)], axis=-1)
         return _wrench(normal, poses.rotate(self.moving_pivot))
 
+    def middle_of_travel(self, places: Displacement) -> FloatArray:
+        """The middle (2,) in F of the stretch of one line that places (N,) use.
+
+        Places that are nan do not count; without any it is the foot of the normal.
+        """
+        n = np.array([np.cos(self.normal_angle), np.sin(self.normal_angle)])
+        ahead = np.array([-n[1], n[0]])
+        along = places.act(self.moving_pivot) @ ahead
+        low, high = (f.reduce(along, initial=np.nan) for f in (np.fmin, np.fmax))
+        return np.asarray(self.offset * n + np.nan_to_num((low + high) / 2) * ahead)
+
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
@@ -178,6 +189,14 @@ class RP(_Dimensions):
         """The derivatives (*, 3) of the residual by d1, d2 and the angle."""
         normal = np.stack([np.cos(self.normal_angle), np.sin(self.normal_angle)], axis=-1)
         return _wrench(-poses.rotate(normal), self.fixed_pivot - poses.translation)
+
+    def middle_of_travel(self, places: Displacement) -> FloatArray:
+        """The middle (2,) in M of the stretch of one line that places (N,) use.
+
+        Places that are nan do not count; without any it is the foot of the normal.
+        """
+        turned = PR(self.normal_angle, self.offset, self.fixed_pivot)
+        return turned.middle_of_travel(places.inverse())
 
 
 @final

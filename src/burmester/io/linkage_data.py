@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from burmester.describe.decimals import direction_deg
 from burmester.dyads.selection import FoundDyad
 from burmester.fourbar.defects import Defect, Driven
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
@@ -38,8 +39,8 @@ def poses_data(poses: Displacement) -> list[dict[str, float]]:
     return [{"x": x, "y": y, "angle_deg": angle} for (x, y), angle in rows]
 
 
-def dyad_data(found: FoundDyad) -> dict[str, Any]:
-    """A dyad by its kind's own dimensions."""
+def dyad_data(found: FoundDyad, places: Displacement) -> dict[str, Any]:
+    """A dyad by its kind's own dimensions; places (N,): of the coupler, or poses."""
     dyad = found.dyad
     data: dict[str, Any] = {
         "id": found.id,
@@ -56,18 +57,24 @@ def dyad_data(found: FoundDyad) -> dict[str, Any]:
             data["moving_pivot"] = dyad.moving_pivot.tolist()
             data["radius"] = float(dyad.radius)
         case PR():
-            data["line"] = _line(dyad)
+            data["line"] = _line(dyad, places)
             data["moving_pivot"] = dyad.moving_pivot.tolist()
         case RP():
             data["fixed_pivot"] = dyad.fixed_pivot.tolist()
-            data["line"] = _line(dyad)
+            data["line"] = _line(dyad, places)
         case PP():
             data["angle_deg"] = math.degrees(dyad.angle)
     return data
 
 
-def _line(dyad: PR | RP) -> dict[str, float]:
-    return {"normal_deg": math.degrees(dyad.normal_angle), "offset": float(dyad.offset)}
+def _line(dyad: PR | RP, places: Displacement) -> dict[str, Any]:
+    """A slider's line by its normal, and by the middle of its travel with its direction."""
+    return {
+        "normal_deg": math.degrees(dyad.normal_angle),
+        "offset": float(dyad.offset),
+        "point": dyad.middle_of_travel(places).tolist(),
+        "direction_deg": direction_deg(dyad),
+    }
 
 
 def linkage_data(found: FoundLinkage, tolerance: float | None = None) -> dict[str, Any]:
@@ -80,7 +87,7 @@ def linkage_data(found: FoundLinkage, tolerance: float | None = None) -> dict[st
         "driver": found.driver,
         "type": found.type,
         "possible_types": [found.type, *found.other_types],
-        "dyads": [dyad_data(dyad) for dyad in found.dyads],
+        "dyads": [dyad_data(dyad, found.error.places) for dyad in found.dyads],
         "position_error": _errors(found.error.position),
         "angle_error_deg": _errors(np.degrees(found.error.angle)),
         "combined_error": number(found.combined_error),

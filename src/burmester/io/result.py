@@ -47,7 +47,7 @@ def synthesis_data(synthesis: Synthesis) -> dict[str, Any]:
         "method": synthesis.method,
         "task": task_data(task),
         "motion": None if motion is None else motion_data(motion),
-        "dyads": [dyad_data(dyad) for dyad in synthesis.dyads],
+        "dyads": [dyad_data(dyad, synthesis.task.poses) for dyad in synthesis.dyads],
         "linkages": [linkage_data(each, tolerance) for each in synthesis.linkages],
         "warnings": list(map(message_data, synthesis.warnings)),
         "characteristic_length": synthesis.length,

@@ -92,7 +92,7 @@ def _dyad(synthesis: Synthesis, found: FoundDyad) -> dict[str, Any]:
     """A dyad alone: its numbers, and the words for them."""
     ground, body, length = digits.sides(found.dyad, digits.fitted_decimals(synthesis, found.dyad))
     return {
-        **dyad_data(found),
+        **dyad_data(found, synthesis.task.poses),
         "said": {
             "ground": ground.replace("\n", " "),
             "body": body.replace("\n", " "),
@@ -116,7 +116,7 @@ def _linkage(
     return {
         **data,
         "type": found.type,
-        "led": [dyad_data(first), dyad_data(second)],
+        "led": [dyad_data(each, found.error.places) for each in (first, second)],
         "said": {
             "verdict": "usable" if found.usable else "not usable",
             "met": explanation.nearness(found, task, synthesis.length),
