@@ -1,8 +1,10 @@
 """Articles, plurals and lists, beside sentences written by hand."""
 
+import math
+
 import pytest
 
-from burmester.wording import count, listed, shortened, with_article
+from burmester.wording import count, figure, in_runs, listed, shortened, with_article
 
 
 @pytest.mark.parametrize(
@@ -36,3 +38,37 @@ def test_long_lists_are_counted_at_the_end():
     assert listed(shortened([*"abcd"], 4)) == "a, b, c and d"
     assert listed(shortened([*"abcde"], 4)) == "a, b and 3 others"
     assert listed(shortened([*"abcdefg"], 3, "times")) == "a and 6 times"
+
+
+@pytest.mark.parametrize(
+    ("numbers", "text"),
+    [
+        ("3", "3"),
+        ("3 4", "3 and 4"),
+        ("3 4 5", "3-5"),
+        ("1 2 4 5 6 9", "1, 2, 4-6 and 9"),
+        ("66 67 68 69 71 73 75 77 79 81 82 83", "66-69, 71, 73, 75, 77 and 4 others"),
+        ("open 2 3 4 closed 07 8", "open, 2-4, closed, 07 and 8"),
+        ("5 4 3", "5, 4 and 3"),
+    ],
+)
+def test_successive_numbers_are_told_as_ranges(numbers, text):
+    assert in_runs(numbers.split(), 6) == text
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (0.0, "0"),
+        (1.234e-4, "0.00012"),
+        (12.34, "12"),
+        (99.4, "99"),
+        (123.4, "123"),
+        (123456.0, "123456"),
+        (1.234e6, "1.2e6"),
+        (-1.234e12, "-1.2e12"),
+        (math.inf, "-"),
+    ],
+)
+def test_a_figure_has_two_digits_and_no_plus(value, text):
+    assert figure(value) == text

@@ -1,10 +1,13 @@
-"""The few rules of English that messages share: articles, plurals, lists of names."""
+"""The few rules that messages share: articles, plurals, lists of names, figures."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
-__all__ = ["count", "listed", "shortened", "with_article"]
+__all__ = ["count", "figure", "in_runs", "listed", "shortened", "with_article"]
+
+LEAST_RUN = 3  # successive numbers; from it on they are told as a range
 
 
 def with_article(noun: str) -> str:
@@ -21,6 +24,41 @@ def listed(names: Sequence[str], last: str = "and") -> str:
     """Names in one phrase: "D1", "D1 and D2", "D1, D2 or D3" (last: the word before the end)."""
     *most, end = names
     return f"{', '.join(most)} {last} {end}" if most else end
+
+
+def figure(value: float) -> str:
+    """A figure with two digits, or its whole part if that has more: "0.00011", "4.5", "153"."""
+    if not math.isfinite(value):
+        return "-"
+    if 99.5 <= abs(value) < 1e6:
+        return f"{value:.0f}"
+    return f"{value:.2g}".replace("e+0", "e").replace("e+", "e")
+
+
+def in_runs(names: Sequence[str], most: int, last: str = "and") -> str:
+    """Names in one phrase, successive numbers as ranges: "66-69, 71 and 40 others".
+
+    At most `most` names or ranges; last: the word before the end.
+    """
+    runs: list[list[str]] = []
+    for name in names:
+        before = runs[-1][-1] if runs else ""
+        if _is_number(name) and _is_number(before) and int(name) == int(before) + 1:
+            runs[-1].append(name)
+        else:
+            runs.append([name])
+    parts: list[list[str]] = []
+    for run in runs:
+        parts += [run] if len(run) >= LEAST_RUN else [[name] for name in run]
+    texts = [f"{part[0]}-{part[-1]}" if len(part) > 1 else part[0] for part in parts]
+    if len(parts) > most:
+        rest = sum(map(len, parts[most - 1 :]))
+        texts = [*texts[: most - 1], f"{rest} others"]
+    return listed(texts, last)
+
+
+def _is_number(name: str) -> bool:
+    return name.isascii() and name.isdigit() and len(name) < 10
 
 
 def shortened(names: Sequence[str], most: int, rest: str = "others") -> list[str]:

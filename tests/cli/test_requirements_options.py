@@ -29,7 +29,7 @@ def run(monkeypatch, tmp_path):
         return run.found
 
     monkeypatch.setattr("burmester.synthesis.motion_generation.synthesize", synthesize)
-    monkeypatch.setattr("burmester.io.terminal.show_synthesis", lambda *_: None)
+    monkeypatch.setattr("burmester.io.terminal.show_synthesis", lambda *_, **__: None)
 
     def run(*arguments, text=CSV, suffix=".csv"):
         calls.clear()
@@ -97,7 +97,7 @@ def test_all_of_them_at_once(run):
         (("--round", "1e-1"), {"rounding_step": 0.1}),
         (("--stock", "30, 10,20.5"), {"stock_lengths": (30, 10, 20.5)}),
         (("--stock", "30", "--stock", "10,5"), {"stock_lengths": (30, 10, 5)}),
-        (("--accept-uncertain",), {}),
+        (("--require-determined",), {}),
         (
             ("--round", "2", "--stock", "4", "--tolerance", ".5"),
             {"rounding_step": 2, "stock_lengths": (4,), "manufacturing_tolerance": 0.5},
@@ -113,7 +113,8 @@ def test_what_is_made_of_it_reaches_the_synthesis(run, arguments, expected):
 
 def test_a_standard_deviation_replaces_what_the_digits_say(run, read):
     """By the variance of an even spread, which is a third of its half-width squared."""
-    assert run().task.resolution == (0.05, math.radians(0.005))
+    fine = CSV.replace("2.5", "2.500")
+    assert run(text=fine).task.resolution == (0.0005, math.radians(0.005))
     position, angle = run("--pose-sigma", "0.02,0.3").task.resolution
     rng = np.random.default_rng(1)
     spread = rng.uniform(-1, 1, 200_000).std()
@@ -289,8 +290,8 @@ def test_limits_and_requirements_of_file_and_command_line_add_up(run):
 
 @pytest.mark.parametrize(
     ("usable", "determined", "codes"),
-    [((), False, (1, 1)), ((1,), False, (1, 0)), ((1,), True, (0, 0))],
+    [((), False, (1, 1)), ((1,), False, (0, 1)), ((1,), True, (0, 0))],
 )
-def test_exit_code_0_means_a_usable_linkage_that_is_known(run, usable, determined, codes):
+def test_exit_code_0_means_a_usable_linkage(run, usable, determined, codes):
     run.found = SimpleNamespace(usable=usable, determined=determined)
-    assert (run().code, run("--accept-uncertain").code) == codes
+    assert (run().code, run("--require-determined").code) == codes

@@ -25,5 +25,5 @@ def test_a_linkage_that_fails_is_closest_only_if_it_is_nearer_than_by_rounding(m
     failing = next(each for each in linkages if not each.usable)
     sentences = list(best_sentences(replace(synthesis, linkages=tuple(linkages))))
     assert len(sentences) == said
-    assert sentences[0].startswith("Best: L1, a crank-rocker")
+    assert sentences[0].startswith("L1, a crank-rocker")
     assert all(f"the closest one, {failing.id}, " in text for text in sentences[1:])

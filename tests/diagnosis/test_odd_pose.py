@@ -25,8 +25,8 @@ from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.io.cases import load
 from burmester.io.reading.poses import read_task
 from burmester.tasks.motion_class import classify_motion
-from burmester.tasks.notation import figure
 from burmester.tasks.requirements import Requirements
+from burmester.wording import figure
 from tests.oracles.witness import misses, random_four_bar, random_poses
 
 CASE = load("ge2012-exact")

@@ -6,7 +6,7 @@ from importlib import resources
 import numpy as np
 import pytest
 
-from burmester.tasks.notation import figure
+from burmester.wording import figure
 from tests.oracles import browser as browsers
 
 # Two digits, at both ends of each way to write a number, and carried over by rounding.

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 __all__ = ["ReadResult", "Result", "read_result"]
 
 LINES = 12  # of a `repr`, at most
-SENTENCES = 4  # of these, on the best linkage and as warnings; `warnings` has them all
+SENTENCES = 5  # of these, above the table; `outcome` and `warnings` have them all
 
 AnyLinkage = TypeVar("AnyLinkage", ResultLinkage, ReadLinkage)
 
@@ -111,16 +111,17 @@ class _RankedLinkages(Generic[AnyLinkage]):
         """One linkage on its way through the poses: the first by rank, or the one named."""
         return self[0 if linkage is None else linkage].animate(**how)
 
-    def _text(self, sentences: Sequence[str] = ()) -> str:
-        """The result in `LINES` lines at most."""
+    def _text(self, answer: Sequence[str] = (), warnings: Sequence[str] = ()) -> str:
+        """The result in `LINES` lines at most: the answer, what came of the task, warnings."""
         outcome, linkages = self._parts()
-        lines = [outcome.message, *sentences]
+        lines = [*answer, outcome.message, *warnings][:SENTENCES]
         lines += as_text([each.saved() for each in linkages], LINES - len(lines) - 1)
         return "\n".join(lines)
 
-    def _html(self, sentences: Sequence[str] = ()) -> str:
+    def _html(self, answer: Sequence[str] = (), warnings: Sequence[str] = ()) -> str:
         outcome, linkages = self._parts()
-        first: str = "".join(f"<p>{escape(each)}</p>" for each in (outcome.message, *sentences))
+        sentences = *answer, outcome.message, *warnings
+        first: str = "".join(f"<p>{escape(each)}</p>" for each in sentences)
         if not linkages:
             return f"<div>{first}</div>"
         table: str = as_html([each.saved() for each in linkages])
@@ -183,11 +184,11 @@ class Result(_RankedLinkages[ResultLinkage], Synthesis):
         return Path(path)
 
     def __repr__(self) -> str:
-        warnings = (f"{each.code}: {each.message}" for each in self.warnings)
-        return self._text([*best_sentences(self), *warnings][:SENTENCES])
+        warnings = [f"{each.code}: {each.message}" for each in self.warnings]
+        return self._text(best_sentences(self), warnings)
 
     def _repr_html_(self) -> str:
-        return self._html([*best_sentences(self), *(each.message for each in self.warnings)])
+        return self._html(best_sentences(self), [each.message for each in self.warnings])
 
 
 @final

@@ -27,13 +27,16 @@ from burmester.errors import BurmesterError, InputError
 __all__ = ["main"]
 
 
-@click.group(context_settings={"help_option_names": ["-h", "--help"]})
+@click.group(context_settings={"help_option_names": ["-h", "--help"]}, invoke_without_command=True)
 @click.version_option(__version__, prog_name="burmester")
-def burmester() -> None:
+@click.pass_context
+def burmester(context: click.Context) -> None:
     """Planar four-bar linkages that guide a body through given poses.
 
     Start with: burmester synthesize poses.csv
     """
+    if context.invoked_subcommand is None:
+        click.echo(context.get_help())
 
 
 for command in (new, check, synthesize, report, export, explain, cases, reproduce):

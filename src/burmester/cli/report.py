@@ -34,6 +34,7 @@ def report(poses: str, *, output: str | None, title: str | None, force: bool, **
     It is one file, and needs no network.  The options are those of `burmester synthesize`, where
     REGION and NAME are explained.
     """
+    from burmester.describe.sentences import headline
     from burmester.io import files
     from burmester.report import page
 
@@ -42,5 +43,6 @@ def report(poses: str, *, output: str | None, title: str | None, force: bool, **
     files.require_writable(path, force=force)
     synthesis = run_synthesis(poses, **given)
     files.write(path, page(synthesis, title or name), force=force)
-    click.echo(f"{synthesis.outcome.message}\nwrote {path}; open it in any browser")
-    return EXIT_FOUND if synthesis.determined else EXIT_NOTHING
+    first = headline(synthesis) if synthesis.usable else f"{synthesis.outcome.message}."
+    click.echo(f"{first}\nwrote {path}; open it in any browser")
+    return EXIT_FOUND if synthesis.usable else EXIT_NOTHING

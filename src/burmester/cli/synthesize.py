@@ -24,9 +24,16 @@ __all__ = ["synthesize"]
 @click.command(cls=Sectioned, epilog=POSES_HELP)
 @with_options(POSES, SPECIFICATION, METHOD, MANUFACTURING)
 @click.option(
-    "--accept-uncertain",
+    "--all",
+    "everything",
     is_flag=True,
-    help="Exit with 0 even if the poses hardly determine the pivots.",
+    help="List the linkages that are not usable as well, with the reasons.",
+)
+@click.option("--dyads", is_flag=True, help="List the dyads as well.")
+@click.option(
+    "--require-determined",
+    is_flag=True,
+    help="Exit with 1 if the poses leave open where the pivots are.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object and nothing else.")
 @click.option("-o", "--output", metavar="FILE", help="Write that object to FILE as well.")
@@ -34,7 +41,9 @@ __all__ = ["synthesize"]
 def synthesize(
     poses: str,
     *,
-    accept_uncertain: bool,
+    everything: bool,
+    dyads: bool,
+    require_determined: bool,
     as_json: bool,
     output: str | None,
     force: bool,
@@ -55,7 +64,9 @@ def synthesize(
     else:
         from burmester.io.terminal import show_synthesis
 
-        show_synthesis(synthesis, console())
-    # Whether a linkage was found that can be built: it works, and its pivots are determined.
-    good = synthesis.determined or (accept_uncertain and bool(synthesis.usable))
+        show_synthesis(synthesis, console(), everything=everything, dyads=dyads)
+    good = synthesis.determined if require_determined else bool(synthesis.usable)
+    if synthesis.usable and not good:
+        reason = "the poses determine the pivots of no usable linkage, and --require-determined is"
+        click.echo(f"exit code 1: {reason} given", err=True)
     return EXIT_FOUND if good else EXIT_NOTHING

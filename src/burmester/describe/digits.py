@@ -9,7 +9,7 @@ from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.numerics.arrays import ROUNDING, FloatArray
 from burmester.synthesis.result import Synthesis
-from burmester.tasks import notation
+from burmester.wording import figure
 
 __all__ = [
     "angle_error",
@@ -67,7 +67,7 @@ def dyad_error(synthesis: Synthesis, value: float) -> str:
 
 def short(value: float) -> str:
     """A number with two digits, or "never"."""
-    return f"{value:.2g}" if math.isfinite(value) else "never"
+    return figure(value) if math.isfinite(value) else "never"
 
 
 def fixed(value: float, digits: int) -> str:
@@ -78,7 +78,7 @@ def fixed(value: float, digits: int) -> str:
 
 def position_error(synthesis: Synthesis, error: float) -> str:
     """A position error of a linkage, "exact" where it is rounding."""
-    return "exact" if error < ROUNDING * (synthesis.length or 1.0) else notation.figure(error)
+    return "exact" if error < ROUNDING * (synthesis.length or 1.0) else figure(error)
 
 
 def angle_error(angle: float) -> str:
@@ -94,7 +94,7 @@ def worst_errors(synthesis: Synthesis, found: FoundLinkage) -> tuple[str, str]:
 
 def degrees(angle: float) -> str:
     """An angle in radians as degrees, "-" where there is none."""
-    return f"{notation.figure(math.degrees(angle))}°" if math.isfinite(angle) else "-"
+    return f"{figure(math.degrees(angle))}°" if math.isfinite(angle) else "-"
 
 
 def links(found: FoundLinkage, decimals: int) -> list[str]:

@@ -18,6 +18,7 @@ from burmester.linkages.found_linkage import FoundLinkage
 from burmester.linkages.uncertainty import DyadUncertainty, PivotRegion
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Synthesis
+from burmester.wording import figure
 
 __all__ = ["Dimension", "certain", "decimals_of", "dimensions", "dimensions_of"]
 
@@ -133,5 +134,5 @@ def _give(value: float, digits: int, what: str = "") -> str:
         return "-"
     if value < 0.5 * 10.0**-digits:
         return f"± under {10.0**-digits:.{digits}f}{what}"
-    shown = f"{value:.{min(digits, figures_of(value))}f}" if value < 1e6 else f"{value:.1e}"
+    shown = f"{value:.{min(digits, figures_of(value))}f}" if value < 1e6 else figure(value)
     return f"± {shown}{what}"

@@ -15,13 +15,15 @@ from burmester.linkages.uncertainty import pose_sigma
 from burmester.numerics.arrays import ROUNDING
 from burmester.synthesis.result import Synthesis
 from burmester.tasks import notation
-from burmester.wording import listed, with_article
+from burmester.wording import figure, listed, with_article
 
 __all__ = [
+    "beside_the_best",
     "best_sentences",
     "digits_note",
     "dyads_title",
     "footnotes",
+    "headline",
     "notes",
     "rounding_note",
     "standard_note",
@@ -40,19 +42,33 @@ NOT_DETERMINED = (
 MAX_NAMED_TYPES = 3  # other types that a sentence names; there are four
 
 
-def best_sentences(synthesis: Synthesis) -> Iterator[str]:
+def best_sentences(synthesis: Synthesis) -> list[str]:
     """What the best usable linkage does, and why it is not another one; none without it."""
     if not synthesis.usable:
-        return
-    best, task, size = synthesis.usable[0], synthesis.task, synthesis.length
+        return []
+    return [headline(synthesis), *beside_the_best(synthesis)]
+
+
+def headline(synthesis: Synthesis) -> str:
+    """The best usable linkage in one sentence: what it is, and how well it does."""
+    best = synthesis.usable[0]
     kind = best.type.replace("change-point", "change-point linkage")
     doubt = type_doubt(synthesis, best)
     kind = with_article(kind) + (f" ({doubt})" if doubt else "")
     least = notation.least_angle(best.driven.least_over_range)
-    yield (
-        f"Best: {best.id}, {kind} driven by {best.dyads_driver_first[0].id}, "
+    return (
+        f"{best.id}, {kind} driven by {best.dyads_driver_first[0].id}, "
         f"{_passes(synthesis, best)}, transmission angle {least} or more."
     )
+
+
+def beside_the_best(synthesis: Synthesis) -> Iterator[str]:
+    """Why the best usable linkage is not another one, and what others would cost."""
+    best, task, size = synthesis.usable[0], synthesis.task, synthesis.length
+    outcome = synthesis.outcome
+    for text in (outcome.why, outcome.help) if outcome.code == "R305" else ():
+        assert text is not None
+        yield f"{text[0].upper()}{text[1:]}."
     nearest = explanation.by_nearness(synthesis.linkages, size)[0]
     if not nearest.usable and _nearer(nearest, best, size):
         yield (
@@ -65,7 +81,7 @@ def best_sentences(synthesis: Synthesis) -> Iterator[str]:
         better = next((each for each in synthesis.usable if each.determined), None)
         if better is not None:
             yield (
-                f"Its pivots are uncertain; those of {better.id} are not, and it "
+                f"The poses leave its pivots open; those of {better.id} they do not, and it "
                 f"{explanation.nearness(better, task, size)}."
             )
 
@@ -173,11 +189,15 @@ def uncertainty_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
     task = synthesis.task
     position, angle = pose_sigma(task)
     sure = found.uncertainty is None or all(each.determined for each in found.uncertainty)
-    given = notation.length_of(position, task) if task.resolution[0] else "0"
-    turned = degrees(angle) if task.resolution[1] else "0°"
+    given, turned = notation.length_of(position, task), degrees(angle)
+    if not task.resolution[0]:
+        err = f"the angles of the poses err by {turned} and their positions are exact"
+    elif not task.resolution[1]:
+        err = f"the positions of the poses err by {given} and their angles are exact"
+    else:
+        err = f"the poses err by {given} and {turned}"
     return (
-        "±: 95 % regions, of a pivot in its worst direction, if the poses err by "
-        f"{given} and {turned} "
+        f"±: 95 % regions, of a pivot in its worst direction, if {err} "
         "(standard deviations: from their digits, or --pose-sigma)."
         + ("" if sure else f" {NOT_DETERMINED}")
     )
@@ -203,7 +223,7 @@ def tolerance_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
     who, lost = "95 % of linkages", ""
     if spread.lost > 0:
         who = "95 % of the others"
-        lost = f"{notation.figure(100 * float(spread.lost))} % of them cannot be assembled, "
+        lost = f"{figure(100 * float(spread.lost))} % of them cannot be assembled, "
     return (
         f"{built}: of {DRAWS} linkages built at random, {lost}"
         f"position errors of up to {most} ({who}), {worst} for the worst one found."
@@ -242,9 +262,11 @@ def footnotes(synthesis: Synthesis) -> str:
             "proportions, then the nearest; "
             f"1° counts as {counts}."
         )
+    if not any(task.resolution):
+        text += " The poses are taken as exact; --pose-sigma says otherwise."
     if any(dyad.id[0] == "M" for found in synthesis.linkages for dyad in found.dyads):
         text += " Dyads M come from the pivot map."
-    if synthesis.usable:
+    if len(synthesis.usable) > 1:
         text += (
             " The first of two dyads drives; worst and angle: the greatest misses at a pose; "
             "transm.: the least transmission angle between the poses."

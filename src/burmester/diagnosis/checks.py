@@ -18,7 +18,7 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of, span
 from burmester.tasks.repeated_poses import COORDINATE_ROUNDING
 from burmester.values import require_instance
-from burmester.wording import listed, shortened
+from burmester.wording import figure, listed, shortened
 
 __all__ = ["Diagnosis", "diagnose", "disagreement"]
 
@@ -139,7 +139,7 @@ def _far_away(task: Task) -> Advice | None:
     lost = math.log10(reach / size)
     return Advice(
         "W211",
-        f"the poses lie {reach / size:.0e} times their own size from the origin",
+        f"the poses lie {figure(reach / size)} times their own size from the origin",
         "subtract the same point from all poses in their file",
         f"{lost:.0f} of a double's {DOUBLE_DIGITS} digits go into that distance; positions are "
         f"resolved only to {length_of(COORDINATE_ROUNDING * reach, task)}",

@@ -52,9 +52,9 @@ from burmester.numerics.arrays import ROUNDING, FloatArray
 from burmester.numerics.bundles import concatenate
 from burmester.tasks.motion_class import MotionClass, classify_motion
 from burmester.tasks.motion_task import Task
-from burmester.tasks.notation import figure, length_of, pose_labels
+from burmester.tasks.notation import length_of, pose_labels
 from burmester.values import real_numbers, require_instance
-from burmester.wording import listed
+from burmester.wording import figure, listed
 
 __all__ = ["OddPose", "odd_pose"]
 

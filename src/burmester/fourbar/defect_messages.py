@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from burmester.fourbar.pose_order import CERTAIN_STEP_BACK, REPEATED_POSE_STEP, BoolArray
 from burmester.fourbar.traversal import DEAD_POINT_ANGLE, PoseRange, Traversal
 from burmester.numerics.arrays import FloatArray
-from burmester.wording import listed, shortened
+from burmester.wording import count, figure, in_runs, listed, shortened
 
 __all__ = [
     "Defect",
@@ -29,7 +29,8 @@ __all__ = [
 
 DefectKind: TypeAlias = Literal["assembly", "circuit", "branch", "order"]
 
-MAX_NAMES: Final = 12  # number of poses, or of pairs of poses, that one message lists at most
+MAX_NAMES: Final = 6  # poses, ranges of poses, or pairs of poses that one message lists
+MAX_ORDER: Final = 12  # poses whose order is told one by one; of more, runs in order are one
 # Degrees.  A smaller distance from a dead point is not worth a number in a message.
 SHOWN_ANGLE: Final = 1e-4
 UNSURE: Final = ": too close to call"  # the end of messages on defects that are not certain
@@ -62,16 +63,47 @@ class PoseNames(NamedTuple):
 
     def listed(self, poses: Sequence[int]) -> str:
         """The names of poses in one phrase: "1, 2 and 5"."""
-        return listed(shortened([self.one(pose) for pose in poses], MAX_NAMES))
+        return in_runs([self.one(pose) for pose in poses], MAX_NAMES)
 
     def phrase(self, poses: Sequence[int]) -> str:
         """The same with the noun: "pose 3", "poses 1, 2 and 5"."""
         return ("pose " if len(poses) == 1 else "poses ") + self.listed(poses)
 
     def between(self, pairs: Sequence[tuple[int, int]]) -> str:
-        """Pairs of poses in one phrase: "between poses 1 and 2"."""
-        between = [f"between {self.phrase(pair)}" for pair in pairs]
+        """Pairs of poses in one phrase: "between poses 1 and 2".
+
+        Pairs in a row, as noise near a dead point makes them, are one: "4 times between poses 7
+        and 11".
+        """
+        rows: list[list[tuple[int, int]]] = []
+        for pair in pairs:
+            if rows and rows[-1][-1][1] == pair[0]:
+                rows[-1].append(pair)
+            else:
+                rows.append([pair])
+        between = []
+        for row in rows:
+            times = f"{count(len(row), 'time')} " if len(row) > 1 else ""
+            between.append(f"{times}between {self.phrase((row[0][0], row[-1][1]))}")
         return listed(shortened(between, MAX_NAMES, "times"))
+
+    def in_order(self, poses: Sequence[int]) -> str:
+        """Poses in the order in which they are met: "1-2-4-3", of many "1 to 9, 11, 10"."""
+        if len(poses) <= MAX_ORDER:
+            return "-".join(map(self.one, poses))
+        runs: list[list[int]] = []
+        for pose in poses:
+            run = runs[-1] if runs else []
+            sense = run[1] - run[0] if len(run) > 1 else pose - run[0] if run else 0
+            if abs(sense) == 1 and pose == run[-1] + sense:
+                run.append(pose)
+            else:
+                runs.append([pose])
+        told = []
+        for run in runs:
+            ends = [run[0], run[-1]] if len(run) > 1 else run
+            told.append(" to ".join(map(self.one, ends)))
+        return ", ".join(told if len(told) <= MAX_NAMES else [*told[:MAX_NAMES], "..."])
 
 
 def assembly_defects(
@@ -85,10 +117,12 @@ def assembly_defects(
         defects.append(Defect("assembly", text, nowhere))
     if near:
         worst = max(near, key=lambda pose: missed[pose])
-        text = f"the coupler comes no nearer to pose {names.one(worst)} than {missed[worst]:.2g}"
+        text = (
+            f"the coupler comes no nearer to pose {names.one(worst)} than {figure(missed[worst])}"
+        )
         others = [pose for pose in near if pose != worst]
         if others:
-            text += f", and misses {names.phrase(others)} by {min(missed[others]):.2g} or more"
+            text += f", and misses {names.phrase(others)} by {figure(min(missed[others]))} or more"
         defects.append(Defect("assembly", text, near))
     return defects
 
@@ -177,8 +211,7 @@ def order_defect(traversal: Traversal, ranged: PoseRange, k: int, names: PoseNam
         sequences.append(sequence[start:] + sequence[:start])
     met = min(sequences)
     moved = tuple(a for a, b in zip(poses.tolist(), met, strict=True) if a != b)
-    shown = [names.one(pose) for pose in met[:MAX_NAMES]] + ["..."] * (len(met) > MAX_NAMES)
-    text = f"meets the poses in the order {'-'.join(shown)}"
+    text = f"meets the poses in the order {names.in_order(met)}"
     return Defect("order", text + UNSURE * (not certain), moved, bool(certain))
 
 

@@ -6,13 +6,14 @@ from collections.abc import Iterator, Sequence
 
 from rich import box
 from rich.console import Console, Group
-from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
 from burmester.describe import sentences
 from burmester.describe.digits import links, worst_errors
 from burmester.describe.dimensions import certain, decimals_of, dimensions
+from burmester.io.message import wrapped
+from burmester.io.sketch import sketch
 from burmester.linkages import explanation
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.synthesis.result import Synthesis
@@ -27,10 +28,11 @@ __all__ = [
     "usable_table",
 ]
 
-MOST_UNUSABLE = 8  # linkages in full; the rest are counted
 CLOSEST = 3  # linkages in the outcome, where none is usable
 LINKS = ("ground", "driver", "coupler", "follower")
 MOST_CUT = 3  # decimals that link lengths in the table may lose on a narrow screen
+GAP = 4  # columns between dimensions and sketch
+LEAST_SKETCH, MOST_SKETCH = 22, 44  # columns of a sketch beside the dimensions
 INDENT = 5  # columns of reasons under their linkage
 
 
@@ -68,7 +70,10 @@ def usable_table(synthesis: Synthesis, console: Console) -> Table:
             table.title = f"{table.title}; links to {count(places, 'decimal')}"
         if console.measure(table, options=unlimited).maximum <= console.width:
             return table
-    return _usable(synthesis, usable, None, 1)
+    table = _usable(synthesis, usable, None, 1)
+    if console.measure(table, options=unlimited).maximum <= console.width:
+        return table
+    return _usable(synthesis, usable, None, 0, dyads=False)
 
 
 def _usable(
@@ -76,11 +81,14 @@ def _usable(
     usable: Sequence[FoundLinkage],
     decimals: Sequence[int] | None,
     gap: int,
+    *,
+    dyads: bool = True,
 ) -> Table:
     table = new_table("Usable, the best first", gap)
     table.add_column("", no_wrap=True)
     table.add_column("type")
-    table.add_column("dyads", no_wrap=True)
+    if dyads:
+        table.add_column("dyads", no_wrap=True)
     for name in LINKS if decimals is not None else ():
         table.add_column(name, justify="right", no_wrap=True)
     for name in ("worst", "angle", "transm."):
@@ -91,7 +99,7 @@ def _usable(
         table.add_row(
             found.id,
             kind,
-            " ".join(dyad.id for dyad in found.dyads_driver_first),
+            *((" ".join(dyad.id for dyad in found.dyads_driver_first),) if dyads else ()),
             *(() if decimals is None else links(found, decimals[k])),
             *worst_errors(synthesis, found),
             notation.least_angle(found.driven.least_over_range),
@@ -99,10 +107,10 @@ def _usable(
     return table
 
 
-def unusable(synthesis: Synthesis, found: Sequence[FoundLinkage]) -> Group:
-    """Unusable linkages, each with its reasons under it."""
-    rows: list[Text | Padding] = []
-    for each in found[:MOST_UNUSABLE]:
+def unusable(synthesis: Synthesis, found: Sequence[FoundLinkage], width: int) -> Group:
+    """Unusable linkages in lines of `width` columns, each with its reasons under it."""
+    rows: list[Text] = []
+    for each in found:
         dyads = " ".join(dyad.id for dyad in each.dyads_driver_first)
         how = explanation.nearness(each, synthesis.task, synthesis.length)
         if each.error_before_rounding is not None:
@@ -110,27 +118,62 @@ def unusable(synthesis: Synthesis, found: Sequence[FoundLinkage]) -> Group:
             how += f" (before rounding {before})"
         doubt = sentences.type_doubt(synthesis, each)
         kind = f"{each.type} ({doubt})" if doubt else each.type
-        head = Text(f"{each.id:<{INDENT - 1}} {kind}, {dyads}: {how}")
+        rows += wrapped(f"{kind}, {dyads}: {how}", width, f"{each.id:<{INDENT}}")
         reasons = "; ".join(explanation.reasons(each, synthesis.task))
-        rows += [head, Padding(Text(reasons), (0, 0, 0, INDENT))]
-    if len(found) > MOST_UNUSABLE:
-        rows.append(Text(f"and {len(found) - MOST_UNUSABLE} more, see --json"))
+        rows += wrapped(reasons, width, " " * INDENT)
     return Group(*rows)
 
 
-def in_full(synthesis: Synthesis) -> Iterator[Text | Table]:
-    """The best usable linkage: its dimensions, how certain they are, and what follows of that."""
+def in_full(synthesis: Synthesis, console: Console) -> Iterator[Text | Table]:
+    """The best usable linkage: its dimensions, how certain they are, and what follows of that.
+
+    Beside them, where a terminal can show it and has room, the linkage in braille; else above.
+    """
     best, unit = synthesis.usable[0], synthesis.task.length_unit
     yield Text(f"\n{best.id} in full{f', in {unit}' if unit else ''}", style="bold")
-    table = Table.grid(padding=(0, 2, 0, 0))
-    exact, last = certain(synthesis, best), None
-    for dyad, what, value, give in dimensions(synthesis, best):
-        table.add_row("" if dyad == last else dyad, what, value, *(() if exact else (give,)))
-        last = dyad
-    yield table
+    unlimited = console.options.update(max_width=10 * console.width)
+    table = _dimensions(synthesis, best)
+    wide = console.measure(table, options=unlimited).maximum
+    if wide > console.width:
+        table = _dimensions(synthesis, best, stacked=True)
+    room = console.width - wide - GAP
+    drawn = sketch(best, min(max(room, LEAST_SKETCH), MOST_SKETCH, console.width))
+    if drawn is None or not _shows_braille(console):
+        yield table
+    elif room < LEAST_SKETCH:
+        yield Text("\n".join(drawn))
+        yield table
+    else:
+        both = Table.grid(padding=(0, GAP, 0, 0))
+        both.add_row(table, Text("\n".join(drawn)))
+        yield both
     digits, uncertainty = sentences.digits_note, sentences.uncertainty_note
     made = (sentences.tolerance_note, sentences.rounding_note)
     for note in (digits, uncertainty, sentences.type_note, *made):
         text = note(synthesis, best)
         if text is not None:
             yield Text(text, style="dim" if note is uncertainty else "")
+
+
+def _dimensions(synthesis: Synthesis, best: FoundLinkage, stacked: bool = False) -> Table:
+    """The dimensions of a linkage; stacked: the half-widths under the values."""
+    table = Table.grid(padding=(0, 2, 0, 0))
+    exact, last = certain(synthesis, best), None
+    for dyad, what, value, give in dimensions(synthesis, best):
+        cells = (f"{value}\n{give}",) if stacked and give else (value, give)
+        table.add_row("" if dyad == last else dyad, what, *(cells[:1] if exact else cells))
+        last = dyad
+    if best.linkage.links is not None:
+        ground, _, coupler, _ = links(best, decimals_of(synthesis, best).lengths)
+        table.add_row("", "ground link", ground)
+        table.add_row("", "coupler", coupler)
+    return table
+
+
+def _shows_braille(console: Console) -> bool:
+    return (
+        console.is_terminal
+        and not console.is_dumb_terminal
+        and not console.legacy_windows
+        and console.encoding.lower().startswith("utf")
+    )

@@ -24,7 +24,7 @@ from rich.text import Text
 from burmester.errors import printable
 
 if TYPE_CHECKING:
-    from rich.console import Console
+    from rich.console import Console, RenderableType
 
     from burmester.errors import Advice, BurmesterError
     from burmester.tasks.motion_kinds import MotionKind
@@ -38,6 +38,7 @@ __all__ = [
     "location_lines",
     "message",
     "note",
+    "put",
     "show",
     "wrapped",
 ]
@@ -74,6 +75,17 @@ def draw(lines: Sequence[Text], console: Console) -> None:
     for line in lines:
         plain = Text(line.plain) if console.no_color else line
         console.print(plain, soft_wrap=True)
+
+
+def put(renderable: RenderableType, console: Console) -> None:
+    """Print tables and texts without blanks at the ends of their lines."""
+    for segments in console.render_lines(renderable, pad=False):
+        line = Text()
+        for text, style, control in segments:
+            if not control:
+                line.append(text, style)
+        line.rstrip()
+        draw([line], console)
 
 
 def message(

@@ -21,6 +21,7 @@ from burmester.io.message import wrapped
 from burmester.io.result import message_data, motion_data, task_data
 from burmester.tasks.motion_kinds import General
 from burmester.tasks.motion_task import Task
+from burmester.wording import figure
 
 __all__ = ["check_data", "show"]
 
@@ -89,13 +90,16 @@ def _facts(diagnosis: Diagnosis) -> Iterator[tuple[str, str]]:
     unit = f" {task.length_unit}" if task.length_unit else ""
     width, height = np.ptp(task.poses.translation, axis=0)
     length, angle = task.resolution
-    yield "extent", f"{width:.4g} by {height:.4g}{unit or ', no unit stated'}"
+    size = " by ".join(f"{each:.4g}" if each < 1e4 else figure(each) for each in (width, height))
+    yield "extent", f"{size}{unit or ', no unit stated'}"
     if motion is not None:
         yield "rotation", f"{math.degrees(motion.rotation):.4g}°"
     if length or angle:
-        yield "known to", f"±{length:.2g}{unit} and ±{math.degrees(angle):.2g}°"
+        positions = f"positions to ±{figure(length)}{unit}" if length else "positions are exact"
+        angles = f"angles to ±{figure(math.degrees(angle))}°" if angle else "angles are exact"
+        yield "known", f"{positions}, {angles}: by their digits, or --pose-sigma"
     else:
-        yield "known to", "taken as exact"
+        yield "known", "taken as exact; --pose-sigma says otherwise"
     if motion is not None:
         general = isinstance(motion.kind, General)
         yield "motion", motion.kind.message if general else motion.kind.name

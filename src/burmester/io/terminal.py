@@ -12,22 +12,38 @@ from burmester.describe import sentences
 from burmester.describe.digits import dyad_error, fitted_decimals, sides
 from burmester.io import linkage_table
 from burmester.io.linkage_table import new_table
-from burmester.io.message import draw, message, note, show
+from burmester.io.message import draw, message, note, put, show
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.synthesis.result import Synthesis
 
 __all__ = ["show_synthesis"]
 
-SUCCESSES = ("R300", "R307")  # outcomes whose message stands alone, without its code
+NARROW = 64  # columns; in a narrower terminal both sides of a dyad are in one column
+PLAIN = ("R300", "R305", "R307")  # outcomes that are told without their code
 
 
-def show_synthesis(synthesis: Synthesis, console: Console) -> None:
-    """The outcome in a sentence, then dyads and linkages in tables."""
-    three = linkage_table.closest_three(synthesis)
-    _outcome(synthesis, three, console)
-    if synthesis.dyads:
-        console.print(_dyads(synthesis, console.width))
-    _linkages(synthesis, three, console)
+def show_synthesis(
+    synthesis: Synthesis, console: Console, *, everything: bool = False, dyads: bool = False
+) -> None:
+    """What to build first, then the other usable linkages, and what has been found in all.
+
+    everything: also the linkages that are not usable, with the reasons; dyads: also the dyads.
+    """
+    if synthesis.usable:
+        _answer(synthesis, console)
+        rest = [each for each in synthesis.linkages if not each.usable]
+    else:
+        three = linkage_table.closest_three(synthesis)
+        _no_answer(synthesis, three, console)
+        rest = [each for each in synthesis.linkages if each not in three]
+    if everything and rest:
+        title = "Not usable, and why" if synthesis.usable else "Not usable either"
+        put(Text(f"\n{title}", style="bold"), console)
+        put(linkage_table.unusable(synthesis, rest, console.width), console)
+    # Without a linkage the dyads are all there is.
+    if synthesis.dyads and (dyads or not synthesis.linkages):
+        put(_dyads(synthesis, console.width), console)
+    _in_all(synthesis, 0 if everything else len(rest), console, dyads)
     if synthesis.certificate is not None:
         for head, lines in (
             (
@@ -37,51 +53,73 @@ def show_synthesis(synthesis: Synthesis, console: Console) -> None:
             ("Computed, not proved", synthesis.certificate.numerical),
         ):
             if lines:
-                console.print(Text(f"\n{head}:", style="bold"))
-                console.print(_bullets(lines))
+                put(Text(f"\n{head}:", style="bold"), console)
+                put(_bullets(lines), console)
+    if synthesis.warnings:
+        console.print()
     for warning in synthesis.warnings:
         show("warning", warning, console)
+    if synthesis.dyads:
+        put(Text(f"\n{sentences.footnotes(synthesis)}", style="dim"), console)
 
 
-def _outcome(synthesis: Synthesis, three: Sequence[FoundLinkage], console: Console) -> None:
-    """The outcome in sentences; the closest three linkages where none is usable."""
+def _answer(synthesis: Synthesis, console: Console) -> None:
+    """The linkage to build, in a sentence and in full; then the other usable ones."""
     outcome = synthesis.outcome
-    if synthesis.usable and outcome.code in SUCCESSES:
-        console.print(Text(f"{outcome.message}.", style="bold"))
-    else:
+    if outcome.code not in PLAIN:
         draw(message("result", outcome.code, outcome.message, width=console.width), console)
+        if outcome.why:
+            draw(note("why", outcome.why, console.width), console)
+        if outcome.help:
+            draw(note("help", outcome.help, console.width), console)
+    put(Text(sentences.headline(synthesis), style="bold"), console)
+    for sentence in sentences.beside_the_best(synthesis):
+        put(Text(sentence), console)
+    for part in linkage_table.in_full(synthesis, console):
+        put(part, console)
+    if len(synthesis.usable) > 1:
+        put(linkage_table.usable_table(synthesis, console), console)
+
+
+def _no_answer(synthesis: Synthesis, three: Sequence[FoundLinkage], console: Console) -> None:
+    """The outcome, and the closest linkages with the reasons why they are not usable."""
+    outcome = synthesis.outcome
+    draw(message("result", outcome.code, outcome.message, width=console.width), console)
     if three:
-        console.print(linkage_table.unusable(synthesis, three))
+        put(linkage_table.unusable(synthesis, three, console.width), console)
     elif outcome.why:
         draw(note("why", outcome.why, console.width), console)
     if outcome.help:
         draw(note("help", outcome.help, console.width), console)
-    for sentence in sentences.best_sentences(synthesis):
-        console.print(Text(sentence))
 
 
-def _linkages(synthesis: Synthesis, three: Sequence[FoundLinkage], console: Console) -> None:
-    """Usable linkages, unusable ones, and the best one in full."""
-    if synthesis.usable:
-        console.print(linkage_table.usable_table(synthesis, console))
-    rest = [each for each in synthesis.linkages if not each.usable and each not in three]
-    if rest:
-        title = "Not usable either" if three else "Not usable, and why"
-        console.print(Text(f"\n{title}", style="bold"))
-        console.print(linkage_table.unusable(synthesis, rest))
-    if synthesis.usable:
-        for part in linkage_table.in_full(synthesis):
-            console.print(part)
-    if synthesis.dyads:
-        console.print(Text(f"\n{sentences.footnotes(synthesis)}", style="dim"))
+def _in_all(synthesis: Synthesis, unlisted: int, console: Console, dyads: bool) -> None:
+    """How many there are in all, and how the rest is listed."""
+    told = []
+    if synthesis.usable and synthesis.outcome.code in PLAIN:
+        told.append(f"{synthesis.outcome.message}.")
+    options = []
+    if unlisted:
+        options.append(f"{unlisted} more, not usable: --all")
+    if synthesis.linkages and synthesis.dyads and not dyads:
+        options.append("the dyads: --dyads")
+    if options:
+        text = "; ".join(options)
+        told.append(f"{text[0].upper()}{text[1:]}.")
+    if told:
+        put(Text("\n" + " ".join(told)), console)
 
 
 def _dyads(synthesis: Synthesis, width: int) -> Table:
     table = new_table(sentences.dyads_title(synthesis), gap=1 if width >= 80 else 0)
     table.add_column("", no_wrap=True)
     table.add_column("kind", no_wrap=True)
-    table.add_column("on the ground (F)")
-    table.add_column("on the body (M)")
+    narrow = width < NARROW
+    if narrow:
+        table.add_column("in F, then M")
+    else:
+        table.add_column("on the ground (F)")
+        table.add_column("on the body (M)")
     table.add_column("length", justify="right", no_wrap=True)
     table.add_column("rms miss", justify="right", no_wrap=True)
     if width >= 80:
@@ -89,7 +127,8 @@ def _dyads(synthesis: Synthesis, width: int) -> Table:
     for found in synthesis.dyads:
         ground, body, length = sides(found.dyad, fitted_decimals(synthesis, found.dyad))
         errors = dyad_error(synthesis, found.rms_error), dyad_error(synthesis, found.max_error)
-        row = found.id, type(found.dyad).__name__, ground, body, length, *errors
+        where = (f"{ground}\n{body}",) if narrow else (ground, body)
+        row = found.id, type(found.dyad).__name__, *where, length, *errors
         table.add_row(*row[: len(table.columns)])
     return table
 

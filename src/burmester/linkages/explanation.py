@@ -11,8 +11,9 @@ from burmester.fourbar.defects import Defect
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.numerics.arrays import ROUNDING
 from burmester.tasks.motion_task import CONDITIONS, Task
-from burmester.tasks.notation import figure, length_of, poses_in_words
+from burmester.tasks.notation import length_of, poses_in_words
 from burmester.tasks.problem import SynthesisProblem
+from burmester.wording import figure
 
 __all__ = ["by_nearness", "hints", "in_short", "meets_exactly", "nearness", "reasons"]
 

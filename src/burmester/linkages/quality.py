@@ -16,8 +16,9 @@ from burmester.fourbar.dyad import RR
 from burmester.fourbar.linkage import GRASHOF_SUMS
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.tasks.motion_task import Task
-from burmester.tasks.notation import figure, least_angle, length_of, span
+from burmester.tasks.notation import least_angle, length_of, span
 from burmester.tasks.requirements import Requirements
+from burmester.wording import figure
 
 __all__ = ["LEAST_TRANSMISSION", "Standard"]
 

@@ -15,7 +15,7 @@ from burmester.fourbar.linkage import Linkage
 from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.requirements import Requirements
-from burmester.wording import with_article
+from burmester.wording import figure, with_article
 
 __all__ = ["Violation", "ViolationKind", "violations"]
 
@@ -54,7 +54,7 @@ def violations(
             Violation(
                 "transmission",
                 f"the transmission angle falls to {_degrees(least)} between the poses; "
-                f"at least {_degrees(asked.transmission)} is required",
+                f"at least {_degrees(asked.transmission)} is asked for",
             )
         )
     kind = linkage.type
@@ -76,7 +76,7 @@ def violations(
     if asked.footprint is not None:
         out, what = _outside(linkage, driven, asked.footprint)
         if out > REQUIREMENT_TOLERANCE * float(np.ptp(asked.footprint.vertices, axis=0).max()):
-            length = f"{out:.2g}{f' {unit}' if unit else ''}"
+            length = f"{figure(out)}{f' {unit}' if unit else ''}"
             missing.append(Violation("footprint", f"{what} leaves the footprint by {length}"))
     return tuple(missing)
 

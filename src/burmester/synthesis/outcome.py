@@ -19,10 +19,10 @@ from burmester.linkages.quality import LEAST_TRANSMISSION
 from burmester.synthesis.dyad_search import DyadSearch, exact_dyads
 from burmester.synthesis.result import Outcome
 from burmester.tasks.motion_task import CONDITIONS, Task, characteristic_length
-from burmester.tasks.notation import figure, least_angle, length_of, span
+from burmester.tasks.notation import least_angle, length_of, span
 from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.repeated_poses import rotation_range
-from burmester.wording import count, listed
+from burmester.wording import count, figure, listed
 
 __all__ = ["dyad_advice", "family", "linkage_advice", "summary"]
 
@@ -177,14 +177,15 @@ def summary(
     all_of_them = f"{count(len(linkages), 'four-bar')} from {dyads}"
     if not usable:
         return _none_usable(problem, linkages, all_of_them, aside)
-    if not any(each.determined for each in usable):
-        return _undetermined(problem, usable)
     if len(usable) < len(linkages):
         share = f"{len(usable)} of them usable"
     else:
         share = "usable" if len(usable) == 1 else "all of them usable"
+    message = f"{all_of_them}, {share}{aside}"
+    if not any(each.determined for each in usable):
+        return _undetermined(problem, usable, message)
     approximate = isinstance(search.fits[0], FivePoseDyads) and search.meeting < 2
-    return Outcome("R307" if approximate else "R300", f"{all_of_them}, {share}{aside}")
+    return Outcome("R307" if approximate else "R300", message)
 
 
 def _dyads(problem: SynthesisProblem, search: DyadSearch) -> tuple[str, str]:
@@ -246,31 +247,38 @@ def _none_usable(
     )
 
 
-def _undetermined(problem: SynthesisProblem, usable: Sequence[FoundLinkage]) -> Outcome:
-    """Linkages that work, and pivots that could be elsewhere as well."""
+def _undetermined(
+    problem: SynthesisProblem, usable: Sequence[FoundLinkage], message: str
+) -> Outcome:
+    """Linkages that work, and pivots that may be elsewhere as well."""
     task = problem.given
     rotation = rotation_range(task.poses.angle)
     only = "only " if rotation < LITTLE else ""
-    best = usable[0]
-    which = "the usable one" if len(usable) == 1 else "the best usable one"
-    help = "add poses with more rotation, or give the poses with more digits"
+    turns = f"the body turns {only}{figure(math.degrees(rotation))}°"
     return Outcome(
         "R305",
-        "this motion does not determine pivots",
-        f"{help}; or accept it with --accept-uncertain",
-        f"the body turns {only}{figure(math.degrees(rotation))}°, and the pivots of {best.id}, "
-        f"{which}, are uncertain by {_uncertain(best, task)}",
+        message,
+        "to determine the pivots, add poses with more rotation, or give the poses with more digits",
+        f"{usable[0].id} works, and {_open(usable[0], task)}: {turns}",
     )
 
 
-def _uncertain(found: FoundLinkage, task: Task) -> str:
-    """How uncertain its pivots are."""
+def _open(found: FoundLinkage, task: Task) -> str:
+    """How far its pivots may be moved, all together, within what is known of the poses."""
     assert found.uncertainty is not None
     widest = max(each.half_width for each in found.uncertainty)
     extent = f"the poses span {length_of(span(task), task)}"
     if widest > 100 * max(span(task), characteristic_length(task)):
-        return f"far more than the motion's own size ({extent})"
-    return f"about {length_of(widest, task)} ({extent})"
+        return f"its pivots may be moved by far more than the motion's own size ({extent})"
+    for dyad, each in zip(found.dyads, found.uncertainty, strict=True):
+        for which, frame, pivot in (("fixed", "F", each.fixed), ("moving", "M", each.moving)):
+            if pivot is not None and pivot.half_width == widest:
+                way = f"along {math.degrees(pivot.direction):.0f}° in {frame}"
+                return (
+                    f"the {which} pivot of {dyad.id} may be moved by about "
+                    f"±{length_of(widest, task)} {way}, the others with it ({extent})"
+                )
+    return f"its lines may be moved by about ±{length_of(widest, task)} ({extent})"
 
 
 def linkage_advice(task: Task, linkages: Sequence[FoundLinkage], code: str) -> list[Advice]:
@@ -284,9 +292,8 @@ def linkage_advice(task: Task, linkages: Sequence[FoundLinkage], code: str) -> l
         warnings.append(
             Advice(
                 "W209",
-                f"the poses hardly determine the pivots of {listed(ids)}, uncertain by "
-                f"{_uncertain(loose[0], task)}"
-                + ("" if len(ids) == 1 else f" in the case of {ids[0]}"),
+                f"the poses leave pivots of {listed(ids)} open; of {ids[0]}, "
+                f"{_open(loose[0], task)}",
                 "give more digits, or poses with more rotation between them",
             )
         )

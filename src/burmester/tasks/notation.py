@@ -9,11 +9,10 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from burmester.tasks.motion_task import Task
-from burmester.wording import listed
+from burmester.wording import figure, in_runs
 
 __all__ = [
     "PoseFormat",
-    "figure",
     "least_angle",
     "length_of",
     "pose_labels",
@@ -22,14 +21,8 @@ __all__ = [
 ]
 
 # "name": its name, or its number where it has none; "number and name": "3 (open)", or "3".
+MOST_NAMES = 6  # poses, or ranges of poses, that one phrase lists
 PoseFormat: TypeAlias = Literal["name", "number and name"]
-
-
-def figure(value: float) -> str:
-    """A figure with two digits, or its whole part if that has more: "0.00011", "4.5", "153"."""
-    if not math.isfinite(value):
-        return "-"
-    return f"{value:.0f}" if 99.5 <= abs(value) < 1e6 else f"{value:.2g}"
 
 
 def length_of(value: float, task: Task) -> str:
@@ -57,9 +50,9 @@ def pose_labels(task: Task, poses: Sequence[int], form: PoseFormat = "name") -> 
 def poses_in_words(
     task: Task, poses: Sequence[int], last: str = "and", form: PoseFormat = "name"
 ) -> str:
-    """Poses (numbers from 0) in one phrase: "pose 3", "poses 2, 3 and 7"."""
+    """Poses (numbers from 0) in one phrase: "pose 3", "poses 2, 3 and 7", "poses 4-7"."""
     labels = pose_labels(task, poses, form)
-    return f"pose{'' if len(labels) == 1 else 's'} {listed(labels, last)}"
+    return f"pose{'' if len(labels) == 1 else 's'} {in_runs(labels, MOST_NAMES, last)}"
 
 
 def span(task: Task) -> float:

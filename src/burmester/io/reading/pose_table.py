@@ -15,6 +15,7 @@ from burmester.errors import InputError, printable
 from burmester.geometry.regions import Polygon
 from burmester.io.reading.specification import Specification
 from burmester.numerics.arrays import FloatArray
+from burmester.tasks.motion_task import COARSE
 
 __all__ = [
     "MARKS",
@@ -29,6 +30,8 @@ __all__ = [
     "Source",
     "brief",
     "decimals",
+    "extent",
+    "known_to",
     "no_poses",
     "numeric_roles",
     "plain_number",
@@ -168,6 +171,23 @@ def _pose(word: str, names: Sequence[str], count: int, option: str, where: str) 
         message = f"{shown(word)} may be pose {which}"
         help = "give the poses names that differ and are no numbers, or none"
     raise InputError("E122", message, where=where, help=help)
+
+
+def known_to(half: float, size: float) -> float:
+    """How exactly numbers are known by their digits: half of the last one, or 0 if that is coarse.
+
+    half: of the last digit; size: of what the numbers measure, in the same unit.
+    People write 45 and 12.5 and mean these numbers; what a program prints or an instrument
+    measures has digits finer than a thousandth of it.  Whether there is a decimal point says
+    nothing: another unit would move it.
+    """
+    return half if half <= COARSE * size else 0.0
+
+
+def extent(points: FloatArray) -> float:
+    """The diagonal of the box around points (N, 2), 0 without any."""
+    with np.errstate(over="ignore"):
+        return float(np.hypot(*np.ptp(points, axis=0))) if len(points) else 0.0
 
 
 def no_poses(message: str) -> InputError:

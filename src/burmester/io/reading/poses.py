@@ -34,7 +34,15 @@ from burmester.io.reading.csv_poses import read_csv
 from burmester.io.reading.documents import read_json, read_toml
 from burmester.io.reading.file_content import decode_text, read_source
 from burmester.io.reading.parquet import is_parquet, read_parquet
-from burmester.io.reading.pose_table import UNITS, PoseTable, Rows, Source, pose_marks
+from burmester.io.reading.pose_table import (
+    UNITS,
+    PoseTable,
+    Rows,
+    Source,
+    extent,
+    known_to,
+    pose_marks,
+)
 from burmester.io.reading.specification import Specification
 from burmester.io.reading.stated_requirements import combined_requirements
 from burmester.io.reading.tracked_points import tracked_poses
@@ -77,7 +85,7 @@ def read_task(
         Standard deviations of the positions (unit of the poses) and of the angles (radians).  The
         task's resolution is sqrt(3) times as much.  Without it, a standard deviation in the file
         is used, or for two tracked points one from the variation of their distance; else the
-        resolution is half of the last digit printed, and 0 where only whole numbers are printed.
+        resolution is half of the last digit printed, and 0 where that is coarse (`known_to`).
     columns : str, optional
         The header of a CSV file that has none, separated by commas: "x,y,angle_deg".
     drop : sequence of str
@@ -218,10 +226,11 @@ def _oriented(
         why = _both_readings(float(angles.min()), float(angles.max()), len(angles))
         help = f"{table.say_unit}, or pass --angle-unit deg or --angle-unit rad"
         raise InputError("E110", message, where=table.where, why=why, help=help)
-    length, angle = (0.5 * 10.0**-printed if printed else 0.0 for printed in table.rows.decimals)
+    length, angle = (0.5 * 10.0**-printed for printed in table.rows.decimals)
     if unit == "deg":
         angles, angle = np.radians(angles), math.radians(angle)
-    return Displacement(values[:, :2], angles), (length, angle)
+    known = known_to(length, extent(values[:, :2])), known_to(angle, 1.0)
+    return Displacement(values[:, :2], angles), known
 
 
 def _marked(rows: Rows, exact: Sequence[str]) -> NDArray[np.bool_] | None:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
+from burmester.io.reading.pose_table import extent, known_to
 from burmester.numerics.arrays import FloatArray
 
 __all__ = ["Tracked", "tracked_poses"]
@@ -61,7 +62,7 @@ def tracked_poses(
     least, most = distance.min(), distance.max()
     if most > (1 + MAX_DISTANCE_CHANGE) * least:
         raise _not_rigid(distance, numbers, locate_row)
-    half = 0.5 * 10.0**-decimals if decimals else 0.0
+    half = known_to(0.5 * 10.0**-decimals, extent(p))
     resolution = (half, min(2 * half / float(least), math.pi))
     if len(points) < 2:
         return Tracked(poses, resolution, None)

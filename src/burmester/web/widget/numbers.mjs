@@ -13,15 +13,15 @@ export function fixed(value, digits) {
   return Number(text) === 0 ? text.replace("-", "") : text;
 }
 
-/** A figure with two digits, as `figure` of burmester/tasks/notation.py writes it, but for exact ties. */
+/** A figure with two digits, as `figure` of burmester/wording.py writes it, but for exact ties. */
 export function figure(value) {
   if (value === null || !Number.isFinite(value)) return "–";
   if (value === 0) return "0";
   if (Math.abs(value) >= 99.5 && Math.abs(value) < 1e6) return value.toFixed(0);
   const rounded = value.toExponential(1), [digits, power] = rounded.split("e");
   if (power >= -4 && power < 2) return String(Number(rounded));
-  const places = String(Math.abs(power)).padStart(2, "0");
-  return `${Number(digits)}e${power < 0 ? "-" : "+"}${places}`;
+  if (power > 0) return `${Number(digits)}e${Number(power)}`;
+  return `${Number(digits)}e-${String(-power).padStart(2, "0")}`;
 }
 
 /** Round numbers between two ends for an axis, `about` of them. */
