@@ -431,7 +431,7 @@ def test_the_shoulder_has_one_pair_with_a_circuit_defect():
             verdict = one_verdict(dyads[a], dyads[b], poses)
             if (a, b) == (5.53, 8.04):
                 text = (
-                    "poses 1, 2 and 3 are on one assembly, 4 and 5 on the other: "
+                    "poses 1-3 are on one assembly, 4 and 5 on the other: "
                     "it must be taken apart between poses 3 and 4"
                 )
                 assert said(verdict.defects) == [("circuit", text, True)]
@@ -601,7 +601,7 @@ def test_a_missed_pose_is_told_with_its_gap():
         missed=np.full((1, 4), np.nan),
         reach=1.0,
     )[0]
-    text = "it cannot be assembled near poses 1, 2, 3 and 4"
+    text = "it cannot be assembled near poses 1-4"
     assert said(nothing.defects) == [("assembly", text, True)]
     assert nothing.first.circuit == nothing.second.circuit == -1
     assert not nothing.first.defects
