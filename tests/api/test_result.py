@@ -309,7 +309,7 @@ except burmester.InputError as error:
     done = subprocess.run(
         [sys.executable, "-c", program], capture_output=True, text=True, check=True
     )
-    assert re.match(r"E130 pip install 'burmester\[(plot|export)\]'", done.stdout)
+    assert re.match(r'E130 pip install "burmester\[(plot|export)\]"', done.stdout)
 
 
 def test_a_moving_picture_moves(five, tmp_path):

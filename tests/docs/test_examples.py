@@ -210,7 +210,7 @@ WRONG = {
     "no error": ("```console\n$ echo 'error: no'\nerror: no\n```\n", "exit code 0"),
     "hidden": ("<!-- $ false && true || exit 3 -->\n", "line 1: false"),
     "script": ("```console\n$ scripts/no-such-script\n```\n", "is no script"),
-    "extra": ("```console\n$ pip install 'burmester[none]'\n```\n", "no extra"),
+    "extra": ('```console\n$ pip install "burmester[none]"\n```\n', "no extra"),
     "continued": ("```console\n$ echo a \\\n> b\na\n```\n", "prints\na b"),
     "session": ("```python\n>>> 1 + 1\n3\n```\n", "Expected:\n    3\nGot:\n    2"),
     "two blocks": ("```python\n>>> x = 2\n```\n```python\n>>> x\n3\n```\n", "Got:\n    2"),
@@ -266,3 +266,16 @@ x = 1
 def test_blocks_that_show_what_happens_pass(shims, folder, monkeypatch):
     assert troubles(Document.of_text(RIGHT), shims, folder, monkeypatch) == []
     assert (folder / "seen.txt").read_text() == "hidden\n"
+
+
+def test_a_line_to_install_an_extra_works_in_every_shell():
+    """The Windows command prompt takes single quotes for a part of the name."""
+    pages = [*(ROOT / "src").rglob("*.py"), *(ROOT / "src").rglob("*.md"), ROOT / "README.md"]
+    pages += (ROOT / "docs").glob("*.md")
+    quoted = [
+        (page.name, each)
+        for page in pages
+        for each in re.findall(r"pip install (\S)\S*\[", page.read_text(encoding="utf-8"))
+    ]
+    assert len(quoted) > 8
+    assert {quote for _, quote in quoted} == {'"'}, quoted

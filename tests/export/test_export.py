@@ -19,6 +19,7 @@ import pytest
 from burmester import export as exported
 from burmester.errors import BurmesterError, InputError
 from burmester.export import FORMATS, Options, export, format_of, mjcf
+from burmester.export.numbers import decimals_within, rounded
 from burmester.export.outlines import convex_hull
 from burmester.export.plates import assembly_of, outline_points
 from burmester.fourbar.dyad import PP
@@ -363,6 +364,38 @@ def test_csv(name, tmp_path):
     assert {0, len(rows) - 1} == {marked[1], marked[6]}
 
 
+@pytest.mark.parametrize("name", NAMES)
+def test_a_table_has_no_rounding_dust(name, tmp_path):
+    """No digits that carry nothing: at most as many as the tolerance and two digits more."""
+    chosen, path = written(name, "csv", tmp_path)
+    decimals = math.ceil(-math.log10(SPANS * span_of(chosen))) + 2
+    _, *rows = path.read_text().splitlines()
+    for cells in (row.split(",") for row in rows):
+        for cell, most in zip(cells[:4], (None, decimals, decimals, 10), strict=True):
+            assert re.fullmatch(r"-?\d+(\.\d*[1-9])?", cell), cell
+            assert cell != "-0"
+            assert most is None or len(cell.partition(".")[2]) <= most, cell
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "text"),
+    [
+        (0.1 + 0.2, 1e-11, "0.3"),
+        (1e-17, 1e-11, "0"),
+        (-1e-17, 1e-11, "0"),
+        (-2.50, 1e-11, "-2.5"),
+        (1 / 3, 1e-4, "0.3333"),
+        (20.0, 1e-11, "20"),
+        (1234.5678, 30.0, "1235"),
+        (1e6 + 0.3, 1e-11, "1000000.3"),
+        (1.25e-9, 1e-14, "0.00000000125"),
+    ],
+)
+def test_a_number_is_written_to_the_digits_that_carry(value, error, text):
+    assert rounded(value, decimals_within(error)) == text
+    assert abs(float(text) - value) <= error
+
+
 def off(dyad, d, turn):
     """How far places are from what a dyad allows."""
     if hasattr(dyad, "radius"):
@@ -522,7 +555,10 @@ def test_formats_and_files(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "ezdxf", None)
     with pytest.raises(InputError, match="dxf needs ezdxf") as caught:
         export(chosen, "dxf", tmp_path / "a.dxf")
-    assert (caught.value.code, caught.value.help) == ("E130", "pip install 'burmester[export]'")
+    assert (caught.value.code, caught.value.help) == ("E130", 'pip install "burmester[export]"')
+    monkeypatch.setitem(sys.modules, "PIL", None)
+    with pytest.raises(InputError, match="gif needs pillow, which"):
+        export(chosen, "gif", tmp_path / "a.gif")
     assert [each.name for each in tmp_path.iterdir()] == ["a.json"]
     assert format_of("some/where.SCAD") == "openscad"
     assert format_of("none") is None

@@ -578,7 +578,7 @@ def test_without_pyarrow_there_is_help(read: Read, monkeypatch: pytest.MonkeyPat
     data = parquet({"x": [1], "y": [1], "angle_rad": [1]})
     monkeypatch.setitem(sys.modules, "pyarrow", None)
     error = refusal(lambda: read(data))
-    assert (error.code, error.help) == ("E130", "pip install 'burmester[data]'")
+    assert (error.code, error.help) == ("E130", 'pip install "burmester[data]"')
 
 
 # Files ---------------------------------------------------------------------------------------

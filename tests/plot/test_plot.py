@@ -759,7 +759,7 @@ def test_without_matplotlib_the_error_says_what_to_install():
     )
     out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert out.stdout.startswith("error[E130]: figures need Matplotlib")
-    assert "pip install 'burmester[plot]'" in out.stdout
+    assert 'pip install "burmester[plot]"' in out.stdout
 
 
 def test_a_box_around_points_holds_them_and_little_more():

@@ -51,7 +51,7 @@ def flint() -> Any:
             "E130",
             "certificates need python-flint",
             why="proofs are done in ball arithmetic, which NumPy does not have",
-            help="pip install 'burmester[certify]'",
+            help='pip install "burmester[certify]"',
         ) from error
 
 

@@ -39,7 +39,7 @@ class Format:
     suffix : str
         The suffix of its files.
     extra : str or None
-        The extra of `pip install 'burmester[extra]'` that it needs.
+        The extra of `pip install "burmester[extra]"` that it needs.
     libraries : tuple of str
         The libraries of that extra that it imports.
     """
@@ -74,6 +74,8 @@ FORMATS: Final[Mapping[str, Format]] = {
     "gif": Format("movie", "moving picture", ".gif", "export", ("PIL", "matplotlib")),
     "mp4": Format("movie", "film", ".mp4", "export", ("imageio_ffmpeg", "matplotlib")),
 }
+
+PACKAGES: Final = {"PIL": "pillow", "imageio_ffmpeg": "imageio-ffmpeg"}  # module: what pip calls it
 
 
 def format_of(path: str | os.PathLike[str]) -> str | None:
@@ -168,10 +170,11 @@ def export(
         module = import_module(f"burmester.export.{form.module}")
     except ModuleNotFoundError as error:
         missing = (error.name or "a library").partition(".")[0]
+        missing = PACKAGES.get(missing, missing)
         raise InputError(
             "E130",
             f"{name} needs {missing}, which is not installed",
-            help=f"pip install 'burmester[{form.extra or 'export'}]'",
+            help=f'pip install "burmester[{form.extra or "export"}]"',
         ) from None
     write = getattr(module, f"write_{name}", None) or module.write
     check = getattr(module, f"check_{name}", None) or module.check

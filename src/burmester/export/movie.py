@@ -192,7 +192,7 @@ def _ffmpeg() -> Any:
             "E130",
             "an MP4 needs imageio-ffmpeg",
             why="it cannot be imported",
-            help="pip install 'burmester[export]'",
+            help='pip install "burmester[export]"',
         ) from None
 
 

@@ -2,16 +2,33 @@
 
 from __future__ import annotations
 
+import math
+from decimal import Decimal
+from typing import Final
 from xml.etree.ElementTree import Element
 
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["number", "numbers_in", "xy"]
+__all__ = ["decimals_within", "number", "numbers_in", "rounded", "xy"]
+
+MOST_DECIMALS: Final = 25  # decimals of a rounded number, at most
 
 
 def number(value: float) -> str:
     """The shortest text that reads back as the same number; -0 is written as 0."""
     return repr(float(value) + 0.0)
+
+
+def decimals_within(error: float) -> int:
+    """The fewest decimals that change no number by more than this error."""
+    if not error > 0:
+        return MOST_DECIMALS
+    return min(max(math.ceil(-math.log10(2 * error)), 0), MOST_DECIMALS)
+
+
+def rounded(value: float, decimals: int) -> str:
+    """A number to these decimals, without zeros behind them: 0.3 for 0.30000000000000004."""
+    return format(Decimal(repr(round(float(value), decimals) + 0.0)), "f").removesuffix(".0")
 
 
 def xy(point: FloatArray | list[float]) -> str:

@@ -135,7 +135,7 @@ def _cad() -> Any:
             "E130",
             "STEP and STL need build123d",
             why="it cannot be imported",
-            help="pip install 'burmester[solid]'",
+            help='pip install "burmester[solid]"',
         ) from None
 
 

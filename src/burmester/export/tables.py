@@ -1,6 +1,7 @@
 """CSV of the coupler's places along the motion, and JSON of the linkage; the task's own unit.
 
 CSV: a row for each step along the motion from the first pose to the last, and one for each pose.
+Its numbers are rounded to the digits that carry: what lies far below the tolerance is left out.
 JSON: an object as `linkage.SCHEMA` describes it, the driver first.
 
 E160 the file does not contain the linkage    E163 a linkage that has no motion through its poses
@@ -17,6 +18,7 @@ from typing import Any, Final
 import numpy as np
 
 from burmester.export.coupler_motion import CouplerMotion
+from burmester.export.numbers import decimals_within, rounded
 from burmester.export.options import Options, unit_of
 from burmester.export.reference import PRECISION, Reference, as_rows, require_equal
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
@@ -28,6 +30,7 @@ __all__ = ["SCHEMA", "check_csv", "check_json", "write_csv", "write_json"]
 
 SCHEMA: Final = "burmester.linkage/1"
 MOTION_ROWS = 361  # rows along the motion, beside those of the poses
+ROUNDING = 0.01  # of the tolerance at which a table is compared: the error of its numbers, at most
 
 
 def write_csv(chosen: SavedLinkage, path: Path, options: Options) -> None:
@@ -46,6 +49,10 @@ def write_csv(chosen: SavedLinkage, path: Path, options: Options) -> None:
     drive = np.degrees(motion.driver_coordinate) if turns else motion.driver_coordinate
     unit = _unit(chosen, options)
     in_unit = f"_{unit}" if unit else ""
+    # An angle moves what is a span away by the span.
+    error = ROUNDING * PRECISION
+    lengths = decimals_within(error * Reference.of(chosen, options, None).span)
+    angles = decimals_within(math.degrees(error))
     with open(path, "w", encoding="utf-8", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(
@@ -61,7 +68,16 @@ def write_csv(chosen: SavedLinkage, path: Path, options: Options) -> None:
             drive.tolist(), poses_data(motion.places), [number for _, number in marked], strict=True
         )
         for value, place, number in rows:
-            table.writerow([repr(value), *map(repr, place.values()), number or ""])
+            x, y, angle = place.values()
+            table.writerow(
+                [
+                    rounded(value, angles if turns else lengths),
+                    rounded(x, lengths),
+                    rounded(y, lengths),
+                    rounded(angle, angles),
+                    number or "",
+                ]
+            )
 
 
 def check_csv(chosen: SavedLinkage, path: Path, options: Options) -> None:

@@ -16,7 +16,7 @@ if find_spec("matplotlib") is None:
         "E130",
         "figures need Matplotlib",
         why="it is not installed with burmester, which does without it for everything else",
-        help="pip install 'burmester[plot]'",
+        help='pip install "burmester[plot]"',
     )
 
 from burmester.plot.camera import Box, Camera

@@ -86,7 +86,7 @@ def _open(data: bytes) -> Any:
             "E130",
             "reading Parquet needs pyarrow",
             why="it cannot be imported",
-            help="pip install 'burmester[data]'",
+            help='pip install "burmester[data]"',
         ) from None
     return _read_or_refuse(lambda: pyarrow.parquet.ParquetFile(pyarrow.BufferReader(data)))
 
