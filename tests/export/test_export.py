@@ -176,7 +176,14 @@ def test_two_slots_that_cross_cannot_be_cut(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "given", [{"hole": 30.0}, {"hole": 4.0, "width": 4.0}, {"hole": 19.9}, {"width": 3, "hole": 9}]
+    "given",
+    [
+        {"hole": 30.0},
+        {"hole": 4.0, "width": 4.0},
+        {"hole": 19.9},
+        {"width": 3, "hole": 9},
+        {"hole": 2.0, "pin": 2.5},
+    ],
 )
 def test_what_cannot_be_made_is_refused_with_help_that_works(given):
     chosen = saved("crank-rocker, mm")
@@ -203,6 +210,7 @@ def test_what_cannot_be_made_is_refused_with_help_that_works(given):
         ({"unit": "in"}, "are in mm, not in in"),
         ({"thickness": -1.0}, "thickness of -1"),
         ({"gap": math.nan}, "gap of nan"),
+        ({"pin": 0.0}, "pin of 0 mm"),
     ],
 )
 def test_wrong_options(given, words):

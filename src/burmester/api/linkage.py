@@ -54,7 +54,7 @@ class _Handover:
         force : bool
             Whether a file that exists is replaced.
         **dimensions
-            Fields of `burmester.export.Options`: unit, hole, width, thickness, gap, pose,
+            Fields of `burmester.export.Options`: unit, hole, width, thickness, gap, pin, pose,
             seconds, frames_per_second, width_px.
 
         Returns

@@ -32,7 +32,8 @@ Lengths are in the unit of the poses."""
 @click.option(
     "--unit", metavar="UNIT", help="Unit of the lengths, if the poses state none; by default mm."
 )
-@click.option("--hole", type=float, metavar="LENGTH", help="Diameter of holes and pins.")
+@click.option("--hole", type=float, metavar="LENGTH", help="Diameter of holes.")
+@click.option("--pin", type=float, metavar="LENGTH", help="Diameter of pins.")
 @click.option("--width", type=float, metavar="LENGTH", help="Width of the links.")
 @click.option("--thickness", type=float, metavar="LENGTH", help="Thickness of the plates.")
 @click.option(

@@ -88,15 +88,15 @@ def _built(
             )
             x, y = dyad.fixed_pivot.tolist()
             span = sorted((grounds[k], layer))
-            pins.append(Pin(ground, x, y, hole, span[0], span[1], (ground, name)))
+            pins.append(Pin(ground, x, y, made.pin, span[0], span[1], (ground, name)))
             x, y = dyad.moving_pivot.tolist()
             span = sorted((coupler_layer, layer))
-            pins.append(Pin("coupler", x, y, hole, span[0], span[1], ("coupler", name)))
+            pins.append(Pin("coupler", x, y, made.pin, span[0], span[1], ("coupler", name)))
         else:
             span = sorted((grounds[k], coupler_layer))
             on = "coupler" if isinstance(dyad, PR) else ground
             x, y = (dyad.moving_pivot if isinstance(dyad, PR) else dyad.fixed_pivot).tolist()
-            pins.append(Pin(on, x, y, hole, span[0], span[1], (ground, "coupler")))
+            pins.append(Pin(on, x, y, made.pin, span[0], span[1], (ground, "coupler")))
     body = plate_of(
         on_coupler,
         name="coupler",

@@ -81,7 +81,7 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
         "",
         f"width = {number(made.width)};",
         f"hole = {number(made.hole)};",
-        f"pin_diameter = {number(0.95 * made.hole)};",
+        f"pin_diameter = {number(made.pin)};",
         f"thickness = {number(made.thickness)};",
         f"gap = {number(made.gap)};",
         f"pose = {options.pose};  // drawn at $t = 0",

@@ -21,13 +21,15 @@ MILLIMETRES = {"um": 1e-3, "mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "ft":
 class Options:
     """The options of an export; a dimension that is None is chosen from the linkage's size.
 
+    Where the unit of lengths is known, it is a size that shops have: see `burmester.export.stock`.
+
     Attributes
     ----------
     unit : str or None
         Unit of the task's lengths, where the task states none; mm where both are None.
-    hole, width, thickness, gap : float or None
-        Diameter of pins and holes, width of links, thickness of plates, gap between plates that
-        lie on each other; in the unit of the task's lengths.
+    hole, width, thickness, gap, pin : float or None
+        Diameter of holes, width of links, thickness of plates, gap between plates that lie on each
+        other, diameter of pins; in the unit of the task's lengths.
     pose : int
         The pose at which the assembly is drawn, from 1.
     seconds, frames_per_second, width_px : float, float, int
@@ -39,6 +41,7 @@ class Options:
     width: float | None = None
     thickness: float | None = None
     gap: float | None = None
+    pin: float | None = None
     pose: int = 1
     seconds: float = 4.0
     frames_per_second: float = 25.0

@@ -19,6 +19,7 @@ from burmester.export.layers import arranged
 from burmester.export.options import MILLIMETRES, Options, unit_of
 from burmester.export.outlines import slot_outline
 from burmester.export.plate import Pin, Plate, outline_points
+from burmester.export.stock import stock_for
 from burmester.fourbar.circuits import Circuits, circuit_of
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
@@ -93,7 +94,8 @@ def assembly_of(chosen: SavedLinkage, options: Options) -> Assembly:
     places = in_millimetres(chosen.error.places, scale)
     motion = places_of_motion(Linkage(first, second), places)
     features = Features(first, second, motion)
-    made = dimensions_of(features, options, scale, unit)
+    assumed = chosen.unit is None and options.unit is None
+    made = dimensions_of(features, options, scale, unit, None if assumed else stock_for(unit))
     plates, pins = arranged(features, made)
     return Assembly(
         plates,
@@ -101,7 +103,7 @@ def assembly_of(chosen: SavedLinkage, options: Options) -> Assembly:
         made,
         scale,
         unit,
-        chosen.unit is None and options.unit is None,
+        assumed,
         places,
         motion,
         options.pose - 1,

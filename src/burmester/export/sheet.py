@@ -12,6 +12,7 @@ from typing import final
 import numpy as np
 
 from burmester.export.plates import Assembly, Plate, outline_points
+from burmester.export.stock import stock_for
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
@@ -101,11 +102,15 @@ def beside(pose: Displacement, sheet: Sheet) -> FloatArray:
 
 def notes_on(assembly: Assembly) -> list[str]:
     """Sentences on how the plates are made and put together."""
-    made = assembly.dimensions
+    made, name = assembly.dimensions, stock_for(assembly.unit).name
     notes = [
-        f"Holes {made.hole:g}, links {made.width:g} wide, plates {made.thickness:g} thick, "
-        f"{made.gap:g} apart."
+        f"Holes {name(made.hole)}, pins {name(made.pin)}, links {name(made.width)} wide, plates "
+        f"{name(made.thickness)} thick, {name(made.gap)} apart."
     ]
+    if assembly.assumed:
+        notes.append(
+            "They follow the linkage's size. With --unit they are sizes of drills, bars and sheets."
+        )
     if assembly.plate("ground-2") is not None:
         notes.append(
             "Nothing moves of ground and ground-2: fix them to each other, out of the links' way, "

@@ -22,7 +22,7 @@ from burmester.export.holes import axes_of, axis_away, joints_of, rim_away
 from burmester.export.options import Options
 from burmester.export.plates import Assembly, assembly_of
 from burmester.export.reference import PRECISION, Reference
-from burmester.export.solid_parts import PIN_CLEARANCE, Part, area_of, laid, parts_of, placed
+from burmester.export.solid_parts import Part, area_of, laid, parts_of, placed
 from burmester.export.stl import Triangles, read_stl, shells_of, volume_of
 from burmester.io.saved import SavedLinkage
 
@@ -156,7 +156,7 @@ def _checked_shells(path: Path, made: Assembly) -> tuple[list[Triangles], float]
     if shells is None:
         raise _off("its surface is not closed")
     step = size.thickness + size.gap
-    pin = math.pi * (size.hole * (1 - PIN_CLEARANCE) / 2) ** 2
+    pin = math.pi * (size.pin / 2) ** 2
     expected = [area_of(plate) * size.thickness for plate in made.plates]
     expected += [pin * ((each.high - each.low) * step + size.thickness) for each in made.pins]
     found = sorted(volume_of(shell) for shell in shells)

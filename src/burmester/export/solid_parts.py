@@ -16,9 +16,8 @@ from burmester.export.plates import Assembly, Plate, slot_outline
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["PIN_CLEARANCE", "Part", "area_of", "laid", "parts_of", "placed"]
+__all__ = ["Part", "area_of", "laid", "parts_of", "placed"]
 
-PIN_CLEARANCE: Final = 0.02  # of a hole's diameter: its pin is thinner by this, so that it turns
 MIN_EDGE: Final = 1e-4  # of a plate: shorter pieces of its outline are left out
 FLAT_SPACING: Final = 2.0  # widths of a link between parts that are laid flat
 COLOURS: Final = {
@@ -63,7 +62,7 @@ def parts_of(cad: Any, made: Assembly) -> list[Part]:
     ]
     places = {part.name: part.place for part in parts}
     for number, pin in enumerate(made.pins, start=1):
-        radius = pin.diameter * (1 - PIN_CLEARANCE) / 2
+        radius = pin.diameter / 2
         height = (pin.high - pin.low) * step + size.thickness
         parts.append(
             Part(
