@@ -497,12 +497,18 @@ def test_a_file_that_is_not_the_linkage_is_told(name, to, tmp_path):
     check = getattr(module, f"check_{to}", None) or module.check
     check(chosen, path, Options())
     text = path.read_text()
-    # Numbers with many digits; not of what only decorates: bodies that are seen, text, masses.
+    # Numbers with many digits; not of what only decorates: bodies that are seen, text, masses, and
+    # how a dimension is drawn.
+    drawn = [
+        each.span() for each in re.finditer(r"\nBLOCK\n(?:.*\n){,20}\*D\d+\n(?s:.*?)\nENDBLK", text)
+    ]
     found = [
         number
         for line in re.finditer(r".+", text)
-        if not re.search(
-            r"<(visual|inerti|geom|site size|statistic|light|text|svg|desc|style|position)", line[0]
+        if not any(start < line.start() < end for start, end in drawn)
+        and not re.search(
+            r"<(visual|inerti|geom|site size|statistic|light|text|svg|desc|style|position|polygon)",
+            line[0],
         )
         for number in re.compile(r'(?<![\w.])(?<!damping=")-?\d+\.\d{9,}(?:e-\d+)?').finditer(
             text, *line.span()
@@ -527,7 +533,7 @@ def test_a_file_that_is_not_the_linkage_is_told(name, to, tmp_path):
 
 
 TOLD = {
-    "dxf": 0.6,
+    "dxf": 0.55,
     "svg": 0.6,
     "csv": 1.0,
     "json": 0.95,

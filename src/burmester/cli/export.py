@@ -43,6 +43,12 @@ Lengths are in the unit of the poses."""
     "--pose", type=int, metavar="N", default=1, help="Pose at which the assembly is drawn."
 )
 @click.option(
+    "--dimensions/--no-dimensions",
+    default=True,
+    help="Whether drawings have dimension lines, on a layer of their own.",
+    show_default=True,
+)
+@click.option(
     "--seconds", type=float, default=4.0, help="Duration of gif and mp4.", show_default=True
 )
 @click.option(

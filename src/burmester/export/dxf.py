@@ -1,9 +1,9 @@
 """DXF (R2010, millimetres): the plates laid out for cutting, and the assembly as a block.
 
-Outlines are closed polylines with exact arcs, holes are circles, slots are closed polylines.  The
-block ASSEMBLY is inserted where F has it, with the coupler at the chosen pose.  The bytes
-depend on the linkage and the options only, but for the order of two entries that ezdxf keeps in a
-set.
+Outlines are closed polylines with exact arcs, holes are circles, slots are closed polylines.
+Dimensions are entities that measure, on the layer DIMENSIONS, which can be switched off.  The block
+ASSEMBLY is inserted where F has it, with the coupler at the chosen pose.  The bytes depend on the
+linkage and the options only, but for the order of two entries that ezdxf keeps in a set.
 
 E160 the file does not contain the linkage
 """
@@ -17,10 +17,19 @@ from typing import Any
 import numpy as np
 
 from burmester.errors import BurmesterError
+from burmester.export.dimension_lines import DimensionLine
+from burmester.export.measured import Measured, require_dimensions, require_drawn
 from burmester.export.options import Options
-from burmester.export.plates import Assembly, assembly_of, slot_outline
-from burmester.export.reference import Reference, description, dimension_notes, require_equal
-from burmester.export.sheet import Sheet, beside, moved, notes_on, sheet_of
+from burmester.export.plate import moved
+from burmester.export.plates import Assembly, Plate, assembly_of, slot_outline
+from burmester.export.reference import (
+    Reference,
+    description,
+    dimension_notes,
+    printed_decimals,
+    require_equal,
+)
+from burmester.export.sheet import Sheet, beside, carried, notes_on, sheet_of
 from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import FloatArray
@@ -41,8 +50,11 @@ LAYERS = {  # and their colours by the index of AutoCAD
     "MARKS": 9,
     "ASSEMBLY": 9,
     "POSES": 6,
+    "DIMENSIONS": 30,
     "TEXT": 7,
 }
+DIMENSION_STYLE = "BURMESTER"
+DIAMETER_TYPE = 3  # of dimension entities
 
 
 def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
@@ -51,7 +63,8 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
     poses = Reference.of(chosen, options).poses
     notes = description(chosen, options, "mm") + dimension_notes(chosen, options)
     notes += notes_on(assembly)
-    sheet = sheet_of(assembly, poses, len(notes))
+    _, decimals = printed_decimals(chosen, options)
+    sheet = sheet_of(assembly, poses, len(notes), decimals.lengths, options.dimensions)
     fixed = ezdxf.options.write_fixed_meta_data_for_testing
     try:
         ezdxf.options.write_fixed_meta_data_for_testing = True  # no dates and no random numbers
@@ -62,6 +75,7 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
         document.header["$EXTMAX"] = (*sheet.high.tolist(), 0.0)
         for name, colour in LAYERS.items():
             document.layers.add(name, color=colour)
+        _add_style(document, sheet)
         _draw(document, assembly, sheet, poses, notes)
         middle, size = (sheet.low + sheet.high) / 2, sheet.high - sheet.low
         document.set_modelspace_vport(float(size.max()), center=tuple(middle.tolist()))
@@ -78,11 +92,12 @@ def _draw(
     notes: list[str],
 ) -> None:
     space = document.modelspace()
-    for (plate, shift), label in zip(sheet.parts, sheet.labels, strict=True):
-        drawn = moved(plate, Displacement(shift, np.array(0.0)))
-        layers = (plate.owner.upper(), "HOLES", "SLOTS", "MARKS")
-        _plate(space, drawn, layers, sheet)
-        _text(space, f"{plate.name}, layer {plate.layer}", label, sheet.letters)
+    for part, label in zip(sheet.parts, sheet.labels, strict=True):
+        layers = (part.plate.owner.upper(), "HOLES", "SLOTS", "MARKS")
+        _plate(space, moved(part.plate, part.place), layers, sheet)
+        _text(space, part.label, label, sheet.letters)
+        for each in part.lines:
+            _dimension(document, each)
     block = document.blocks.new("ASSEMBLY", base_point=(0, 0))
     for plate in assembly.plates:
         drawn = moved(plate, plate.at(assembly.drawn))
@@ -118,6 +133,73 @@ def _plate(
         for way in ([arm, 0], [0, arm]):
             ends = _point(mark - way), _point(mark + way)
             space.add_line(*ends, dxfattribs={"layer": mark_layer})
+
+
+def _add_style(document: Any, sheet: Sheet) -> None:
+    """The style of dimensions: the letters and decimals of the sheet, closed arrows."""
+    style = document.dimstyles.new(DIMENSION_STYLE)
+    for key, value in {
+        "dimtxt": sheet.letters,
+        "dimasz": 0.8 * sheet.letters,
+        "dimexo": 0,
+        "dimexe": 0.5 * sheet.letters,
+        "dimgap": 0.35 * sheet.letters,
+        "dimdec": sheet.decimals,
+        "dimzin": 8,  # no zeros behind
+        "dimtad": 1,  # text above its line
+        "dimtih": 1,  # and not turned
+        "dimtoh": 1,
+        "dimtmove": 2,
+        "dimdsep": ord("."),
+        "dimscale": 1,
+    }.items():
+        style.set_dxf_attrib(key, value)
+
+
+def _dimension(document: Any, line: DimensionLine) -> None:
+    """A dimension that measures; what it shows is drawn as the sheet has it."""
+    space = document.modelspace()
+    one, two = (_point(each) for each in line.measured)
+    start, end = line.lines[0]
+    _, *inches = line.text.partition(" [")
+    common = {
+        "text": "<>" + "".join(inches),
+        "dimstyle": DIMENSION_STYLE,
+        "dxfattribs": {"layer": "DIMENSIONS"},
+    }
+    if line.kind == "diameter":
+        middle = _point(line.measured.mean(axis=0))
+        made = space.add_diameter_dim(middle, mpoint=two, **common)
+    elif line.kind == "distance":
+        along = line.measured[1] - line.measured[0]
+        away = start - line.measured[0]
+        side = along[0] * away[1] - along[1] * away[0]
+        level = abs(side) / float(np.linalg.norm(along))
+        made = space.add_aligned_dim(one, two, distance=float(np.copysign(level, side)), **common)
+    else:
+        angle = 0.0 if line.kind == "length" else 90.0
+        made = space.add_linear_dim(_point(end), one, two, angle=angle, **common)
+    made.render()
+    entity = made.dimension
+    entity.dxf.text_midpoint = _point(line.at)
+    if line.kind != "diameter":
+        entity.dxf.defpoint = _point(end)
+    entity.dxf.actual_measurement = line.value
+    block = document.blocks.get(entity.dxf.geometry)
+    block.delete_all_entities()
+    for piece in line.lines:
+        block.add_line(*map(_point, piece), dxfattribs={"layer": "DIMENSIONS"})
+    for arrow in line.arrows:
+        block.add_solid([_point(each) for each in arrow], dxfattribs={"layer": "DIMENSIONS"})
+    block.add_mtext(
+        line.text.replace("Ø", "%%c"),
+        dxfattribs={
+            "layer": "DIMENSIONS",
+            "char_height": line.letters,
+            "insert": _point(line.at),
+            "attachment_point": 5,
+        },
+    )
 
 
 def _closed(space: Any, outline: FloatArray, layer: str) -> None:
@@ -168,7 +250,9 @@ def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
         outline, _, slots, _ = moved(plate, plate.at(assembly.drawn))
         for rows in (outline, *map(slot_outline, slots)):
             require_equal(f"{plate.name} in the assembly", _rows(next(drawn)), rows, TOLERANCE_MM)
-    _check_plates(document, assembly)
+    placed = _check_plates(document, assembly)
+    if options.dimensions:
+        require_dimensions(placed, _measured(document), TOLERANCE_MM)
     axes = document.modelspace().query('LINE[layer=="POSES"]')
     starts = np.array([tuple(each.dxf.start)[:2] for each in axes])
     require_equal("the poses", starts, np.repeat(poses.translation, 2, axis=0), TOLERANCE_MM)
@@ -189,8 +273,36 @@ def _pivots(reference: Reference, place: Displacement) -> list[tuple[str, FloatA
     return pivots
 
 
-def _check_plates(document: Any, assembly: Assembly) -> None:
-    """The plates laid out, by what lies within their outlines."""
+def _measured(document: Any) -> list[Measured]:
+    """The dimension entities, what they measure and what they show."""
+    found = []
+    for entity in document.modelspace().query("DIMENSION"):
+        require_equal("the layer of a dimension", entity.dxf.layer == "DIMENSIONS", True, 0)
+        block = document.blocks.get(entity.dxf.geometry)
+        (shown,) = block.query("MTEXT")
+        require_equal(
+            "the layers of a dimension",
+            {each.dxf.layer for each in block} == {"DIMENSIONS"},
+            True,
+            0,
+        )
+        dxf, diameter = entity.dxf, entity.dimtype == DIAMETER_TYPE
+        ends = (dxf.defpoint, dxf.defpoint4) if diameter else (dxf.defpoint2, dxf.defpoint3)
+        rows = np.array([tuple(each)[:2] for each in ends])
+        text = shown.text.replace("%%c", "Ø")
+        lines = [
+            [tuple(each.dxf.start)[:2], tuple(each.dxf.end)[:2]] for each in block.query("LINE")
+        ]
+        require_drawn(np.array(lines), rows, diameter, TOLERANCE_MM)
+        require_equal("where a text is", dxf.text_midpoint, shown.dxf.insert, TOLERANCE_MM)
+        if not diameter:
+            require_equal("a dimension line", tuple(dxf.defpoint)[:2], lines[0][1], TOLERANCE_MM)
+        found.append(Measured(rows, float(entity.get_measurement()), text, diameter))
+    return found
+
+
+def _check_plates(document: Any, assembly: Assembly) -> list[tuple[Plate, Displacement]]:
+    """The plates laid out, by what lies within their outlines, and where they lie."""
     space = document.modelspace()
     outlines = {
         layer: [each for each in space.query("LWPOLYLINE") if each.dxf.layer == layer]
@@ -204,27 +316,27 @@ def _check_plates(document: Any, assembly: Assembly) -> None:
         "the number of holes", len(circles), sum(len(p.holes) for p in assembly.plates), 0
     )
     require_equal("the number of slots", len(slots), sum(len(p.slots) for p in assembly.plates), 0)
+    placed = []
     for plate in assembly.plates:
         own = outlines[plate.owner.upper()].pop(0)
         require_equal(f"whether the outline of {plate.name} is closed", own.closed, True, 0)
-        points = _rows(own)
-        shift = points[0, :2] - plate.outline[0, :2]
-        require_equal(
-            f"the outline of {plate.name}", points - [*shift, 0], plate.outline, TOLERANCE_MM
-        )
-        if len(plate.holes):
-            local = circles - [*shift, 0]
-            gaps = np.abs(local[:, None] - plate.holes).max(axis=-1).min(axis=0)
+        rows = _rows(own)
+        placed.append((plate, carried(plate, rows)))
+        outline, holes, wanted, _ = moved(*placed[-1])
+        require_equal(f"the outline of {plate.name}", rows, outline, TOLERANCE_MM)
+        if len(holes):
+            gaps = np.abs(circles[:, None] - holes).max(axis=-1).min(axis=0)
             require_equal(f"the holes of {plate.name}", gaps, np.zeros(len(gaps)), TOLERANCE_MM)
-        for slot in plate.slots:
+        for slot in wanted:
             gaps_of = [
-                float(np.abs(rows - [*shift, 0] - slot_outline(slot)).max())
-                for rows in map(_rows, slots)
-                if rows.shape == slot_outline(slot).shape
+                float(np.abs(each - slot_outline(slot)).max())
+                for each in map(_rows, slots)
+                if each.shape == slot_outline(slot).shape
             ]
             require_equal(
                 f"the slot of {plate.name}", min(gaps_of, default=np.inf), 0, TOLERANCE_MM
             )
+    return placed
 
 
 def _rows(polyline: Any) -> FloatArray:

@@ -32,6 +32,8 @@ class Options:
         other, diameter of pins; in the unit of the task's lengths.
     pose : int
         The pose at which the assembly is drawn, from 1.
+    dimensions : bool
+        Whether drawings have dimension lines.
     seconds, frames_per_second, width_px : float, float, int
         Duration, frame rate and width of moving pictures.
     """
@@ -43,6 +45,7 @@ class Options:
     gap: float | None = None
     pin: float | None = None
     pose: int = 1
+    dimensions: bool = True
     seconds: float = 4.0
     frames_per_second: float = 25.0
     width_px: int = 800

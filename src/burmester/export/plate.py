@@ -12,7 +12,7 @@ from burmester.export.outlines import convex_hull, points_on, rounded_hull
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["Owner", "Pin", "Plate", "outline_points", "plate_of"]
+__all__ = ["Owner", "Pin", "Plate", "moved", "outline_points", "plate_of"]
 
 SLOT_RUN_OUT = 0.5  # of a hole's diameter: slot beyond each end of the pin's travel
 
@@ -117,6 +117,16 @@ def plate_of(
         fixed,
         moving,
     )
+
+
+def moved(plate: Plate, by: Displacement) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """The outline, holes, slots and marks of a plate, carried by a displacement."""
+    outline = np.column_stack([by.act(plate.outline[:, :2]), plate.outline[:, 2]])
+    holes = np.column_stack([by.act(plate.holes[:, :2]), plate.holes[:, 2]])
+    slots = np.column_stack(
+        [by.act(plate.slots[:, :2]), by.act(plate.slots[:, 2:4]), plate.slots[:, 4]]
+    )
+    return outline, holes, slots, by.act(plate.marks)
 
 
 def outline_points(shape: Plate | FloatArray, tolerance: float) -> FloatArray:

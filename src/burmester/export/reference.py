@@ -12,7 +12,7 @@ from typing import final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from burmester.describe.decimals import decimals_of_linkage
+from burmester.describe.decimals import Decimals, decimals_of_linkage
 from burmester.describe.dimensions import dimensions_of
 from burmester.errors import BurmesterError
 from burmester.export.options import MILLIMETRES, Options, unit_of
@@ -32,6 +32,7 @@ __all__ = [
     "as_rows",
     "description",
     "dimension_notes",
+    "printed_decimals",
     "require_equal",
 ]
 
@@ -192,8 +193,8 @@ def description(chosen: SavedLinkage, options: Options, unit: str | None) -> lis
     return sentences
 
 
-def dimension_notes(chosen: SavedLinkage, options: Options) -> list[str]:
-    """The dimensions of both dyads in millimetres, a line each, and what a builder gets of them."""
+def printed_decimals(chosen: SavedLinkage, options: Options) -> tuple[Linkage, Decimals]:
+    """The linkage in millimetres, and with how many decimals its dimensions keep its error."""
     own = Reference.of(chosen, options)
     size = characteristic_length(chosen.task) * own.scale
     linkage = Linkage(
@@ -201,7 +202,12 @@ def dimension_notes(chosen: SavedLinkage, options: Options) -> list[str]:
     )
     error = PoseError.at(own.places, own.poses)
     length = default_length_per_radian(chosen.task) * own.scale
-    decimals = decimals_of_linkage(linkage, own.poses, error, length, size)
+    return linkage, decimals_of_linkage(linkage, own.poses, error, length, size)
+
+
+def dimension_notes(chosen: SavedLinkage, options: Options) -> list[str]:
+    """The dimensions of both dyads in millimetres, a line each, and what a builder gets of them."""
+    linkage, decimals = printed_decimals(chosen, options)
     rows = dimensions_of((linkage.first, linkage.second), chosen.ids, decimals)
     notes = []
     for name in chosen.ids:

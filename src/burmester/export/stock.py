@@ -60,6 +60,11 @@ class Stock:
         """The hole in which a pin turns; None where the list does not have this pin."""
         return next((hole for own, hole in self.joints if _same(own, pin)), None)
 
+    def has(self, size: float) -> bool:
+        """Whether a size is in one of the lists."""
+        lists = (self.widths, self.sheets, self.shims, *self.joints)
+        return any(_same(each, size) for sizes in lists for each in sizes)
+
     def name(self, size: float) -> str:
         """A size as the shop calls it: 5.3 mm, 13/64 in, 16 gauge (0.0598 in)."""
         if not self.inches:

@@ -10,22 +10,27 @@ from __future__ import annotations
 
 import math
 import re
+from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree
 from xml.sax.saxutils import escape
 
 import numpy as np
 
+from burmester.export.dimension_lines import DimensionLine
+from burmester.export.measured import Measured, require_dimensions, require_drawn
 from burmester.export.options import Options
+from burmester.export.plate import moved
 from burmester.export.plates import Plate, assembly_of, slot_outline
 from burmester.export.reference import (
     PRECISION,
     Reference,
     description,
     dimension_notes,
+    printed_decimals,
     require_equal,
 )
-from burmester.export.sheet import beside, moved, notes_on, sheet_of
+from burmester.export.sheet import beside, carried, notes_on, sheet_of
 from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import FloatArray
@@ -34,12 +39,16 @@ __all__ = ["check", "write"]
 
 LINE_WIDTH_MM = 0.1  # at most, and no more than a share of the link width
 OF_WIDTH = 0.02
+FONT_MIDDLE = 0.36  # of a font's size: middle of its capitals above the base line
+INKSCAPE = 'xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape"'
 MAX_BULGE = 0.57  # bulge above which an arc is drawn as two
 STYLE = """
   path, circle, line { fill: none; stroke: #000; stroke-width: %s; stroke-linejoin: round }
   .driver { stroke: #c1272d } .coupler { stroke: #0057b8 } .follower { stroke: #1b7f3b }
   .ground { stroke: #555 } .hole, .slot { stroke: #000 }
   .mark { stroke: #888 } .pose { stroke: #a3238e } text.pose { stroke: none; fill: #a3238e }
+  .dimension { stroke: #a65200 } polygon.dimension { stroke: none; fill: #a65200 }
+  text.dimension { stroke: none; fill: #a65200; text-anchor: middle }
   text { text-rendering: geometricPrecision; font-family: sans-serif; font-size: %spx; fill: #000 }
 """
 
@@ -50,26 +59,36 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
     poses = Reference.of(chosen, options).poses
     notes = description(chosen, options, "mm") + dimension_notes(chosen, options)
     notes += notes_on(assembly)
-    sheet = sheet_of(assembly, poses, len(notes))
+    _, decimals = printed_decimals(chosen, options)
+    sheet = sheet_of(assembly, poses, len(notes), decimals.lengths, options.dimensions)
     hair = min(LINE_WIDTH_MM, OF_WIDTH * assembly.dimensions.width)
     size = sheet.high - sheet.low
     box = f"{_n(sheet.low[0])} {_n(-sheet.high[1])} {_n(size[0])} {_n(size[1])}"
     lines = [
         '<?xml version="1.0" encoding="UTF-8"?>',
-        f'<svg xmlns="http://www.w3.org/2000/svg" width="{_n(size[0])}mm" '
+        f'<svg xmlns="http://www.w3.org/2000/svg" {INKSCAPE} width="{_n(size[0])}mm" '
         f'height="{_n(size[1])}mm" viewBox="{box}" role="img">',
         f"<title>{escape(notes[0])}</title>",
         f"<desc>{escape(' '.join(notes[1:]))}</desc>",
         f"<style>{STYLE % (_n(hair), _n(sheet.letters))}</style>",
         '<g id="parts">',
     ]
-    for (plate, shift), label in zip(sheet.parts, sheet.labels, strict=True):
-        lines.append(f'<g id="part-{plate.name}">')
-        drawn = moved(plate, Displacement(shift, np.array(0.0)))
-        lines += _plate(drawn, plate.owner, sheet.letters)
+    for part in sheet.parts:
+        lines.append(f'<g id="part-{part.plate.name}">')
+        lines += _plate(moved(part.plate, part.place), part.plate.owner, sheet.letters)
         lines.append("</g>")
-        lines.append(_text(f"{plate.name}, layer {plate.layer}", label))
-    lines += ["</g>", '<g id="assembly">']
+    lines += ["</g>", '<g id="names">']
+    lines += [_text(part.label, at) for part, at in zip(sheet.parts, sheet.labels, strict=True)]
+    lines.append("</g>")
+    if options.dimensions:
+        lines.append('<g id="dimensions" inkscape:groupmode="layer" inkscape:label="dimensions">')
+        for part in sheet.parts:
+            lines.append(f'<g id="dimensions-{part.plate.name}">')
+            for line in part.lines:
+                lines += _dimension(line)
+            lines.append("</g>")
+        lines.append("</g>")
+    lines.append('<g id="assembly">')
     for plate in sorted(assembly.plates, key=lambda each: each.layer):
         lines.append(f'<g id="placed-{plate.name}">')
         lines += _plate(moved(plate, plate.at(assembly.drawn)), plate.owner, sheet.letters)
@@ -102,6 +121,18 @@ def _plate(
         for way in ([0.3 * letters, 0], [0, 0.3 * letters]):
             lines.append(_line(mark - way, mark + way, "mark"))
     return lines
+
+
+def _dimension(line: DimensionLine) -> list[str]:
+    """A dimension line with its arrows and its text, of which the middle is given."""
+    told = f'<g class="{line.kind}" data-length="{_n(line.value)}">'
+    lines = [_line(start, end, "dimension") for start, end in line.lines]
+    for arrow in line.arrows:
+        corners = " ".join(f"{_n(x)},{_n(-y)}" for x, y in arrow.tolist())
+        lines.append(f'<polygon class="dimension" points="{corners}"/>')
+    # The middle of capitals is 0.36 of their size above the base line.
+    foot = line.at - [0, FONT_MIDDLE * line.letters]
+    return [told, *lines, _text(line.text, foot, ' class="dimension"'), "</g>"]
 
 
 def _halved(outline: FloatArray) -> FloatArray:
@@ -175,27 +206,25 @@ def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
         if fixed is not None and moving is not None:
             expected[side] = [fixed, place.act(moving)]
         for owner, points in expected.items():
-            placed = [each for name, each in groups.items() if name and _is(name, owner)]
-            holes = np.array([each for group in placed for each in _holes(group)]).reshape(-1, 3)
+            own = [each for name, each in groups.items() if name and _is(name, owner)]
+            holes = np.array([each for group in own for each in _holes(group)]).reshape(-1, 3)
             for point in points:
                 gap = np.linalg.norm(holes[:, :2] - point, axis=1)
                 what = f"a pivot of the {side} in the {owner}"
                 require_equal(what, gap.min(initial=np.inf), 0, tolerance)
+    placed, read = list[tuple[Plate, Displacement]](), list[Measured]()
     for plate in assembly.plates:
         group = groups[f"part-{plate.name}"]
-        shift = _paths(group)[0][0, :2] - plate.outline[0, :2]
-        _check_plate(group, plate, Displacement(shift, np.array(0.0)), tolerance)
+        half = replace(plate, outline=_halved(plate.outline))
+        placed.append((plate, carried(half, _paths(group)[0])))
+        _check_plate(group, *placed[-1], tolerance)
+        if options.dimensions:
+            read += [_measured(each, tolerance) for each in groups[f"dimensions-{plate.name}"]]
         group = groups[f"placed-{plate.name}"]
         _check_plate(group, plate, plate.at(place), tolerance)
-    keys = ("x1", "y1", "x2", "y2")
-    lines = np.array(
-        [
-            [float(e.get(k) or "nan") for k in keys]
-            for e in groups["poses"].iter()
-            if e.tag.endswith("line")
-        ]
-    )
-    lines[:, 1::2] *= -1
+    if options.dimensions:
+        require_dimensions(placed, read, tolerance)
+    lines = _lines(groups["poses"])
     start, way = lines[::2, :2], lines[::2, 2:] - lines[::2, :2]
     require_equal("the places of the poses", start, reference.poses.translation, tolerance)
     require_equal("their second axes", lines[1::2, :2], start, tolerance)
@@ -219,6 +248,32 @@ def _check_plate(
 
 def _paths(group: ElementTree.Element) -> list[FloatArray]:
     return [_read_path(each.get("d") or "") for each in group if each.tag.endswith("path")]
+
+
+def _lines(group: ElementTree.Element) -> FloatArray:
+    """The lines (n, 4) of a group, y upwards."""
+    keys = ("x1", "y1", "x2", "y2")
+    lines = np.array(
+        [[float(e.get(k) or "nan") for k in keys] for e in group.iter() if e.tag.endswith("line")]
+    )
+    lines[:, 1::2] *= -1
+    return lines
+
+
+def _measured(group: ElementTree.Element, tolerance: float) -> Measured:
+    """A dimension line by its lines: where its extension lines begin, or from its leader's tip."""
+    value = float(group.get("data-length") or "nan")
+    lines = _lines(group).reshape(-1, 2, 2)
+    diameter = group.get("class") == "diameter"
+    if diameter:
+        tip, elbow = lines[0]
+        inwards = (tip - elbow) / np.linalg.norm(tip - elbow)
+        ends = np.stack([tip + value * inwards, tip])
+    else:
+        ends = lines[1:, 0]
+    require_drawn(lines, ends, diameter, tolerance)
+    (text,) = (each.text or "" for each in group if each.tag.endswith("text"))
+    return Measured(ends, value, text, diameter)
 
 
 def _is(name: str, owner: str) -> bool:

@@ -1,0 +1,182 @@
+"""Dimension lines of DXF and SVG, by ezdxf and svgelements, against the dyads' lengths."""
+
+import io
+import itertools
+import re
+from collections import Counter
+
+import ezdxf
+import ezdxf.math
+import numpy as np
+import pytest
+
+from burmester.errors import BurmesterError
+from burmester.export import Options, dxf, svg
+from burmester.export.distances import distance
+from burmester.export.plates import assembly_of
+from burmester.export.sheet import laid_lengthwise
+from tests.oracles.handed_over import NAMES, joints, saved, scale_of, written
+
+
+def hole_distances(chosen):
+    """Every distance of two holes in one plate, in mm, from the dyads: {plate: length}."""
+    at = {key: z * scale_of(chosen) for key, z in joints(chosen, 0).items()}
+    pairs = {
+        "driver": ("fixed1", "moving1"),
+        "follower": ("fixed2", "moving2"),
+        "ground": ("fixed1", "fixed2"),
+        "coupler": ("moving1", "moving2"),
+    }
+    return {
+        name: abs(at[one] - at[two])
+        for name, (one, two) in pairs.items()
+        if one in at and two in at
+    }
+
+
+def entities(path):
+    return list(ezdxf.readfile(path).modelspace().query("DIMENSION"))
+
+
+def shown(document, entity):
+    """The number that a dimension shows, and how far it may be from the measurement."""
+    (text,) = document.blocks.get(entity.dxf.geometry).query("MTEXT")
+    number = re.match(r"(?:%%c)?(-?[\d.]+)", text.text)[1]
+    return float(number), 0.5 * 10 ** -len(number.partition(".")[2]) * 1.001
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_dxf_measures_the_links(name, tmp_path):
+    chosen, path = written(name, "dxf", tmp_path)
+    document = ezdxf.readfile(path)
+    found = entities(path)
+    assert {each.dxf.layer for each in found} == {"DIMENSIONS"}
+    straight = [each.get_measurement() for each in found if each.dimtype == 0]
+    round_ones = [each.get_measurement() for each in found if each.dimtype == 3]
+    made = assembly_of(chosen, Options())
+    wanted = hole_distances(chosen)
+    if made.plate("ground-2") is not None:  # its holes are in two plates
+        wanted.pop("ground", None)
+    for plate, length in wanted.items():
+        assert min(abs(np.array(straight) - length)) <= 1e-6, plate
+        whole = length + made.dimensions.width
+        if plate in ("driver", "follower"):
+            assert min(abs(np.array(straight) - whole)) <= 1e-6, plate
+            assert min(abs(np.array(straight) - made.dimensions.width)) <= 1e-6, plate
+    holes = sum(len(plate.holes) + len(plate.slots) for plate in made.plates)
+    assert len(round_ones) == holes
+    np.testing.assert_allclose(round_ones, made.dimensions.hole, atol=1e-6)
+    # What is shown is what is measured, rounded; in inches, too, where the task has them.
+    for entity in found:
+        number, half = shown(document, entity)
+        assert number == pytest.approx(entity.get_measurement(), abs=half)
+        inches = re.search(
+            r"\[(.*)\]", document.blocks.get(entity.dxf.geometry).query("MTEXT")[0].text
+        )
+        assert (inches is not None) == (chosen.unit in ("in", "ft"))
+
+
+@pytest.mark.parametrize("to", ["dxf", "svg"])
+def test_without_dimensions_the_drawing_is_the_same_but_for_them(to, tmp_path):
+    """What is cut does not depend on them, but for where it lies on the sheet."""
+    cut = []
+    for number, dimensions in enumerate((True, False)):
+        folder = tmp_path / str(number)
+        folder.mkdir()
+        _, path = written("trammel, mm", to, folder, Options(dimensions=dimensions))
+        if to == "dxf":
+            space = ezdxf.readfile(path).modelspace()
+            cut.append(
+                Counter(
+                    (each.dxftype(), each.dxf.layer, len(each) if "POLY" in each.dxftype() else 0)
+                    for each in space
+                    if each.dxf.layer != "DIMENSIONS"
+                )
+            )
+            assert bool(space.query('DIMENSION[layer=="DIMENSIONS"]')) == dimensions
+        else:
+            text = path.read_text()
+            assert ('id="dimensions"' in text) == dimensions
+            plain = re.sub(r'<g id="dimensions".*?</g>\n</g>\n</g>', "", text, flags=re.S)
+            cut.append(Counter(re.findall(r'class="(?:outline \w+|hole|slot|mark)"', plain)))
+            assert ('class="dimension"' in plain) is False
+    assert cut[0] == cut[1]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_svg_tells_the_links(name, tmp_path):
+    elements = pytest.importorskip("svgelements")
+    chosen, path = written(name, "svg", tmp_path)
+    drawing = elements.SVG.parse(io.StringIO(path.read_text().replace('mm"', '"')))
+    groups = {each.id: each for each in drawing.select(lambda e: isinstance(e, elements.Group))}
+    wanted = hole_distances(chosen)
+    if "part-ground-2" in groups:
+        wanted.pop("ground", None)
+    for plate, length in wanted.items():
+        own = groups[f"dimensions-{plate}"]
+        lines = [
+            [complex(each.x1, each.y1), complex(each.x2, each.y2)]
+            for each in own.select(lambda e: isinstance(e, elements.SimpleLine))
+        ]
+        holes = [
+            complex(each.cx, each.cy)
+            for each in groups[f"part-{plate}"].select(lambda e: isinstance(e, elements.Circle))
+        ]
+        assert abs(holes[0] - holes[1]) == pytest.approx(length, rel=1e-9)
+        # Extension lines begin at both holes, and the line between them is as long and told so.
+        from_holes = [
+            line for line in lines if min(abs(line[0] - z) for z in holes) < 1e-9 * length
+        ]
+        assert len(from_holes) >= 2
+        numbers = [
+            float(each.text.removeprefix("Ø").partition(" [")[0])
+            for each in own.select(lambda e: isinstance(e, elements.Text))
+        ]
+        assert min(abs(np.array(numbers) - length)) <= 1e-3 * length
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_text_is_clear_of_the_plates_and_of_other_text(name):
+    assembly = assembly_of(saved(name), Options())
+    letters = 0.35 * assembly.dimensions.width
+    for laid in laid_lengthwise(assembly, letters, 3, True):
+        corners = laid.place.act(laid.plate.skeleton)
+        for line in laid.lines:
+            assert distance(line.box, corners) >= laid.plate.radius, (laid.label, line.text)
+        for one, two in itertools.combinations(laid.lines, 2):
+            assert distance(one.box, two.box) > 0.2 * letters, (one.text, two.text)
+        # No text on a line, but where there is no room at all.
+        crossed = [
+            (one.text, two.text)
+            for one, two in itertools.permutations(laid.lines, 2)
+            if any(distance(one.box, each) == 0 for each in two.lines)
+        ]
+        assert len(crossed) <= 1, crossed
+
+
+@pytest.mark.parametrize("what", ["measurement", "text", "end"])
+def test_a_wrong_dimension_is_told(what, tmp_path):
+    chosen, path = written("crank-rocker, mm", "dxf", tmp_path)
+    document = ezdxf.readfile(path)
+    entity = document.modelspace().query("DIMENSION")[0]
+    block = document.blocks.get(entity.dxf.geometry)
+    if what == "measurement":
+        entity.dxf.defpoint2 = ezdxf.math.Vec3(0.01, 0, 0) + entity.dxf.defpoint2
+    elif what == "text":
+        text = block.query("MTEXT")[0]
+        text.text = str(float(text.text) + 0.1)
+    else:
+        line = block.query("LINE")[1]
+        line.dxf.end = ezdxf.math.Vec3(0.01, 0, 0) + line.dxf.end
+    document.saveas(path)
+    with pytest.raises(BurmesterError) as caught:
+        dxf.check(chosen, path, Options())
+    assert caught.value.code == "E160"
+
+
+def test_a_wrong_number_in_an_svg_is_told(tmp_path):
+    chosen, path = written("crank-rocker, mm", "svg", tmp_path)
+    text = path.read_text()
+    path.write_text(text.replace(">70.71<", ">70.17<"))
+    with pytest.raises(BurmesterError, match="was deleted"):
+        svg.check(chosen, path, Options())
