@@ -7,6 +7,7 @@ asked.
 import math
 import struct
 from collections import Counter
+from dataclasses import replace
 from itertools import combinations
 from types import SimpleNamespace
 
@@ -29,6 +30,7 @@ cad = pytest.importorskip("build123d", reason="solids need build123d", exc_type=
 POSE = 4
 HOLE, WIDTH, THICK, GAP = 6.0, 14.0, 5.0, 1.0
 OPTIONS = Options(hole=HOLE, width=WIDTH, thickness=THICK, gap=GAP, pose=POSE)
+ASSEMBLED = replace(OPTIONS, assembled=True)
 
 
 def with_slider(kind):
@@ -57,8 +59,8 @@ def made(request, tmp_path_factory):
     chosen, folder = LINKAGES[request.param](), tmp_path_factory.mktemp("solid")
     step, stl, flat = folder / "a.step", folder / "a.stl", folder / "b.stl"
     solid.write_step(chosen, step, OPTIONS)
-    solid.write_stl(chosen, stl, OPTIONS)
-    solid.write_flat(chosen, flat, OPTIONS)
+    solid.write_stl(chosen, stl, ASSEMBLED)
+    solid.write_stl(chosen, flat, OPTIONS)
     whole = cad.import_step(str(step))
     parts = {each.label: each for each in whole.children}
     return SimpleNamespace(chosen=chosen, step=step, stl=stl, flat=flat, whole=whole, parts=parts)
@@ -297,10 +299,67 @@ def test_flat_parts_lie_beside_each_other(made):
         assert gap[:2].max() > 1.99 * WIDTH
 
 
+def ring(points, centre):
+    """The vertices (n,), complex, of a hole's rim about a centre, each once."""
+    arm = np.unique(points[:, :2] @ [1, 1j] - centre)
+    return arm[abs(abs(arm) - HOLE / 2) < 0.02 * HOLE]
+
+
+def middle_of(rim):
+    """Where the perpendicular bisectors of the chords of a rim (n,) from its first vertex meet."""
+    chord = rim[1:] - rim[0]
+    left = np.column_stack([chord.real, chord.imag])
+    right = (np.conj(chord) * (rim[1:] + rim[0])).real / 2
+    return complex(*np.linalg.lstsq(left, right, rcond=None)[0])
+
+
+def test_flat_links_have_their_holes_as_far_apart_as_they_are_long(made):
+    shells = [each.reshape(-1, 3) for each in shells_of(read_stl(made.flat))]
+    plates = [each for each in shells if abs(np.ptp(each[:, 2]) - THICK) < 1e-6]
+    for dyad in (made.chosen.linkage.first, made.chosen.linkage.second):
+        if not isinstance(dyad, RR):
+            continue
+        length = float(dyad.radius)
+        fits = []
+        for points in plates:
+            low, high = points.min(axis=0), points.max(axis=0)
+            middle = (low[1] + high[1]) / 2
+            if abs(high[1] - low[1] - WIDTH) > 0.01 * WIDTH:
+                continue
+            ends = [complex(x, middle) for x in (low[0] + WIDTH / 2, high[0] - WIDTH / 2)]
+            rims = [ring(points, end) for end in ends]
+            if all(len(rim) > 30 for rim in rims):
+                centres = [end + middle_of(rim) for end, rim in zip(ends, rims, strict=True)]
+                fits.append(abs(centres[1] - centres[0]))
+        assert min(abs(np.array(fits) - length)) < 1e-4
+
+
+@pytest.mark.parametrize("what", ["turned", "moved"])
+def test_flat_parts_that_lie_wrong_are_refused(made, tmp_path, what):
+    """One plate turned by a tenth of a degree in its place, or a little into the table."""
+    data = bytearray(made.flat.read_bytes())
+    rows = np.frombuffer(data, dtype=np.uint8, offset=84).reshape(-1, 50)
+    numbers = np.ascontiguousarray(rows[:, 12:48]).view("<f4").reshape(-1, 3, 3)
+    first = len(shells_of(read_stl(made.flat))[0])
+    part = numbers[:first].copy()
+    if what == "turned":
+        angle = math.radians(0.1)
+        turn = np.array([[math.cos(angle), math.sin(angle)], [-math.sin(angle), math.cos(angle)]])
+        part[..., :2] = part[..., :2] @ turn
+    else:
+        part[..., 2] -= 0.01
+    for k, triangle in enumerate(part):
+        struct.pack_into("<9f", data, 84 + 50 * k + 12, *triangle.ravel())
+    path = tmp_path / "x.stl"
+    path.write_bytes(data)
+    why = refused(solid.check_stl, made.chosen, path, OPTIONS)
+    assert ("from its pivot" if what == "turned" else "z = 0") in why
+
+
 def test_what_was_written_passes_its_own_check(made):
     solid.check_step(made.chosen, made.step, OPTIONS)
-    solid.check_stl(made.chosen, made.stl, OPTIONS)
-    solid.check_flat(made.chosen, made.flat, OPTIONS)
+    solid.check_stl(made.chosen, made.stl, ASSEMBLED)
+    solid.check_stl(made.chosen, made.flat, OPTIONS)
 
 
 def refused(check, *args):
@@ -311,7 +370,7 @@ def refused(check, *args):
 
 
 def test_another_pose_is_refused(made):
-    other = Options(hole=HOLE, width=WIDTH, thickness=THICK, gap=GAP, pose=1)
+    other = replace(ASSEMBLED, pose=1)
     assert "from its pivot" in refused(solid.check_step, made.chosen, made.step, other)
     assert "from its pivot" in refused(solid.check_stl, made.chosen, made.stl, other)
 
@@ -360,9 +419,9 @@ def test_a_broken_stl_is_refused(made, tmp_path):
     count = int.from_bytes(data[80:84], "little")
     path = tmp_path / "x.stl"
     path.write_bytes(data[:80] + (count - 1).to_bytes(4, "little") + data[84:-50])
-    assert "closed" in refused(solid.check_stl, made.chosen, path, OPTIONS)
+    assert "closed" in refused(solid.check_stl, made.chosen, path, ASSEMBLED)
     path.write_bytes(data[:-1])
-    assert "triangles" in refused(solid.check_stl, made.chosen, path, OPTIONS)
+    assert "triangles" in refused(solid.check_stl, made.chosen, path, ASSEMBLED)
     # All of it a hundredth of a millimetre aside.
     rows = bytearray(data)
     for k in range(count):
@@ -370,14 +429,15 @@ def test_a_broken_stl_is_refused(made, tmp_path):
             at = 84 + 50 * k + 12 + 12 * corner
             struct.pack_into("<f", rows, at, struct.unpack_from("<f", rows, at)[0] + 0.01)
     path.write_bytes(bytes(rows))
-    assert "from its pivot" in refused(solid.check_stl, made.chosen, path, OPTIONS)
+    assert "from its pivot" in refused(solid.check_stl, made.chosen, path, ASSEMBLED)
 
 
 def test_plates_that_touch(made, tmp_path):
     chosen, options = made.chosen, Options(hole=HOLE, width=WIDTH, thickness=THICK, gap=0.0)
     path = tmp_path / "x.stl"
-    solid.write_stl(chosen, path, options)
-    solid.check_stl(chosen, path, options)
+    for each in (options, replace(options, assembled=True)):
+        solid.write_stl(chosen, path, each)
+        solid.check_stl(chosen, path, each)
 
 
 def test_inches_become_millimetres(tmp_path):

@@ -12,7 +12,8 @@ __all__ = ["export"]
 
 FORMATS = """\b
 FORMAT  dxf, svg       plates with their holes for cutting, and the assembly
-        step, stl      solid parts, assembled; flat: side by side for printing
+        step           solid parts, assembled
+        stl            solid parts flat beside each other, for printing
         openscad       a model with its numbers on top, animated
         mjcf, urdf     for simulation (MuJoCo; robots)
         gif, mp4       the motion
@@ -47,6 +48,11 @@ Lengths are in the unit of the poses."""
     default=True,
     help="Whether drawings have dimension lines, on a layer of their own.",
     show_default=True,
+)
+@click.option(
+    "--assembled",
+    is_flag=True,
+    help="The parts of an stl in their places, not flat beside each other.",
 )
 @click.option(
     "--seconds", type=float, default=4.0, help="Duration of gif and mp4.", show_default=True

@@ -61,9 +61,15 @@ FORMATS: Final[Mapping[str, Format]] = {
     ),
     "svg": Format("svg", "the same drawing, 1:1, for printing and laser cutting (mm)", ".svg"),
     "step": Format("solid", "solid parts in their places (mm)", ".step", "solid", ("build123d",)),
-    "stl": Format("solid", "solid parts for printing (mm)", ".stl", "solid", ("build123d",)),
+    "stl": Format(
+        "solid",
+        "solid parts flat beside each other, for printing (mm)",
+        ".stl",
+        "solid",
+        ("build123d",),
+    ),
     "flat": Format(
-        "solid", "the same parts flat beside each other (STL, mm)", ".stl", "solid", ("build123d",)
+        "solid", "the same; --to stl does it now (STL, mm)", ".stl", "solid", ("build123d",)
     ),
     "openscad": Format("openscad", "OpenSCAD model, animated (mm)", ".scad"),
     "mjcf": Format("mjcf", "MuJoCo model with a motor (m)", ".xml"),

@@ -34,6 +34,8 @@ class Options:
         The pose at which the assembly is drawn, from 1.
     dimensions : bool
         Whether drawings have dimension lines.
+    assembled : bool
+        Whether the parts of an STL are in their places, not flat beside each other.
     seconds, frames_per_second, width_px : float, float, int
         Duration, frame rate and width of moving pictures.
     """
@@ -46,6 +48,7 @@ class Options:
     pin: float | None = None
     pose: int = 1
     dimensions: bool = True
+    assembled: bool = False
     seconds: float = 4.0
     frames_per_second: float = 25.0
     width_px: int = 800

@@ -1,7 +1,8 @@
 """Solid parts: STEP for CAD, STL for printing, in millimetres.
 
-The plates are extruded with their holes and slots, one layer of them over the other with a gap
-between, and held by pins that have a running fit.  The first plate lies on z = 0.
+The plates are extruded with their holes and slots; pins turn in the holes.  In STEP, and in an STL
+that is asked for assembled, the parts are in their places: one layer over the other with a gap
+between, the first plate on z = 0.  Otherwise all parts lie flat beside each other on z = 0.
 
 E130 build123d is missing        E160 the file does not contain the linkage
 E162 dimensions that cannot be made        E163 a linkage that plates cannot hold
@@ -10,6 +11,7 @@ E162 dimensions that cannot be made        E163 a linkage that plates cannot hol
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 from typing import Any, Final
@@ -56,15 +58,15 @@ def write_step(chosen: SavedLinkage, path: Path, options: Options) -> None:
 
 
 def write_stl(chosen: SavedLinkage, path: Path, options: Options) -> None:
-    """Write the assembly at `options.pose` as a binary STL: each part a closed shell of its own."""
+    """Write all parts as a binary STL: each a closed shell of its own, flat, or in its place."""
     cad, made = _cad(), assembly_of(chosen, options)
-    _write_stl(cad, parts_of(cad, made), path)
+    parts = parts_of(cad, made)
+    _write_stl(cad, parts if options.assembled else laid(parts, made), path)
 
 
 def write_flat(chosen: SavedLinkage, path: Path, options: Options) -> None:
     """Write all parts beside each other on z = 0, as they are printed or cut, as a binary STL."""
-    cad, made = _cad(), assembly_of(chosen, options)
-    _write_stl(cad, laid(parts_of(cad, made), made), path)
+    write_stl(chosen, path, replace(options, assembled=False))
 
 
 def check_step(chosen: SavedLinkage, path: Path, options: Options) -> None:
@@ -93,6 +95,9 @@ def check_step(chosen: SavedLinkage, path: Path, options: Options) -> None:
 
 def check_stl(chosen: SavedLinkage, path: Path, options: Options) -> None:
     """Read an STL back; raises E160 unless it is closed, with holes at this linkage's pivots."""
+    if not options.assembled:
+        check_flat(chosen, path, options)
+        return
     made = assembly_of(chosen, options)
     shells, tolerance = _checked_shells(path, made)
     height = made.dimensions.thickness + made.dimensions.gap
@@ -115,8 +120,11 @@ def check_stl(chosen: SavedLinkage, path: Path, options: Options) -> None:
 
 
 def check_flat(chosen: SavedLinkage, path: Path, options: Options) -> None:
-    """Read such an STL back; raises E160 unless its shells are closed and lie apart on z = 0."""
-    made = assembly_of(chosen, options)
+    """Read such an STL back; raises E160 unless its shells are closed and lie apart on z = 0.
+
+    Each plate is put back to where the assembly has it, and its holes are compared as there.
+    """
+    cad, made = _cad(), assembly_of(chosen, options)
     shells, tolerance = _checked_shells(path, made)
     if any(abs(shell[..., 2].min()) > tolerance for shell in shells):
         raise _off("a part is not on z = 0")
@@ -124,6 +132,17 @@ def check_flat(chosen: SavedLinkage, path: Path, options: Options) -> None:
     for k, (low, high) in enumerate(boxes):
         if any((low < there[1]).all() and (there[0] < high).all() for there in boxes[:k]):
             raise _off("two parts lie on each other")
+    plates = {plate.name: plate for plate in made.plates}
+    points = np.concatenate([shell.reshape(-1, 3) for shell in shells])[:, :2]
+    rims = {
+        part.name: (plates[part.name].at(made.drawn) @ part.place.inverse()).act(points)
+        for part in laid(parts_of(cad, made), made)
+        if part.name in plates
+    }
+    for joint in joints_of(Reference.of(chosen, options), made, options.pose):
+        away = min(rim_away(joint, rims[each], made.dimensions.hole / 2) for each in joint.plates)
+        if not away <= 2 * tolerance:
+            raise _off(f"a hole of the {joint.plates[0]} is {away:.3g} mm from its pivot")
 
 
 def _cad() -> Any:
