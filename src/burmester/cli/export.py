@@ -12,6 +12,7 @@ __all__ = ["export"]
 
 FORMATS = """\b
 FORMAT  dxf, svg       plates with their holes for cutting, and the assembly
+        pdf            the plates at 1:1 on A4 or Letter, to print
         step           solid parts, assembled
         stl            solid parts flat beside each other, for printing
         openscad       a model with its numbers on top, animated

@@ -60,6 +60,9 @@ FORMATS: Final[Mapping[str, Format]] = {
         ("ezdxf",),
     ),
     "svg": Format("svg", "the same drawing, 1:1, for printing and laser cutting (mm)", ".svg"),
+    "pdf": Format(
+        "pdf", "the plates at 1:1, to print on A4 or Letter", ".pdf", "export", ("matplotlib",)
+    ),
     "step": Format("solid", "solid parts in their places (mm)", ".step", "solid", ("build123d",)),
     "stl": Format(
         "solid",

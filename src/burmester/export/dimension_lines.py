@@ -48,7 +48,8 @@ class DimensionLine:
 
     measured: (2, 2), the points whose distance it tells, along `lines[0]`; of a diameter both ends.
     lines: (k, 2, 2), the dimension line or leader first; arrows: (k, 3, 2), filled triangles.
-    text stands around the point `at` (2,), letters (a height) tall.
+    text stands around the point `at` (2,), letters (a height) tall; box: the corners (4, 2) of what
+    it takes, counter-clockwise.  low, high: corners (2,) of the box around everything.
     """
 
     kind: Kind
@@ -58,17 +59,9 @@ class DimensionLine:
     text: str
     at: FloatArray
     letters: float
-
-    @property
-    def box(self) -> FloatArray:
-        """The corners (4, 2) of the box around the text, counter-clockwise."""
-        half = np.array([LETTER_WIDTH * len(self.text), 1.0]) * self.letters / 2
-        return np.asarray(self.at + half * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]))
-
-    @property
-    def points(self) -> FloatArray:
-        """Points (n, 2) of whose hull nothing sticks out."""
-        return np.concatenate([self.lines.reshape(-1, 2), self.arrows.reshape(-1, 2), self.box])
+    box: FloatArray
+    low: FloatArray
+    high: FloatArray
 
     @property
     def value(self) -> float:
@@ -88,6 +81,9 @@ class DimensionLine:
             self.text,
             self.at + way,
             self.letters,
+            self.box + way,
+            self.low + way,
+            self.high + way,
         )
 
 
@@ -203,8 +199,9 @@ class _Layout:
     def overall(self, kind: Literal["length", "width"], others: Lines) -> Iterable[DimensionLine]:
         """The size of the whole, beyond all that is drawn: below or above, or beside."""
         along, across = (0, 1) if kind == "length" else (1, 0)
-        straight = [each.points for each in others if each.kind != "diameter"]
-        every = np.concatenate([self.shape, *straight])
+        straight = [each for each in others if each.kind != "diameter"]
+        ends = [self.shape, *(np.stack([each.low, each.high]) for each in straight)]
+        every = np.concatenate(ends)
         for sign in (-1.0, 1.0) if kind == "length" else (1.0, -1.0):
             side = np.zeros(2)
             side[across] = sign
@@ -253,14 +250,14 @@ class _Layout:
         arrows = [_arrow(tip, inwards, letters) for tip, inwards in tips]
         if not inside:
             lines[0] = np.stack([ends[0] - 2 * arrow * way, ends[1] + 2 * arrow * way])
-        return DimensionLine(
+        return _made(
             kind,
             np.stack(measured),
             np.stack(lines),
             np.stack(arrows),
             told,
-            ends.mean(axis=0) + clear * outwards,
-            letters,
+            at=ends.mean(axis=0) + clear * outwards,
+            letters=letters,
         )
 
     def _leader(
@@ -276,26 +273,47 @@ class _Layout:
         elbow = tip + length * u
         shelf = elbow + 0.4 * self.letters * right
         half = (LETTER_WIDTH * len(told) / 2 + 0.2) * self.letters
-        return DimensionLine(
+        return _made(
             "diameter",
             np.stack([2 * centre - tip, tip]),
             np.stack([np.stack([tip, elbow]), np.stack([elbow, shelf])]),
             _arrow(tip, u, self.letters)[None],
             told,
-            shelf + half * right,
-            self.letters,
+            at=shelf + half * right,
+            letters=self.letters,
         )
 
     def _conflicts(self, line: DimensionLine, others: Lines) -> int:
         """How much a dimension line is in the way of the part and of others: text counts most."""
         clear = CLEAR * line.letters
         count = 3 * _near(line.box, self.shape, clear)
+        least = (LINES_APART + CLEAR) * line.letters
         for other in others:
+            if max((line.low - other.high).max(), (other.low - line.high).max()) > least:
+                continue
             count += 3 * _near(line.box, other.box, clear)
             count += any(_near(line.box, each, clear) for each in other.lines)
             count += any(_near(each, other.box, clear) for each in line.lines)
             count += _too_close(line, other)
         return count
+
+
+def _made(
+    kind: Kind,
+    measured: FloatArray,
+    lines: FloatArray,
+    arrows: FloatArray,
+    text: str,
+    *,
+    at: FloatArray,
+    letters: float,
+) -> DimensionLine:
+    """A dimension line with its boxes."""
+    half = np.array([LETTER_WIDTH * len(text), 1.0]) * letters / 2
+    box = at + half * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
+    points = np.concatenate([lines.reshape(-1, 2), arrows.reshape(-1, 2), box])
+    low, high = points.min(axis=0), points.max(axis=0)
+    return DimensionLine(kind, measured, lines, arrows, text, at, letters, box, low, high)
 
 
 def _too_close(line: DimensionLine, other: DimensionLine) -> bool:

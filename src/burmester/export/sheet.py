@@ -95,7 +95,7 @@ def laid_lengthwise(
         place = Displacement(np.zeros(2), np.array(turn))
         lines = dimension_lines(plate, turn, letters, text) if dimensions else []
         box = [place.act(outline_points(plate, ARC_TOLERANCE * plate.radius))]
-        box += [each.points for each in lines]
+        box += [np.stack([each.low, each.high]) for each in lines]
         points = np.concatenate(box)
         label = f"{plate.name}, layer {plate.layer}"
         laid.append(Laid(plate, place, tuple(lines), points.min(axis=0), points.max(axis=0), label))
