@@ -5,7 +5,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from burmester import PR, RP, Displacement, Linkage
+from burmester import PR, RP, RR, Displacement, Linkage
+from burmester.fourbar.circuits import Circuits
 from burmester.web.branches import branches_of
 
 
@@ -35,3 +36,38 @@ def test_a_way_with_one_dead_point_says_at_which_end():
     assert len(told) == 4
     assert {dead for dead, _ in told} == {(True, False), (False, True)}
     assert len(set(told)) == 2  # the side of the axis says which end it is
+
+
+def turned(phases):
+    """The way of a crank-rocker through its places at these turns: their frames and drives."""
+    linkage = Linkage(RR([0.0, 0.0], [0.0, 0.0], 1.0), RR([3.0, 0.0], [2.5, 0.0], 2.5))
+    circuit = Circuits.of(linkage, as_given=True)[0]
+    places = circuit.couplers(np.array(phases))
+    found = SimpleNamespace(driver_first=linkage, error=SimpleNamespace(places=places))
+    branches = branches_of(found, places, 4.0, 101)
+    ways = {way for way, _ in branches.at}
+    assert len(ways) == 1
+    way = branches.ways[ways.pop()]
+    assert way["round"]
+    frames = np.array([frame for _, frame in branches.at])
+    return frames, np.interp(frames, np.arange(101), way["drive"]), way
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+@pytest.mark.parametrize("start", [0.0, 2.0, 4.0, 6.2])
+def test_a_whole_turn_is_cut_where_no_pose_comes_between_the_last_and_the_first(start, sense):
+    """The widest gap is between poses 2 and 3 here: cut there, the first would follow the last."""
+    phases = start + sense * np.array([0.0, 0.5, 3.5, 4.0, 4.5])
+    frames, drive, _ = turned(phases % (2 * np.pi))
+    step = np.sign(frames[1] - frames[0])
+    assert (step * np.diff(frames) > 0).all()
+    assert np.abs(np.diff(drive)) == pytest.approx(np.degrees([0.5, 3.0, 0.5, 0.5]), abs=0.5)
+    assert -180 <= drive[0] <= 180  # the angle that is told is an angle within a turn
+
+
+def test_a_whole_turn_out_of_order_is_cut_in_its_widest_gap():
+    frames, drive, way = turned([1.0, 2.0, 1.5, 2.2])
+    assert np.ptp(drive) == pytest.approx(np.degrees(1.2), abs=0.5)
+    ends = np.array(way["drive"])[[0, -1]]
+    assert drive.min() - ends[0] == pytest.approx(ends[1] - drive.max(), abs=1)
+    assert frames.min() > 20

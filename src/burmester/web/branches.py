@@ -29,6 +29,7 @@ REACH_WITHOUT_POSES = 3.0  # the same for a way on which no pose is
 SAMPLES = 2001  # along an endless way, to find where it leaves the scene
 WIDEST_ANGLE = 0.999  # quarter turns: the last sample of a way that runs to infinity
 EDGE = 1e-3  # radians left out at either end of a way that runs to infinity at its ends
+SAME = 1e-9  # radians: poses nearer than that are at one place of a turn
 DIGITS = 12  # significant digits of a place, counted from the size of the scene
 
 
@@ -90,6 +91,9 @@ def branches_of(found: FoundLinkage, poses: Displacement, scene: float, frames: 
                 along = ends[0] + (along - ends[0]) % (2 * np.pi)
             place = float(np.interp(along, s, np.arange(frames)))
             at[pose] = (len(ways), round(frames - 1 - place if falls else place, 9))
+        first = next((at[pose] for pose in np.flatnonzero(on).tolist()), None)
+        if own.loop.turns and first is not None:
+            _count_from(way["drive"], first[1])
         dead = branch.dead[::-1] if falls else branch.dead
         ways.append(
             {
@@ -111,7 +115,7 @@ def _branches(circuits: Circuits, circuit: np.ndarray, parameter: FloatArray) ->
     for number in np.flatnonzero(circuits.exists).tolist():
         own = circuits[number]
         if own.branches == 1 and own.closed:
-            start = _widest_gap(parameter[(circuit == number) & np.isfinite(parameter)])
+            start = _cut(parameter[(circuit == number) & np.isfinite(parameter)])
             found.append(_Branch(number, 0, (start, start + 2 * np.pi), True, (False, False)))
         elif own.branches == 1:
             ends = (0.0, np.pi) if own.loop.turns else (-np.inf, np.inf)
@@ -125,14 +129,32 @@ def _branches(circuits: Circuits, circuit: np.ndarray, parameter: FloatArray) ->
     return found
 
 
-def _widest_gap(parameter: FloatArray) -> float:
-    """The parameter at which a whole turn is cut open: farthest from the poses."""
+def _count_from(drive: list[float], frame: float) -> None:
+    """Shift angles in degrees by whole turns, so that the one at a frame is between ±180."""
+    turns = round(float(np.interp(frame, np.arange(len(drive)), drive)) / 360)
+    drive[:] = [round(each - 360 * turns, 9) for each in drive]
+
+
+def _cut(parameter: FloatArray) -> float:
+    """The parameter at which a whole turn is cut open, for poses (n,) in their order.
+
+    Between the last pose and the first, where the driver meets them in order; else in the widest
+    gap between two poses.
+    """
     if not len(parameter):
         return 0.0
-    s = np.sort(parameter % (2 * np.pi))
-    gap = np.append(s[1:], s[0] + 2 * np.pi) - s
+    turn = 2 * np.pi
+    s = parameter % turn
+    steps = np.diff(s) % turn
+    steps[steps > turn - SAME] = 0.0
+    rising, falling = float(steps.sum()), float((-steps % turn).sum())
+    if min(rising, falling) < turn:
+        start, end = (s[0], rising) if rising <= falling else (s[-1], falling)
+        return float(start - (turn - end) / 2)
+    s = np.sort(s)
+    gap = np.append(s[1:], s[0] + turn) - s
     widest = int(gap.argmax())
-    return float(s[widest] + gap[widest] / 2 - 2 * np.pi)
+    return float(s[widest] + gap[widest] / 2 - turn)
 
 
 def _within(
