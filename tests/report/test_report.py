@@ -64,6 +64,7 @@ MANY_DRAWN = f"""([what, shares]) => shares.map((share) => {{
   const slider = document.querySelector(".bm-slider");
   if (what === "next") document.querySelector(".bm-next").click();
   else {{
+    document.querySelector(".bm-whole input:not(:checked)")?.click();
     slider.value = share * slider.max;
     slider.dispatchEvent(new Event("input", {{ bubbles: true }}));
   }}
@@ -94,12 +95,6 @@ def file(synthesis, tmp_path_factory):
     path = tmp_path_factory.mktemp("report") / "report.html"
     path.write_text(page_of(synthesis, "Ten poses"), encoding="utf-8")
     return path
-
-
-@pytest.fixture(scope="module")
-def browser():
-    with browsers.launched() as found:
-        yield found
 
 
 def embedded(file):
@@ -427,6 +422,7 @@ def test_playing_turns_back_at_a_dead_point(browser, file, synthesis):
     with browsers.opened(browser, file) as (page, _, _asked):
         page.click(f"[data-linkage={found.id}]")
         slider, plane = page.locator(".bm-slider"), page.locator(".bm-plane")
+        page.locator(".bm-whole input").check()
         last = float(slider.get_attribute("max"))
         page.evaluate(
             """(u) => {
@@ -660,7 +656,7 @@ def test_a_page_for_every_outcome(browser, tmp_path, code):
     path.write_text(page_of(result, f"{code} </title><b>"), encoding="utf-8")
     with browsers.opened(browser, path) as (page, said, asked):
         assert page.title() == f"{code} </title><b>"
-        sentence = page.locator(".bm-outcome").text_content()
+        sentence = page.locator(".bm-head").text_content()
         assert result.outcome.message[1:] in sentence
         assert code in sentence
         assert page.locator(".bm-choice").count() == len(result.linkages)

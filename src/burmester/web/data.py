@@ -33,6 +33,7 @@ __all__ = ["report_data"]
 SCHEMA = "burmester.report/1"
 FRAMES = 24_000  # frames of all linkages together
 MOST_FRAMES, LEAST_FRAMES = 361, 61  # frames along a way
+FAR = 100.0  # scenes: pivots that may be moved farther are called open
 WAYS = 3  # ways of a linkage, when frames are shared out; most have no more
 
 
@@ -66,6 +67,7 @@ def report_data(synthesis: Synthesis) -> dict[str, Any]:
         "chart": chart,
         "space": space_of(None, task.poses, None, chart),
         "pivot_map": pivot_map(synthesis, scene),
+        "asked_transmission_deg": task.requirements.transmission_deg or None,
         "footnotes": sentences.footnotes(synthesis),
     }
 
@@ -122,6 +124,7 @@ def _linkage(
             "met": explanation.nearness(found, task, synthesis.length),
             "in_short": explanation.in_short(found, task, synthesis.length),
             "reasons": [] if found.usable else explanation.reasons(found, task),
+            "freedom": _freedom(synthesis, found),
             "worst": worst,
             "angle": angle,
             "rms": digits.position_error(synthesis, found.error.rms),
@@ -137,6 +140,16 @@ def _linkage(
         "ways": branches.ways,
         "space": space_of(found.driver_first, task.poses, _places(branches), chart),
     }
+
+
+def _freedom(synthesis: Synthesis, found: FoundLinkage) -> str | None:
+    """How far the pivots of a usable linkage may be moved, where the poses leave them open."""
+    if not found.usable or found.determined:
+        return None
+    widest = max((each.half_width for each in found.uncertainty or ()), default=math.inf)
+    if not widest <= FAR * _scene(synthesis):
+        return "pivots left open by the poses"
+    return f"pivots may be moved by ±{notation.length_of(widest, synthesis.task)}"
 
 
 def _links(synthesis: Synthesis, found: FoundLinkage) -> dict[str, str] | None:

@@ -73,6 +73,7 @@ function runs(numbers, names) {
 }
 
 // src/burmester/web/widget/tables.mjs
+var NONE = "–";
 function table(caption, heads, rows, attributes) {
   return h(
     "div",
@@ -86,11 +87,14 @@ function table(caption, heads, rows, attributes) {
     )
   );
 }
-var cells = (values, words = []) => values.map(
-  (value, k) => k === 0 ? h("th", { scope: "row" }, value) : h("td", { class: words.includes(k) ? "bm-words" : null }, value ?? "–")
+var cells = (values, words = [], heads = []) => values.map(
+  (value, k) => k === 0 ? h("th", { scope: "row" }, value) : h("td", { class: classes(words.includes(k) && "bm-words", (value ?? NONE) === NONE && "bm-none"), "data-head": heads[k]?.name ?? heads[k] }, value ?? NONE)
 );
+var classes = (...names) => names.filter(Boolean).join(" ") || null;
 var unitOf = (data) => data.unit ? ` (${data.unit})` : "";
 var decimalsOf = (data) => clamp(4 - Math.ceil(Math.log10(data.scene)), 0, 12);
+var poseName = (pose) => pose.label === pose.name ? pose.name : `${pose.label}: ${pose.name}`;
+var shortened = (text, most) => text.length > most ? `${text.slice(0, most - 1).trimEnd()}…` : text;
 function missOf(position, angle, unit2) {
   if (position === "exact" && angle === "exact") return "exact";
   if (position === "-") return "–";
@@ -102,9 +106,9 @@ function verdictOf(linkage) {
 function dyadTable(data) {
   const heads = ["", { name: "kind", text: true }, "on the ground (F)", "on the body (M)", `length${unitOf(data)}`, "rms miss", "worst miss"];
   const rows = data.dyads.map(
-    (dyad) => h("tr", {}, cells([dyad.id, dyad.kind, dyad.said.ground, dyad.said.body, dyad.said.length, dyad.said.rms, dyad.said.worst], [1]))
+    (dyad) => h("tr", {}, cells([dyad.id, dyad.kind, dyad.said.ground, dyad.said.body, dyad.said.length, dyad.said.rms, dyad.said.worst], [1], heads))
   );
-  return table(data.dyads_title, heads, rows);
+  return table(data.dyads_title, heads, rows, { class: "bm-stacks" });
 }
 function linkageTable(data) {
   const names = ["ground", "driver", "coupler", "follower"];
@@ -137,11 +141,12 @@ function linkageTable(data) {
           each.said.transmission,
           each.said.reasons.join("; ") || "–"
         ],
-        [1, 2, 3, 4, 12]
+        [1, 2, 3, 4, 12],
+        heads
       )
     )
   );
-  return table(`All linkages${unitOf(data)}`, heads, rows, { class: "bm-linkages" });
+  return table(`All linkages${unitOf(data)}`, heads, rows, { class: "bm-linkages bm-stacks" });
 }
 function dimensionRows(linkage) {
   const uncertain = linkage.said.dimensions.some((row) => row.give);
@@ -174,7 +179,7 @@ function poseTable(data, linkage) {
   if (linkage) heads.push("coupler x", `y${unit2}`, "angle", "off by", "turned by", "transm.", { name: "where", text: true });
   const rows = data.poses.map((pose, k) => {
     const values = [
-      (pose.label === pose.name ? "" : `${pose.label}: `) + pose.name + (pose.exact ? " (exact)" : ""),
+      poseName(pose) + (pose.exact ? " (exact)" : ""),
       fixed(pose.x, digits),
       fixed(pose.y, digits),
       `${fixed(pose.angle_deg, 2)}°`
@@ -314,35 +319,62 @@ function frameAt(values, wanted) {
   return low + (step > 0 ? (wanted - values[low]) / step : 0);
 }
 
+// src/burmester/web/widget/travel.mjs
+function placesOf(linkage, way, { low, high }, length) {
+  const places = [placeAt(linkage, way, low, length)];
+  for (let k = Math.floor(low) + 1; k < high; k += 1) places.push({ x: way.x[k], y: way.y[k], a: way.angle[k] });
+  places.push(placeAt(linkage, way, high, length));
+  return places;
+}
+function alongLine(dyad, place) {
+  const [nx, ny] = normalOf(dyad);
+  const [x, y] = dyad.kind === "PR" ? act(place, dyad.moving_pivot) : back(place, dyad.fixed_pivot);
+  return nx * y - ny * x;
+}
+function travelOf(dyad, places) {
+  const along = places.map((place) => alongLine(dyad, place));
+  return [along.reduce((a, b) => Math.min(a, b)), along.reduce((a, b) => Math.max(a, b))];
+}
+function pointOnLine(dyad, along) {
+  const [nx, ny] = normalOf(dyad), { offset } = dyad.line;
+  return [offset * nx - along * ny, offset * ny + along * nx];
+}
+
 // src/burmester/web/widget/drawing.mjs
 var AXIS = 26;
 var BLOCK = [22, 14];
-var WIDEST = 2.5;
-function boundsOf(data, linkage) {
-  const points = data.poses.map((pose) => [pose.x, pose.y]);
-  const middle = [0, 1].map((k) => {
-    const values = points.map((point) => point[k]);
-    return (Math.min(...values) + Math.max(...values)) / 2;
+var WIDEST = 4;
+function farFrom(data) {
+  const [x, y] = ["x", "y"].map((k) => {
+    const [low, high] = data.poses.reduce(([a, b], pose) => [Math.min(a, pose[k]), Math.max(b, pose[k])], [Infinity, -Infinity]);
+    return (low + high) / 2;
   });
-  const near = ([x, y]) => Math.hypot(x - middle[0], y - middle[1]) < WIDEST * data.scene;
-  const box = [Infinity, Infinity, -Infinity, -Infinity];
-  const include = (point) => {
-    if (!near(point)) return;
-    box[0] = Math.min(box[0], point[0]);
-    box[1] = Math.min(box[1], point[1]);
-    box[2] = Math.max(box[2], point[0]);
-    box[3] = Math.max(box[3], point[1]);
+  return (point) => !(Math.hypot(point[0] - x, point[1] - y) < WIDEST * data.scene);
+}
+function pivotsAt(linkage, places) {
+  const found = [];
+  for (const dyad of linkage.led) {
+    if (dyad.fixed_pivot) found.push({ dyad, fixed: true, at: dyad.fixed_pivot });
+    const own = dyad.moving_pivot ? [dyad.moving_pivot] : dyad.kind === "RP" ? travelOf(dyad, places).map((end) => pointOnLine(dyad, end)) : [];
+    for (const point of own) for (const place of places) found.push({ dyad, fixed: false, at: act(place, point) });
+  }
+  return found;
+}
+function boundsOf(data, linkage, places, far) {
+  const isFar = farFrom(data), box = [Infinity, Infinity, -Infinity, -Infinity];
+  const include = ([x, y]) => {
+    if (!Number.isFinite(x + y) || !far && isFar([x, y])) return;
+    box[0] = Math.min(box[0], x);
+    box[1] = Math.min(box[1], y);
+    box[2] = Math.max(box[2], x);
+    box[3] = Math.max(box[3], y);
   };
-  points.forEach(include);
+  for (const pose of data.poses) include([pose.x, pose.y]);
   if (linkage) {
+    for (const row of linkage.pose_errors) if (row.x !== null) include([row.x, row.y]);
     for (const dyad of linkage.led) if (dyad.fixed_pivot) include(dyad.fixed_pivot);
-    for (const way of linkage.ways) {
-      for (let k = 0; k < way.x.length; k += 4) {
-        const place = { x: way.x[k], y: way.y[k], a: way.angle[k] };
-        include([place.x, place.y]);
-        for (const dyad of linkage.led) if (dyad.moving_pivot) include(act(place, dyad.moving_pivot));
-      }
-    }
+    for (const place of places) include([place.x, place.y]);
+    if (places.length) for (const { at } of pivotsAt(linkage, places)) include(at);
   }
   const least = 0.25 * data.scene;
   for (const k of [0, 1]) {
@@ -390,7 +422,6 @@ function polyline(points, view) {
   }
   return path;
 }
-var pathOf = (way, point) => way.x.map((x, k) => act({ x, y: way.y[k], a: way.angle[k] }, point));
 function hull(points) {
   const sorted = [...points].sort((p, q) => p[0] - q[0] || p[1] - q[1]);
   const half = (list) => {
@@ -435,7 +466,8 @@ function factsOf(data, linkage) {
     ["worst miss", missOf(said.worst, said.angle, unit2)],
     ["rms miss", missOf(said.rms, said.rms_angle, unit2)],
     ["least transmission angle", said.transmission === "-" ? "–" : said.transmission],
-    ["driver", `${linkage.led[0].id}${said.turns_fully ? ", turns fully" : ""}`]
+    ["driver", `${linkage.led[0].id}${said.turns_fully ? ", turns fully" : ""}`],
+    ...said.freedom ? [["pivots", said.freedom.replace("pivots ", "")]] : []
   ];
   return h("dl", { class: "bm-facts" }, rows.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value))));
 }
@@ -506,7 +538,7 @@ var Cards = class {
 };
 function card(linkage, unit2, onclick) {
   const { said } = linkage;
-  const fact = (name, value) => [h("dt", {}, name), h("dd", {}, value)];
+  const fact = (name, value, kind = null) => [h("dt", { class: kind }, name), h("dd", { class: kind }, value)];
   const links = said.links ? Object.values(said.links) : [];
   return h(
     "button",
@@ -516,11 +548,12 @@ function card(linkage, unit2, onclick) {
     h(
       "dl",
       {},
-      fact("worst miss", missOf(said.worst, said.angle, unit2).replace(" and ", ", ")),
+      fact("worst miss", missOf(said.worst, said.angle, unit2).split(" and ").map((part, k) => [k ? ", " : "", h("span", { class: "bm-whole-word" }, part)])),
       fact("transmission", said.transmission === "-" ? "–" : said.transmission === "0°" ? "down to 0°" : `${said.transmission} or more`),
       fact("driver", `${linkage.led[0].id}${said.turns_fully ? ", turns fully" : ""}`),
-      links.length ? fact("links", links.join(" · ")) : fact("dyads", linkage.dyads.map((dyad) => `${dyad.id} (${dyad.kind})`).join(" · "))
+      links.length ? fact("links", links.map((each, k) => h("span", { class: "bm-whole-word" }, k ? ` · ${each}` : each)), "bm-detail") : fact("dyads", linkage.dyads.map((dyad) => `${dyad.id} (${dyad.kind})`).join(" · "), "bm-detail")
     ),
+    said.freedom ? h("span", { class: "bm-quiet" }, said.freedom) : null,
     said.reasons.length ? h("span", { class: "bm-reason" }, said.reasons.join("; ")) : null
   );
 }
@@ -528,7 +561,11 @@ function card(linkage, unit2, onclick) {
 // src/burmester/web/widget/header.mjs
 var OPEN = /^R(303|31)/;
 function header(data, good) {
-  const { outcome } = data, open = OPEN.test(outcome.code);
+  const { outcome, warnings } = data, open = OPEN.test(outcome.code);
+  const [best, ...more] = good ? data.best : [];
+  const found = [`${outcome.message[0].toUpperCase()}${outcome.message.slice(1)}. `, h("span", { class: "bm-code" }, outcome.code)];
+  const told = [notes(outcome), warnings.length ? h("ul", { class: "bm-warnings", "aria-label": "Warnings" }, warnings.map(warning)) : null];
+  const count = warnings.length ? `, and ${warnings.length} warning${warnings.length === 1 ? "" : "s"}` : "";
   return h(
     "header",
     { class: "bm-head" },
@@ -538,11 +575,10 @@ function header(data, good) {
       "p",
       { class: `bm-outcome ${good ? "bm-good" : open ? "bm-open" : "bm-bad"}` },
       h("span", { class: "bm-sign", "aria-hidden": "true" }, good ? "✓" : open ? "i" : "✕"),
-      h("span", {}, `${outcome.message[0].toUpperCase()}${outcome.message.slice(1)}. `, h("span", { class: "bm-code" }, outcome.code))
+      h("span", {}, best ?? found)
     ),
-    data.best.map((sentence) => h("p", { class: "bm-best" }, sentence)),
-    notes(outcome),
-    data.warnings.length ? h("ul", { class: "bm-warnings", "aria-label": "Warnings" }, data.warnings.map(warning)) : null
+    (best ? more : data.best).map((sentence) => h("p", { class: "bm-best" }, sentence)),
+    best ? h("details", { class: "bm-about" }, h("summary", {}, `How it was found${count}`), h("p", { class: "bm-found" }, found), told) : told
   );
 }
 var warning = (each) => h(
@@ -982,13 +1018,13 @@ var ImageSpace = class {
     this.draw(false);
   }
   camera() {
-    const { around, above, zoom } = this.turn;
+    const { around: around2, above, zoom } = this.turn;
     const ahead = [
-      -Math.cos(above) * Math.sin(around),
-      Math.cos(above) * Math.cos(around),
+      -Math.cos(above) * Math.sin(around2),
+      Math.cos(above) * Math.cos(around2),
       -Math.sin(above)
     ];
-    const right = [Math.cos(around), Math.sin(around), 0];
+    const right = [Math.cos(around2), Math.sin(around2), 0];
     const up = cross(right, ahead);
     const eye = scaled(ahead, -EYE_DISTANCE);
     const least = Math.min(this.width, this.height);
@@ -1128,11 +1164,11 @@ var ImageSpace = class {
 };
 
 // src/burmester/web/widget/keyboard.mjs
-var TYPED_IN = /^(BUTTON|SELECT|TEXTAREA|SUMMARY|A)$/;
+var TYPED_IN = "button, select, textarea, summary, a, input[type=checkbox]";
 function listenToKeys(root, drawing, player, signal) {
   root.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || !player.path) return;
-    if (event.key === " " && !TYPED_IN.test(event.target.tagName)) {
+    if (event.key === " " && !event.target.matches(TYPED_IN)) {
       event.preventDefault();
       player.play(!player.playing);
     } else if (event.target === drawing && /^Arrow/.test(event.key)) {
@@ -1155,12 +1191,22 @@ var PivotMap = class {
     this.data = data;
     this.parent = parent;
     this.canvas = h("canvas", { "aria-hidden": "true" });
-    this.svg = s("svg", { role: "img" });
-    this.readout = h("p", { class: "bm-readout" });
+    const name = `bm-map-${Math.random().toString(36).slice(2)}`;
+    this.svg = s("svg", {
+      class: "bm-map-picture",
+      role: "application",
+      tabindex: "0",
+      "aria-roledescription": "map",
+      "aria-describedby": name,
+      "aria-label": "Pivot map: the error of the best link for every fixed pivot. Arrow keys move a cursor, with Shift by ten steps; the error there is told."
+    });
+    this.readout = h("output", { class: "bm-readout", id: name });
+    this.cursor = null;
     this.legend = h("p", { class: "bm-legend" });
     parent.append(h("div", { class: "bm-map" }, this.canvas, this.svg), this.legend, this.readout);
     this.svg.addEventListener("pointermove", (event) => this.read(event));
-    this.svg.addEventListener("pointerleave", () => this.readout.replaceChildren(this.invitation));
+    this.svg.addEventListener("pointerleave", () => this.tell());
+    this.svg.addEventListener("keydown", (event) => this.move(event));
     const { log10_rms: levels } = data.pivot_map;
     const known = levels.filter((level) => level !== null).sort((a, b) => a - b);
     const low = known[Math.floor(2e-3 * known.length)], high = known[Math.floor(0.98 * known.length)];
@@ -1168,7 +1214,7 @@ var PivotMap = class {
     this.low = Math.floor(low / this.step) * this.step;
     this.high = Math.ceil(high / this.step) * this.step;
     this.count = Math.max(1, Math.round((this.high - this.low) / this.step));
-    this.invitation = "Point at the map to read it.";
+    this.invitation = "Point at the map to read it, or move over it by arrow keys.";
     this.readout.append(this.invitation);
   }
   /** log10 of the error at column u and row v of the grid, bilinear between four of its points. */
@@ -1177,8 +1223,9 @@ var PivotMap = class {
     const i = clamp(Math.floor(u), 0, columns - 2), j = clamp(Math.floor(v), 0, rows - 2);
     const a = u - i, b = v - j, at = j * columns + i;
     const [p, q, r, t] = [levels[at], levels[at + 1], levels[at + columns], levels[at + columns + 1]];
-    if (p === null || q === null || r === null || t === null) return null;
-    return (1 - b) * ((1 - a) * p + a * q) + b * ((1 - a) * r + a * t);
+    const shares = [(1 - a) * (1 - b), a * (1 - b), (1 - a) * b, a * b];
+    if ([p, q, r, t].some((level, k) => level === null && shares[k] > 0)) return null;
+    return shares[0] * p + shares[1] * q + shares[2] * r + shares[3] * t;
   }
   build(linkage) {
     const { svg } = this, map = this.data.pivot_map;
@@ -1189,7 +1236,12 @@ var PivotMap = class {
     svg.replaceChildren();
     const scale = width / (map.high[0] - map.low[0]);
     const view = { width, height, X: (x) => (x - map.low[0]) * scale, Y: (y) => height - (y - map.low[1]) * scale };
+    this.linkage = linkage;
+    this.view = view;
     this.explain(this.pivots(linkage, view));
+    this.mark = s("path", { class: "bm-map-cursor", d: "M-11 0H-4M4 0H11M0 -11V-4M0 4V11" });
+    svg.append(this.mark);
+    this.tell();
   }
   /** The shades, painted again only where their size or the colours have changed. */
   paint(width, height) {
@@ -1265,15 +1317,45 @@ var PivotMap = class {
       outside.length ? ` Of this linkage, ${listed(outside)}.` : ""
     );
   }
+  /** A place of the grid, by its column and row, in the plane. */
+  placeAt([u, v]) {
+    const { low, high, columns, rows } = this.data.pivot_map;
+    return [low[0] + u / (columns - 1) * (high[0] - low[0]), low[1] + v / (rows - 1) * (high[1] - low[1])];
+  }
+  /** Move the cursor by a key, from one place of the grid to the next; it starts at the driver's pivot. */
+  move(event) {
+    const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] }[event.key];
+    if (!step || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    const { low, high, columns, rows } = this.data.pivot_map, many = event.shiftKey ? 10 : 1;
+    const pivot = this.linkage?.led.map((dyad) => dyad.fixed_pivot).find(Boolean) ?? this.placeAt([(columns - 1) / 2, (rows - 1) / 2]);
+    const [u, v] = this.cursor ?? [
+      Math.round((pivot[0] - low[0]) / (high[0] - low[0]) * (columns - 1)),
+      Math.round((pivot[1] - low[1]) / (high[1] - low[1]) * (rows - 1))
+    ];
+    this.cursor = [clamp(u + many * step[0], 0, columns - 1), clamp(v + many * step[1], 0, rows - 1)];
+    this.tell();
+  }
+  /** The cursor, and the error there; without a cursor how to get one. */
+  tell() {
+    const { cursor, mark, view } = this;
+    mark?.setAttribute("visibility", cursor ? "visible" : "hidden");
+    if (!cursor) {
+      this.readout.textContent = this.invitation;
+      return;
+    }
+    const [x, y] = this.placeAt(cursor);
+    mark?.setAttribute("transform", `translate(${px(view.X(x))} ${px(view.Y(y))})`);
+    this.say(cursor);
+  }
   /** The error at the pointer. */
   read(event) {
-    const box = this.svg.getBoundingClientRect(), map = this.data.pivot_map;
-    const x = map.low[0] + (event.clientX - box.left) / box.width * (map.high[0] - map.low[0]);
-    const y = map.high[1] - (event.clientY - box.top) / box.height * (map.high[1] - map.low[1]);
-    const level = this.level(
-      (x - map.low[0]) / (map.high[0] - map.low[0]) * (map.columns - 1),
-      (y - map.low[1]) / (map.high[1] - map.low[1]) * (map.rows - 1)
-    );
+    const box = this.svg.getBoundingClientRect(), { columns, rows } = this.data.pivot_map;
+    this.say([(event.clientX - box.left) / box.width * (columns - 1), (1 - (event.clientY - box.top) / box.height) * (rows - 1)]);
+  }
+  /** The error at a column and a row of the grid, which may be fractions. */
+  say(at) {
+    const [x, y] = this.placeAt(at), level = this.level(...at);
     const digits = Math.max(0, 2 - Math.floor(Math.log10(this.data.scene)));
     const unit2 = this.data.unit ? ` ${this.data.unit}` : "";
     this.readout.textContent = `Fixed pivot (${fixed(x, digits)}, ${fixed(y, digits)}): the best link misses by ` + (level === null ? "an unknown error." : `${figure(10 ** level)}${unit2} (rms).`);
@@ -1283,8 +1365,10 @@ var PivotMap = class {
 // src/burmester/web/widget/mechanism.mjs
 var BODY_AXIS = AXIS + 10;
 var LETTER = 14;
+var BLOCK_IN_SLOT = [18, 10];
+var SPARE = 5;
 var ARROW = 24;
-function mechanism(linkage, view) {
+function mechanism(linkage, view, places) {
   const parts = {
     links: s("g"),
     blocks: s("g"),
@@ -1298,7 +1382,7 @@ function mechanism(linkage, view) {
     if (dyad.moving_pivot) parts.corners.push([view.scale * dyad.moving_pivot[0], -view.scale * dyad.moving_pivot[1]]);
     if (dyad.kind === "RR") addLink(parts, dyad, side, view);
     else if (dyad.kind === "PR") addBlockOnRail(parts, dyad, side, view);
-    else if (dyad.kind === "RP") addSlot(parts, dyad, side, view, linkage.ways);
+    else if (dyad.kind === "RP") addSlot(parts, dyad, side, view, places);
   });
   const letter = addBody(parts, linkage, view);
   const arrow = driverArrow(parts, linkage.led[0], view);
@@ -1312,9 +1396,9 @@ var groundPin = (dyad, r, view) => s("circle", {
   cy: px(view.Y(dyad.fixed_pivot[1])),
   "data-dyad": dyad.id
 });
-var block = (side, width, height) => s(
+var block = (dyad, side, width, height) => s(
   "g",
-  { class: `bm-block bm-side${side}` },
+  { class: `bm-block bm-side${side}`, "data-dyad": dyad.id },
   s("rect", { x: -width / 2, y: -height / 2, width, height, rx: 2 })
 );
 function addLink({ links, pins, moves }, dyad, side, view) {
@@ -1334,7 +1418,7 @@ function addLink({ links, pins, moves }, dyad, side, view) {
   });
 }
 function addBlockOnRail({ blocks, moves }, dyad, side, view) {
-  const slider = block(side, ...BLOCK);
+  const slider = block(dyad, side, ...BLOCK);
   blocks.append(slider);
   const [nx, ny] = normalOf(dyad), along = Math.atan2(nx, -ny);
   moves.push((place) => {
@@ -1342,32 +1426,20 @@ function addBlockOnRail({ blocks, moves }, dyad, side, view) {
     slider.setAttribute("transform", transform(view.X(x), view.Y(y), along));
   });
 }
-function addSlot({ blocks, pins, coupler, corners, moves }, dyad, side, view, ways) {
-  const [nx, ny] = normalOf(dyad), { offset } = dyad.line, S = view.scale;
-  let low = Infinity, high = -Infinity;
-  for (const way of ways) {
-    for (let k = 0; k < way.x.length; k += 1) {
-      const [x, y] = back({ x: way.x[k], y: way.y[k], a: way.angle[k] }, dyad.fixed_pivot);
-      low = Math.min(low, -ny * x + nx * y);
-      high = Math.max(high, -ny * x + nx * y);
-    }
-  }
-  if (high >= low) {
-    const ends = [low - 14 / S, high + 14 / S].map((t) => [
-      S * (offset * nx - t * ny),
-      -S * (offset * ny + t * nx)
-    ]);
-    const d = `M${ends.map((end) => end.map(px).join(" ")).join("L")}`;
-    coupler.append(
-      s("path", { class: "bm-slot-rim", d }),
-      s("path", { class: "bm-slot-plate", d }),
-      s("path", { class: "bm-slot-edge", d }),
-      s("path", { class: "bm-slot", d })
-    );
-    corners.push([S * offset * nx - S * (low + high) * ny / 2, -S * offset * ny - S * (low + high) * nx / 2]);
-  }
-  const [cx, cy] = dyad.fixed_pivot;
-  const slider = block(side, 18, 10);
+function addSlot({ blocks, pins, coupler, corners, moves }, dyad, side, view, places) {
+  const S = view.scale, [low, high] = travelOf(dyad, places), end = (BLOCK_IN_SLOT[0] / 2 + SPARE) / S;
+  const seen = (along) => (([x, y]) => [S * x, -S * y])(pointOnLine(dyad, along));
+  const ends = [seen(low - end), seen(high + end)];
+  const d = `M${ends.map((each) => each.map(px).join(" ")).join("L")}`;
+  coupler.append(
+    s("path", { class: "bm-slot-rim", d }),
+    s("path", { class: "bm-slot-plate", d }),
+    s("path", { class: "bm-slot-edge", d }),
+    s("path", { class: "bm-slot", d, "data-dyad": dyad.id })
+  );
+  corners.push(seen((low + high) / 2));
+  const [nx, ny] = normalOf(dyad), [cx, cy] = dyad.fixed_pivot;
+  const slider = block(dyad, side, ...BLOCK_IN_SLOT);
   blocks.append(slider);
   pins.append(groundPin(dyad, 4, view));
   moves.push(
@@ -1413,12 +1485,18 @@ function driverArrow({ moves }, driver, view) {
 }
 
 // src/burmester/web/widget/plane.mjs
+var LONGEST_RAIL = 4e3;
 var FACTORS = [0, 1, 10, 100, 1e3, 1e4, 1e5];
 function factorFor(data, linkage) {
   const worst = Math.max(0, ...linkage.pose_errors.map((row) => row.position ?? 0));
   if (!(worst > 1e-9 * data.scene)) return 0;
   const fits = FACTORS.filter((factor) => factor >= 1 && factor * worst < 0.3 * data.scene);
   return fits.length ? fits[fits.length - 1] : 1;
+}
+var standing = (dyad, places) => dyad.fixed_pivot ?? (dyad.kind === "PR" && places.length ? pointOnLine(dyad, travelOf(dyad, places).reduce((a, b) => (a + b) / 2)) : null);
+function hasFarPivots(data, linkage, places) {
+  const isFar = farFrom(data);
+  return linkage.led.some((dyad) => dyad.fixed_pivot && isFar(dyad.fixed_pivot)) || places.length > 0 && pivotsAt(linkage, places).some(({ at }) => isFar(at));
 }
 var Plane = class {
   constructor(data, parent) {
@@ -1427,10 +1505,15 @@ var Plane = class {
     this.parent = parent;
     parent.append(this.svg);
   }
-  /** Draw what stands still.  factor: of the error arrows; fill: the height to fill, 0 for the picture's own. */
-  build(linkage, way, factor, fill) {
-    const { data, svg } = this;
-    const box = boundsOf(data, linkage);
+  /** Draw what stands still.
+   *
+   * stretch: the part of the way that is shown; factor: of the error arrows; fill: the height to
+   * fill, 0 for the picture's own; far: whether the picture is to hold pivots far from the poses.
+   */
+  build(linkage, way, stretch, { factor, fill, far }) {
+    const { data, svg } = this, path = linkage?.ways[way];
+    this.places = path ? placesOf(linkage, path, stretch, data.chart.length) : [];
+    const box = boundsOf(data, linkage, this.places, far);
     const width = Math.max(260, this.parent.clientWidth);
     const shape = (box[3] - box[1]) / (box[2] - box[0]);
     const own = clamp(width * clamp(shape, 0.45, 1), 260, clamp(0.62 * window.innerHeight, 340, 680));
@@ -1460,8 +1543,9 @@ var Plane = class {
       }
     }
     svg.append(this.poses(linkage, factor, labels));
-    this.moving = linkage?.ways.length ? mechanism(linkage, view) : null;
+    this.moving = path ? mechanism(linkage, view, this.places) : null;
     if (this.moving) svg.append(this.moving.group);
+    if (linkage && !far) this.farPivots(labels);
     svg.append(this.names);
   }
   grid() {
@@ -1472,7 +1556,7 @@ var Plane = class {
     for (const { at, text } of across) {
       const x = px(view.X(at));
       group.append(s("path", { d: `M${x} 0V${view.height}` }));
-      if (x > 46 && x < view.width - 30) {
+      if (x > 46 && x < view.width - (unit2 ? 54 : 30)) {
         group.append(s("text", { x, y: view.height - 6, "text-anchor": "middle" }, text));
       }
     }
@@ -1487,22 +1571,22 @@ var Plane = class {
     );
     return group;
   }
+  /** Paths of the body's origin and of its pivots: full along the stretch that is shown. */
   paths() {
-    const { view, linkage } = this, group = s("g", { class: "bm-paths" });
+    const { view, linkage, places } = this, group = s("g", { class: "bm-paths" });
     linkage.ways.forEach((way, k) => {
-      const here = k === this.way;
       const same = way.circuit === linkage.ways[this.way]?.circuit;
-      const kind = here ? "bm-here" : same ? "bm-same" : "bm-other";
-      if (here) {
-        for (const [side, dyad] of linkage.led.entries()) {
-          if (!dyad.moving_pivot || dyad.kind === "PR") continue;
-          const d2 = polyline(pathOf(way, dyad.moving_pivot), view);
-          group.append(s("path", { class: `bm-pivot-path bm-side${side}`, d: d2 }));
-        }
-      }
-      const d = polyline(way.x.map((x, i) => [x, way.y[i]]), view);
-      group.append(s("path", { class: `bm-curve ${kind}`, d }));
+      const kind = k === this.way ? "bm-beyond" : same ? "bm-same" : "bm-other";
+      const d2 = polyline(way.x.map((x, i) => [x, way.y[i]]), view);
+      group.append(s("path", { class: `bm-curve ${kind}`, d: d2 }));
     });
+    for (const [side, dyad] of linkage.led.entries()) {
+      if (!dyad.moving_pivot || dyad.kind === "PR") continue;
+      const d2 = polyline(places.map((place) => act(place, dyad.moving_pivot)), view);
+      group.append(s("path", { class: `bm-pivot-path bm-side${side}`, d: d2 }));
+    }
+    const d = polyline(places.map(({ x, y }) => [x, y]), view);
+    group.append(s("path", { class: "bm-curve bm-here", d }));
     return group;
   }
   /** Feet of fixed pivots and rails of sliders, with the names of their dyads. */
@@ -1514,33 +1598,27 @@ var Plane = class {
     });
     return group;
   }
-  /** A rail as long as all ways need, three scenes to either side at most. */
+  /** A rail as long as the travel of its block. */
   rail(group, labels, dyad, side) {
-    const { view } = this, [nx, ny] = normalOf(dyad), { offset } = dyad.line;
-    let low = Infinity, high = -Infinity;
-    for (const way of this.linkage.ways) {
-      for (const [x2, y2] of pathOf(way, dyad.moving_pivot)) {
-        const along = -ny * x2 + nx * y2;
-        low = Math.min(low, along);
-        high = Math.max(high, along);
-      }
-    }
-    if (!(high >= low)) return;
-    const limit = 3 * this.data.scene, middle = (low + high) / 2;
-    [low, high] = [Math.max(low, middle - limit), Math.min(high, middle + limit)];
+    if (!this.places.length) return;
+    const { view } = this, [nx, ny] = normalOf(dyad);
+    const [low, high] = travelOf(dyad, this.places);
     const half = view.scale * (high - low) / 2 + BLOCK[0], edge = BLOCK[1] / 2 + 1;
-    const x = view.X(offset * nx - middle * ny), y = view.Y(offset * ny + middle * nx);
+    const [x, y] = ((at) => [view.X(at[0]), view.Y(at[1])])(pointOnLine(dyad, (low + high) / 2));
+    const bodySide = this.places.reduce((sum, place) => sum + nx * place.x + ny * place.y - dyad.line.offset, 0);
+    const turned = Math.atan2(nx, -ny) + (bodySide > 0 ? Math.PI : 0);
     let hatch = "";
-    for (let k = -half + 4; k < half - 2; k += 8) hatch += `M${px(k + 4)} ${edge}l-6 7`;
+    const drawn = Math.min(half, LONGEST_RAIL);
+    for (let k = -drawn + 4; k < drawn - 2; k += 8) hatch += `M${px(k + 4)} ${edge}l-6 7`;
     group.append(
       s(
         "g",
-        { class: `bm-rail bm-side${side}`, transform: transform(x, y, Math.atan2(nx, -ny)) },
+        { class: `bm-rail bm-side${side}`, "data-dyad": dyad.id, transform: transform(x, y, turned) },
         s("path", { class: "bm-ground", d: `M${px(-half)} ${edge}H${px(half)}${hatch}` }),
         s("path", { class: "bm-ground bm-thin", d: `M${px(-half)} ${-edge}H${px(half)}` })
       )
     );
-    for (let k = -half; k <= half; k += 14) labels.block(x - k * ny, y - k * nx, 22, 22);
+    for (let k = -drawn; k <= drawn; k += 14) labels.block(x - k * ny, y - k * nx, 22, 22);
     this.names.append(labels.put(x, y, dyad.id, 26, { class: `bm-name bm-side${side}` }));
   }
   fixedPivot(group, labels, dyad, side) {
@@ -1551,6 +1629,25 @@ var Plane = class {
     at.setAttribute("transform", `translate(${px(x)} ${px(y)})`);
     group.append(at);
     this.names.append(labels.put(x, y + 4, dyad.id, 27, { class: `bm-name bm-side${side}` }));
+  }
+  /** At the edge of the picture, in their direction, the names of what stands too far away for it. */
+  farPivots(labels) {
+    const { data, view } = this, isFar = farFrom(data), digits = decimalsOf(data);
+    this.linkage.led.forEach((dyad, side) => {
+      const at = standing(dyad, this.places);
+      if (!at || !isFar(at)) return;
+      const [x, y] = [view.X(at[0]), view.Y(at[1])];
+      const cx = view.width / 2, cy = view.height / 2, size = Math.hypot(x - cx, y - cy);
+      const u = (x - cx) / size, v = (y - cy) / size;
+      const reach = Math.min((cx - 12) / Math.abs(u), (cy - 12) / Math.abs(v));
+      const ex = cx + reach * u, ey = cy + reach * v;
+      const text = `${dyad.id}: ${dyad.fixed_pivot ? "fixed pivot" : "rail"} at (${at.map((each) => fixed(each, digits)).join(", ")})`;
+      labels.block(ex, ey, 20, 20);
+      this.names.append(
+        s("path", { class: `bm-far-mark bm-side${side}`, d: "M-9 -6L3 0L-9 6", transform: transform(ex, ey, Math.atan2(-v, u)) }),
+        labels.put(ex, ey, text, 14, { class: `bm-name bm-far-name bm-side${side}` })
+      );
+    });
   }
   /** Wanted poses, the places that the linkage takes instead, and the errors between them, enlarged. */
   poses(linkage, factor, labels) {
@@ -1608,6 +1705,10 @@ var Plane = class {
 
 // src/burmester/web/widget/player.mjs
 var TURN_SECONDS = 7;
+var LEAST_STRETCH = 1e-6;
+var NAME_ROWS = 5;
+var ROW = 13;
+var LONGEST_TICK = 18;
 var STEPS = 360;
 var Player = class {
   constructor(data, show, rebuild) {
@@ -1617,6 +1718,8 @@ var Player = class {
     this.way = 0;
     this.u = 0;
     this.heading = 1;
+    this.whole = false;
+    this.stretch = { low: 0, high: 1 };
     this.playing = false;
     this.remaining = null;
     this.element = this.controls();
@@ -1629,6 +1732,8 @@ var Player = class {
     const button = (name, text, label, onclick) => h("button", { type: "button", class: `bm-button ${name}`, "aria-label": label, title: label, onclick }, text);
     this.button = button("bm-play", "", "Play", () => this.play(!this.playing));
     this.slider = h("input", { type: "range", class: "bm-slider", min: 0, step: "any", "aria-label": "Driver", oninput: () => this.go(Number(this.slider.value)) });
+    this.box = h("input", { type: "checkbox", onchange: () => this.playWhole(this.box.checked) });
+    this.boxName = h("span", {}, "Whole branch");
     this.stops = s("svg", { class: "bm-stops", "aria-hidden": "true" });
     this.parts = ["", "", "", ""].map((text) => h("span", {}, text));
     this.readout = h("output", { class: "bm-now" }, this.parts.flatMap((part, k) => k ? [" ", part] : [part]));
@@ -1641,13 +1746,14 @@ var Player = class {
     return h(
       "div",
       { class: "bm-controls" },
+      h("div", { class: "bm-track" }, this.slider, this.stops),
       h(
         "div",
         { class: "bm-row" },
         this.button,
         button("bm-back", "◀ Pose", "Previous pose", () => this.toPose(-1)),
         button("bm-next", "Pose ▶", "Next pose", () => this.toPose(1)),
-        h("div", { class: "bm-track" }, this.slider, this.stops)
+        h("label", { class: "bm-whole", title: "Play all that the driver reaches, not only from the first pose to the last" }, this.box, this.boxName)
       ),
       this.readout
     );
@@ -1664,35 +1770,54 @@ var Player = class {
     this.u = this.firstStop();
     this.draw.rebuild();
   }
-  firstStop() {
-    return this.linkage.pose_errors.find((row) => row.way === this.way)?.frame ?? 0;
+  /** Poses on this way, in their order: the rows of their errors, with k, the pose's index. */
+  get stopsOnWay() {
+    return this.linkage.pose_errors.map((row, k) => ({ ...row, k })).filter((row) => row.way === this.way);
   }
-  /** The slider and its marks, for the way as it is now. */
+  firstStop() {
+    return this.stopsOnWay[0]?.frame ?? 0;
+  }
+  /** The slider and what it runs over, for the way as it is now. */
   rebuild() {
     const { path, slider } = this;
-    this.heading = 1;
     if (!path) this.play(false);
-    slider.max = path ? path.x.length - 1 : 1;
     slider.disabled = this.button.disabled = !path;
+    const last = path ? path.x.length - 1 : 1;
+    const frames = path ? this.stopsOnWay.map((row) => row.frame) : [];
+    const [low, high] = [frames.reduce((a, b) => Math.min(a, b), last), frames.reduce((a, b) => Math.max(a, b), 0)];
+    const apart = high - low > LEAST_STRETCH;
+    this.stretch = apart && !this.whole ? { low, high } : { low: 0, high: last };
+    this.box.disabled = !apart;
+    this.boxName.textContent = path?.round ? "Whole turn" : "Whole branch";
+    this.heading = frames.length && frames[frames.length - 1] < frames[0] ? -1 : 1;
+    this.u = clamp(this.u, this.stretch.low, this.stretch.high);
+    slider.min = this.stretch.low;
+    slider.max = this.stretch.high;
   }
-  /** Marks under the slider where the poses are. */
+  /** Play all of a way, or only from its first pose to its last; so it stays for other linkages. */
+  playWhole(on) {
+    this.whole = on;
+    this.draw.rebuild();
+  }
+  /** Marks under the slider where the poses are, with as many of their names as there is room for. */
   drawStops() {
-    const { stops, path } = this;
+    const { stops, path } = this, { low, high } = this.stretch;
     stops.replaceChildren();
     if (!path) return;
     const width = Math.max(60, this.slider.clientWidth), inset = 9;
-    stops.setAttribute("viewBox", `0 0 ${width} 16`);
-    const X = (u) => inset + u / (path.x.length - 1) * (width - 2 * inset);
-    let last = -99;
-    const rows = this.linkage.pose_errors.map((row, k) => ({ ...row, k })).filter((row) => row.way === this.way);
-    for (const row of rows.sort((a, b) => a.frame - b.frame)) {
-      const x = px(X(row.frame)), name = this.data.poses[row.k].label;
-      stops.append(s("path", { d: `M${x} 0V4` }));
-      if (x - last > 4 + 6.4 * name.length) {
-        stops.append(s("text", { x, y: 14, "text-anchor": "middle" }, name));
-        last = x;
-      }
-    }
+    const X = (u) => inset + (u - low) / (high - low) * (width - 2 * inset);
+    const rows = this.stopsOnWay.sort((a, b) => a.frame - b.frame).map((row) => ({ ...row, x: X(row.frame), pose: this.data.poses[row.k] }));
+    const named = laidOut(rows.map(({ x, pose }) => ({ x, text: shortened(poseName(pose), LONGEST_TICK) })), width);
+    const texts = named.every(({ at }) => at >= 0) ? named : laidOut(rows.map(({ x, pose }) => ({ x, text: pose.label })), width);
+    const deepest = Math.max(0, ...texts.map(({ at }) => at));
+    const one = (k, pose, ...parts) => s("g", { "data-pose": k + 1 }, s("title", {}, `pose ${poseName(pose)}`), ...parts);
+    rows.forEach(({ k, x, pose }, i) => stops.append(one(k, pose, s("path", { d: `M${px(x)} 0V${4 + ROW * Math.max(0, texts[i].at)}` }))));
+    rows.forEach(({ k, pose }, i) => {
+      const { at, middle, text } = texts[i];
+      if (at >= 0) stops.append(one(k, pose, s("text", { x: px(middle), y: 14 + ROW * at, "text-anchor": "middle" }, text)));
+    });
+    stops.setAttribute("viewBox", `0 0 ${width} ${16 + ROW * deepest}`);
+    stops.setAttribute("height", 16 + ROW * deepest);
   }
   play(on) {
     if (on && !this.path) return;
@@ -1713,15 +1838,20 @@ var Player = class {
     };
     this.tick = requestAnimationFrame(run);
   }
-  /** Play once round, or there and back; then rest until someone asks. */
+  /** Play once there and back, or once round; then rest until someone asks. */
   playOnce() {
     if (!this.path) return;
+    const { low, high } = this.stretch;
     this.play(true);
-    this.remaining = (this.path.round ? 1 : 2) * (this.path.x.length - 1);
+    this.remaining = (this.goesRound ? 1 : 2) * (high - low);
+  }
+  /** Whether what is played ends where it begins. */
+  get goesRound() {
+    return this.path.round && this.stretch.high - this.stretch.low > this.path.x.length - 1 - LEAST_STRETCH;
   }
   advance(seconds) {
-    const { path } = this, last = path.x.length - 1;
-    const step = seconds * last / (path.round ? TURN_SECONDS : TURN_SECONDS / 2);
+    const { low, high } = this.stretch;
+    const step = seconds * (high - low) / (this.goesRound ? TURN_SECONDS : TURN_SECONDS / 2);
     if (this.remaining !== null) {
       this.remaining -= step;
       if (this.remaining <= 0) {
@@ -1731,26 +1861,24 @@ var Player = class {
         return;
       }
     }
-    if (path.round) this.u = (this.u + step) % last;
-    else {
-      this.u += this.heading * step;
-      if (this.u >= last || this.u <= 0) {
-        this.heading = this.u >= last ? -1 : 1;
-        this.u = clamp(this.u, 0, last);
-      }
+    this.u += this.heading * step;
+    if (this.goesRound) this.u = around(this.u, high);
+    else if (this.u >= high || this.u <= low) {
+      this.heading = this.u >= high ? -1 : 1;
+      this.u = clamp(this.u, low, high);
     }
     this.show();
   }
   step(steps) {
     if (!this.path) return;
-    const last = this.path.x.length - 1;
-    const u = this.u + steps * Math.max(1, last / STEPS);
-    this.go(this.path.round ? (u % last + last) % last : u);
+    const { low, high } = this.stretch;
+    const u = this.u + steps * Math.max(1e-3, (high - low) / STEPS);
+    this.go(this.goesRound ? around(u, high) : u);
   }
   go(u) {
     if (!this.path) return;
     this.play(false);
-    this.u = clamp(u, 0, this.path.x.length - 1);
+    this.u = clamp(u, this.stretch.low, this.stretch.high);
     this.show();
   }
   /** The next pose (sense 1) or the one before (-1) that the linkage reaches, on whichever way. */
@@ -1802,7 +1930,7 @@ var Player = class {
       `driver ${driver}`,
       `body (${fixed(place.x, digits)}, ${fixed(place.y, digits)})${unit2}, ${fixed(((degrees(place.a) + 180) % 360 + 360) % 360 - 180, 2)}°`,
       `transmission ${transmission === null ? "–" : `${fixed(transmission, 1)}°`}`,
-      at ? `at pose ${pose.label}, ${row.said.position === "exact" ? "" : "off by "}${missOf(row.said.position, row.said.turned, unit2)}` : `${figure(Math.hypot(place.x - pose.x, place.y - pose.y))}${unit2} from pose ${pose.label}`
+      at ? `at pose ${poseName(pose)}, ${row.said.position === "exact" ? "" : "off by "}${missOf(row.said.position, row.said.turned, unit2)}` : `${figure(Math.hypot(place.x - pose.x, place.y - pose.y))}${unit2} from pose ${poseName(pose)}`
     ];
     texts.forEach((text, k) => {
       const whole = k + 1 < texts.length ? `${text} ·` : text;
@@ -1811,6 +1939,16 @@ var Player = class {
     this.slider.setAttribute("aria-valuetext", `driver ${driver}`);
   }
 };
+function laidOut(texts, width) {
+  const ends = Array(NAME_ROWS).fill(-99);
+  return texts.map(({ x, text }) => {
+    const size = 6.4 * text.length, left = clamp(x - size / 2, 0, Math.max(0, width - size));
+    const at = ends.findIndex((end) => left > end + 4);
+    if (at >= 0) ends[at] = left + size;
+    return { text, at, middle: left + size / 2 };
+  });
+}
+var around = (u, turn) => (u % turn + turn) % turn;
 function icon(pause) {
   return s(
     "svg",
@@ -1828,6 +1966,10 @@ var PANEL = 84;
 var GAP = 28;
 var USUAL_LIMIT = 40;
 var MANY_POSES2 = 40;
+var HEADROOM = 1.32;
+var INSET = 8;
+var LONGEST_NAME = 16;
+var NAME_WIDTH = 11;
 var Plots = class {
   constructor(data, parent, scrub) {
     this.data = data;
@@ -1837,7 +1979,7 @@ var Plots = class {
     const go = (event) => {
       if (!this.way) return;
       const box = this.svg.getBoundingClientRect();
-      const at = (event.clientX - box.left - LEFT) / (this.width - LEFT - RIGHT);
+      const at = (event.clientX - box.left - LEFT - INSET) / (this.width - LEFT - RIGHT - 2 * INSET);
       scrub(frameAt(this.way.drive, this.low + clamp(at, 0, 1) * (this.high - this.low)));
     };
     this.svg.addEventListener("pointerdown", (event) => {
@@ -1846,40 +1988,47 @@ var Plots = class {
     });
     this.svg.addEventListener("pointermove", (event) => event.buttons & 1 && go(event));
   }
-  /** Draw the panels of a linkage on its way `index`. */
-  build(linkage, index) {
+  /** Draw the panels of a linkage over a stretch of its way `index`. */
+  build(linkage, index, stretch) {
     const { data, svg } = this, way = linkage.ways[index];
     this.way = way;
     svg.replaceChildren();
     this.cursor = null;
     if (!way) return;
+    svg.setAttribute("aria-label", `${linkage.id}: errors at its poses, and its transmission angle along the driver`);
     const width = this.width = Math.max(260, this.parent.clientWidth);
-    const height = TOP + 3 * PANEL + 2 * GAP + BOTTOM;
+    const poses = linkage.pose_errors.map((row, k) => ({ ...row, pose: data.poses[k] })).filter((row) => row.way === index);
+    const upright = poses.some(({ pose }) => pose.label !== pose.name);
+    const longest = Math.max(0, ...poses.map(({ pose }) => shortened(poseName(pose), LONGEST_NAME).length));
+    this.top = TOP + (upright ? 6.2 * longest + 6 : 0);
+    const height = this.top + 3 * PANEL + 2 * GAP + BOTTOM;
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     svg.setAttribute("height", height);
     const [driver] = linkage.led, slides = driver.kind === "PR";
-    this.low = way.drive[0];
-    this.high = way.drive[way.drive.length - 1];
-    this.X = (drive) => LEFT + (drive - this.low) / (this.high - this.low) * (width - LEFT - RIGHT);
+    this.stretch = stretch;
+    this.low = linear(way.drive, stretch.low);
+    this.high = linear(way.drive, stretch.high);
+    this.X = (drive) => LEFT + INSET + (drive - this.low) / (this.high - this.low) * (width - LEFT - RIGHT - 2 * INSET);
     this.across = slides ? ticks(this.low, this.high, width / 90) : angleTicks(this.low, this.high, Math.max(3, width / 70));
-    const rows = linkage.pose_errors.map((row, k) => ({ ...row, name: data.poses[k].label })).filter((row) => row.way === index).map((row) => ({ ...row, drive: linear(way.drive, row.frame) }));
+    const rows = poses.map((row) => ({ ...row, drive: linear(way.drive, row.frame) }));
     const unit2 = data.unit ?? "unit of the poses";
     this.errors(0, `position error (${unit2})`, rows, (row) => row.position, 1e-11 * data.scene);
     this.errors(1, "angle error (°)", rows, (row) => row.turned_deg, 1e-9);
     const base = this.transmission(2, rows);
+    if (upright) this.uprightNames(rows);
     const title = slides ? `place of the driver ${driver.id} along its line (${unit2})` : `driver angle (${driver.id})`;
     svg.append(s("text", { class: "bm-title", x: (LEFT + width - RIGHT) / 2, y: height - 6, "text-anchor": "middle" }, title));
-    this.cursor = s("g", { class: "bm-cursor" }, s("path", { d: `M0 ${TOP}V${base}` }));
+    this.cursor = s("g", { class: "bm-cursor" }, s("path", { d: `M0 ${this.top}V${base}` }));
     this.mark = s("circle", { r: 4.5 });
     this.cursor.append(this.mark);
     svg.append(this.cursor);
   }
   /** The errors of the poses as stems; below `rounding` they are zero. */
   errors(k, title, rows, value, rounding) {
-    const { svg, X } = this, y0 = TOP + k * (PANEL + GAP), base = y0 + PANEL;
+    const { svg, X } = this, y0 = this.top + k * (PANEL + GAP), base = y0 + PANEL;
     const greatest = Math.max(1e-300, ...rows.map((row) => value(row) ?? 0));
     const visible = greatest > rounding;
-    const high = visible ? 1.15 * greatest : 1;
+    const high = visible ? HEADROOM * greatest : 1;
     const Y = (v) => base - v / high * PANEL;
     this.panel(title, y0, base);
     if (!visible) {
@@ -1894,36 +2043,53 @@ var Plots = class {
       const x = px(X(row.drive)), y = px(visible ? Y(value(row)) : base);
       svg.append(
         s("path", { class: "bm-stem", d: `M${x} ${base}V${y}` }),
-        s("circle", { class: "bm-dot", cx: x, cy: y, r: 3.5 }, s("title", {}, `pose ${row.name}: ${figure(value(row))}`))
+        s("circle", { class: "bm-dot", cx: x, cy: y, r: 3.5 }, s("title", {}, `pose ${poseName(row.pose)}: ${figure(value(row))}`))
       );
-      if (x - last > 6 + 6.5 * row.name.length && (rows.length <= MANY_POSES2 || greatestThree.has(row))) {
-        svg.append(s("text", { class: "bm-dot-name", x, y: y - 7, "text-anchor": "middle" }, row.name));
+      const { label } = row.pose;
+      if (x - last > 6 + 6.5 * label.length && (rows.length <= MANY_POSES2 || greatestThree.has(row))) {
+        svg.append(s("text", { class: "bm-dot-name", x, y: y - 7, "text-anchor": "middle" }, label));
         last = x;
       }
     }
   }
   /** The transmission angle along the way, and at its poses.  Returns the panel's base. */
   transmission(k, rows) {
-    const { svg, way, width, X } = this, y0 = TOP + k * (PANEL + GAP), base = y0 + PANEL;
+    const { svg, way, width, X } = this, y0 = this.top + k * (PANEL + GAP), base = y0 + PANEL;
     const Y = this.Y = (v) => base - v / 90 * PANEL;
     this.panel("transmission angle (°)", y0, base, true);
     for (const at of [0, 30, 60, 90]) this.rule(Y(at), at);
-    svg.append(
-      s("path", { class: "bm-usual", d: `M${LEFT} ${px(Y(USUAL_LIMIT))}H${width - RIGHT}` }),
-      s("text", { class: "bm-tick", x: width - RIGHT - 4, y: px(Y(USUAL_LIMIT)) - 4, "text-anchor": "end" }, `${USUAL_LIMIT}°, a usual limit`)
-    );
+    const asked = this.data.asked_transmission_deg, limit = asked ?? USUAL_LIMIT;
+    svg.append(s("path", { class: "bm-usual", d: `M${LEFT} ${px(Y(limit))}H${width - RIGHT}` }));
+    const limitName = s("text", { class: "bm-tick bm-halo", x: width - RIGHT - 4, y: px(Y(limit)) - 4, "text-anchor": "end" }, `${figure(limit)}°, ${asked ? "asked" : "a usual limit"}`);
+    const { low, high } = this.stretch, frames = [low];
+    for (let i = Math.floor(low) + 1; i < high; i += 1) frames.push(i);
+    frames.push(high);
     let line = "", pen = "M";
-    way.transmission.forEach((angle, i) => {
-      if (angle === null) return;
-      line += `${pen}${px(X(way.drive[i]))} ${px(Y(angle))}`;
+    for (const u of frames) {
+      const angle = linear(way.transmission, u);
+      if (angle === null) continue;
+      line += `${pen}${px(X(linear(way.drive, u)))} ${px(Y(angle))}`;
       pen = "L";
-    });
+    }
     svg.append(s("path", { class: "bm-line", d: line }));
     for (const row of rows) {
       if (row.transmission_deg === null) continue;
       svg.append(s("circle", { class: "bm-dot", cx: px(X(row.drive)), cy: px(Y(row.transmission_deg)), r: 3 }));
     }
+    svg.append(limitName);
     return base;
+  }
+  /** Names of the poses over their stems, those that have room. */
+  uprightNames(rows) {
+    let last = -99;
+    for (const row of [...rows].sort((a, b) => a.drive - b.drive)) {
+      const x = this.X(row.drive), y = this.top - 20;
+      if (x - last < NAME_WIDTH) continue;
+      last = x;
+      const text = s("text", { class: "bm-dot-name bm-upright", transform: `translate(${px(x + 4)} ${px(y)}) rotate(-90)` });
+      text.append(shortened(poseName(row.pose), LONGEST_NAME));
+      this.svg.append(s("g", {}, s("title", {}, poseName(row.pose)), text));
+    }
   }
   /** An empty panel with its title and the lines of the drive. */
   panel(title, y0, base, labelled = false) {
@@ -1974,7 +2140,7 @@ function unfoldForPrint(root, signal) {
 // src/burmester/web/widget/report.mjs
 var REDUCED_MOTION = "(prefers-reduced-motion: reduce)";
 var DARK_SCHEME = "(prefers-color-scheme: dark)";
-var LONGEST_NAME = 5;
+var LONGEST_NAME2 = 5;
 var KINDS = " RR: a link with two pins; PR: a slider on the ground; RP: a pin on the ground in a slot of the body.";
 var section = (name, title, ...content) => h("section", { class: `bm-card bm-${name}`, "aria-label": title }, h("h2", {}, title), ...content);
 var Report = class {
@@ -1983,7 +2149,7 @@ var Report = class {
     this.el = el;
     this.options = options;
     this.ended = new AbortController();
-    const short = data.poses.every((pose) => pose.name.length <= LONGEST_NAME);
+    const short = data.poses.every((pose) => pose.name.length <= LONGEST_NAME2);
     data.poses.forEach((pose, k) => pose.label = short ? pose.name : String(k + 1));
     this.linkages = data.linkages.map((linkage) => ({
       ...linkage,
@@ -2030,10 +2196,16 @@ var Report = class {
       { class: "bm-card bm-stage", "aria-label": "The linkage moving" },
       this.title,
       this.story,
-      player ? [this.assemblies.element, player.element] : null,
       drawing,
-      h("div", { class: "bm-under" }, keyOf(Boolean(player)), player ? this.magnification() : null)
+      player ? [player.element, this.assemblies.element] : null,
+      h("div", { class: "bm-under" }, keyOf(Boolean(player)), player ? h("div", { class: "bm-choose" }, this.farPivots(), this.magnification()) : null)
     );
+  }
+  /** Whether the picture is to hold pivots far from the poses; only where there are some. */
+  farPivots() {
+    this.far = h("input", { type: "checkbox", onchange: () => this.draw() });
+    this.farLabel = h("label", { class: "bm-factor bm-far-pivots", hidden: true }, this.far, " Whole linkage, with far pivots");
+    return this.farLabel;
   }
   magnification() {
     this.factor = h(
@@ -2078,10 +2250,17 @@ var Report = class {
     return h("details", { class: "bm-every" }, h("summary", {}, "Dimensions of every linkage"), h("div", { class: "bm-every-all" }, parts));
   }
   choose(index) {
+    const known = Boolean(this.linkage);
     this.linkage = this.linkages[index];
     this.cards.mark(index);
     this.factor.value = String(factorFor(this.data, this.linkage));
     this.player.load(this.linkage);
+    if (known) this.bringIntoSight();
+  }
+  /** Where the cards stand under the picture, a choice among them goes back to the picture. */
+  bringIntoSight() {
+    const stage = this.plane.parent.parentElement;
+    if (stage.getBoundingClientRect().bottom < 0.4 * window.innerHeight) stage.scrollIntoView({ block: "start" });
   }
   /** Everything that depends on the linkage and on its way. */
   rebuild() {
@@ -2091,7 +2270,7 @@ var Report = class {
       this.title.textContent = `${linkage.id}: ${linkage.type}`;
       this.story.textContent = storyOf(linkage);
       this.assemblies.build(linkage, player.way);
-      this.numbers.replaceChildren(factsOf(data, linkage), dimensionTable(data, linkage), ...linkage.said.notes.map((note) => h("p", { class: "bm-note-text" }, note)));
+      this.numbers.replaceChildren(dimensionTable(data, linkage), factsOf(data, linkage), ...linkage.said.notes.map((note) => h("p", { class: "bm-note-text" }, note)));
     }
     this.poses.replaceChildren(this.poses.querySelector("h2"), poseTable(data, linkage));
     this.rows = [...this.poses.querySelectorAll("tbody tr")];
@@ -2101,9 +2280,11 @@ var Report = class {
   }
   /** Draw what stands still anew, and then what moves. */
   draw() {
-    const { linkage, player } = this, way = player?.way ?? 0;
-    this.plots?.build(linkage, way);
-    this.plane.build(linkage, way, Number(this.factor?.value ?? 0), this.room());
+    const { linkage, player } = this, way = player?.way ?? 0, stretch = player?.stretch;
+    this.plots?.build(linkage, way, stretch);
+    const factor = Number(this.factor?.value ?? 0), far = Boolean(this.far?.checked);
+    this.plane.build(linkage, way, stretch, { factor, fill: this.room(), far });
+    if (this.farLabel) this.farLabel.hidden = !hasFarPivots(this.data, linkage, this.plane.places);
     this.plane.svg.setAttribute("aria-label", linkage ? `${linkage.id}, a ${linkage.type}, at the poses. Space plays, arrow keys move the driver.` : "The poses");
     this.space.build(linkage, way);
     this.map?.build(linkage);

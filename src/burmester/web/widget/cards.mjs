@@ -31,7 +31,7 @@ export class Cards {
 
 function card(linkage, unit, onclick) {
   const { said } = linkage;
-  const fact = (name, value) => [h("dt", {}, name), h("dd", {}, value)];
+  const fact = (name, value, kind = null) => [h("dt", { class: kind }, name), h("dd", { class: kind }, value)];
   const links = said.links ? Object.values(said.links) : [];
   return h(
     "button",
@@ -41,11 +41,12 @@ function card(linkage, unit, onclick) {
     h(
       "dl",
       {},
-      fact("worst miss", missOf(said.worst, said.angle, unit).replace(" and ", ", ")),
+      fact("worst miss", missOf(said.worst, said.angle, unit).split(" and ").map((part, k) => [k ? ", " : "", h("span", { class: "bm-whole-word" }, part)])),
       fact("transmission", said.transmission === "-" ? "–" : said.transmission === "0°" ? "down to 0°" : `${said.transmission} or more`),
       fact("driver", `${linkage.led[0].id}${said.turns_fully ? ", turns fully" : ""}`),
-      links.length ? fact("links", links.join(" · ")) : fact("dyads", linkage.dyads.map((dyad) => `${dyad.id} (${dyad.kind})`).join(" · ")),
+      links.length ? fact("links", links.map((each, k) => h("span", { class: "bm-whole-word" }, k ? ` · ${each}` : each)), "bm-detail") : fact("dyads", linkage.dyads.map((dyad) => `${dyad.id} (${dyad.kind})`).join(" · "), "bm-detail"),
     ),
+    said.freedom ? h("span", { class: "bm-quiet" }, said.freedom) : null,
     said.reasons.length ? h("span", { class: "bm-reason" }, said.reasons.join("; ")) : null,
   );
 }

@@ -1,40 +1,55 @@
 // The plane as a picture: what it has to hold, its scale in pixels, and the signs of kinematics.
 
-import { act } from "./kinematics.mjs";
 import { s } from "./dom.mjs";
+import { act } from "./kinematics.mjs";
 import { degrees, px } from "./numbers.mjs";
+import { pointOnLine, travelOf } from "./travel.mjs";
 
 export const AXIS = 26; // pixels: the x axis of a pose
 export const BLOCK = [22, 14]; // pixels: a slider's length and height
-const WIDEST = 2.5; // sizes of the scene: a point farther from its middle does not widen the picture
+const WIDEST = 4; // sizes of the scene: a point farther from its middle is far, and does not widen the picture
 
-/** The box of everything that the picture has to hold: [x low, y low, x high, y high]. */
-export function boundsOf(data, linkage) {
-  const points = data.poses.map((pose) => [pose.x, pose.y]);
-  const middle = [0, 1].map((k) => {
-    const values = points.map((point) => point[k]);
-    return (Math.min(...values) + Math.max(...values)) / 2;
+/** Tells of a point whether it is too far from the poses to widen the picture unasked. */
+export function farFrom(data) {
+  const [x, y] = ["x", "y"].map((k) => {
+    const [low, high] = data.poses.reduce(([a, b], pose) => [Math.min(a, pose[k]), Math.max(b, pose[k])], [Infinity, -Infinity]);
+    return (low + high) / 2;
   });
-  const near = ([x, y]) =>
-    Math.hypot(x - middle[0], y - middle[1]) < WIDEST * data.scene;
-  const box = [Infinity, Infinity, -Infinity, -Infinity];
-  const include = (point) => {
-    if (!near(point)) return;
-    box[0] = Math.min(box[0], point[0]);
-    box[1] = Math.min(box[1], point[1]);
-    box[2] = Math.max(box[2], point[0]);
-    box[3] = Math.max(box[3], point[1]);
+  return (point) => !(Math.hypot(point[0] - x, point[1] - y) < WIDEST * data.scene);
+}
+
+/** The pivots of a linkage at some places: { dyad, fixed, at } each; a slot of the body by its ends. */
+export function pivotsAt(linkage, places) {
+  const found = [];
+  for (const dyad of linkage.led) {
+    if (dyad.fixed_pivot) found.push({ dyad, fixed: true, at: dyad.fixed_pivot });
+    const own = dyad.moving_pivot
+      ? [dyad.moving_pivot]
+      : dyad.kind === "RP" ? travelOf(dyad, places).map((end) => pointOnLine(dyad, end)) : [];
+    for (const point of own) for (const place of places) found.push({ dyad, fixed: false, at: act(place, point) });
+  }
+  return found;
+}
+
+/** The box of everything that the picture has to hold: [x low, y low, x high, y high].
+ *
+ * places: those that the linkage takes; far: whether far pivots widen it, too.
+ */
+export function boundsOf(data, linkage, places, far) {
+  const isFar = farFrom(data), box = [Infinity, Infinity, -Infinity, -Infinity];
+  const include = ([x, y]) => {
+    if (!Number.isFinite(x + y) || (!far && isFar([x, y]))) return;
+    box[0] = Math.min(box[0], x);
+    box[1] = Math.min(box[1], y);
+    box[2] = Math.max(box[2], x);
+    box[3] = Math.max(box[3], y);
   };
-  points.forEach(include);
+  for (const pose of data.poses) include([pose.x, pose.y]);
   if (linkage) {
+    for (const row of linkage.pose_errors) if (row.x !== null) include([row.x, row.y]);
     for (const dyad of linkage.led) if (dyad.fixed_pivot) include(dyad.fixed_pivot);
-    for (const way of linkage.ways) {
-      for (let k = 0; k < way.x.length; k += 4) {
-        const place = { x: way.x[k], y: way.y[k], a: way.angle[k] };
-        include([place.x, place.y]);
-        for (const dyad of linkage.led) if (dyad.moving_pivot) include(act(place, dyad.moving_pivot));
-      }
-    }
+    for (const place of places) include([place.x, place.y]);
+    if (places.length) for (const { at } of pivotsAt(linkage, places)) include(at);
   }
   const least = 0.25 * data.scene;
   for (const k of [0, 1]) {
@@ -92,10 +107,6 @@ export function polyline(points, view) {
   }
   return path;
 }
-
-/** The path of a point of M along a way. */
-export const pathOf = (way, point) =>
-  way.x.map((x, k) => act({ x, y: way.y[k], a: way.angle[k] }, point));
 
 /** The convex hull of a few points. */
 export function hull(points) {

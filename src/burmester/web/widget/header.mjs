@@ -4,9 +4,16 @@ import { h } from "./dom.mjs";
 
 const OPEN = /^R(303|31)/; // outcomes of tasks that have no one answer: nothing went wrong
 
-/** The header of a report; good: whether a linkage is usable. */
+/** The header of a report; good: whether a linkage is usable.
+ *
+ * Where one is, it says which; how it was found, and what to know of that, is there to unfold.
+ */
 export function header(data, good) {
-  const { outcome } = data, open = OPEN.test(outcome.code);
+  const { outcome, warnings } = data, open = OPEN.test(outcome.code);
+  const [best, ...more] = good ? data.best : [];
+  const found = [`${outcome.message[0].toUpperCase()}${outcome.message.slice(1)}. `, h("span", { class: "bm-code" }, outcome.code)];
+  const told = [notes(outcome), warnings.length ? h("ul", { class: "bm-warnings", "aria-label": "Warnings" }, warnings.map(warning)) : null];
+  const count = warnings.length ? `, and ${warnings.length} warning${warnings.length === 1 ? "" : "s"}` : "";
   return h(
     "header",
     { class: "bm-head" },
@@ -16,11 +23,12 @@ export function header(data, good) {
       "p",
       { class: `bm-outcome ${good ? "bm-good" : open ? "bm-open" : "bm-bad"}` },
       h("span", { class: "bm-sign", "aria-hidden": "true" }, good ? "✓" : open ? "i" : "✕"),
-      h("span", {}, `${outcome.message[0].toUpperCase()}${outcome.message.slice(1)}. `, h("span", { class: "bm-code" }, outcome.code)),
+      h("span", {}, best ?? found),
     ),
-    data.best.map((sentence) => h("p", { class: "bm-best" }, sentence)),
-    notes(outcome),
-    data.warnings.length ? h("ul", { class: "bm-warnings", "aria-label": "Warnings" }, data.warnings.map(warning)) : null,
+    (best ? more : data.best).map((sentence) => h("p", { class: "bm-best" }, sentence)),
+    best
+      ? h("details", { class: "bm-about" }, h("summary", {}, `How it was found${count}`), h("p", { class: "bm-found" }, found), told)
+      : told,
   );
 }
 

@@ -1,16 +1,22 @@
 // The moving parts of a linkage as they are drawn: links, blocks in slots, the body and its pivots.
 
-import { act, back, normalOf } from "./kinematics.mjs";
 import { s } from "./dom.mjs";
-import { px } from "./numbers.mjs";
 import { AXIS, BLOCK, axes, hull, transform } from "./drawing.mjs";
+import { act, normalOf } from "./kinematics.mjs";
+import { px } from "./numbers.mjs";
+import { pointOnLine, travelOf } from "./travel.mjs";
 
 const BODY_AXIS = AXIS + 10; // pixels: the x axis of the body
 const LETTER = 14; // pixels: how far the letter M stands from the origin of M, along each axis
+const BLOCK_IN_SLOT = [18, 10]; // pixels: its length and height
+const SPARE = 5; // pixels: how far a slot goes on beyond its block
 const ARROW = 24; // pixels: how far the arrow of a sliding driver stands from its block
 
-/** The parts in the middle of a picture, and `show` that puts them at a place of the body. */
-export function mechanism(linkage, view) {
+/** The parts in the middle of a picture, and `show` that puts them at a place of the body.
+ *
+ * places: all that are shown; slots are as long as they need.
+ */
+export function mechanism(linkage, view, places) {
   const parts = {
     links: s("g"), blocks: s("g"), pins: s("g"), coupler: s("g", { class: "bm-coupler" }),
     corners: [[0, 0]], // of the body's plate, in pixels from the origin of M
@@ -20,7 +26,7 @@ export function mechanism(linkage, view) {
     if (dyad.moving_pivot) parts.corners.push([view.scale * dyad.moving_pivot[0], -view.scale * dyad.moving_pivot[1]]);
     if (dyad.kind === "RR") addLink(parts, dyad, side, view);
     else if (dyad.kind === "PR") addBlockOnRail(parts, dyad, side, view);
-    else if (dyad.kind === "RP") addSlot(parts, dyad, side, view, linkage.ways);
+    else if (dyad.kind === "RP") addSlot(parts, dyad, side, view, places);
   });
   const letter = addBody(parts, linkage, view);
   const arrow = driverArrow(parts, linkage.led[0], view);
@@ -33,10 +39,10 @@ const groundPin = (dyad, r, view) =>
     class: "bm-pin bm-fixed-pin", r, cx: px(view.X(dyad.fixed_pivot[0])), cy: px(view.Y(dyad.fixed_pivot[1])), "data-dyad": dyad.id,
   });
 
-const block = (side, width, height) =>
+const block = (dyad, side, width, height) =>
   s(
     "g",
-    { class: `bm-block bm-side${side}` },
+    { class: `bm-block bm-side${side}`, "data-dyad": dyad.id },
     s("rect", { x: -width / 2, y: -height / 2, width, height, rx: 2 }),
   );
 
@@ -60,7 +66,7 @@ function addLink({ links, pins, moves }, dyad, side, view) {
 
 /** PR: a block on the rail that stands on the ground. */
 function addBlockOnRail({ blocks, moves }, dyad, side, view) {
-  const slider = block(side, ...BLOCK);
+  const slider = block(dyad, side, ...BLOCK);
   blocks.append(slider);
   const [nx, ny] = normalOf(dyad), along = Math.atan2(nx, -ny);
   moves.push((place) => {
@@ -69,33 +75,21 @@ function addBlockOnRail({ blocks, moves }, dyad, side, view) {
   });
 }
 
-/** RP: a slot in the body, as long as its ways need, and the block in it on the fixed pivot. */
-function addSlot({ blocks, pins, coupler, corners, moves }, dyad, side, view, ways) {
-  const [nx, ny] = normalOf(dyad), { offset } = dyad.line, S = view.scale;
-  let low = Infinity, high = -Infinity;
-  for (const way of ways) {
-    for (let k = 0; k < way.x.length; k += 1) {
-      const [x, y] = back({ x: way.x[k], y: way.y[k], a: way.angle[k] }, dyad.fixed_pivot);
-      low = Math.min(low, -ny * x + nx * y);
-      high = Math.max(high, -ny * x + nx * y);
-    }
-  }
-  if (high >= low) {
-    const ends = [low - 14 / S, high + 14 / S].map((t) => [
-      S * (offset * nx - t * ny),
-      -S * (offset * ny + t * nx),
-    ]);
-    const d = `M${ends.map((end) => end.map(px).join(" ")).join("L")}`;
-    coupler.append(
-      s("path", { class: "bm-slot-rim", d }),
-      s("path", { class: "bm-slot-plate", d }),
-      s("path", { class: "bm-slot-edge", d }),
-      s("path", { class: "bm-slot", d }),
-    );
-    corners.push([S * offset * nx - (S * (low + high) * ny) / 2, -S * offset * ny - (S * (low + high) * nx) / 2]);
-  }
-  const [cx, cy] = dyad.fixed_pivot;
-  const slider = block(side, 18, 10);
+/** RP: a slot in the body, as long as the travel of its block, which stands on the fixed pivot. */
+function addSlot({ blocks, pins, coupler, corners, moves }, dyad, side, view, places) {
+  const S = view.scale, [low, high] = travelOf(dyad, places), end = (BLOCK_IN_SLOT[0] / 2 + SPARE) / S;
+  const seen = (along) => (([x, y]) => [S * x, -S * y])(pointOnLine(dyad, along));
+  const ends = [seen(low - end), seen(high + end)];
+  const d = `M${ends.map((each) => each.map(px).join(" ")).join("L")}`;
+  coupler.append(
+    s("path", { class: "bm-slot-rim", d }),
+    s("path", { class: "bm-slot-plate", d }),
+    s("path", { class: "bm-slot-edge", d }),
+    s("path", { class: "bm-slot", d, "data-dyad": dyad.id }),
+  );
+  corners.push(seen((low + high) / 2));
+  const [nx, ny] = normalOf(dyad), [cx, cy] = dyad.fixed_pivot;
+  const slider = block(dyad, side, ...BLOCK_IN_SLOT);
   blocks.append(slider);
   pins.append(groundPin(dyad, 4, view));
   moves.push((place) =>

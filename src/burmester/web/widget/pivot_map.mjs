@@ -12,12 +12,18 @@ export class PivotMap {
     this.data = data;
     this.parent = parent;
     this.canvas = h("canvas", { "aria-hidden": "true" });
-    this.svg = s("svg", { role: "img" });
-    this.readout = h("p", { class: "bm-readout" });
+    const name = `bm-map-${Math.random().toString(36).slice(2)}`; // a page may hold several reports
+    this.svg = s("svg", {
+      class: "bm-map-picture", role: "application", tabindex: "0", "aria-roledescription": "map", "aria-describedby": name,
+      "aria-label": "Pivot map: the error of the best link for every fixed pivot. Arrow keys move a cursor, with Shift by ten steps; the error there is told.",
+    });
+    this.readout = h("output", { class: "bm-readout", id: name });
+    this.cursor = null; // column and row of the grid, where the keys have gone
     this.legend = h("p", { class: "bm-legend" });
     parent.append(h("div", { class: "bm-map" }, this.canvas, this.svg), this.legend, this.readout);
     this.svg.addEventListener("pointermove", (event) => this.read(event));
-    this.svg.addEventListener("pointerleave", () => this.readout.replaceChildren(this.invitation));
+    this.svg.addEventListener("pointerleave", () => this.tell());
+    this.svg.addEventListener("keydown", (event) => this.move(event));
     const { log10_rms: levels } = data.pivot_map;
     const known = levels.filter((level) => level !== null).sort((a, b) => a - b);
     // The least errors cover no area that can be seen, the greatest say nothing: neither sets the shades.
@@ -26,7 +32,7 @@ export class PivotMap {
     this.low = Math.floor(low / this.step) * this.step;
     this.high = Math.ceil(high / this.step) * this.step;
     this.count = Math.max(1, Math.round((this.high - this.low) / this.step));
-    this.invitation = "Point at the map to read it.";
+    this.invitation = "Point at the map to read it, or move over it by arrow keys.";
     this.readout.append(this.invitation);
   }
 
@@ -36,8 +42,9 @@ export class PivotMap {
     const i = clamp(Math.floor(u), 0, columns - 2), j = clamp(Math.floor(v), 0, rows - 2);
     const a = u - i, b = v - j, at = j * columns + i;
     const [p, q, r, t] = [levels[at], levels[at + 1], levels[at + columns], levels[at + columns + 1]];
-    if (p === null || q === null || r === null || t === null) return null;
-    return (1 - b) * ((1 - a) * p + a * q) + b * ((1 - a) * r + a * t);
+    const shares = [(1 - a) * (1 - b), a * (1 - b), (1 - a) * b, a * b];
+    if ([p, q, r, t].some((level, k) => level === null && shares[k] > 0)) return null;
+    return shares[0] * p + shares[1] * q + shares[2] * r + shares[3] * t;
   }
 
   build(linkage) {
@@ -49,7 +56,12 @@ export class PivotMap {
     svg.replaceChildren();
     const scale = width / (map.high[0] - map.low[0]);
     const view = { width, height, X: (x) => (x - map.low[0]) * scale, Y: (y) => height - (y - map.low[1]) * scale };
+    this.linkage = linkage;
+    this.view = view;
     this.explain(this.pivots(linkage, view));
+    this.mark = s("path", { class: "bm-map-cursor", d: "M-11 0H-4M4 0H11M0 -11V-4M0 4V11" });
+    svg.append(this.mark);
+    this.tell();
   }
 
   /** The shades, painted again only where their size or the colours have changed. */
@@ -129,15 +141,49 @@ export class PivotMap {
     );
   }
 
+  /** A place of the grid, by its column and row, in the plane. */
+  placeAt([u, v]) {
+    const { low, high, columns, rows } = this.data.pivot_map;
+    return [low[0] + (u / (columns - 1)) * (high[0] - low[0]), low[1] + (v / (rows - 1)) * (high[1] - low[1])];
+  }
+
+  /** Move the cursor by a key, from one place of the grid to the next; it starts at the driver's pivot. */
+  move(event) {
+    const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] }[event.key];
+    if (!step || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    const { low, high, columns, rows } = this.data.pivot_map, many = event.shiftKey ? 10 : 1;
+    const pivot = this.linkage?.led.map((dyad) => dyad.fixed_pivot).find(Boolean) ?? this.placeAt([(columns - 1) / 2, (rows - 1) / 2]);
+    const [u, v] = this.cursor ?? [
+      Math.round(((pivot[0] - low[0]) / (high[0] - low[0])) * (columns - 1)),
+      Math.round(((pivot[1] - low[1]) / (high[1] - low[1])) * (rows - 1)),
+    ];
+    this.cursor = [clamp(u + many * step[0], 0, columns - 1), clamp(v + many * step[1], 0, rows - 1)];
+    this.tell();
+  }
+
+  /** The cursor, and the error there; without a cursor how to get one. */
+  tell() {
+    const { cursor, mark, view } = this;
+    mark?.setAttribute("visibility", cursor ? "visible" : "hidden");
+    if (!cursor) {
+      this.readout.textContent = this.invitation;
+      return;
+    }
+    const [x, y] = this.placeAt(cursor);
+    mark?.setAttribute("transform", `translate(${px(view.X(x))} ${px(view.Y(y))})`);
+    this.say(cursor);
+  }
+
   /** The error at the pointer. */
   read(event) {
-    const box = this.svg.getBoundingClientRect(), map = this.data.pivot_map;
-    const x = map.low[0] + ((event.clientX - box.left) / box.width) * (map.high[0] - map.low[0]);
-    const y = map.high[1] - ((event.clientY - box.top) / box.height) * (map.high[1] - map.low[1]);
-    const level = this.level(
-      ((x - map.low[0]) / (map.high[0] - map.low[0])) * (map.columns - 1),
-      ((y - map.low[1]) / (map.high[1] - map.low[1])) * (map.rows - 1),
-    );
+    const box = this.svg.getBoundingClientRect(), { columns, rows } = this.data.pivot_map;
+    this.say([((event.clientX - box.left) / box.width) * (columns - 1), (1 - (event.clientY - box.top) / box.height) * (rows - 1)]);
+  }
+
+  /** The error at a column and a row of the grid, which may be fractions. */
+  say(at) {
+    const [x, y] = this.placeAt(at), level = this.level(...at);
     const digits = Math.max(0, 2 - Math.floor(Math.log10(this.data.scene)));
     const unit = this.data.unit ? ` ${this.data.unit}` : "";
     this.readout.textContent =

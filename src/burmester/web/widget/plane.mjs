@@ -1,11 +1,15 @@
 // The linkage in its plane: grid, paths, ground, wanted and achieved poses, and the moving parts.
 
 import { s } from "./dom.mjs";
-import { AXIS, BLOCK, axes, boundsOf, foot, pathOf, polyline, transform, viewOf } from "./drawing.mjs";
-import { normalOf } from "./kinematics.mjs";
+import { AXIS, BLOCK, axes, boundsOf, farFrom, foot, pivotsAt, polyline, transform, viewOf } from "./drawing.mjs";
+import { act, normalOf } from "./kinematics.mjs";
 import { Labels } from "./labels.mjs";
 import { mechanism } from "./mechanism.mjs";
-import { clamp, px, radians, ticks } from "./numbers.mjs";
+import { clamp, fixed, px, radians, ticks } from "./numbers.mjs";
+import { decimalsOf } from "./tables.mjs";
+import { placesOf, pointOnLine, travelOf } from "./travel.mjs";
+
+const LONGEST_RAIL = 4000; // pixels to either side: a rail is hatched no farther
 
 /** Magnifications of the error arrows; 0 draws none. */
 export const FACTORS = [0, 1, 10, 100, 1000, 10000, 100000];
@@ -18,6 +22,16 @@ export function factorFor(data, linkage) {
   return fits.length ? fits[fits.length - 1] : 1;
 }
 
+/** Where a dyad stands on the ground: its fixed pivot, or the middle of its rail. */
+const standing = (dyad, places) =>
+  dyad.fixed_pivot ?? (dyad.kind === "PR" && places.length ? pointOnLine(dyad, travelOf(dyad, places).reduce((a, b) => (a + b) / 2)) : null);
+
+/** Whether a linkage has pivots too far from the poses for the picture to hold them unasked. */
+export function hasFarPivots(data, linkage, places) {
+  const isFar = farFrom(data);
+  return linkage.led.some((dyad) => dyad.fixed_pivot && isFar(dyad.fixed_pivot)) || (places.length > 0 && pivotsAt(linkage, places).some(({ at }) => isFar(at)));
+}
+
 /** An SVG element in `parent`: `build` draws a linkage on one of its ways, `show` moves it. */
 export class Plane {
   constructor(data, parent) {
@@ -27,10 +41,15 @@ export class Plane {
     parent.append(this.svg);
   }
 
-  /** Draw what stands still.  factor: of the error arrows; fill: the height to fill, 0 for the picture's own. */
-  build(linkage, way, factor, fill) {
-    const { data, svg } = this;
-    const box = boundsOf(data, linkage);
+  /** Draw what stands still.
+   *
+   * stretch: the part of the way that is shown; factor: of the error arrows; fill: the height to
+   * fill, 0 for the picture's own; far: whether the picture is to hold pivots far from the poses.
+   */
+  build(linkage, way, stretch, { factor, fill, far }) {
+    const { data, svg } = this, path = linkage?.ways[way];
+    this.places = path ? placesOf(linkage, path, stretch, data.chart.length) : [];
+    const box = boundsOf(data, linkage, this.places, far);
     const width = Math.max(260, this.parent.clientWidth);
     const shape = (box[3] - box[1]) / (box[2] - box[0]);
     const own = clamp(width * clamp(shape, 0.45, 1), 260, clamp(0.62 * window.innerHeight, 340, 680));
@@ -60,8 +79,9 @@ export class Plane {
       }
     }
     svg.append(this.poses(linkage, factor, labels));
-    this.moving = linkage?.ways.length ? mechanism(linkage, view) : null;
+    this.moving = path ? mechanism(linkage, view, this.places) : null;
     if (this.moving) svg.append(this.moving.group);
+    if (linkage && !far) this.farPivots(labels);
     svg.append(this.names);
   }
 
@@ -73,7 +93,7 @@ export class Plane {
     for (const { at, text } of across) {
       const x = px(view.X(at));
       group.append(s("path", { d: `M${x} 0V${view.height}` }));
-      if (x > 46 && x < view.width - 30) {
+      if (x > 46 && x < view.width - (unit ? 54 : 30)) {
         group.append(s("text", { x, y: view.height - 6, "text-anchor": "middle" }, text));
       }
     }
@@ -89,22 +109,22 @@ export class Plane {
     return group;
   }
 
+  /** Paths of the body's origin and of its pivots: full along the stretch that is shown. */
   paths() {
-    const { view, linkage } = this, group = s("g", { class: "bm-paths" });
+    const { view, linkage, places } = this, group = s("g", { class: "bm-paths" });
     linkage.ways.forEach((way, k) => {
-      const here = k === this.way;
       const same = way.circuit === linkage.ways[this.way]?.circuit;
-      const kind = here ? "bm-here" : same ? "bm-same" : "bm-other";
-      if (here) {
-        for (const [side, dyad] of linkage.led.entries()) {
-          if (!dyad.moving_pivot || dyad.kind === "PR") continue;
-          const d = polyline(pathOf(way, dyad.moving_pivot), view);
-          group.append(s("path", { class: `bm-pivot-path bm-side${side}`, d }));
-        }
-      }
+      const kind = k === this.way ? "bm-beyond" : same ? "bm-same" : "bm-other";
       const d = polyline(way.x.map((x, i) => [x, way.y[i]]), view);
       group.append(s("path", { class: `bm-curve ${kind}`, d }));
     });
+    for (const [side, dyad] of linkage.led.entries()) {
+      if (!dyad.moving_pivot || dyad.kind === "PR") continue;
+      const d = polyline(places.map((place) => act(place, dyad.moving_pivot)), view);
+      group.append(s("path", { class: `bm-pivot-path bm-side${side}`, d }));
+    }
+    const d = polyline(places.map(({ x, y }) => [x, y]), view);
+    group.append(s("path", { class: "bm-curve bm-here", d }));
     return group;
   }
 
@@ -118,33 +138,28 @@ export class Plane {
     return group;
   }
 
-  /** A rail as long as all ways need, three scenes to either side at most. */
+  /** A rail as long as the travel of its block. */
   rail(group, labels, dyad, side) {
-    const { view } = this, [nx, ny] = normalOf(dyad), { offset } = dyad.line;
-    let low = Infinity, high = -Infinity;
-    for (const way of this.linkage.ways) {
-      for (const [x, y] of pathOf(way, dyad.moving_pivot)) {
-        const along = -ny * x + nx * y;
-        low = Math.min(low, along);
-        high = Math.max(high, along);
-      }
-    }
-    if (!(high >= low)) return;
-    const limit = 3 * this.data.scene, middle = (low + high) / 2;
-    [low, high] = [Math.max(low, middle - limit), Math.min(high, middle + limit)];
+    if (!this.places.length) return;
+    const { view } = this, [nx, ny] = normalOf(dyad);
+    const [low, high] = travelOf(dyad, this.places);
     const half = (view.scale * (high - low)) / 2 + BLOCK[0], edge = BLOCK[1] / 2 + 1;
-    const x = view.X(offset * nx - middle * ny), y = view.Y(offset * ny + middle * nx);
+    const [x, y] = ((at) => [view.X(at[0]), view.Y(at[1])])(pointOnLine(dyad, (low + high) / 2));
+    // The ground is on the side where the body is not.
+    const bodySide = this.places.reduce((sum, place) => sum + nx * place.x + ny * place.y - dyad.line.offset, 0);
+    const turned = Math.atan2(nx, -ny) + (bodySide > 0 ? Math.PI : 0);
     let hatch = "";
-    for (let k = -half + 4; k < half - 2; k += 8) hatch += `M${px(k + 4)} ${edge}l-6 7`;
+    const drawn = Math.min(half, LONGEST_RAIL);
+    for (let k = -drawn + 4; k < drawn - 2; k += 8) hatch += `M${px(k + 4)} ${edge}l-6 7`;
     group.append(
       s(
         "g",
-        { class: `bm-rail bm-side${side}`, transform: transform(x, y, Math.atan2(nx, -ny)) },
+        { class: `bm-rail bm-side${side}`, "data-dyad": dyad.id, transform: transform(x, y, turned) },
         s("path", { class: "bm-ground", d: `M${px(-half)} ${edge}H${px(half)}${hatch}` }),
         s("path", { class: "bm-ground bm-thin", d: `M${px(-half)} ${-edge}H${px(half)}` }),
       ),
     );
-    for (let k = -half; k <= half; k += 14) labels.block(x - k * ny, y - k * nx, 22, 22);
+    for (let k = -drawn; k <= drawn; k += 14) labels.block(x - k * ny, y - k * nx, 22, 22);
     this.names.append(labels.put(x, y, dyad.id, 26, { class: `bm-name bm-side${side}` }));
   }
 
@@ -156,6 +171,26 @@ export class Plane {
     at.setAttribute("transform", `translate(${px(x)} ${px(y)})`);
     group.append(at);
     this.names.append(labels.put(x, y + 4, dyad.id, 27, { class: `bm-name bm-side${side}` }));
+  }
+
+  /** At the edge of the picture, in their direction, the names of what stands too far away for it. */
+  farPivots(labels) {
+    const { data, view } = this, isFar = farFrom(data), digits = decimalsOf(data);
+    this.linkage.led.forEach((dyad, side) => {
+      const at = standing(dyad, this.places);
+      if (!at || !isFar(at)) return;
+      const [x, y] = [view.X(at[0]), view.Y(at[1])];
+      const cx = view.width / 2, cy = view.height / 2, size = Math.hypot(x - cx, y - cy);
+      const u = (x - cx) / size, v = (y - cy) / size;
+      const reach = Math.min((cx - 12) / Math.abs(u), (cy - 12) / Math.abs(v));
+      const ex = cx + reach * u, ey = cy + reach * v;
+      const text = `${dyad.id}: ${dyad.fixed_pivot ? "fixed pivot" : "rail"} at (${at.map((each) => fixed(each, digits)).join(", ")})`;
+      labels.block(ex, ey, 20, 20);
+      this.names.append(
+        s("path", { class: `bm-far-mark bm-side${side}`, d: "M-9 -6L3 0L-9 6", transform: transform(ex, ey, Math.atan2(-v, u)) }),
+        labels.put(ex, ey, text, 14, { class: `bm-name bm-far-name bm-side${side}` }),
+      );
+    });
   }
 
   /** Wanted poses, the places that the linkage takes instead, and the errors between them, enlarged. */

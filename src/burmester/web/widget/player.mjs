@@ -3,10 +3,14 @@
 import { h, s } from "./dom.mjs";
 import { linear, placeAt } from "./kinematics.mjs";
 import { clamp, degrees, figure, fixed, px, radians } from "./numbers.mjs";
-import { decimalsOf, missOf } from "./tables.mjs";
+import { decimalsOf, missOf, poseName, shortened } from "./tables.mjs";
 
 const TURN_SECONDS = 7; // a whole turn of the driver, or a way there and back
-const STEPS = 360; // of a key along a way, at least
+const LEAST_STRETCH = 1e-6; // frames: poses closer together than that are no stretch to play
+const NAME_ROWS = 5; // rows of names under the slider
+const ROW = 13; // pixels: the distance between two of them
+const LONGEST_TICK = 18; // characters of a pose's name under the slider
+const STEPS = 360; // of a key along what is played
 
 /** Where the linkage is, `u` frames along its way, with the elements that show it and change it.
  *
@@ -21,6 +25,8 @@ export class Player {
     this.way = 0;
     this.u = 0;
     this.heading = 1; // or -1, on the way back
+    this.whole = false; // whether all of the way is played, instead of the poses on it
+    this.stretch = { low: 0, high: 1 }; // the frames that are played
     this.playing = false;
     this.remaining = null; // frames until it rests by itself; null: it does not
     this.element = this.controls();
@@ -35,6 +41,8 @@ export class Player {
     const button = (name, text, label, onclick) => h("button", { type: "button", class: `bm-button ${name}`, "aria-label": label, title: label, onclick }, text);
     this.button = button("bm-play", "", "Play", () => this.play(!this.playing));
     this.slider = h("input", { type: "range", class: "bm-slider", min: 0, step: "any", "aria-label": "Driver", oninput: () => this.go(Number(this.slider.value)) });
+    this.box = h("input", { type: "checkbox", onchange: () => this.playWhole(this.box.checked) });
+    this.boxName = h("span", {}, "Whole branch");
     this.stops = s("svg", { class: "bm-stops", "aria-hidden": "true" });
     this.parts = ["", "", "", ""].map((text) => h("span", {}, text));
     this.readout = h("output", { class: "bm-now" }, this.parts.flatMap((part, k) => (k ? [" ", part] : [part])));
@@ -47,13 +55,14 @@ export class Player {
     return h(
       "div",
       { class: "bm-controls" },
+      h("div", { class: "bm-track" }, this.slider, this.stops),
       h(
         "div",
         { class: "bm-row" },
         this.button,
         button("bm-back", "◀ Pose", "Previous pose", () => this.toPose(-1)),
         button("bm-next", "Pose ▶", "Next pose", () => this.toPose(1)),
-        h("div", { class: "bm-track" }, this.slider, this.stops),
+        h("label", { class: "bm-whole", title: "Play all that the driver reaches, not only from the first pose to the last" }, this.box, this.boxName),
       ),
       this.readout,
     );
@@ -73,37 +82,59 @@ export class Player {
     this.draw.rebuild();
   }
 
-  firstStop() {
-    return this.linkage.pose_errors.find((row) => row.way === this.way)?.frame ?? 0;
+  /** Poses on this way, in their order: the rows of their errors, with k, the pose's index. */
+  get stopsOnWay() {
+    return this.linkage.pose_errors.map((row, k) => ({ ...row, k })).filter((row) => row.way === this.way);
   }
 
-  /** The slider and its marks, for the way as it is now. */
+  firstStop() {
+    return this.stopsOnWay[0]?.frame ?? 0;
+  }
+
+  /** The slider and what it runs over, for the way as it is now. */
   rebuild() {
     const { path, slider } = this;
-    this.heading = 1;
     if (!path) this.play(false);
-    slider.max = path ? path.x.length - 1 : 1;
     slider.disabled = this.button.disabled = !path;
+    const last = path ? path.x.length - 1 : 1;
+    const frames = path ? this.stopsOnWay.map((row) => row.frame) : [];
+    const [low, high] = [frames.reduce((a, b) => Math.min(a, b), last), frames.reduce((a, b) => Math.max(a, b), 0)];
+    const apart = high - low > LEAST_STRETCH;
+    this.stretch = apart && !this.whole ? { low, high } : { low: 0, high: last };
+    this.box.disabled = !apart;
+    this.boxName.textContent = path?.round ? "Whole turn" : "Whole branch";
+    this.heading = frames.length && frames[frames.length - 1] < frames[0] ? -1 : 1;
+    this.u = clamp(this.u, this.stretch.low, this.stretch.high);
+    slider.min = this.stretch.low;
+    slider.max = this.stretch.high;
   }
 
-  /** Marks under the slider where the poses are. */
+  /** Play all of a way, or only from its first pose to its last; so it stays for other linkages. */
+  playWhole(on) {
+    this.whole = on;
+    this.draw.rebuild();
+  }
+
+  /** Marks under the slider where the poses are, with as many of their names as there is room for. */
   drawStops() {
-    const { stops, path } = this;
+    const { stops, path } = this, { low, high } = this.stretch;
     stops.replaceChildren();
     if (!path) return;
     const width = Math.max(60, this.slider.clientWidth), inset = 9;
-    stops.setAttribute("viewBox", `0 0 ${width} 16`);
-    const X = (u) => inset + (u / (path.x.length - 1)) * (width - 2 * inset);
-    let last = -99;
-    const rows = this.linkage.pose_errors.map((row, k) => ({ ...row, k })).filter((row) => row.way === this.way);
-    for (const row of rows.sort((a, b) => a.frame - b.frame)) {
-      const x = px(X(row.frame)), name = this.data.poses[row.k].label;
-      stops.append(s("path", { d: `M${x} 0V4` }));
-      if (x - last > 4 + 6.4 * name.length) {
-        stops.append(s("text", { x, y: 14, "text-anchor": "middle" }, name));
-        last = x;
-      }
-    }
+    const X = (u) => inset + ((u - low) / (high - low)) * (width - 2 * inset);
+    const rows = this.stopsOnWay.sort((a, b) => a.frame - b.frame).map((row) => ({ ...row, x: X(row.frame), pose: this.data.poses[row.k] }));
+    // Names where all of them have room, else numbers; the whole name is there to point at.
+    const named = laidOut(rows.map(({ x, pose }) => ({ x, text: shortened(poseName(pose), LONGEST_TICK) })), width);
+    const texts = named.every(({ at }) => at >= 0) ? named : laidOut(rows.map(({ x, pose }) => ({ x, text: pose.label })), width);
+    const deepest = Math.max(0, ...texts.map(({ at }) => at));
+    const one = (k, pose, ...parts) => s("g", { "data-pose": k + 1 }, s("title", {}, `pose ${poseName(pose)}`), ...parts);
+    rows.forEach(({ k, x, pose }, i) => stops.append(one(k, pose, s("path", { d: `M${px(x)} 0V${4 + ROW * Math.max(0, texts[i].at)}` }))));
+    rows.forEach(({ k, pose }, i) => {
+      const { at, middle, text } = texts[i];
+      if (at >= 0) stops.append(one(k, pose, s("text", { x: px(middle), y: 14 + ROW * at, "text-anchor": "middle" }, text)));
+    });
+    stops.setAttribute("viewBox", `0 0 ${width} ${16 + ROW * deepest}`);
+    stops.setAttribute("height", 16 + ROW * deepest);
   }
 
   play(on) {
@@ -126,16 +157,22 @@ export class Player {
     this.tick = requestAnimationFrame(run);
   }
 
-  /** Play once round, or there and back; then rest until someone asks. */
+  /** Play once there and back, or once round; then rest until someone asks. */
   playOnce() {
     if (!this.path) return;
+    const { low, high } = this.stretch;
     this.play(true);
-    this.remaining = (this.path.round ? 1 : 2) * (this.path.x.length - 1);
+    this.remaining = (this.goesRound ? 1 : 2) * (high - low);
+  }
+
+  /** Whether what is played ends where it begins. */
+  get goesRound() {
+    return this.path.round && this.stretch.high - this.stretch.low > this.path.x.length - 1 - LEAST_STRETCH;
   }
 
   advance(seconds) {
-    const { path } = this, last = path.x.length - 1;
-    const step = (seconds * last) / (path.round ? TURN_SECONDS : TURN_SECONDS / 2);
+    const { low, high } = this.stretch;
+    const step = (seconds * (high - low)) / (this.goesRound ? TURN_SECONDS : TURN_SECONDS / 2);
     if (this.remaining !== null) {
       this.remaining -= step;
       if (this.remaining <= 0) {
@@ -145,29 +182,27 @@ export class Player {
         return;
       }
     }
-    if (path.round) this.u = (this.u + step) % last;
-    else {
-      // It stops at a dead point, and goes back: it never flips to the other branch.
-      this.u += this.heading * step;
-      if (this.u >= last || this.u <= 0) {
-        this.heading = this.u >= last ? -1 : 1;
-        this.u = clamp(this.u, 0, last);
-      }
+    this.u += this.heading * step;
+    if (this.goesRound) this.u = around(this.u, high);
+    else if (this.u >= high || this.u <= low) {
+      // It goes back at the last pose, or at a dead point: it never flips to the other branch.
+      this.heading = this.u >= high ? -1 : 1;
+      this.u = clamp(this.u, low, high);
     }
     this.show();
   }
 
   step(steps) {
     if (!this.path) return;
-    const last = this.path.x.length - 1;
-    const u = this.u + steps * Math.max(1, last / STEPS);
-    this.go(this.path.round ? ((u % last) + last) % last : u);
+    const { low, high } = this.stretch;
+    const u = this.u + steps * Math.max(1e-3, (high - low) / STEPS);
+    this.go(this.goesRound ? around(u, high) : u);
   }
 
   go(u) {
     if (!this.path) return;
     this.play(false);
-    this.u = clamp(u, 0, this.path.x.length - 1);
+    this.u = clamp(u, this.stretch.low, this.stretch.high);
     this.show();
   }
 
@@ -224,8 +259,8 @@ export class Player {
       `body (${fixed(place.x, digits)}, ${fixed(place.y, digits)})${unit}, ${fixed(((degrees(place.a) + 180) % 360 + 360) % 360 - 180, 2)}°`,
       `transmission ${transmission === null ? "–" : `${fixed(transmission, 1)}°`}`,
       at
-        ? `at pose ${pose.label}, ${row.said.position === "exact" ? "" : "off by "}${missOf(row.said.position, row.said.turned, unit)}`
-        : `${figure(Math.hypot(place.x - pose.x, place.y - pose.y))}${unit} from pose ${pose.label}`,
+        ? `at pose ${poseName(pose)}, ${row.said.position === "exact" ? "" : "off by "}${missOf(row.said.position, row.said.turned, unit)}`
+        : `${figure(Math.hypot(place.x - pose.x, place.y - pose.y))}${unit} from pose ${poseName(pose)}`,
     ];
     texts.forEach((text, k) => {
       const whole = k + 1 < texts.length ? `${text} ·` : text;
@@ -234,6 +269,19 @@ export class Player {
     this.slider.setAttribute("aria-valuetext", `driver ${driver}`);
   }
 }
+
+/** Rows for texts around places from left to right; at: its row, -1 where it has no room. */
+function laidOut(texts, width) {
+  const ends = Array(NAME_ROWS).fill(-99); // where each row is free again
+  return texts.map(({ x, text }) => {
+    const size = 6.4 * text.length, left = clamp(x - size / 2, 0, Math.max(0, width - size));
+    const at = ends.findIndex((end) => left > end + 4);
+    if (at >= 0) ends[at] = left + size;
+    return { text, at, middle: left + size / 2 };
+  });
+}
+
+const around = (u, turn) => ((u % turn) + turn) % turn;
 
 function icon(pause) {
   return s(

@@ -3,11 +3,16 @@
 import { s } from "./dom.mjs";
 import { frameAt, linear } from "./kinematics.mjs";
 import { angleTicks, clamp, figure, px, ticks } from "./numbers.mjs";
+import { poseName, shortened } from "./tables.mjs";
 
 const LEFT = 62, RIGHT = 14, TOP = 22, BOTTOM = 44; // pixels around the panels
 const PANEL = 84, GAP = 28; // pixels: height of a panel, distance between two
 const USUAL_LIMIT = 40; // degrees: the transmission angle below which designers hesitate
 const MANY_POSES = 40; // above this number only the three greatest errors are named
+const HEADROOM = 1.32; // greatest errors: the height of a panel, so that their names stay within
+const INSET = 8; // pixels: from the sides of a panel to the ends of what is shown
+const LONGEST_NAME = 16; // characters of a pose's name beside its stem
+const NAME_WIDTH = 11; // pixels: what an upright name takes of the width
 
 /** An SVG element in `parent`; a pointer on it calls `scrub` with a frame of the way. */
 export class Plots {
@@ -19,7 +24,7 @@ export class Plots {
     const go = (event) => {
       if (!this.way) return;
       const box = this.svg.getBoundingClientRect();
-      const at = (event.clientX - box.left - LEFT) / (this.width - LEFT - RIGHT);
+      const at = (event.clientX - box.left - LEFT - INSET) / (this.width - LEFT - RIGHT - 2 * INSET);
       scrub(frameAt(this.way.drive, this.low + clamp(at, 0, 1) * (this.high - this.low)));
     };
     this.svg.addEventListener("pointerdown", (event) => {
@@ -29,35 +34,40 @@ export class Plots {
     this.svg.addEventListener("pointermove", (event) => event.buttons & 1 && go(event));
   }
 
-  /** Draw the panels of a linkage on its way `index`. */
-  build(linkage, index) {
+  /** Draw the panels of a linkage over a stretch of its way `index`. */
+  build(linkage, index, stretch) {
     const { data, svg } = this, way = linkage.ways[index];
     this.way = way;
     svg.replaceChildren();
     this.cursor = null;
     if (!way) return;
+    svg.setAttribute("aria-label", `${linkage.id}: errors at its poses, and its transmission angle along the driver`);
     const width = (this.width = Math.max(260, this.parent.clientWidth));
-    const height = TOP + 3 * PANEL + 2 * GAP + BOTTOM;
+    // Long names stand upright, in a strip over the first panel.
+    const poses = linkage.pose_errors.map((row, k) => ({ ...row, pose: data.poses[k] })).filter((row) => row.way === index);
+    const upright = poses.some(({ pose }) => pose.label !== pose.name);
+    const longest = Math.max(0, ...poses.map(({ pose }) => shortened(poseName(pose), LONGEST_NAME).length));
+    this.top = TOP + (upright ? 6.2 * longest + 6 : 0);
+    const height = this.top + 3 * PANEL + 2 * GAP + BOTTOM;
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     svg.setAttribute("height", height);
     const [driver] = linkage.led, slides = driver.kind === "PR";
-    this.low = way.drive[0];
-    this.high = way.drive[way.drive.length - 1];
-    this.X = (drive) => LEFT + ((drive - this.low) / (this.high - this.low)) * (width - LEFT - RIGHT);
+    this.stretch = stretch;
+    this.low = linear(way.drive, stretch.low);
+    this.high = linear(way.drive, stretch.high);
+    this.X = (drive) => LEFT + INSET + ((drive - this.low) / (this.high - this.low)) * (width - LEFT - RIGHT - 2 * INSET);
     this.across = slides
       ? ticks(this.low, this.high, width / 90)
       : angleTicks(this.low, this.high, Math.max(3, width / 70));
-    const rows = linkage.pose_errors
-      .map((row, k) => ({ ...row, name: data.poses[k].label }))
-      .filter((row) => row.way === index)
-      .map((row) => ({ ...row, drive: linear(way.drive, row.frame) }));
+    const rows = poses.map((row) => ({ ...row, drive: linear(way.drive, row.frame) }));
     const unit = data.unit ?? "unit of the poses";
     this.errors(0, `position error (${unit})`, rows, (row) => row.position, 1e-11 * data.scene);
     this.errors(1, "angle error (°)", rows, (row) => row.turned_deg, 1e-9);
     const base = this.transmission(2, rows);
+    if (upright) this.uprightNames(rows);
     const title = slides ? `place of the driver ${driver.id} along its line (${unit})` : `driver angle (${driver.id})`;
     svg.append(s("text", { class: "bm-title", x: (LEFT + width - RIGHT) / 2, y: height - 6, "text-anchor": "middle" }, title));
-    this.cursor = s("g", { class: "bm-cursor" }, s("path", { d: `M0 ${TOP}V${base}` }));
+    this.cursor = s("g", { class: "bm-cursor" }, s("path", { d: `M0 ${this.top}V${base}` }));
     this.mark = s("circle", { r: 4.5 });
     this.cursor.append(this.mark);
     svg.append(this.cursor);
@@ -65,10 +75,10 @@ export class Plots {
 
   /** The errors of the poses as stems; below `rounding` they are zero. */
   errors(k, title, rows, value, rounding) {
-    const { svg, X } = this, y0 = TOP + k * (PANEL + GAP), base = y0 + PANEL;
+    const { svg, X } = this, y0 = this.top + k * (PANEL + GAP), base = y0 + PANEL;
     const greatest = Math.max(1e-300, ...rows.map((row) => value(row) ?? 0));
     const visible = greatest > rounding;
-    const high = visible ? 1.15 * greatest : 1;
+    const high = visible ? HEADROOM * greatest : 1;
     const Y = (v) => base - (v / high) * PANEL;
     this.panel(title, y0, base);
     if (!visible) {
@@ -83,10 +93,11 @@ export class Plots {
       const x = px(X(row.drive)), y = px(visible ? Y(value(row)) : base);
       svg.append(
         s("path", { class: "bm-stem", d: `M${x} ${base}V${y}` }),
-        s("circle", { class: "bm-dot", cx: x, cy: y, r: 3.5 }, s("title", {}, `pose ${row.name}: ${figure(value(row))}`)),
+        s("circle", { class: "bm-dot", cx: x, cy: y, r: 3.5 }, s("title", {}, `pose ${poseName(row.pose)}: ${figure(value(row))}`)),
       );
-      if (x - last > 6 + 6.5 * row.name.length && (rows.length <= MANY_POSES || greatestThree.has(row))) {
-        svg.append(s("text", { class: "bm-dot-name", x, y: y - 7, "text-anchor": "middle" }, row.name));
+      const { label } = row.pose;
+      if (x - last > 6 + 6.5 * label.length && (rows.length <= MANY_POSES || greatestThree.has(row))) {
+        svg.append(s("text", { class: "bm-dot-name", x, y: y - 7, "text-anchor": "middle" }, label));
         last = x;
       }
     }
@@ -94,26 +105,43 @@ export class Plots {
 
   /** The transmission angle along the way, and at its poses.  Returns the panel's base. */
   transmission(k, rows) {
-    const { svg, way, width, X } = this, y0 = TOP + k * (PANEL + GAP), base = y0 + PANEL;
+    const { svg, way, width, X } = this, y0 = this.top + k * (PANEL + GAP), base = y0 + PANEL;
     const Y = (this.Y = (v) => base - (v / 90) * PANEL);
     this.panel("transmission angle (°)", y0, base, true);
     for (const at of [0, 30, 60, 90]) this.rule(Y(at), at);
-    svg.append(
-      s("path", { class: "bm-usual", d: `M${LEFT} ${px(Y(USUAL_LIMIT))}H${width - RIGHT}` }),
-      s("text", { class: "bm-tick", x: width - RIGHT - 4, y: px(Y(USUAL_LIMIT)) - 4, "text-anchor": "end" }, `${USUAL_LIMIT}°, a usual limit`),
-    );
+    const asked = this.data.asked_transmission_deg, limit = asked ?? USUAL_LIMIT;
+    svg.append(s("path", { class: "bm-usual", d: `M${LEFT} ${px(Y(limit))}H${width - RIGHT}` }));
+    const limitName = s("text", { class: "bm-tick bm-halo", x: width - RIGHT - 4, y: px(Y(limit)) - 4, "text-anchor": "end" }, `${figure(limit)}°, ${asked ? "asked" : "a usual limit"}`);
+    const { low, high } = this.stretch, frames = [low];
+    for (let i = Math.floor(low) + 1; i < high; i += 1) frames.push(i);
+    frames.push(high);
     let line = "", pen = "M";
-    way.transmission.forEach((angle, i) => {
-      if (angle === null) return;
-      line += `${pen}${px(X(way.drive[i]))} ${px(Y(angle))}`;
+    for (const u of frames) {
+      const angle = linear(way.transmission, u);
+      if (angle === null) continue;
+      line += `${pen}${px(X(linear(way.drive, u)))} ${px(Y(angle))}`;
       pen = "L";
-    });
+    }
     svg.append(s("path", { class: "bm-line", d: line }));
     for (const row of rows) {
       if (row.transmission_deg === null) continue;
       svg.append(s("circle", { class: "bm-dot", cx: px(X(row.drive)), cy: px(Y(row.transmission_deg)), r: 3 }));
     }
+    svg.append(limitName);
     return base;
+  }
+
+  /** Names of the poses over their stems, those that have room. */
+  uprightNames(rows) {
+    let last = -99;
+    for (const row of [...rows].sort((a, b) => a.drive - b.drive)) {
+      const x = this.X(row.drive), y = this.top - 20;
+      if (x - last < NAME_WIDTH) continue;
+      last = x;
+      const text = s("text", { class: "bm-dot-name bm-upright", transform: `translate(${px(x + 4)} ${px(y)}) rotate(-90)` });
+      text.append(shortened(poseName(row.pose), LONGEST_NAME));
+      this.svg.append(s("g", {}, s("title", {}, poseName(row.pose)), text));
+    }
   }
 
   /** An empty panel with its title and the lines of the drive. */

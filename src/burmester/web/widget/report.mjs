@@ -7,7 +7,7 @@ import { header } from "./header.mjs";
 import { ImageSpace } from "./image_space.mjs";
 import { listenToKeys } from "./keyboard.mjs";
 import { PivotMap } from "./pivot_map.mjs";
-import { FACTORS, Plane, factorFor } from "./plane.mjs";
+import { FACTORS, Plane, factorFor, hasFarPivots } from "./plane.mjs";
 import { Player } from "./player.mjs";
 import { Plots } from "./plots.mjs";
 import { unfoldForPrint } from "./printing.mjs";
@@ -78,10 +78,17 @@ export class Report {
       { class: "bm-card bm-stage", "aria-label": "The linkage moving" },
       this.title,
       this.story,
-      player ? [this.assemblies.element, player.element] : null,
       drawing,
-      h("div", { class: "bm-under" }, keyOf(Boolean(player)), player ? this.magnification() : null),
+      player ? [player.element, this.assemblies.element] : null,
+      h("div", { class: "bm-under" }, keyOf(Boolean(player)), player ? h("div", { class: "bm-choose" }, this.farPivots(), this.magnification()) : null),
     );
+  }
+
+  /** Whether the picture is to hold pivots far from the poses; only where there are some. */
+  farPivots() {
+    this.far = h("input", { type: "checkbox", onchange: () => this.draw() });
+    this.farLabel = h("label", { class: "bm-factor bm-far-pivots", hidden: true }, this.far, " Whole linkage, with far pivots");
+    return this.farLabel;
   }
 
   magnification() {
@@ -131,10 +138,18 @@ export class Report {
   }
 
   choose(index) {
+    const known = Boolean(this.linkage);
     this.linkage = this.linkages[index];
     this.cards.mark(index);
     this.factor.value = String(factorFor(this.data, this.linkage));
     this.player.load(this.linkage);
+    if (known) this.bringIntoSight();
+  }
+
+  /** Where the cards stand under the picture, a choice among them goes back to the picture. */
+  bringIntoSight() {
+    const stage = this.plane.parent.parentElement;
+    if (stage.getBoundingClientRect().bottom < 0.4 * window.innerHeight) stage.scrollIntoView({ block: "start" });
   }
 
   /** Everything that depends on the linkage and on its way. */
@@ -145,7 +160,7 @@ export class Report {
       this.title.textContent = `${linkage.id}: ${linkage.type}`;
       this.story.textContent = storyOf(linkage);
       this.assemblies.build(linkage, player.way);
-      this.numbers.replaceChildren(factsOf(data, linkage), dimensionTable(data, linkage), ...linkage.said.notes.map((note) => h("p", { class: "bm-note-text" }, note)));
+      this.numbers.replaceChildren(dimensionTable(data, linkage), factsOf(data, linkage), ...linkage.said.notes.map((note) => h("p", { class: "bm-note-text" }, note)));
     }
     this.poses.replaceChildren(this.poses.querySelector("h2"), poseTable(data, linkage));
     this.rows = [...this.poses.querySelectorAll("tbody tr")];
@@ -156,9 +171,11 @@ export class Report {
 
   /** Draw what stands still anew, and then what moves. */
   draw() {
-    const { linkage, player } = this, way = player?.way ?? 0;
-    this.plots?.build(linkage, way);
-    this.plane.build(linkage, way, Number(this.factor?.value ?? 0), this.room());
+    const { linkage, player } = this, way = player?.way ?? 0, stretch = player?.stretch;
+    this.plots?.build(linkage, way, stretch);
+    const factor = Number(this.factor?.value ?? 0), far = Boolean(this.far?.checked);
+    this.plane.build(linkage, way, stretch, { factor, fill: this.room(), far });
+    if (this.farLabel) this.farLabel.hidden = !hasFarPivots(this.data, linkage, this.plane.places);
     this.plane.svg.setAttribute("aria-label", linkage ? `${linkage.id}, a ${linkage.type}, at the poses. Space plays, arrow keys move the driver.` : "The poses");
     this.space.build(linkage, way);
     this.map?.build(linkage);

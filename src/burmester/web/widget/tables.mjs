@@ -3,6 +3,8 @@
 import { h } from "./dom.mjs";
 import { clamp, fixed } from "./numbers.mjs";
 
+const NONE = "–"; // what stands where there is nothing
+
 /** A table that scrolls sideways.  heads: names, or { name, text } for columns of words. */
 function table(caption, heads, rows, attributes) {
   return h(
@@ -18,19 +20,27 @@ function table(caption, heads, rows, attributes) {
   );
 }
 
-/** The cells of a row, the first one its head; words: columns of words. */
-const cells = (values, words = []) =>
+/** The cells of a row, the first one its head; words: columns of words; heads: for tables that stack. */
+const cells = (values, words = [], heads = []) =>
   values.map((value, k) =>
     k === 0
       ? h("th", { scope: "row" }, value)
-      : h("td", { class: words.includes(k) ? "bm-words" : null }, value ?? "–"),
+      : h("td", { class: classes(words.includes(k) && "bm-words", (value ?? NONE) === NONE && "bm-none"), "data-head": heads[k]?.name ?? heads[k] }, value ?? NONE),
   );
+
+const classes = (...names) => names.filter(Boolean).join(" ") || null;
 
 /** The unit of lengths in brackets, for a head. */
 const unitOf = (data) => (data.unit ? ` (${data.unit})` : "");
 
 /** Decimals of a position: the last one is between a thousandth and a ten-thousandth of the scene. */
 export const decimalsOf = (data) => clamp(4 - Math.ceil(Math.log10(data.scene)), 0, 12);
+
+/** The number and the name of a pose, or its name alone where drawings have room for that. */
+export const poseName = (pose) => (pose.label === pose.name ? pose.name : `${pose.label}: ${pose.name}`);
+
+/** A text cut to a number of characters. */
+export const shortened = (text, most) => (text.length > most ? `${text.slice(0, most - 1).trimEnd()}…` : text);
 
 /** A position error and an angle error in one phrase. */
 export function missOf(position, angle, unit) {
@@ -46,9 +56,9 @@ export function verdictOf(linkage) {
 export function dyadTable(data) {
   const heads = ["", { name: "kind", text: true }, "on the ground (F)", "on the body (M)", `length${unitOf(data)}`, "rms miss", "worst miss"];
   const rows = data.dyads.map((dyad) =>
-    h("tr", {}, cells([dyad.id, dyad.kind, dyad.said.ground, dyad.said.body, dyad.said.length, dyad.said.rms, dyad.said.worst], [1])),
+    h("tr", {}, cells([dyad.id, dyad.kind, dyad.said.ground, dyad.said.body, dyad.said.length, dyad.said.rms, dyad.said.worst], [1], heads)),
   );
-  return table(data.dyads_title, heads, rows);
+  return table(data.dyads_title, heads, rows, { class: "bm-stacks" });
 }
 
 export function linkageTable(data) {
@@ -68,10 +78,11 @@ export function linkageTable(data) {
           each.said.worst, each.said.angle, each.said.transmission, each.said.reasons.join("; ") || "–",
         ],
         [1, 2, 3, 4, 12],
+        heads,
       ),
     ),
   );
-  return table(`All linkages${unitOf(data)}`, heads, rows, { class: "bm-linkages" });
+  return table(`All linkages${unitOf(data)}`, heads, rows, { class: "bm-linkages bm-stacks" });
 }
 
 function dimensionRows(linkage) {
@@ -107,7 +118,7 @@ export function poseTable(data, linkage) {
   if (linkage) heads.push("coupler x", `y${unit}`, "angle", "off by", "turned by", "transm.", { name: "where", text: true });
   const rows = data.poses.map((pose, k) => {
     const values = [
-      (pose.label === pose.name ? "" : `${pose.label}: `) + pose.name + (pose.exact ? " (exact)" : ""), fixed(pose.x, digits), fixed(pose.y, digits), `${fixed(pose.angle_deg, 2)}°`,
+      poseName(pose) + (pose.exact ? " (exact)" : ""), fixed(pose.x, digits), fixed(pose.y, digits), `${fixed(pose.angle_deg, 2)}°`,
     ];
     if (linkage) {
       const row = linkage.pose_errors[k];

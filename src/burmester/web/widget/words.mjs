@@ -36,6 +36,7 @@ export function factsOf(data, linkage) {
     ["rms miss", missOf(said.rms, said.rms_angle, unit)],
     ["least transmission angle", said.transmission === "-" ? "–" : said.transmission],
     ["driver", `${linkage.led[0].id}${said.turns_fully ? ", turns fully" : ""}`],
+    ...(said.freedom ? [["pivots", said.freedom.replace("pivots ", "")]] : []),
   ];
   return h("dl", { class: "bm-facts" }, rows.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value))));
 }
