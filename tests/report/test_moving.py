@@ -170,11 +170,13 @@ QUICK = """(() => {
 
 PLAYED = """() => new Promise((done) => {
   const slider = document.querySelector(".bm-slider"), values = [];
+  let looks = 0;
   document.querySelector(".bm-play").click();
   const look = () => {
     const at = +slider.value;
+    looks += 1;
     if (values.at(-1) !== at) values.push(at);
-    if (values.length > 78) done(values);
+    if (values.length > 78 || looks > 400) done(values);
     else requestAnimationFrame(look);
   };
   look();

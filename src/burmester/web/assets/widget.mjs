@@ -355,7 +355,7 @@ function pivotsAt(linkage, places) {
   const found = [];
   for (const dyad of linkage.led) {
     if (dyad.fixed_pivot) found.push({ dyad, fixed: true, at: dyad.fixed_pivot });
-    const own = dyad.moving_pivot ? [dyad.moving_pivot] : dyad.kind === "RP" ? travelOf(dyad, places).map((end) => pointOnLine(dyad, end)) : [];
+    const own = dyad.moving_pivot ? [dyad.moving_pivot] : dyad.kind === "RP" && places.length ? travelOf(dyad, places).map((end) => pointOnLine(dyad, end)) : [];
     for (const point of own) for (const place of places) found.push({ dyad, fixed: false, at: act(place, point) });
   }
   return found;
@@ -372,9 +372,8 @@ function boundsOf(data, linkage, places, far) {
   for (const pose of data.poses) include([pose.x, pose.y]);
   if (linkage) {
     for (const row of linkage.pose_errors) if (row.x !== null) include([row.x, row.y]);
-    for (const dyad of linkage.led) if (dyad.fixed_pivot) include(dyad.fixed_pivot);
     for (const place of places) include([place.x, place.y]);
-    if (places.length) for (const { at } of pivotsAt(linkage, places)) include(at);
+    for (const { at } of pivotsAt(linkage, places)) include(at);
   }
   const least = 0.25 * data.scene;
   for (const k of [0, 1]) {
@@ -1496,7 +1495,7 @@ function factorFor(data, linkage) {
 var standing = (dyad, places) => dyad.fixed_pivot ?? (dyad.kind === "PR" && places.length ? pointOnLine(dyad, travelOf(dyad, places).reduce((a, b) => (a + b) / 2)) : null);
 function hasFarPivots(data, linkage, places) {
   const isFar = farFrom(data);
-  return linkage.led.some((dyad) => dyad.fixed_pivot && isFar(dyad.fixed_pivot)) || places.length > 0 && pivotsAt(linkage, places).some(({ at }) => isFar(at));
+  return pivotsAt(linkage, places).some(({ at }) => isFar(at));
 }
 var Plane = class {
   constructor(data, parent) {
@@ -1789,7 +1788,7 @@ var Player = class {
     this.stretch = apart && !this.whole ? { low, high } : { low: 0, high: last };
     this.box.disabled = !apart;
     this.boxName.textContent = path?.round ? "Whole turn" : "Whole branch";
-    this.heading = frames.length && frames[frames.length - 1] < frames[0] ? -1 : 1;
+    this.heading = 1;
     this.u = clamp(this.u, this.stretch.low, this.stretch.high);
     slider.min = this.stretch.low;
     slider.max = this.stretch.high;

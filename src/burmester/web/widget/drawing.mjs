@@ -25,7 +25,7 @@ export function pivotsAt(linkage, places) {
     if (dyad.fixed_pivot) found.push({ dyad, fixed: true, at: dyad.fixed_pivot });
     const own = dyad.moving_pivot
       ? [dyad.moving_pivot]
-      : dyad.kind === "RP" ? travelOf(dyad, places).map((end) => pointOnLine(dyad, end)) : [];
+      : dyad.kind === "RP" && places.length ? travelOf(dyad, places).map((end) => pointOnLine(dyad, end)) : [];
     for (const point of own) for (const place of places) found.push({ dyad, fixed: false, at: act(place, point) });
   }
   return found;
@@ -47,9 +47,8 @@ export function boundsOf(data, linkage, places, far) {
   for (const pose of data.poses) include([pose.x, pose.y]);
   if (linkage) {
     for (const row of linkage.pose_errors) if (row.x !== null) include([row.x, row.y]);
-    for (const dyad of linkage.led) if (dyad.fixed_pivot) include(dyad.fixed_pivot);
     for (const place of places) include([place.x, place.y]);
-    if (places.length) for (const { at } of pivotsAt(linkage, places)) include(at);
+    for (const { at } of pivotsAt(linkage, places)) include(at);
   }
   const least = 0.25 * data.scene;
   for (const k of [0, 1]) {

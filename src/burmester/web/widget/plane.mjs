@@ -29,7 +29,7 @@ const standing = (dyad, places) =>
 /** Whether a linkage has pivots too far from the poses for the picture to hold them unasked. */
 export function hasFarPivots(data, linkage, places) {
   const isFar = farFrom(data);
-  return linkage.led.some((dyad) => dyad.fixed_pivot && isFar(dyad.fixed_pivot)) || (places.length > 0 && pivotsAt(linkage, places).some(({ at }) => isFar(at)));
+  return pivotsAt(linkage, places).some(({ at }) => isFar(at));
 }
 
 /** An SVG element in `parent`: `build` draws a linkage on one of its ways, `show` moves it. */

@@ -103,7 +103,7 @@ export class Player {
     this.stretch = apart && !this.whole ? { low, high } : { low: 0, high: last };
     this.box.disabled = !apart;
     this.boxName.textContent = path?.round ? "Whole turn" : "Whole branch";
-    this.heading = frames.length && frames[frames.length - 1] < frames[0] ? -1 : 1;
+    this.heading = 1; // at an end it turns round by itself
     this.u = clamp(this.u, this.stretch.low, this.stretch.high);
     slider.min = this.stretch.low;
     slider.max = this.stretch.high;

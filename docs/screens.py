@@ -1,0 +1,54 @@
+"""Make docs/report.png and docs/image-space.png: the page of the example, and the paper's Fig. 4.
+
+Needs a browser, Playwright and Matplotlib, as the tests do.  Run it from the project's root:
+
+    .venv/bin/python -m docs.screens
+"""
+
+import tempfile
+from io import BytesIO
+from pathlib import Path
+
+from PIL import Image
+
+from burmester import read_task, synthesize
+from burmester.plot.paper import paper_figure
+from burmester.plot.style import house_style
+from burmester.report.page import page as page_of
+from tests.oracles import browser as browsers
+
+SIZE = (1400, 1060)  # pixels of the screen
+FIGURE_DPI = 125
+COLOURS = 256  # of a picture: more show no difference, and fill the file
+
+
+def screen(poses="examples/poses.csv"):
+    """The first screen of the page for these poses, as it stands where nobody asks for motion."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "report.html"
+        file.write_text(page_of(synthesize(read_task(poses)), Path(poses).name), encoding="utf-8")
+        width, height = SIZE
+        with (
+            browsers.launched() as browser,
+            browsers.opened(browser, file, width=width, height=height) as (page, said, _),
+        ):
+            assert said == []
+            return page.screenshot()
+
+
+def figure():
+    """Two constraint manifolds in image space: the paper's Fig. 4."""
+    held = BytesIO()
+    with house_style():
+        paper_figure("figure-4").savefig(held, dpi=FIGURE_DPI)
+    return held.getvalue()
+
+
+def main():
+    for name, drawn in {"report.png": screen(), "image-space.png": figure()}.items():
+        picture = Image.open(BytesIO(drawn)).convert("RGB").quantize(COLOURS)
+        picture.save(Path("docs", name), optimize=True)
+
+
+if __name__ == "__main__":
+    main()
