@@ -10,12 +10,12 @@ from io import BytesIO
 from pathlib import Path
 
 from PIL import Image
+from tests.oracles import browser as browsers
 
 from burmester import read_task, synthesize
 from burmester.plot.paper import paper_figure
 from burmester.plot.style import house_style
 from burmester.report.page import page as page_of
-from tests.oracles import browser as browsers
 
 SIZE = (1400, 1060)  # pixels of the screen
 FIGURE_DPI = 125
