@@ -81,7 +81,7 @@ def test_a_phone_shows_all_of_it_without_gaps(browser, report, name):
             })"""
         )
         assert max(under for under, _ in gaps) < 25  # the scroll bar of the row
-        assert max(within for _, within in gaps) < 60
+        assert max(within for _, within in gaps) < 45
         values = page.locator(".bm-choice dd").all_text_contents()
         assert all(value.strip() for value in values)
         # Tables: whatever stands in a row stands beside its name, and nothing stands for nothing.

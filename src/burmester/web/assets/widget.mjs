@@ -198,7 +198,7 @@ function poseTable(data, linkage) {
     }
     return h("tr", { "data-pose": k + 1 }, cells(values, [10]));
   });
-  return table(linkage ? `Poses, and where ${linkage.id} takes the body` : "Poses", heads, rows, { class: "bm-pose-table" });
+  return table(linkage ? `Poses, and where ${linkage.id} takes the body` : "Poses", heads, rows, { class: data.poses.some((pose) => pose.label !== pose.name) ? "bm-pose-table bm-named" : "bm-pose-table" });
 }
 function imageTables(data, linkage) {
   const digits = decimalsOf(data);
@@ -320,10 +320,21 @@ function frameAt(values, wanted) {
 }
 
 // src/burmester/web/widget/travel.mjs
-function placesOf(linkage, way, { low, high }, length) {
-  const places = [placeAt(linkage, way, low, length)];
-  for (let k = Math.floor(low) + 1; k < high; k += 1) places.push({ x: way.x[k], y: way.y[k], a: way.angle[k] });
-  places.push(placeAt(linkage, way, high, length));
+var LONGEST_STEP = 0.015;
+var MOST_BETWEEN = 40;
+function placesOf(data, linkage, way, { low, high }) {
+  const at = (u) => Number.isInteger(u) ? { x: way.x[u], y: way.y[u], a: way.angle[u] } : placeAt(linkage, way, u, data.chart.length);
+  const places = [at(low)];
+  let before = low;
+  const goTo = (u) => {
+    const next = at(u), last = places[places.length - 1];
+    const count = Math.min(MOST_BETWEEN, Math.floor(Math.hypot(next.x - last.x, next.y - last.y) / (LONGEST_STEP * data.scene)));
+    for (let k = 1; k <= count; k += 1) places.push(at(before + k / (count + 1) * (u - before)));
+    places.push(next);
+    before = u;
+  };
+  for (let k = Math.floor(low) + 1; k < high; k += 1) goTo(k);
+  goTo(high);
   return places;
 }
 function alongLine(dyad, place) {
@@ -550,7 +561,7 @@ function card(linkage, unit2, onclick) {
       fact("worst miss", missOf(said.worst, said.angle, unit2).split(" and ").map((part, k) => [k ? ", " : "", h("span", { class: "bm-whole-word" }, part)])),
       fact("transmission", said.transmission === "-" ? "–" : said.transmission === "0°" ? "down to 0°" : `${said.transmission} or more`),
       fact("driver", `${linkage.led[0].id}${said.turns_fully ? ", turns fully" : ""}`),
-      links.length ? fact("links", links.map((each, k) => h("span", { class: "bm-whole-word" }, k ? ` · ${each}` : each)), "bm-detail") : fact("dyads", linkage.dyads.map((dyad) => `${dyad.id} (${dyad.kind})`).join(" · "), "bm-detail")
+      links.length ? fact("links", links.map((each, k) => [k ? " " : "", h("span", {}, each)]), "bm-detail bm-links") : fact("dyads", linkage.dyads.map((dyad) => `${dyad.id} (${dyad.kind})`).join(" · "), "bm-detail")
     ),
     said.freedom ? h("span", { class: "bm-quiet" }, said.freedom) : null,
     said.reasons.length ? h("span", { class: "bm-reason" }, said.reasons.join("; ")) : null
@@ -1511,7 +1522,7 @@ var Plane = class {
    */
   build(linkage, way, stretch, { factor, fill, far }) {
     const { data, svg } = this, path = linkage?.ways[way];
-    this.places = path ? placesOf(linkage, path, stretch, data.chart.length) : [];
+    this.places = path ? placesOf(data, linkage, path, stretch) : [];
     const box = boundsOf(data, linkage, this.places, far);
     const width = Math.max(260, this.parent.clientWidth);
     const shape = (box[3] - box[1]) / (box[2] - box[0]);
@@ -1576,7 +1587,8 @@ var Plane = class {
     linkage.ways.forEach((way, k) => {
       const same = way.circuit === linkage.ways[this.way]?.circuit;
       const kind = k === this.way ? "bm-beyond" : same ? "bm-same" : "bm-other";
-      const d2 = polyline(way.x.map((x, i) => [x, way.y[i]]), view);
+      const whole = placesOf(this.data, linkage, way, { low: 0, high: way.x.length - 1 });
+      const d2 = polyline(whole.map(({ x, y }) => [x, y]), view);
       group.append(s("path", { class: `bm-curve ${kind}`, d: d2 }));
     });
     for (const [side, dyad] of linkage.led.entries()) {
@@ -1706,6 +1718,7 @@ var Plane = class {
 var TURN_SECONDS = 7;
 var LEAST_STRETCH = 1e-6;
 var NAME_ROWS = 5;
+var NUMBER_ROWS = 2;
 var ROW = 13;
 var LONGEST_TICK = 18;
 var STEPS = 360;
@@ -1806,8 +1819,8 @@ var Player = class {
     const width = Math.max(60, this.slider.clientWidth), inset = 9;
     const X = (u) => inset + (u - low) / (high - low) * (width - 2 * inset);
     const rows = this.stopsOnWay.sort((a, b) => a.frame - b.frame).map((row) => ({ ...row, x: X(row.frame), pose: this.data.poses[row.k] }));
-    const named = laidOut(rows.map(({ x, pose }) => ({ x, text: shortened(poseName(pose), LONGEST_TICK) })), width);
-    const texts = named.every(({ at }) => at >= 0) ? named : laidOut(rows.map(({ x, pose }) => ({ x, text: pose.label })), width);
+    const named = laidOut(rows.map(({ x, pose }) => ({ x, text: shortened(poseName(pose), LONGEST_TICK) })), width, NAME_ROWS);
+    const texts = named.every(({ at }) => at >= 0) ? named : laidOut(rows.map(({ x, pose }) => ({ x, text: pose.label })), width, NUMBER_ROWS);
     const deepest = Math.max(0, ...texts.map(({ at }) => at));
     const one = (k, pose, ...parts) => s("g", { "data-pose": k + 1 }, s("title", {}, `pose ${poseName(pose)}`), ...parts);
     rows.forEach(({ k, x, pose }, i) => stops.append(one(k, pose, s("path", { d: `M${px(x)} 0V${4 + ROW * Math.max(0, texts[i].at)}` }))));
@@ -1935,11 +1948,11 @@ var Player = class {
       const whole = k + 1 < texts.length ? `${text} ·` : text;
       if (this.parts[k].textContent !== whole) this.parts[k].textContent = whole;
     });
-    this.slider.setAttribute("aria-valuetext", `driver ${driver}`);
+    this.slider.setAttribute("aria-valuetext", `driver ${driver}, ${texts[3]}`);
   }
 };
-function laidOut(texts, width) {
-  const ends = Array(NAME_ROWS).fill(-99);
+function laidOut(texts, width, count) {
+  const ends = Array(count).fill(-99);
   return texts.map(({ x, text }) => {
     const size = 6.4 * text.length, left = clamp(x - size / 2, 0, Math.max(0, width - size));
     const at = ends.findIndex((end) => left > end + 4);

@@ -48,7 +48,7 @@ export class Plane {
    */
   build(linkage, way, stretch, { factor, fill, far }) {
     const { data, svg } = this, path = linkage?.ways[way];
-    this.places = path ? placesOf(linkage, path, stretch, data.chart.length) : [];
+    this.places = path ? placesOf(data, linkage, path, stretch) : [];
     const box = boundsOf(data, linkage, this.places, far);
     const width = Math.max(260, this.parent.clientWidth);
     const shape = (box[3] - box[1]) / (box[2] - box[0]);
@@ -115,7 +115,8 @@ export class Plane {
     linkage.ways.forEach((way, k) => {
       const same = way.circuit === linkage.ways[this.way]?.circuit;
       const kind = k === this.way ? "bm-beyond" : same ? "bm-same" : "bm-other";
-      const d = polyline(way.x.map((x, i) => [x, way.y[i]]), view);
+      const whole = placesOf(this.data, linkage, way, { low: 0, high: way.x.length - 1 });
+      const d = polyline(whole.map(({ x, y }) => [x, y]), view);
       group.append(s("path", { class: `bm-curve ${kind}`, d }));
     });
     for (const [side, dyad] of linkage.led.entries()) {

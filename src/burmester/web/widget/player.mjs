@@ -8,6 +8,7 @@ import { decimalsOf, missOf, poseName, shortened } from "./tables.mjs";
 const TURN_SECONDS = 7; // a whole turn of the driver, or a way there and back
 const LEAST_STRETCH = 1e-6; // frames: poses closer together than that are no stretch to play
 const NAME_ROWS = 5; // rows of names under the slider
+const NUMBER_ROWS = 2; // rows of numbers, where the names have no room
 const ROW = 13; // pixels: the distance between two of them
 const LONGEST_TICK = 18; // characters of a pose's name under the slider
 const STEPS = 360; // of a key along what is played
@@ -124,8 +125,8 @@ export class Player {
     const X = (u) => inset + ((u - low) / (high - low)) * (width - 2 * inset);
     const rows = this.stopsOnWay.sort((a, b) => a.frame - b.frame).map((row) => ({ ...row, x: X(row.frame), pose: this.data.poses[row.k] }));
     // Names where all of them have room, else numbers; the whole name is there to point at.
-    const named = laidOut(rows.map(({ x, pose }) => ({ x, text: shortened(poseName(pose), LONGEST_TICK) })), width);
-    const texts = named.every(({ at }) => at >= 0) ? named : laidOut(rows.map(({ x, pose }) => ({ x, text: pose.label })), width);
+    const named = laidOut(rows.map(({ x, pose }) => ({ x, text: shortened(poseName(pose), LONGEST_TICK) })), width, NAME_ROWS);
+    const texts = named.every(({ at }) => at >= 0) ? named : laidOut(rows.map(({ x, pose }) => ({ x, text: pose.label })), width, NUMBER_ROWS);
     const deepest = Math.max(0, ...texts.map(({ at }) => at));
     const one = (k, pose, ...parts) => s("g", { "data-pose": k + 1 }, s("title", {}, `pose ${poseName(pose)}`), ...parts);
     rows.forEach(({ k, x, pose }, i) => stops.append(one(k, pose, s("path", { d: `M${px(x)} 0V${4 + ROW * Math.max(0, texts[i].at)}` }))));
@@ -266,13 +267,13 @@ export class Player {
       const whole = k + 1 < texts.length ? `${text} ·` : text;
       if (this.parts[k].textContent !== whole) this.parts[k].textContent = whole;
     });
-    this.slider.setAttribute("aria-valuetext", `driver ${driver}`);
+    this.slider.setAttribute("aria-valuetext", `driver ${driver}, ${texts[3]}`);
   }
 }
 
 /** Rows for texts around places from left to right; at: its row, -1 where it has no room. */
-function laidOut(texts, width) {
-  const ends = Array(NAME_ROWS).fill(-99); // where each row is free again
+function laidOut(texts, width, count) {
+  const ends = Array(count).fill(-99); // where each row is free again
   return texts.map(({ x, text }) => {
     const size = 6.4 * text.length, left = clamp(x - size / 2, 0, Math.max(0, width - size));
     const at = ends.findIndex((end) => left > end + 4);

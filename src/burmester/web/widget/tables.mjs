@@ -130,7 +130,7 @@ export function poseTable(data, linkage) {
     }
     return h("tr", { "data-pose": k + 1 }, cells(values, [10]));
   });
-  return table(linkage ? `Poses, and where ${linkage.id} takes the body` : "Poses", heads, rows, { class: "bm-pose-table" });
+  return table(linkage ? `Poses, and where ${linkage.id} takes the body` : "Poses", heads, rows, { class: data.poses.some((pose) => pose.label !== pose.name) ? "bm-pose-table bm-named" : "bm-pose-table" });
 }
 
 /** The image points of the poses, Z3² + Z4² = 1, and the manifolds' eight coefficients. */

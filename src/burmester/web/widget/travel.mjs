@@ -4,11 +4,23 @@
 
 import { act, back, normalOf, placeAt } from "./kinematics.mjs";
 
-/** The places along a stretch of a way, its ends among them. */
-export function placesOf(linkage, way, { low, high }, length) {
-  const places = [placeAt(linkage, way, low, length)];
-  for (let k = Math.floor(low) + 1; k < high; k += 1) places.push({ x: way.x[k], y: way.y[k], a: way.angle[k] });
-  places.push(placeAt(linkage, way, high, length));
+const LONGEST_STEP = 0.015; // scenes: where frames are farther apart, there are places between them
+const MOST_BETWEEN = 40; // places between two frames
+
+/** The places along a stretch of a way, its ends among them, close enough for a smooth path. */
+export function placesOf(data, linkage, way, { low, high }) {
+  const at = (u) => (Number.isInteger(u) ? { x: way.x[u], y: way.y[u], a: way.angle[u] } : placeAt(linkage, way, u, data.chart.length));
+  const places = [at(low)];
+  let before = low;
+  const goTo = (u) => {
+    const next = at(u), last = places[places.length - 1];
+    const count = Math.min(MOST_BETWEEN, Math.floor(Math.hypot(next.x - last.x, next.y - last.y) / (LONGEST_STEP * data.scene)));
+    for (let k = 1; k <= count; k += 1) places.push(at(before + (k / (count + 1)) * (u - before)));
+    places.push(next);
+    before = u;
+  };
+  for (let k = Math.floor(low) + 1; k < high; k += 1) goTo(k);
+  goTo(high);
   return places;
 }
 
