@@ -34,8 +34,8 @@ function figure(value) {
   if (Math.abs(value) >= 99.5 && Math.abs(value) < 1e6) return value.toFixed(0);
   const rounded = value.toExponential(1), [digits, power] = rounded.split("e");
   if (power >= -4 && power < 2) return String(Number(rounded));
-  const places = String(Math.abs(power)).padStart(2, "0");
-  return `${Number(digits)}e${power < 0 ? "-" : "+"}${places}`;
+  if (power > 0) return `${Number(digits)}e${Number(power)}`;
+  return `${Number(digits)}e-${String(-power).padStart(2, "0")}`;
 }
 function ticks(low, high, about) {
   const rough = (high - low) / Math.max(1, about);
@@ -574,7 +574,8 @@ function header(data, good) {
   const { outcome, warnings } = data, open = OPEN.test(outcome.code);
   const [best, ...more] = good ? data.best : [];
   const found = [`${outcome.message[0].toUpperCase()}${outcome.message.slice(1)}. `, h("span", { class: "bm-code" }, outcome.code)];
-  const told = [notes(outcome), warnings.length ? h("ul", { class: "bm-warnings", "aria-label": "Warnings" }, warnings.map(warning)) : null];
+  const said = (text) => text && data.best.some((sentence) => sentence.slice(1).startsWith(text.slice(1)));
+  const told = [notes({ why: said(outcome.why) ? null : outcome.why, help: said(outcome.help) ? null : outcome.help }), warnings.length ? h("ul", { class: "bm-warnings", "aria-label": "Warnings" }, warnings.map(warning)) : null];
   const count = warnings.length ? `, and ${warnings.length} warning${warnings.length === 1 ? "" : "s"}` : "";
   return h(
     "header",
@@ -2152,6 +2153,7 @@ function unfoldForPrint(root, signal) {
 // src/burmester/web/widget/report.mjs
 var REDUCED_MOTION = "(prefers-reduced-motion: reduce)";
 var DARK_SCHEME = "(prefers-color-scheme: dark)";
+var HIGHEST = 0.66;
 var LONGEST_NAME2 = 5;
 var KINDS = " RR: a link with two pins; PR: a slider on the ground; RP: a pin on the ground in a slot of the body.";
 var section = (name, title, ...content) => h("section", { class: `bm-card bm-${name}`, "aria-label": title }, h("h2", {}, title), ...content);
@@ -2309,7 +2311,8 @@ var Report = class {
     if (!this.aside) return 0;
     const stage = this.plane.parent.parentElement;
     if (this.aside.offsetLeft <= stage.offsetLeft) return 0;
-    return this.aside.offsetHeight - (stage.offsetHeight - this.plane.parent.clientHeight);
+    const beside = this.aside.offsetHeight - (stage.offsetHeight - this.plane.parent.clientHeight);
+    return Math.min(beside, HIGHEST * window.innerHeight);
   }
   /** What moves, at a place of the body; near: the index of the nearest pose. */
   show(place, drive, transmission, near) {

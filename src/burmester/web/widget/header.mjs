@@ -12,7 +12,8 @@ export function header(data, good) {
   const { outcome, warnings } = data, open = OPEN.test(outcome.code);
   const [best, ...more] = good ? data.best : [];
   const found = [`${outcome.message[0].toUpperCase()}${outcome.message.slice(1)}. `, h("span", { class: "bm-code" }, outcome.code)];
-  const told = [notes(outcome), warnings.length ? h("ul", { class: "bm-warnings", "aria-label": "Warnings" }, warnings.map(warning)) : null];
+  const said = (text) => text && data.best.some((sentence) => sentence.slice(1).startsWith(text.slice(1)));
+  const told = [notes({ why: said(outcome.why) ? null : outcome.why, help: said(outcome.help) ? null : outcome.help }), warnings.length ? h("ul", { class: "bm-warnings", "aria-label": "Warnings" }, warnings.map(warning)) : null];
   const count = warnings.length ? `, and ${warnings.length} warning${warnings.length === 1 ? "" : "s"}` : "";
   return h(
     "header",

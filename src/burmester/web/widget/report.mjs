@@ -16,6 +16,7 @@ import { factsOf, keyOf, spaceStory, storyOf } from "./words.mjs";
 
 const REDUCED_MOTION = "(prefers-reduced-motion: reduce)";
 const DARK_SCHEME = "(prefers-color-scheme: dark)";
+const HIGHEST = 0.66; // heights of the window: of the drawing, so that what moves it stands on the same screen
 const LONGEST_NAME = 5; // characters of a pose's name that a drawing has room for
 const KINDS = " RR: a link with two pins; PR: a slider on the ground; RP: a pin on the ground in a slot of the body.";
 
@@ -189,7 +190,8 @@ export class Report {
     if (!this.aside) return 0;
     const stage = this.plane.parent.parentElement;
     if (this.aside.offsetLeft <= stage.offsetLeft) return 0;
-    return this.aside.offsetHeight - (stage.offsetHeight - this.plane.parent.clientHeight);
+    const beside = this.aside.offsetHeight - (stage.offsetHeight - this.plane.parent.clientHeight);
+    return Math.min(beside, HIGHEST * window.innerHeight);
   }
 
   /** What moves, at a place of the body; near: the index of the nearest pose. */
