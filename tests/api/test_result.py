@@ -131,7 +131,9 @@ def test_a_repr_is_short_and_says_what_the_json_says(results):
         lines = repr(result).splitlines()
         assert len(lines) <= 12
         data = json.loads(result.to_json())
-        assert lines[0] == data["outcome"]["message"]
+        assert data["outcome"]["message"] in lines
+        usable = any(each["usable"] for each in data["linkages"])
+        assert lines[0].startswith("L1, " if usable else data["outcome"]["message"])
         shown = [line for line in lines if re.match(r"L\d+ ", line)]
         for line, linkage in zip(shown, data["linkages"], strict=False):
             assert line.startswith(f"{linkage['id']} ")

@@ -206,25 +206,25 @@ def test_a_name_may_hold_a_line_separator_of_unicode(read: Read) -> None:
 
 
 RESOLUTIONS: list[tuple[str, str, float, float]] = [  # suffix, content, length, angle
-    (".csv", "x,y,angle_deg\n1.25,2,91.9\n1,2.125,90\n0,9,0\n", 0.0005, math.radians(0.05)),
+    (".csv", "x,y,angle_deg\n1.25,2,91.9\n1,2.125,90\n0,9,0\n", 0.0005, 0),
     (".csv", "x,y,angle_rad\n1.50,2,0\n1,2,1\n0,40,0\n", 0.005, 0),
     (".csv", "x,y,angle_rad\n1.5e-3,2,1.25e2\n1,2,1e5\n0,0,1.5e1\n", 0.00005, 0),
-    (".csv", "x;y;angle_rad\n1,5;2;0,001\n1;2;1\n0;60;0\n", 0.05, 0.0005),
-    (".csv", "x,y,angle_rad\n# by hand\n1.5,2,1\n1,2.25,1\n0,9,0.125\n", 0.005, 0.0005),
-    (".json", '{"angle_unit":"rad","poses":[[1.50,2,3],[1,2.5e-1,3.0],[1,9,3e4]]}', 0.005, 0),
-    (".toml", 'angle_unit="deg"\nposes=[[1.50,2,3],[1,2.5e-2,3.0],[1,2,3e4]]', 0.0005, 0.05),
-    # digits coarser than a thousandth of the motion are meant exactly, whole numbers or not
+    (".csv", "x;y;angle_rad\n1,5;2;0,0001\n1;2;1\n0;120;0\n", 0.05, 0.00005),
+    (".csv", "x,y,angle_rad\n# by hand\n1.5,2,1\n1,2.25,1\n0,12,0.1250\n", 0.005, 0.00005),
+    (".json", '{"angle_unit":"rad","poses":[[1.50,2,3],[1,2.5e-1,3.0],[1,12,3e4]]}', 0.005, 0),
+    (".toml", 'angle_unit="deg"\nposes=[[1.50,2,3],[1,2.5e-2,3.00],[1,2,3e4]]', 0.0005, 0.005),
+    # digits coarser than a two-thousandth of the motion are meant exactly, whole numbers or not
     (".csv", "x,y,angle_deg\n10,2,90\n1,-20,45\n0,1e2,0\n", 0, 0),
-    (".csv", "x,y,angle_deg\n10.5,2,90.5\n1,-20,45\n0,20,0\n", 0, math.radians(0.05)),
+    (".csv", "x,y,angle_deg\n10.5,2,90.5\n1,-20,45\n0,20,0\n", 0, 0),
     (".csv", '"x",y,angle_deg\n10,2,90\n1,-20,45\n# by hand\n0,1.5e2,0\n', 0, 0),
     (".csv", "x,y,angle_deg,weight\n1,2,90,0.5\n1,2,45,0.25\n0,1,0,2\n", 0, 0),
     (".csv", "x,y,angle_rad\n1,2,1.5\n1,2.0,0.5\n0,1,0\n", 0, 0),
     (".json", '{"angle_unit":"deg","poses":[[1,2,90],[1,3e1,45],[0,1,0]]}', 0, 0),
-    (".json", '{"angle_unit":"deg","poses":[[1,2,90.0],[1,3,45],[0,1,0]]}', 0, 0.05),
+    (".json", '{"angle_unit":"deg","poses":[[1,2,90.00],[1,3,45],[0,1,0]]}', 0, 0.005),
     (".toml", 'angle_unit="deg"\nposes=[[1,2,90],[1,3,45],[0,1,0]]', 0, 0),
     # and finer ones are not, be they whole numbers
     (".csv", "x,y,angle_deg\n1000,2,90\n1,-2000,45\n0,1,0\n", 0.5, 0),
-    (".toml", 'angle_unit="deg"\nposes=[[1.5,2,90],[1,90,45],[0,1,0]]', 0.05, 0),
+    (".toml", 'angle_unit="deg"\nposes=[[1.5,2,90],[1,120,45],[0,1,0]]', 0.05, 0),
 ]
 
 
@@ -239,7 +239,7 @@ def test_resolution_is_half_of_the_last_printed_digit_unless_that_is_coarse(
 def test_no_decimal_point_and_no_unit_decides_how_exact_numbers_are(read: Read) -> None:
     """Millimetres with two decimals, and the same poses in hundredths of a millimetre."""
     rng = np.random.default_rng(3)
-    for extent in (3, 20, 700):
+    for extent in (3, 30, 700):
         points = rng.uniform(0, extent, (6, 2)).round(2)
         fine, whole = (
             read(

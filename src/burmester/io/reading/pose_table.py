@@ -15,7 +15,6 @@ from burmester.errors import InputError, printable
 from burmester.geometry.regions import Polygon
 from burmester.io.reading.specification import Specification
 from burmester.numerics.arrays import FloatArray
-from burmester.tasks.motion_task import COARSE
 
 __all__ = [
     "MARKS",
@@ -44,6 +43,9 @@ NUMERIC = ("x", "y", "angle", "weight")
 POINTS = ("px", "py", "qx", "qy")  # in place of x, y and angle
 MARKS = {"yes": True, "true": True, "1": True, "x": True}  # of an exact pose, in small letters
 MARKS |= {"no": False, "false": False, "0": False, "": False}
+
+# Of the motion, or radians; numbers whose last digit leaves more open are meant exactly.
+MEANT = 5e-4
 
 NUMBER = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?")
 NOT_FINITE = re.compile(r"[+-]?(nan|inf|infinity)", re.IGNORECASE)
@@ -178,10 +180,10 @@ def known_to(half: float, size: float) -> float:
 
     half: of the last digit; size: of what the numbers measure, in the same unit.
     People write 45 and 12.5 and mean these numbers; what a program prints or an instrument
-    measures has digits finer than a thousandth of it.  Whether there is a decimal point says
-    nothing: another unit would move it.
+    measures has finer digits.  Whether there is a decimal point says nothing: another unit would
+    move it.
     """
-    return half if half <= COARSE * size else 0.0
+    return half if half <= MEANT * size else 0.0
 
 
 def extent(points: FloatArray) -> float:
