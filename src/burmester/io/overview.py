@@ -37,7 +37,7 @@ def check_data(diagnosis: Diagnosis) -> dict[str, Any]:
         "task": task_data(diagnosis.task),
         "motion": None if motion is None else motion_data(motion),
         "singular_values": None if motion is None else motion.singular_values.tolist(),
-        "warnings": [message_data(each) for each in diagnosis.findings],
+        "warnings": [message_data(each) for each in (*diagnosis.task.notes, *diagnosis.findings)],
     }
 
 
@@ -53,7 +53,7 @@ def show(diagnosis: Diagnosis, console: Console) -> None:
     if motion is not None and not isinstance(motion.kind, General):
         console.print()
         show_message("result", motion.kind, console)
-    for each in diagnosis.findings:
+    for each in (*task.notes, *diagnosis.findings):
         console.print()
         show_message("warning", each, console)
 

@@ -48,16 +48,18 @@ def synthesize(
     require_feasible(task.poses, both, task.exact)
     diagnosis = diagnose(task)
     problem = SynthesisProblem.of(task, diagnosis.motion, options)
+    known = (*task.notes, *diagnosis.findings)
     if problem.is_special:
-        return _special_motion(problem, diagnosis.findings)
+        return _special_motion(problem, known)
     if max(problem.missing_conditions) > 0 and options.method in ("auto", "exact"):
-        return _dyad_family(problem, diagnosis.findings)
+        return _dyad_family(problem, known)
     problem = with_method(problem)
     search = search_dyads(problem)
     pairs, twice = search.pairs(problem.length)
     linkages = _linkages(problem, pairs)
     outcome = summary(problem, search, linkages)
     warnings = (
+        *task.notes,
         *_odd_pose(problem, search),
         *diagnosis.findings,
         *dyad_advice(problem, search),

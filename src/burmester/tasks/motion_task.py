@@ -9,7 +9,7 @@ from typing import Literal, TypeAlias, final, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from burmester.errors import InputError, printable
+from burmester.errors import Advice, InputError, printable
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
@@ -66,6 +66,9 @@ class Task:
         The conditions on the whole linkage, none by default.
     body : Polygon, optional
         The outline of the body, in M.  It says what an angle error counts as.
+    notes : tuple of Advice
+        What was assumed, passed over or left out when the poses were read.  They are the first
+        warnings of a synthesis.
 
     A task keeps its own copy of its numbers, which cannot be written to.
 
@@ -95,6 +98,7 @@ class Task:
     limits: tuple[Limits, ...] = ()
     requirements: Requirements = field(default=Requirements())
     body: Polygon | None = None
+    notes: tuple[Advice, ...] = ()
 
     def __post_init__(self) -> None:
         self._own_values()

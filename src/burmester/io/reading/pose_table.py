@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.errors import InputError, printable
+from burmester.errors import Advice, InputError, printable
 from burmester.geometry.regions import Polygon
 from burmester.io.reading.specification import Specification
 from burmester.numerics.arrays import FloatArray
@@ -100,6 +100,7 @@ class PoseTable(NamedTuple):
     pose_sigma: tuple[float, float] | None = None  # standard deviations of the poses, if stated
     # where a row stands, by its number from 0; None is for where they begin
     locate_row: Callable[[int | None], str] | None = None
+    notes: tuple[Advice, ...] = ()  # what was assumed in reading
 
 
 class Source(NamedTuple):

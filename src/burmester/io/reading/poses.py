@@ -202,6 +202,7 @@ def _task(
             limits=whole.limits(),
             requirements=combined_requirements(whole.requirements),
             body=table.body,
+            notes=table.notes,
         )
     except InputError as error:
         if error.code in ("E132", "E134"):  # limits and requirements, not the poses
