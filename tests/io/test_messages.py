@@ -297,6 +297,24 @@ CASES: dict[str, Case] = {
         Edit("poses.csv", "-0,8253,-1,0329,91,91", "-0.8253,-1.0329,91.91"),
         {"poses.csv": FIVE.replace("-0.8253,-1.0329,91.91", "-0,8253,-1,0329,91,91")},
     ),
+    "decimal comma and a blank weight": Case(
+        "E106",
+        S,
+        Edit("poses.csv", "2,0008,1.7,30.2,", "2.0008,1.7,30.2,1"),
+        {"poses.csv": "x,y,angle_deg,weight\n0,0,0,1\n3,1,40,1\n4,3,70,1\n2,0008,1.7,30.2,\n"},
+    ),
+    "a separator too many": Case(
+        "E106",
+        S,
+        Edit("poses.csv", "3;1;40;", "3;1;40"),
+        {"poses.csv": "x;y;angle_deg\n0;0;0\n3;1;40;\n4;3;70\n"},
+    ),
+    "rows without the blank cells of the header": Case(
+        "E106",
+        S,
+        Edit("poses.csv", "angle_deg;;", "angle_deg"),
+        {"poses.csv": "x;y;angle_deg;;\n0;0;0\n3;1;40\n4;3;70\n"},
+    ),
     "three limits": Case(
         "E106",
         "synthesize poses.toml",

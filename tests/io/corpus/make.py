@@ -97,7 +97,7 @@ def dialects() -> None:
     good("blank-cells-at-the-end.csv", COMMAS + ";;\n;;\n")
     good("blank-columns.csv", CSV.replace("\n", ",,\n") + ",,,,\n")
     good("blank-rows-between.csv", ",,\n" + CSV.replace("\n", "\n,,\n"))
-    good("blank-cells-in-rows.csv", "x,y,angle_deg\n" + ROWS.replace("\n", ",\n"))
+    good("blank-cells-in-all-lines.csv", CSV.replace("\n", ",\n"))
     good("around-cells.csv", CSV.replace(",", " ,\u00a0"))
     body = "".join(" ".join(f"{float(v):.18e}" for v in row) + "\n" for row in RADIANS)
     good("savetxt.txt", "x y angle_rad\n" + body, RADIANS, "rad")
@@ -301,7 +301,6 @@ def faults() -> None:
     bad("thousands-point.csv", "x;y;angle_deg\n1.234,5;2;3\n", "E104", ":2:1")
     bad("comma-undecided.csv", "x;y;angle_deg\n1,234;2;3\n", "E104", ":2:1")
     bad("comma-and-point.csv", "x;y;angle_deg\n0,5;2;3\n1.5;2;3\n", "E104", ":2:1")
-    bad("decimal-commas-in-commas.csv", head + "0,8253,1,0329,91,91\n", "E106", ":2:10")
     bad("no-header.csv", ROWS, "E105", ":1:1")
     bad("no-header-cells.txt", rows(POSES, "\t").replace(".", ",").rstrip(), "E105", ":1:1")
     bad("header-in-comment.txt", "# x y angle_deg\n" + rows(POSES, " "), "E105", ":2:1")
@@ -309,9 +308,6 @@ def faults() -> None:
     bad("slip.csv", "x,y,angel_deg\n1,2,3\n", "E105", ":1:1")
     bad("gradians.csv", "x,y,angle_grad\n1,2,3\n", "E105", ":1:1")
     bad("furlongs.csv", "x_furlong,y_furlong,angle_deg\n1,2,3\n", "E105", ":1:1")
-    bad("short-row.csv", CSV + "1,2\n", "E106", ":6:4")
-    bad("long-row.csv", CSV + "1,2,3,4\n", "E106", ":6:7")
-    bad("one-column.csv", head + "1;2;3\n", "E106", ":2:6")
     bad("unknown-column.csv", "x,y,angle_deg,speed\n1,2,3,4\n", "E107", ":1:15")
     bad("unnamed-first-column.csv", ",x,y,angle_deg\n0,1,2,3\n", "E107", ":1:1")
     bad("unnamed-column-holds.csv", "x,y,angle_deg,,\n1,2,3,,\n4,5,6,,7\n", "E107", ":3:8")
@@ -329,6 +325,22 @@ def faults() -> None:
     bad("weight-nan.csv", "x,y,angle_deg,weight\n1,2,3,nan\n", "E103", ":2:7")
     bad("weight-zero.csv", "x,y,angle_deg,weight\n" + "1,2,3,0\n" * 3, "E122")
     bad("two-poses.csv", head + "1,2,3\n4,5,6\n", "E120")
+
+
+def shapes() -> None:
+    head = "x,y,angle_deg\n"
+    bad("decimal-commas-in-commas.csv", head + "0,8253,1,0329,91,91\n", "E106", ":2:10")
+    bad("short-row.csv", CSV + "1,2\n", "E106", ":6:4")
+    bad("long-row.csv", CSV + "1,2,3,4\n", "E106", ":6:7")
+    bad("blank-cells-in-rows.csv", head + ROWS.replace("\n", ",\n"), "E106", ":2:23")
+    weights = "x,y,angle_deg,weight\n1,2,3,1\n"
+    bad("decimal-comma-for-a-weight.csv", weights + "1,5,50,120,\n", "E106", ":3:12")
+    bad("decimal-comma-and-no-weight.csv", weights + "1,5,50,120\n7,8,9,\n", "E104", ":4:7")
+    bad("shifted-by-a-semicolon.csv", "x;y;angle_deg;weight\n1,5;;50;120;\n", "E106", ":2:13")
+    bad("shifted-by-a-tab.tsv", "x\ty\tangle_deg\tname\n1\t\t5\t50\t\n", "E106", ":2:9")
+    bad("header-with-blank-cells.csv", "x,y,angle_deg,name,,\n1,50,7,,\n", "E106", ":2:9")
+    bad("some-rows-with-blank-cells.csv", "x,y,angle_deg,\n1,2,3,\n4,5,6\n", "E106", ":3:6")
+    bad("one-column.csv", head + "1;2;3\n", "E106", ":2:6")
 
 
 def trees() -> None:
@@ -435,7 +447,7 @@ def parquet() -> None:
 
 
 if __name__ == "__main__":
-    for make in (dialects, headers, points, faults, trees, parquet):
+    for make in (dialects, headers, points, faults, shapes, trees, parquet):
         make()
     text = ",\n".join(
         f"{json.dumps(name)}: {json.dumps(entry, ensure_ascii=False)}"

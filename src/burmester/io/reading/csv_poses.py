@@ -1,8 +1,9 @@
 """Poses in CSV: a header (`csv_header`), then one pose a line, with one separator between cells.
 
 Where another separator is used, commas may be decimal marks, if the numbers prove it.  A line
-whose cells are all empty is blank; cells beyond the header's must be empty.  A line that starts
-with # is a comment, unless it starts with an error value of a spreadsheet (#N/A).
+whose cells are all empty is blank; every other row has as many cells as the header, empty ones at
+the end counted: with one more or less, nobody knows which number belongs to which column.  A line
+that starts with # is a comment, unless it starts with an error value of a spreadsheet (#N/A).
 `burmester.io.reading.columns` lists the names of columns.  Blocks of plain rows are read at once,
 other blocks cell by cell, so that an error names its cell.  `burmester.io.reading.poses` lists the
 errors.
@@ -115,7 +116,7 @@ def _checked_rows(
     numeric = numeric_roles(indices)
     count = 0
     for line, cells in _rows(lines, header.separator):
-        if len(cells) != len(header.names):
+        if len(cells) != len(header.names) or header.spare:
             _require_width(line, cells, header, row + count)
         for role, index in indices.items():
             cell = unquoted(cells[index])
@@ -184,32 +185,51 @@ def _require_one_mark(marks: dict[str, str]) -> None:
 
 
 def _require_width(line: re.Match[str], cells: list[str], header: Header, row: int) -> None:
-    """Refuse a row that lacks a cell (E106), or has one that no name stands above (E106, E107)."""
-    given, needed = len(cells), len(header.names)
+    """Refuse a row with more or fewer cells than the header (E106), or one below no name (E107)."""
+    given, needed, separator = len(cells), len(header.names), header.separator
+    width = needed + header.spare
     filled = max(len(row_values(cells)), min(given, needed))
-    if filled == needed:
-        return
-    where, why = header.source.where(line.end()), None
-    named = brief(f" ({', '.join(header.names)})", "")
-    help = f"give {needed} cells{named}, or delete the row"
-    if filled > needed:
-        extra = next(i for i in range(needed, filled) if unquoted(cells[i]))
+    first = next((i for i in range(needed, filled) if unquoted(cells[i])), None)
+    where = header.source.where(line.end())
+    if first is not None or given > width:
+        extra = width if first is None else first
         where = cell_location(header.source, line.start(), cells, extra)
-        if extra < needed + header.spare:
-            message = f"row {row} has {pose_table.shown(unquoted(cells[extra]))} below no name"
+    if given == width:
+        if first is not None:
+            message = f"row {row} has {pose_table.shown(unquoted(cells[first]))} below no name"
             help = "give its column a name, or delete the cell's content"
             raise InputError("E107", message, where=where, help=help)
-    if given == 2 * needed and header.separator == ",":
+        return
+    named = brief(f" ({', '.join(header.names)})", "")
+    help, why = f"give {needed} cells{named}, or delete the row", None
+    if separator == "," and given > width and (parts := _parted_number(cells)):
         why = "a comma ends a cell here, so it cannot be a decimal mark as well"
         help = "write decimal points, or separate all cells by semicolons, also those of the header"
+        if given != 2 * needed:
+            why += f"; perhaps {','.join(parts)} is one number"
+            help = f"write {'.'.join(parts)} if it is, or delete the comma that is too many"
+    elif given > width and first is None:
+        why = f"{_SEPARATOR_NAMES[separator]} too many may stand anywhere, also between two numbers"
+        help = f"delete {_SEPARATOR_NAMES[separator]}, so that the row has {width} cells{named}"
+    elif needed <= given < width:
+        why = f"{width - needed} of them, at its end, without a name"
+        help = "end all rows and the header with the same number of empty cells, or with none"
     other = next((s for s in "\t;|," if len(row_values(split_cells(line[0], s))) == needed), None)
     if given == 1 and other:
-        one, two = _SEPARATOR_NAMES[header.separator], _SEPARATOR_NAMES[other]
+        one, two = _SEPARATOR_NAMES[separator], _SEPARATOR_NAMES[other]
         why = f"{one} separates the cells of the header, {two} these"
         edit = brief(
             f"`{other.join(header.names)}`",
             f"its names with {two} between them",
         )
         help = f"write the header as {edit}"
-    message = f"row {row} has {given} cell{'' if given == 1 else 's'}, the header has {needed}"
+    message = f"row {row} has {given} cell{'' if given == 1 else 's'}, the header has {width}"
     raise InputError("E106", message, where=where, why=why, help=help)
+
+
+def _parted_number(cells: list[str]) -> tuple[str, str] | None:
+    """Two cells that a decimal comma may have made of one number."""
+    for one, two in itertools.pairwise(map(unquoted, cells)):
+        if re.fullmatch("[-+\u2212]?[0-9]+", one) and re.fullmatch("[0-9]+", two):
+            return one, two
+    return None
