@@ -560,6 +560,33 @@ def test_text_in_parquet_that_is_no_text_is_told_with_its_row(read: Read, column
     assert error.code == "E104" or len(read(parquet(columns), ".parquet").poses.angle) == 3
 
 
+FAR = 2**63 - 1  # as a date it lies 292 thousand million years ahead, or 292 years
+TEMPORAL = [pa.date64(), pa.time64("us"), pa.time64("ns")]
+TEMPORAL += [pa.timestamp(unit, zone) for unit in ("ms", "us", "ns") for zone in (None, "UTC")]
+TEMPORAL += [pa.timestamp("us", "Nowhere/Land"), *(pa.duration(unit) for unit in ("s", "ms", "us"))]
+FAR_TIMES = {str(kind): pa.array([0, FAR, -FAR], pa.int64()).view(kind) for kind in TEMPORAL}
+FAR_TIMES["date32"] = pa.array([0, 2**31 - 1, 1 - 2**31], pa.int32()).view(pa.date32())
+FAR_TIMES["list"] = pa.ListArray.from_arrays([0, 1, 2, 3], FAR_TIMES["date32"])
+FAR_TIMES["struct"] = pa.StructArray.from_arrays([FAR_TIMES["date64[ms]"]], ["day"])
+
+
+@pytest.mark.parametrize("kind", FAR_TIMES)
+@pytest.mark.parametrize("column", ["x", "angle_rad", "weight", "name", "exact", "#", "time"])
+def test_times_that_python_cannot_hold_are_refused_where_they_matter(
+    read: Read, column: str, kind: str
+) -> None:
+    columns = {name: [1.0, 2.0, 4.0] for name in ("x", "y", "angle_rad")}
+    result = outcome(lambda: read(parquet(columns | {column: FAR_TIMES[kind]}), ".parquet"))
+    if column in ("#", "time"):
+        assert isinstance(result, Task)
+    elif column == "name":  # some of these dates are of this age
+        assert isinstance(result, Task) or result.code == "E101"
+    else:
+        assert isinstance(result, InputError)
+        assert result.code in ("E101", "E104")
+        assert str(result.where).endswith(f"column {column}")
+
+
 def test_a_damaged_parquet_file_is_read_or_refused(read: Read) -> None:
     whole = parquet({"x": [1.5, 2, 3], "y": [1, 2, 3], "angle_rad": [1, 2, 3]})
     rng = np.random.default_rng(2)

@@ -128,16 +128,20 @@ def _short(text: str) -> str:
 
 
 def _list(stored: Any, names: list[str], index: int | None, where: _Where) -> list[Any]:
-    """The values of a column that need not be there; raises E101 for damaged text."""
+    """The values of a column that need not be there; raises E101 for what Python cannot hold.
+
+    Damaged text is a ValueError, a date beyond the year 9999 an OverflowError, and more kinds come
+    from types that a later Arrow may add.
+    """
     if index is None:
         return []
     column, values = stored.column(names[index]), []
-    with contextlib.suppress(ValueError):
+    with contextlib.suppress(Exception):
         return list(column.to_pylist())
     for row, each in enumerate(column):
         try:
             values.append(each.as_py())
-        except ValueError as error:  # text that is not UTF-8, a date of the year 10,000
+        except Exception as error:
             why = str(error).partition("\n")[0][:200]
             message = f"row {row + 1} has a value that cannot be read"
             help = "write the file again with another text there, or without this column"
