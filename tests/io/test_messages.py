@@ -845,6 +845,14 @@ CASES: dict[str, Case] = {
         {"poses.csv": TEN},
         exit=0,
     ),
+    # --- notes of reading
+    "columns passed over": Case(
+        "W213",
+        S,
+        Edit("poses.csv", "angle_deg,Bemerkung", 'angle_deg,"#Bemerkung"'),
+        {"poses.csv": TEN.replace("\n", ",\n").replace("_deg,", "_deg,Bemerkung")},
+        exit=0,
+    ),
 }
 
 # --- running them

@@ -23,7 +23,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from burmester.errors import InputError
+from burmester.io.explain import pages
 from burmester.io.reading import csv_poses
+from burmester.io.reading.column_words import UNITS, WORDS
+from burmester.io.reading.pose_table import POINTS
 from burmester.io.reading.poses import read_task
 from burmester.tasks.motion_task import Task
 
@@ -90,6 +93,53 @@ def test_every_form_of_a_unit_is_read(read: Read, form: str, change: Callable[[s
         assert task.poses.angle[1] == (np.radians(45.5) if ANGLES[angle] else 45.5)
 
 
+HEADERS = [  # of x, y, angle, weight and name, in this order
+    "X-Koordinate [mm];Y-Koordinate [mm];Drehwinkel [Grad];Gewicht;Stellung",
+    "x in mm;y in mm;Winkel in °;Gewichtung;Punkt",
+    "Pos. X (mm);Pos. Y (mm);Verdrehung [°];GEWICHT;Bezeichnung",
+    "Coordonnée X (mm);Coordonnée Y (mm);Angle de rotation (degrés);Poids;Repère",
+    "abscisse [mm];ordonnée [mm];orientation, °;pondération;nom",
+    "Posición X [milímetros];Posición Y [mm];Ángulo de giro [grados];Peso;Punto",
+    "coordenada x/mm;coordenada y/mm;angulo/°;peso;nombre",
+    "Coordinata X [mm];Coordinata Y [mm];Angolo (gradi);Peso;Nome",
+    "X坐标（毫米）;Y坐标（毫米）;角度（度）;权重;点名",
+    "X座標[mm];Y座標[mm];回転角[°];重み;姿勢",
+    "Ｘ ［ミリ］;Ｙ ［ミリ］;角度 ［度］;重み;名前",
+    "X POSITION <mm>;Y-Position <mm>;Rz <deg>;Weight;Label",
+    "x_mm;y_mm;Winkel°;weight;pose",
+]
+
+
+@pytest.mark.parametrize("header", HEADERS)
+def test_headers_in_seven_languages(read: Read, header: str) -> None:
+    rows = "".join(f"{row.replace(',', ';')};{k}.5;n{k}\n" for k, row in enumerate(ROWS.split(), 1))
+    task = read(f"{header}\n{rows}")
+    require_same(task, read(f"x_mm;y_mm;angle_deg;weight;name\n{rows}"))
+    order = [3, 4, 2, 1, 0]
+    text = [[line.split(";")[k] for k in order] for line in (header, *rows.split())]
+    require_same(read("\n".join("\t".join(line) for line in text)), task)
+    assert task.names == ("n1", "n2", "n3", "n4")
+
+
+@pytest.mark.parametrize(
+    "radians", ["Bogenmaß", "radiant", "radianes", "radianti", "弧度", "ラジアン"]
+)
+def test_radians_in_other_languages(read: Read, radians: str) -> None:
+    task = read(CSV.replace("angle_deg", f"Winkel [{radians}]"))
+    assert task.poses.angle[0] == 30
+
+
+def test_the_page_of_e105_lists_all_that_is_understood() -> None:
+    page = pages()["E105"].text
+    for role, words in (WORDS | UNITS).items():  # those of y are those of x
+        assert role in ("y", *POINTS) or re.search(rf"(?m)^- .*: {re.escape(words)}$", page), role
+
+
+@pytest.mark.parametrize("name", ["angle [grad]", "theta grad", "rotation/gon", "Winkel [gon]"])
+def test_a_grad_is_a_degree_in_german_alone(read: Read, name: str) -> None:
+    assert refusal(lambda: read(CSV.replace("angle_deg", name))).code == "E105"
+
+
 @pytest.mark.parametrize(
     ("slip", "edit"),
     [
@@ -121,7 +171,7 @@ def test_another_unit_is_never_taken_for_a_slip(read: Read, name: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "name", ["time", "Time (s)", "time_ms", "TIME [sec]", "frame", "Index", "no", "Nr.", "#"]
+    "name", ["time", "Time (s)", "time_ms", "TIME [sec]", "frame", "Index", "Bemerkung"]
 )
 @pytest.mark.parametrize("place", [0, 2, 3])
 def test_columns_that_count_or_clock_are_ignored(read: Read, name: str, place: int) -> None:
@@ -129,7 +179,30 @@ def test_columns_that_count_or_clock_are_ignored(read: Read, name: str, place: i
     lines = [[*cells[:place], f"{k}:,"[: 2 * k], *cells[place:]] for k, cells in enumerate(lines)]
     lines[0][place] = name
     text = "\n".join(";".join(line) for line in lines)
-    require_same(read(text), read(CSV))
+    task = read(text)
+    require_same(task, read(CSV))
+    assert [note.message for note in task.notes] == [f"the column `{name}` is passed over"]
+
+
+@pytest.mark.parametrize(
+    "name", ["no", "Nr.", "#", "Punkt-Nr.", "N°", "序号", "番号", "Punkt", "点名"]
+)
+def test_numbers_are_names_where_no_other_column_is(read: Read, name: str) -> None:
+    lines = [f"{10 * k};{line}".replace(",", ";") for k, line in enumerate(CSV.split())]
+    rows = "\n".join(lines[1:])
+    task = read(f"{name};x;y;angle_deg\n{rows}")
+    assert task.names == ("10", "20", "30", "40")
+    assert task.poses.translation.tolist() == read(CSV).poses.translation.tolist()
+    if known_numbers := name not in ("Punkt", "点名"):
+        named = "\n".join(f"{line};n{k}" for k, line in enumerate(lines[1:]))
+        task = read(f"{name};x;y;angle_deg;name\n{named}")
+        assert task.names == ("n0", "n1", "n2", "n3")
+        assert [note.message for note in task.notes] == [f"the column `{name}` is passed over"]
+    counted = rows
+    for k in (4, 3, 2, 1):
+        counted = counted.replace(f"{10 * k};", f"{k};", 1)
+    task = read(f"{name};x;y;angle_deg\n{counted}")
+    assert task.names == (None if known_numbers else ("1", "2", "3", "4"))
 
 
 def test_two_columns_of_one_role_are_refused_in_all_words(read: Read) -> None:
@@ -571,15 +644,15 @@ FAR_TIMES["struct"] = pa.StructArray.from_arrays([FAR_TIMES["date64[ms]"]], ["da
 
 
 @pytest.mark.parametrize("kind", FAR_TIMES)
-@pytest.mark.parametrize("column", ["x", "angle_rad", "weight", "name", "exact", "#", "time"])
+@pytest.mark.parametrize("column", ["x", "angle_rad", "weight", "name", "exact", "#", "#k", "time"])
 def test_times_that_python_cannot_hold_are_refused_where_they_matter(
     read: Read, column: str, kind: str
 ) -> None:
     columns = {name: [1.0, 2.0, 4.0] for name in ("x", "y", "angle_rad")}
     result = outcome(lambda: read(parquet(columns | {column: FAR_TIMES[kind]}), ".parquet"))
-    if column in ("#", "time"):
+    if column in ("#k", "time"):
         assert isinstance(result, Task)
-    elif column == "name":  # some of these dates are of this age
+    elif column in ("#", "name"):  # some of these dates are of this age
         assert isinstance(result, Task) or result.code == "E101"
     else:
         assert isinstance(result, InputError)

@@ -186,7 +186,9 @@ def sheet(rng):
         rng.shuffle(order)
     rows = [[columns[name][k] for name in order] for k in range(count)]
     weights = [value(w) for w in columns["weight"]] if "weight" in extra else None
-    names = columns["name"] if "name" in extra else None
+    names = columns.get("name", columns.get("#"))
+    if "name" not in columns and not any(names or ()):
+        names = None  # a column of numbers without one
     options = {} if stated else {"angle_unit": unit}
     if rng.random() < 0.05 and "exact" not in extra:
         options["exact"] = [rng.choice(("1", "1,2", "3", f"{count}"))]

@@ -22,7 +22,8 @@ LENGTHS = ("um", "mm", "cm", "m", "in", "ft")
 TURNS = ("angle", "theta", "phi", "rotation")
 POINTS = ("px", "py", "qx", "qy")
 UNITS = dict.fromkeys(("x", "y", *POINTS), ("", *LENGTHS))
-IGNORED = ("time", "frame", "index", "no", "nr")
+IGNORED = ("time", "frame", "index")
+NUMBERS = ("#", "no", "nr")  # they name the poses where no column does
 MARKS = {"": 0, "0": 0, "no": 0, "false": 0, "1": 1, "x": 1, "yes": 1, "true": 1}
 UNITS |= {"angle": ("", "deg", "rad")} | dict.fromkeys(("weight", "name", "exact"), ("",))
 
@@ -106,9 +107,21 @@ def _csv(text):
     return _plain(
         given,
         {role: columns[role][0] for role in columns},
-        columns["name"][1] if "name" in columns else None,
+        _names({role: cells for role, (_, cells) in columns.items()}),
         [MARKS[mark.lower()] for mark in columns["exact"][1]] if "exact" in columns else None,
     )
+
+
+def _names(columns):
+    """The names, or what numbers the rows otherwise than 1, 2, 3."""
+    numbers = columns.get("number", [])
+    if (
+        "name" in columns
+        or not any(numbers)
+        or numbers == [str(k + 1) for k, _ in enumerate(numbers)]
+    ):
+        return columns.get("name")
+    return numbers
 
 
 def _plain(given, units, names, exact):
@@ -159,7 +172,9 @@ def _header(cells):
         base = {"pose": "name", "label": "name"}.get("angle" if base in TURNS else base, base)
         base = "angle" if base in TURNS else base
         unit = {"degrees": "deg", "radians": "rad", "inch": "in"}.get(unit, unit)
-        if cell.startswith("#") or (base in IGNORED and not unit):
+        if base in NUMBERS and not unit:
+            roles.append(("number", None))
+        elif cell.startswith("#") or (base in IGNORED and not unit):
             roles.append(("", None))
         elif unit in UNITS.get(base, ()):
             roles.append((base, unit or None))
@@ -177,12 +192,14 @@ def _parquet(data):
     columns = {role[0]: stored.column(i).to_pylist() for i, role in enumerate(roles) if role[0]}
     given = {}
     for role, values in columns.items():
-        if role not in ("name", "exact"):
+        if role not in ("name", "number", "exact"):
             if any(isinstance(v, bool) or not isinstance(v, int | float | Decimal) for v in values):
                 return None
             given[role] = [_finite(Decimal(v)) for v in values]
     exact = [MARKS[str(m).lower()] for m in columns["exact"]] if "exact" in columns else None
-    return _plain(given, dict(roles), columns.get("name"), exact)
+    if "number" in columns:
+        columns["number"] = ["" if name is None else str(name) for name in columns["number"]]
+    return _plain(given, dict(roles), _names(columns), exact)
 
 
 def _number(text):

@@ -155,15 +155,17 @@ def headers() -> None:
         "time.csv",
         "Time (Seconds),Frame,#,x,y,angle_deg\n"
         + "".join(f"0.{k},,n{k},{','.join(row)}\n" for k, row in enumerate(POSES)),
+        names=["n0", "n1", "n2", "n3"],
     )
     good(
         "numbered.csv",
         "No;x;y;angle_deg;#why\n"
-        + "".join(f"{k};{';'.join(row)};so\n" for k, row in enumerate(POSES)),
+        + "".join(f"{k + 1};{';'.join(row)};so\n" for k, row in enumerate(POSES)),
     )
     good(
         "hash-column.csv",
-        "#,x,y,angle_deg\n" + "".join(f"{k},{','.join(row)}\n" for k, row in enumerate(POSES)),
+        "#,x,y,angle_deg\n" + "".join(f"{k}0,{','.join(row)}\n" for k, row in enumerate(POSES)),
+        names=["00", "10", "20", "30"],
     )
     good(
         "names.csv",

@@ -1,12 +1,8 @@
 """Columns by the names that people give them: what stands in each, and in which unit.
 
-Capitals do not count.  A unit stands in the name: x_mm, `x mm`, `x (mm)`, `x [mm]`, x/mm.
-
-x, y and an angle (also theta, phi, rotation), or two points of the body: px, py, qx, qy
-lengths: um, mm, cm, m, in, ft (also µm, inch, inches, feet); angles: deg, rad (also degree,
-degrees, °, radian, radians)
-weight; exact; name (also pose, label)
-ignored: time (with or without a unit), frame, index, no, nr, and what begins with #
+`column_words` holds the names: x, y and an angle, or two points of the body (px, py, qx, qy);
+weight; exact; name.  A column of numbers, such as `Nr.`, holds the names where no other does.
+Times, frames and remarks are passed over, and so is what begins with #.
 """
 
 from __future__ import annotations
@@ -15,37 +11,23 @@ import re
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
-from burmester.errors import InputError
+from burmester.errors import Advice, InputError
+from burmester.io.reading.column_words import (
+    IGNORED,
+    LENGTHS,
+    MAX_NAME_CHARACTERS,
+    WORDS,
+    Word,
+    known,
+)
 from burmester.io.reading.pose_table import NUMERIC, POINTS, brief, shown
+from burmester.wording import listed, shortened
 
-__all__ = ["HEADER", "Columns", "is_header", "read_columns"]
+__all__ = ["HEADER", "LENGTHS", "MAX_NAMES", "Columns", "has_poses", "is_header", "read_columns"]
 
 HEADER = "x,y,angle_deg"  # what a file may begin with
 
-_LENGTHS = {unit: unit for unit in ("um", "mm", "cm", "m", "in", "ft")}
-_LENGTHS |= {"\u00b5m": "um", "\u03bcm": "um", "inch": "in", "inches": "in", "feet": "ft"}
-_ANGLES = dict.fromkeys(("deg", "degree", "degrees", "°"), "deg")
-_ANGLES |= dict.fromkeys(("rad", "radian", "radians"), "rad")
-_TIMES = dict.fromkeys(("s", "sec", "second", "seconds"), "s")
-_TIMES |= {"ms": "ms", "milliseconds": "ms", "min": "min"}
-
-_IGNORED = ""  # the role of a column that is left alone
-_BASES: dict[str, tuple[str, dict[str, str]]] = {  # name -> role and units
-    **{name: (name, _LENGTHS) for name in ("x", "y", *POINTS)},
-    **dict.fromkeys(("angle", "theta", "phi", "rotation", "θ", "φ", "ϕ"), ("angle", _ANGLES)),
-    **dict.fromkeys(("name", "pose", "label"), ("name", {})),
-    "weight": ("weight", {}),
-    "exact": ("exact", {}),
-    "time": (_IGNORED, _TIMES),
-    **dict.fromkeys(("frame", "index", "no", "nr", "no.", "nr."), (_IGNORED, {})),
-    "__index_level_0__": (_IGNORED, {}),  # what pandas calls an index without a name
-}
-_NAME = re.compile(
-    r"(?P<base>[^\W\d_]+\.?)"
-    r"(?:[\s_]*\(\s*(?P<round>[^()\s]+)\s*\)|[\s_]*\[\s*(?P<square>[^\[\]\s]+)\s*\]"
-    r"|\s*/\s*(?P<slash>\S+)|[\s_]+(?P<blank>\S+))"
-)
-MAX_NAME_CHARACTERS = 60  # characters of a name; a longer one is not compared with known ones
+_PASSED_OVER = ("time", "frame", "remark")
 MAX_NAMES = 12  # names of columns that an error lists, or compares with known ones
 _KNOWN = (
     "the known names are x, y (or x_mm, y_mm and so on), angle_deg, angle_rad, weight, exact and "
@@ -58,6 +40,28 @@ class Columns(NamedTuple):
 
     indices: dict[str, int]  # role -> index in a row
     units: dict[str, str | None]  # role -> unit
+    numbered: bool = False  # whether the names are a column of numbers
+    passed_over: tuple[str, ...] = ()  # the names of columns that are known and not used
+
+    def row_names(self, names: list[str]) -> list[str]:
+        """The names of the rows; none where they are empty, or the numbers 1 to N."""
+        counted = names == [str(k + 1) for k in range(len(names))]
+        return [] if self.numbered and (counted or not any(names)) else names
+
+    def notes(self) -> tuple[Advice, ...]:
+        """W213, for what is passed over without having been asked for."""
+        if not self.passed_over:
+            return ()
+        which = shortened([f"`{name.strip()}`" for name in self.passed_over], MAX_NAMES, "more")
+        many = len(self.passed_over) > 1
+        return (
+            Advice(
+                "W213",
+                f"the column{'s' * many} {listed(which)} {'are' if many else 'is'} passed over",
+                f"begin {'their names' if many else 'its name'} with # to have nothing said",
+                "times, frames, remarks and second numbers say nothing about a pose",
+            ),
+        )
 
     @property
     def length_unit(self) -> str | None:
@@ -66,9 +70,24 @@ class Columns(NamedTuple):
 
 def is_header(names: Sequence[str]) -> bool:
     """Whether all these are names of columns, and of enough of them for a pose."""
-    known = [_column(name) for name in names]
-    roles = {column[0] for column in known if column}
-    return None not in known and any(roles.issuperset(r) for r in (NUMERIC[:3], POINTS))
+    words = list(map(_known, names))
+    return None not in words and _have_poses(words)
+
+
+def has_poses(names: Sequence[str]) -> bool:
+    """Whether enough of these are names of columns for a pose, whatever the others are."""
+    return _have_poses(list(map(_known, names[:1000])))
+
+
+def _have_poses(words: Sequence[Word | None]) -> bool:
+    roles = {word.role for word in words if word}
+    return any(roles.issuperset(needed) for needed in (NUMERIC[:3], POINTS))
+
+
+def _known(name: str) -> Word | None:
+    """What a name says, None too if its unit is none of its role's."""
+    word = known(name)
+    return None if word is None or word.unit == "?" else word
 
 
 def read_columns(
@@ -84,16 +103,19 @@ def read_columns(
     indices: dict[str, int] = {}
     units: dict[str, str | None] = {}
     unknown: list[int] = []
+    passed_over: list[str] = []
     for i, name in enumerate(names):
-        column = _column(name)
-        if column is None:
+        word = _known(name)
+        if word is None:
             unknown.append(i)
-        elif column[0] in indices:
-            message = f"two columns for {column[0]}: {names[indices[column[0]]]} and {name}"
+        elif word.role in _PASSED_OVER or (word.role == "number" and "number" in indices):
+            passed_over.append(name)
+        elif word.role in indices:
+            message = f"two columns for {word.role}: {names[indices[word.role]]} and {name}"
             help = "delete one of the two columns"
             raise InputError("E108", message, where=where(i), help=help)
-        elif column[0] != _IGNORED:
-            indices[column[0]], units[column[0]] = i, column[1]
+        elif word.role != IGNORED:
+            indices[word.role], units[word.role] = i, word.unit
     lengths = _require_poses(names, indices, unknown, where)
     if unknown:
         raise _unknown(names, unknown[0], where, ignore)
@@ -105,25 +127,13 @@ def read_columns(
             one = "both columns" if len(lengths) == 2 else "all four columns"
             where_role = where(indices[role])
             raise InputError("E108", message, where=where_role, help=f"give {one} the same unit")
-    return Columns(indices, units)
-
-
-def _column(name: str) -> tuple[str, str | None] | None:
-    """The role and the unit that a name states, or None if it is not known."""
-    name = name.strip().lower()
-    if name.startswith("#"):
-        return _IGNORED, None
-    if name in _BASES:
-        return _BASES[name][0], None
-    base, unit = _parts(name)
-    role, units = _BASES.get(base, ("", {}))
-    return (role, units[unit]) if unit in units else None
-
-
-def _parts(name: str) -> tuple[str, str]:
-    """The base and the unit in a name, both empty if it is not made of the two."""
-    found = _NAME.fullmatch(name.strip().lower()) if len(name) < MAX_NAME_CHARACTERS else None
-    return (found["base"], next(filter(None, found.groups()[1:]))) if found else ("", "")
+    numbers = indices.pop("number", None)
+    numbered = numbers is not None and "name" not in indices
+    if numbers is not None and numbered:
+        indices["name"], units["name"] = numbers, None
+    elif numbers is not None:
+        passed_over.append(names[numbers])
+    return Columns(indices, units, numbered, tuple(passed_over))
 
 
 def _require_poses(
@@ -152,10 +162,12 @@ def _require_poses(
         )
         if points:
             help = "name the columns px, py, qx and qy, for two points of the body"
+        else:
+            help += "".join(f"; {role} may be {WORDS[role]}" for role in missing if role != "y")
         if of_unit := next(filter(None, (_units(names[i]) for i in unknown[:MAX_NAMES])), None):
             why += f"; {of_unit}"
         near = {names[i]: _nearest(names[i]) for i in unknown[:MAX_NAMES]}
-        meant = {column[0] for name in near.values() if name and (column := _column(name))}
+        meant = {word.role for name in near.values() if name and (word := _known(name))}
         if meant.issuperset(missing):
             edits = [f"`{name}` in place of {shown(old)}" for old, name in near.items() if name]
             help = f"write {' and '.join(edits)}"
@@ -168,19 +180,22 @@ def _nearest(name: str) -> str | None:
     from difflib import get_close_matches
 
     found = re.match(r"[^\W\d_]+", name.strip().lower())
-    if not found or found[0] in _BASES or len(name) >= MAX_NAME_CHARACTERS:
+    if not found or len(name) >= MAX_NAME_CHARACTERS or known(name):
         return None
-    for base in get_close_matches(found[0], _BASES, 1, 0.7):
-        if _column(near := base + name.strip().lower()[found.end() :]):
-            return near
+    rest = name.strip().lower()[found.end() :]
+    words = {word.lower(): None for text in WORDS.values() for word in text.split(", ")}
+    for base in get_close_matches(found[0], words, 3, 0.7):
+        if base != found[0] and _known(base + rest):
+            return base + rest
     return None
 
 
 def _units(name: str) -> str | None:
     """The units that a known column may have, if it has another."""
-    base, _ = _parts(name)
-    units = _BASES.get(base, ("", {}))[1]
-    return f"the units of {base} are {', '.join(dict.fromkeys(units.values()))}" if units else None
+    word = known(name)
+    if word is None or word.unit != "?":
+        return None
+    return f"the units of {word.word} are {', '.join(word.units)}"
 
 
 def _unknown(

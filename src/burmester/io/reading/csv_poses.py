@@ -62,13 +62,15 @@ def read_csv(source: Source, columns: str | None = None) -> PoseTable:
         raise pose_table.no_poses("the file has only a header")
     _require_one_mark(marks)
     where = "in the header" if columns is None else "in --columns"
+    rows = Rows.joined(blocks)
     return PoseTable(
-        Rows.joined(blocks),
+        rows._replace(names=header.columns.row_names(rows.names)),
         length_unit=header.columns.length_unit,
         angle_unit=header.columns.units.get("angle"),
         where=header.where,
         say_unit=f"name the column `angle_deg` or `angle_rad` {where}",
         locate_row=functools.partial(_row_location, header),
+        notes=header.columns.notes(),
     )
 
 

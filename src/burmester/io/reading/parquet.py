@@ -62,7 +62,7 @@ def read_parquet(label: str, data: bytes) -> PoseTable:
         printed[role] = 0.0 if role == "weight" else max(decimals(text) for text in texts if text)
     angle = printed.pop("angle", 0.0)
     given_names = _list(stored, names, indices.get("name"), where)
-    names_of = [str(value) if value is not None else "" for value in given_names]
+    names_of = columns.row_names([str(value) if value is not None else "" for value in given_names])
     exact = _marks(stored, names, indices.get("exact"), where)
     rows = Rows(
         np.stack(numbers, axis=1), (max(printed.values()), angle), names_of, exact, "px" in indices
@@ -74,6 +74,7 @@ def read_parquet(label: str, data: bytes) -> PoseTable:
         where=where(indices.get("angle")),
         say_unit="name the column angle_deg or angle_rad",
         locate_row=lambda row: where(None, row),  # where(None, None) is the file
+        notes=columns.notes(),
     )
 
 
