@@ -214,20 +214,22 @@ def test_two_columns_of_one_role_are_refused_in_all_words(read: Read) -> None:
 
 # Numbers -----------------------------------------------------------------------------------
 
-WRITTEN = [  # a cell, the separator around it, and the number that its author had in mind
+READ = [  # a cell, the separator around it, and the only number it can mean
     ("1,234.5", ";", "1234.5"),
     ("1.234,5", ";", "1234.5"),
     ("-1.234.567,25", ";", "-1234567.25"),
     ("1'234.5", ",", "1234.5"),
     ("1’234.5", ",", "1234.5"),
-    ("1 234.5", ",", "1234.5"),
     ("1\u00a0234.5", ",", "1234.5"),
     ("1\u202f234,5", ";", "1234.5"),
     ("1\u2009234\u2009567", ";", "1234567"),
+    ('"1,234.5"', ",", "1234.5"),
+]
+WRITTEN = [  # a cell, the separator around it, and the number that its author had in mind
+    ("1 234.5", ",", "1234.5"),
     ("1,234,567", ";", "1234567"),
     ("1.234.567", ",", "1234567"),
     ("1_000", ",", "1000"),
-    ('"1,234.5"', ",", "1234.5"),
     ('"1.234,5"', ",", "1234.5"),
     ('"0,435"', ",", "0.435"),
     ("\u20133", ",", "-3"),
@@ -264,6 +266,21 @@ def test_a_number_in_other_words_is_refused_and_the_help_says_the_right_one(
     edit = re.match(r"write ([^\s,]*(?:,\d+)?)", str(error.help))
     assert edit
     assert read(text(edit[1])).poses.translation[0, 1] == float(meant)
+
+
+@pytest.mark.parametrize(("cell", "separator", "meant"), READ)
+def test_thousands_are_read_where_they_have_one_meaning(
+    read: Read, cell: str, separator: str, meant: str
+) -> None:
+    rows = [["x", "y", "angle_rad"], ["1", cell, "5"], *[["1", "2", "3"]] * 3]
+    task = read("\n".join(separator.join(row) for row in rows))
+    assert task.poses.translation[0, 1] == float(meant)
+    (note,) = task.notes
+    assert note.message == f"{cell.strip(chr(34))!r} is read as {meant}"
+    other = "0,5" if cell.rfind(".") > cell.rfind(",") else "0.5"
+    if {".", ","} & {*cell[-4:]} and separator == ";":  # with another decimal mark it is refused
+        rows[2][0] = other
+        assert refusal(lambda: read("\n".join(map(separator.join, rows)))).code == "E104"
 
 
 SPACES = [" ", "\u00a0", "\u202f", "\u2009", "'", "’"]
@@ -374,6 +391,105 @@ def test_a_header_with_another_separator_than_its_rows(read: Read, row: str) -> 
     assert error.code == "E106"
     header = re.findall(r"write the header as `([^`]*)`", str(error.help))[0]
     assert read(f"{header}\n{rows}").poses.translation.tolist() == [[1, 2]] * 3
+
+
+# Titles, units below the header, encodings ---------------------------------------------------
+
+TITLES = ["Lid of the box, 12 May", "Drawing;4711;rev. B;;", "", "Scale 1:2", "# a comment"]
+
+
+@pytest.mark.parametrize("count", [1, 2, 4, 5])
+@pytest.mark.parametrize("header", ["x;y;angle_deg", "Punkt;X [mm];Y [mm];Winkel [°]"])
+def test_titles_above_the_header_are_passed_over_and_said(
+    read: Read, count: int, header: str
+) -> None:
+    cells = ROWS.replace(",", ";").splitlines()
+    rows = [f"P{k};{row}" if "P" in header else row for k, row in enumerate(cells)]
+    table = "\n".join([header, *rows])
+    task = read("\n".join([*TITLES[:count], table]))
+    require_same(task, read(table))
+    (note,) = task.notes
+    last = {1: "line 1", 2: "lines 1 to 2", 4: "lines 1 to 4", 5: "lines 1 to 5"}[count]
+    assert note.message.startswith(f"{last} above the header")
+    assert read(table).notes == ()
+
+
+@pytest.mark.parametrize("row", ["1;2;3", "1,5;2;3", "1;2;3;4", "0.5;1e3;-3"])
+def test_no_row_of_numbers_is_taken_for_a_title(read: Read, row: str) -> None:
+    error = refusal(lambda: read(f"{row}\nx;y;angle_deg\n{ROWS.replace(',', ';')}"))
+    assert error.code == "E105"
+    error = refusal(lambda: read(f"x;y;spin\n{row}\nx;y;angle_deg\n{ROWS.replace(',', ';')}"))
+    assert error.code == "E105"
+    assert str(error.where).splitlines()[0].endswith(":1:1")
+
+
+def test_the_line_that_is_meant_for_a_header_is_the_one_that_is_told(read: Read) -> None:
+    error = refusal(lambda: read(f"A title\nx;y;angle_deg;speed\n{ROWS.replace(',', ';')}"))
+    assert (error.code, str(error.where).splitlines()[0][-5:]) == ("E107", ":2:15")
+
+
+@pytest.mark.parametrize(
+    ("header", "units", "meant"),
+    [
+        ("x,y,angle", "mm,mm,°", "x_mm,y_mm,angle_deg"),
+        ("x,y,Winkel", "[mm],[mm],[Grad]", "x_mm,y_mm,angle_deg"),
+        ("x,y,angle", "m,m,rad", "x_m,y_m,angle_rad"),
+        ("x_mm,y_mm,angle", ",,deg", "x_mm,y_mm,angle_deg"),
+        ("x_mm,y_mm,angle", "mm,mm,deg", "x_mm,y_mm,angle_deg"),
+    ],
+)
+def test_units_below_the_header_are_read(read: Read, header: str, units: str, meant: str) -> None:
+    task = read(f"{header}\n{units}\n{ROWS}")
+    require_same(task, read(f"{meant}\n{ROWS}"))
+    assert [note.message for note in task.notes] == ["line 2 is read as the units of the columns"]
+
+
+@pytest.mark.parametrize(
+    ("header", "units", "code", "place"),
+    [
+        ("x_mm,y_mm,angle", "cm,cm,deg", "E108", ":2:1"),
+        ("x,y,angle", "mm,cm,deg", "E108", ":2:4"),
+        ("x,y,angle_deg", "mm,,", "E108", ":2:4"),
+        ("x,y,angle_rad", ",,deg", "E108", ":2:3"),
+        ("x,y,angle", "mm,mm,grad", "E104", ":2:1"),
+        ("x,y,angle", "mm,mm,5", "E104", ":2:1"),
+    ],
+)
+def test_units_that_contradict_or_are_none_are_refused(
+    read: Read, header: str, units: str, code: str, place: str
+) -> None:
+    error = refusal(lambda: read(f"{header}\n{units}\n{ROWS}"))
+    assert (error.code, str(error.where).splitlines()[0][-4:]) == (code, place)
+
+
+@pytest.mark.parametrize("top", ["a,b,c", "px,py,qx", "x,y,angle_rad", "Title\n\nhor,ver,turn"])
+def test_columns_replaces_what_stands_above_the_rows(read: Read, top: str) -> None:
+    task = read(f"{top}\n{ROWS}", columns="y,x,angle_deg")
+    require_same(task, read(ROWS, columns="y,x,angle_deg"))
+    (note,) = task.notes
+    assert "above the first row" in note.message
+
+
+@pytest.mark.parametrize("row", ["1,two,3", "1,2", "#N/A,2,3", "nan,2,3"])
+def test_columns_never_takes_a_row_with_a_fault_for_a_header(read: Read, row: str) -> None:
+    error = refusal(lambda: read(f"{row}\n{ROWS}", columns="x,y,angle_deg"))
+    assert error.code in ("E103", "E104", "E106")
+    assert str(error.where).splitlines()[0].partition(".csv:")[2].startswith("1:")
+
+
+@pytest.mark.parametrize("word", ["Grö\xdfe", "\xb5m", "d\xe9but", "fin \xab1\xbb", "a\xa0b"])
+def test_ansi_text_is_read_and_said(read: Read, word: str) -> None:
+    text = f"name;x;y;Winkel [°]\n{word};0,5;1,25;30\nb;-2;3;45\nc;4;5;60\n"
+    task = read(text.encode("cp1252"))
+    require_same(task, read(text))
+    (note,) = task.notes
+    assert "Windows-1252" in note.message
+
+
+@pytest.mark.parametrize("byte", [b"\x81", b"\x8f", b"\x07", b"\x1b", b"\xa4", b"\xae"])
+def test_bytes_that_are_no_letters_are_refused(read: Read, byte: bytes) -> None:
+    text = f"name,x,y,angle_deg\n\xe4?,{ROWS}".encode("cp1252").replace(b"?", byte)
+    assert refusal(lambda: read(text)).code == "E101"
 
 
 # Poses left out ------------------------------------------------------------------------------

@@ -46,10 +46,11 @@ def read(data, suffix):
             return _parquet(data)
         except (pyarrow.ArrowException, OSError, ValueError, LookupError):
             return None
-    for encoding, mark in (("utf-8-sig", b""), ("utf-16", b"\xff\xfe"), ("utf-16", b"\xfe\xff")):
+    marks = {"utf-8-sig": b"", "utf-16-le": b"\xff\xfe", "utf-16-be": b"\xfe\xff", "cp1252": b""}
+    for encoding, mark in marks.items():
         if data.startswith(mark):
             try:
-                text = data.decode(encoding)
+                text = data.decode(encoding).removeprefix("\ufeff")
             except UnicodeDecodeError:
                 continue
             break

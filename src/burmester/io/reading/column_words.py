@@ -13,7 +13,16 @@ from typing import NamedTuple
 
 from burmester.io.reading.pose_table import POINTS
 
-__all__ = ["IGNORED", "LENGTHS", "MAX_NAME_CHARACTERS", "UNITS", "WORDS", "Word", "known"]
+__all__ = [
+    "IGNORED",
+    "LENGTHS",
+    "MAX_NAME_CHARACTERS",
+    "UNITS",
+    "WORDS",
+    "Word",
+    "known",
+    "unit_of",
+]
 
 IGNORED = ""  # the role of a column that is left alone
 MAX_NAME_CHARACTERS = 60  # characters of a name; a longer one is not compared with known ones
@@ -98,13 +107,19 @@ def known(name: str) -> Word | None:
     if role := words.get(plain):
         return Word(role, None, plain, tuple(_units(role)))
     found = _WITH_UNIT.fullmatch(plain)
-    if not found or not (role := words.get(found["word"])) or not (units := _units(role)):
+    if not found or not (role := words.get(found["word"])) or not _units(role):
         return None
     text = next(filter(None, found.groups()[1:]))
-    unit = next((unit for unit, words in units.items() if text in words), "?")
+    unit = unit_of(text, role) or "?"
     if role == "angle" and text in _GRAD and found["word"].endswith(_GERMAN):
         unit = "deg"
-    return Word(role, unit, found["word"], tuple(units))
+    return Word(role, unit, found["word"], tuple(_units(role)))
+
+
+def unit_of(text: str, role: str) -> str | None:
+    """The unit that a text says of a column of this role, or None."""
+    plain = _plain(text)
+    return next((unit for unit, words in _units(role).items() if plain in words), None)
 
 
 @functools.cache

@@ -1,18 +1,21 @@
 """The header of a CSV file: its separator, its columns, and where the rows begin.
 
 The separator is the one that a first line `sep=;` states, or the first of comma, tab, semicolon,
-bar and blank with which the first line is a header.
+bar and blank with which the line is a header.  Titles above the header are passed over, and a line
+of units below it is read; both are said.
 """
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from burmester.errors import InputError
+from burmester.errors import Advice, InputError
 from burmester.io.reading import pose_table
-from burmester.io.reading.columns import HEADER, Columns, is_header, read_columns
+from burmester.io.reading.column_words import known
+from burmester.io.reading.columns import HEADER, Columns, has_poses, is_header, read_columns
 from burmester.io.reading.csv_cells import (
     ROW_LINE,
     SPREADSHEET_ERRORS,
@@ -21,13 +24,17 @@ from burmester.io.reading.csv_cells import (
     split_cells,
     unquoted,
 )
-from burmester.io.reading.pose_table import Source, brief, numeric_roles
+from burmester.io.reading.pose_table import NUMERIC, POINTS, Source, brief, numeric_roles, shown
 
 __all__ = ["Header", "read_header"]
 
 MAX_NAMES = 20  # names of columns that a help text writes out
+MAX_TITLE_LINES = 30  # lines with text above the header, at most
+_MEASURED = NUMERIC[:3]  # roles whose columns have units, beside the coordinates of points
 # A line that may be the header; also `#,x,y`.
 _HEADER_LINE = re.compile(rf"(?m)^[^\S\n]*(?:[^\s#]|#[^\S\n]*[,;\t|]|{SPREADSHEET_ERRORS}).*$")
+# The begin of a cell of a row, where a number belongs: its first digit, or an error value.
+_ROW_CELL = re.compile(rf"[-+\u2212\u2013.,]*[0-9]|(?i:nan|[-+]?inf)|{SPREADSHEET_ERRORS}")
 _SEPARATOR_LINE = re.compile(r'"?sep=([,;\t| ])"?[,;\t| ]*(?:\n|\Z)', re.IGNORECASE)
 
 
@@ -41,6 +48,7 @@ class Header(NamedTuple):
     spare: int  # the number of those
     columns: Columns
     where: str  # the angle column, if there is one
+    notes: tuple[Advice, ...] = ()  # what was passed over
 
 
 def read_header(source: Source, given: str | None) -> Header:
@@ -48,27 +56,33 @@ def read_header(source: Source, given: str | None) -> Header:
     stated = _SEPARATOR_LINE.match(source.text)
     part = stated[1] if stated else None
     start = stated.end() if stated else 0
-    first = next(_filled_lines(source.text, start, part, header=given is None), None)
+    lines = _filled_lines(source.text, start, part, header=given is None)
+    first = next(lines, None)
     if not first:
         raise pose_table.no_poses("the file has only comments")
+    following = itertools.islice(lines, MAX_TITLE_LINES)
     if given is not None:
-        return _header_of_option(source, given, first, part)
-    separator = part or _separator_of_header(first[0])
-    cells = split_cells(first[0], separator)
+        return _header_of_option(source, given, [first, *following], part)
+    line = _header_below_titles(first, following, part)
+    separator = part or _separator_of_header(line[0])
+    cells = split_cells(line[0], separator)
     names = [unquoted(cell) for cell in cells]
     while names and not names[-1]:
         names.pop()
 
     def where(i: int | None, note: str = "") -> str:
         if i is None:
-            return source.where(first.start(), len(first[0].rstrip()))
-        return cell_location(source, first.start(), cells, i, note)
+            return source.where(line.start(), len(line[0].rstrip()))
+        return cell_location(source, line.start(), cells, i, note)
 
-    _require_header(source, first, where(None))
+    _require_header(source, line, where(None))
     columns = read_columns(names, where)
     angle = where(columns.indices["angle"], "angle") if "angle" in columns.indices else where(None)
-    spare = len(cells) - len(names)
-    return Header(source, first.end() + 1, separator, names, spare, columns, angle)
+    notes = () if line is first else (_passed_over(source, first, line, "above the header"),)
+    header = Header(
+        source, line.end() + 1, separator, names, len(cells) - len(names), columns, angle, notes
+    )
+    return _with_units(header)
 
 
 def _filled_lines(
@@ -82,10 +96,82 @@ def _filled_lines(
             yield line
 
 
+def _header_below_titles(
+    first: re.Match[str], following: Iterator[re.Match[str]], part: str | None
+) -> re.Match[str]:
+    """The line that is the header: the first one, or one below a title without rows of numbers."""
+    likely = None
+    for line in itertools.chain((first,), following):
+        names = row_values(split_cells(line[0], part or _separator_of_header(line[0])))
+        if is_header(names):
+            return line
+        if likely is None and has_poses(names):
+            likely = line
+        if _separator_of_numbers(line[0]):
+            break
+    return likely or first
+
+
+def _passed_over(source: Source, first: re.Match[str], end: re.Match[str], which: str) -> Advice:
+    """W213, for the lines from the first one to the one before `end`."""
+    text = source.text
+    count = text.count("\n", first.start(), end.start())
+    number = text.count("\n", 0, first.start()) + 1
+    title = brief(f": `{first[0].strip()[:60]}`", "")
+    lines = f"line {number}" if count == 1 else f"lines {number} to {number + count - 1}"
+    verb = "is" if count == 1 else "are"
+    return Advice(
+        "W213",
+        f"{lines} {which} {verb} passed over{title}",
+        "begin such lines with # to have nothing said",
+    )
+
+
+def _with_units(header: Header) -> Header:
+    """The header with the units of the line below it, if that is a line of units."""
+    source, names = header.source, list(header.names)
+    line = ROW_LINE.search(source.text, header.end)
+    cells = split_cells(line[0], header.separator) if line else []
+    if not line or len(cells) != len(names) + header.spare:
+        return header
+
+    def where(i: int | None) -> str:
+        return cell_location(source, line.start(), cells, i or 0)
+
+    units = [unquoted(cell).strip("()[]<> ") for cell in cells]
+    measured = {i for role, i in header.columns.indices.items() if role in (*_MEASURED, *POINTS)}
+    if not any(units[i] for i in measured) or re.search("[0-9]", "".join(units)):
+        return header
+    for i in measured:
+        word = known(names[i])
+        stated = known(f"{word.word} [{units[i]}]") if word and units[i] else word
+        if not word or not stated or stated.unit == "?":
+            return header
+        if word.unit is None:
+            names[i] = f"{word.word} [{units[i]}]" if units[i] else names[i]
+        elif stated.unit != word.unit:
+            message = f"the header has {shown(names[i])}, and the line below it {shown(units[i])}"
+            raise InputError("E108", message, where=where(i), help="delete one of the two units")
+    columns = read_columns(names, where)
+    angle = columns.indices.get("angle")
+    number = source.text.count("\n", 0, line.start()) + 1
+    note = Advice(
+        "W213",
+        f"line {number} is read as the units of the columns",
+        "write the units into the header, as in x_mm, and delete the line",
+    )
+    return header._replace(
+        end=line.end() + 1,
+        columns=columns,
+        where=header.where if angle is None else where(angle),
+        notes=(*header.notes, note),
+    )
+
+
 def _header_of_option(
-    source: Source, given: str, first: re.Match[str], separator: str | None
+    source: Source, given: str, lines: list[re.Match[str]], part: str | None
 ) -> Header:
-    """The columns that --columns names; the first line of the file is a row."""
+    """The columns that --columns names; a header and titles of the file are passed over."""
     option, cells = Source("--columns", given), given.split(",")
 
     def where(i: int | None, note: str = "") -> str:
@@ -95,15 +181,37 @@ def _header_of_option(
 
     names = [cell.strip() for cell in cells]
     columns = read_columns(names, where, "name it #{}")
-    if _is_header(first[0]):
-        where_line = source.where(first.start(), len(first[0]))
-        message = "the file has a header, and --columns gives another"
-        help = "leave --columns out, or delete this line"
-        raise InputError("E108", message, where=where_line, help=help)
     numeric = [columns.indices[role] for role in numeric_roles(columns.indices)]
-    separator = separator or _separator_of_row(first[0], len(names), numeric)
+    first = _first_row(lines, numeric, len(names), part)
+    separator = part or _separator_of_row(first[0], len(names), numeric)
+    skipped = lines[0] is not first
+    notes = (_passed_over(source, lines[0], first, "above the first row"),) if skipped else ()
     angle = where(columns.indices["angle"], "angle") if "angle" in columns.indices else where(None)
-    return Header(source, first.start(), separator, names, 0, columns, angle)
+    return Header(source, first.start(), separator, names, 0, columns, angle, notes)
+
+
+def _first_row(
+    lines: list[re.Match[str]], numeric: list[int], width: int, part: str | None
+) -> re.Match[str]:
+    """The first line with numbers where they belong, if no line above it has any."""
+    for line in lines:
+        separator = part or _separator_of_row(line[0], width, numeric)
+        cells = row_values(split_cells(line[0], separator))
+        found = [bool(_ROW_CELL.match(cells[i])) for i in numeric if i < len(cells)]
+        if len(cells) == width and all(found):
+            return line
+        if any(found) and not _is_header(line[0]):
+            break
+    return lines[0]
+
+
+def _separator_of_numbers(line: str) -> str | None:
+    """The separator of a line that is numbers alone, and so no title and no header."""
+    for separator in "\t;|, ":  # commas may be decimal marks
+        cells = [unquoted(cell) for cell in split_cells(line, separator)]
+        if separator in line.strip() and all(map(pose_table.NUMBER_LIKE.fullmatch, cells)):
+            return separator
+    return None
 
 
 def _separator_of_row(line: str, width: int, numeric: list[int]) -> str:
@@ -118,9 +226,10 @@ def _separator_of_row(line: str, width: int, numeric: list[int]) -> str:
 
 def _separator_of_header(line: str) -> str:
     """The separator of a header."""
-    for separator in ",\t;| ":
-        if is_header(row_values(split_cells(line, separator))):
-            return separator
+    for is_one in (is_header, has_poses):
+        for separator in ",\t;| ":
+            if is_one(row_values(split_cells(line, separator))):
+                return separator
     blank = " " if re.search(r"\S[ \t]+\S", line) else ","
     return next((s for s in ",\t;|" if s in line), blank)
 
@@ -131,12 +240,10 @@ def _is_header(line: str) -> bool:
 
 def _require_header(source: Source, first: re.Match[str], where: str) -> None:
     """Refuse a line of numbers on top: E105 with the header that would fit above it."""
-    for separator in "\t;|, ":  # commas may be decimal marks
-        cells = [unquoted(cell) for cell in split_cells(first[0], separator)]
-        if (separator in first[0].strip()) and all(map(pose_table.NUMBER_LIKE.fullmatch, cells)):
-            break
-    else:
+    separator = _separator_of_numbers(first[0])
+    if separator is None:
         return
+    cells = split_cells(first[0], separator)
     names = [*HEADER.split(","), *(f"#{i}" for i in range(4, len(cells) + 1))]
     points = " or `px,py,qx,qy` for two points" if len(cells) == 4 else ""
     help = (

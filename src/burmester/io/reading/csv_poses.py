@@ -29,6 +29,7 @@ from burmester.io.reading.csv_cells import (
 )
 from burmester.io.reading.csv_header import Header, read_header
 from burmester.io.reading.pose_table import PoseTable, Rows, Source, brief, numeric_roles
+from burmester.io.reading.written_numbers import CellNumbers, written_number
 from burmester.io.reading.wrong_numbers import not_a_number
 
 __all__ = ["BLOCK", "read_csv"]
@@ -46,14 +47,14 @@ def read_csv(source: Source, columns: str | None = None) -> PoseTable:
     """
     text, header = source.text, read_header(source, columns)
     marks: dict[str, str] = {}  # mark of `plain_number` -> location of its first occurrence
-    blocks: list[Rows] = []
+    written, blocks = CellNumbers(), list[Rows]()
     start, row = header.end, 1
     while start < len(text):
         end = text.find("\n", start + BLOCK)
         end = end if end >= 0 else len(text)
         rows = _plain_rows(text[start:end], header, marks)
         if rows is None:
-            rows = _checked_rows(ROW_LINE.finditer(text, start, end), header, marks, row)
+            rows = _checked_rows(ROW_LINE.finditer(text, start, end), header, marks, written, row)
         if rows is not None:
             blocks.append(rows)
             row += len(rows.values)
@@ -61,16 +62,17 @@ def read_csv(source: Source, columns: str | None = None) -> PoseTable:
     if not blocks:
         raise pose_table.no_poses("the file has only a header")
     _require_one_mark(marks)
-    where = "in the header" if columns is None else "in --columns"
     rows = Rows.joined(blocks)
+    units = written.units(header.columns.units, len(rows.values))
+    where = "in the header" if columns is None else "in --columns"
     return PoseTable(
         rows._replace(names=header.columns.row_names(rows.names)),
-        length_unit=header.columns.length_unit,
-        angle_unit=header.columns.units.get("angle"),
+        length_unit=header.columns._replace(units=units).length_unit,
+        angle_unit=units.get("angle"),
         where=header.where,
         say_unit=f"name the column `angle_deg` or `angle_rad` {where}",
         locate_row=functools.partial(_row_location, header),
-        notes=header.columns.notes(),
+        notes=(*source.notes, *header.notes, *header.columns.notes(), *written.notes()),
     )
 
 
@@ -110,7 +112,11 @@ def _plain_rows(block: str, header: Header, marks: dict[str, str]) -> Rows | Non
 
 
 def _checked_rows(
-    lines: Iterable[re.Match[str]], header: Header, marks: dict[str, str], row: int
+    lines: Iterable[re.Match[str]],
+    header: Header,
+    marks: dict[str, str],
+    written: CellNumbers,
+    row: int,
 ) -> Rows | None:
     """The rows in any lines, cell by cell; the first of them is number `row` of the file."""
     indices, units = header.columns.indices, header.columns.units
@@ -126,19 +132,24 @@ def _checked_rows(
                 where = cell_location(header.source, line.start(), cells, index, role)
                 raise _not_a_mark(cell, row + count, where)
             if role in numeric:
+                locate = functools.partial(
+                    cell_location, header.source, line.start(), cells, index, role
+                )
                 plain, mark = pose_table.plain_number(cell, header.separator)
+                if mark is None and (number := written_number(cell, role, header.separator)):
+                    written.add(number, cell, role, row + count, locate)
+                    plain, mark = number.plain, number.mark
                 if mark not in marks:
-                    where = cell_location(header.source, line.start(), cells, index, role)
                     if mark is None:
                         raise not_a_number(
                             cell,
                             plain,
                             row=row + count,
                             unit=units[role],
-                            where=where,
+                            where=locate(),
                             separator=header.separator,
                         )
-                    marks[mark] = where
+                    marks[mark] = locate()
                 cell = plain
             columns[role].append(cell)
         count += 1

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
 
-from burmester.errors import InputError
+from burmester.errors import Advice, InputError
 from burmester.io import cases
 from burmester.io.reading.columns import HEADER
-from burmester.io.reading.pose_table import no_poses
+from burmester.io.reading.pose_table import no_poses, shown
 
 __all__ = ["decode_text", "read_source"]
 
+_WINDOWS_SIGNS = "°º²³µ§±×·–—‘’“”„…«»€\u00a0"  # beside letters, in tables of Western Europe
 _SHEET = (
     "save the sheet as CSV, or copy its cells and paste them: "
     f"`burmester synthesize - --columns {HEADER}`"
@@ -39,25 +41,55 @@ def read_source(source: str) -> bytes:
         raise InputError("E101", "the poses cannot be read", why=why, help=help) from None
 
 
-def decode_text(data: bytes) -> str:
-    """Text with line feeds between its lines, from UTF-8, or UTF-16 with a byte order mark."""
+def decode_text(data: bytes) -> tuple[str, tuple[Advice, ...]]:
+    """Text with line feeds between its lines, and a note where its encoding was assumed.
+
+    Read is UTF-8, UTF-16 with a byte order mark, and what spreadsheets call ANSI: Windows-1252,
+    where all that is no ASCII is letters and a few signs of Western Europe.  Raises E101 and E102.
+    """
     for start, (what, help) in _BINARY_FORMATS.items():
         if data.startswith(start):
             message = "the poses are not text"
             raise InputError("E101", message, why=f"the file is {what}", help=help)
     wide = data[:2] in (b"\xff\xfe", b"\xfe\xff")
+    notes: tuple[Advice, ...] = ()
     try:
         text = data.decode("utf-16" if wide else "utf-8-sig")
         why = "there are null characters in it" if "\0" in text else ""
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
         why = f"byte {error.start + 1}, in line {line}, is not UTF-{16 if wide else 8}"
+        if not wide and (ansi := _windows_text(data)) is not None:
+            text, why, notes = ansi, "", (_windows_note(ansi, why),)
     if why:
         raise InputError("E101", "the poses are not text", why=why, help="save the file as UTF-8")
     if not text.strip():
         raise no_poses("the file is empty")
     # splitlines() would also break a name at U+2028 and shift the line numbers
-    return text.replace("\r\n", "\n").replace("\r", "\n").rstrip("\n")
+    return text.replace("\r\n", "\n").replace("\r", "\n").rstrip("\n"), notes
+
+
+def _windows_text(data: bytes) -> str | None:
+    """The text in Windows-1252; None where another encoding or no text at all is as likely."""
+    try:
+        text = data.decode("cp1252")
+    except UnicodeDecodeError:
+        return None
+    foreign = {c for c in set(text) if not c.isascii()}
+    controls = {c for c in set(text) if c.isascii() and not c.isprintable()} - set("\t\r\n\f")
+    letters = all(c.isalpha() or c in _WINDOWS_SIGNS for c in foreign)
+    return text if letters and not controls else None
+
+
+def _windows_note(text: str, why: str) -> Advice:
+    """W213, for a text that was taken for Windows-1252."""
+    word = next(part for part in re.split("[ \t\r\n,;]", text) if not part.isascii())
+    return Advice(
+        "W213",
+        f"the file is read as Windows-1252 (ANSI), as in {shown(word)}",
+        "save the file as UTF-8, and look at its names where that reads wrong",
+        f"{why}; numbers are the same in both",
+    )
 
 
 def _help_for(source: str, error: Exception) -> str:

@@ -108,6 +108,7 @@ class Source(NamedTuple):
 
     label: str
     text: str
+    notes: tuple[Advice, ...] = ()  # what was assumed to get the text
 
     def where(self, position: int, width: int = 1, note: str = "") -> str:
         """`file:line:column` of a position in the text, that line, and carets below it."""

@@ -91,6 +91,7 @@ def read_tree(tree: Any, document: Document, example: str) -> PoseTable:
         body=body,
         pose_sigma=given and (given.position, math.radians(given.angle_deg)),
         locate_row=locate_row,
+        notes=document.source.notes,
     )
 
 

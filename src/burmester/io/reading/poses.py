@@ -143,7 +143,7 @@ def _table(label: str, data: bytes, columns: str | None) -> PoseTable:
     if is_parquet(data) or (suffix == ".parquet" and data):
         read: Callable[[], PoseTable] = functools.partial(read_parquet, label, data)
     else:
-        source = Source(label, decode_text(data))
+        source = Source(label, *decode_text(data))
         del data  # a million poses are many bytes
         by_content: Callable[..., PoseTable]
         by_content = read_json if source.text.lstrip().startswith(("{", "[")) else read_csv
