@@ -42,6 +42,15 @@ def test_a_sample_of_the_campaign(language, path):
     assert verdicts.count("unsure") < 8
 
 
+def test_no_row_of_a_wrong_width_is_taken(path):
+    verdicts = {
+        (file.maker, judged(file, path))
+        for file in (fuzzed_files.any_file("shapes", seed) for seed in range(800))
+    }
+    assert {verdict for _, verdict in verdicts} <= {"E104", "E106", "E107"}
+    assert len({maker for maker, _ in verdicts}) == 11
+
+
 @given(SEEDS)
 def test_what_is_written_as_csv_is_read_back(path, rng):
     judged(fuzzed_files.csv_file(rng), path)

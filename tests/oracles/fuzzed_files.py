@@ -310,7 +310,7 @@ def csv_fault(rng):
             made = made._replace(separator=rng.choice(",;\t| ")) if fault == "separator" else made
             made = made._replace(mark="." if "thousands" in faults else rng.choice(",."))
             continue
-        key = None
+        key = key if fault == "preamble" else None
         if group is _CELL_FAULTS and row:
             j = rng.randrange(len(row))
             row[j] = _CELL_FAULTS[fault](rng, row[j])
@@ -324,6 +324,55 @@ def csv_fault(rng):
         else:
             made = _whole_fault(rng, fault, made)
     return File(write(rng, made), rng.choice(SUFFIXES["csv"]), options, key, "+".join(faults))
+
+
+def _split(rng, row, more=()):
+    """A row in which a decimal mark ends a cell."""
+    j = rng.choice([j for j, cell in enumerate(row) if re.fullmatch(r"[-+]?[0-9]+[.][0-9]+", cell)])
+    return [*row[:j], *row[j].split("."), *row[j + 1 :], *more]
+
+
+def _insert(rng, row):
+    j = rng.randrange(len(row) + 1)
+    return [*row[:j], "", *row[j:]]
+
+
+def _lose(rng, row, count=1):
+    kept = sorted(rng.sample(range(len(row)), len(row) - count))
+    return [row[j] for j in kept]
+
+
+_SHAPE_FAULTS = {  # what becomes of a row, so that its numbers may move to other columns
+    "decimal comma": lambda rng, row: [_split(rng, row)],
+    "decimal comma and a blank": lambda rng, row: [_split(rng, row, [""])],
+    "blank behind": lambda rng, row: [[*row, ""]],
+    "blanks behind": lambda rng, row: [[*row, "", ""]],
+    "blank in front": lambda rng, row: [["", *row]],
+    "blank": lambda rng, row: [_insert(rng, row)],
+    "number behind": lambda rng, row: [[*row, number(rng)]],
+    "lost": lambda rng, row: [_lose(rng, row)],
+    "two lost": lambda rng, row: [_lose(rng, row, 2)],
+    "cut in two": lambda rng, row: [row[: len(row) // 2], row[len(row) // 2 :]],
+    "twice": lambda rng, row: [row + row],
+}
+
+
+def shape_fault(rng):
+    """A CSV file with a row that is wider or narrower than the header; the key is what was meant.
+
+    A row that has lost a cell and won another one has the right width; it is not made here, as
+    nothing in its shape gives it away.
+    """
+    made, key, options = sheet(rng)
+    k = rng.randrange(len(made.rows))
+    while True:
+        fault = rng.choice([*_SHAPE_FAULTS])
+        try:
+            rows = _SHAPE_FAULTS[fault](rng, made.rows[k])
+        except IndexError:  # no number with a decimal mark
+            continue
+        made.rows[k : k + 1] = rows
+        return File(write(rng, made), rng.choice(SUFFIXES["csv"]), options, key, f"shape {fault}")
 
 
 def _whole_fault(rng, fault, made):
@@ -697,8 +746,13 @@ def sound_file(language, rng):
 
 
 def any_file(language, seed):
-    """The file of a seed: four in ten sound, three faulty, three mangled."""
+    """The file of a seed: four in ten sound, three faulty, three mangled.
+
+    The language "shapes" is CSV with a row of a wrong width.
+    """
     rng = random.Random(f"{language} {seed}")
+    if language == "shapes":
+        return shape_fault(rng)
     sound, faulty = _SOUND[language], _FAULTY[language]
     kind = rng.random()
     if kind < 0.4:
