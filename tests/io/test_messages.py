@@ -846,6 +846,13 @@ CASES: dict[str, Case] = {
         exit=0,
     ),
     # --- notes of reading
+    "columns passed over": Case(
+        "W213",
+        S,
+        Edit("poses.csv", "angle_deg,Bemerkung", 'angle_deg,"#Bemerkung"'),
+        {"poses.csv": TEN.replace("\n", ",\n").replace("_deg,", "_deg,Bemerkung")},
+        exit=0,
+    ),
     "an ANSI text": Case(
         "W213",
         S,
@@ -879,13 +886,6 @@ CASES: dict[str, Case] = {
         f"{S} --drop 11",
         Edit("poses.csv", "1'234", "1234"),
         {"poses.csv": f"{TEN}1'234,0,0\n"},
-        exit=0,
-    ),
-    "columns passed over": Case(
-        "W213",
-        S,
-        Edit("poses.csv", "angle_deg,Bemerkung", 'angle_deg,"#Bemerkung"'),
-        {"poses.csv": TEN.replace("\n", ",\n").replace("_deg,", "_deg,Bemerkung")},
         exit=0,
     ),
 }

@@ -367,7 +367,7 @@ BAD: list[tuple[str, str | bytes, str, str, str]] = [
     (".csv", 'x,y,angle_deg,name\n1,2,3,"a\nb"\n', "E106", "poses.csv:3:3", "row 2 has 1 cell"),
     (".csv", "x,y,angle_deg,speed\n1,2,3,4\n", "E107", "poses.csv:1:15", "'speed'"),
     (".csv", "x,y,angle_deg,\n1,2,3,4\n", "E107", "poses.csv:2:7", "'4' below no name"),
-    (".csv", ",x,y,angle_deg\n1,2,3,4\n", "E107", "poses.csv:1:1", "has no name"),
+    (".csv", ",x,y,angle_deg\n1,2,3,4\n", "E107", "poses.csv:2:1", "'1' below no name"),
     (".csv", "x,y,x_mm,angle_deg\n1,2,3,4\n", "E108", "poses.csv:1:5", "two columns for x"),
     (".csv", "x,y,angle_rad,angle_deg\n1,2,3,4\n", "E108", "poses.csv:1:15", "angle_rad and"),
     (".csv", "x_mm,y_cm,angle_deg\n" + OK, "E108", "poses.csv:1:6", "x is in mm, y in cm"),

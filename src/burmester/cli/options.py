@@ -91,7 +91,13 @@ POSES: tuple[Decorator, ...] = (
     _poses(
         "--columns",
         metavar="NAME,...",
-        help="The header that a CSV file lacks, such as x,y,angle_deg.",
+        help="The header that a CSV file or a sheet lacks, such as x,y,angle_deg; it replaces one "
+        "that is there.",
+    ),
+    _poses(
+        "--sheet",
+        metavar="NAME|NUMBER",
+        help="The sheet of an .xlsx workbook; by default the first one.",
     ),
     _poses(
         "--drop",
@@ -262,7 +268,7 @@ def read_poses(poses: str, **given: Any) -> Task:
         poses,
         angle_unit=given["angle_unit"],
         pose_sigma=None if sigma is None else text.pose_sigma(sigma),
-        **{name: given[name] for name in ("columns", "drop") if given[name]},
+        **{name: given[name] for name in ("columns", "sheet", "drop") if given[name]},
         **further,
     )
 

@@ -328,7 +328,7 @@ def faults() -> None:
     bad("gradians.csv", "x,y,angle_grad\n1,2,3\n", "E105", ":1:1")
     bad("furlongs.csv", "x_furlong,y_furlong,angle_deg\n1,2,3\n", "E105", ":1:1")
     bad("unknown-column.csv", "x,y,angle_deg,speed\n1,2,3,4\n", "E107", ":1:15")
-    bad("unnamed-first-column.csv", ",x,y,angle_deg\n0,1,2,3\n", "E107", ":1:1")
+    bad("unnamed-first-column.csv", ",x,y,angle_deg\n0,1,2,3\n", "E107", ":2:1")
     bad("unnamed-column-holds.csv", "x,y,angle_deg,,\n1,2,3,,\n4,5,6,,7\n", "E107", ":3:8")
     bad("two-x.csv", "x,y,x_mm,angle_deg\n1,2,3,4\n", "E108", ":1:5")
     bad("two-names.csv", "name,x,y,angle_deg,label\na,1,2,3,b\n", "E108", ":1:20")

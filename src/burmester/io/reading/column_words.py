@@ -99,7 +99,7 @@ def known(name: str) -> Word | None:
 
     None is for a name that is not known.
     """
-    if name.strip().startswith("#") and name.strip() != "#":
+    if not name.strip() or (name.strip().startswith("#") and name.strip() != "#"):
         return Word(IGNORED, None, "#", ())
     if len(name) > MAX_NAME_CHARACTERS:
         return None

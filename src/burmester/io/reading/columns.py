@@ -205,8 +205,6 @@ def _unknown(
     name = names[i].strip().replace('"', "")
     message = f"the column {shown(name.lower())} is not known"
     why = _units(name) or _KNOWN
-    if not name:
-        message = "a column has no name"
     edit = brief(ignore.format(name), "begin its name with # (and put it in quotes)")
     help = f"delete the column, or {edit} to have it ignored"
     if near := _nearest(name):

@@ -50,6 +50,11 @@ class Header(NamedTuple):
     where: str  # the angle column, if there is one
     notes: tuple[Advice, ...] = ()  # what was passed over
 
+    @property
+    def unnamed(self) -> bool:
+        """Whether columns have no name; their cells have to be empty."""
+        return self.spare > 0 or "" in self.names
+
 
 def read_header(source: Source, given: str | None) -> Header:
     """The header of a text; given: the names of --columns, if the text has no header."""
@@ -76,7 +81,9 @@ def read_header(source: Source, given: str | None) -> Header:
         return cell_location(source, line.start(), cells, i, note)
 
     _require_header(source, line, where(None))
-    columns = read_columns(names, where)
+    columns = read_columns(
+        names, where, 'name it "#{}"' + " (with the quotes)" * (not source.sheet)
+    )
     angle = where(columns.indices["angle"], "angle") if "angle" in columns.indices else where(None)
     notes = () if line is first else (_passed_over(source, first, line, "above the header"),)
     header = Header(
@@ -116,9 +123,9 @@ def _passed_over(source: Source, first: re.Match[str], end: re.Match[str], which
     """W213, for the lines from the first one to the one before `end`."""
     text = source.text
     count = text.count("\n", first.start(), end.start())
-    number = text.count("\n", 0, first.start()) + 1
+    number, word = source.line_number(first.start()), source.line_word
     title = brief(f": `{first[0].strip()[:60]}`", "")
-    lines = f"line {number}" if count == 1 else f"lines {number} to {number + count - 1}"
+    lines = f"{word} {number}" if count == 1 else f"{word}s {number} to {number + count - 1}"
     verb = "is" if count == 1 else "are"
     return Advice(
         "W213",
@@ -154,10 +161,10 @@ def _with_units(header: Header) -> Header:
             raise InputError("E108", message, where=where(i), help="delete one of the two units")
     columns = read_columns(names, where)
     angle = columns.indices.get("angle")
-    number = source.text.count("\n", 0, line.start()) + 1
     note = Advice(
         "W213",
-        f"line {number} is read as the units of the columns",
+        f"{source.line_word} {source.line_number(line.start())} is read as the units of the "
+        "columns",
         "write the units into the header, as in x_mm, and delete the line",
     )
     return header._replace(

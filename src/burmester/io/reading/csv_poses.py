@@ -86,7 +86,8 @@ def _plain_rows(block: str, header: Header, marks: dict[str, str]) -> Rows | Non
     looks = {"name": text, "exact": _MARK}
     like = {index: looks.get(role, number) for role, index in indices.items()}
     part, width = re.escape(separator), len(header.names) + header.spare
-    cell = [like.get(i, text) for i in range(len(header.names))] + [""] * header.spare
+    cell = [like.get(i, text if name else "") for i, name in enumerate(header.names)]
+    cell += [""] * header.spare
     row = (
         cell[0]
         + "".join(  # a file may have thousands of columns that are ignored
@@ -102,7 +103,7 @@ def _plain_rows(block: str, header: Header, marks: dict[str, str]) -> Rows | Non
             columns[role] = [name.strip() for name in column]
         elif mark == ",":
             columns[role] = [cell.replace(",", ".") for cell in column]
-        elif any("." in cell for cell in column):
+        elif header.source.sheet is None and any("." in cell for cell in column):
             marks["."] = ""
     try:  # of these characters alone, float() takes exactly what plain_number() does
         rows = Rows.read(columns)
@@ -124,7 +125,7 @@ def _checked_rows(
     numeric = numeric_roles(indices)
     count = 0
     for line, cells in _rows(lines, header.separator):
-        if len(cells) != len(header.names) or header.spare:
+        if len(cells) != len(header.names) or header.unnamed:
             _require_width(line, cells, header, row + count)
         for role, index in indices.items():
             cell = unquoted(cells[index])
@@ -136,6 +137,8 @@ def _checked_rows(
                     cell_location, header.source, line.start(), cells, index, role
                 )
                 plain, mark = pose_table.plain_number(cell, header.separator)
+                if mark and header.source.sheet and '"' not in cells[index]:
+                    mark = ""  # the point is not in the sheet: it holds a number, and no text
                 if mark is None and (number := written_number(cell, role, header.separator)):
                     written.add(number, cell, role, row + count, locate)
                     plain, mark = number.plain, number.mark
@@ -208,7 +211,9 @@ def _require_width(line: re.Match[str], cells: list[str], header: Header, row: i
         extra = width if first is None else first
         where = cell_location(header.source, line.start(), cells, extra)
     if given == width:
-        if first is not None:
+        nameless = (i for i, name in enumerate(header.names) if not name and unquoted(cells[i]))
+        if (first := next(nameless, first)) is not None:
+            where = cell_location(header.source, line.start(), cells, first)
             message = f"row {row} has {pose_table.shown(unquoted(cells[first]))} below no name"
             help = "give its column a name, or delete the cell's content"
             raise InputError("E107", message, where=where, help=help)

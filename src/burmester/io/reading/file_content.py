@@ -11,16 +11,15 @@ from burmester.io import cases
 from burmester.io.reading.columns import HEADER
 from burmester.io.reading.pose_table import no_poses, shown
 
-__all__ = ["decode_text", "read_source"]
+__all__ = ["ARCHIVE_HELP", "decode_text", "read_source"]
 
 _WINDOWS_SIGNS = "°º²³µ§±×·–—‘’“”„…«»€\u00a0"  # beside letters, in tables of Western Europe
-_SHEET = (
+ARCHIVE_HELP = (
     "save the sheet as CSV, or copy its cells and paste them: "
     f"`burmester synthesize - --columns {HEADER}`"
 )
 _BINARY_FORMATS: dict[bytes, tuple[str, str]] = {  # first bytes of a file: its format, and the help
-    b"PK\x03\x04": ("a zip archive, as .xlsx and .ods spreadsheets are", _SHEET),
-    b"\xd0\xcf\x11\xe0": ("an .xls spreadsheet, or another old Office file", _SHEET),
+    b"\xd0\xcf\x11\xe0": ("an .xls spreadsheet, or another old Office file", ARCHIVE_HELP),
     b"\x1f\x8b": ("packed with gzip", "unpack it with gunzip, and read what comes out"),
     b"%PDF": ("a PDF", f"copy its table and paste it: `burmester synthesize - --columns {HEADER}`"),
 }

@@ -23,11 +23,14 @@ __all__ = [
     "NUMBER_LIKE",
     "NUMERIC",
     "POINTS",
+    "SHEET_HEAD",
     "UNITS",
     "PoseTable",
     "Rows",
+    "Sheet",
     "Source",
     "brief",
+    "cell_name",
     "decimals",
     "extent",
     "known_to",
@@ -103,26 +106,65 @@ class PoseTable(NamedTuple):
     notes: tuple[Advice, ...] = ()  # what was assumed in reading
 
 
+SHEET_HEAD = "sep=\t\n"  # how the text of a sheet begins; row 1 is behind it
+
+
+class Sheet(NamedTuple):
+    """The sheet of a workbook that was made a text, with a tab between cells."""
+
+    name: str
+    merged: dict[tuple[int, int], str]  # (row, column) from 1 -> the cell that it is merged with
+
+
 class Source(NamedTuple):
     """A text and the file it comes from."""
 
     label: str
     text: str
     notes: tuple[Advice, ...] = ()  # what was assumed to get the text
+    sheet: Sheet | None = None  # where the text is that of a sheet, behind SHEET_HEAD
+
+    @property
+    def line_word(self) -> str:
+        return "row" if self.sheet else "line"
+
+    def line_number(self, position: int) -> int:
+        """The number of the line, or of the sheet's row, at a position in the text."""
+        return self.text.count("\n", 0, position) + (self.sheet is None)
 
     def where(self, position: int, width: int = 1, note: str = "") -> str:
         """`file:line:column` of a position in the text, that line, and carets below it."""
         start = self.text.rfind("\n", 0, position) + 1
-        number, column = self.text.count("\n", 0, start) + 1, position - start
+        number, column = self.line_number(start), position - start
+        place = f"{self.label}:{number}:{column + 1}"
+        if self.sheet:
+            place = f"{self.label}: {self._cell(start, position, width)}"
         start += max(0, column - 60)  # a whole JSON file may be one line
         line = self.text[start : start + 100].partition("\n")[0]
         line = printable(line)
         blanks, gutter = position - start, max(4, len(str(number)))
         carets = "^" * max(1, min(width, len(line) - blanks))
         return (
-            f"{self.label}:{number}:{column + 1}\n{number:>{gutter}} | {line}\n"
-            f"{'':>{gutter}} | {'':>{blanks}}{carets} {note}"
+            f"{place}\n{number:>{gutter}} | {line}\n{'':>{gutter}} | {'':>{blanks}}{carets} {note}"
         ).rstrip()
+
+    def _cell(self, start: int, position: int, width: int) -> str:
+        """The cell or the row at a position in the text of a sheet; its line begins at `start`."""
+        sheet, row = self.sheet, self.line_number(start)
+        if sheet is None or "\t" in self.text[position : position + width]:
+            return f"row {row}"
+        column = self.text.count("\t", start, position) + 1
+        merged = sheet.merged.get((row, column))
+        return f"cell {cell_name(row, column)}" + (f", merged with {merged}" if merged else "")
+
+
+def cell_name(row: int, column: int) -> str:
+    """The name of a cell by its numbers from 1, such as "AB12"."""
+    letters = ""
+    while column:
+        column, letter = divmod(column - 1, 26)
+        letters = chr(ord("A") + letter) + letters
+    return f"{letters}{row}"
 
 
 def numeric_roles(columns: Container[str]) -> list[str]:

@@ -46,6 +46,7 @@ from burmester.io.reading.pose_table import (
 from burmester.io.reading.specification import Specification
 from burmester.io.reading.stated_requirements import combined_requirements
 from burmester.io.reading.tracked_points import tracked_poses
+from burmester.io.reading.workbook import is_archive, read_sheet
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.motion_task import Task
 
@@ -63,6 +64,7 @@ def read_task(
     exact: Sequence[str] = (),
     pose_sigma: tuple[float, float] | None = None,
     columns: str | None = None,
+    sheet: str | None = None,
     drop: Sequence[str] = (),
     data: bytes | None = None,
 ) -> Task:
@@ -87,7 +89,11 @@ def read_task(
         is used, or for two tracked points one from the variation of their distance; else the
         resolution is half of the last digit printed, and 0 where that is coarse (`known_to`).
     columns : str, optional
-        The header of a CSV file that has none, separated by commas: "x,y,angle_deg".
+        The header of a CSV file or a sheet that has none, separated by commas: "x,y,angle_deg".
+        It replaces a header that is there.
+    sheet : str, optional
+        The sheet of an .xlsx workbook, by its name or its number from 1.  By default the first
+        that is not hidden.
     drop : sequence of str
         Poses to leave out, written as those of `exact`.
     data : bytes, optional
@@ -119,7 +125,7 @@ def read_task(
     path = os.fspath(source)
     label = "<stdin>" if path == "-" else printable(path)
     try:
-        table = _table(label, read_source(path) if data is None else data, columns)
+        table = _table(label, read_source(path) if data is None else data, columns, sheet)
         return _task(
             table,
             angle_unit=angle_unit,
@@ -137,13 +143,24 @@ def read_task(
         raise
 
 
-def _table(label: str, data: bytes, columns: str | None) -> PoseTable:
+def _require_no_sheet(sheet: str | None) -> None:
+    if sheet is not None:
+        message = "--sheet is for .xlsx workbooks; this file has one table"
+        raise InputError("E108", message, help="leave --sheet out")
+
+
+def _table(label: str, data: bytes, columns: str | None, sheet: str | None) -> PoseTable:
     """The table in a file, by its first bytes and its suffix."""
     suffix = PurePath(label).suffix.lower()
     if is_parquet(data) or (suffix == ".parquet" and data):
+        _require_no_sheet(sheet)
         read: Callable[[], PoseTable] = functools.partial(read_parquet, label, data)
     else:
-        source = Source(label, *decode_text(data))
+        if is_archive(data):
+            source = read_sheet(label, data, sheet)
+        else:
+            _require_no_sheet(sheet)
+            source = Source(label, *decode_text(data))
         del data  # a million poses are many bytes
         by_content: Callable[..., PoseTable]
         by_content = read_json if source.text.lstrip().startswith(("{", "[")) else read_csv

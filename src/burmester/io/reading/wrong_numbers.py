@@ -46,7 +46,17 @@ def not_a_number(
         code, fault = "E104", f"{'text' if cell else 'an empty cell'} where a number belongs"
         if cell:
             why = f"{shown(cell)} is not digits with at most a decimal point and an exponent"
-        for look in (_dash, _spreadsheet, _digits, _parted, _fraction, _measure, _comma):
+        for look in (
+            _formula,
+            _date,
+            _dash,
+            _spreadsheet,
+            _digits,
+            _parted,
+            _fraction,
+            _measure,
+            _comma,
+        ):
             if found := look(cell, separator):
                 why, help = f"{shown(cell)} {found[0]}", found[1]
                 break
@@ -72,6 +82,24 @@ def _spreadsheet(cell: str, separator: str) -> tuple[str, str] | None:
     return (
         "is an error value of the spreadsheet",
         "correct the formula in the sheet, or delete the row",
+    )
+
+
+def _formula(cell: str, separator: str) -> tuple[str, str] | None:
+    if not cell.startswith("="):
+        return None
+    return (
+        "is a formula without a stored value",
+        "open and save the file in the spreadsheet, so that it stores the values",
+    )
+
+
+def _date(cell: str, separator: str) -> tuple[str, str] | None:
+    if not re.fullmatch(r"\d{4}-\d\d-\d\d( \d\d:\d\d:\d\d.*)?|\d\d:\d\d:\d\d.*|a time of .*", cell):
+        return None
+    return (
+        "is a date or a time; spreadsheets take numbers such as 3.5 for one",
+        "give the cell the format of a number, and type the number again",
     )
 
 
@@ -130,3 +158,6 @@ def _comma(cell: str, separator: str) -> tuple[str, str] | None:
         brief(f"write {cell.replace(',', '.')}", "write a point for it")
         + ", or delete the comma if it separates thousands",
     )
+
+
+_LOOKS = (_formula, _date, _dash, _spreadsheet, _digits, _parted, _fraction, _measure, _comma)
