@@ -55,7 +55,7 @@ class _Handover:
             Whether a file that exists is replaced.
         **dimensions
             Fields of `burmester.export.Options`: unit, hole, width, thickness, gap, pin, pose,
-            dimensions, assembled, seconds, frames_per_second, width_px.
+            dimensions, assembled, density, up, seconds, frames_per_second, width_px.
 
         Returns
         -------

@@ -56,6 +56,21 @@ Lengths are in the unit of the poses."""
     help="The parts of an stl in their places, not flat beside each other.",
 )
 @click.option(
+    "--density",
+    type=float,
+    metavar="KG/M3",
+    default=2700.0,
+    help="Density of plates and pins in mjcf and urdf; steel has 7850.",
+    show_default="2700, aluminium",
+)
+@click.option(
+    "--up",
+    metavar="AXIS",
+    default="y",
+    help="Direction that is up in mjcf and urdf: x, y, -x or -y; z where the linkage lies flat.",
+    show_default=True,
+)
+@click.option(
     "--seconds", type=float, default=4.0, help="Duration of gif and mp4.", show_default=True
 )
 @click.option(

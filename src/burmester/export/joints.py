@@ -1,16 +1,20 @@
-"""The joint coordinates of a linkage at its poses, for a model of bodies.
+"""The joint coordinates of a linkage at its poses and in between, for a model of bodies.
 
-A driver's joint: the angle of an RR's link or of the normal of an RP's line, or how far a PR's pin
-is along its line.
+A driver's or follower's joint with the ground: the angle of an RR's link or of the normal of an
+RP's line, or how far a PR's pin is along its line.  The coupler's joint with the driver: the angle
+from an RR's link, the angle in F on a PR's pin, or how far an RP's slot has gone over its pin.
+The joint of an RP that follows is with the coupler: how far its pin is along the slot.
 
 E163 a linkage that a model of bodies cannot hold
 """
 
 from __future__ import annotations
 
-from typing import Literal
+from contextlib import suppress
+from typing import Final, Literal, NamedTuple, Self, final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from burmester.errors import InputError
 from burmester.export.coupler_motion import CouplerMotion
@@ -19,14 +23,10 @@ from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import FloatArray
 
-__all__ = [
-    "along_slot",
-    "directions",
-    "driver_coordinates",
-    "ground_joint",
-    "hinged",
-    "require_bodies",
-]
+__all__ = ["JointMotion", "along_slot", "directions", "ground_joint", "require_bodies"]
+
+LOOKS: Final = 721  # places along the motion at which the joints' range is found
+TURN: Final = 2 * np.pi
 
 
 def require_bodies(chosen: SavedLinkage, reference: Reference) -> None:
@@ -43,11 +43,6 @@ def require_bodies(chosen: SavedLinkage, reference: Reference) -> None:
 def directions(normal: float) -> tuple[FloatArray, FloatArray]:
     """The normal of a line, and the direction along it."""
     return np.array([np.cos(normal), np.sin(normal)]), np.array([-np.sin(normal), np.cos(normal)])
-
-
-def hinged(reference: Reference, side: Literal[0, 1]) -> bool:
-    """Whether the side's joint with the ground turns."""
-    return reference.kinds[side] != "PR"
 
 
 def ground_joint(reference: Reference, side: Literal[0, 1], places: Displacement) -> FloatArray:
@@ -72,22 +67,65 @@ def along_slot(reference: Reference, side: Literal[0, 1], places: Displacement) 
     return np.asarray(places.inverse().act(fixed) @ directions(line[0])[1])
 
 
-def driver_coordinates(chosen: SavedLinkage, reference: Reference) -> FloatArray:
-    """The driver's coordinate (N,) at the poses, without jumps from each to the next.
+@final
+class JointMotion(NamedTuple):
+    """The joints driver, coupler and follower along the motion: radians, or metres of slides.
 
-    It is that of the motion through the poses, if there is one; otherwise each coordinate is the
-    one nearest to the last.
+    at_poses: (N, 3).  low, high: (3,), the range that they go through.  turning: (3,), which are
+    hinges.  one_motion: whether one motion goes through all poses; otherwise the range is that of
+    the poses alone.  turns_fully: whether the driver can make full turns.
     """
-    values = ground_joint(reference, 0, reference.places)
-    if not hinged(reference, 0):
-        return values
-    smooth = np.unwrap(values)
-    try:
-        motion = CouplerMotion.of(chosen, 2)
-    except InputError:
-        return smooth
-    reached = motion.reached
-    if len(reached) < len(values):
-        return smooth
-    whole = CouplerMotion.of(chosen, motion.pose_shares).driver_coordinate
-    return np.asarray(values + 2 * np.pi * np.round((whole - values) / (2 * np.pi)))
+
+    at_poses: FloatArray
+    low: FloatArray
+    high: FloatArray
+    turning: NDArray[np.bool_]
+    one_motion: bool
+    turns_fully: bool
+
+    @classmethod
+    def of(cls, chosen: SavedLinkage, reference: Reference) -> Self:
+        """The joints of a linkage, without jumps from place to place."""
+        kinds = reference.kinds
+        turning = np.array([kinds[0] != "PR", kinds[0] != "RP", kinds[1] == "RR"])
+        along, driver, poses, fully = reference.places, None, None, False
+        with suppress(InputError):
+            first = CouplerMotion.of(chosen, 2)
+            fully = first.turns_fully
+            if len(first.reached) == reference.places.shape[0]:
+                shares = np.unique(np.append(np.linspace(0, 1, LOOKS), first.pose_shares))
+                motion = CouplerMotion.of(chosen, shares)
+                poses = np.searchsorted(shares, first.pose_shares)
+                driver = motion.driver_coordinate
+                along = Displacement(
+                    motion.places.translation * reference.scale, motion.places.angle
+                )
+        rows = _coordinates(reference, along)
+        rows[:, turning] = np.unwrap(rows[:, turning], axis=0)
+        exact = _coordinates(reference, reference.places)
+        if poses is None or driver is None:
+            return cls(rows, rows.min(axis=0), rows.max(axis=0), turning, False, fully)
+        if turning[0]:  # as tables and films count it
+            rows[:, 0] += TURN * np.round((driver[0] - rows[0, 0]) / TURN)
+        turns = np.where(turning, TURN * np.round((rows[poses] - exact) / TURN), 0.0)
+        values = exact + turns
+        every = np.concatenate([rows, values])
+        return cls(values, every.min(axis=0), every.max(axis=0), turning, True, fully)
+
+
+def _coordinates(reference: Reference, places: Displacement) -> FloatArray:
+    """The joints (n, 3) at coupler places (n,), angles within one turn."""
+    drive = ground_joint(reference, 0, places)
+    if reference.kinds[0] == "RR":
+        coupler = places.angle - drive
+        coupler = np.arctan2(np.sin(coupler), np.cos(coupler))
+    elif reference.kinds[0] == "PR":
+        coupler = places.angle
+    else:
+        coupler = -along_slot(reference, 0, places)
+    follower = (
+        along_slot(reference, 1, places)
+        if reference.kinds[1] == "RP"
+        else ground_joint(reference, 1, places)
+    )
+    return np.column_stack([drive, coupler, follower])

@@ -1,205 +1,182 @@
 """MJCF, MuJoCo's own format: links as bodies in metres, a motor on the driver, the loop closed.
 
 The model begins at the chosen pose.  The joints' coordinates are angles in F (of the coupler:
-from the driver), so that each key frame `pose1`, `pose2`, ... is readable.  Masses and
-friction stand in for real ones: 1 kg a body.
+from the driver), so that each key frame `pose1`, `pose2`, ... is readable.  Masses and shapes are
+those of the plates and pins; the motor holds each key frame against gravity.
 
-E160 the file does not contain the linkage        E163 a linkage that a model of bodies cannot hold
+E160 the file does not contain the linkage
+E162 dimensions that cannot be made        E163 a linkage that a model of bodies cannot hold
 """
 
 from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import Literal
 from xml.etree import ElementTree
 
 import numpy as np
 
-from burmester.export.joints import (
-    along_slot,
-    directions,
-    driver_coordinates,
-    ground_joint,
-    hinged,
-    require_bodies,
-)
+from burmester.export.bodies import Shape
+from burmester.export.driver_load import STANDARD_GRAVITY
+from burmester.export.dynamic_model import DynamicModel
+from burmester.export.joints import directions
 from burmester.export.mjcf_kinematics import frames_at
 from burmester.export.numbers import number, numbers_in, xy
 from burmester.export.options import Options
 from burmester.export.reference import PRECISION, Reference, as_rows, description, require_equal
+from burmester.export.servo import ARMATURE, Servo
 from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import FloatArray
 
 __all__ = ["check", "write"]
 
-TIME_STEP = 1e-3  # seconds
-CAPSULE_RADIUS = 0.02  # of the span
-SERVO_FREQUENCY = 100.0  # radians a second: natural frequency of the motor's position control
-JOINT_DAMPING = 20.0  # of a body's inertia, per second
-MOVING_BODIES = 4.0  # bodies whose inertia the motor moves
+LEAST = 1e-14  # kg and kg m²: smaller ones of a body are raised to it, for MuJoCo needs 1e-15
+SITE_SIZE = 0.02  # of the span: marks of pivots
 COLOURS = {
     "driver": ".76 .15 .18 1",
     "coupler": "0 .34 .72 1",
     "follower": ".11 .5 .25 1",
     "ground": ".4 .4 .4 1",
 }
+JOINED = (("world", "driver"), ("driver", "coupler"), ("coupler", "follower"))
 
 
 def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
-    """Write the model; raises E163."""
-    reference = Reference.of(chosen, options, "m")
-    require_bodies(chosen, reference)
-    place = reference.places[options.pose - 1]
-    q = _coordinates(chosen, reference)
-    start = q[options.pose - 1]
-    thin = CAPSULE_RADIUS * reference.span
-    gain = MOVING_BODIES * SERVO_FREQUENCY * (reference.span**2 if hinged(reference, 0) else 1.0)
+    """Write the model; raises E162 and E163."""
+    model = DynamicModel.of(chosen, options)
+    reference = model.reference
+    start = model.joints.at_poses[options.pose - 1]
+    servo = Servo.of(model, chosen)
     middle = reference.places.translation.mean(axis=0)
-    low, high = q[:, 0].min(), q[:, 0].max()
+    gravity = " ".join(number(each) for each in model.gravity())
+    stiff = f"{number(2 * servo.time_step)} 1"
+    bound = f' boundmass="{LEAST}" boundinertia="{LEAST}"' if _small(model) else ""
     head = description(chosen, options, "m")
     lines = [
         f'<mujoco model="{chosen.id}">',
         f"  <!-- {' '.join(head)} -->".replace("--unit", "the option unit"),
-        "  <!-- Masses (1 kg a body) and friction are stand-ins. Set the motor's ctrl to the "
-        "driver's place: radians, or metres of a slide. -->",
-        '  <compiler angle="radian" autolimits="true"/>',
-        f'  <option timestep="{TIME_STEP}" gravity="0 0 0" integrator="implicitfast" '
-        'solver="Newton"'
-        ' iterations="100" tolerance="0"><flag contact="disable"/></option>',
+        *(f"  <!-- {each} -->" for each in _notes(model, options, servo)),
+        f'  <compiler angle="radian" autolimits="true"{bound}/>',
+        f'  <option timestep="{number(servo.time_step)}" gravity="{gravity}" '
+        'integrator="implicitfast" solver="Newton" iterations="100" tolerance="0"/>',
         f'  <statistic center="{_xyz(middle)}" extent="{number(1.5 * reference.span)}"/>',
-        "  <default>",
-        f'    <geom type="capsule" size="{number(thin)}" contype="0" conaffinity="0" group="1"/>',
-        f'    <site size="{number(1.2 * thin)}" rgba="0 0 0 1"/>',
-        f'    <equality solref="{2 * TIME_STEP} 1" solimp="0.9999 0.9999 0.001 0.5 2"/>',
+        "  <default>",  # limits, contacts and the loop as stiff as the time step lets them be
+        f'    <joint solreflimit="{stiff}"/><geom solref="{stiff}"/>',
+        f'    <site size="{number(SITE_SIZE * reference.span)}" rgba="0 0 0 1"/>',
+        f'    <equality solref="{stiff}" solimp="0.9999 0.9999 0.001 0.5 2"/>',
         "  </default>",
         "  <worldbody>",
         f'    <light pos="{_xyz(middle, 3 * reference.span)}" dir="0 0 -1"/>',
+        *_ground(model),
+        *_driver(model, reference.places[options.pose - 1], start, servo),
     ]
-    lines += _ground(reference)
-    lines += _driver(reference, place, start, thin)
     if reference.kinds[1] != "RP":
-        lines += _follower(reference, start, thin)
-    reach = f' ctrlrange="{number(low)} {number(high)}"' if high > low else ""
-    motor = "hinge, radians" if hinged(reference, 0) else "slide, metres"
+        lines += _follower(model, start)
+    motor = "hinge, radians" if model.joints.turning[0] else "slide, metres"
     lines += [
         "  </worldbody>",
+        "  <contact>",
+        *(f'    <exclude body1="{one}" body2="{two}"/>' for one, two in JOINED),
+        '    <exclude body1="follower" body2="world"/>',
+        "  </contact>",
         '  <equality><connect name="loop" site1="loop_a" site2="loop_b"/></equality>',
         f"  <actuator><!-- {motor} -->",
-        f'    <position name="motor" joint="driver" kp="{number(gain * SERVO_FREQUENCY)}" '
-        f'kv="{number(2 * gain)}"{reach}/>',
+        f'    <position name="motor" joint="driver" kp="{number(servo.stiffness)}" '
+        f'kv="{number(servo.damping)}" '
+        f'ctrlrange="{number(model.low[0])} {number(model.high[0])}"/>',
         "  </actuator>",
         "  <keyframe>",
     ]
-    for k, row in enumerate(q):
+    for k, row in enumerate(model.joints.at_poses):
         at = " ".join(map(number, row))
-        lines.append(f'    <key name="pose{k + 1}" qpos="{at}" ctrl="{number(row[0])}"/>')
+        lines.append(
+            f'    <key name="pose{k + 1}" qpos="{at}" ctrl="{number(servo.controls[k])}"/>'
+        )
     lines += ["  </keyframe>", "</mujoco>", ""]
     path.write_text("\n".join(lines), encoding="utf-8", newline="\n")
 
 
-def _coordinates(chosen: SavedLinkage, reference: Reference) -> FloatArray:
-    """The joints driver, coupler and follower (N, 3) at the poses."""
-    places = reference.places
-    drive = driver_coordinates(chosen, reference)
-    if reference.kinds[0] == "RR":
-        coupler = _wrapped(places.angle - drive)
-    elif reference.kinds[0] == "PR":
-        coupler = places.angle
-    else:
-        coupler = -along_slot(reference, 0, places)
-    follower = (
-        along_slot(reference, 1, places)
-        if reference.kinds[1] == "RP"
-        else ground_joint(reference, 1, places)
-    )
-    return np.column_stack([drive, coupler, follower])
+def _notes(model: DynamicModel, options: Options, servo: Servo) -> list[str]:
+    """What was chosen, a paragraph each, for comments."""
+    unit = "kg m²" if model.joints.turning[0] else "kg"
+    return [
+        *model.notes(options),
+        "Bodies that are joined do not collide.",
+        f"Up is {options.up} of the ground's frame; gravity is {STANDARD_GRAVITY} m/s². The option "
+        "up states another direction: z, where the linkage lies flat.",
+        "Set the motor's ctrl to the driver's place: radians, or metres of a slide. The ctrl of a "
+        "key frame is a little off it, for there the motor holds the linkage against gravity.",
+        f"The motor is a stand-in: a servo of {servo.frequency:.0f} radians a second, critically "
+        f"damped, whose own inertia, the armature, is {servo.armature:.3g} {unit} ({ARMATURE:.0%} "
+        "of what it moves).",
+        f"The time step is {servo.time_step:g} s: 1 ms, or a hundredth of the time of a fall of "
+        "what is smaller than 10 cm. Limits, contacts and the loop give way within two steps.",
+        *(
+            [
+                f"MuJoCo takes no mass or inertia below 1e-15 kg or kg m²: those of {small} are "
+                f"raised to {LEAST:g}, which makes them slower than they are."
+            ]
+            if (small := ", ".join(_small(model)))
+            else []
+        ),
+    ]
 
 
-def _wrapped(angle: FloatArray) -> FloatArray:
-    return np.asarray(np.arctan2(np.sin(angle), np.cos(angle)))
+def _small(model: DynamicModel) -> list[str]:
+    """The moving bodies whose mass or inertia is less than MuJoCo takes."""
+    return [
+        name
+        for name, body in model.masses.items()
+        if name != "ground" and min(body.mass, *np.linalg.eigvalsh(body.inertia)) < LEAST
+    ]
 
 
-def _ground(reference: Reference) -> list[str]:
-    """What is seen of the ground: rails and pivots."""
-    lines = []
-    for side in (0, 1):
-        fixed, line = reference.fixed[side], reference.line[side]
+def _ground(model: DynamicModel) -> list[str]:
+    """The ground's plates and pins, and marks of its pivots."""
+    reference = model.reference
+    lines = [f"    {each}" for each in _geoms(model.shapes["ground"], "ground")]
+    for side, fixed in enumerate(reference.fixed):
         if fixed is not None:
             name = ' name="loop_b"' if side and reference.kinds[1] == "RP" else ""
             lines.append(f'    <site{name} pos="{_xyz(fixed)}"/>')
-        elif line is not None:
-            n, along = directions(line[0])
-            s = ground_joint(reference, 1 if side else 0, reference.places)
-            ends = [line[1] * n + each * along for each in (s.min(), s.max())]
-            lines.append(
-                f"    {_bar(ends[0], ends[1], 'ground', 0.3 * CAPSULE_RADIUS * reference.span)}"
-            )
     return lines
 
 
-def _driver(reference: Reference, place: Displacement, start: FloatArray, thin: float) -> list[str]:
+def _driver(model: DynamicModel, place: Displacement, start: FloatArray, servo: Servo) -> list[str]:
     """The driver with the coupler on it."""
-    fixed, moving, line, radius = (
-        reference.fixed[0],
-        reference.moving[0],
-        reference.line[0],
-        reference.radius[0],
-    )
-    angle = float(place.angle)
-    if reference.kinds[0] == "RR":
-        assert fixed is not None
-        assert moving is not None
-        at, turn = fixed, float(start[0])
-        joint = 'type="hinge" axis="0 0 1"'
-        seen = _bar(np.zeros(2), np.array([radius, 0.0]), "driver", thin)
-        relative = float(start[1])
-        body = np.array([radius, 0.0]) - _turned(moving, relative)
-        inner = f'type="hinge" axis="0 0 1" pos="{_xyz(moving)}"'
-    elif reference.kinds[0] == "PR":
+    reference = model.reference
+    moving, line = reference.moving[0], reference.line[0]
+    at, turn, joint = _on_ground(reference, 0, start)
+    if moving is None:
         assert line is not None
-        assert moving is not None
-        n, along = directions(line[0])
-        at, turn = line[1] * n + float(start[0]) * along, 0.0
-        joint = f'type="slide" axis="{_xyz(along)}"'
-        seen = _block("driver", thin)
-        relative = angle
-        body = -_turned(moving, relative)
-        inner = f'type="hinge" axis="0 0 1" pos="{_xyz(moving)}"'
-    else:
-        assert fixed is not None
-        assert line is not None
-        at, turn = fixed, float(start[0])
-        joint = 'type="hinge" axis="0 0 1"'
-        seen = _block("driver", thin)
         relative = -line[0]
         body = np.array([-line[1], float(start[1])])
         inner = f'type="slide" axis="{_xyz(directions(line[0])[1])}"'
+    else:
+        relative = float(start[1]) if line is None else float(place.angle)
+        body = np.array([reference.radius[0] or 0.0, 0.0]) - _turned(moving, relative)
+        inner = f'type="hinge" axis="0 0 1" pos="{_xyz(moving)}"'
+    own = f' armature="{number(servo.armature)}"'
     lines = [
         f'    <body name="driver" pos="{_xyz(at)}" euler="0 0 {number(turn)}">',
-        f'      <joint name="driver" {joint}{_rub(reference, joint)} ref="{number(start[0])}"/>',
-        f"      {_mass(reference)}",
-        f"      {seen}",
+        f"      {_joint(model, 0, joint, start, own)}",
+        *(f"      {each}" for each in _solid(model, "driver")),
         f'      <body name="coupler" pos="{_xyz(body)}" euler="0 0 {number(relative)}">',
-        f'        <joint name="coupler" {inner}{_rub(reference, inner)} ref="{number(start[1])}"/>',
-        f"        {_mass(reference)}",
+        f"        {_joint(model, 1, inner, start)}",
+        *(f"        {each}" for each in _solid(model, "coupler")),
+        '        <site name="body" pos="0 0 0"/>',
     ]
-    seen_points = [_on_coupler(reference, 0, place), np.zeros(2), _on_coupler(reference, 1, place)]
-    for k in range(3):
-        one, two = seen_points[k], seen_points[(k + 1) % 3]
-        if np.linalg.norm(two - one) > 1e-3 * thin:
-            lines.append(f"        {_bar(one, two, 'coupler', thin)}")
-    lines.append('        <site name="body" pos="0 0 0"/>')
     if reference.kinds[1] == "RP":
         slot = reference.line[1]
         assert slot is not None
         n, along = directions(slot[0])
+        slide = f'type="slide" axis="{_xyz(along)}"'
         lines += [
             f'        <body name="follower" pos="{_xyz(slot[1] * n + float(start[2]) * along)}">',
-            f'          <joint name="follower" type="slide" axis="{_xyz(along)}"'
-            f'{_rub(reference, "slide")} ref="{number(start[2])}"/>',
-            f"          {_mass(reference)}",
-            f"          {_block('follower', thin)}",
+            f"          {_joint(model, 2, slide, start)}",
+            *(f"          {each}" for each in _solid(model, "follower")),
             '          <site name="loop_a" pos="0 0 0"/>',
             "        </body>",
         ]
@@ -210,60 +187,65 @@ def _driver(reference: Reference, place: Displacement, start: FloatArray, thin: 
     return [*lines, "      </body>", "    </body>"]
 
 
-def _follower(reference: Reference, start: FloatArray, thin: float) -> list[str]:
+def _follower(model: DynamicModel, start: FloatArray) -> list[str]:
     """A follower on the ground."""
-    fixed, line, radius = reference.fixed[1], reference.line[1], reference.radius[1]
-    if reference.kinds[1] == "RR":
-        assert fixed is not None
-        at, turn, tip = fixed, float(start[2]), np.array([radius, 0.0])
-        joint, seen = (
-            'type="hinge" axis="0 0 1"',
-            _bar(np.zeros(2), tip, "follower", thin),
-        )
-    else:
-        assert line is not None
-        n, along = directions(line[0])
-        at, turn, tip = line[1] * n + float(start[2]) * along, 0.0, np.zeros(2)
-        joint, seen = f'type="slide" axis="{_xyz(along)}"', _block("follower", thin)
+    at, turn, joint = _on_ground(model.reference, 1, start)
+    tip = np.array([model.reference.radius[1] or 0.0, 0.0])
     return [
         f'    <body name="follower" pos="{_xyz(at)}" euler="0 0 {number(turn)}">',
-        f'      <joint name="follower" {joint}{_rub(reference, joint)} ref="{number(start[2])}"/>',
-        f"      {_mass(reference)}",
-        f"      {seen}",
+        f"      {_joint(model, 2, joint, start)}",
+        *(f"      {each}" for each in _solid(model, "follower")),
         f'      <site name="loop_b" pos="{_xyz(tip)}"/>',
         "    </body>",
     ]
 
 
-def _on_coupler(reference: Reference, side: int, place: Displacement) -> FloatArray:
-    """Where a side holds the coupler, in M."""
-    moving, fixed = reference.moving[side], reference.fixed[side]
-    if moving is not None:
-        return moving
-    assert fixed is not None
-    return np.asarray(place.inverse().act(fixed))
+def _on_ground(
+    reference: Reference, side: Literal[0, 1], start: FloatArray
+) -> tuple[FloatArray, float, str]:
+    """Where a side's body begins, its angle, and its joint with the ground."""
+    fixed, line, value = reference.fixed[side], reference.line[side], float(start[2 * side])
+    if fixed is not None:
+        return fixed, value, 'type="hinge" axis="0 0 1"'
+    assert line is not None
+    n, along = directions(line[0])
+    return line[1] * n + value * along, 0.0, f'type="slide" axis="{_xyz(along)}"'
 
 
-def _mass(reference: Reference) -> str:
-    inertia = number(reference.span**2)
-    return f'<inertial pos="0 0 0" mass="1" diaginertia="{inertia} {inertia} {inertia}"/>'
+def _joint(model: DynamicModel, index: int, joint: str, start: FloatArray, more: str = "") -> str:
+    """The joint of a body; index: 0 driver, 1 coupler, 2 follower."""
+    name = ("driver", "coupler", "follower")[index]
+    return (
+        f'<joint name="{name}" {joint} ref="{number(start[index])}" '
+        f'range="{number(model.low[index])} {number(model.high[index])}" '
+        f'damping="{number(model.damping()[index])}"{more}/>'
+    )
 
 
-def _rub(reference: Reference, joint: str) -> str:
-    """Friction of a joint, by its speed, so that a motor does not throw links over dead points."""
-    return f' damping="{number(JOINT_DAMPING * (1.0 if "slide" in joint else reference.span**2))}"'
+def _solid(model: DynamicModel, name: str) -> list[str]:
+    """The inertia of a body, and its shapes."""
+    mass = model.masses[name]
+    centre = " ".join(map(number, mass.centre))
+    order = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
+    inertia = " ".join(number(mass.inertia[each]) for each in order)
+    return [
+        f'<inertial pos="{centre}" mass="{number(mass.mass)}" fullinertia="{inertia}"/>',
+        *_geoms(model.shapes[name], name),
+    ]
 
 
-def _bar(one: FloatArray, two: FloatArray, owner: str, size: float) -> str:
-    if not np.linalg.norm(two - one) > 0:
-        return _block(owner, size)
-    ends = f"{_xyz(one)} {_xyz(two)}"
-    return f'<geom fromto="{ends}" size="{number(size)}" rgba="{COLOURS[owner]}"/>'
-
-
-def _block(owner: str, size: float) -> str:
-    half = number(1.5 * size)
-    return f'<geom type="box" size="{half} {half} {half}" rgba="{COLOURS[owner]}"/>'
+def _geoms(shapes: list[Shape], owner: str) -> list[str]:
+    lines = []
+    for shape in shapes:
+        half = [number(each / 2) for each in shape.size]
+        size = " ".join(half if shape.kind == "box" else half[1:])
+        turn = f' euler="0 0 {number(shape.turn)}"' if shape.turn else ""
+        x, y, z = map(number, shape.centre)
+        lines.append(
+            f'<geom type="{shape.kind}" pos="{x} {y} {z}"{turn} size="{size}" '
+            f'rgba="{COLOURS[owner]}"/>'
+        )
+    return lines
 
 
 def _turned(point: FloatArray, angle: float) -> FloatArray:
@@ -275,14 +257,19 @@ def _xyz(point: FloatArray, z: float = 0.0) -> str:
 
 
 def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
-    """Read the model's XML back, put its joints to every key frame and compare; raises E160."""
-    reference = Reference.of(chosen, options, "m")
+    """Read the model's XML back, put its joints to every key frame and compare; raises E160.
+
+    The bodies' masses, the joints' limits and the motor's lead are compared, too.
+    """
+    model = DynamicModel.of(chosen, options)
+    reference = model.reference
     tolerance = PRECISION * reference.span
     root = ElementTree.parse(path).getroot()
     world = root.find("worldbody")
     assert world is not None
     keys = root.findall("keyframe/key")
     require_equal("the number of key frames", len(keys), len(reference.places.angle), 0)
+    servo = Servo.of(model, chosen)
     for k, key in enumerate(keys):
         q = dict(zip(("driver", "coupler", "follower"), numbers_in(key, "qpos"), strict=True))
         sites, angles = frames_at(world, q)
@@ -293,9 +280,30 @@ def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
         gap = np.exp(1j * (angles["coupler"] - float(place.angle))) - 1
         require_equal(f"the coupler's angle {name}", abs(gap), 0, PRECISION)
         require_equal(f"the loop {name}", abs(sites["loop_a"] - sites["loop_b"]), 0, tolerance)
-        require_equal(f"the motor {name}", numbers_in(key, "ctrl")[0], q["driver"], 0)
+        lead = numbers_in(key, "ctrl")[0] - q["driver"]
+        own = servo.controls[k] - model.joints.at_poses[k, 0]
+        require_equal(f"the motor {name}", lead, own, PRECISION * (1 + abs(q["driver"])))
     hold = as_rows(reference.places[options.pose - 1])
     sites, angles = frames_at(world, {})
     body, turn = sites["body"], angles["coupler"]
     require_equal("where it begins", [body.real, body.imag], hold[:2], tolerance)
     require_equal("how it begins", [math.cos(turn), math.sin(turn)], hold[2:], PRECISION)
+    motor, option = root.find("actuator/position"), root.find("option")
+    assert motor is not None
+    assert option is not None
+    require_equal("gravity", numbers_in(option, "gravity"), model.gravity(), PRECISION)
+    require_equal(
+        "the motor's stiffness", numbers_in(motor, "kp")[0] / servo.stiffness, 1, PRECISION
+    )
+    for index, name in enumerate(("driver", "coupler", "follower")):
+        link = next(each for each in world.iter("body") if each.get("name") == name)
+        joint, mass = link.find("joint"), link.find("inertial")
+        assert joint is not None
+        assert mass is not None
+        model.require_limits(index, *numbers_in(joint, "range"))
+        if name == "driver":
+            own = numbers_in(joint, "armature")[0] / servo.armature
+            require_equal("the motor's inertia", own, 1, PRECISION)
+        xx, yy, zz, xy_, xz, yz = numbers_in(mass, "fullinertia")
+        inertia = [[xx, xy_, xz], [xy_, yy, yz], [xz, yz, zz]]
+        model.require_body(name, numbers_in(mass, "mass")[0], numbers_in(mass, "pos"), inertia)

@@ -36,6 +36,10 @@ class Options:
         Whether drawings have dimension lines.
     assembled : bool
         Whether the parts of an STL are in their places, not flat beside each other.
+    density : float
+        Of the material of all plates and pins, kg/m³, for models with masses; aluminium.
+    up : str
+        The direction of the ground frame that gravity points away from: x, y, z, -x, -y or -z.
     seconds, frames_per_second, width_px : float, float, int
         Duration, frame rate and width of moving pictures.
     """
@@ -49,6 +53,8 @@ class Options:
     pose: int = 1
     dimensions: bool = True
     assembled: bool = False
+    density: float = 2700.0
+    up: str = "y"
     seconds: float = 4.0
     frames_per_second: float = 25.0
     width_px: int = 800

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from burmester.errors import InputError
-from burmester.export.joints import directions, driver_coordinates, ground_joint
+from burmester.export.joints import JointMotion, directions, ground_joint
 from burmester.export.numbers import number
 from burmester.export.options import Options
 from burmester.export.reference import PRECISION, Reference, description, require_equal
@@ -85,7 +85,7 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
     one, two = reference.moving
     assert one is not None
     assert two is not None
-    drive = driver_coordinates(chosen, reference)
+    drive = JointMotion.of(chosen, reference).at_poses[:, 0]
     tips = place.act(np.stack([one, two]))
     actuator = "Crank" if reference.kinds[0] == "RR" else "LinearActuator"
     dyad = "RRRDyad" if reference.kinds[1] == "RR" else "RRPDyad"

@@ -1,9 +1,11 @@
 """URDF: a tree of links in metres, the loop open, for it has no loops.
 
 With all joints at 0 the linkage stands at the chosen pose, and the frames `loop_a` (on the
-coupler's side) and `loop_b` are at one place: a hinge belongs there.  `body` is the frame M.
+coupler's side) and `loop_b` are at one place: a hinge belongs there.  `body` is the frame M.  The
+root `world` has z upwards, as the programs have it that read URDF; `ground` is the frame F.
 
-E160 the file does not contain the linkage        E163 a linkage that a model of bodies cannot hold
+E160 the file does not contain the linkage
+E162 dimensions that cannot be made        E163 a linkage that a model of bodies cannot hold
 """
 
 from __future__ import annotations
@@ -15,7 +17,8 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from burmester.export.joints import along_slot, directions, ground_joint, require_bodies
+from burmester.export.dynamic_model import DynamicModel
+from burmester.export.joints import along_slot, directions, ground_joint
 from burmester.export.numbers import number, numbers_in, xy
 from burmester.export.options import Options
 from burmester.export.reference import PRECISION, Reference, description, require_equal
@@ -25,62 +28,84 @@ from burmester.numerics.arrays import FloatArray
 
 __all__ = ["check", "write"]
 
-BOX_SIDE = 0.04  # of the span: sides of the boxes
-SLIDE_EFFORT = 1000.0  # newton: limit of slides, required by the format
-SLIDE_SPEED = 1.0  # spans a second: limit of slides, required by the format
+EFFORT = 1000.0  # N m or newton: limit of joints, required by the format
+SPEED = 10.0  # radians, or spans of a slide, a second: limit of joints, required by the format
+ORIGIN = [0.0, 0.0]
+NAMES = ("driver", "coupler", "follower")
 HEAD = """  URDF has no closed loops, so that of this linkage is left open at one joint.  With all
   joints at 0, as they are at pose {pose}, the links loop_a and loop_b are at one place.  Close the
   loop there by a hinge about z, the way your program has it: a point to point constraint between
-  loop_a and loop_b.  Each link has 1 kg, as a stand-in."""
+  loop_a and loop_b."""
+TILT = {  # roll, pitch, yaw by which the ground stands in a world with z upwards
+    "x": (0.0, -math.pi / 2, 0.0),
+    "y": (math.pi / 2, 0.0, 0.0),
+    "z": (0.0, 0.0, 0.0),
+    "-x": (0.0, math.pi / 2, 0.0),
+    "-y": (-math.pi / 2, 0.0, 0.0),
+    "-z": (math.pi, 0.0, 0.0),
+}
 
 
 def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
-    """Write the description; raises E163."""
-    reference = Reference.of(chosen, options, "m")
-    require_bodies(chosen, reference)
+    """Write the description; raises E162 and E163."""
+    model = DynamicModel.of(chosen, options)
+    reference = model.reference
     place = reference.places[options.pose - 1]
     head = " ".join(description(chosen, options, "m")).replace("--unit", "the option unit")
+    tilt = " ".join(map(number, TILT[options.up]))
     lines = [
         '<?xml version="1.0"?>',
         f'<robot name="{chosen.id}">',
         f"  <!-- {head} -->",
         f"  <!--\n{HEAD.format(pose=options.pose)}\n  -->",
-        '  <link name="ground"/>',
+        *(f"  <!-- {each} -->" for each in [*model.notes(options), *_notes(options)]),
+        '  <link name="world"/>',
+        *_fixed("ground", "world", tilt=tilt),
+        *_link(model, "ground"),
     ]
     on = _coupler_joint(reference, 0, place)  # the coupler's own frame is where the driver holds it
-    lines += _side(reference, 0, place)
+    lines += _side(model, 0, place, options)
     angle = float(place.angle)
     if reference.kinds[0] == "RR":
         relative = angle - float(ground_joint(reference, 0, place))
-        tip = [reference.radius[0] or 0.0, 0.0]
-        lines += _hinge("coupler", _Origin("driver", tip, relative))
+        origin = _Origin("driver", [reference.radius[0] or 0.0, 0.0], relative)
     elif reference.kinds[0] == "PR":
-        lines += _hinge("coupler", _Origin("driver", [0.0, 0.0], angle))
+        origin = _Origin("driver", [0.0, 0.0], angle)
     else:
         line = reference.line[0]
         assert line is not None
-        travel = -along_slot(reference, 0, reference.places) + along_slot(reference, 0, place)
         origin = _Origin("driver", [0.0, 0.0], -line[0])
-        lines += _slide("coupler", origin, line[0], travel, reference.span)
+    lines += _joint(model, 1, origin, options)
     hold = _coupler_joint(reference, 1, place)
-    lines += _link("coupler", [np.zeros(2), -on, hold - on], reference, closed=True)
-    lines += _fixed("body", "coupler", -on)
+    lines += _link(model, "coupler", on)
+    lines += [*_fixed("body", "coupler", -on), *_frame_link("body")]
     if reference.kinds[1] == "RP":
-        line, pivot = reference.line[1], reference.fixed[1]
-        assert line is not None
+        pivot = reference.fixed[1]
         assert pivot is not None
-        travel = along_slot(reference, 1, reference.places) - along_slot(reference, 1, place)
-        origin = _Origin("coupler", hold - on, 0.0)
-        lines += _slide("follower", origin, line[0], travel, reference.span)
-        lines += _link("follower", [np.zeros(2)], reference)
-        lines += _fixed("loop_a", "follower", np.zeros(2))
-        lines += _fixed("loop_b", "ground", pivot)
+        lines += _joint(model, 2, _Origin("coupler", hold - on, 0.0), options)
+        lines += _link(model, "follower")
+        lines += [*_fixed("loop_a", "follower", np.zeros(2)), *_frame_link("loop_a")]
+        lines += [*_fixed("loop_b", "ground", pivot), *_frame_link("loop_b")]
     else:
-        lines += _fixed("loop_a", "coupler", hold - on)
-        lines += _side(reference, 1, place)
-        lines += _fixed("loop_b", "follower", np.array([reference.radius[1] or 0.0, 0.0]))
+        lines += [*_fixed("loop_a", "coupler", hold - on), *_frame_link("loop_a")]
+        lines += _side(model, 1, place, options)
+        tip = np.array([reference.radius[1] or 0.0, 0.0])
+        lines += [*_fixed("loop_b", "follower", tip), *_frame_link("loop_b")]
     lines += ["</robot>", ""]
     path.write_text("\n".join(lines), encoding="utf-8", newline="\n")
+
+
+def _notes(options: Options) -> list[str]:
+    """What was chosen beside the model that MJCF has, too."""
+    return [
+        f"Up is {options.up} of the ground's frame, and z of the root world, against which most "
+        "programs take gravity. The option up states another direction: z, where the linkage lies "
+        "flat.",
+        f"Effort ({EFFORT:g}) and velocity ({SPEED:g} radians or spans of the linkage a second) of "
+        "the limits are stand-ins that the format requires.",
+        "Take collisions off links that a joint joins, and off the two that the hinge of the loop "
+        "joins: their pins are in their holes. Links without inertia are frames.",
+    ]
 
 
 def _coupler_joint(reference: Reference, side: int, place: Displacement) -> FloatArray:
@@ -94,22 +119,21 @@ def _coupler_joint(reference: Reference, side: int, place: Displacement) -> Floa
     return np.asarray(line[1] * n + float(along_slot(reference, 1 if side else 0, place)) * along)
 
 
-def _side(reference: Reference, side: Literal[0, 1], place: Displacement) -> list[str]:
+def _side(
+    model: DynamicModel, side: Literal[0, 1], place: Displacement, options: Options
+) -> list[str]:
     """The link that a side has on the ground."""
-    name = ("driver", "follower")[side]
+    reference, name = model.reference, ("driver", "follower")[side]
     start = float(ground_joint(reference, side, place))
-    fixed, line, radius = reference.fixed[side], reference.line[side], reference.radius[side]
+    fixed, line = reference.fixed[side], reference.line[side]
     if reference.kinds[side] == "PR":
         assert line is not None
         n, along = directions(line[0])
-        travel = ground_joint(reference, side, reference.places) - start
-        at = line[1] * n + start * along
-        joint = _slide(name, _Origin("ground", at, 0.0), line[0], travel, reference.span)
+        origin = _Origin("ground", line[1] * n + start * along, 0.0)
     else:
         assert fixed is not None
-        joint = _hinge(name, _Origin("ground", fixed, start))
-    ends = [np.zeros(2)] if radius is None else [np.zeros(2), np.array([radius, 0.0])]
-    return [*joint, *_link(name, ends, reference)]
+        origin = _Origin("ground", fixed, start)
+    return [*_joint(model, 2 * side, origin, options), *_link(model, name)]
 
 
 class _Origin(NamedTuple):
@@ -120,70 +144,75 @@ class _Origin(NamedTuple):
     angle: float
 
 
-def _joint(child: str, kind: str, origin: _Origin, axis: str, limit: str = "") -> list[str]:
+def _joint(model: DynamicModel, index: int, origin: _Origin, options: Options) -> list[str]:
+    """A hinge about z, or a slide along a line; index: 0 driver, 1 coupler, 2 follower."""
+    name, line = NAMES[index], model.reference.line[0 if index < 2 else 1]
+    start, turning = model.joints.at_poses[options.pose - 1, index], model.joints.turning[index]
+    kind, axis, speed = "revolute", "0 0 1", SPEED
+    if not turning:
+        assert line is not None
+        kind, axis = "prismatic", f"{xy(directions(line[0])[1])} 0"
+        speed = SPEED * model.reference.span
     return [
-        f'  <joint name="{child}" type="{kind}">',
-        f'    <parent link="{origin.parent}"/><child link="{child}"/>',
+        f'  <joint name="{name}" type="{kind}">',
+        f'    <parent link="{origin.parent}"/><child link="{name}"/>',
         f'    <origin xyz="{xy(origin.at)} 0" rpy="0 0 {number(origin.angle)}"/>',
-        f'    <axis xyz="{axis}"/>{limit}',
+        f'    <axis xyz="{axis}"/><limit lower="{number(model.low[index] - start)}" '
+        f'upper="{number(model.high[index] - start)}" '
+        f'effort="{number(EFFORT)}" velocity="{number(speed)}"/>',
+        f'    <dynamics damping="{number(model.damping()[index])}" friction="0"/>',
         "  </joint>",
     ]
 
 
-def _hinge(child: str, origin: _Origin) -> list[str]:
-    return _joint(child, "continuous", origin, "0 0 1")
-
-
-def _slide(
-    child: str, origin: _Origin, normal: float, travel: FloatArray, span: float
+def _fixed(
+    child: str, parent: str, at: FloatArray | list[float] = ORIGIN, tilt: str = "0 0 0"
 ) -> list[str]:
-    """A slide along a line; normal: the angle of the line's normal in the child's frame."""
-    low, high = float(travel.min()), float(travel.max())
-    limit = (
-        f'<limit lower="{number(low)}" upper="{number(high)}" effort="{number(SLIDE_EFFORT)}" '
-        f'velocity="{number(SLIDE_SPEED * span)}"/>'
-    )
-    axis = f"{xy(directions(normal)[1])} 0"
-    return _joint(child, "prismatic", origin, axis, limit)
-
-
-def _fixed(child: str, parent: str, at: FloatArray) -> list[str]:
     return [
-        f'  <link name="{child}"/>',
         f'  <joint name="{child}" type="fixed">',
         f'    <parent link="{parent}"/><child link="{child}"/>',
-        f'    <origin xyz="{xy(at)} 0" rpy="0 0 0"/>',
+        f'    <origin xyz="{xy(at)} 0" rpy="{tilt}"/>',
         "  </joint>",
     ]
 
 
-def _link(
-    name: str, points: list[FloatArray], reference: Reference, closed: bool = False
-) -> list[str]:
-    """A link with boxes from point to point, and a mass that stands in."""
-    thin, inertia = BOX_SIDE * reference.span, number(reference.span**2)
-    sides = f"{number(thin)} {number(thin)}"
+def _frame_link(name: str) -> list[str]:
+    return [f'  <link name="{name}"/>']
+
+
+def _link(model: DynamicModel, name: str, origin: FloatArray | list[float] = ORIGIN) -> list[str]:
+    """A link with its mass and shapes; origin: (2,), of its frame in that of the model's body."""
+    mass, off = model.masses[name], np.array([*origin, 0.0])
+    x, y, z = map(number, mass.centre - off)
+    i = [[number(each) for each in row] for row in mass.inertia]
     lines = [
         f'  <link name="{name}">',
-        '    <inertial><origin xyz="0 0 0" rpy="0 0 0"/><mass value="1"/>',
-        f'      <inertia ixx="{inertia}" ixy="0" ixz="0" iyy="{inertia}" iyz="0" izz="{inertia}"/>',
+        f'    <inertial><origin xyz="{x} {y} {z}" rpy="0 0 0"/><mass value="{number(mass.mass)}"/>',
+        f'      <inertia ixx="{i[0][0]}" ixy="{i[0][1]}" ixz="{i[0][2]}" iyy="{i[1][1]}" '
+        f'iyz="{i[1][2]}" izz="{i[2][2]}"/>',
         "    </inertial>",
     ]
-    ends = list(zip(points, points[1:] + points[:1] * closed, strict=False))
-    for one, two in ends if len(points) > 1 else [(points[0], points[0])]:
-        way, middle = two - one, (one + two) / 2
-        size = float(np.linalg.norm(way)) + thin
-        turn = math.atan2(way[1], way[0])
-        lines.append(
-            f'    <visual><origin xyz="{xy(middle)} 0" rpy="0 0 {number(turn)}"/>'
-            f'<geometry><box size="{number(size)} {sides}"/></geometry></visual>'
-        )
+    for shape in model.shapes[name]:
+        x, y, z = map(number, shape.centre - off)
+        long, wide, height = map(number, shape.size)
+        solid = f'<box size="{long} {wide} {height}"/>'
+        if shape.kind == "cylinder":
+            solid = f'<cylinder radius="{number(shape.size[0] / 2)}" length="{height}"/>'
+        place = f'<origin xyz="{x} {y} {z}" rpy="0 0 {number(shape.turn)}"/>'
+        lines += [
+            f"    <{what}>{place}<geometry>{solid}</geometry></{what}>"
+            for what in ("visual", "collision")
+        ]
     return [*lines, "  </link>"]
 
 
 def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
-    """Read the XML back, put its joints to every pose and compare; raises E160."""
-    reference = Reference.of(chosen, options, "m")
+    """Read the XML back, put its joints to every pose and compare; raises E160.
+
+    The masses of the links and the limits of the joints are compared, too.
+    """
+    model = DynamicModel.of(chosen, options)
+    reference = model.reference
     tolerance = PRECISION * reference.span
     root = ElementTree.parse(path).getroot()
     joints = {str(each.get("name")): each for each in root.findall("joint")}
@@ -213,12 +242,29 @@ def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
         require_equal(
             f"the loop {name}", abs(frames["loop_a"][0] - frames["loop_b"][0]), 0, tolerance
         )
-        for joint, value in q.items():
-            if (limit := joints[joint].find("limit")) is not None:
-                low, high = float(limit.get("lower", "nan")), float(limit.get("upper", "nan"))
-                require_equal(
-                    f"the limits of {joint}", min(max(value, low), high), value, tolerance
-                )
+    stands = joints["ground"].find("origin")
+    assert stands is not None
+    require_equal("what is up", numbers_in(stands, "rpy"), TILT[options.up], PRECISION)
+    begin = model.joints.at_poses[options.pose - 1]
+    links = {str(each.get("name")): each for each in root.findall("link")}
+    on = _coupler_joint(reference, 0, start)
+    for index, joint in enumerate(NAMES):
+        limit = joints[joint].find("limit")
+        assert limit is not None
+        ends = numbers_in(limit, "lower") + numbers_in(limit, "upper")
+        model.require_limits(index, ends[0], ends[1], float(begin[index]))
+    for name in ("ground", *NAMES):
+        origin, mass, six = (
+            links[name].find(f"inertial/{each}") for each in ("origin", "mass", "inertia")
+        )
+        assert origin is not None
+        assert mass is not None
+        assert six is not None
+        i = {key: numbers_in(six, f"i{key}")[0] for key in ("xx", "xy", "xz", "yy", "yz", "zz")}
+        inertia = [[i[min(a, b) + max(a, b)] for a in "xyz"] for b in "xyz"]
+        off = [*on, 0.0] if name == "coupler" else [0.0, 0.0, 0.0]
+        (kilograms,) = numbers_in(mass, "value")
+        model.require_body(name, kilograms, numbers_in(origin, "xyz"), inertia, off)
 
 
 def _frame(
@@ -234,7 +280,7 @@ def _frame(
         x, y, _ = numbers_in(origin, "xyz")
         spin = numbers_in(origin, "rpy")[2]
         own, by, value = 0j, complex(math.cos(spin), math.sin(spin)), q.get(link, 0.0)
-        if joint.get("type") == "continuous":
+        if joint.get("type") == "revolute":
             own, inner = 0j, complex(math.cos(value), math.sin(value))
         elif joint.get("type") == "prismatic":
             axis = joint.find("axis")
