@@ -11,11 +11,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import final
-from unicodedata import category
 
-_UNSHOWN = ("Cc", "Cf", "Cs", "Zl", "Zp")  # controls, half characters, foreign line ends
-
-__all__ = ["Advice", "BurmesterError", "InputError", "printable"]
+__all__ = ["Advice", "BurmesterError", "InputError"]
 
 
 class BurmesterError(Exception):
@@ -88,13 +85,6 @@ class InputError(BurmesterError):
     """
 
     exit_code = 2
-
-
-def printable(text: str) -> str:
-    """A text with blanks for what a terminal would obey (escape codes) or could not show."""
-    if text.isprintable():
-        return text
-    return "".join(" " if category(c) in _UNSHOWN and c != "\n" else c for c in text)
 
 
 @final

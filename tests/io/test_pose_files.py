@@ -512,7 +512,7 @@ def test_files_that_cannot_be_opened(tmp_path: Path) -> None:
     for source in (tmp_path / "none.csv", tmp_path, f"{tmp_path}/nul\0.csv"):
         error = refusal(functools.partial(read_task, source))
         assert error.code == "E101"
-        assert error.where == os.fspath(source).replace("\0", " ")
+        assert error.where == os.fspath(source).replace("\0", r"\x00")
         assert error.why
 
 

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, TypeAlias
 from rich.cells import cell_len, get_character_cell_size
 from rich.text import Text
 
-from burmester.errors import printable
+from burmester.printable import blanked, printable
 
 if TYPE_CHECKING:
     from rich.console import Console, RenderableType
@@ -122,7 +122,7 @@ def wrapped(text: str, width: int, head: Text | str = "", hang: int | None = Non
     """
     first = Text.assemble(head)
     indent = first.cell_len if hang is None else hang
-    words = list(_units(printable(text), max(width - indent, MIN_COLUMNS)))
+    words = list(_units(printable(text, keep="\n\t"), max(width - indent, MIN_COLUMNS)))
     lines, line, used = [], first, first.cell_len
     empty = True
     for word in words:
@@ -160,7 +160,7 @@ def location_lines(where: str, width: int, style: str) -> Iterator[Text]:
 
     where: as `BurmesterError` has it; style: of the carets.
     """
-    name, *rest = printable(where).split("\n")
+    name, *rest = blanked(where).split("\n")
     yield from wrapped(name, width, Text(LOCATION_HEAD, style="bold"))
     k = 0
     while k < len(rest):

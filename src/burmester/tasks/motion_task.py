@@ -9,10 +9,11 @@ from typing import Literal, TypeAlias, final, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from burmester.errors import Advice, InputError, printable
+from burmester.errors import Advice, InputError
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
+from burmester.printable import printable
 from burmester.tasks.frames import frames_of
 from burmester.tasks.limits import Limits
 from burmester.tasks.requirements import Requirements, require_possible
@@ -287,7 +288,7 @@ def _marks(value: object) -> NDArray[np.bool_]:
 
 
 def _names(value: object) -> tuple[str, ...]:
-    """Names of poses, without what a terminal would obey: E122 for anything but texts."""
+    """Names of poses as any screen can show them: E122 for anything but texts."""
     if not isinstance(value, str) and isinstance(value, Iterable):
         names = tuple(value)
         if all(isinstance(name, str) for name in names):

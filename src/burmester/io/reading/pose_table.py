@@ -11,10 +11,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.errors import Advice, InputError, printable
+from burmester.errors import Advice, InputError
 from burmester.geometry.regions import Polygon
 from burmester.io.reading.specification import Specification
 from burmester.numerics.arrays import FloatArray
+from burmester.printable import blanked
 
 __all__ = [
     "MARKS",
@@ -141,7 +142,7 @@ class Source(NamedTuple):
             place = f"{self.label}: {self._cell(start, position, width)}"
         start += max(0, column - 60)  # a whole JSON file may be one line
         line = self.text[start : start + 100].partition("\n")[0]
-        line = printable(line)
+        line = blanked(line)
         blanks, gutter = position - start, max(4, len(str(number)))
         carets = "^" * max(1, min(width, len(line) - blanks))
         return (

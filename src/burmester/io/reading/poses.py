@@ -28,7 +28,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.errors import InputError, printable
+from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
 from burmester.io.reading.csv_poses import read_csv
 from burmester.io.reading.documents import read_json, read_toml
@@ -48,6 +48,7 @@ from burmester.io.reading.stated_requirements import combined_requirements
 from burmester.io.reading.tracked_points import tracked_poses
 from burmester.io.reading.workbook import is_archive, read_sheet
 from burmester.numerics.arrays import FloatArray
+from burmester.printable import blanked, printable
 from burmester.tasks.motion_task import Task
 
 __all__ = ["read_task"]
@@ -135,7 +136,7 @@ def read_task(
             pose_sigma=pose_sigma,
         )
     except InputError as error:
-        error.where = printable(error.where or label)
+        error.where = blanked(error.where or label)
         error.message = printable(error.message)
         error.why = error.why and printable(error.why)
         if error.help:  # a tab may separate the cells of a line to be written
