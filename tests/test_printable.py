@@ -18,6 +18,8 @@ from burmester.printable import blanked, printable
         ("\ud800", r"\ud800"),
         ("caf\udce9.csv", r"caf\xe9.csv"),
         ("\U000e0041", r"\U000e0041"),
+        ("\ufffe and \ue000", r"\ufffe and \ue000"),
+        ("10\xa0mm\u3000x", "10\xa0mm\u3000x"),
     ],
 )
 def test_what_a_screen_would_obey_or_hide_is_escaped(text, shown):

@@ -22,7 +22,9 @@ def printable(text: str, keep: str = "") -> str:
     """
     if text.isprintable():
         return text
-    return "".join(c if c in keep or category(c) not in _UNSHOWN else _escaped(c) for c in text)
+    return "".join(
+        c if c.isprintable() or c in keep or category(c) == "Zs" else _escaped(c) for c in text
+    )
 
 
 def blanked(text: str) -> str:

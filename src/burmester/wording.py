@@ -12,7 +12,7 @@ LEAST_RUN = 3  # successive numbers; from it on they are told as a range
 
 def with_article(noun: str) -> str:
     """A noun with its article, by its first letter: "a crank-rocker", "an Oldham linkage"."""
-    return f"{'an' if noun[0] in 'aeiouAEIOU' else 'a'} {noun}"
+    return f"{'an' if noun[:1].lower() in {*'aeiou'} else 'a'} {noun}"
 
 
 def count(number: int, noun: str) -> str:

@@ -22,6 +22,8 @@ from burmester.values import real_numbers, require_instance, shown
 __all__ = [
     "COARSE",
     "CONDITIONS",
+    "MOST_NAME",
+    "MOST_UNIT",
     "AngleUnit",
     "Task",
     "characteristic_length",
@@ -36,6 +38,8 @@ CONDITIONS = 5  # that a dyad can meet exactly: it has five dimensions
 MOST = 1e60  # beyond it, or all below its inverse, fourth powers leave a double's range
 MOST_TURN = 1e9  # radians; of an angle beyond it few digits say where the body points
 MOST_RATIO = 1e12  # of two weights; beyond it the lighter pose is lost in rounding
+MOST_NAME = 500  # characters of the name of a pose, which messages repeat
+MOST_UNIT = 100  # characters of a unit
 LEAST_POSES = 3  # two poses are met by every moving pivot with a whole line of fixed pivots
 
 
@@ -182,7 +186,7 @@ class Task:
             own["names"] = _names(self.names)
         if self.length_unit is not None:
             require_instance(self.length_unit, str, "the length unit", 'give a text such as "mm"')
-            own["length_unit"] = printable(self.length_unit)
+            own["length_unit"] = _unit(self.length_unit)
         position, angle = real_numbers(self.resolution, (2,), "the resolution").tolist()
         if min(position, angle) < 0:
             raise InputError(
@@ -287,12 +291,33 @@ def _marks(value: object) -> NDArray[np.bool_]:
     return own
 
 
+def _unit(value: str) -> str:
+    """A unit as any screen can show it: E122 for one that is too long."""
+    unit = printable(value)
+    if len(unit) > MOST_UNIT:
+        raise InputError(
+            "E122",
+            "the length unit is too long",
+            why=f"it has {len(unit)} characters, and {MOST_UNIT} are the most",
+            help='give a unit such as "mm"',
+        )
+    return unit
+
+
 def _names(value: object) -> tuple[str, ...]:
     """Names of poses as any screen can show them: E122 for anything but texts."""
     if not isinstance(value, str) and isinstance(value, Iterable):
         names = tuple(value)
         if all(isinstance(name, str) for name in names):
-            return tuple(map(printable, names))
+            own = tuple(map(printable, names))
+            if own and len(longest := max(own, key=len)) > MOST_NAME:
+                raise InputError(
+                    "E122",
+                    f"the name of pose {own.index(longest) + 1} is too long",
+                    why=f"it has {len(longest)} characters, and {MOST_NAME} are the most",
+                    help="give a shorter name",
+                )
+            return own
     raise InputError(
         "E122",
         "the names of the poses are not texts",
