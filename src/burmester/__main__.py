@@ -1,5 +1,26 @@
-"""`python -m burmester` is the command `burmester`."""
+"""`burmester`, and `python -m burmester`: the command, with its signals handled from the start."""
 
-from burmester.cli import main
+from burmester import signals
 
-main()
+__all__ = ["main"]
+
+
+def main() -> None:
+    """Run the command and exit, without a traceback also where it is stopped while it loads."""
+    try:
+        with signals.handled():
+            from burmester.cli import main as run  # noqa: PLC0415  it takes a while
+
+            run()
+    except BaseException as error:
+        # Whoever stops it while it loads need not be told.
+        code = signals.exit_code()
+        if code is None:
+            raise
+        raise SystemExit(code) from None if not isinstance(error, SystemExit) else error
+    finally:
+        signals.ignored()
+
+
+if __name__ == "__main__":
+    main()

@@ -609,6 +609,12 @@ CASES: dict[str, Case] = {
         lambda: api("io.files.write")("results/lid.toml", "new"),
         lambda help: Call(lambda: made(in_backticks(help), "results/lid.toml")),
     ),
+    "output is the input": Case(
+        "E142",
+        "synthesize poses.csv -o poses.csv --force",
+        Args("synthesize poses.csv -o result.json --force"),
+        ALL,
+    ),
     "a template there already": Case(
         "E140", "new gripper", Args("new gripper --force"), {"gripper.toml": "old"}
     ),

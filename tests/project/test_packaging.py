@@ -60,7 +60,7 @@ def test_the_wheel_holds_the_package_and_nothing_else(built):
     package = below("src/burmester") - below("src/burmester/web/widget")
     assert sorted(held) == sorted(each.removeprefix("src/") for each in package)
     assert set(DATA) <= set(held)
-    assert "burmester = burmester.cli:main" in entry
+    assert "burmester = burmester.__main__:main" in entry
 
 
 def test_the_sdist_holds_all_that_tests_and_scripts_need(built):

@@ -10,6 +10,7 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, Self, final
 
 from burmester.api.moving_picture import MovingPicture
+from burmester.api.python_words import in_python_words
 from burmester.api.table import as_line, dimensions_as_html
 from burmester.errors import InputError
 from burmester.io.saved import SavedLinkage
@@ -78,7 +79,8 @@ class _Handover:
                     f"an export has no option {each!r}",
                     help=f"choose among {', '.join(known)}",
                 )
-        (written,) = export(self.saved(), to, path, Options(**dimensions), force)
+        with in_python_words():
+            (written,) = export(self.saved(), to, path, Options(**dimensions), force)
         return written
 
     def plot(self, ax: Axes | None = None) -> Figure:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import final
 
+from burmester.api.python_words import in_python_words
 from burmester.io import files
 
 __all__ = ["MovingPicture"]
@@ -26,7 +27,8 @@ class MovingPicture:
 
     def save(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:
         """Write the picture; raises InputError E140 (the file exists) and E141 (no writing)."""
-        files.write(path, self.gif, force=force)
+        with in_python_words():
+            files.write(path, self.gif, force=force)
         return Path(path)
 
     def _repr_html_(self) -> str:

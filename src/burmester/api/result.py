@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Generic, Self, SupportsIndex, TypeVar, fi
 
 from burmester.api.linkage import ReadLinkage, ResultLinkage
 from burmester.api.moving_picture import MovingPicture
+from burmester.api.python_words import in_python_words
 from burmester.api.table import as_html, as_text
 from burmester.describe.sentences import best_sentences
 from burmester.errors import InputError
@@ -167,7 +168,8 @@ class Result(_RankedLinkages[ResultLinkage], Synthesis):
         Raises InputError E140 (the file exists, and force is not set) and E141 (it cannot be
         written).
         """
-        files.write(path, self.to_json(), force=force)
+        with in_python_words():
+            files.write(path, self.to_json(), force=force)
         return Path(path)
 
     def report(
@@ -179,8 +181,9 @@ class Result(_RankedLinkages[ResultLinkage], Synthesis):
         """
         from burmester.report import page  # noqa: PLC0415
 
-        files.require_writable(path, force=force)
-        files.write(path, page(self, title or Path(path).stem), force=force)
+        with in_python_words():
+            files.require_writable(path, force=force)
+            files.write(path, page(self, title or Path(path).stem), force=force)
         return Path(path)
 
     def __repr__(self) -> str:

@@ -5,20 +5,21 @@ A command a file.  Rooms are imported inside the commands, so that `burmester --
 
 from __future__ import annotations
 
-import io
 import os
 import sys
+import warnings
 from collections.abc import Sequence
 
 import click
 
-from burmester import __version__
+from burmester import __version__, signals
+from burmester.cli import streams
 from burmester.cli.cases import cases
 from burmester.cli.check import check
 from burmester.cli.explain import explain
 from burmester.cli.export import export
 from burmester.cli.new import new
-from burmester.cli.output import EXIT_FOUND, EXIT_INTERRUPT, console, print_json
+from burmester.cli.output import EXIT_FOUND, EXIT_INTERRUPT, EXIT_NOTHING, console, print_json
 from burmester.cli.report import report
 from burmester.cli.reproduce import reproduce
 from burmester.cli.synthesize import synthesize
@@ -46,27 +47,32 @@ for command in (new, check, synthesize, report, export, explain, cases, reproduc
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command and exit: 0 a usable linkage found, 1 none, 2 bad input or usage, 3 a bug."""
     given = list(sys.argv[1:] if arguments is None else arguments)
-    for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):  # what it cannot show must not stop the answer
-            stream.reconfigure(errors="backslashreplace")
-    try:
-        code = burmester.main(given, prog_name="burmester", standalone_mode=False)
-    except click.exceptions.Exit as stop:
-        code = stop.exit_code
-    except click.UsageError as error:
-        code = _report(_usage(error), "--json" in given)
-    except BurmesterError as error:
-        code = _report(error, "--json" in given)
-    except (click.Abort, KeyboardInterrupt):
-        click.echo("interrupted; nothing was written", err=True)
-        code = EXIT_INTERRUPT
-    except BrokenPipeError:
-        # The reader has gone (as `head` does); what is left in the buffer has nowhere to go.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        code = EXIT_FOUND
-    except Exception as error:
-        code = _report(_bug(error, given), "--json" in given)
+    with signals.handled(), streams.guarded(), warnings.catch_warnings():
+        if not sys.warnoptions:  # numbers that overflow are judged by what comes of them
+            warnings.simplefilter("ignore")
+        code = _run(given)
+        if (error := streams.failure()) is not None and code in (EXIT_FOUND, EXIT_NOTHING):
+            code = _report(_unwritten(error), False)
     sys.exit(code)
+
+
+def _run(given: Sequence[str]) -> int:
+    """The exit code of a command, whatever comes of it."""
+    as_json = "--json" in given
+    try:
+        code: int = burmester.main(given, prog_name="burmester", standalone_mode=False)
+    except click.exceptions.Exit as stop:
+        return stop.exit_code
+    except (click.Abort, KeyboardInterrupt):
+        click.echo("interrupted; no unfinished file is left", err=True)
+        return EXIT_INTERRUPT
+    except Exception as error:
+        if (stopped := signals.exit_code()) is not None:  # what broke, broke by the signal
+            return stopped
+        if isinstance(error, click.UsageError):
+            return _report(_usage(error), as_json)
+        return _report(error if isinstance(error, BurmesterError) else _bug(error, given), as_json)
+    return code
 
 
 def _report(error: BurmesterError, as_json: bool) -> int:
@@ -83,6 +89,13 @@ def _report(error: BurmesterError, as_json: bool) -> int:
 def _usage(error: click.UsageError) -> InputError:
     command = error.ctx.command_path if error.ctx else "burmester"
     return InputError("E100", error.format_message(), help=f"see `{command} --help`")
+
+
+def _unwritten(error: OSError) -> InputError:
+    """Standard output that took nothing, or not all."""
+    why = error.strerror or str(error)
+    help = "free some space there, or send the output somewhere else"
+    return InputError("E141", "standard output cannot be written", why=why, help=help)
 
 
 def _bug(error: Exception, given: Sequence[str]) -> BurmesterError:

@@ -101,12 +101,15 @@ def export(
     from burmester.export import export as run
     from burmester.io.files import require_writable
     from burmester.io.saved import read_result
+    from burmester.printable import printable
 
     name = require_format(output, to)
-    require_writable(output, force=force)
+    require_writable(output, force=force, source=result)
     chosen = read_result(result).choose(linkage)
     for path in run(chosen, name, output, Options(**options), force):
-        click.echo(f"wrote {path}: {chosen.id}, {chosen.type}; read back and verified")
+        click.echo(
+            f"wrote {printable(str(path))}: {chosen.id}, {chosen.type}; read back and verified"
+        )
     if not chosen.usable:
         click.echo(f"{chosen.id} is not usable: `burmester synthesize` says why", err=True)
     return EXIT_FOUND

@@ -34,9 +34,10 @@ def new(template: str | None, output: str | None, force: bool, as_list: bool) ->
         click.echo(text, nl=False)
         return EXIT_FOUND
     from burmester.io.files import quoted, write
+    from burmester.printable import printable
 
     path = output or f"{name}.toml"
     write(path, text, force=force)
-    click.echo(f"wrote {path}: {templates.summary(name)}")
+    click.echo(f"wrote {printable(path)}: {templates.summary(name)}")
     click.echo(f"next: burmester synthesize {quoted(path)}")
     return EXIT_FOUND

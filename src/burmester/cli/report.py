@@ -36,13 +36,14 @@ def report(poses: str, *, output: str | None, title: str | None, force: bool, **
     """
     from burmester.describe.sentences import headline
     from burmester.io import files
+    from burmester.printable import printable
     from burmester.report import page
 
     name = {"-": "poses"}.get(poses, os.path.basename(poses.removeprefix("case:")))
     path = output or f"{os.path.splitext(name)[0]}.html"
-    files.require_writable(path, force=force)
+    files.require_writable(path, force=force, source=poses)
     synthesis = run_synthesis(poses, **given)
     files.write(path, page(synthesis, title or name), force=force)
     first = headline(synthesis) if synthesis.usable else f"{synthesis.outcome.message}."
-    click.echo(f"{first}\nwrote {path}; open it in any browser")
+    click.echo(f"{first}\nwrote {printable(path)}; open it in any browser")
     return EXIT_FOUND if synthesis.usable else EXIT_NOTHING

@@ -52,13 +52,14 @@ def synthesize(
     """Find four-bars that guide a body through POSES."""
     from burmester.io import files
     from burmester.io.result import json_line, synthesis_data
+    from burmester.printable import printable
 
     if output is not None:
-        files.require_writable(output, force=force)
+        files.require_writable(output, force=force, source=poses)
     synthesis = run_synthesis(poses, **given)
     if output is not None:
         files.write(output, json_line(synthesis_data(synthesis)), force=force)
-        click.echo(f"wrote {output}", err=True)
+        click.echo(f"wrote {printable(output)}", err=True)
     if as_json:
         print_json(synthesis_data(synthesis))
     else:

@@ -74,6 +74,7 @@ def write_mp4(chosen: SavedLinkage, path: Path, options: Options) -> None:
         codec="libx264",
         quality=None,
         macro_block_size=2,
+        ffmpeg_log_level="quiet",  # it would write to the user's screen; the file is checked
         # One thread and no version in it, so that the same film has the same bytes.
         output_params=[
             "-crf",

@@ -4,6 +4,7 @@ A temporary file beside the target is written, flushed to the disk and then put 
 target's name.  Whoever looks sees the old file or the new one, also after a crash.
 
 E140 the file exists already        E141 the file cannot be written
+E142 it is the file that is read
 """
 
 from __future__ import annotations
@@ -18,13 +19,16 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from burmester.errors import InputError
+from burmester.errors import BurmesterError, InputError
+from burmester.printable import printable
+from burmester.signals import unfinished
 
 __all__ = ["atomic_file", "quoted", "require_writable", "write"]
 
 STALE_SECONDS = 3600.0  # age above which a temporary file was left by a killed process
 
 _WINDOWS = os.name == "nt"
+_BLOCK = 1 << 16  # bytes that are written to ask a disk whether it is full
 _KEPT = 50  # characters of the target's name in the temporary one, which has 255 bytes at most
 _TEMPORARY = re.compile(r"\.burmester-[0-9a-f]{16}-")
 _DISK = (errno.ENOSPC, errno.EFBIG, errno.EIO, errno.EROFS, getattr(errno, "EDQUOT", errno.ENOSPC))
@@ -47,45 +51,66 @@ def atomic_file(path: str | os.PathLike[str], *, force: bool = False) -> Iterato
     It lies in the folder of `path` and has its suffix.  A symbolic link is written through, and a
     file that is replaced hands on its mode and its owner.  Without `force`, a file that exists is
     not touched, whenever it came.  Where the block is left by an exception, KeyboardInterrupt
-    too, nothing remains; a killed process leaves a file `.burmester-...` behind, which the next
-    one to write to `path` sweeps away after an hour.  On a file system without hard links, a
-    process that is killed in the moment between claiming a new name and filling it leaves an empty
-    file there, and so may one that is interrupted while it claims it.
+    too, nothing remains, and its error names `path`, never the temporary file.  A killed process
+    leaves a file `.burmester-...` behind, which the next one to write to `path` sweeps away after
+    an hour.  On a file system without hard links, a process that is killed in the moment between
+    claiming a new name and filling it leaves an empty file there, and so may one that is
+    interrupted while it claims it.
     Raises InputError E140 and E141.
     """
     given = os.fspath(path)
     target = _target(given, force)
     _sweep(target)
-    temporary = _temporary(target)
-    try:
-        _create(temporary)
-        yield temporary
-        _settle(temporary, target, force)
-    except BaseException as error:
-        with suppress(OSError):
-            os.unlink(temporary)
-        if not isinstance(error, OSError) or not _ours(error, temporary, target):
-            raise
-        if isinstance(error, FileExistsError) and not force:
-            raise _exists(given) from None
-        raise _cannot(given, error, target) from None
+    with _temporary(target) as temporary:
+        try:
+            _create(temporary)
+            yield temporary
+            _settle(temporary, target, force)
+        except Exception as error:
+            refused = _disk_error(error, temporary, target)
+            if refused is None:
+                _name_target(error, temporary, given)
+                raise
+            with suppress(OSError):  # before the room that is left is counted
+                os.unlink(temporary)
+            if isinstance(refused, FileExistsError) and not force:
+                raise _exists(given) from None
+            raise _cannot(given, refused, target) from None
 
 
-def require_writable(path: str | os.PathLike[str], *, force: bool = False) -> None:
+def require_writable(
+    path: str | os.PathLike[str], *, force: bool = False, source: str | None = None
+) -> None:
     """Refuse now what `atomic_file` would refuse later: to be called before a long computation.
 
-    Tries the folder with an empty file.  Raises InputError E140 and E141.
+    Tries the folder with an empty file.  source: the file that is read, "-" for standard input.
+    Raises InputError E140, E141, and E142 where `path` is the source, under whatever name.
     """
     given = os.fspath(path)
+    if source is not None:
+        _require_other(given, source)
     target = _target(given, force)
-    temporary = _temporary(target)
+    with _temporary(target) as temporary:
+        try:
+            _create(temporary)
+        except OSError as error:
+            raise _cannot(given, error, target) from None
+
+
+def _require_other(given: str, source: str) -> None:
+    """Refuse to replace what is read: its only copy may be lost, and is no pose file any more."""
     try:
-        _create(temporary)
-    except OSError as error:
-        raise _cannot(given, error, target) from None
-    finally:
-        with suppress(OSError):
-            os.unlink(temporary)
+        read = os.fstat(0) if source == "-" else os.stat(source)
+        same = os.path.samestat(read, os.stat(given))
+    except (OSError, ValueError):
+        return  # one of them is not there, and whoever opens it says so
+    if same and stat.S_ISREG(read.st_mode):
+        raise InputError(
+            "E142",
+            f"{_plain(given)} is the file that is read",
+            why="its content would be lost",
+            help="give another name",
+        )
 
 
 def _target(given: str, force: bool) -> Path:
@@ -126,9 +151,20 @@ def _stat(path: str) -> os.stat_result | None:
         return None
 
 
-def _temporary(target: Path) -> Path:
-    """A name that nobody has, with the target's suffix: libraries go by it."""
-    return target.with_name(f".burmester-{os.urandom(8).hex()}-{target.name[-_KEPT:]}")
+@contextmanager
+def _temporary(target: Path) -> Iterator[Path]:
+    """A name that nobody has, with the target's suffix: libraries go by it.
+
+    Whatever is there under that name at the end is removed.
+    """
+    temporary = target.with_name(f".burmester-{os.urandom(8).hex()}-{target.name[-_KEPT:]}")
+    unfinished.add(str(temporary))
+    try:
+        yield temporary
+    finally:
+        with suppress(OSError):
+            os.unlink(temporary)
+        unfinished.discard(str(temporary))
 
 
 def _create(temporary: Path) -> None:
@@ -136,11 +172,38 @@ def _create(temporary: Path) -> None:
     os.close(os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666))
 
 
-def _ours(error: OSError, temporary: Path, target: Path) -> bool:
-    """Whether it is about this file; a block may do other things that fail."""
-    if error.filename is None:
-        return error.errno in _DISK
-    return os.fsdecode(error.filename) in (str(temporary), str(target), str(target.parent))
+def _disk_error(error: Exception, temporary: Path, target: Path) -> OSError | None:
+    """What the system has against this file, if that is the reason; a block may fail otherwise.
+
+    Libraries tell of a full disk in words of their own, or not at all: the disk is asked.
+    """
+    if isinstance(error, OSError):
+        if error.filename is None:
+            if error.errno in _DISK:
+                return error
+        elif os.fsdecode(error.filename) in (str(temporary), str(target), str(target.parent)):
+            return error
+    if isinstance(error, InputError):
+        return None
+    try:
+        with open(temporary, "ab", buffering=0) as file:
+            file.write(bytes(_BLOCK))
+            os.fsync(file.fileno())
+    except OSError as found:
+        return found if found.errno in _DISK else None
+    return None
+
+
+def _name_target(error: Exception, temporary: Path, given: str) -> None:
+    """Let an error tell of the file that is meant, not of one that nobody knows."""
+
+    def named(text: str) -> str:
+        return text.replace(str(temporary), given).replace(temporary.name, given)
+
+    error.args = tuple(named(each) if isinstance(each, str) else each for each in error.args)
+    for field in ("message", "where", "why", "help"):
+        if isinstance(error, BurmesterError) and (text := getattr(error, field)):
+            setattr(error, field, named(text))
 
 
 def _settle(temporary: Path, target: Path, force: bool) -> None:
@@ -269,5 +332,5 @@ def quoted(path: str) -> str:
 
 def _plain(path: str) -> str:
     """A path that can be printed, whatever it is."""
-    plain = "".join(c if c.isprintable() else "?" for c in path)
+    plain = printable(path)
     return plain if len(plain) <= 200 else f"{plain[:100]}...{plain[-97:]}"

@@ -27,11 +27,14 @@ _BINARY_FORMATS: dict[bytes, tuple[str, str]] = {  # first bytes of a file: its 
 
 def read_source(source: str) -> bytes:
     """The bytes of a file, of standard input ("-") or of a carried case; raises E101."""
-    if source == "-":
-        return sys.stdin.buffer.read()
+    if source == "-" and sys.stdin is None:
+        help = "give the name of a file, or send one through a pipe"
+        raise InputError("E101", "standard input is closed", help=help)
     if source.startswith("case:"):
         return cases.read_bytes(source.removeprefix("case:"))
     try:
+        if source == "-":
+            return sys.stdin.buffer.read()
         with open(source, "rb") as file:
             return file.read()
     except (OSError, ValueError) as error:  # ValueError: a null character in the path
