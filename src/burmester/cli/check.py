@@ -22,13 +22,18 @@ def check(poses: str, *, as_json: bool, **given: Any) -> int:
     """
     from dataclasses import replace
 
+    from burmester.cli.progress_line import working
     from burmester.diagnosis.checks import diagnose, disagreement
     from burmester.io import overview
     from burmester.io.files import quoted
+    from burmester.progress import step
 
-    diagnosis = diagnose(read_poses(poses, **given))
-    if (odd := disagreement(diagnosis.task, diagnosis.motion)) is not None:
-        diagnosis = replace(diagnosis, findings=(odd, *diagnosis.findings))
+    with working("reading the poses"):
+        task = read_poses(poses, **given)
+        step("comparing each pose with the others")
+        diagnosis = diagnose(task)
+        if (odd := disagreement(diagnosis.task, diagnosis.motion)) is not None:
+            diagnosis = replace(diagnosis, findings=(odd, *diagnosis.findings))
     if as_json:
         print_json(overview.check_data(diagnosis))
     else:

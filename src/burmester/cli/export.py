@@ -97,6 +97,7 @@ def export(
 
     RESULT is the file of `burmester synthesize POSES -o RESULT`.
     """
+    from burmester.cli.progress_line import working
     from burmester.export import Options, require_format
     from burmester.export import export as run
     from burmester.io.files import require_writable
@@ -105,8 +106,10 @@ def export(
 
     name = require_format(output, to)
     require_writable(output, force=force, source=result)
-    chosen = read_result(result).choose(linkage)
-    for path in run(chosen, name, output, Options(**options), force):
+    with working("reading the result"):
+        chosen = read_result(result).choose(linkage)
+        paths = run(chosen, name, output, Options(**options), force)
+    for path in paths:
         click.echo(
             f"wrote {printable(str(path))}: {chosen.id}, {chosen.type}; read back and verified"
         )

@@ -275,6 +275,7 @@ def read_poses(poses: str, **given: Any) -> Task:
 
 def run_synthesis(poses: str, **given: Any) -> Synthesis:
     """The synthesis for the file POSES, by the options of all groups."""
+    from burmester.cli.progress_line import working
     from burmester.io.reading import requirements_text as text
     from burmester.synthesis.motion_generation import synthesize
     from burmester.tasks.options import SynthesisOptions
@@ -292,7 +293,8 @@ def run_synthesis(poses: str, **given: Any) -> Synthesis:
         certify=given["certify"],
         **further,
     )
-    return synthesize(read_poses(poses, **given), options)
+    with working("reading the poses"):
+        return synthesize(read_poses(poses, **given), options)
 
 
 _LENGTH_OPTIONS = {

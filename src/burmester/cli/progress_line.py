@@ -50,16 +50,16 @@ class _Line:
         self.text = text
 
     def _run(self) -> None:
-        begun, size = time.monotonic(), 0
+        begun, line = time.monotonic(), ""
         if self.done.wait(DELAY_S):
             return
         while True:
-            line = self._shown(time.monotonic() - begun)
-            self._write(f"\r{line.ljust(size)}")
-            size = len(line)
+            before, line = line, self._shown(time.monotonic() - begun)
+            if line != before:
+                self._write(f"\r{line.ljust(len(before))}")
             if self.done.wait(PERIOD_S):
                 break
-        self._write(f"\r{' ' * size}\r")
+        self._write(f"\r{' ' * len(line)}\r")
 
     def _shown(self, seconds: float) -> str:
         """The text on one line of the terminal, whose last column stays free."""

@@ -34,6 +34,7 @@ def report(poses: str, *, output: str | None, title: str | None, force: bool, **
     It is one file, and needs no network.  The options are those of `burmester synthesize`, where
     REGION and NAME are explained.
     """
+    from burmester.cli.progress_line import working
     from burmester.describe.sentences import headline
     from burmester.io import files
     from burmester.printable import printable
@@ -43,7 +44,9 @@ def report(poses: str, *, output: str | None, title: str | None, force: bool, **
     path = output or f"{os.path.splitext(name)[0]}.html"
     files.require_writable(path, force=force, source=poses)
     synthesis = run_synthesis(poses, **given)
-    files.write(path, page(synthesis, title or name), force=force)
+    with working("drawing the page"):
+        text = page(synthesis, printable(title or name))
+    files.write(path, text, force=force)
     first = headline(synthesis) if synthesis.usable else f"{synthesis.outcome.message}."
     click.echo(f"{first}\nwrote {printable(path)}; open it in any browser")
     return EXIT_FOUND if synthesis.usable else EXIT_NOTHING

@@ -17,17 +17,23 @@ __all__ = ["reproduce"]
 @click.option("--force", is_flag=True, help="Write the figures even if the files exist.")
 def reproduce(as_json: bool, figures: str | None, force: bool) -> int:
     """Recompute the tables of Ge et al. 2012, or draw the figures."""
+    from burmester.cli.progress_line import working
+
     if figures is not None:
         from burmester.plot import write_figures
+        from burmester.printable import printable
 
-        for path in write_figures(figures, force=force):
-            click.echo(f"wrote {path}")
+        with working("drawing the figures"):
+            paths = write_figures(figures, force=force)
+        for path in paths:
+            click.echo(f"wrote {printable(str(path))}")
         return EXIT_FOUND
     from burmester.paper.reproduction import reproduce as run
     from burmester.paper.reproduction import reproduction_data
     from burmester.paper.side_by_side import side_by_side
 
-    sections, tasks = run(), side_by_side()
+    with working("computing the tables of the paper"):
+        sections, tasks = run(), side_by_side()
     if as_json:
         print_json(reproduction_data(sections, tasks))
     else:

@@ -21,6 +21,7 @@ from burmester.errors import InputError
 from burmester.export.options import Options
 from burmester.io.files import atomic_file
 from burmester.io.saved import SavedLinkage
+from burmester.progress import step
 
 __all__ = ["FORMATS", "Format", "Options", "export", "format_of", "require_format"]
 
@@ -175,6 +176,7 @@ def export(
     form = FORMATS[name]
     try:
         for library in form.libraries:
+            step(f"loading {library}")
             import_module(library)
         module = import_module(f"burmester.export.{form.module}")
     except ModuleNotFoundError as error:
@@ -188,6 +190,8 @@ def export(
     write = getattr(module, f"write_{name}", None) or module.write
     check = getattr(module, f"check_{name}", None) or module.check
     with atomic_file(path, force=force) as temporary:
+        step(f"writing {name}")
         write(chosen, temporary, options)
+        step("reading it back")
         check(chosen, temporary, options)
     return [Path(path)]

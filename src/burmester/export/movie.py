@@ -29,6 +29,7 @@ from burmester.export.film import DPI, MARK_COLOUR, MARK_POINTS, Film, Picture, 
 from burmester.io.saved import SavedLinkage
 from burmester.plot.plane import X_AXIS_LENGTH, span_of
 from burmester.plot.style import BLACK, BLUE, GREY, VERMILION, settle_labels, with_unit
+from burmester.progress import step
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -222,6 +223,7 @@ def _pictures(film: Film) -> Iterator[Picture]:
         drive = ax.text(1.0, 1.0, "", transform=ax.transAxes, ha="right", va="bottom", fontsize=9)
         for number in range(film.count):
             place = motion.places[number]
+            step(f"drawing picture {number + 1} of {film.count}")
             drawn = plot.linkage(ax, film.linkage, place, travel=along)
             own = [*drawn.links, drawn.coupler, *drawn.ground]
             own += [drawn.fixed_pivots, drawn.moving_pivots]

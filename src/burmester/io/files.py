@@ -41,7 +41,7 @@ _NO_SYNC = (errno.EINVAL, errno.EACCES, errno.EBADF, errno.ENOSYS, errno.EOPNOTS
 def write(path: str | os.PathLike[str], data: bytes | str, *, force: bool = False) -> None:
     """Write a whole file; text as UTF-8, its line ends as they are.  Errors: see `atomic_file`."""
     with atomic_file(path, force=force) as temporary, open(temporary, "wb") as file:
-        file.write(data.encode() if isinstance(data, str) else data)
+        file.write(data.encode(errors="backslashreplace") if isinstance(data, str) else data)
 
 
 @contextmanager
@@ -326,7 +326,10 @@ def _separators() -> tuple[str, ...]:
 
 
 def quoted(path: str) -> str:
-    """A path as the shell of this system takes it."""
+    """A path as the shell of this system takes it, on one line and without escape codes."""
+    if not (_WINDOWS or path.isprintable()):
+        escaped = path.replace("\\", r"\\").replace("'", r"\'")
+        return f"$'{printable(escaped)}'"  # as bash and zsh read it
     return f'"{path}"' if _WINDOWS else shlex.quote(path)
 
 

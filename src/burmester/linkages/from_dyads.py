@@ -39,7 +39,9 @@ from burmester.linkages.sound_linkages import sound_linkages
 from burmester.linkages.target import Target
 from burmester.linkages.trade import trades
 from burmester.numerics.arrays import ROUNDING
+from burmester.progress import step
 from burmester.tasks.problem import SynthesisProblem
+from burmester.wording import count
 
 __all__ = ["linkages_from_dyads", "target_of"]
 
@@ -74,13 +76,17 @@ def linkages_from_dyads(
     start = evaluation.stacked(pairs)
     found: list[FoundLinkage] = []
     if pairs:
+        step(f"{'refining' if refine else 'judging'} {count(len(pairs), 'linkage')}")
         found = evaluation.evaluate(_of_pairs(start, pairs, evaluation.target, refine))
     if refine and (found or not pairs):
         found = _with_search(start, pairs, evaluation, found)
         if found and found[0].usable:
             found = ranked([*found, *trades(found[0], evaluation)], problem)
     if options.rounds:
+        step(f"rounding the dimensions of {count(len(found), 'linkage')}")
         found = evaluation.rounded(found)
+    if options.manufacturing_tolerance is not None:
+        step(f"building {count(len(found), 'linkage')} within the tolerance")
     found = evaluation.with_spreads(found)
     return tuple(
         replace(each, id=f"L{rank}", rank=rank) for rank, each in enumerate(found, start=1)
@@ -186,12 +192,14 @@ def _with_search(
     nearest = min(found, key=lambda each: each.combined_error, default=None)
     further = None
     if nearest is None or (nearest.usable and nearest.combined_error > digits_leave_open(problem)):
+        step("looking for closer linkages")
         further = FurtherPairs.of(pairs, evaluation)
         found = ranked([*found, *closer_linkages(further, evaluation, found)], problem)
         nearest = min(found, key=lambda each: each.combined_error, default=None)
     if nearest is None:
         return found
     if not nearest.usable:
+        step("looking for linkages that work")
         further = further or FurtherPairs.of(pairs, evaluation)
         starts = further.beside(start, pairs, found, evaluation)
         best = closest_usable(found)
@@ -204,6 +212,7 @@ def _with_search(
     # Poses that determine a linkage within their digits leave no other one but the pairs.
     unique = closest.determined and closest.combined_error <= digits_leave_open(problem)
     if most == inf or not unique:
+        step("looking for linkages of better proportions")
         found = ranked([*found, *sound_linkages(found, evaluation, most)], problem)
     return found
 

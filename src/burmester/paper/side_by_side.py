@@ -12,6 +12,7 @@ from typing import Any, final
 
 from burmester.io.cases import load
 from burmester.paper.five_methods import Answer, by_every_method
+from burmester.progress import step
 from burmester.tasks.motion_task import Task
 
 __all__ = ["Answer", "SideBySide", "side_by_side", "side_by_side_data"]
@@ -32,6 +33,7 @@ def side_by_side(starts: int = 100, seed: int = 2012) -> tuple[SideBySide, ...]:
     tasks = {"Table 2 (pose 6 at 52.87 deg)": "ge2012-exact", "Table 5": "ge2012-approximate"}
     result = []
     for title, case in tasks.items():
+        step(f"solving {title} by every method")
         poses = Task.from_rows(load(case)["poses"], angle_unit="deg").poses
         result.append(SideBySide(title, case, by_every_method(poses, starts, seed)))
     return tuple(result)

@@ -40,6 +40,7 @@ from burmester.plot.plane import achieved, coupler_curve, poses, span_of
 from burmester.plot.space import image_space
 from burmester.plot.style import BLACK, GREY, PALETTE, figure, finish, house_style, label, legend
 from burmester.plot.walk import steps, walk, write_gif
+from burmester.progress import step
 
 __all__ = ["FORMATS", "NAMES", "paper_figure", "write_figures"]
 
@@ -113,6 +114,7 @@ def write_figures(
     done = list[Path]()
     with house_style():
         for name in NAMES if paths else ():
+            step(f"drawing {name}")
             drawing = paper_figure(name)
             for path in (p for p in paths if p.stem == name):
                 kind = path.suffix[1:]
@@ -120,6 +122,7 @@ def write_figures(
                     drawing.savefig(temporary, format=kind, dpi="figure", metadata=_METADATA[kind])
                 done.append(path)
     if "gif" in formats:
+        step("drawing the walk")
         fit = _exact()
         basis = _basis(fit)
         end = np.radians(fit.printed["theta_deg"])

@@ -19,6 +19,7 @@ from burmester.fourbar.dyad import Dyad
 from burmester.fourbar.pose_error import PoseError
 from burmester.linkages.found_linkage import FoundLinkage, Pair
 from burmester.linkages.from_dyads import linkages_from_dyads
+from burmester.progress import step
 from burmester.synthesis.dyad_search import DyadSearch, search_dyads
 from burmester.synthesis.method import with_method
 from burmester.synthesis.outcome import dyad_advice, family, linkage_advice, summary
@@ -46,6 +47,7 @@ def synthesize(
     """
     both = task.limits * (2 if len(task.limits) == 1 else 1)
     require_feasible(task.poses, both, task.exact)
+    step(f"looking at {task.poses.shape[0]} poses")
     diagnosis = diagnose(task)
     problem = SynthesisProblem.of(task, diagnosis.motion, options)
     known = (*task.notes, *diagnosis.findings)
@@ -54,9 +56,11 @@ def synthesize(
     if max(problem.missing_conditions) > 0 and options.method in ("auto", "exact"):
         return _dyad_family(problem, known)
     problem = with_method(problem)
+    step("looking for dyads")
     search = search_dyads(problem)
     pairs, twice = search.pairs(problem.length)
     linkages = _linkages(problem, pairs)
+    step("comparing each pose with the others")
     outcome = summary(problem, search, linkages)
     warnings = (
         *task.notes,
@@ -134,6 +138,7 @@ def _found_twice(pair: Pair) -> Advice:
 
 def _certificate(problem: SynthesisProblem, search: DyadSearch) -> Certificate:
     """What is proved of the dyads."""
+    step("proving what was found")
     task, fit = problem.task, search.fits[0]
     dyads: list[Dyad] = [each.dyad for each in search.dyads]
     if isinstance(fit, FivePoseDyads):
