@@ -22,6 +22,7 @@ from burmester.values import real_numbers, require_instance, shown
 __all__ = [
     "COARSE",
     "CONDITIONS",
+    "MOST",
     "MOST_NAME",
     "MOST_UNIT",
     "AngleUnit",
@@ -118,6 +119,7 @@ class Task:
             )
         self.poses.require_finite()
         _require_computable(self.poses)
+        _require_resolution(*self.resolution)
         if (weights := self.weights) is not None:
             if weights.shape != (count,) or not (weights > 0).all():
                 raise InputError(
@@ -347,3 +349,15 @@ def _require_computable(poses: Displacement) -> None:
     else:
         return
     raise InputError("E112", message, why=why, help=help)
+
+
+def _require_resolution(position: float, angle: float) -> None:
+    """Refuse standard deviations that cannot be computed with; raises E112."""
+    for value, most, noun in ((position, MOST, "positions"), (angle, MOST_TURN, "angles")):
+        if value > most:
+            raise InputError(
+                "E112",
+                f"the standard deviation of the {noun} is too large",
+                why=f"it is {value / 3**0.5:.3g}, and {most:g} is the most to compute with",
+                help="give a smaller standard deviation, or none",
+            )

@@ -10,6 +10,7 @@ from typing import Final, Literal, TypeAlias, final, get_args
 import numpy as np
 
 from burmester.errors import InputError
+from burmester.tasks.motion_task import MOST
 from burmester.wording import listed
 
 __all__ = ["Method", "Norm", "SynthesisOptions"]
@@ -52,7 +53,8 @@ class SynthesisOptions:
     Raises
     ------
     InputError
-        E134, where a word is unknown or a length is not a number above zero.
+        E134, where a word is unknown or a length is not a number above zero; E112, where a length
+        is too large to compute with.
     """
 
     method: Method = "auto"
@@ -111,5 +113,12 @@ def _length(name: str, value: object) -> float:
             "E134",
             f"{name} is {value!r}, not a length above zero",
             help="give a length above zero, in the unit of the poses, or leave it out",
+        )
+    if value > MOST:  # type: ignore[operator]
+        raise InputError(
+            "E112",
+            f"the {name.replace('_', ' ')} is too large",
+            why=f"it is {value:g}, and {MOST:g} is the most to compute with",
+            help="give a smaller length, in the unit of the poses, or leave it out",
         )
     return float(value)  # type: ignore[arg-type]
