@@ -580,6 +580,18 @@ CASES: dict[str, Case] = {
         Edit("poses.csv", "5,3,5,3\n", ""),
         {"poses.csv": POINTS.replace("5,3,5,8", "5,3,5,3")},
     ),
+    "too many poses": Case(
+        "E126",
+        S,
+        Write("poses.csv", TEN),
+        {"poses.csv": lambda: "x,y,angle_deg\n" + 20_001 * "1,2,3\n"},
+    ),
+    "too many lines": Case(
+        "E101",
+        S,
+        Write("poses.csv", TEN),
+        {"poses.csv": lambda: "x,y,angle_deg\n" + 1_100_001 * "\n" + TEN},
+    ),
     "too large to square": Case(
         "E112", S, Edit("poses.csv", "3e200", "3"), {"poses.csv": rows("0,0,0 3e200,1,40 4,3,70")}
     ),

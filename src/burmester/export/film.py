@@ -1,4 +1,7 @@
-"""A film of a linkage, before it is drawn: what each picture shows, and how it is found again."""
+"""A film of a linkage, before it is drawn: what each picture shows, and how it is found again.
+
+E162 a film that cannot be drawn, or not in the memory there is
+"""
 
 from __future__ import annotations
 
@@ -10,14 +13,25 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.errors import InputError
 from burmester.export.coupler_motion import CouplerMotion
+from burmester.export.options import Options
 from burmester.fourbar.dyad import PR, RR
 from burmester.fourbar.linkage import Linkage
 from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import FloatArray
 from burmester.plot.style import with_unit
 
-__all__ = ["DPI", "MARK_COLOUR", "MARK_POINTS", "Film", "Picture", "blob"]
+__all__ = [
+    "DPI",
+    "MARK_COLOUR",
+    "MARK_POINTS",
+    "TALLEST",
+    "Film",
+    "Picture",
+    "blob",
+    "require_film",
+]
 
 Picture = NDArray[np.uint8]
 
@@ -27,6 +41,50 @@ COLOUR_DISTANCE: Final = 70  # of 3 x 255: largest deviation from the mark's col
 DPI: Final = 100.0
 CHECKED_PICTURES: Final = 8  # pictures that are read back
 HOLD_SHARE: Final = 0.08  # of a film that goes back and forth: pause at each end
+SECONDS: Final = (0.1, 600.0)  # least and greatest duration
+RATES: Final = (1.0, 240.0)  # pictures a second, least and most
+WIDTHS: Final = (100, 4096)  # pixels; on less there is no room for the axes
+MAX_PICTURES: Final = 20_000  # about twenty minutes of drawing
+PIXEL_BYTES: Final = 5.0  # memory of a pixel of a picture that is kept to the end: colours, index
+TALLEST: Final = 1.15  # height of a picture, in shares of its width
+MAX_BYTES: Final = 7e8  # memory for pictures that are kept
+
+
+def require_film(options: Options, rate: float, *, kept: bool) -> int:
+    """The number of pictures at a rate, if they can be drawn; else raises E162.
+
+    kept: whether all of them are in memory at once.
+    """
+    for name, value, (least, most), noun in (
+        ("--seconds", options.seconds, SECONDS, "a duration of {:g} s"),
+        ("--fps", options.frames_per_second, RATES, "{:g} pictures a second"),
+        ("--pixels", options.width_px, WIDTHS, "a width of {:g} pixels"),
+    ):
+        if not least <= value <= most:
+            raise InputError(
+                "E162",
+                f"{noun.format(value)} cannot be drawn",
+                why=f"it is at least {least:g} and at most {most:g}",
+                help=f"give {name} {most if value > most else least:g}",
+            )
+    count = max(2, round(options.seconds * rate))
+    if count > MAX_PICTURES:
+        raise InputError(
+            "E162",
+            f"{count} pictures are too many",
+            why=f"they would take hours to draw; {MAX_PICTURES} are the most",
+            help=f"give --seconds {MAX_PICTURES / rate:.3g}, or fewer pictures a second",
+        )
+    size = count * PIXEL_BYTES * TALLEST * options.width_px**2
+    if kept and size > MAX_BYTES:
+        width = int(options.width_px * math.sqrt(MAX_BYTES / size))
+        raise InputError(
+            "E162",
+            f"{count} pictures of {options.width_px} pixels are too many for a GIF",
+            why=f"they would need {size / 1e9:.2g} GB, and {MAX_BYTES / 1e9:g} GB are allowed",
+            help=f"give --pixels {max(width, WIDTHS[0])}, or fewer --seconds; or write an MP4",
+        )
+    return count
 
 
 @dataclass(frozen=True)

@@ -5,6 +5,7 @@ any other goes from the first pose to the last and back.  The wanted poses stand
 body's own frame moves with it, and the path of its origin grows.
 
 E130 imageio-ffmpeg is missing        E160 what was written shows another motion
+E162 a film that cannot be drawn
 """
 
 from __future__ import annotations
@@ -25,7 +26,16 @@ from PIL import Image
 
 from burmester import plot
 from burmester.errors import BurmesterError, InputError
-from burmester.export.film import DPI, MARK_COLOUR, MARK_POINTS, Film, Picture, blob
+from burmester.export.film import (
+    DPI,
+    MARK_COLOUR,
+    MARK_POINTS,
+    TALLEST,
+    Film,
+    Picture,
+    blob,
+    require_film,
+)
 from burmester.io.saved import SavedLinkage
 from burmester.plot.plane import X_AXIS_LENGTH, span_of
 from burmester.plot.style import BLACK, BLUE, GREY, VERMILION, settle_labels, with_unit
@@ -44,7 +54,7 @@ MAX_GIF_RATE: Final = 25.0  # pictures a second; more would only make the file l
 MAX_MARK_ERROR: Final = 1.5  # pixels: largest deviation of the mark read back
 FITTED_PLACES: Final = 25  # places whose drawing has to fit into the picture
 MARGIN: Final = (0.62, 0.12, 0.48, 0.34)  # inches left, right, below and above the axes
-TALL, FLAT = 1.15, 0.5  # the height of a picture at most and at least, in shares of its width
+TALL, FLAT = TALLEST, 0.5  # the height of a picture at most and at least, in shares of its width
 PALETTE_SIZE: Final = 64  # colours of a GIF
 
 
@@ -152,12 +162,14 @@ def check_mp4(chosen: SavedLinkage, path: Path, options: Options) -> None:
 
 def _gif(chosen: SavedLinkage, options: Options) -> tuple[Film, float]:
     """The film, and its rate: a GIF counts in hundredths of a second."""
-    rate = 100 / math.ceil(100 / min(MAX_GIF_RATE, options.frames_per_second) - 1e-9)
-    return Film(chosen, options.width_px, max(2, round(options.seconds * rate))), rate
+    most = min(MAX_GIF_RATE, options.frames_per_second)
+    rate = 100 / math.ceil(100 / most - 1e-9) if most > 0 else most
+    count = require_film(options, rate, kept=True)
+    return Film(chosen, options.width_px, count), rate
 
 
 def _mp4(chosen: SavedLinkage, options: Options) -> Film:
-    count = max(2, round(options.seconds * options.frames_per_second))
+    count = require_film(options, options.frames_per_second, kept=False)
     return Film(chosen, options.width_px, count)
 
 

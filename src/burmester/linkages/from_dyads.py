@@ -224,6 +224,8 @@ def _searched(starts: PairsToSearch, evaluation: Evaluation, most: float) -> lis
     if found is None:
         return []
     index = np.flatnonzero(found.refined.met)
+    if not len(index):
+        return []
     batch, rows = found.refined.batch[index], found.refined.rows[index]
     if target is not evaluation.target:
         rows = evaluation.target.places(batch)

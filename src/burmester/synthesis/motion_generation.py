@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import combinations
@@ -14,7 +15,7 @@ from burmester.dyads.critical_points import CriticalDyads
 from burmester.dyads.five_poses import FivePoseDyads
 from burmester.dyads.local_minima import BestDyads, best_dyads
 from burmester.dyads.selection import FoundDyad, found_dyads
-from burmester.errors import Advice
+from burmester.errors import Advice, InputError
 from burmester.fourbar.dyad import Dyad
 from burmester.fourbar.pose_error import PoseError
 from burmester.linkages.found_linkage import FoundLinkage, Pair
@@ -32,6 +33,9 @@ from burmester.tasks.problem import SynthesisProblem
 
 __all__ = ["synthesize"]
 
+MAX_POSES = 20_000  # of a task, so that no method takes more than a gigabyte of memory
+POSE_BYTES = 25_000  # of memory for a pose, as measured with MAX_POSES and ten linkages
+
 
 def synthesize(
     task: Task,
@@ -42,9 +46,10 @@ def synthesize(
     Linkages are refined as a whole, but those of the pencil are the paper's.  Fewer than five
     conditions have infinitely many dyads: see `three_poses` and `burmester_curve` for them all.
     Raises InputError E121 (the method does not take that number of poses), E123 (it does not take
-    limits, exact poses, the norm or a certificate), E130 (proofs lack their library), and E132
-    (limits that no link can meet).
+    limits, exact poses, the norm or a certificate), E126 (more poses than there is memory for),
+    E130 (proofs lack their library), and E132 (limits that no link can meet).
     """
+    _require_few(task)
     both = task.limits * (2 if len(task.limits) == 1 else 1)
     require_feasible(task.poses, both, task.exact)
     step(f"looking at {task.poses.shape[0]} poses")
@@ -72,6 +77,18 @@ def synthesize(
     )
     proved = _certificate(problem, search) if options.certify else None
     return Synthesis(problem, outcome, search.dyads, linkages, warnings, search.fits, proved)
+
+
+def _require_few(task: Task) -> None:
+    """Refuse more poses than there is memory for, before anything is computed; raises E126."""
+    if (count := task.poses.shape[0]) > MAX_POSES:
+        raise InputError(
+            "E126",
+            f"{count} poses are too many",
+            why=f"they would need {count * POSE_BYTES / 1e9:.2g} GB of memory or so, "
+            f"and {MAX_POSES} are the most",
+            help=f"take one pose in {math.ceil(count / MAX_POSES)}: so many hardly tell more",
+        )
 
 
 def _dyad_family(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthesis:

@@ -5,13 +5,26 @@ from __future__ import annotations
 import os
 import re
 import sys
+from typing import BinaryIO
 
 from burmester.errors import Advice, InputError
 from burmester.io import cases
 from burmester.io.reading.columns import HEADER
 from burmester.io.reading.pose_table import no_poses, shown
 
-__all__ = ["ARCHIVE_HELP", "decode_text", "read_source"]
+__all__ = [
+    "ARCHIVE_HELP",
+    "MAX_LINES",
+    "decode_text",
+    "read_source",
+    "require_moderate",
+    "too_large",
+]
+
+MAX_BYTES = 50_000_000  # of a file: some two million poses, or what is no pose file
+MAX_LINES = 1_100_000  # of a text: `check` takes 0.5 kB of memory a line, and 12 s for all
+MAX_TREE_CHARACTERS = 20_000_000  # of JSON and TOML
+TREE_BYTES = 40  # of memory for a character of them, with locations and printed digits
 
 _WINDOWS_SIGNS = "°º²³µ§±×·–—‘’“”„…«»€\u00a0"  # beside letters, in tables of Western Europe
 ARCHIVE_HELP = (
@@ -34,13 +47,37 @@ def read_source(source: str) -> bytes:
         return cases.read_bytes(source.removeprefix("case:"))
     try:
         if source == "-":
-            return sys.stdin.buffer.read()
+            return _bounded(sys.stdin.buffer)
         with open(source, "rb") as file:
-            return file.read()
+            return _bounded(file)
     except (OSError, ValueError) as error:  # ValueError: a null character in the path
         why = getattr(error, "strerror", None) or str(error)
         help = _help_for(source, error)
         raise InputError("E101", "the poses cannot be read", why=why, help=help) from None
+
+
+def _bounded(file: BinaryIO) -> bytes:
+    """All bytes of a file, or E101 without reading on: some have no end."""
+    data = file.read(MAX_BYTES + 1)
+    if len(data) > MAX_BYTES:
+        raise too_large(f"it has more than {MAX_BYTES / 1e6:.0f} MB")
+    return data
+
+
+def require_moderate(text: str, *, tree: bool) -> None:
+    """Refuse a text whose rows, or whose tree, would take more than a gigabyte; raises E101."""
+    size, lines = len(text) / 1e6, text.count("\n")
+    if tree and len(text) > MAX_TREE_CHARACTERS:
+        why = f"its {size:.0f} MB would need {size * TREE_BYTES / 1e3:.2g} GB of memory as a tree"
+        raise too_large(f"{why}; {MAX_TREE_CHARACTERS / 1e6:.0f} MB are the most")
+    if lines > MAX_LINES:
+        raise too_large(f"it has {lines} lines, and {MAX_LINES} are the most")
+
+
+def too_large(why: str) -> InputError:
+    """E101 for a file that is not read to its end."""
+    help = "take one pose in ten, say: so many hardly tell more"
+    return InputError("E101", "the file is too large", why=why, help=help)
 
 
 def decode_text(data: bytes) -> tuple[str, tuple[Advice, ...]]:

@@ -16,6 +16,7 @@ import numpy as np
 from burmester.errors import InputError
 from burmester.io.reading import pose_table
 from burmester.io.reading.columns import read_columns
+from burmester.io.reading.file_content import MAX_LINES, too_large
 from burmester.io.reading.pose_table import PoseTable, Rows, decimals, numeric_roles
 from burmester.numerics.arrays import FloatArray
 
@@ -41,6 +42,8 @@ def read_parquet(label: str, data: bytes) -> PoseTable:
 
     columns = read_columns(names, where, 'name it "#{}"')
     indices = columns.indices
+    if (count := file.metadata.num_rows) > MAX_LINES:  # a few bytes may stand for them all
+        raise too_large(f"it has {count} rows, and {MAX_LINES} are the most")
     stored = _read_or_refuse(lambda: file.read(columns=[names[i] for i in indices.values()]))
     if not stored.num_rows:
         raise pose_table.no_poses("the file has no rows")

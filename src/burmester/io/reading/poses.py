@@ -32,7 +32,7 @@ from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
 from burmester.io.reading.csv_poses import read_csv
 from burmester.io.reading.documents import read_json, read_toml
-from burmester.io.reading.file_content import decode_text, read_source
+from burmester.io.reading.file_content import decode_text, read_source, require_moderate
 from burmester.io.reading.parquet import is_parquet, read_parquet
 from burmester.io.reading.pose_table import (
     UNITS,
@@ -166,6 +166,7 @@ def _table(label: str, data: bytes, columns: str | None, sheet: str | None) -> P
         by_content: Callable[..., PoseTable]
         by_content = read_json if source.text.lstrip().startswith(("{", "[")) else read_csv
         reader = _READERS.get(suffix, by_content)
+        require_moderate(source.text, tree=reader is not read_csv)
         if reader is read_csv:
             return read_csv(source, columns)
         read = functools.partial(reader, source)
