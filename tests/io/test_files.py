@@ -519,3 +519,73 @@ def test_a_disk_that_is_full_without_mounting_one(monkeypatch):
     error = refused("E141", write, "a", NEW, force=True)
     assert re.fullmatch(r"No space left on device; [\d.e+]+ .B are free there", error.why)
     assert Path("a").read_bytes() == OLD
+
+
+def test_an_error_of_a_library_names_the_file_that_is_meant():
+    """Nobody knows the temporary file, and it has gone."""
+
+    def failing(fault):
+        with atomic_file("drawing.svg") as temporary:
+            raise fault(str(temporary))
+
+    with pytest.raises(RuntimeError) as caught:
+        failing(lambda name: RuntimeError(f"cannot open {name}", 7))
+    assert caught.value.args == ("cannot open drawing.svg", 7)
+    error = refused(
+        "E162",
+        failing,
+        lambda name: InputError("E162", "no", where=name, why=f"{name}: no", help=f"see {name}"),
+    )
+    assert (error.where, error.why, error.help) == (
+        "drawing.svg",
+        "drawing.svg: no",
+        "see drawing.svg",
+    )
+
+
+@pytest.mark.skipif(not POSIX, reason="limits on the size of files as POSIX has them")
+@pytest.mark.parametrize("fault", ["RuntimeError('failed')", "OSError('pipe')", "None"])
+def test_a_library_that_hides_a_full_disk_is_found_out(here, fault):
+    """It says anything, or nothing and writes half: the disk itself is asked."""
+    process = child(
+        """
+        import os, resource, sys
+        from burmester.errors import BurmesterError, InputError
+        from burmester.io.files import atomic_file
+
+        resource.setrlimit(resource.RLIMIT_FSIZE, (10_000, 10_000))
+        fault = eval(sys.argv[1]) or BurmesterError("E160", "it does not contain the linkage")
+        try:
+            with atomic_file("a.step") as temporary:
+                try:
+                    temporary.write_bytes(bytes(20_000))
+                except OSError:
+                    raise fault from None
+        except InputError as error:
+            print(error.code, error.message, error.why, sep="; ")
+        """,
+        fault,
+    )
+    out, said = process.communicate()
+    assert out == "E141; a.step cannot be written; File too large\n", said
+    assert os.listdir() == []
+
+
+def test_a_library_that_fails_by_itself_is_not_blamed_on_the_disk():
+    with pytest.raises(RuntimeError), atomic_file("a.step"):
+        raise RuntimeError("no solid")
+
+
+@pytest.mark.skipif(not POSIX, reason="names of bytes as POSIX has them")
+def test_a_name_is_told_without_what_a_terminal_obeys():
+    name = os.fsdecode(b"a\xff\x1b[2J\nb")
+    write(name, OLD)
+    assert refused("E140", write, name, NEW).message == r"a\xff\x1b[2J\nb exists already"
+    error = refused("E141", write, f"{name}c/d", NEW)
+    assert error.help == r"run `mkdir -p $'a\xff\x1b[2J\nbc'`, or give another name"
+    subprocess.run(["bash", "-c", in_backticks(error.help)], check=True)
+    write(f"{name}c/d", NEW)
+
+
+def in_backticks(help):
+    return re.search("`(.*)`", help)[1]

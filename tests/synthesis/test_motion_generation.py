@@ -2,9 +2,11 @@
 
 import json
 from importlib import resources
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from benchmarks.many_poses import in_one_task
 
 from burmester import synthesize
 from burmester.errors import InputError
@@ -411,3 +413,25 @@ def test_a_repeated_pose_is_exact_where_one_of_them_is_marked():
     assert synthesis.dyads
     for found in synthesis.dyads:
         assert abs(found.dyad.residual(pose)) < 1e-9 * synthesis.length
+
+
+def test_a_search_on_fewer_poses_that_finds_none(monkeypatch):
+    """Ten poses, each seven times with noise: such a search tries linkages that meet nothing."""
+
+    def none_met(batch, target, parts):
+        refined = SimpleNamespace(met=np.zeros(len(batch), dtype=bool), batch=batch, rows=None)
+        return SimpleNamespace(refined=refined, pair=np.arange(len(batch)))
+
+    monkeypatch.setattr("burmester.linkages.from_dyads.defect_free_linkages", none_met)
+    found = synthesize(Task(in_one_task(70)))
+    assert found.outcome.code == "R301"
+    assert len(found.dyads) == 5
+    assert not found.usable
+
+
+def test_poses_too_many_for_the_memory_are_refused_at_once():
+    with pytest.raises(InputError) as caught:
+        synthesize(Task(in_one_task(1_000_000)))
+    assert caught.value.code == "E126"
+    assert caught.value.why == "they would need 25 GB of memory or so, and 20000 are the most"
+    assert caught.value.help.startswith("take one pose in 50:")
