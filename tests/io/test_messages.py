@@ -584,7 +584,7 @@ CASES: dict[str, Case] = {
         "E126",
         S,
         Write("poses.csv", TEN),
-        {"poses.csv": lambda: "x,y,angle_deg\n" + 20_001 * "1,2,3\n"},
+        {"poses.csv": lambda: "x,y,angle_deg\n" + 10_001 * "1,2,3\n"},
     ),
     "too many lines": Case(
         "E101",

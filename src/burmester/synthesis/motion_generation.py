@@ -33,8 +33,8 @@ from burmester.tasks.problem import SynthesisProblem
 
 __all__ = ["synthesize"]
 
-MAX_POSES = 20_000  # of a task, so that no method takes more than a gigabyte of memory
-POSE_BYTES = 25_000  # of memory for a pose, as measured with MAX_POSES and ten linkages
+MAX_POSES = 10_000  # of a task, so that no method takes more than a gigabyte of memory
+POSE_BYTES = 75_000  # of memory for a pose at most, as measured with limits for both pivots
 
 
 def synthesize(
@@ -85,7 +85,7 @@ def _require_few(task: Task) -> None:
         raise InputError(
             "E126",
             f"{count} poses are too many",
-            why=f"they would need {count * POSE_BYTES / 1e9:.2g} GB of memory or so, "
+            why=f"they may need {count * POSE_BYTES / 1e9:.2g} GB of memory, "
             f"and {MAX_POSES} are the most",
             help=f"take one pose in {math.ceil(count / MAX_POSES)}: so many hardly tell more",
         )
