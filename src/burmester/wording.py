@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-__all__ = ["count", "figure", "in_runs", "listed", "shortened", "with_article"]
+__all__ = ["LEAST_RUN", "count", "figure", "in_runs", "listed", "shortened", "with_article"]
 
 LEAST_RUN = 3  # successive numbers; from it on they are told as a range
 

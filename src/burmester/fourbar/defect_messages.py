@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from burmester.fourbar.pose_order import CERTAIN_STEP_BACK, REPEATED_POSE_STEP, BoolArray
 from burmester.fourbar.traversal import DEAD_POINT_ANGLE, PoseRange, Traversal
 from burmester.numerics.arrays import FloatArray
-from burmester.wording import count, figure, in_runs, listed, shortened
+from burmester.wording import LEAST_RUN, count, figure, in_runs, listed, shortened
 
 __all__ = [
     "Defect",
@@ -101,8 +101,10 @@ class PoseNames(NamedTuple):
                 runs.append([pose])
         told = []
         for run in runs:
-            ends = [run[0], run[-1]] if len(run) > 1 else run
-            told.append(" to ".join(map(self.one, ends)))
+            if len(run) >= LEAST_RUN:
+                told.append(f"{self.one(run[0])} to {self.one(run[-1])}")
+            else:
+                told += map(self.one, run)
         return ", ".join(told if len(told) <= MAX_NAMES else [*told[:MAX_NAMES], "..."])
 
 
