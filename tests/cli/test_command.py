@@ -376,7 +376,8 @@ def test_help_tells_every_option_in_80_columns():
         "--fixed-pivot --moving-pivot --length --kinds --exact --min-transmission --type --driver "
         "--footprint --link-ratio --within --any-order --method --norm --pose-sigma "
         "--angle-weight --certify --raw --tolerance --round --stock --all --dyads "
-        "--require-determined --angle-unit --columns --drop --json --output --force --help"
+        "--require-determined --angle-unit --columns --points --plane --drop --every --from --to "
+        "--json --output --force --help"
     )
     for option in options.split():
         assert f"{option} " in done.stdout

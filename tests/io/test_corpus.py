@@ -57,6 +57,8 @@ def require_as_in_the_key(task: Task, entry: dict[str, Any]) -> None:
     assert weights == [double(weight) for weight in entry.get("weights", [])]
     marks = [] if task.exact is None else (np.flatnonzero(task.exact) + 1).tolist()
     assert marks == entry.get("exact", [])
+    if "notes" in entry:
+        assert [note.code for note in task.notes] == entry["notes"]
     if "resolution" in entry:
         assert task.resolution == pytest.approx(entry["resolution"], rel=1e-12)
 

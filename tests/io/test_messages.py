@@ -42,6 +42,7 @@ from burmester.io.reading.poses import read_task
 from burmester.io.result import failure, synthesis_data
 from burmester.io.saved import read_result
 from burmester.tasks.motion_class import classify_motion
+from tests.oracles.recordings import nexus, recording
 from tests.oracles.ten_poses import ROWS, TEN
 
 WIDTHS = (60, 80, 200)
@@ -97,6 +98,29 @@ POINTS = "px,py,qx,qy\n0,0,5,0\n3,1,7,4\n4,3,7,7\n5,3,5,8\n6,2,3,6\n"
 GOOD = {"poses.csv": FIVE}
 FEW = {"poses.csv": "\n".join(FIVE.splitlines()[:4])}
 ALL = {"poses.csv": TEN}
+
+
+def with_z(heights):
+    """Five poses with a third coordinate."""
+    head, *lines = FIVE.splitlines()
+    parts = [line.split(",") for line in lines]
+    rows = [f"{x},{y},{z},{angle}" for (x, y, angle), z in zip(parts, heights, strict=True)]
+    return "\n".join([head.replace("x,y,", "x,y,z,"), *rows, ""])
+
+
+def tilted():
+    """A recording from cameras that stand askew."""
+    names, places = recording(30, noise=0.05)
+    tilt = np.radians(25)
+    turn = [[1, 0, 0], [0, np.cos(tilt), np.sin(tilt)], [0, -np.sin(tilt), np.cos(tilt)]]
+    return names, places @ np.array(turn)
+
+
+def sliding():
+    """A recording in which M2 slips along the body."""
+    names, places = recording(100, noise=0.05)
+    places[:, 1, 0] += np.linspace(0, 6, 100)
+    return names, places
 
 
 # Poses of a four-bar of 12, 22 and 30 mm that turn by 1.8 degrees.
@@ -592,6 +616,30 @@ CASES: dict[str, Case] = {
         Write("poses.csv", TEN),
         {"poses.csv": lambda: "x,y,angle_deg\n" + 1_100_001 * "\n" + TEN},
     ),
+    "z that changes": Case(
+        "E113",
+        S,
+        Edit("poses.csv", "x,y,z,", 'x,y,"#z",'),
+        {"poses.csv": with_z(range(5))},
+    ),
+    "markers in no plane": Case(
+        "E113",
+        f"{S} --points M1,M2",
+        lambda help: Args(f"{S} --points M1,M2 " + re.search(r"--plane \w+", help)[0]),
+        {"poses.csv": lambda: nexus(*tilted())},
+    ),
+    "markers not chosen": Case(
+        "E114",
+        S,
+        lambda help: Args(re.search(r"`burmester (.*)`", help)[1]),
+        {"poses.csv": lambda: nexus(*recording(30))},
+    ),
+    "no such marker": Case(
+        "E114",
+        f"{S} --points M1,M7",
+        lambda help: Args(f"{S} " + re.search(r"--points \S+", help)[0]),
+        {"poses.csv": lambda: nexus(*recording(30))},
+    ),
     "too large to square": Case(
         "E112", S, Edit("poses.csv", "3e200", "3"), {"poses.csv": rows("0,0,0 3e200,1,40 4,3,70")}
     ),
@@ -910,6 +958,20 @@ CASES: dict[str, Case] = {
         f"{S} --drop 11",
         Edit("poses.csv", "1'234", "1234"),
         {"poses.csv": f"{TEN}1'234,0,0\n"},
+        exit=0,
+    ),
+    "a constant z": Case(
+        "W213",
+        S,
+        Edit("poses.csv", "x,y,z,", 'x,y,"#z",'),
+        {"poses.csv": with_z([2.5] * 5)},
+        exit=0,
+    ),
+    "markers on two bodies": Case(
+        "W214",
+        f"{S} --points M1,M2 --every 5",
+        Args(f"{S} --points M1,M3 --every 5"),
+        {"poses.csv": lambda: nexus(*sliding())},
         exit=0,
     ),
 }

@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from burmester.cli.options import POSES, Sectioned, read_poses, with_options
+from burmester.cli.options import POSES, Sectioned, pose_arguments, read_poses, with_options
 from burmester.cli.output import EXIT_FOUND, EXIT_NOTHING, console, print_json
 
 __all__ = ["check"]
@@ -39,5 +39,6 @@ def check(poses: str, *, as_json: bool, **given: Any) -> int:
     else:
         overview.show(diagnosis, console())
         if diagnosis.sound:
-            click.echo(f"\nNothing stands out. Next: burmester synthesize {quoted(poses)}")
+            again = " ".join(map(quoted, (poses, *pose_arguments(given))))
+            click.echo(f"\nNothing stands out. Next: burmester synthesize {again}")
     return EXIT_FOUND if diagnosis.sound else EXIT_NOTHING

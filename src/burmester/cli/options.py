@@ -23,6 +23,7 @@ __all__ = [
     "POSES_HELP",
     "SPECIFICATION",
     "Sectioned",
+    "pose_arguments",
     "read_poses",
     "run_synthesis",
     "with_options",
@@ -100,11 +101,31 @@ POSES: tuple[Decorator, ...] = (
         help="The sheet of an .xlsx workbook; by default the first one.",
     ),
     _poses(
+        "--points",
+        metavar="M1,M2,...",
+        help="Markers on the body, of a motion capture: the first is its origin, its x axis points "
+        "to the second; three or more are fitted as a rigid body.",
+    ),
+    _poses(
+        "--plane",
+        metavar="XY|YZ|XZ|fit",
+        help="The axes of markers that become x and y, or the plane nearest to their motion (fit); "
+        "by default the axis along which they hardly move is passed over.",
+    ),
+    _poses(
         "--drop",
         metavar="3,7",
         multiple=True,
-        help="Poses to leave out, by number or by name; the others are numbered anew.",
+        help="Poses to leave out, by number or by name; the others keep their numbers as names.",
     ),
+    _poses("--every", metavar="N", type=click.IntRange(min=1), help="Take every Nth pose only."),
+    _poses(
+        "--from",
+        "first",
+        metavar="POSE",
+        help="The first pose to take, by its number in the file, by name, or by time (1.5s).",
+    ),
+    _poses("--to", "last", metavar="POSE", help="The last pose to take, likewise."),
     _poses(
         "--pose-sigma",
         metavar="LENGTH,DEG",
@@ -249,6 +270,16 @@ def with_options(*groups: tuple[Decorator, ...]) -> Decorator:
     return lambda command: reduce(lambda made, option: option(made), reversed(options), command)
 
 
+def pose_arguments(given: dict[str, Any]) -> list[str]:
+    """The options of POSES as they were given, for the next command."""
+    words: list[str] = []
+    for name, value in given.items():
+        option = {"first": "--from", "last": "--to"}.get(name, f"--{name.replace('_', '-')}")
+        values = value if isinstance(value, tuple) else () if value is None else (value,)
+        words += [word for each in values for word in (option, str(each))]
+    return words
+
+
 def read_poses(poses: str, **given: Any) -> Task:
     """The task in the file POSES, by the options of POSES and, if given, of SPECIFICATION."""
     from burmester.io.reading import requirements_text as text
@@ -268,7 +299,7 @@ def read_poses(poses: str, **given: Any) -> Task:
         poses,
         angle_unit=given["angle_unit"],
         pose_sigma=None if sigma is None else text.pose_sigma(sigma),
-        **{name: given[name] for name in ("columns", "sheet", "drop") if given[name]},
+        **{name: given[name] for name in _ROWS if given[name]},
         **further,
     )
 
@@ -297,6 +328,7 @@ def run_synthesis(poses: str, **given: Any) -> Synthesis:
         return synthesize(read_poses(poses, **given), options)
 
 
+_ROWS = ("columns", "sheet", "points", "plane", "drop", "every", "first", "last")
 _LENGTH_OPTIONS = {
     "length_per_radian": "--angle-weight",
     "manufacturing_tolerance": "--tolerance",

@@ -160,7 +160,8 @@ class OddPose:
     @property
     def help(self) -> str:
         """What to do."""
-        number = self.pose + 1
+        name = pose_labels(self.task, [self.pose])[0]
+        number = name if name.isdecimal() else self.pose + 1  # a numeric name is that of its row
         drop = f"leave it out with --drop {number}"
         if not self.repairs:
             return f"check the numbers of pose {number}; or {drop}"

@@ -198,7 +198,13 @@ def headers() -> None:
     )
     good("columns-and-header.csv", CSV, options={"columns": "x,y,angle_deg"})
     good("latin1.csv", CSV.replace("angle_deg", "angle (°)").encode("latin-1"))
-    good("drop-option.csv", CSV, [POSES[0], *POSES[2:]], options={"drop": ["2"]})
+    good(
+        "drop-option.csv",
+        CSV,
+        [POSES[0], *POSES[2:]],
+        options={"drop": ["2"]},
+        names=["1", "3", "4"],
+    )
     good(
         "drop-option-names.csv",
         "name,x,y,angle_deg,weight,exact\na,-0.8253,-1.0329,91.91,1,\nbad,1,2,3,7,x\n"
@@ -214,6 +220,7 @@ def headers() -> None:
         CSV,
         [POSES[0], *POSES[2:]],
         options={"drop": ["2"], "exact": ["1,4"]},
+        names=["1", "3", "4"],
         exact=[1, 3],
     )
 
@@ -271,6 +278,7 @@ def points() -> None:
         "px,py,qx,qy\n0,0,3,4\n1.5,-2,5.5,1\n9,9,9,9\n10,0.25,7,4.25\n",
         POINTS,
         options={"drop": ["3"]},
+        names=["1", "2", "4"],
     )
     bad("points-three.csv", "px,py,qx\n1,2,3\n", "E105", ":1:1")
     bad("points-and-angle.csv", "x,y,px,angle_deg\n1,2,3,4\n", "E108", ":1:5")
@@ -464,8 +472,202 @@ def parquet() -> None:
     bad("not-parquet.parquet", CSV, "E101")
 
 
+# Three frames of two markers, as their files print them; the third marker is elsewhere.
+FRAMES = [
+    ["0.00", "0.00", "900.1", "3.00", "4.00", "900.0", "7.5", "1.25", "20"],
+    ["1.50", "-2.00", "900.0", "5.50", "1.00", "900.1", "7.5", "1.25", "20"],
+    ["10.00", "0.25", "900.1", "7.00", "4.25", "900.0", "7.5", "1.25", "20"],
+]
+PAIR = [[row[i] for i in (0, 1, 3, 4)] for row in FRAMES]
+
+
+def recordings() -> None:
+    mm, two = {"length_unit": "mm"}, {"points": "M1,M2"}
+    nexus = "Trajectories\n100\n,,Lid:M1,,,Lid:M2,,,Lid:Base,,\nFrame,Sub Frame,X,Y,Z,X,Y,Z,X,Y,Z\n"
+    nexus += ",,mm,mm,mm,mm,mm,mm,mm,mm,mm\n"
+    frames = [",".join(row) for row in FRAMES]
+    numbered = "".join(f"{k},0,{row}\n" for k, row in enumerate(frames, start=401))
+    names = ["401", "402", "403"]
+    good("nexus.csv", nexus + numbered, PAIR, options=two, names=names, notes=["W213"], **mm)
+    lost = nexus + numbered.replace("402,0,1.50,-2.00,900.0", "402,0,,,")
+    lost += f"404,0,{frames[1]}\n405,0,{frames[2].replace('7.00', 'NaN')}\n"
+    lost += f"406,0,0,0,0,{frames[0].partition('900.1,')[2]}\n"
+    after = "\nDevices\n1000\n,,Force,,\nFrame,Sub Frame,Fx,Fy,Fz\n,,N,N,N\n401,0,1,2,3\n"
+    good(
+        "nexus-lost-markers.csv",
+        f"Devices\n1000\n,,Force\nFrame,Sub Frame,Fx\n,,N\n401,0,1\n\n{lost}{after}",
+        [PAIR[0], PAIR[2], PAIR[1]],
+        options=two,
+        names=["401", "403", "404"],
+        notes=["W213"],
+        **mm,
+    )
+    bad("nexus-not-chosen.csv", nexus + numbered, "E114", ":3:1")
+    bad("nexus-unknown.csv", nexus + numbered, "E114", None, {"points": "M1,M3"})
+    KEY["nexus-unknown.csv"]["where"] = "--points:1:1"
+    bad("nexus-two-bodies.csv", nexus + numbered, "E111", ":8:1", {"points": "M1,Base"})
+    moving = nexus + numbered.replace("900.1", "905").replace("900.0", "895")
+    bad("nexus-no-plane.csv", moving, "E113", ":3:1", two)
+    good(
+        "nexus-plane.csv",
+        moving,
+        PAIR,
+        options=two | {"plane": "XY"},
+        names=names,
+        notes=["W213"],
+        **mm,
+    )
+    comma = nexus + numbered.replace("402,0,1.50", "402,0,1,50")
+    bad("nexus-decimal-comma.csv", comma, "E106", ":7:49", two)
+    word = nexus + numbered.replace("402,0,1.50", "402,0,left")
+    bad("nexus-word.csv", word, "E104", ":7:7", two)
+    kinds = ",Type" + ",Rigid Body" * 7 + ",Marker" * 6 + "\n,Name" + ",Lid" * 7
+    kinds += ",M1" * 3 + ",M2" * 3 + "\n,ID" + ",77" * 13 + "\n,," + "Rotation," * 4
+    kinds += ",".join(["Position"] * 9) + "\nFrame,Time (Seconds),X,Y,Z,W" + ",X,Y,Z" * 3 + "\n"
+    good(
+        "motive.csv",
+        "Format Version,1.23,Take Name,Lid 3,Capture Frame Rate,120.000000,Length Units,Meters,"
+        f"Coordinate Space,Global\n\n{kinds}"
+        + "".join(
+            f"{k},{k / 120:.6f},0.1,0.2,0.3,0.9,5,6,7,{','.join(row[:6])}\n"
+            for k, row in enumerate(FRAMES)
+        ),
+        PAIR,
+        options=two,
+        names=["0", "1", "2"],
+        length_unit="m",
+        notes=["W213"],
+    )
+    trc = "PathFileType\t4\t(X/Y/Z)\tlid.trc\n"
+    trc += "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n100.00\t100.00\t3\t2\tmm\n"
+    trc += "Frame#\tTime\tM1\t\t\tM2\t\t\n\t\tX1\tY1\tZ1\tX2\tY2\tZ2\n\n"
+    tabs = ["\t".join(row[:6]) for row in FRAMES]
+    trc += "".join(f"{k}\t{k / 100:.3f}\t{row}\n" for k, row in enumerate(tabs, start=1))
+    good("lid.trc", trc, PAIR, notes=["W213"], **mm)
+    good(
+        "lid-frames.trc",
+        trc + f"4\t0.040\t{tabs[0]}\n5\t0.050\t{tabs[1]}\n6\t0.060\t{tabs[2]}\n",
+        [PAIR[1], PAIR[0], PAIR[2]],
+        options={"every": 2, "first": "0.02s"} | two,
+        names=["2", "4", "6"],
+        **mm,
+    )
+    deeplabcut = "scorer" + ",net" * 6 + "\nbodyparts" + ",tip" * 3 + ",heel" * 3
+    deeplabcut += "\ncoords" + ",x,y,likelihood" * 2 + "\n"
+    sure = [[*row[:2], "0.99", *row[3:5], "0.61"] for row in FRAMES]
+    sure.insert(1, ["400.1", "7.2", "0.2", "3.00", "4.00", "0.99"])
+    good(
+        "deeplabcut.csv",
+        deeplabcut + "".join(f"{k},{','.join(row)}\n" for k, row in enumerate(sure)),
+        PAIR,
+        names=["0", "2", "3"],
+        length_unit="px",
+        notes=["W213"],
+    )
+    flat = [f"{k / 30:.3f}\t" + "\t".join(row[:2]) for k, row in enumerate(FRAMES)]
+    flat = [f"{row}\t{row[:5]}\t" + "\t".join(FRAMES[k][3:5]) for k, row in enumerate(flat)]
+    good(
+        "tracker.txt",
+        "mass_A\t\t\tmass_B\t\t\nt\tx\ty\tt\tx\ty\n" + "".join(f"{row}\n" for row in flat),
+        PAIR,
+        notes=["W213"],
+    )
+    head = ";".join(f"{name}:{axis}" for name in ("M1", "M2", "Base") for axis in "XYZ")
+    good(
+        "c3d-decimal-commas.csv",
+        f"Time;{head}\n"
+        + "".join(f"{k / 100};{';'.join(row)}\n" for k, row in enumerate(FRAMES)).replace(".", ","),
+        PAIR,
+        options={"points": "m1, m2"},
+        notes=["W213"],
+    )
+    for name, form in (
+        ("underscores", "{}_{}"),
+        ("blanks", "{} {} [mm]"),
+        ("points", "{}.{} (mm)"),
+        ("capitals", "{}{}"),
+    ):
+        small = str.lower if form == "{}_{}" else str
+        head = ",".join(form.format(f"Marker{k}", small(axis)) for k in (1, 2) for axis in "XYZ")
+        good(
+            f"markers-{name}.csv",
+            f"Frame,{head}\n"
+            + "".join(f"{k},{','.join(row[:6])}\n" for k, row in enumerate(FRAMES, start=1)),
+            PAIR,
+            length_unit="mm" if "mm" in form else None,
+            notes=["W213"],
+        )
+
+
+def panels() -> None:
+    flat = ["0.0"] * 4
+    good(
+        "cad-brackets.txt",
+        "".join(f"({x}, {y}, 0.0)  {a}°\n" for x, y, a in POSES),
+        notes=["W213"],
+    )
+    good(
+        "cad-angle-brackets.txt",
+        "".join(
+            f"Point{k} <{x} mm; {y} mm> {a} deg\n".replace(".", ",")
+            for k, (x, y, a) in enumerate(POSES, start=1)
+        ),
+        names=["Point1", "Point2", "Point3", "Point4"],
+        length_unit="mm",
+        notes=[],
+    )
+    good(
+        "cad-labels.txt",
+        "".join(f"X = {x} mm   Y = {y} mm\tAngle = {a} deg\n" for x, y, a in POSES),
+        length_unit="mm",
+        notes=[],
+    )
+    good(
+        "cad-lines.txt",
+        "".join(
+            f"X: {x}mm\nY: {y}mm\nZ: {z}mm\nAngle: {a}°\n\n".replace(".", ",")
+            for (x, y, a), z in zip(POSES, flat, strict=True)
+        ),
+        length_unit="mm",
+        notes=["W213"],
+    )
+    bad("cad-decimal-commas.txt", "(12,3, 4,5, 0,0) 30°\n(13,3, 4,9, 0,0) 35°\n", "E104", ":1:1")
+    bad("cad-thousands.txt", "(1,234, 5) 30°\n(1,235, 6) 35°\n", "E104", ":1:1")
+    bad("cad-differences.txt", "dX = 1 mm  dY = 2 mm  Angle = 30 deg\n", "E107", ":1:6")
+    bad("cad-no-unit.txt", "(1.5, 2) 30\n(2.5, 3) 40\n(3.5, 5) 45\n", "E110", ":1:10")
+    bad("cad-other-unit.txt", "X=1mm Y=2mm Angle=3deg\nX=1in Y=2in Angle=3deg\n", "E106", ":2:3")
+    bad("cad-heights.txt", "(1, 2, 0) 30°\n(2, 3, 0) 40°\n(3, 5, 1) 45°\n", "E113", ":3:2")
+    z = "x,y,z,angle_deg\n" + "".join(f"{x},{y},12.70,{a}\n" for x, y, a in POSES)
+    good("z-constant.csv", z, notes=["W213"])
+    bad("z-changes.csv", z.replace("12.70,49", "12.90,49"), "E113", ":4:1")
+
+
+def selections() -> None:
+    five = [*POSES, ["7", "8", "9"]]
+    text = "x,y,angle_deg\n" + rows(five)
+    good(
+        "every-second.csv",
+        text,
+        five[::2],
+        options={"every": 2},
+        names=["1", "3", "5"],
+    )
+    good(
+        "from-to.csv",
+        text,
+        [five[1], five[3], five[4]],
+        options={"first": "2", "last": "5", "drop": ["3"], "exact": ["4"]},
+        names=["2", "4", "5"],
+        exact=[2],
+    )
+    bad("from-none-such.csv", text, "E122", None, {"every": 2, "drop": ["6"]})
+    KEY["from-none-such.csv"]["where"] = "--drop:1:1"
+
+
 if __name__ == "__main__":
-    for make in (dialects, headers, written_numbers, points, faults, shapes, trees, parquet):
+    makers = (dialects, headers, written_numbers, points, faults, shapes, trees, parquet)
+    makers += (recordings, panels, selections)
+    for make in makers:
         make()
     text = ",\n".join(
         f"{json.dumps(name)}: {json.dumps(entry, ensure_ascii=False)}"

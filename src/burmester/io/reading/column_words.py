@@ -53,6 +53,7 @@ WORDS: dict[str, str] = {
     "remarque, commentaire, observaciones, comentario, osservazioni, commento, 备注, 備註, 備考",
 }
 WORDS["y"] = WORDS["x"].replace("x", "y").replace("X", "Y").replace("abscisse", "ordonnée")
+WORDS["z"] = WORDS["x"].replace("x", "z").replace("X", "Z").replace("abscisse", "cote")
 WORDS |= {point: point for point in POINTS}
 
 _LENGTHS: dict[str, str] = {
@@ -131,7 +132,7 @@ def _words() -> dict[str, str]:
 @functools.cache
 def _units(role: str) -> dict[str, tuple[str, ...]]:
     """The plain words of each unit that a role may have."""
-    tables = {"angle": _ANGLES, "time": _TIMES} | dict.fromkeys(("x", "y", *POINTS), _LENGTHS)
+    tables = {"angle": _ANGLES, "time": _TIMES} | dict.fromkeys(("x", "y", "z", *POINTS), _LENGTHS)
     return {
         unit: tuple(map(_plain, text.split(", "))) for unit, text in tables.get(role, {}).items()
     }

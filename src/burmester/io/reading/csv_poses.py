@@ -28,11 +28,12 @@ from burmester.io.reading.csv_cells import (
     unquoted,
 )
 from burmester.io.reading.csv_header import Header, read_header
+from burmester.io.reading.height import height_notes
 from burmester.io.reading.pose_table import PoseTable, Rows, Source, brief, numeric_roles
 from burmester.io.reading.written_numbers import CellNumbers, written_number
 from burmester.io.reading.wrong_numbers import not_a_number
 
-__all__ = ["BLOCK", "read_csv"]
+__all__ = ["BLOCK", "read_csv", "require_one_mark"]
 
 BLOCK = 1 << 20  # characters parsed at a time, so that a million rows need little memory
 
@@ -61,9 +62,10 @@ def read_csv(source: Source, columns: str | None = None) -> PoseTable:
         start = end + 1
     if not blocks:
         raise pose_table.no_poses("the file has only a header")
-    _require_one_mark(marks)
-    rows = Rows.joined(blocks)
+    require_one_mark(marks)
+    rows, locate = Rows.joined(blocks), functools.partial(_row_location, header)
     units = written.units(header.columns.units, len(rows.values))
+    notes = (*source.notes, *header.notes, *header.columns.notes(), *written.notes())
     where = "in the header" if columns is None else "in --columns"
     return PoseTable(
         rows._replace(names=header.columns.row_names(rows.names)),
@@ -71,8 +73,8 @@ def read_csv(source: Source, columns: str | None = None) -> PoseTable:
         angle_unit=units.get("angle"),
         where=header.where,
         say_unit=f"name the column `angle_deg` or `angle_rad` {where}",
-        locate_row=functools.partial(_row_location, header),
-        notes=(*source.notes, *header.notes, *header.columns.notes(), *written.notes()),
+        locate_row=locate,
+        notes=(*notes, *height_notes(_heights(header), rows, locate)),
     )
 
 
@@ -169,6 +171,20 @@ def _rows(
             yield line, cells
 
 
+def _heights(header: Header) -> list[str] | None:
+    """The texts of a column z, with decimal points; None without one."""
+    if (index := header.columns.indices.get("z")) is None:
+        return None
+    lines = _rows(ROW_LINE.finditer(header.source.text, header.end), header.separator)
+    texts = []
+    for _, cells in lines:
+        cell = unquoted(cells[index]) if index < len(cells) else ""
+        plain, mark = pose_table.plain_number(cell, header.separator)
+        number = written_number(cell, "z", header.separator) if mark is None else None
+        texts.append(number.plain if number else plain)
+    return texts
+
+
 def _row_location(header: Header, row: int | None) -> str:
     """Where a row stands, by its number from 0; the file for None."""
     if row is None:
@@ -186,7 +202,7 @@ def _not_a_mark(cell: str, row: int, where: str) -> InputError:
     return InputError("E104", message, where=where, help=help)
 
 
-def _require_one_mark(marks: dict[str, str]) -> None:
+def require_one_mark(marks: dict[str, str]) -> None:
     """Refuse commas that nothing proves to be decimal ones."""
     where = marks.get("?") or marks.get(",")
     if where and "." in marks:

@@ -68,7 +68,11 @@ def read_parquet(label: str, data: bytes) -> PoseTable:
     names_of = columns.row_names([str(value) if value is not None else "" for value in given_names])
     exact = _marks(stored, names, indices.get("exact"), where)
     rows = Rows(
-        np.stack(numbers, axis=1), (max(printed.values()), angle), names_of, exact, "px" in indices
+        np.stack(numbers, axis=1),
+        (max(printed.values()), angle),
+        names_of,
+        exact,
+        2 * ("px" in indices),
     )
     return PoseTable(
         rows,

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Container, Sequence
+from collections.abc import Callable, Container
 from decimal import Decimal
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from burmester.errors import Advice, InputError
 from burmester.geometry.regions import Polygon
@@ -38,7 +37,6 @@ __all__ = [
     "no_poses",
     "numeric_roles",
     "plain_number",
-    "pose_marks",
     "shown",
 ]
 
@@ -60,12 +58,12 @@ NUMBER_LIKE = re.compile(rf"[-−+.,]*[0-9][-−+.,0-9eE]*|{NOT_FINITE.pattern}"
 class Rows(NamedTuple):
     """Some poses, as numbers."""
 
-    # (N, 3): x, y and angle in its own unit, or (N, 4): the points p and q; then weight if given
+    # (N, 3): x, y and angle in its own unit, or (N, 2K): K tracked points; then weight if given
     values: FloatArray
     decimals: tuple[float, float]  # the most that a length and an angle are printed with
     names: list[str]  # one a pose, or none at all
     exact: list[bool]  # the same
-    points: bool = False  # whether the values are px, py, qx, qy in place of x, y, angle
+    points: int = 0  # the tracked points whose x and y the values are, in place of x, y, angle
 
     @classmethod
     def read(cls, columns: dict[str, list[str]]) -> Rows:
@@ -74,8 +72,8 @@ class Rows(NamedTuple):
         The roles are x, y, angle, or px, py, qx, qy; and weight, name and exact if there are any.
         """
         numeric = [columns[role] for role in numeric_roles(columns)]
-        points = "px" in columns
-        printed = [max(map(decimals, column), default=0.0) for column in numeric[: 3 + points]]
+        points = 2 if "px" in columns else 0
+        printed = [max(map(decimals, column), default=0.0) for column in numeric[: 2 * points or 3]]
         most = (max(printed), 0.0) if points else (max(printed[:2]), printed[2])
         values = np.array([[float(number) for number in column] for column in numeric]).T
         exact = [MARKS[mark.lower()] for mark in columns.get("exact", [])]
@@ -186,38 +184,6 @@ def plain_number(cell: str, separator: str) -> tuple[str, str | None]:
     if _THOUSANDS.fullmatch(cell):
         return plain, "?"
     return plain, "," if "," in cell else "." if "." in cell else ""
-
-
-def pose_marks(
-    option: str, texts: Sequence[str], names: Sequence[str], count: int
-) -> NDArray[np.bool_]:
-    """Which of `count` poses an option names, by numbers from 1 or by names; raises E122."""
-    marks = np.zeros(count, dtype=np.bool_)
-    for text in texts:
-        source, at = Source(option, text), 0
-        for item in [text] if text in names else text.split(","):
-            word = item.strip()
-            where = source.where(at + len(item) - len(item.lstrip()), len(word))
-            marks[_pose(word, names, count, option, where)] = True
-            at += len(item) + 1
-    return marks
-
-
-def _pose(word: str, names: Sequence[str], count: int, option: str, where: str) -> int:
-    """The pose that a number or a name stands for, counted from 0."""
-    found = {k for k, name in enumerate(names) if word and name == word}
-    if word.isascii() and word.isdigit() and len(word) < 10 and 1 <= int(word) <= count:
-        found.add(int(word) - 1)
-    if len(found) == 1:
-        return found.pop()
-    known = " or by their names" if names else ""
-    message = f"there is no pose {shown(word)}"
-    help = f"name poses by their numbers, 1 to {count}{known}, as in {option} 1,{count}"
-    if found:
-        which = " and ".join(str(k + 1) for k in sorted(found)[:5])
-        message = f"{shown(word)} may be pose {which}"
-        help = "give the poses names that differ and are no numbers, or none"
-    raise InputError("E122", message, where=where, help=help)
 
 
 def known_to(half: float, size: float) -> float:

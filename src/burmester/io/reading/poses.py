@@ -1,5 +1,7 @@
 """A task from a file: poses in CSV, JSON, TOML and Parquet; a specification in JSON and TOML.
 
+Recordings of markers are read as well, as motion capture exports them (`marker_header`).
+
 A number is taken as the nearest double or refused, never changed: no thousands separators,
 no underscores, no guessed units, no guessed decimal marks; digits beyond a double's are rounded,
 so that 1e-400 is 0.  An error's `where` holds
@@ -12,8 +14,9 @@ E102 no poses in it                 E107 a column or key that is not known
 E103 a number that is not finite    E108 given twice, or contradictory
 E104 not a number, or ambiguous     E109 not JSON or TOML at all
 E105 header, column or key missing  E110 angle unit missing or contradicted
-E111 two points that give no pose   E122 no such pose to be exact, or left out
-E130 Parquet without pyarrow
+E111 points that give no pose       E122 no such pose to be exact, or left out
+E113 not in one plane               E130 Parquet without pyarrow
+E114 markers not known or chosen
 """
 
 from __future__ import annotations
@@ -23,29 +26,25 @@ import math
 import os
 from collections.abc import Callable, Sequence
 from pathlib import PurePath
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
+from burmester.io.reading.cad_rows import is_cad_text, read_cad_rows
 from burmester.io.reading.csv_poses import read_csv
 from burmester.io.reading.documents import read_json, read_toml
 from burmester.io.reading.file_content import decode_text, read_source, require_moderate
+from burmester.io.reading.marker_header import read_marker_header
+from burmester.io.reading.marker_recording import MarkerRecording, read_recording, recorded_poses
 from burmester.io.reading.parquet import is_parquet, read_parquet
-from burmester.io.reading.pose_table import (
-    UNITS,
-    PoseTable,
-    Rows,
-    Source,
-    extent,
-    known_to,
-    pose_marks,
-)
+from burmester.io.reading.pose_table import UNITS, PoseTable, Source, extent, known_to
+from burmester.io.reading.row_selection import RowLabels, RowSelection, row_marks
 from burmester.io.reading.specification import Specification
 from burmester.io.reading.stated_requirements import combined_requirements
-from burmester.io.reading.tracked_points import tracked_poses
+from burmester.io.reading.tracked_points import TrackedRows, tracked_poses
 from burmester.io.reading.workbook import is_archive, read_sheet
 from burmester.numerics.arrays import FloatArray
 from burmester.printable import blanked, printable
@@ -66,7 +65,12 @@ def read_task(
     pose_sigma: tuple[float, float] | None = None,
     columns: str | None = None,
     sheet: str | None = None,
+    points: str | None = None,
+    plane: str | None = None,
     drop: Sequence[str] = (),
+    every: int | None = None,
+    first: str | None = None,
+    last: str | None = None,
     data: bytes | None = None,
 ) -> Task:
     """Read the task in a file, on standard input or in a carried case.
@@ -95,8 +99,23 @@ def read_task(
     sheet : str, optional
         The sheet of an .xlsx workbook, by its name or its number from 1.  By default the first
         that is not hidden.
+    points : str, optional
+        The markers of a recording that are on the body, separated by commas.  The first is its
+        origin, and its x axis points to the second.  Three or more are fitted as a rigid body.
+        By default the only two of a file.
+    plane : str, optional
+        The axes of a recording that become x and y, such as "XZ", or "fit" for the plane nearest
+        to the motion.  By default the axis along which the markers hardly move is passed over.
     drop : sequence of str
         Poses to leave out, written as those of `exact`.
+    every : int, optional
+        Take every Nth pose only, beginning with the first one.
+    first, last : str, optional
+        Take the poses from the first to the last one, both included, written as those of `exact`,
+        or as a time such as "1.5s" where the file has times.
+
+    Poses are numbered as in the file, whichever are left out, and take these numbers as their
+    names if they have none.  In a recording they are the numbers of its frames.
     data : bytes, optional
         The content of the source, if it has been read already.
 
@@ -108,7 +127,7 @@ def read_task(
     Raises
     ------
     InputError
-        E101 to E111, E122 and E130 as listed above, and the errors of `Limits`, `Requirements` and
+        E101 to E114, E122 and E130 as listed above, and the errors of `Limits`, `Requirements` and
         `Task`.
 
     Examples
@@ -126,13 +145,13 @@ def read_task(
     path = os.fspath(source)
     label = "<stdin>" if path == "-" else printable(path)
     try:
-        table = _table(label, read_source(path) if data is None else data, columns, sheet)
+        table = _table(
+            label, read_source(path) if data is None else data, columns, sheet=sheet, points=points
+        )
         return _task(
-            table,
+            *_selected(table, RowSelection(every, first, last, drop), exact, plane),
             angle_unit=angle_unit,
             specification=specification,
-            exact=exact,
-            drop=drop,
             pose_sigma=pose_sigma,
         )
     except InputError as error:
@@ -144,13 +163,22 @@ def read_task(
         raise
 
 
+class _Recording(NamedTuple):
+    """A recording of markers, and whether those were chosen without --points."""
+
+    markers: MarkerRecording
+    chosen: bool
+
+
 def _require_no_sheet(sheet: str | None) -> None:
     if sheet is not None:
         message = "--sheet is for .xlsx workbooks; this file has one table"
         raise InputError("E108", message, help="leave --sheet out")
 
 
-def _table(label: str, data: bytes, columns: str | None, sheet: str | None) -> PoseTable:
+def _table(
+    label: str, data: bytes, columns: str | None, *, sheet: str | None, points: str | None
+) -> PoseTable | _Recording:
     """The table in a file, by its first bytes and its suffix."""
     suffix = PurePath(label).suffix.lower()
     if is_parquet(data) or (suffix == ".parquet" and data):
@@ -168,39 +196,97 @@ def _table(label: str, data: bytes, columns: str | None, sheet: str | None) -> P
         reader = _READERS.get(suffix, by_content)
         require_moderate(source.text, tree=reader is not read_csv)
         if reader is read_csv:
+            if columns is None and (header := read_marker_header(source)) is not None:
+                return _Recording(*read_recording(header, points))
+            _require_no_points(label, points)
+            if columns is None and is_cad_text(source.text):
+                return read_cad_rows(source)
             return read_csv(source, columns)
         read = functools.partial(reader, source)
     if columns is not None:
         message = "--columns is for CSV files; this file names its columns itself"
         raise InputError("E108", message, help="leave --columns out")
+    _require_no_points(label, points)
     return read()
+
+
+def _require_no_points(label: str, points: str | None) -> None:
+    """Refuse --points for a file without markers."""
+    if points is None:
+        return
+    message = "--points names markers, and this file has no columns of markers"
+    why = "columns of markers are M1:X, M1:Y, M2:X and so on, or names above a line of X, Y and Z"
+    raise InputError("E114", message, where=label, why=why, help="leave --points out")
+
+
+class _SelectedRows(NamedTuple):
+    """The rows of a file that are taken, what they are called, and which must be met exactly."""
+
+    table: PoseTable
+    kept: NDArray[np.intp]  # their numbers in the file, from 0
+    names: list[str]
+    exact: NDArray[np.bool_] | None
+    tracked: TrackedRows
+
+
+def _selected(
+    table: PoseTable | _Recording,
+    selection: RowSelection,
+    exact: Sequence[str],
+    plane: str | None,
+) -> _SelectedRows:
+    """The rows that are asked for, of poses or of a recording."""
+    if isinstance(table, _Recording):
+        recording, labels = table.markers, table.markers.labels
+        wanted = selection.kept(labels)
+        usable = selection.in_range(labels) & ~row_marks("--drop", selection.drop, labels)
+        poses, kept = recorded_poses(recording, wanted, usable, plane, chosen=table.chosen)
+        names = labels.of_kept(kept)
+        frames = [labels.names[k] for k in kept] if labels.frames else None
+        tracked = TrackedRows(kept, recording.locate_row, recording.names, frames)
+        marks = row_marks("--exact", exact, labels) if exact else None
+    else:
+        if plane is not None:
+            message = "--plane is for recordings of markers, and this file has poses"
+            raise InputError("E108", message, help="leave --plane out")
+        poses, labels = table, RowLabels(len(table.rows.values), table.rows.names)
+        kept = np.flatnonzero(selection.kept(labels))
+        names = labels.of_kept(kept)
+        if len(kept) < labels.size:
+            poses = table._replace(rows=table.rows._replace(values=table.rows.values[kept]))
+        tracked = TrackedRows(kept, table.locate_row)
+        marks = _marked(table, labels, exact)
+    if marks is not None:
+        lost = marks.copy()
+        lost[kept] = False
+        if exact and lost.any():
+            number = int(lost.argmax())
+            name = labels.names[number] if labels.frames else str(number + 1)
+            message = f"pose {name} is left out and marked by --exact"
+            help = "leave it out of --exact, or take it in with --drop, --every, --from and --to"
+            raise InputError("E108", message, help=help)
+        marks = marks[kept] if marks[kept].any() else None
+    return _SelectedRows(poses, kept, names, marks, tracked)
 
 
 def _task(
     table: PoseTable,
+    kept: NDArray[np.intp],
+    names: list[str],
+    exact: NDArray[np.bool_] | None,
+    tracked: TrackedRows,
     *,
     angle_unit: str | None,
     specification: Specification | None,
-    exact: Sequence[str],
-    drop: Sequence[str],
     pose_sigma: tuple[float, float] | None,
 ) -> Task:
-    """The task in a table, without the poses that are left out."""
+    """The task in the rows of a table that are taken."""
     rows = table.rows
-    dropped = pose_marks("--drop", drop, rows.names, len(rows.values))
-    marks = _marked(rows, exact)
-    if exact and marks is not None and (both := marks & dropped).any():
-        message = f"pose {both.argmax() + 1} is left out by --drop and marked by --exact"
-        raise InputError("E108", message, help="leave it out of one of the two options")
-    kept = np.flatnonzero(~dropped)
-    values, names = rows.values, rows.names
-    if drop:
-        values, names = values[kept], [names[k] for k in kept] if names else []
+    values = rows.values
     measured = None
     if rows.points:
-        poses, resolution, measured = tracked_poses(
-            values, rows.decimals[0], kept, table.locate_row
-        )
+        coordinates = values[:, : 2 * rows.points]
+        poses, resolution, measured = tracked_poses(coordinates, rows.decimals[0], tracked)
     else:
         poses, resolution = _oriented(table, values, angle_unit)
     for stated in (pose_sigma, table.pose_sigma, measured):
@@ -209,7 +295,7 @@ def _task(
             break
     stated_in_file = table.specification
     whole = stated_in_file.merged(specification) if specification else stated_in_file
-    numbers = 4 if rows.points else 3  # in a row, before its weight
+    numbers = 2 * rows.points or 3  # in a row, before its weight
     try:
         return Task(
             poses,
@@ -217,7 +303,7 @@ def _task(
             names=tuple(names) or None,
             length_unit=table.length_unit,
             resolution=resolution,
-            exact=marks[kept] if marks is not None and marks[kept].any() else None,
+            exact=exact,
             limits=whole.limits(),
             requirements=combined_requirements(whole.requirements),
             body=table.body,
@@ -253,14 +339,15 @@ def _oriented(
     return Displacement(values[:, :2], angles), known
 
 
-def _marked(rows: Rows, exact: Sequence[str]) -> NDArray[np.bool_] | None:
+def _marked(table: PoseTable, labels: RowLabels, exact: Sequence[str]) -> NDArray[np.bool_] | None:
     """Which poses must be met exactly, by the file or by --exact."""
-    if exact and any(rows.exact):
+    marks = table.rows.exact
+    if exact and any(marks):
         message = "poses are marked exact in the file and by --exact"
         raise InputError("E108", message, help="leave --exact out, or the marks in the file")
     if exact:
-        return pose_marks("--exact", exact, rows.names, len(rows.values))
-    return np.array(rows.exact) if any(rows.exact) else None
+        return row_marks("--exact", exact, labels)
+    return np.array(marks) if any(marks) else None
 
 
 def _both_readings(least: float, most: float, count: int) -> str:
