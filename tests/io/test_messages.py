@@ -833,9 +833,9 @@ CASES: dict[str, Case] = {
     ),
     "two angles and few digits": Case(
         "R318",
-        S,
+        f"{S} --pose-sigma 0.03,0",
         Write("poses.csv", rows("0,-0.4,10 -1,6.4,50 -0.9,5.8,10 0.5,4.3,20 -5.8,5.3,35")),
-        {"poses.csv": rows("0.00,-0.4,10 -1.0,6.4,50 -0.9,5.8,10 0.5,4.3,10 -5.8,5.3,10")},
+        {"poses.csv": rows("0.0,-0.4,10 -1.0,6.4,50 -0.9,5.8,10 0.5,4.3,10 -5.8,5.3,10")},
         exit=1,
     ),
     "two angles": Case(
