@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from burmester import Task, read_task
+from burmester import Requirements, Task, read_task
 from burmester.geometry.displacement import Displacement
 
 NAMES = (
@@ -53,5 +53,8 @@ TASKS = {
     "two rails": ellipse,
     "hardly turning": hardly_turning,
     "long names": lambda: replace(read_task("case:ge2012-exact"), names=NAMES),
+    "asked": lambda: replace(
+        read_task("case:ge2012-exact"), requirements=Requirements(transmission_deg=20)
+    ),
     "apart": lambda: read_task("case:motiongen-shoulder"),
 }

@@ -204,3 +204,24 @@ def test_pivots_that_may_be_moved_are_no_alarm(browser, report, name):
                 told = re.search(r"±(\S+) mm", quiet.text_content())
                 if told:
                     assert float(told[1]) == pytest.approx(widest, rel=0.05)
+
+
+def test_the_transmission_angle_that_was_asked_for_is_called_so(browser, report):
+    for name, text in (("four-bar", "40°, a usual limit"), ("asked", "20°, asked")):
+        _, file = report(name)
+        with browsers.opened(browser, file) as (page, _, _asked):
+            plots = page.locator(".bm-plots")
+            assert plots.locator("text", has_text="°, a").all_text_contents() == [text]
+            # The line is at its angle on the axis from 0 to 90.
+            heights = {
+                at: float(
+                    plots.locator(".bm-tick", has_text=re.compile(f"^{at}$")).get_attribute("y")
+                )
+                for at in (30, 60)
+            }
+            line = float(
+                re.match(r"M\S+ ([\d.]+)", plots.locator(".bm-usual").get_attribute("d"))[1]
+            )
+            share = (float(text.split("°")[0]) - 30) / 30
+            expected = heights[30] + share * (heights[60] - heights[30]) - 4
+            assert line == pytest.approx(expected, abs=0.1)

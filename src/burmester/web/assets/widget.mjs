@@ -1720,6 +1720,7 @@ var TURN_SECONDS = 7;
 var LEAST_STRETCH = 1e-6;
 var NAME_ROWS = 5;
 var NUMBER_ROWS = 2;
+var MANY_POSES2 = 100;
 var ROW = 13;
 var LONGEST_TICK = 18;
 var STEPS = 360;
@@ -1821,7 +1822,7 @@ var Player = class {
     const X = (u) => inset + (u - low) / (high - low) * (width - 2 * inset);
     const rows = this.stopsOnWay.sort((a, b) => a.frame - b.frame).map((row) => ({ ...row, x: X(row.frame), pose: this.data.poses[row.k] }));
     const named = laidOut(rows.map(({ x, pose }) => ({ x, text: shortened(poseName(pose), LONGEST_TICK) })), width, NAME_ROWS);
-    const texts = named.every(({ at }) => at >= 0) ? named : laidOut(rows.map(({ x, pose }) => ({ x, text: pose.label })), width, NUMBER_ROWS);
+    const texts = named.every(({ at }) => at >= 0) ? named : laidOut(rows.map(({ x, pose }) => ({ x, text: pose.label })), width, rows.length > MANY_POSES2 ? 1 : NUMBER_ROWS);
     const deepest = Math.max(0, ...texts.map(({ at }) => at));
     const one = (k, pose, ...parts) => s("g", { "data-pose": k + 1 }, s("title", {}, `pose ${poseName(pose)}`), ...parts);
     rows.forEach(({ k, x, pose }, i) => stops.append(one(k, pose, s("path", { d: `M${px(x)} 0V${4 + ROW * Math.max(0, texts[i].at)}` }))));
@@ -1978,7 +1979,7 @@ var BOTTOM = 44;
 var PANEL = 84;
 var GAP = 28;
 var USUAL_LIMIT = 40;
-var MANY_POSES2 = 40;
+var MANY_POSES3 = 40;
 var HEADROOM = 1.32;
 var INSET = 8;
 var LONGEST_NAME = 16;
@@ -2059,7 +2060,7 @@ var Plots = class {
         s("circle", { class: "bm-dot", cx: x, cy: y, r: 3.5 }, s("title", {}, `pose ${poseName(row.pose)}: ${figure(value(row))}`))
       );
       const { label } = row.pose;
-      if (x - last > 6 + 6.5 * label.length && (rows.length <= MANY_POSES2 || greatestThree.has(row))) {
+      if (x - last > 6 + 6.5 * label.length && (rows.length <= MANY_POSES3 || greatestThree.has(row))) {
         svg.append(s("text", { class: "bm-dot-name", x, y: y - 7, "text-anchor": "middle" }, label));
         last = x;
       }

@@ -9,6 +9,7 @@ const TURN_SECONDS = 7; // a whole turn of the driver, or a way there and back
 const LEAST_STRETCH = 1e-6; // frames: poses closer together than that are no stretch to play
 const NAME_ROWS = 5; // rows of names under the slider
 const NUMBER_ROWS = 2; // rows of numbers, where the names have no room
+const MANY_POSES = 100; // above this number there is one row of numbers
 const ROW = 13; // pixels: the distance between two of them
 const LONGEST_TICK = 18; // characters of a pose's name under the slider
 const STEPS = 360; // of a key along what is played
@@ -126,7 +127,7 @@ export class Player {
     const rows = this.stopsOnWay.sort((a, b) => a.frame - b.frame).map((row) => ({ ...row, x: X(row.frame), pose: this.data.poses[row.k] }));
     // Names where all of them have room, else numbers; the whole name is there to point at.
     const named = laidOut(rows.map(({ x, pose }) => ({ x, text: shortened(poseName(pose), LONGEST_TICK) })), width, NAME_ROWS);
-    const texts = named.every(({ at }) => at >= 0) ? named : laidOut(rows.map(({ x, pose }) => ({ x, text: pose.label })), width, NUMBER_ROWS);
+    const texts = named.every(({ at }) => at >= 0) ? named : laidOut(rows.map(({ x, pose }) => ({ x, text: pose.label })), width, rows.length > MANY_POSES ? 1 : NUMBER_ROWS);
     const deepest = Math.max(0, ...texts.map(({ at }) => at));
     const one = (k, pose, ...parts) => s("g", { "data-pose": k + 1 }, s("title", {}, `pose ${poseName(pose)}`), ...parts);
     rows.forEach(({ k, x, pose }, i) => stops.append(one(k, pose, s("path", { d: `M${px(x)} 0V${4 + ROW * Math.max(0, texts[i].at)}` }))));
