@@ -2030,7 +2030,7 @@ var Plots = class {
     this.errors(1, "angle error (°)", rows, (row) => row.turned_deg, 1e-9);
     const base = this.transmission(2, rows);
     if (upright) this.uprightNames(rows);
-    const title = slides ? `place of the driver ${driver.id} along its line (${unit2})` : `driver angle (${driver.id})`;
+    const title = slides ? `place of ${driver.id} on its line (${unit2})` : `driver angle (${driver.id})`;
     svg.append(s("text", { class: "bm-title", x: (LEFT + width - RIGHT) / 2, y: height - 6, "text-anchor": "middle" }, title));
     this.cursor = s("g", { class: "bm-cursor" }, s("path", { d: `M0 ${this.top}V${base}` }));
     this.mark = s("circle", { r: 4.5 });
@@ -2074,7 +2074,8 @@ var Plots = class {
     for (const at of [0, 30, 60, 90]) this.rule(Y(at), at);
     const asked = this.data.asked_transmission_deg, limit = asked ?? USUAL_LIMIT;
     svg.append(s("path", { class: "bm-usual", d: `M${LEFT} ${px(Y(limit))}H${width - RIGHT}` }));
-    const limitName = s("text", { class: "bm-tick bm-halo", x: width - RIGHT - 4, y: px(Y(limit)) - 4, "text-anchor": "end" }, `${figure(limit)}°, ${asked ? "asked" : "a usual limit"}`);
+    const below = limit > 15 && (linear(way.transmission, this.stretch.high) ?? 90) > limit;
+    const limitName = s("text", { class: "bm-tick bm-halo", x: width - RIGHT - 4, y: px(Y(limit)) + (below ? 12 : -4), "text-anchor": "end" }, `${figure(limit)}°, ${asked ? "asked" : "a usual limit"}`);
     const { low, high } = this.stretch, frames = [low];
     for (let i = Math.floor(low) + 1; i < high; i += 1) frames.push(i);
     frames.push(high);
