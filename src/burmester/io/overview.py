@@ -97,9 +97,9 @@ def _facts(diagnosis: Diagnosis) -> Iterator[tuple[str, str]]:
     if length or angle:
         positions = f"positions to ±{figure(length)}{unit}" if length else "positions are exact"
         angles = f"angles to ±{figure(math.degrees(angle))}°" if angle else "angles are exact"
-        yield "known", f"{positions}, {angles}: by their digits, or --pose-sigma"
+        yield "known", f"{positions}, {angles}"
     else:
-        yield "known", "taken as exact; --pose-sigma says otherwise"
+        yield "known", "exact, unless --pose-sigma says otherwise"
     if motion is not None:
         general = isinstance(motion.kind, General)
         yield "motion", motion.kind.message if general else motion.kind.name

@@ -135,7 +135,7 @@ def _open(parts: dict[str, bytes], *, values: bool) -> Any:
             "E130",
             "reading .xlsx needs openpyxl",
             why="it cannot be imported",
-            help="pip install 'burmester[data]'",
+            help='pip install "burmester[data]"',
         ) from None
     packed = io.BytesIO()
     with zipfile.ZipFile(packed, "w") as archive:
