@@ -9,6 +9,7 @@ import ezdxf
 import ezdxf.math
 import numpy as np
 import pytest
+from benchmarks import drawings as campaign
 
 from burmester.errors import BurmesterError
 from burmester.export import Options, dxf, svg
@@ -180,3 +181,14 @@ def test_a_wrong_number_in_an_svg_is_told(tmp_path):
     path.write_text(text.replace(">70.71<", ">70.17<"))
     with pytest.raises(BurmesterError, match="was deleted"):
         svg.check(chosen, path, Options())
+
+
+@pytest.mark.slow
+def test_random_linkages_are_drawn():
+    """A sample of `benchmarks/drawings.py`."""
+    found = campaign.campaign(4, 7)
+    assert found["linkages"] == 4
+    assert found["dxf"] == found["svg"] == 4 - found["E163"] - found["E162"]
+    assert not any("E160" in key for key in found)
+    assert found["on a plate"] == found["on text"] == 0
+    assert found["on a line"] <= 0.1 * found["texts"]
