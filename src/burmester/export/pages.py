@@ -30,7 +30,7 @@ PAPERS: Final = {  # by whether the task's lengths are in inches or feet: width 
     True: ("Letter", (8.5 * INCH, 11 * INCH)),
 }
 MARGIN: Final = 12.0  # mm: on all sides; printers leave up to 6.4 mm white
-HEAD: Final = 16.0  # mm: of the title
+HEAD: Final = 22.0  # mm: of the title, five lines
 FOOT: Final = 13.0  # mm: of the ruler
 LETTERS: Final = 2.5  # mm: height of text, the least of ISO 3098 that copies well
 SPACING: Final = 6.0  # mm: between plates

@@ -110,12 +110,14 @@ def _frame(figure: Figure, pages: Pages, page: Page, head: list[str], number: in
     """The title and the ruler of a page."""
     _, height = pages.size
     top = height - MARGIN - LETTERS
-    title = f"{head[0]}   1:1   {page.title}   page {number} of {len(pages.pages)}"
     length, divisions, name = pages.ruler
-    print_it = f"Print at 100 % on {pages.paper}, not fitted to the page: the ruler is {name} long."
-    if page.tiled:
-        print_it += " Lay the crosses of neighbours on each other."
-    for row, text in enumerate([title, print_it, " ".join(head[1:])]):
+    lines_of_text = [
+        f"{head[0]}   scale 1:1   page {number} of {len(pages.pages)}",
+        page.title + (": lay the crosses of neighbours on each other" if page.tiled else ""),
+        f"Print at 100 % on {pages.paper}, not fitted to the page: the ruler is {name} long.",
+        *head[1:],
+    ]
+    for row, text in enumerate(lines_of_text):
         _text(figure, text, np.array([MARGIN, top - 1.7 * LETTERS * row]), None)
     start = np.array([MARGIN, MARGIN])
     lines = [[start, start + np.array([length, 0])]]
