@@ -585,7 +585,7 @@ def test_from_poses_to_files(tmp_path):
     result = tmp_path / "result.json"
     result.write_bytes(told)
     kinds = set()
-    for data in json.loads(told)["linkages"][:3]:
+    for data in json.loads(told)["linkages"][:4]:
         chosen = read_result(result).choose(data["id"])
         kinds |= {tuple(each["kind"] for each in data["dyads"])}
         for to in FLAT:
