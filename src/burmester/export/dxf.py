@@ -17,8 +17,8 @@ from typing import Any
 import numpy as np
 
 from burmester.errors import BurmesterError
-from burmester.export.dimension_lines import DimensionLine
-from burmester.export.measured import Measured, require_dimensions, require_drawn
+from burmester.export.dxf_dimensions import add_dimension, add_style, measured_in
+from burmester.export.measured import require_dimensions
 from burmester.export.options import Options
 from burmester.export.plate import moved
 from burmester.export.plates import Assembly, Plate, assembly_of, slot_outline
@@ -53,8 +53,6 @@ LAYERS = {  # and their colours by the index of AutoCAD
     "DIMENSIONS": 30,
     "TEXT": 7,
 }
-DIMENSION_STYLE = "BURMESTER"
-DIAMETER_TYPE = 3  # of dimension entities
 
 
 def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
@@ -75,7 +73,7 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
         document.header["$EXTMAX"] = (*sheet.high.tolist(), 0.0)
         for name, colour in LAYERS.items():
             document.layers.add(name, color=colour)
-        _add_style(document, sheet)
+        add_style(document, sheet)
         _draw(document, assembly, sheet, poses, notes)
         middle, size = (sheet.low + sheet.high) / 2, sheet.high - sheet.low
         document.set_modelspace_vport(float(size.max()), center=tuple(middle.tolist()))
@@ -97,7 +95,7 @@ def _draw(
         _plate(space, moved(part.plate, part.place), layers, sheet)
         _text(space, part.label, label, sheet.letters)
         for each in part.lines:
-            _dimension(document, each)
+            add_dimension(document, each)
     block = document.blocks.new("ASSEMBLY", base_point=(0, 0))
     for plate in assembly.plates:
         drawn = moved(plate, plate.at(assembly.drawn))
@@ -133,73 +131,6 @@ def _plate(
         for way in ([arm, 0], [0, arm]):
             ends = _point(mark - way), _point(mark + way)
             space.add_line(*ends, dxfattribs={"layer": mark_layer})
-
-
-def _add_style(document: Any, sheet: Sheet) -> None:
-    """The style of dimensions: the letters and decimals of the sheet, closed arrows."""
-    style = document.dimstyles.new(DIMENSION_STYLE)
-    for key, value in {
-        "dimtxt": sheet.letters,
-        "dimasz": 0.8 * sheet.letters,
-        "dimexo": 0,
-        "dimexe": 0.5 * sheet.letters,
-        "dimgap": 0.35 * sheet.letters,
-        "dimdec": sheet.decimals,
-        "dimzin": 8,  # no zeros behind
-        "dimtad": 1,  # text above its line
-        "dimtih": 1,  # and not turned
-        "dimtoh": 1,
-        "dimtmove": 2,
-        "dimdsep": ord("."),
-        "dimscale": 1,
-    }.items():
-        style.set_dxf_attrib(key, value)
-
-
-def _dimension(document: Any, line: DimensionLine) -> None:
-    """A dimension that measures; what it shows is drawn as the sheet has it."""
-    space = document.modelspace()
-    one, two = (_point(each) for each in line.measured)
-    start, end = line.lines[0]
-    _, *inches = line.text.partition(" [")
-    common = {
-        "text": "<>" + "".join(inches),
-        "dimstyle": DIMENSION_STYLE,
-        "dxfattribs": {"layer": "DIMENSIONS"},
-    }
-    if line.kind == "diameter":
-        middle = _point(line.measured.mean(axis=0))
-        made = space.add_diameter_dim(middle, mpoint=two, **common)
-    elif line.kind == "distance":
-        along = line.measured[1] - line.measured[0]
-        away = start - line.measured[0]
-        side = along[0] * away[1] - along[1] * away[0]
-        level = abs(side) / float(np.linalg.norm(along))
-        made = space.add_aligned_dim(one, two, distance=float(np.copysign(level, side)), **common)
-    else:
-        angle = 0.0 if line.kind == "length" else 90.0
-        made = space.add_linear_dim(_point(end), one, two, angle=angle, **common)
-    made.render()
-    entity = made.dimension
-    entity.dxf.text_midpoint = _point(line.at)
-    if line.kind != "diameter":
-        entity.dxf.defpoint = _point(end)
-    entity.dxf.actual_measurement = line.value
-    block = document.blocks.get(entity.dxf.geometry)
-    block.delete_all_entities()
-    for piece in line.lines:
-        block.add_line(*map(_point, piece), dxfattribs={"layer": "DIMENSIONS"})
-    for arrow in line.arrows:
-        block.add_solid([_point(each) for each in arrow], dxfattribs={"layer": "DIMENSIONS"})
-    block.add_mtext(
-        line.text.replace("Ø", "%%c"),
-        dxfattribs={
-            "layer": "DIMENSIONS",
-            "char_height": line.letters,
-            "insert": _point(line.at),
-            "attachment_point": 5,
-        },
-    )
 
 
 def _closed(space: Any, outline: FloatArray, layer: str) -> None:
@@ -252,7 +183,7 @@ def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
             require_equal(f"{plate.name} in the assembly", _rows(next(drawn)), rows, TOLERANCE_MM)
     placed = _check_plates(document, assembly)
     if options.dimensions:
-        require_dimensions(placed, _measured(document), TOLERANCE_MM)
+        require_dimensions(placed, measured_in(document, TOLERANCE_MM), TOLERANCE_MM)
     axes = document.modelspace().query('LINE[layer=="POSES"]')
     starts = np.array([tuple(each.dxf.start)[:2] for each in axes])
     require_equal("the poses", starts, np.repeat(poses.translation, 2, axis=0), TOLERANCE_MM)
@@ -271,34 +202,6 @@ def _pivots(reference: Reference, place: Displacement) -> list[tuple[str, FloatA
         if moving is not None:
             pivots.append((f"the {side}'s moving pivot", place.act(moving)))
     return pivots
-
-
-def _measured(document: Any) -> list[Measured]:
-    """The dimension entities, what they measure and what they show."""
-    found = []
-    for entity in document.modelspace().query("DIMENSION"):
-        require_equal("the layer of a dimension", entity.dxf.layer == "DIMENSIONS", True, 0)
-        block = document.blocks.get(entity.dxf.geometry)
-        (shown,) = block.query("MTEXT")
-        require_equal(
-            "the layers of a dimension",
-            {each.dxf.layer for each in block} == {"DIMENSIONS"},
-            True,
-            0,
-        )
-        dxf, diameter = entity.dxf, entity.dimtype == DIAMETER_TYPE
-        ends = (dxf.defpoint, dxf.defpoint4) if diameter else (dxf.defpoint2, dxf.defpoint3)
-        rows = np.array([tuple(each)[:2] for each in ends])
-        text = shown.text.replace("%%c", "Ø")
-        lines = [
-            [tuple(each.dxf.start)[:2], tuple(each.dxf.end)[:2]] for each in block.query("LINE")
-        ]
-        require_drawn(np.array(lines), rows, diameter, TOLERANCE_MM)
-        require_equal("where a text is", dxf.text_midpoint, shown.dxf.insert, TOLERANCE_MM)
-        if not diameter:
-            require_equal("a dimension line", tuple(dxf.defpoint)[:2], lines[0][1], TOLERANCE_MM)
-        found.append(Measured(rows, float(entity.get_measurement()), text, diameter))
-    return found
 
 
 def _check_plates(document: Any, assembly: Assembly) -> list[tuple[Plate, Displacement]]:
