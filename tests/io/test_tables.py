@@ -137,6 +137,19 @@ def test_the_page_of_e105_lists_all_that_is_understood() -> None:
         assert role in ("y", "z", *POINTS) or listed, role
 
 
+def test_how_a_file_was_read_is_told(read: Read) -> None:
+    text = "Titel\nNr.;X [mm];Y [mm];phi_deg;weight\n8;0,5;1;30;1\n9;1;1;40;1\n7;2;1;50;1\n"
+    assert read(text).read_as == (
+        "CSV with semicolons and decimal commas; header in line 2: name from `Nr.`, "
+        "x from `X [mm]`, y from `Y [mm]`, angle from `phi_deg` and weight"
+    )
+    assert read(CSV).read_as == "CSV with commas; header in line 1: x, y and angle_deg"
+    task = read(ROWS.replace(",", "\t"), columns="x,y,angle_deg")
+    assert task.read_as == "CSV with tabs; columns by --columns: x, y and angle_deg"
+    stored = parquet({"Y": [1, 2, 3], "X": [1, 2, 4], "angle_rad": [1, 2, 3]})
+    assert read(stored, ".parquet").read_as == "Parquet: Y, X and angle_rad"
+
+
 @pytest.mark.parametrize("name", ["angle [grad]", "theta grad", "rotation/gon", "Winkel [gon]"])
 def test_a_grad_is_a_degree_in_german_alone(read: Read, name: str) -> None:
     assert refusal(lambda: read(CSV.replace("angle_deg", name))).code == "E105"
@@ -278,7 +291,7 @@ def test_thousands_are_read_where_they_have_one_meaning(
     task = read("\n".join(separator.join(row) for row in rows))
     assert task.poses.translation[0, 1] == float(meant)
     (note,) = task.notes
-    assert note.message == f"{cell.strip(chr(34))!r} is read as {meant}"
+    assert note.message == f"`{cell.strip(chr(34))}` is read as {meant}"
     other = "0,5" if cell.rfind(".") > cell.rfind(",") else "0.5"
     if {".", ","} & {*cell[-4:]} and separator == ";":  # with another decimal mark it is refused
         rows[2][0] = other

@@ -76,6 +76,10 @@ def test_a_sheet_is_the_csv_file_of_its_cells(read):
     require_poses(task)
     assert task.length_unit == "mm"
     assert task.notes == ()
+    assert task.read_as == (
+        "sheet Tabelle1; header in row 1: x from `X [mm]`, y from `Y [mm]` and angle from "
+        "`Winkel [°]`"
+    )
     csv = "X [mm],Y [mm],Winkel [°]\n" + "".join(",".join(row) + "\n" for row in POSES)
     assert task.resolution == read(csv.encode(), ".csv").resolution
 

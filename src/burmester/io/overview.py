@@ -35,6 +35,7 @@ def check_data(diagnosis: Diagnosis) -> dict[str, Any]:
     return {
         "schema": SCHEMA,
         "task": task_data(diagnosis.task),
+        "read_as": diagnosis.task.read_as,
         "motion": None if motion is None else motion_data(motion),
         "singular_values": None if motion is None else motion.singular_values.tolist(),
         "warnings": [message_data(each) for each in (*diagnosis.task.notes, *diagnosis.findings)],
@@ -91,6 +92,8 @@ def _facts(diagnosis: Diagnosis) -> Iterator[tuple[str, str]]:
     width, height = np.ptp(task.poses.translation, axis=0)
     length, angle = task.resolution
     size = " by ".join(f"{each:.4g}" if each < 1e4 else figure(each) for each in (width, height))
+    if task.read_as:
+        yield "read", task.read_as
     yield "extent", f"{size}{unit or ', no unit stated'}"
     if motion is not None:
         yield "rotation", f"{math.degrees(motion.rotation):.4g}°"

@@ -76,6 +76,9 @@ class Task:
         What was assumed, passed over or left out when the poses were read.  They are the first
         warnings of a synthesis.
 
+    read_as : str, optional
+        How the file was read, in words: its form, and the column of each number.
+
     A task keeps its own copy of its numbers, which cannot be written to.
 
     Raises
@@ -105,6 +108,7 @@ class Task:
     requirements: Requirements = field(default=Requirements())
     body: Polygon | None = None
     notes: tuple[Advice, ...] = ()
+    read_as: str | None = None
 
     def __post_init__(self) -> None:
         self._own_values()

@@ -48,6 +48,15 @@ class Columns(NamedTuple):
         counted = names == [str(k + 1) for k in range(len(names))]
         return [] if self.numbered and (counted or not any(names)) else names
 
+    def described(self, names: Sequence[str]) -> str:
+        """Which column gives what: "x from `X [mm]`, y from `Y [mm]` and angle_deg"."""
+        parts = []
+        for role, index in sorted(self.indices.items(), key=lambda pair: pair[1]):
+            name = names[index].strip()
+            same = name.lower().partition("_")[0] == role
+            parts.append(name if same else f"{role} from `{name}`")
+        return listed(parts)
+
     def notes(self) -> tuple[Advice, ...]:
         """W213, for what is passed over without having been asked for."""
         if not self.passed_over:

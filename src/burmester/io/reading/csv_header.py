@@ -26,7 +26,7 @@ from burmester.io.reading.csv_cells import (
 )
 from burmester.io.reading.pose_table import NUMERIC, POINTS, Source, brief, numeric_roles, shown
 
-__all__ = ["Header", "read_header"]
+__all__ = ["SEPARATOR_NAMES", "Header", "read_header"]
 
 MAX_NAMES = 20  # names of columns that a help text writes out
 MAX_TITLE_LINES = 30  # lines with text above the header, at most
@@ -35,6 +35,13 @@ _MEASURED = NUMERIC[:3]  # roles whose columns have units, beside the coordinate
 _HEADER_LINE = re.compile(rf"(?m)^[^\S\n]*(?:[^\s#]|#[^\S\n]*[,;\t|]|{SPREADSHEET_ERRORS}).*$")
 # The begin of a cell of a row, where a number belongs: its first digit, or an error value.
 _ROW_CELL = re.compile(rf"[-+\u2212\u2013.,]*[0-9]|(?i:nan|[-+]?inf)|{SPREADSHEET_ERRORS}")
+SEPARATOR_NAMES = {  # one of them, and many
+    ",": ("a comma", "commas"),
+    "\t": ("a tab", "tabs"),
+    ";": ("a semicolon", "semicolons"),
+    "|": ("a bar", "bars"),
+    " ": ("a blank", "blanks"),
+}
 _SEPARATOR_LINE = re.compile(r'"?sep=([,;\t| ])"?[,;\t| ]*(?:\n|\Z)', re.IGNORECASE)
 
 
@@ -48,7 +55,20 @@ class Header(NamedTuple):
     spare: int  # the number of those
     columns: Columns
     where: str  # the angle column, if there is one
+    line: int = 0  # the number of the header's line, 0 for --columns
     notes: tuple[Advice, ...] = ()  # what was passed over
+
+    def described(self, decimal_commas: bool) -> str:
+        """The form of the file, and which column gives what."""
+        source, where = self.source, "columns by --columns"
+        if self.line:
+            where = f"header in {source.line_word} {self.line}"
+        form = f"CSV with {SEPARATOR_NAMES[self.separator][1]}"
+        if source.sheet:
+            form = f"sheet {source.sheet.name}"
+        elif decimal_commas:
+            form += " and decimal commas"
+        return f"{form}; {where}: {self.columns.described(self.names)}"
 
     @property
     def unnamed(self) -> bool:
@@ -87,7 +107,15 @@ def read_header(source: Source, given: str | None) -> Header:
     angle = where(columns.indices["angle"], "angle") if "angle" in columns.indices else where(None)
     notes = () if line is first else (_passed_over(source, first, line, "above the header"),)
     header = Header(
-        source, line.end() + 1, separator, names, len(cells) - len(names), columns, angle, notes
+        source,
+        line.end() + 1,
+        separator,
+        names,
+        len(cells) - len(names),
+        columns,
+        angle,
+        source.line_number(line.start()),
+        notes,
     )
     return _with_units(header)
 
@@ -130,7 +158,9 @@ def _passed_over(source: Source, first: re.Match[str], end: re.Match[str], which
     return Advice(
         "W213",
         f"{lines} {which} {verb} passed over{title}",
-        "begin such lines with # to have nothing said",
+        "delete such rows to have nothing said"
+        if source.sheet
+        else "begin such lines with # to have nothing said",
     )
 
 
@@ -194,7 +224,7 @@ def _header_of_option(
     skipped = lines[0] is not first
     notes = (_passed_over(source, lines[0], first, "above the first row"),) if skipped else ()
     angle = where(columns.indices["angle"], "angle") if "angle" in columns.indices else where(None)
-    return Header(source, first.start(), separator, names, 0, columns, angle, notes)
+    return Header(source, first.start(), separator, names, 0, columns, angle, notes=notes)
 
 
 def _first_row(

@@ -27,7 +27,7 @@ from burmester.io.reading.csv_cells import (
     split_cells,
     unquoted,
 )
-from burmester.io.reading.csv_header import Header, read_header
+from burmester.io.reading.csv_header import SEPARATOR_NAMES, Header, read_header
 from burmester.io.reading.height import height_notes
 from burmester.io.reading.pose_table import PoseTable, Rows, Source, brief, numeric_roles
 from burmester.io.reading.written_numbers import CellNumbers, written_number
@@ -38,7 +38,6 @@ __all__ = ["BLOCK", "read_csv", "require_one_mark"]
 BLOCK = 1 << 20  # characters parsed at a time, so that a million rows need little memory
 
 _MARK = f"(?i:{'|'.join(filter(None, pose_table.MARKS))})?"
-_SEPARATOR_NAMES = {",": "a comma", "\t": "a tab", ";": "a semicolon", "|": "a bar", " ": "a blank"}
 
 
 def read_csv(source: Source, columns: str | None = None) -> PoseTable:
@@ -75,6 +74,7 @@ def read_csv(source: Source, columns: str | None = None) -> PoseTable:
         say_unit=f"name the column `angle_deg` or `angle_rad` {where}",
         locate_row=locate,
         notes=(*notes, *height_notes(_heights(header), rows, locate)),
+        read_as=header.described("," in marks),
     )
 
 
@@ -243,14 +243,16 @@ def _require_width(line: re.Match[str], cells: list[str], header: Header, row: i
             why += f"; perhaps {','.join(parts)} is one number"
             help = f"write {'.'.join(parts)} if it is, or delete the comma that is too many"
     elif given > width and first is None:
-        why = f"{_SEPARATOR_NAMES[separator]} too many may stand anywhere, also between two numbers"
-        help = f"delete {_SEPARATOR_NAMES[separator]}, so that the row has {width} cells{named}"
+        why = (
+            f"{SEPARATOR_NAMES[separator][0]} too many may stand anywhere, also between two numbers"
+        )
+        help = f"delete {SEPARATOR_NAMES[separator][0]}, so that the row has {width} cells{named}"
     elif needed <= given < width:
         why = f"{width - needed} of them, at its end, without a name"
         help = "end all rows and the header with the same number of empty cells, or with none"
     other = next((s for s in "\t;|," if len(row_values(split_cells(line[0], s))) == needed), None)
     if given == 1 and other:
-        one, two = _SEPARATOR_NAMES[separator], _SEPARATOR_NAMES[other]
+        one, two = SEPARATOR_NAMES[separator][0], SEPARATOR_NAMES[other][0]
         why = f"{one} separates the cells of the header, {two} these"
         edit = brief(
             f"`{other.join(header.names)}`",

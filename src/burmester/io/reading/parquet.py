@@ -82,6 +82,7 @@ def read_parquet(label: str, data: bytes) -> PoseTable:
         say_unit="name the column angle_deg or angle_rad",
         locate_row=lambda row: where(None, row),  # where(None, None) is the file
         notes=columns.notes(),
+        read_as=f"Parquet: {columns.described(names)}",
     )
 
 

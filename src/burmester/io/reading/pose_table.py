@@ -103,6 +103,7 @@ class PoseTable(NamedTuple):
     # where a row stands, by its number from 0; None is for where they begin
     locate_row: Callable[[int | None], str] | None = None
     notes: tuple[Advice, ...] = ()  # what was assumed in reading
+    read_as: str | None = None  # the form of the file and its columns, in words
 
 
 SHEET_HEAD = "sep=\t\n"  # how the text of a sheet begins; row 1 is behind it

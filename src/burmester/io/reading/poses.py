@@ -308,6 +308,7 @@ def _task(
             requirements=combined_requirements(whole.requirements),
             body=table.body,
             notes=table.notes,
+            read_as=table.read_as,
         )
     except InputError as error:
         if error.code in ("E132", "E134"):  # limits and requirements, not the poses

@@ -159,11 +159,12 @@ def _chosen(workbook: Any, given: str | None) -> tuple[Any, tuple[Advice, ...]]:
         if len(sheets) == 1:
             return first, ()
         others = [_quoted(each.title) for each in sheets if each is not first]
+        are = "others are" if len(others) > 1 else "other is"
         note = Advice(
             "W213",
             f"the sheet {_quoted(first.title)} is read, one of {len(sheets)}",
             f"choose it with --sheet {brief(_quoted(first.title), str(sheets.index(first) + 1))}",
-            f"the others are {listed(shortened(others, MAX_NAMED))}",
+            f"the {are} {listed(shortened(others, MAX_NAMED))}",
         )
         return first, (note,)
     for alike in (str, str.casefold):

@@ -124,7 +124,7 @@ class CellNumbers:
             cell, plain = self._example
             yield Advice(
                 "W213",
-                f"{shown(cell)} is read as {plain}",
+                f"`{cell}` is read as {plain}",
                 "write numbers without separators of thousands to have nothing said",
                 "three digits stand between its separators, and the decimal mark is another one",
             )

@@ -287,7 +287,7 @@ def english():
         unit="deg",
         length_unit="mm",
         names=["closed", "2", "3", "open"],
-        said=["`Comment`", "'1,000.0' is read as 1000.0"],
+        said=["`Comment`", "`1,000.0` is read as 1000.0"],
     )
     file(
         "swiss.txt",
@@ -301,7 +301,7 @@ def english():
         poses=[["1000", "0", "0"], ["1031.25", "10.5", "40"], ["1040.125", "30.5", "70"]],
         unit="deg",
         length_unit="mm",
-        said=['"1\'000" is read as 1000'],
+        said=["`1'000` is read as 1000"],
     )
     file(
         "data-logger.txt",
