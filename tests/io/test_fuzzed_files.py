@@ -42,6 +42,12 @@ def test_a_sample_of_the_campaign(language, path):
     assert verdicts.count("unsure") < 8
 
 
+def test_dialects_of_many_countries_are_read_exactly(path):
+    verdicts = [judged(fuzzed_files.any_file("dialects", seed), path) for seed in range(400)]
+    assert verdicts.count("exact") > 360
+    assert set(verdicts) <= {"exact", "E104", "E112", "E122"}  # two ways, or beyond a double
+
+
 def test_no_row_of_a_wrong_width_is_taken(path):
     verdicts = {
         (file.maker, judged(file, path))

@@ -429,7 +429,7 @@ def test_titles_above_the_header_are_passed_over_and_said(
     assert read(table).notes == ()
 
 
-@pytest.mark.parametrize("row", ["1;2;3", "1,5;2;3", "1;2;3;4", "0.5;1e3;-3"])
+@pytest.mark.parametrize("row", ["1;2;3", "1,5;2;3", "1;2;3;4", "0.5;1e3;-3", "P1;1;2;3;zu"])
 def test_no_row_of_numbers_is_taken_for_a_title(read: Read, row: str) -> None:
     error = refusal(lambda: read(f"{row}\nx;y;angle_deg\n{ROWS.replace(',', ';')}"))
     assert error.code == "E105"

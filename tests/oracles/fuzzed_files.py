@@ -199,8 +199,11 @@ def sheet(rng):
     return Sheet(order, rows, separator, mark), plain, options
 
 
-def write(rng, sheet):
-    """The bytes of a sheet, in one of the dialects that people have."""
+def write(rng, sheet, titles=(), encodings=("utf-8", "utf-8", "utf-8", "utf-8-sig", "utf-16")):
+    """The bytes of a sheet, in one of the dialects that people have.
+
+    titles: lines above its header.
+    """
     quoting, blanks = rng.choice((0, 0, 0, 1, 2)), rng.random() < 0.2
     spare = sheet.separator * rng.choice((0, 0, 0, 0, 2)) * (sheet.separator != " ")
     numeric = re.compile("[-+]?[.0-9]+([eE][-+]?[0-9]+)?")
@@ -223,12 +226,11 @@ def write(rng, sheet):
         if rng.random() < 0.03:
             lines.append(rng.choice(("", "  ", "# a comment, with; all\tof it", '#"', " #")))
         lines.append(sheet.separator.join(map(cell, row)) + spare)
-    lines = [""] * rng.choice((0, 0, 0, 1)) + lines + [""] * rng.choice((0, 1, 1, 3))
+    lines = [""] * rng.choice((0, 0, 0, 1)) + [*titles, *lines] + [""] * rng.choice((0, 1, 1, 3))
     if rng.random() < 0.1:
         lines.insert(0, "# made by hand")
     text = rng.choice(("\n", "\n", "\r\n", "\r")).join(lines)
-    encoding = rng.choice(("utf-8", "utf-8", "utf-8", "utf-8-sig", "utf-16"))
-    return text.encode(encoding)
+    return text.encode(rng.choice(encodings))
 
 
 def csv_file(rng):
@@ -236,6 +238,73 @@ def csv_file(rng):
     made, key, options = sheet(rng)
     suffix = rng.choice(SUFFIXES["csv"])
     return File(write(rng, made), suffix, options, key, "sound")
+
+
+_FOREIGN = {  # words above columns, by the role of the column
+    "x": "X-Koordinate|Pos. X|Coordonnée X|Coordenada X|Posizione X|X坐标|Ｘ座標|abscisse",
+    "y": "Y-Koordinate|Pos. Y|Coordonnée Y|Coordenada Y|Posizione Y|Y坐标|Ｙ座標|ordonnée",
+    "angle": "Winkel|Drehwinkel|Angle de rotation|Ángulo|Angolo|角度|回転角|Rz|Verdrehung",
+    "weight": "Gewicht|Poids|Peso|权重|重み",
+    "name": "Punkt|Stellung|Bezeichnung|Repère|Punto|Nome|点名|名前",
+}
+_FOREIGN_UNITS = {
+    "mm": "mm|Millimeter|毫米",
+    "in": "in|Zoll|pouces|pulgadas",
+    "m": "m|Meter|mètres",
+    "deg": "°|deg|degrés|gradi|度",
+    "rad": "rad|Bogenmaß|弧度",
+}
+_TITLES = ("Deckel, Stand 12.5.", "Prüfstand 7;;;", "Motion of the lid", "\u95e8", "Export 2.0 (x)")
+
+
+def dialect_file(rng):
+    """A sound CSV file in other languages, with titles, and units below the header or in cells."""
+    made, key, options = sheet(rng)
+    header, rows = made.header, [list(row) for row in made.rows]
+    bases, units = zip(*((name.partition("_")[::2]) for name in header), strict=True)
+    measured = [j for j, base in enumerate(bases) if base in ("x", "y", *TURNS, *POINTS)]
+    where = rng.choice(("header", "header", "row", "cells"))
+    if not all(units[j] for j in measured):
+        where = "header"
+    group = rng.choice(("", "", "'", "\u2019", "\u00a0", "\u202f", ",.".replace(made.mark, "")))
+    minus = rng.choice("--\u2212")
+
+    def cell(text, unit):
+        text = text.replace(".", made.mark)
+        whole, mark, rest = text.partition(made.mark)
+        if group and re.fullmatch("[-+]?[1-9][0-9]{3,}", whole) and rest.isdigit():
+            text = f"{int(whole):+,}".replace(",", group) + mark + rest
+            text = text.removeprefix("+")
+        if unit and where == "cells":
+            text += rng.choice(("", " ")) + unit
+        return text.replace("-", minus, 1) if text.startswith("-") else text
+
+    numeric = [*measured, *(j for j, base in enumerate(bases) if base == "weight")]
+    for row in rows:
+        for j in numeric:
+            unit = units[j] if units[j] != "deg" else rng.choice(("°", "deg"))
+            row[j] = cell(row[j], unit)
+    if where == "row":
+        rows.insert(0, [units[j] if j in measured else "" for j in range(len(header))])
+    names = []
+    for j, base in enumerate(bases):
+        word = rng.choice(_FOREIGN.get("angle" if base in TURNS else base, base).split("|"))
+        unit = units[j] if where == "header" else ""
+        if unit:
+            unit = rng.choice(_FOREIGN_UNITS.get(unit, unit).split("|"))
+            word = rng.choice(("{} [{}]", "{} ({})", "{}/{}", "{} in {}", "{}［{}］")).format(
+                word, unit
+            )
+        names.append(word if base in (*_FOREIGN, *TURNS, *POINTS) else header[j])
+    titles = rng.sample(_TITLES, rng.choice((0, 0, 1, 2)))
+    made = made._replace(header=names, rows=rows)
+    state = rng.getstate()
+    try:
+        data = write(rng, made, titles, ("cp1252",))
+    except UnicodeEncodeError:
+        rng.setstate(state)
+        data = write(rng, made, titles)
+    return File(data, rng.choice(SUFFIXES["csv"]), options, key, "sound")
 
 
 def _blank_inside(rng, text):
@@ -733,6 +802,7 @@ def parquet_file(rng, faulty=False):
     return File(data, rng.choice(SUFFIXES["parquet"]), {}, key, "faulty" if faulty else "sound")
 
 
+_ALIKE = {"dialects": dialect_file, "shapes": shape_fault}  # all files of a kind
 _SOUND = {"csv": csv_file, "parquet": parquet_file}
 _FAULTY = {"csv": csv_fault, "parquet": functools.partial(parquet_file, faulty=True)}
 for _language in ("json", "toml"):
@@ -748,11 +818,12 @@ def sound_file(language, rng):
 def any_file(language, seed):
     """The file of a seed: four in ten sound, three faulty, three mangled.
 
-    The language "shapes" is CSV with a row of a wrong width.
+    The language "shapes" is CSV with a row of a wrong width; "dialects" is sound CSV as people
+    of many countries have it.
     """
     rng = random.Random(f"{language} {seed}")
-    if language == "shapes":
-        return shape_fault(rng)
+    if language in _ALIKE:
+        return _ALIKE[language](rng)
     sound, faulty = _SOUND[language], _FAULTY[language]
     kind = rng.random()
     if kind < 0.4:

@@ -142,7 +142,7 @@ def _header_below_titles(
             return line
         if likely is None and has_poses(names):
             likely = line
-        if _separator_of_numbers(line[0]):
+        if _holds_numbers(line[0]):
             break
     return likely or first
 
@@ -240,6 +240,15 @@ def _first_row(
         if any(found) and not _is_header(line[0]):
             break
     return lines[0]
+
+
+def _holds_numbers(line: str) -> bool:
+    """Whether a line may be a pose, and so is no title: three numbers, or nothing but numbers."""
+    for separator in "\t;|,":
+        cells = map(unquoted, split_cells(line, separator))
+        if sum(bool(pose_table.NUMBER_LIKE.fullmatch(cell)) for cell in cells) >= len(_MEASURED):
+            return True
+    return _separator_of_numbers(line) is not None
 
 
 def _separator_of_numbers(line: str) -> str | None:

@@ -23,6 +23,7 @@ _GROUPED = re.compile(
     r"(?:(?P=part)[0-9]{3})*)(?:(?P<mark>[.,])(?P<rest>[0-9]+))?"
 )
 _MEASURE = re.compile(r"(?P<number>[-+.,0-9eE'’\s]*[0-9.,])\s*(?P<unit>[^\s\d.,'’+-][^\d,;]*)")
+MAX_CHARACTERS = 200  # characters of a cell; no number that people write has more
 _LENGTH_ROLES = ("x", "y", *POINTS)
 
 
@@ -37,7 +38,7 @@ class WrittenNumber(NamedTuple):
 def written_number(cell: str, role: str, separator: str) -> WrittenNumber | None:
     """What a cell says that `plain_number` does not read; None if that is not beyond doubt."""
     cell = cell.replace("\u2212", "-")
-    if len(cell) > 60:
+    if len(cell) > MAX_CHARACTERS:
         return None
     if grouped := _grouped(cell, separator):
         return WrittenNumber(*grouped, None)
