@@ -32,10 +32,11 @@ __all__ = [
 Decorator: TypeAlias = Callable[[Any], Any]
 
 POSES_HELP = """\b
-POSES   a CSV, JSON or TOML file, "-" for standard input, or case:NAME for
-        one of the tasks in the package (see `burmester cases`). A CSV
-        file starts with the line x,y,angle_deg (or angle_rad; x_mm,y_mm and
-        the like name a unit); the columns weight, name and exact may follow.
+POSES   a CSV, .xlsx, JSON, TOML or Parquet file, "-" for standard input, or
+        case:NAME for one of the tasks in the package (see `burmester cases`).
+        A table starts with the line x,y,angle_deg (or angle_rad; x_mm,y_mm
+        and the like name a unit; so do X [mm], Winkel [°] and others); the
+        columns weight, name and exact may follow.
 REGION  X,Y                    a point
         line:X,Y:X,Y           the endless line through two points
         segment:X,Y:X,Y        the piece between them

@@ -1,7 +1,8 @@
 """Tasks from files and from options: `poses` reads them, the other modules are its parts.
 
 Tables: `file_content` (bytes and text), `csv_poses` (with `csv_header`, `csv_cells`), `columns`
-(names of columns), `pose_table` (numbers as printed), `wrong_numbers`, `tracked_points`, `parquet`.
+(by `column_words`), `pose_table` (numbers as printed), `written_numbers`, `wrong_numbers`,
+`workbook`, `tracked_points`, `parquet`.
 JSON and TOML: `documents`, `pose_tree`, `pose_model`, `locations` (of values in the text),
 `syntax_faults` (with `syntax_checks`, `parser_stop`).  Limits and requirements: `specification` and
 `stated_requirements`, as text (`limits_text`, `requirements_text`) and in files (`limits_tree`,

@@ -1,13 +1,15 @@
-"""A task from a file: poses in CSV, JSON, TOML and Parquet; a specification in JSON and TOML.
+"""A task from a file: poses in CSV, .xlsx, JSON, TOML, Parquet; a specification in JSON and TOML.
 
 Recordings of markers are read as well, as motion capture exports them (`marker_header`).
 
-A number is taken as the nearest double or refused, never changed: no thousands separators,
-no underscores, no guessed units, no guessed decimal marks; digits beyond a double's are rounded,
-so that 1e-400 is 0.  An error's `where` holds
+A number is taken as the nearest double or refused, never changed: no guessed units, no guessed
+decimal marks, thousands only where they have one meaning; digits beyond a double's are rounded, so
+that 1e-400 is 0.  What is passed over or assumed is among the task's notes (W213).  An error's
+`where` holds
 `file:line:column`, then the line with a caret below; the column is that of the first
 character at fault, counted from 1.  Numbers in JSON and TOML are pointed at by their path,
-`poses[3].x`, counted from 0 as in the file; those in Parquet by row, from 1, and column.
+`poses[3].x`, counted from 0 as in the file; those in Parquet by row, from 1, and column;
+those in a sheet by their cell.
 
 E101 not readable, or not text      E106 a row or pose of the wrong length
 E102 no poses in it                 E107 a column or key that is not known
@@ -15,7 +17,7 @@ E103 a number that is not finite    E108 given twice, or contradictory
 E104 not a number, or ambiguous     E109 not JSON or TOML at all
 E105 header, column or key missing  E110 angle unit missing or contradicted
 E111 points that give no pose       E122 no such pose to be exact, or left out
-E113 not in one plane               E130 Parquet without pyarrow
+E113 not in one plane               E130 pyarrow or openpyxl missing
 E114 markers not known or chosen
 """
 
@@ -75,8 +77,9 @@ def read_task(
 ) -> Task:
     """Read the task in a file, on standard input or in a carried case.
 
-    A file that begins as Parquet files do is read as Parquet; .csv, .tsv and .txt are CSV; .json
-    and .toml are JSON and TOML; any other file is JSON if it begins with a bracket, else CSV.
+    A file that begins as Parquet files and .xlsx workbooks do is read as such; .csv, .tsv and .txt
+    are CSV; .json and .toml are JSON and TOML; any other file is JSON if it begins with a bracket,
+    else CSV.
 
     Parameters
     ----------
@@ -193,7 +196,7 @@ def _table(
         del data  # a million poses are many bytes
         by_content: Callable[..., PoseTable]
         by_content = read_json if source.text.lstrip().startswith(("{", "[")) else read_csv
-        reader = _READERS.get(suffix, by_content)
+        reader = read_csv if source.sheet else _READERS.get(suffix, by_content)
         require_moderate(source.text, tree=reader is not read_csv)
         if reader is read_csv:
             if columns is None and (header := read_marker_header(source)) is not None:
@@ -204,7 +207,7 @@ def _table(
             return read_csv(source, columns)
         read = functools.partial(reader, source)
     if columns is not None:
-        message = "--columns is for CSV files; this file names its columns itself"
+        message = "--columns is for CSV files and sheets; this file names its columns itself"
         raise InputError("E108", message, help="leave --columns out")
     _require_no_points(label, points)
     return read()
