@@ -298,6 +298,12 @@ def test_thousands_are_read_where_they_have_one_meaning(
         assert refusal(lambda: read("\n".join(map(separator.join, rows)))).code == "E104"
 
 
+@pytest.mark.parametrize("cell", ["1.234.5", "1.234,567.8", "1'234'5", "1'23", "01'234", "1'2345"])
+def test_groups_that_are_no_thousands_are_refused(read: Read, cell: str) -> None:
+    error = refusal(lambda: read(f"x;y;angle_rad\n1;{cell};3\n{ROWS.replace(',', ';')}"))
+    assert error.code == "E104"
+
+
 SPACES = [" ", "\u00a0", "\u202f", "\u2009", "'", "’"]
 
 
