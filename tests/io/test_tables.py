@@ -143,6 +143,8 @@ def test_how_a_file_was_read_is_told(read: Read) -> None:
         "CSV with semicolons and decimal commas; header in line 2: name from `Nr.`, "
         "x from `X [mm]`, y from `Y [mm]`, angle from `phi_deg` and weight"
     )
+    counted = read("No,x,y,angle_deg\n1,0,0,0\n2,1,1,40\n3,2,3,50\n")
+    assert counted.read_as == "CSV with commas; header in line 1: x, y and angle_deg"
     assert read(CSV).read_as == "CSV with commas; header in line 1: x, y and angle_deg"
     task = read(ROWS.replace(",", "\t"), columns="x,y,angle_deg")
     assert task.read_as == "CSV with tabs; columns by --columns: x, y and angle_deg"

@@ -48,10 +48,15 @@ class Columns(NamedTuple):
         counted = names == [str(k + 1) for k in range(len(names))]
         return [] if self.numbered and (counted or not any(names)) else names
 
-    def described(self, names: Sequence[str]) -> str:
-        """Which column gives what: "x from `X [mm]`, y from `Y [mm]` and angle_deg"."""
+    def described(self, names: Sequence[str], *, named: bool = True) -> str:
+        """Which column gives what: "x from `X [mm]`, y from `Y [mm]` and angle_deg".
+
+        named: whether the rows have names.
+        """
         parts = []
-        for role, index in sorted(self.indices.items(), key=lambda pair: pair[1]):
+        roles = [role for role in self.indices if named or role != "name"]
+        for role in sorted(roles, key=self.indices.__getitem__):
+            index = self.indices[role]
             name = names[index].strip()
             same = name.lower().partition("_")[0] == role
             parts.append(name if same else f"{role} from `{name}`")

@@ -58,8 +58,8 @@ class Header(NamedTuple):
     line: int = 0  # the number of the header's line, 0 for --columns
     notes: tuple[Advice, ...] = ()  # what was passed over
 
-    def described(self, decimal_commas: bool) -> str:
-        """The form of the file, and which column gives what."""
+    def described(self, *, decimal_commas: bool, named: bool) -> str:
+        """The form of the file, and which column gives what; named: whether the rows are."""
         source, where = self.source, "columns by --columns"
         if self.line:
             where = f"header in {source.line_word} {self.line}"
@@ -68,7 +68,7 @@ class Header(NamedTuple):
             form = f"sheet {source.sheet.name}"
         elif decimal_commas:
             form += " and decimal commas"
-        return f"{form}; {where}: {self.columns.described(self.names)}"
+        return f"{form}; {where}: {self.columns.described(self.names, named=named)}"
 
     @property
     def unnamed(self) -> bool:

@@ -66,15 +66,16 @@ def read_csv(source: Source, columns: str | None = None) -> PoseTable:
     units = written.units(header.columns.units, len(rows.values))
     notes = (*source.notes, *header.notes, *header.columns.notes(), *written.notes())
     where = "in the header" if columns is None else "in --columns"
+    names = header.columns.row_names(rows.names)
     return PoseTable(
-        rows._replace(names=header.columns.row_names(rows.names)),
+        rows._replace(names=names),
         length_unit=header.columns._replace(units=units).length_unit,
         angle_unit=units.get("angle"),
         where=header.where,
         say_unit=f"name the column `angle_deg` or `angle_rad` {where}",
         locate_row=locate,
         notes=(*notes, *height_notes(_heights(header), rows, locate)),
-        read_as=header.described("," in marks),
+        read_as=header.described(decimal_commas="," in marks, named=bool(names)),
     )
 
 
