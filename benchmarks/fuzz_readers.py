@@ -5,10 +5,11 @@
 The files are those of `tests/oracles/fuzzed_files.py`, four in ten sound, three with a fault of a
 known kind, three mangled byte by byte; `dialects` are sound CSV files with headers in seven
 languages, titles, units below the header or in cells, and separated thousands; `shapes` are CSV
-files with one row that is wider or narrower than its header, none of which may be taken.  Each is
-held against what its maker knows and against `tests/oracles/plain_reader.py`.  A share of the files
-that are taken goes through the command, and so do options with random texts.  Exit code 1 if
-anything was wrong.
+files with one row that is wider or narrower than its header, none of which may be taken;
+`workbooks` are sound sheets of numbers, formulas with their values and numbers stored as text.
+Each is held against what its maker knows and against `tests/oracles/plain_reader.py`.  A share of
+the files that are taken goes through the command, and so do options with random texts.  Exit code 1
+if anything was wrong.
 """
 
 import argparse
@@ -30,7 +31,7 @@ from tests.oracles.plain_reader import read
 
 from burmester.cli import main as command
 
-LANGUAGES = ["csv", "dialects", "shapes", "json", "toml", "parquet"]
+LANGUAGES = ["csv", "dialects", "shapes", "workbooks", "json", "toml", "parquet"]
 LIMIT = 5.0  # seconds for a file
 
 

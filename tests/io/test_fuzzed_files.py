@@ -48,6 +48,12 @@ def test_dialects_of_many_countries_are_read_exactly(path):
     assert set(verdicts) <= {"exact", "E104", "E112", "E122"}  # two ways, or beyond a double
 
 
+def test_workbooks_are_read_exactly(path):
+    verdicts = [judged(fuzzed_files.any_file("workbooks", seed), path) for seed in range(150)]
+    assert verdicts.count("exact") > 130
+    assert set(verdicts) <= {"exact", "E104", "E112", "E122"}
+
+
 def test_no_row_of_a_wrong_width_is_taken(path):
     verdicts = {
         (file.maker, judged(file, path))

@@ -15,6 +15,7 @@ from typing import NamedTuple
 import pyarrow
 import pyarrow.parquet
 
+from tests.oracles import workbooks
 from tests.oracles.plain_reader import LENGTHS, POINTS, TURNS, Plain
 
 SUFFIXES = {"csv": (".csv", ".tsv", ".txt", ".dat"), "json": (".json", ".x"), "toml": (".toml",)}
@@ -305,6 +306,26 @@ def dialect_file(rng):
         rng.setstate(state)
         data = write(rng, made, titles)
     return File(data, rng.choice(SUFFIXES["csv"]), options, key, "sound")
+
+
+def workbook_file(rng):
+    """A sound workbook: numbers stored as such or as text, the table anywhere in its sheet."""
+    made, key, options = sheet(rng)
+    measured = {"x", "y", "angle", "weight", *TURNS, *POINTS}
+
+    def cell(name, text):
+        if name.partition("_")[0] not in measured:
+            return workbooks.text(text) if text else None
+        if rng.random() < 0.1:
+            return workbooks.text(text.replace(".", made.mark))
+        return workbooks.formula("A1", text) if rng.random() < 0.1 else workbooks.number(text)
+
+    rows = [[cell(*each) for each in zip(made.header, row, strict=True)] for row in made.rows]
+    aside, above = rng.choice((0, 0, 2)), rng.choice((0, 0, 3))
+    rows = [[workbooks.text(name) for name in made.header], *rows]
+    rows = [[None] * aside + row for row in rows]
+    titles = [[workbooks.text(rng.choice(_TITLES))], *[[]] * (above - 1)] if above else []
+    return File(workbooks.workbook([*titles, *rows]), ".xlsx", options, key, "sound")
 
 
 def _blank_inside(rng, text):
@@ -802,7 +823,11 @@ def parquet_file(rng, faulty=False):
     return File(data, rng.choice(SUFFIXES["parquet"]), {}, key, "faulty" if faulty else "sound")
 
 
-_ALIKE = {"dialects": dialect_file, "shapes": shape_fault}  # all files of a kind
+_ALIKE = {
+    "dialects": dialect_file,
+    "shapes": shape_fault,
+    "workbooks": workbook_file,
+}  # all files of a kind
 _SOUND = {"csv": csv_file, "parquet": parquet_file}
 _FAULTY = {"csv": csv_fault, "parquet": functools.partial(parquet_file, faulty=True)}
 for _language in ("json", "toml"):
@@ -819,7 +844,7 @@ def any_file(language, seed):
     """The file of a seed: four in ten sound, three faulty, three mangled.
 
     The language "shapes" is CSV with a row of a wrong width; "dialects" is sound CSV as people
-    of many countries have it.
+    of many countries have it, and "workbooks" are sound, too.
     """
     rng = random.Random(f"{language} {seed}")
     if language in _ALIKE:
