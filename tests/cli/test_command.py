@@ -17,6 +17,7 @@ import pytest
 
 import burmester
 from burmester import cli
+from burmester.io.cases import names
 from tests.oracles.ten_poses import TEN as TABLE_2
 
 
@@ -475,7 +476,8 @@ def test_output_goes_through_any_encoding(encoding, tmp_path):
 def test_cases_are_listed_and_printed():
     listed = run("cases")
     assert listed.returncode == 0
-    assert len(listed.stdout.splitlines()) == 7
+    assert re.findall(r"(?m)^\S+", listed.stdout) == list(names())
+    assert max(map(len, listed.stdout.splitlines())) <= 80
     case = json.loads(run("cases", "ge2012-exact").stdout)
     assert case["poses"][5] == [-4.1022, -1.0521, 52.87]
     assert run("cases", "nothing").returncode == 2

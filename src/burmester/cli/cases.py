@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from burmester.cli.output import EXIT_FOUND, print_json
+from burmester.cli.output import EXIT_FOUND, print_json, show_list
 
 __all__ = ["cases"]
 
@@ -18,8 +18,6 @@ def cases(name: str | None) -> int:
     if name is not None:
         print_json(load(name))
         return EXIT_FOUND
-    width = max(map(len, names()))
-    for each in names():
-        case = load(each)
-        click.echo(f"{each:{width}}  {len(case['poses']):2} poses  {case['source']}")
+    loaded = [(each, load(each)) for each in names()]
+    show_list([(each, f"{len(case['poses'])} poses: {case['source']}") for each, case in loaded])
     return EXIT_FOUND

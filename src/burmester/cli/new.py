@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from burmester.cli.output import EXIT_FOUND
+from burmester.cli.output import EXIT_FOUND, show_list
 
 __all__ = ["new"]
 
@@ -24,9 +24,7 @@ def new(template: str | None, output: str | None, force: bool, as_list: bool) ->
     from burmester.io import templates
 
     if as_list:
-        width = max(map(len, templates.names()))
-        for each in templates.names():
-            click.echo(f"{each:{width}}  {templates.summary(each)}")
+        show_list([(each, templates.summary(each)) for each in templates.names()])
         return EXIT_FOUND
     name = template or templates.BLANK
     text = templates.text(name)

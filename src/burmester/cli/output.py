@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import sys
 from typing import TYPE_CHECKING, Any
 
@@ -10,7 +11,7 @@ import click
 if TYPE_CHECKING:
     from rich.console import Console
 
-__all__ = ["EXIT_FOUND", "EXIT_INTERRUPT", "EXIT_NOTHING", "console", "print_json"]
+__all__ = ["EXIT_FOUND", "EXIT_INTERRUPT", "EXIT_NOTHING", "console", "print_json", "show_list"]
 
 EXIT_FOUND, EXIT_NOTHING, EXIT_INTERRUPT = 0, 1, 130  # errors bring their own: 2 and 3
 
@@ -27,3 +28,10 @@ def print_json(data: dict[str, Any]) -> None:
     from burmester.io.result import json_line
 
     click.echo(json_line(data, sys.stdout.encoding or "utf-8"), nl=False)
+
+
+def show_list(rows: list[tuple[str, str]]) -> None:
+    """Names with what they stand for, in two columns as wide as the terminal."""
+    formatter = click.HelpFormatter(width=shutil.get_terminal_size().columns, indent_increment=0)
+    formatter.write_dl(rows)
+    click.echo(formatter.getvalue(), nl=False)

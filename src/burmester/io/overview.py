@@ -16,8 +16,8 @@ from rich.text import Text
 
 from burmester.diagnosis.checks import Diagnosis
 from burmester.io.linkage_table import new_table
+from burmester.io.message import put, wrapped
 from burmester.io.message import show as show_message
-from burmester.io.message import wrapped
 from burmester.io.result import message_data, motion_data, task_data
 from burmester.tasks.motion_kinds import General
 from burmester.tasks.motion_task import Task
@@ -45,7 +45,7 @@ def check_data(diagnosis: Diagnosis) -> dict[str, Any]:
 def show(diagnosis: Diagnosis, console: Console) -> None:
     """The poses as they were read, what they are, and what stands out."""
     task = diagnosis.task
-    console.print(_poses(task))
+    put(_poses(task), console)
     console.print()
     for name, text in _facts(diagnosis):
         for line in wrapped(text, console.width, Text(f"{name:10}", style="bold")):
@@ -76,7 +76,7 @@ def _poses(task: Task) -> Table:
     table = new_table()
     for head in columns:
         # Square brackets are no style here.
-        table.add_column(Text(head), justify="left" if head == "name" else "right")
+        table.add_column(Text(head), justify="left" if head == "name" else "right", overflow="fold")
     rows = list(zip(*columns.values(), strict=True))
     if count > MAX_ROWS:
         rows[MAX_ROWS - 2 : -2] = [("...",) * len(columns)]
