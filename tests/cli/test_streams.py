@@ -196,3 +196,29 @@ def test_the_result_that_is_exported_is_not_replaced():
     assert done.returncode == 2
     assert "error[E142]: result.json is the file that is read" in done.stderr
     assert Path("result.json").read_bytes() == before
+
+
+def test_warnings_of_numpy_are_not_for_the_screen():
+    """Numbers near the end of what a double holds overflow on the way; the end is judged."""
+    text = """if True:
+        import sys
+        import numpy as np
+        import burmester.synthesis.motion_generation as road
+        from burmester.__main__ import main
+        real = road.synthesize
+        def loud(*given):
+            np.float64(1e300) * np.float64(1e300)
+            np.log(np.zeros(1))
+            return real(*given)
+        road.synthesize = loud
+        sys.argv[1:] = ["synthesize", "poses.csv"]
+        main()
+    """
+    done = subprocess.run(
+        [sys.executable, "-c", text], capture_output=True, text=True, check=False, timeout=60
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    asked = [sys.executable, "-W", "always", "-c", text]  # but who asks for them gets them
+    done = subprocess.run(asked, capture_output=True, text=True, check=False, timeout=60)
+    assert done.returncode == 0
+    assert "RuntimeWarning: overflow" in done.stderr

@@ -8,6 +8,7 @@ import json
 import shutil
 import struct
 import subprocess
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -18,6 +19,8 @@ from burmester.errors import BurmesterError, InputError
 from burmester.export import movie
 from burmester.export.options import Options
 from burmester.fourbar.dyad import PR, RP, RR
+from burmester.fourbar.pose_error import PoseError
+from burmester.tasks.motion_task import Task
 from tests.oracles import witness
 from tests.oracles.saved_linkages import PAPER, paper, saved
 
@@ -301,3 +304,46 @@ def test_without_ffmpeg(monkeypatch, tmp_path):
         movie.write_mp4(paper(), tmp_path / "x.mp4", SMALL)
     assert caught.value.code == "E130"
     assert "burmester[export]" in caught.value.help
+
+
+@pytest.mark.parametrize(
+    ("options", "help"),
+    [
+        ({"width_px": 0}, "give --pixels 100"),
+        ({"width_px": 10**9}, "give --pixels 4096"),
+        ({"seconds": 0.0}, "give --seconds 0.1"),
+        ({"seconds": np.nan}, "give --seconds 0.1"),
+        ({"seconds": np.inf}, "give --seconds 600"),
+        ({"frames_per_second": 0.0}, "give --fps 1"),
+        ({"frames_per_second": np.nan}, "give --fps 1"),
+        ({"seconds": 60.0, "width_px": 1000}, "give --pixels 284, or fewer --seconds"),
+        ({"seconds": 600.0, "frames_per_second": 240.0}, "give --seconds 83.3, or fewer"),
+    ],
+)
+def test_a_film_that_cannot_be_drawn_is_refused_before_it_is(tmp_path, options, help):
+    write = movie.write_mp4 if "frames_per_second" in options else movie.write_gif
+    with pytest.raises(InputError) as caught:
+        write(paper(), tmp_path / "a.gif", Options(**options))
+    assert caught.value.code == "E162"
+    assert caught.value.help.startswith(help)
+
+
+def test_of_very_many_poses_some_are_drawn(tmp_path, monkeypatch):
+    """All of them would hide the linkage, and take an hour; the outermost are among them."""
+    drawn, real = [], movie.plot.poses
+
+    def poses_drawn(ax, poses, **how):
+        drawn.append(poses)
+        return real(ax, poses, **how)
+
+    monkeypatch.setattr(movie.plot, "poses", poses_drawn)
+    chosen = paper()
+    poses = chosen.task.poses
+    many = poses[np.repeat(np.arange(len(poses.angle)), 300)]
+    chosen = replace(chosen, task=Task(many), error=PoseError.of(chosen.linkage, many, 1.0))
+    movie.write_gif(chosen, tmp_path / "a.gif", SMALL)
+    assert max(len(each.angle) for each in drawn) <= 60
+    ends = np.stack([poses.translation.min(axis=0), poses.translation.max(axis=0)])
+    shown = drawn[0].translation
+    assert np.array_equal(np.stack([shown.min(axis=0), shown.max(axis=0)]), ends)
+    movie.check_gif(chosen, tmp_path / "a.gif", SMALL)

@@ -37,6 +37,7 @@ from burmester.export.film import (
     require_film,
 )
 from burmester.io.saved import SavedLinkage
+from burmester.numerics.arrays import FloatArray
 from burmester.plot.plane import X_AXIS_LENGTH, span_of
 from burmester.plot.style import BLACK, BLUE, GREY, VERMILION, settle_labels, with_unit
 from burmester.progress import step
@@ -55,6 +56,7 @@ MAX_MARK_ERROR: Final = 1.5  # pixels: largest deviation of the mark read back
 FITTED_PLACES: Final = 25  # places whose drawing has to fit into the picture
 MARGIN: Final = (0.62, 0.12, 0.48, 0.34)  # inches left, right, below and above the axes
 TALL, FLAT = TALLEST, 0.5  # the height of a picture at most and at least, in shares of its width
+MAX_SHOWN_POSES: Final = 60  # more of them hide the linkage, and their numbers each other
 PALETTE_SIZE: Final = 64  # colours of a GIF
 
 
@@ -252,15 +254,24 @@ def _pictures(film: Film) -> Iterator[Picture]:
                 artist.remove()
 
 
+def _shown_poses(points: FloatArray) -> NDArray[np.intp]:
+    """The numbers of the poses that are drawn: some of very many, the outermost among them."""
+    if len(points) <= MAX_SHOWN_POSES:
+        return np.arange(len(points))
+    some = np.linspace(0, len(points) - 1, MAX_SHOWN_POSES - 4).astype(np.intp)
+    return np.unique(np.concatenate([some, points.argmin(axis=0), points.argmax(axis=0)]))
+
+
 def _stage(film: Film) -> Stage:
     """Axes that hold the whole motion, with the path, the poses and a title, drawn once."""
     task, motion, linkage = film.chosen.task, film.motion, film.linkage
+    shown = _shown_poses(task.poses.translation)
     with plot.house_style():
         # First all that is ever drawn, to see how large it is.
         trial = plot.figure(film.width / DPI, film.width / DPI, DPI)
         ax = trial.add_subplot()
         some = np.unique(np.linspace(0, film.count - 1, FITTED_PLACES).astype(np.intp))
-        plot.poses(ax, task.poses, numbers=False)
+        plot.poses(ax, task.poses[shown], numbers=False)
         for number in some:
             plot.linkage(ax, linkage, motion.places[number], travel=(motion.places,))
         plot.finish(ax, film.chosen.unit, room=0.04)
@@ -287,7 +298,7 @@ def _stage(film: Film) -> Stage:
         over = list[Artist]()
         long = X_AXIS_LENGTH * span_of(task.poses)
         for color, reached in ((VERMILION, True), (GREY, False)):
-            numbers = np.flatnonzero(np.isfinite(motion.pose_shares) == reached)
+            numbers = shown[np.isfinite(motion.pose_shares[shown]) == reached]
             if len(numbers):
                 names = [str(k + 1) for k in numbers]
                 wanted = plot.poses(ax, task.poses[numbers], size=long, names=names, color=color)
