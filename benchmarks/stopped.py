@@ -21,6 +21,9 @@ from typing import NamedTuple
 from burmester.export import FORMATS
 
 CODES = {signal.SIGINT: 130, signal.SIGTERM: 143, signal.SIGHUP: 129}
+# As the script of an installed package starts it.
+START = "from burmester.__main__ import main; main()"
+EARLY = "<frozen site>"  # Python itself was not there yet, and has its own words
 INTERNAL = re.compile(r"Traceback|Exception ignored|E900|KeyboardInterrupt|\.burmester-")
 
 
@@ -30,6 +33,7 @@ class Stopped(NamedTuple):
     command: str
     faults: tuple[str, ...]
     in_time: bool
+    said: str
 
 
 def commands(result):
@@ -45,7 +49,7 @@ def commands(result):
 
 def run(arguments, **streams):
     """The command as a process."""
-    return subprocess.Popen([sys.executable, "-m", "burmester", *arguments], **streams)
+    return subprocess.Popen([sys.executable, "-c", START, *arguments], **streams)
 
 
 def stopped(name, arguments, wrote, number, *, seconds, again=None):
@@ -65,6 +69,8 @@ def stopped(name, arguments, wrote, number, *, seconds, again=None):
             time.sleep(again)
             process.send_signal(number)
     out, err = process.communicate(timeout=120)
+    if EARLY in err:
+        return Stopped(name, (), False, err)
     faults = []
     code = process.returncode
     # Before the first line of Python runs, and after the last, the system's own way is taken.
@@ -82,7 +88,7 @@ def stopped(name, arguments, wrote, number, *, seconds, again=None):
     if wrote.exists() and not wrote.stat().st_size:
         faults.append("an empty file")
     wrote.unlink(missing_ok=True)
-    return Stopped(name, tuple(faults), in_time and code == CODES[number])
+    return Stopped(name, tuple(faults), in_time and code == CODES[number], err)
 
 
 def campaign(count, seed, names=None, *, longest=1.0):
@@ -123,7 +129,7 @@ def main():
         counts["stopped"] += each.in_time
         for fault in each.faults:
             counts[fault] += 1
-            print(f"{each.command}: {fault}", flush=True)
+            print(f"{each.command}: {fault}\n{each.said}", flush=True)
     print(dict(counts))
 
 

@@ -13,9 +13,7 @@ The classical methods and the solvers live in their rooms, such as `burmester.dy
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
-
+TYPE_CHECKING = False  # as type checkers take it; `typing` would be a third of the way to --help
 if TYPE_CHECKING:
     from burmester import export as export
     from burmester import plot as plot
@@ -63,6 +61,8 @@ if TYPE_CHECKING:
     from burmester.tasks.limits import Limits as Limits
     from burmester.tasks.motion_task import Task as Task
     from burmester.tasks.requirements import Requirements as Requirements
+if TYPE_CHECKING:
+    from typing import Any
 
 __version__ = "0.1.0"
 
@@ -148,6 +148,8 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
+    from importlib import import_module  # noqa: PLC0415  it is seldom needed
+
     if name in _PACKAGES:
         return import_module(f"burmester.{name}")
     if (room := {**_ROOMS, **_ROOMS_BESIDE}.get(name)) is not None:

@@ -1,6 +1,6 @@
 """`burmester`, and `python -m burmester`: the command, with its signals handled from the start."""
 
-from burmester import signals
+import burmester.signals as signals  # noqa: PLR0402  `from` would load importlib first
 
 __all__ = ["main"]
 

@@ -11,10 +11,13 @@ from __future__ import annotations
 import os
 import signal
 import sys
-from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from types import FrameType
-from typing import Any
+
+TYPE_CHECKING = False  # nothing is loaded here that is not needed: signals come at any time
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from types import FrameType
+    from typing import Any
 
 __all__ = ["exit_code", "handled", "ignored", "unfinished"]
 
@@ -42,6 +45,8 @@ def handled() -> Iterator[None]:
         for number in _ENDING:
             if signal.getsignal(number) in (signal.SIG_DFL, signal.default_int_handler):
                 before[number] = signal.signal(number, _raise)
+    if before:  # not within a block like this one
+        _came.clear()
     sys.unraisablehook = _end_or_show
     try:
         yield

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 from benchmarks.stopped import CODES, INTERNAL, campaign, commands, run
 
+from burmester import signals
 from tests.oracles.ten_poses import TEN
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals as POSIX has them")
@@ -192,3 +193,18 @@ def test_the_campaign_knows_every_format_and_a_leftover(folder):
     process = run(["--version"], stdout=subprocess.DEVNULL)
     assert process.wait() == 0
     assert INTERNAL.search("No such file: .burmester-0123-x.svg")
+
+
+def stop():
+    with signals.handled():
+        os.kill(os.getpid(), signal.SIGTERM)
+    raise AssertionError
+
+
+def test_a_signal_is_forgotten_by_the_next_command():
+    """In one process, as tests and notebooks call it."""
+    with pytest.raises(SystemExit) as caught:
+        stop()
+    assert caught.value.code == signals.exit_code() == 143
+    with signals.handled():
+        assert signals.exit_code() is None
