@@ -607,8 +607,8 @@ CASES: dict[str, Case] = {
     "too many poses": Case(
         "E126",
         S,
-        Write("poses.csv", TEN),
-        {"poses.csv": lambda: "x,y,angle_deg\n" + 10_001 * "1,2,3\n"},
+        Args(f"{S} --every 2"),
+        {"poses.csv": lambda: "x,y,angle_deg\n" + 1_001 * ROWS},
     ),
     "too many lines": Case(
         "E101",

@@ -434,4 +434,4 @@ def test_poses_too_many_for_the_memory_are_refused_at_once():
         synthesize(Task(in_one_task(1_000_000)))
     assert caught.value.code == "E126"
     assert caught.value.why == "they may need 75 GB of memory, and 10000 are the most"
-    assert caught.value.help.startswith("take one pose in 100:")
+    assert caught.value.help.startswith("take one pose in 100, with --every 100:")

@@ -82,12 +82,13 @@ def synthesize(
 def _require_few(task: Task) -> None:
     """Refuse more poses than there is memory for, before anything is computed; raises E126."""
     if (count := task.poses.shape[0]) > MAX_POSES:
+        each = math.ceil(count / MAX_POSES)
         raise InputError(
             "E126",
             f"{count} poses are too many",
             why=f"they may need {count * POSE_BYTES / 1e9:.2g} GB of memory, "
             f"and {MAX_POSES} are the most",
-            help=f"take one pose in {math.ceil(count / MAX_POSES)}: so many hardly tell more",
+            help=f"take one pose in {each}, with --every {each}: so many hardly tell more",
         )
 
 
