@@ -20,7 +20,10 @@ from typing import NamedTuple
 
 from burmester.export import FORMATS
 
-CODES = {signal.SIGINT: 130, signal.SIGTERM: 143, signal.SIGHUP: 129}
+_NAMES = ("SIGINT", "SIGTERM", "SIGHUP")
+CODES = {
+    getattr(signal, name): 128 + getattr(signal, name) for name in _NAMES if hasattr(signal, name)
+}
 # As the script of an installed package starts it.
 START = "from burmester.__main__ import main; main()"
 EARLY = "<frozen site>"  # Python itself was not there yet, and has its own words

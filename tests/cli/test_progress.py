@@ -1,7 +1,6 @@
 """What takes long is told on a terminal, on one line that goes; nowhere else."""
 
 import os
-import pty
 import re
 import subprocess
 import sys
@@ -12,7 +11,7 @@ from burmester.io.reading.poses import read_task
 from burmester.progress import shown, step
 from burmester.synthesis.motion_generation import synthesize
 
-pytestmark = pytest.mark.skipif(os.name != "posix", reason="terminals as POSIX has them")
+pty = pytest.importorskip("pty", reason="terminals as POSIX has them")
 
 SLOW = """
 import sys, time

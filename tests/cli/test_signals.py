@@ -1,7 +1,6 @@
 """Commands that are stopped: their exit code says by what, and nothing of them is left."""
 
 import os
-import pty
 import signal
 import subprocess
 import sys
@@ -15,6 +14,7 @@ from burmester import signals
 from burmester.export import FORMATS
 from tests.oracles.ten_poses import TEN
 
+pty = pytest.importorskip("pty", reason="terminals as POSIX has them")
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals as POSIX has them")
 
 

@@ -50,6 +50,7 @@ def synthesize(
     **given: Any,
 ) -> int:
     """Find four-bars that guide a body through POSES."""
+    from burmester.cli.progress_line import working
     from burmester.io import files
     from burmester.io.result import json_line, synthesis_data
     from burmester.printable import printable
@@ -58,7 +59,8 @@ def synthesize(
         files.require_writable(output, force=force, source=poses)
     synthesis = run_synthesis(poses, **given)
     if output is not None:
-        files.write(output, json_line(synthesis_data(synthesis)), force=force)
+        with working("writing the result"):
+            files.write(output, json_line(synthesis_data(synthesis)), force=force)
         click.echo(f"wrote {printable(output)}", err=True)
     if as_json:
         print_json(synthesis_data(synthesis))
