@@ -19,6 +19,7 @@ __all__ = ["working"]
 
 DELAY_S = 0.5  # seconds before the line comes
 PERIOD_S = 0.25  # seconds between two looks at what is being done
+TYPED = 4  # columns beyond the line, where a terminal shows ^C
 USUAL_COLUMNS = 80  # of a terminal that does not tell them
 
 
@@ -59,7 +60,8 @@ class _Line:
                 self._write(f"\r{line.ljust(len(before))}")
             if self.done.wait(PERIOD_S):
                 break
-        self._write(f"\r{' ' * len(line)}\r")
+        size = min(len(line) + TYPED, self._columns() - 1)
+        self._write(f"\r{' ' * size}\r")
 
     def _shown(self, seconds: float) -> str:
         """The text on one line of the terminal, whose last column stays free."""
