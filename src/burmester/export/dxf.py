@@ -18,6 +18,7 @@ import numpy as np
 
 from burmester.errors import BurmesterError
 from burmester.export.dxf_dimensions import add_dimension, add_style, measured_in
+from burmester.export.escaping import dxf_text
 from burmester.export.measured import require_dimensions
 from burmester.export.options import Options
 from burmester.export.plate import moved
@@ -138,7 +139,7 @@ def _closed(space: Any, outline: FloatArray, layer: str) -> None:
 
 
 def _text(space: Any, text: str, at: FloatArray, height: float, layer: str = "TEXT") -> None:
-    space.add_text(text, height=height, dxfattribs={"layer": layer, "insert": _point(at)})
+    space.add_text(dxf_text(text), height=height, dxfattribs={"layer": layer, "insert": _point(at)})
 
 
 def _point(at: FloatArray) -> tuple[float, float]:

@@ -20,6 +20,7 @@ import numpy as np
 from burmester.export.bodies import Shape
 from burmester.export.driver_load import STANDARD_GRAVITY
 from burmester.export.dynamic_model import DynamicModel
+from burmester.export.escaping import xml_attribute, xml_comment
 from burmester.export.joints import directions
 from burmester.export.mjcf_kinematics import frames_at
 from burmester.export.numbers import number, numbers_in, xy
@@ -53,11 +54,11 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
     gravity = " ".join(number(each) for each in model.gravity())
     stiff = f"{number(2 * servo.time_step)} 1"
     bound = f' boundmass="{LEAST}" boundinertia="{LEAST}"' if _small(model) else ""
-    head = description(chosen, options, "m")
+    head = [each.replace("--unit", "the option unit") for each in description(chosen, options, "m")]
     lines = [
-        f'<mujoco model="{chosen.id}">',
-        f"  <!-- {' '.join(head)} -->".replace("--unit", "the option unit"),
-        *(f"  <!-- {each} -->" for each in _notes(model, options, servo)),
+        f"<mujoco model={xml_attribute(chosen.id)}>",
+        f"  <!-- {' '.join(map(xml_comment, head))} -->",
+        *(f"  <!-- {xml_comment(each)} -->" for each in _notes(model, options, servo)),
         f'  <compiler angle="radian" autolimits="true"{bound}/>',
         f'  <option timestep="{number(servo.time_step)}" gravity="{gravity}" '
         'integrator="implicitfast" solver="Newton" iterations="100" tolerance="0"/>',

@@ -39,7 +39,7 @@ from burmester.export.film import (
 from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import FloatArray
 from burmester.plot.plane import X_AXIS_LENGTH, span_of
-from burmester.plot.style import BLACK, BLUE, GREY, VERMILION, settle_labels, with_unit
+from burmester.plot.style import BLACK, BLUE, GREY, VERMILION, plain, settle_labels, with_unit
 from burmester.progress import step
 
 if TYPE_CHECKING:
@@ -305,7 +305,8 @@ def _stage(film: Film) -> Stage:
                 over += [wanted.x_axes, wanted.y_axes, wanted.origins, *wanted.labels]
         ax.set_xlabel(with_unit("X", film.chosen.unit), labelpad=1)
         ax.set_ylabel(with_unit("Y", film.chosen.unit), labelpad=1)
-        ax.set_title(f"{film.chosen.id}  {film.chosen.type}", loc="left", fontsize=10, pad=4)
+        title = plain(f"{film.chosen.id}  {film.chosen.type}")
+        ax.set_title(title, loc="left", fontsize=10, pad=4)
         settle_labels(ax)
         for artist in over:
             artist.set_animated(True)

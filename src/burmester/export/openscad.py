@@ -14,6 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
+from burmester.export.escaping import line_comment
 from burmester.export.numbers import number
 from burmester.export.options import Options
 from burmester.export.plates import assembly_of
@@ -74,7 +75,7 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
     made = assembly.dimensions
     motion = assembly.motion
     pick = np.unique(np.linspace(0, motion.shape[0] - 1, MOTION_ROWS).round().astype(int))
-    lines = [f"// {line}" for line in description(chosen, options, "mm")]
+    lines = [f"// {line_comment(line)}" for line in description(chosen, options, "mm")]
     lines += [
         "// View > Animate plays the motion, with FPS 25 and Steps 100. At $t = 0 the coupler is",
         "// at the chosen pose.",

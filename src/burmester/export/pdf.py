@@ -22,6 +22,7 @@ from matplotlib.text import Text
 from matplotlib.transforms import Affine2D, Bbox, IdentityTransform
 
 from burmester.errors import BurmesterError
+from burmester.export.escaping import pdf_text
 from burmester.export.holes import axis_away, joints_of
 from burmester.export.options import Options
 from burmester.export.outlines import slot_outline
@@ -58,7 +59,7 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
     assembly = assembly_of(chosen, options)
     _, decimals = printed_decimals(chosen, options)
     pages = pages_of(assembly, decimals.lengths, options.dimensions)
-    said = description(chosen, options, "mm")
+    said = [pdf_text(each) for each in description(chosen, options, "mm")]
     head = [said[0].rstrip("."), notes_on(assembly)[0]]
     if assembly.assumed:
         head.append(said[-1])

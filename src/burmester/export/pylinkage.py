@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from burmester.errors import InputError
+from burmester.export.escaping import python_docstring
 from burmester.export.joints import JointMotion, directions, ground_joint
 from burmester.export.numbers import number
 from burmester.export.options import Options
@@ -89,7 +90,7 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
     tips = place.act(np.stack([one, two]))
     actuator = "Crank" if reference.kinds[0] == "RR" else "LinearActuator"
     dyad = "RRRDyad" if reference.kinds[1] == "RR" else "RRPDyad"
-    head = "\n".join(description(chosen, options, None))
+    head = "\n".join(map(python_docstring, description(chosen, options, None)))
     arm = two - one
     length = math.hypot(*arm.tolist())
     angle = math.atan2(arm[1], arm[0])

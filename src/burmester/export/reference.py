@@ -1,6 +1,6 @@
 """The reference that every file is compared with: a linkage's dimensions and places in a unit.
 
-E160 the file does not contain the linkage
+E160 the file does not contain the linkage        E163 a linkage that does not reach the poses
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from burmester.describe.decimals import Decimals, decimals_of_linkage
 from burmester.describe.dimensions import dimensions_of
-from burmester.errors import BurmesterError
+from burmester.errors import BurmesterError, InputError
 from burmester.export.options import MILLIMETRES, Options, unit_of
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.fourbar.linkage import Linkage
@@ -62,7 +62,8 @@ class Reference:
 
     @classmethod
     def of(cls, chosen: SavedLinkage, options: Options, unit: str | None = "mm") -> Reference:
-        """The linkage in a unit, None for the task's own; raises E162."""
+        """The linkage in a unit, None for the task's own; raises E162, and E163 without places."""
+        _require_places(chosen)
         scale = 1.0
         if unit is not None:
             scale = MILLIMETRES[unit_of(chosen, options)] / MILLIMETRES[unit]
@@ -133,6 +134,19 @@ class Reference:
                 continue
             worst = max(worst, float(np.abs(off).max()))
         return worst
+
+
+def _require_places(chosen: SavedLinkage) -> None:
+    """Raise E163 where the linkage cannot be put together near some pose."""
+    places = chosen.error.places
+    missing = ~(np.isfinite(places.angle) & np.isfinite(places.translation).all(axis=-1))
+    if missing.any():
+        raise InputError(
+            "E163",
+            f"linkage {chosen.id} has no place for pose {missing.argmax() + 1}",
+            why="its links cannot be put together near that pose",
+            help="choose another linkage, one that is usable, with --linkage",
+        )
 
 
 def require_equal(what: str, got: ArrayLike, expected: ArrayLike, tolerance: float) -> None:

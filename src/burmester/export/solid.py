@@ -20,11 +20,13 @@ import numpy as np
 
 from burmester.errors import BurmesterError, InputError
 from burmester.export.collisions import collision
+from burmester.export.escaping import step_text
 from burmester.export.holes import axes_of, axis_away, joints_of, rim_away
 from burmester.export.options import Options
 from burmester.export.plates import Assembly, assembly_of
 from burmester.export.reference import PRECISION, Reference
 from burmester.export.solid_parts import Part, area_of, laid, parts_of, placed
+from burmester.export.step_order import settle
 from burmester.export.stl import Triangles, read_stl, shells_of, volume_of
 from burmester.io.saved import SavedLinkage
 
@@ -53,8 +55,9 @@ def write_step(chosen: SavedLinkage, path: Path, options: Options) -> None:
     """Write the assembly at `options.pose` as STEP: named parts in colours, in their places."""
     cad, made = _cad(), assembly_of(chosen, options)
     parts = [placed(cad, part) for part in parts_of(cad, made)]
-    whole = cad.Compound(label=f"{chosen.id} {chosen.type}", children=parts)
+    whole = cad.Compound(label=step_text(f"{chosen.id} {chosen.type}"), children=parts)
     cad.export_step(whole, str(path), timestamp=FIXED_TIME)
+    settle(path)
 
 
 def write_stl(chosen: SavedLinkage, path: Path, options: Options) -> None:

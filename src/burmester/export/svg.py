@@ -13,11 +13,11 @@ import re
 from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree
-from xml.sax.saxutils import escape
 
 import numpy as np
 
 from burmester.export.dimension_lines import DimensionLine
+from burmester.export.escaping import xml_text
 from burmester.export.measured import Measured, require_dimensions, require_drawn
 from burmester.export.options import Options
 from burmester.export.plate import moved
@@ -68,8 +68,8 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
         '<?xml version="1.0" encoding="UTF-8"?>',
         f'<svg xmlns="http://www.w3.org/2000/svg" {INKSCAPE} width="{_n(size[0])}mm" '
         f'height="{_n(size[1])}mm" viewBox="{box}" role="img">',
-        f"<title>{escape(notes[0])}</title>",
-        f"<desc>{escape(' '.join(notes[1:]))}</desc>",
+        f"<title>{xml_text(notes[0])}</title>",
+        f"<desc>{' '.join(map(xml_text, notes[1:]))}</desc>",
         f"<style>{STYLE % (_n(hair), _n(sheet.letters))}</style>",
         '<g id="parts">',
     ]
@@ -178,7 +178,7 @@ def _line(start: FloatArray, end: FloatArray, name: str) -> str:
 
 
 def _text(text: str, at: FloatArray, more: str = "") -> str:
-    return f'<text{more} x="{_n(at[0])}" y="{_n(-at[1])}">{escape(text)}</text>'
+    return f'<text{more} x="{_n(at[0])}" y="{_n(-at[1])}">{xml_text(text)}</text>'
 
 
 def _n(value: float) -> str:

@@ -18,6 +18,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from burmester.export.dynamic_model import DynamicModel
+from burmester.export.escaping import xml_attribute, xml_comment
 from burmester.export.joints import along_slot, directions, ground_joint
 from burmester.export.numbers import number, numbers_in, xy
 from burmester.export.options import Options
@@ -51,14 +52,14 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
     model = DynamicModel.of(chosen, options)
     reference = model.reference
     place = reference.places[options.pose - 1]
-    head = " ".join(description(chosen, options, "m")).replace("--unit", "the option unit")
+    head = [each.replace("--unit", "the option unit") for each in description(chosen, options, "m")]
     tilt = " ".join(map(number, TILT[options.up]))
     lines = [
         '<?xml version="1.0"?>',
-        f'<robot name="{chosen.id}">',
-        f"  <!-- {head} -->",
+        f"<robot name={xml_attribute(chosen.id)}>",
+        f"  <!-- {' '.join(map(xml_comment, head))} -->",
         f"  <!--\n{HEAD.format(pose=options.pose)}\n  -->",
-        *(f"  <!-- {each} -->" for each in [*model.notes(options), *_notes(options)]),
+        *(f"  <!-- {xml_comment(each)} -->" for each in [*model.notes(options), *_notes(options)]),
         '  <link name="world"/>',
         *_fixed("ground", "world", tilt=tilt),
         *_link(model, "ground"),

@@ -22,6 +22,7 @@ from matplotlib.text import Annotation
 from numpy.typing import ArrayLike
 
 from burmester.numerics.arrays import FloatArray
+from burmester.printable import printable
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -41,6 +42,7 @@ __all__ = [
     "house_style",
     "label",
     "legend",
+    "plain",
     "settle_labels",
     "with_unit",
 ]
@@ -55,6 +57,7 @@ PURPLE: Final = "#AA5A94"
 PALETTE: Final = (BLUE, ORANGE, GREEN, PURPLE)
 DASHES: Final = ("-", (0, (5, 2)), (0, (1, 1.5)), (0, (5, 2, 1, 2)))
 
+MOST_CHARACTERS: Final = 100  # of a text of others in a picture; one as wide as ten is cut
 LABEL_ID: Final = "burmester.label"  # gid of labels that may be moved
 LABEL_STEP: Final = 9.0  # points: first distance between a label and its target
 DRAWING_MARGIN: Final = 0.07  # of a drawing's longer side: space left free around it
@@ -148,7 +151,14 @@ def figure(width: float, height: float, dpi: float = 160.0) -> Figure:
 
 def with_unit(text: str, unit: str | None) -> str:
     """A label with its unit in parentheses, where there is one."""
-    return f"{text} ({unit})" if unit else text
+    return f"{text} ({plain(unit)})" if unit else text
+
+
+def plain(text: str) -> str:
+    r"""A text that Matplotlib draws as it is: one line, not too long, no formula."""
+    line = printable(text)
+    line = line if len(line) <= MOST_CHARACTERS else f"{line[: MOST_CHARACTERS - 3]}..."
+    return line.replace("$", r"\$")
 
 
 def label(
