@@ -702,6 +702,24 @@ CASES: dict[str, Case] = {
         lambda help: Write("result.json", result(TEN)),
         {"result.json": lambda: re.sub(r'"radius": \d', '"radius": 7', result(TEN))},
     ),
+    "a result with another id": Case(
+        "E150",
+        "export result.json -o a.csv",
+        lambda help: Write("result.json", result(TEN)),
+        {"result.json": lambda: result(TEN).replace('"id": "D1"', '"id": "D1; import os"', 1)},
+    ),
+    "a dyad twice in a linkage": Case(
+        "E152",
+        "export result.json -o a.csv",
+        lambda help: Write("result.json", result(TEN)),
+        {"result.json": lambda: with_dyad_twice(result(TEN))},
+    ),
+    "a linkage elsewhere": Case(
+        "E152",
+        "export result.json -o a.csv",
+        lambda help: Write("result.json", result(TEN)),
+        {"result.json": lambda: re.sub(r'("coupler": \[{"x": )[^,]+', r"\g<1>9", result(TEN))},
+    ),
     "no such format": Case(
         "E161",
         "export result.json -o a.xyz",
@@ -1052,6 +1070,13 @@ def result(text):
         poses = Path(folder, "poses.csv")
         poses.write_text(text)
         return json.dumps(synthesis_data(synthesize(read_task(poses))))
+
+
+def with_dyad_twice(text):
+    """A result whose first linkage has its second dyad twice."""
+    tree = json.loads(text)
+    tree["linkages"][0]["dyads"][0] = tree["linkages"][0]["dyads"][1]
+    return json.dumps(tree)
 
 
 def checked(change):

@@ -1,7 +1,7 @@
 """What `burmester synthesize --json` printed, read back: the task and its linkages.
 
-The linkages are not taken on trust: each is driven anew, and has to come as near to the poses as
-the file says.
+A result is input like any other.  `saved_model` says what may stand in it, and `agreement` computes
+again what its dyads and poses determine: no number and no verdict is taken on trust.
 
 E101 not readable                        E151 no such linkage, or none at all
 E109 not JSON                            E152 a linkage that does not do what the file says
@@ -14,25 +14,26 @@ import json
 import math
 import os
 from dataclasses import dataclass
-from typing import Any, NamedTuple
-
-import numpy as np
+from typing import TYPE_CHECKING, NamedTuple
 
 from burmester.errors import InputError
-from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.pose_error import PoseError
-from burmester.geometry.displacement import Displacement
 from burmester.io.reading.file_content import read_source
 from burmester.io.reading.poses import read_task
 from burmester.io.result import SCHEMA
-from burmester.linkages.found_linkage import Side, with_driver_first
+from burmester.linkages.found_linkage import Side
+from burmester.printable import printable
 from burmester.synthesis.result import Outcome
-from burmester.tasks.motion_task import Task, characteristic_length
+from burmester.tasks.motion_task import Task
+
+if TYPE_CHECKING:
+    from burmester.io.saved_model import WrittenLinkage
 
 __all__ = ["Result", "SavedLinkage", "read_result"]
 
-ERROR_TOLERANCE = 1e-6  # characteristic lengths, between stated errors and those computed anew
+HELP = "make it with `burmester synthesize POSES -o result.json`"
+MOST_DIGITS = 20  # of a whole number; no longer one is written, and Python reads 4,300 at most
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -40,8 +41,8 @@ class SavedLinkage:
     """A linkage of a result: its driver first, and its places for the poses.
 
     error: of the places at the poses.
-    driver: which of the two dyads of the file is first here; it is None in the file where the
-    linkage is not usable, and then the first one.
+    driver: which of the two dyads of the file is first here: the one that drives, or that would
+    drive where the linkage is not usable.
     least_transmission: the least transmission angle between the poses, in radians.
     other_types: the other types that the uncertainty of the links leaves possible.
     """
@@ -94,105 +95,66 @@ class Result(NamedTuple):
 
 
 def read_result(source: str | os.PathLike[str]) -> Result:
-    """The result in a file, or on standard input ("-"); raises E101, E109, E150 and E152."""
+    """The result in a file, or on standard input ("-").
+
+    Raises E101, E109, E150 and E152, and what reading the poses of its task raises.
+    """
     path = os.fspath(source)
-    label = "<stdin>" if path == "-" else path
-    help = "make it with `burmester synthesize POSES -o result.json`"
+    label = "<stdin>" if path == "-" else printable(path)
     data = read_source(path)
     try:
-        tree = json.loads(data)
+        tree = json.loads(data, parse_int=_whole_number)
     except (ValueError, RecursionError) as error:
         raise InputError(
-            "E109", "this is not JSON", where=label, why=str(error), help=help
+            "E109", "this is not JSON", where=label, why=printable(str(error)), help=HELP
         ) from None
-    if not isinstance(tree, dict) or tree.get("schema") != SCHEMA:
-        message = f"this is no result of synthesize: its schema is not {SCHEMA}"
-        raise InputError("E150", message, where=label, help=help)
-    if tree.get("task") is None:
-        message = "this result has no task: the poses could not be used"
-        raise InputError("E150", message, where=label, help=help)
     try:
+        if not isinstance(tree, dict) or tree.get("schema") != SCHEMA:
+            message = f"this is no result of synthesize: its schema is not {SCHEMA}"
+            raise InputError("E150", message, help=HELP)
+        if tree.get("task") is None:
+            message = "this result has no task: the poses could not be used"
+            raise InputError("E150", message, help=HELP)
+        if "poses" in tree:
+            message = "$.poses stands beside the task of this result"
+            raise InputError("E150", message, help=HELP)
         task = read_task("-", data=data)
+        from burmester.io.saved_model import written_result
+
+        written = written_result(tree, HELP)
+        from burmester.io.agreement import judged_again
+
+        judged = judged_again(written, task)
     except InputError as error:
-        error.where = (error.where or "").replace("<stdin>", label)
+        error.where = (error.where or label).replace("<stdin>", label)
         raise
-    linkages = []
-    for number, each in enumerate(tree.get("linkages", [])):
-        try:
-            linkages.append(_linkage(each, task))
-        except (KeyError, TypeError, ValueError) as error:
-            message = f"linkage {number + 1} of this result cannot be read"
-            raise InputError("E150", message, where=label, why=repr(error), help=help) from None
-        except InputError as error:
-            error.where = label
-            raise
-    try:
-        outcome = Outcome(**{key: tree["outcome"].get(key) for key in Outcome.__slots__})
-    except (KeyError, AttributeError) as error:
-        message = "the outcome of this result cannot be read"
-        raise InputError("E150", message, where=label, why=repr(error), help=help) from None
-    return Result(label, task, tuple(linkages), outcome)
-
-
-def _linkage(data: dict[str, Any], task: Task) -> SavedLinkage:
-    first, second = (_dyad(each) for each in data["dyads"])
-    side: Side = data["driver"] or "first"
-    own = Linkage(first, second)
-    stated = data["position_error"]["max"]
-    size = characteristic_length(task)
-    if "coupler" in data and stated is not None:
-        places = Displacement(
-            np.array([[place["x"], place["y"]] for place in data["coupler"]]),
-            np.radians([place["angle_deg"] for place in data["coupler"]]),
+    linkages = tuple(
+        SavedLinkage(
+            each.id,
+            found.led,
+            _ids(each, found.driver),
+            found.usable,
+            found.driver,
+            found.led.type,
+            task,
+            found.error,
+            found.driven.least_over_range,
+            tuple((each.possible_types or ())[1:]),
         )
-        error = PoseError.at(places, task.poses)
-        off = max(float(np.abs(dyad.residual(places)).max()) for dyad in (first, second))
-        if not (
-            off <= ERROR_TOLERANCE * size and abs(error.worst - stated) <= ERROR_TOLERANCE * size
-        ):
-            raise InputError(
-                "E152",
-                f"linkage {data['id']} does not do what the file says of it",
-                why=f"at the places that the file gives its links are off by {off:.2g}",
-                help="the file has been changed: make it anew with "
-                "`burmester synthesize POSES -o result.json`",
-            )
-    else:
-        error = PoseError.of(own, task.poses, size)
-    ids = (data["dyads"][0]["id"], data["dyads"][1]["id"])
-    least = data.get("min_transmission_angle_deg", {}).get("range")
-    return SavedLinkage(
-        data["id"],
-        with_driver_first(own, side),
-        ids if side == "first" else ids[::-1],
-        bool(data["usable"]),
-        side,
-        data["type"],
-        task,
-        error,
-        math.nan if least is None else math.radians(least),
-        tuple(map(str, data.get("possible_types", [])[1:])),
+        for each, found in zip(written.linkages, judged, strict=True)
     )
+    said = written.outcome
+    help, why = (text and printable(text) for text in (said.help, said.why))
+    outcome = Outcome(said.code, printable(said.message), help, why)
+    return Result(label, task, linkages, outcome)
 
 
-def _dyad(data: dict[str, Any]) -> Dyad:
-    """A dyad as `linkage_data.dyad_data` tells it."""
+def _ids(written: WrittenLinkage, driver: Side) -> tuple[str, str]:
+    """The ids of its dyads, that of the driver first."""
+    first, second = (each.id for each in written.dyads)
+    return (first, second) if driver == "first" else (second, first)
 
-    def point(key: str) -> np.ndarray:
-        values = np.array(data[key], dtype=np.float64)
-        if values.shape != (2,) or not np.isfinite(values).all():
-            raise ValueError(f"{key} is {data[key]}, not a point")
-        return values
 
-    kind = data["kind"]
-    if kind == "PP":
-        return PP(np.array(math.radians(data["angle_deg"])))
-    if kind == "RR":
-        return RR(point("fixed_pivot"), point("moving_pivot"), np.array(float(data["radius"])))
-    line = data["line"]
-    normal, offset = np.array(math.radians(line["normal_deg"])), np.array(float(line["offset"]))
-    if kind == "PR":
-        return PR(normal, offset, point("moving_pivot"))
-    if kind == "RP":
-        return RP(point("fixed_pivot"), normal, offset)
-    raise ValueError(f"there is no dyad of kind {kind!r}")
+def _whole_number(digits: str) -> int | float:
+    """A whole number; one of more digits than any burmester writes is a float, or infinite."""
+    return int(digits) if len(digits) <= MOST_DIGITS else float(digits)

@@ -92,14 +92,14 @@ class Evaluation:
         )
         places = self.target.frames.from_canonical(self.target.places_of(candidates.rows))
         errors = [PoseError.at(places[k], self.task.poses) for k in range(len(own))]
-        verdicts = self._verdicts(own, places, errors)
+        verdicts = self.verdicts(own, places, errors)
         combined = self.target.combined_error(candidates.rows) * float(self.target.frames.length)
         standard = Standard.of(self.task)
         sides = np.tile(np.arange(2), (len(own), 1))
         out = []
         for k, verdict in enumerate(verdicts):
             linkage = own.linkage(k)
-            driver, missing, usable = self._driver(linkage, verdict)
+            driver, missing, usable = self.driver(linkage, verdict)
             parts = linkage, verdict, driver, candidates.pairs[k]
             if driver == "second" and len(self.task.limits) < 2:
                 sides[k] = (1, 0)
@@ -175,9 +175,10 @@ class Evaluation:
             return FoundDyad(origin, dyad, rms, worst, False)
         return replace(origin, dyad=dyad, rms_error=rms, max_error=worst)
 
-    def _verdicts(
+    def verdicts(
         self, own: LinkageBatch, places: Displacement, errors: list[PoseError]
     ) -> list[Verdict]:
+        """The verdicts on linkages (k,) in the task's own frames, at their places (k, N)."""
         shape = (len(own), self.task.poses.shape[0])
         position = np.array([error.position for error in errors]).reshape(shape)
         turn = np.array([error.angle for error in errors]).reshape(shape)
@@ -204,7 +205,7 @@ class Evaluation:
                 out[k] = _with_numbers(verdict, numbers)
         return [verdict for verdict in out if verdict is not None]
 
-    def _driver(
+    def driver(
         self, linkage: Linkage, verdict: Verdict
     ) -> tuple[Side, tuple[Violation, ...], bool]:
         """The preferred driver, the violated requirements, and whether the linkage is usable."""

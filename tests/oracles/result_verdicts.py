@@ -1,0 +1,58 @@
+"""What the package makes of a saved result, held against what a sound one is."""
+
+import re
+import warnings
+
+import numpy as np
+
+from burmester.errors import InputError
+from burmester.export import FORMATS, export
+from burmester.io.saved import read_result
+from burmester.printable import printable
+from burmester.tasks.requirements import TYPES
+from tests.oracles.file_verdicts import check_refusal
+
+QUICK = ("json", "csv", "svg", "openscad", "mjcf", "urdf", "pylinkage")  # formats made in no time
+
+
+def judged(data, folder, to):
+    """What becomes of the bytes of a result: the code of a refusal, or "exported".
+
+    Raises AssertionError for a poor refusal and for a result that is taken and contradicts itself;
+    a warning of NumPy is an error.
+    """
+    path = folder / "result.json"
+    path.write_bytes(data)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            result = read_result(path)
+            check_sound(result)
+            if not result.linkages:
+                return "no linkage"
+            export(result.choose(), to, folder / f"out{FORMATS[to].suffix}", force=True)
+    except InputError as error:
+        error.where = error.where or str(path)
+        check_refusal(error)
+        return error.code
+    return "exported"
+
+
+def check_sound(result):
+    """A result that is taken has ids, types and numbers of the usual form, and these agree."""
+    assert [each.id for each in result.linkages] == [
+        f"L{k + 1}" for k in range(len(result.linkages))
+    ]
+    for each in result.linkages:
+        assert all(re.fullmatch(r"[A-Z]+[1-9][0-9]*", name, re.ASCII) for name in each.ids)
+        assert each.ids[0] != each.ids[1]
+        assert each.type in TYPES
+        assert each.type == each.linkage.type
+        assert set(each.other_types) <= TYPES.keys() - {each.type}
+        places = each.error.places
+        assert len(places.angle) == len(each.task.poses.angle)
+        assert not each.usable or np.isfinite(each.error.worst)
+    texts = (result.outcome.message, result.outcome.help or "", result.outcome.why or "")
+    assert all(text == printable(text) for text in texts)
+    for name in (*(result.task.names or ()), result.task.length_unit or ""):
+        assert name == printable(name)
