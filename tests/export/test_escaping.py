@@ -13,6 +13,7 @@ from dataclasses import replace
 from xml.etree import ElementTree
 
 import ezdxf
+import pypdf
 import pytest
 from matplotlib.cbook import is_math_text
 
@@ -136,7 +137,19 @@ def data_structure(path):
     return {key: tree[key] for key in tree if key not in ("id", "type")}
 
 
+def page_structure(path):
+    """The keys of a document and what its pages draw, letters left out."""
+    document = pypdf.PdfReader(path)
+    drawn = [
+        [str(operator) for _, operator in page.get_contents().operations if operator in PATHS]
+        for page in document.pages
+    ]
+    return [*document.trailer["/Root"]], [[*page] for page in document.pages], drawn
+
+
+PATHS = {b"m", b"l", b"c", b"h", b"f", b"S", b"B", b"re"}
 STRUCTURES = {
+    "pdf": page_structure,
     "svg": xml_structure,
     "mjcf": xml_structure,
     "urdf": xml_structure,
@@ -147,7 +160,7 @@ STRUCTURES = {
     "csv": lambda path: list(csv.reader(path.read_text("utf-8").splitlines())),
     "step": lambda path: re.sub(r"\s", "", re.sub(r"'(?:[^']|'')*'", "T", path.read_text("ascii"))),
 }
-TEXTS = [name for name in STRUCTURES if name != "step"]
+TEXTS = [name for name in STRUCTURES if name not in ("step", "pdf")]
 
 
 def structure(to, path):
@@ -192,7 +205,7 @@ def test_a_file_has_the_structure_that_it_has_with_a_harmless_name(
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("to", ["step", "stl", "gif", "mp4"])
+@pytest.mark.parametrize("to", ["step", "stl", "pdf", "gif", "mp4"])
 def test_solids_and_pictures_take_any_name(to, tmp_path, harmless):
     for text in PAYLOADS.values():
         with warnings.catch_warnings():
