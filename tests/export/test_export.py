@@ -628,3 +628,16 @@ def test_a_hull_has_the_corners_of_points_on_both_sides_of_the_origin_once():
     assert sorted(hull.tolist()) == sorted(square.tolist())
     (ax, ay), (bx, by) = hull[1] - hull[0], hull[2] - hull[1]
     assert ax * by - ay * bx > 0  # counter-clockwise
+
+
+@pytest.mark.parametrize("to", [*FLAT, "pdf", "step"])
+def test_a_linkage_without_a_place_for_a_pose_is_refused(to, tmp_path):
+    chosen = saved("crank-rocker, mm")
+    for first, which in ((4, np.arange(6) == 3), (1, np.arange(6) >= 0)):
+        angle = np.where(which, np.nan, chosen.error.places.angle)
+        missed = replace(chosen.error, places=replace(chosen.error.places, angle=angle))
+        with pytest.raises(InputError) as caught:
+            export(replace(chosen, error=missed), to, tmp_path / f"out{FORMATS[to].suffix}")
+        assert caught.value.code == "E163"
+        assert f"pose {first}" in caught.value.message or to == "csv"
+    assert not list(tmp_path.iterdir())

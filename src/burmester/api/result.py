@@ -225,14 +225,14 @@ def read_result(source: str | os.PathLike[str]) -> ReadResult:
     Returns
     -------
     ReadResult
-        Its linkages are not taken on trust: each is driven anew, and has to come as near to the
-        poses as the file says.
+        Nothing in it is taken on trust: errors, types, drivers and verdicts are computed again from
+        the dyads and the poses, and a file that says something else is refused.
 
     Raises
     ------
     InputError
-        E101 (not readable), E109 (not JSON), E150 (not of a synthesis), E152 (a linkage that does
-        not do what the file says).
+        E101 (not readable), E109 (not JSON), E150 (not of a synthesis, or a part of it is not what
+        stands there), E152 (parts that contradict each other).
 
     Examples
     --------

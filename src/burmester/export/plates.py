@@ -19,6 +19,7 @@ from burmester.export.layers import arranged
 from burmester.export.options import MILLIMETRES, Options, unit_of
 from burmester.export.outlines import slot_outline
 from burmester.export.plate import Pin, Plate, outline_points
+from burmester.export.reference import require_places
 from burmester.export.stock import stock_for
 from burmester.fourbar.circuits import Circuits, circuit_of
 from burmester.fourbar.linkage import Linkage
@@ -80,6 +81,7 @@ def in_millimetres(places: Displacement, scale: float) -> Displacement:
 
 def assembly_of(chosen: SavedLinkage, options: Options) -> Assembly:
     """The plates and pins of a linkage; raises E162 and E163."""
+    require_places(chosen)
     unit = unit_of(chosen, options)
     scale = MILLIMETRES[unit]
     first, second = (scaled(dyad, scale) for dyad in (chosen.linkage.first, chosen.linkage.second))

@@ -34,6 +34,7 @@ __all__ = [
     "dimension_notes",
     "printed_decimals",
     "require_equal",
+    "require_places",
 ]
 
 PRECISION = 1e-9  # of the span: the largest deviation of a file from the linkage
@@ -63,7 +64,7 @@ class Reference:
     @classmethod
     def of(cls, chosen: SavedLinkage, options: Options, unit: str | None = "mm") -> Reference:
         """The linkage in a unit, None for the task's own; raises E162, and E163 without places."""
-        _require_places(chosen)
+        require_places(chosen)
         scale = 1.0
         if unit is not None:
             scale = MILLIMETRES[unit_of(chosen, options)] / MILLIMETRES[unit]
@@ -136,7 +137,7 @@ class Reference:
         return worst
 
 
-def _require_places(chosen: SavedLinkage) -> None:
+def require_places(chosen: SavedLinkage) -> None:
     """Raise E163 where the linkage cannot be put together near some pose."""
     places = chosen.error.places
     missing = ~(np.isfinite(places.angle) & np.isfinite(places.translation).all(axis=-1))
