@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import re
 from collections.abc import Callable
@@ -9,6 +10,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
 import pytest
 from scipy.spatial import procrustes
 from scipy.spatial.transform import Rotation
@@ -339,6 +342,40 @@ def test_rows_are_those_of_the_file_by_number_name_and_time(read: Read) -> None:
     trc = recordings.trc(*recording(30))
     task = read(trc, ".trc", points="M1,M2", first="0.05s", last="120ms")
     assert task.names == tuple(map(str, range(6, 14)))
+
+
+@pytest.mark.parametrize(
+    ("head", "factor"), [("time", 1), ("time_ms", 1000), ("Zeit [s]", 1), ("t (min)", 1 / 60)]
+)
+def test_rows_of_poses_by_time(read: Read, head: str, factor: float) -> None:
+    rows = "".join(f"{k},{k * k},{k / 10 * factor!r},{5 * k}\n" for k in range(12))
+    task = read(f"x,y,{head},angle_deg\n{rows}", first="0.25s", last="700ms", every=2)
+    assert task.names == ("4", "6", "8")
+    text = f"x;y;{head};angle_deg\n{rows.replace(',', ';').replace('.', ',')}"
+    assert read(text, first="0.3s", last="0.7s").names == ("4", "5", "6", "7", "8")
+    error = refusal(lambda: read(f"x,y,{head},angle_deg\n{rows}", first="2s"))
+    assert error.code == "E122"
+
+
+@pytest.mark.parametrize("suffix", [".json", ".toml", ".parquet"])
+def test_rows_of_every_format(tmp_path: Path, suffix: str) -> None:
+    listed = [[k, k * k, 5 * k] for k in range(1, 13)]
+    path = tmp_path / f"poses{suffix}"
+    if suffix == ".json":
+        path.write_text(json.dumps({"angle_unit": "deg", "poses": listed}))
+    elif suffix == ".toml":
+        path.write_text(f'angle_unit = "deg"\nposes = {listed}\n')
+    else:
+        columns = dict(zip(("x", "y", "angle_deg"), zip(*listed, strict=True), strict=True))
+        pq.write_table(pa.table({name: list(values) for name, values in columns.items()}), path)
+    task = read_task(path, every=3, first="2", last="11", drop=["8"])
+    assert task.poses.translation[:, 0].tolist() == [2, 5, 11]
+    assert task.names == ("2", "5", "11")
+    with pytest.raises(InputError, match="2 poses") as caught:
+        read_task(path, every=7)
+    assert caught.value.code == "E120"
+    assert "10 of 12" in str(caught.value.why)
+    assert "--every" in str(caught.value.help)
 
 
 def refusal_without_place(attempt: Callable[[], object]) -> InputError:

@@ -124,7 +124,8 @@ POSES: tuple[Decorator, ...] = (
         "--from",
         "first",
         metavar="POSE",
-        help="The first pose to take, by its number in the file, by name, or by time (1.5s).",
+        help="The first pose to take, by its number in the file, by name, or by time (1.5s; a "
+        "column of times without a unit is in seconds).",
     ),
     _poses("--to", "last", metavar="POSE", help="The last pose to take, likewise."),
     _poses(

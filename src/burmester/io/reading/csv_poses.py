@@ -20,6 +20,7 @@ import numpy as np
 
 from burmester.errors import InputError
 from burmester.io.reading import pose_table
+from burmester.io.reading.column_words import known
 from burmester.io.reading.csv_cells import (
     ROW_LINE,
     cell_location,
@@ -32,12 +33,14 @@ from burmester.io.reading.height import height_notes
 from burmester.io.reading.pose_table import PoseTable, Rows, Source, brief, numeric_roles
 from burmester.io.reading.written_numbers import CellNumbers, written_number
 from burmester.io.reading.wrong_numbers import not_a_number
+from burmester.numerics.arrays import FloatArray
 
 __all__ = ["BLOCK", "read_csv", "require_one_mark"]
 
 BLOCK = 1 << 20  # characters parsed at a time, so that a million rows need little memory
 
 _MARK = f"(?i:{'|'.join(filter(None, pose_table.MARKS))})?"
+_SECONDS = {"s": 1.0, "ms": 1e-3, "min": 60.0}
 
 
 def read_csv(source: Source, columns: str | None = None) -> PoseTable:
@@ -76,6 +79,7 @@ def read_csv(source: Source, columns: str | None = None) -> PoseTable:
         locate_row=locate,
         notes=(*notes, *height_notes(_heights(header), rows, locate)),
         read_as=header.described(decimal_commas="," in marks, named=bool(names)),
+        times=functools.partial(_times, header),
     )
 
 
@@ -174,14 +178,29 @@ def _rows(
 
 def _heights(header: Header) -> list[str] | None:
     """The texts of a column z, with decimal points; None without one."""
-    if (index := header.columns.indices.get("z")) is None:
+    index = header.columns.indices.get("z")
+    return None if index is None else _texts(header, index, "z")
+
+
+def _times(header: Header) -> FloatArray | None:
+    """The times of the rows in seconds (also where no unit is stated); None without a column."""
+    words = map(known, header.names)
+    found = ((i, word) for i, word in enumerate(words) if word and word.role == "time")
+    index, word = next(found, (0, None))
+    texts = _texts(header, index, "time") if word else []
+    if word is None or not all(map(pose_table.NUMBER.fullmatch, texts)):
         return None
+    return np.array([float(text) for text in texts]) * _SECONDS.get(word.unit or "s", 1.0)
+
+
+def _texts(header: Header, index: int, role: str) -> list[str]:
+    """The texts of a column that is passed over, numbers with decimal points."""
     lines = _rows(ROW_LINE.finditer(header.source.text, header.end), header.separator)
     texts = []
     for _, cells in lines:
         cell = unquoted(cells[index]) if index < len(cells) else ""
         plain, mark = pose_table.plain_number(cell, header.separator)
-        number = written_number(cell, "z", header.separator) if mark is None else None
+        number = written_number(cell, role, header.separator) if mark is None else None
         texts.append(number.plain if number else plain)
     return texts
 

@@ -7,6 +7,7 @@ likelihood) is left out and counted, never filled.  Numbers are read as in any C
 from __future__ import annotations
 
 import re
+from array import array
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 from typing import NamedTuple
@@ -42,6 +43,7 @@ MIN_CHANGE = 0.01  # of the body's size; lesser changes of its shape are not men
 MAX_COORDINATE = 1e60  # beyond it, fourth powers leave a double's range
 
 _LINE = re.compile(r"(?m)^.*\S.*$")
+_PLAIN = re.compile(r"-?[0-9]{1,9}\.[0-9]{1,15}")
 _MISSING = ("", "nan", "na", "n/a", "-nan", "-nan(ind)", "null", "none", "-")
 
 
@@ -175,64 +177,64 @@ def _recording(
     sure = [header.markers[name].get(CONFIDENCE) for name in names]
     used = columns + [column for column in sure if column is not None]
     marks: dict[str, str] = {}  # mark of `plain_number` -> its first location
-    rows: list[list[str]] = []
-    starts: list[int] = []
+    numbers, starts, most = array("d"), array("q"), 0.0
     frames: list[str] = []
     times: list[str] = []
     for line, cells in _rows(header):
-        _require_width(header, line, cells, len(rows) + 1)
-        rows.append(_numbers(header, (line, cells), used, len(rows) + 1, marks))
+        _require_width(header, line, cells, len(starts) + 1)
+        for place, column in enumerate(used):
+            text = _number(header, (line, cells), column, len(starts) + 1, marks)
+            numbers.append(float(text))
+            if place < len(columns) and "." in text:
+                most = max(most, decimals(text))
         starts.append(line.start())
         frames.append(_cell(cells, header.frame))
         times.append(_cell(cells, header.time))
-        mark = pose_table.plain_number(times[-1], header.separator)[1]
-        if mark in (".", ","):
-            marks.setdefault(mark, "")  # a time, too, shows what a comma is
-    if not rows:
+    if not starts:
         raise pose_table.no_poses("the file has only a header")
+    shown_marks = (pose_table.plain_number(text, header.separator)[1] for text in times[:100])
+    for mark in {".", ","}.intersection(filter(None, shown_marks)):
+        marks.setdefault(mark, "")  # a time, too, shows what a comma is
     if whole:
         require_one_mark(marks)
-    values = np.array([[float(text) for text in row] for row in rows])
-    places, likely = values[:, : len(columns)], values[:, len(columns) :]
+    values = np.array(numbers).reshape(len(starts), len(used))
+    places, likely = values[:, : len(columns)].copy(), values[:, len(columns) :]
     _require_near(header, places, starts)
-    places = places.reshape(len(rows), len(names), len(axes))
+    places = places.reshape(len(starts), len(names), len(axes))
     reasons = _forget_lost(places, likely, [k for k, each in enumerate(sure) if each is not None])
-    most = max(
-        (decimals(text) for row in rows for text in row[: len(columns)] if text != "nan"),
-        default=0.0,
-    )
     labels = _labels(frames, times, header.separator)
     return MarkerRecording(header, names, axes, places, most, labels, np.array(starts), reasons)
 
 
-def _numbers(
+def _number(
     header: MarkerHeader,
     row: tuple[re.Match[str], list[str]],
-    columns: list[int],
+    column: int,
     number: int,
     marks: dict[str, str],
-) -> list[str]:
-    """The cells of some columns with decimal points, "nan" where one is missing."""
+) -> str:
+    """A cell with a decimal point, "nan" where it is missing; raises E103 and E104.
+
+    number: of the row, from 1.
+    """
     line, cells = row
-    values = []
-    for column in columns:
-        cell = _cell(cells, column)
-        if cell.lower() in _MISSING:
-            values.append("nan")
-            continue
-        plain, mark = pose_table.plain_number(cell, header.separator)
-        if mark is None or not marks.get(mark):
-            where = cell_location(header.source, line.start(), cells, column)
-            if mark is None:
-                raise not_a_number(
-                    cell, plain, row=number, unit=None, where=where, separator=header.separator
-                )
-            marks[mark] = where
-        values.append(plain)
-    return values
+    cell = _cell(cells, column)
+    if "." in marks and _PLAIN.fullmatch(cell):
+        return cell
+    if cell.lower() in _MISSING:
+        return "nan"
+    plain, mark = pose_table.plain_number(cell, header.separator)
+    if mark is None or not marks.get(mark):
+        where = cell_location(header.source, line.start(), cells, column)
+        if mark is None:
+            raise not_a_number(
+                cell, plain, row=number, unit=None, where=where, separator=header.separator
+            )
+        marks[mark] = where
+    return plain
 
 
-def _require_near(header: MarkerHeader, places: FloatArray, starts: list[int]) -> None:
+def _require_near(header: MarkerHeader, places: FloatArray, starts: Sequence[int]) -> None:
     """Refuse places that cannot be computed with: E112."""
     far = np.abs(places) > MAX_COORDINATE
     if not far.any():
@@ -248,15 +250,14 @@ def _require_near(header: MarkerHeader, places: FloatArray, starts: list[int]) -
 
 def _rows(header: MarkerHeader) -> Iterator[tuple[re.Match[str], list[str]]]:
     """The lines with numbers, with their cells; a blank line and a line of words end them."""
-    text, end = header.source.text, header.end
+    text, end, separator = header.source.text, header.end, header.separator
     for line in _LINE.finditer(text, header.end):
-        cells = split_cells(line[0], header.separator)
-        if not any(map(unquoted, cells)):
+        cells = split_cells(line[0], separator) if '"' in line[0] else line[0].split(separator)
+        if not line[0].strip(f'{separator}" '):
             end = line.end()
             continue
         apart = text[end : line.start()].count("\n") > 1 and end > header.end
-        first = next(filter(None, map(unquoted, cells)))
-        if apart and not pose_table.NUMBER_LIKE.fullmatch(first):
+        if apart and not pose_table.NUMBER_LIKE.fullmatch(next(filter(None, map(unquoted, cells)))):
             return
         yield line, cells
         end = line.end()
@@ -309,14 +310,13 @@ def _labels(frames: list[str], times: list[str], separator: str) -> RowLabels:
     """What the frames are called: by the numbers in the file if they are whole and differ."""
     are_frames = all(text.isascii() and text.isdigit() for text in frames)
     are_frames = are_frames and len(set(frames)) == len(frames)
-    plain = [pose_table.plain_number(text, separator) for text in times]
-    known = all(mark is not None for _, mark in plain)
-    return RowLabels(
-        len(frames),
-        frames if are_frames else (),
-        are_frames,
-        np.array([float(text) for text, _ in plain]) if known else None,
-    )
+
+    def seconds() -> FloatArray | None:
+        plain = [pose_table.plain_number(text, separator) for text in times]
+        known = all(mark is not None for _, mark in plain)
+        return np.array([float(text) for text, _ in plain]) if known else None
+
+    return RowLabels(len(frames), frames if are_frames else (), are_frames, seconds)
 
 
 # --- poses

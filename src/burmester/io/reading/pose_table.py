@@ -104,6 +104,7 @@ class PoseTable(NamedTuple):
     locate_row: Callable[[int | None], str] | None = None
     notes: tuple[Advice, ...] = ()  # what was assumed in reading
     read_as: str | None = None  # the form of the file and its columns, in words
+    times: Callable[[], FloatArray | None] | None = None  # reads those of the rows, in seconds
 
 
 SHEET_HEAD = "sep=\t\n"  # how the text of a sheet begins; row 1 is behind it

@@ -226,7 +226,7 @@ class _SelectedRows(NamedTuple):
     """The rows of a file that are taken, what they are called, and which must be met exactly."""
 
     table: PoseTable
-    kept: NDArray[np.intp]  # their numbers in the file, from 0
+    left_out: int  # the number of the others
     names: list[str]
     exact: NDArray[np.bool_] | None
     tracked: TrackedRows
@@ -252,7 +252,8 @@ def _selected(
         if plane is not None:
             message = "--plane is for recordings of markers, and this file has poses"
             raise InputError("E108", message, help="leave --plane out")
-        poses, labels = table, RowLabels(len(table.rows.values), table.rows.names)
+        poses = table
+        labels = RowLabels(len(table.rows.values), table.rows.names, times=table.times)
         kept = np.flatnonzero(selection.kept(labels))
         names = labels.of_kept(kept)
         if len(kept) < labels.size:
@@ -269,12 +270,12 @@ def _selected(
             help = "leave it out of --exact, or take it in with --drop, --every, --from and --to"
             raise InputError("E108", message, help=help)
         marks = marks[kept] if marks[kept].any() else None
-    return _SelectedRows(poses, kept, names, marks, tracked)
+    return _SelectedRows(poses, labels.size - len(kept), names, marks, tracked)
 
 
 def _task(
     table: PoseTable,
-    kept: NDArray[np.intp],
+    left_out: int,
     names: list[str],
     exact: NDArray[np.bool_] | None,
     tracked: TrackedRows,
@@ -318,6 +319,9 @@ def _task(
             error.where = error.where or whole.locations
         elif error.code == "E120" and table.locate_row and not error.where:  # too few poses
             error.where = table.locate_row(None)
+        if error.code == "E120" and left_out:
+            error.why = f"{left_out} of {left_out + len(values)} poses of the file are left out"
+            error.help = "take more of them with --every, --from, --to and --drop"
         raise
 
 

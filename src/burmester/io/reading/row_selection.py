@@ -7,7 +7,7 @@ column of frame numbers they are those.
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -29,7 +29,7 @@ class RowLabels(NamedTuple):
     size: int
     names: Sequence[str] = ()  # one a row, or none
     frames: bool = False  # the names are numbers of frames, and rows have no others
-    times: FloatArray | None = None  # (size,), in seconds
+    times: Callable[[], FloatArray | None] | None = None  # reads them, (size,) in seconds
 
     def of_kept(self, kept: NDArray[np.intp]) -> list[str]:
         """The names of the rows that are kept: their numbers if they have none and some are not."""
@@ -49,16 +49,11 @@ class RowSelection(NamedTuple):
 
     def in_range(self, labels: RowLabels) -> NDArray[np.bool_]:
         """The rows from the first to the last one, both included."""
-        rows = np.arange(labels.size)
         inside = np.ones(labels.size, dtype=np.bool_)
-        start, end = (
-            None if text is None else _end(option, text, labels)
-            for option, text in (("--from", self.first), ("--to", self.last))
-        )
-        if start is not None:
-            inside &= rows >= start if isinstance(start, int) else _since(labels, start)
-        if end is not None:
-            inside &= rows <= end if isinstance(end, int) else _until(labels, end)
+        if self.first is not None:
+            inside &= _beside("--from", self.first, labels, after=True)
+        if self.last is not None:
+            inside &= _beside("--to", self.last, labels, after=False)
         if labels.size and not inside.any():
             message = f"no {_noun(labels)} lies from {self.first or 'the first'} to " + (
                 self.last or "the last"
@@ -113,27 +108,21 @@ def _row(word: str, labels: RowLabels, option: str, where: str) -> int:
     raise InputError("E122", message, where=where, help=help)
 
 
-def _end(option: str, text: str, labels: RowLabels) -> int | float:
-    """The row (int), or the time in seconds (float), with which a range begins or ends."""
-    word = text.strip()
+def _beside(option: str, text: str, labels: RowLabels, *, after: bool) -> NDArray[np.bool_]:
+    """The rows from a row or a time on, or up to it."""
+    word, where = text.strip(), _where(option, text)
     time = _TIME.fullmatch(word)
     if time is None or word in labels.names:
-        return _row(word, labels, option, _where(option, text))
-    if labels.times is None:
+        rows, row = np.arange(labels.size), _row(word, labels, option, where)
+        return rows >= row if after else rows <= row
+    times = labels.times() if labels.times else None
+    if times is None:
         message = f"there is no time {shown(word)}: the file has no column of times"
-        help = f"name a {_noun(labels)} by its number, as in {option} 1"
-        raise InputError("E122", message, where=_where(option, text), help=help)
-    return float(time[1]) / (1000 if time[2] == "ms" else 1)
-
-
-def _since(labels: RowLabels, time: float) -> NDArray[np.bool_]:
-    assert labels.times is not None
-    return labels.times >= time - TIME_ROUNDING
-
-
-def _until(labels: RowLabels, time: float) -> NDArray[np.bool_]:
-    assert labels.times is not None
-    return labels.times <= time + TIME_ROUNDING
+        number = labels.names[0] if labels.frames else "1"
+        help = f"name a {_noun(labels)} by its number, as in {option} {number}"
+        raise InputError("E122", message, where=where, help=help)
+    seconds = float(time[1]) / (1000 if time[2] == "ms" else 1)
+    return times >= seconds - TIME_ROUNDING if after else times <= seconds + TIME_ROUNDING
 
 
 def _noun(labels: RowLabels) -> str:
