@@ -26,6 +26,8 @@ from burmester.wording import listed
 
 __all__ = ["is_cad_text", "read_cad_rows"]
 
+MAX_LINE_CHARACTERS = 500  # of a line; a longer one is no panel's
+
 _LINE = re.compile(r"(?m)^[^\S\n]*[^\s#].*$")
 _NUMBER = r"[-+\u2212]?[0-9.,]*[0-9][0-9.,]*(?:[eE][-+]?[0-9]+)?"
 _WORD = r"[^\W\d_]+"
@@ -63,6 +65,8 @@ def is_cad_text(text: str) -> bool:
     if line is None:
         return False
     words = line[0].strip()
+    if len(words) > MAX_LINE_CHARACTERS:
+        return False
     return bool(_LABELLED.match(words) or _BRACKETED.fullmatch(words))
 
 
@@ -116,6 +120,7 @@ def _labelled_poses(source: Source) -> list[tuple[str, list[_Cell]]]:
     """Values with labels, a pose up to where the first label comes again."""
     poses: list[tuple[str, list[_Cell]]] = []
     for line in _LINE.finditer(source.text):
+        _require_short(source, line)
         at = line.start() + len(line[0]) - len(line[0].lstrip())
         while at < line.end():
             found = _LABELLED.match(source.text, at, line.end())
@@ -141,6 +146,7 @@ def _bracketed_poses(source: Source) -> list[tuple[str, list[_Cell]]]:
     poses: list[tuple[str, list[_Cell]]] = []
     spaced: set[bool] = set()
     for line in _LINE.finditer(source.text):
+        _require_short(source, line)
         found = _BRACKETED.fullmatch(line[0].rstrip())
         number, where = len(poses) + 1, source.where(line.start(), len(line[0].rstrip()))
         if found is None:
@@ -175,6 +181,13 @@ def _bracketed_poses(source: Source) -> list[tuple[str, list[_Cell]]]:
         cells.append(_Cell("angle", found["angle"], unit, line.start() + found.start("angle")))
         poses.append((found["name"].strip(), cells))
     return poses
+
+
+def _require_short(source: Source, line: re.Match[str]) -> None:
+    if len(line[0]) > MAX_LINE_CHARACTERS:
+        message = f"a line of {len(line[0])} characters is no pose from a panel"
+        help = "put all poses into a CSV file, a pose a line"
+        raise InputError("E106", message, where=source.where(line.start()), help=help)
 
 
 def _require_alike(source: Source, number: int, cells: list[_Cell], names: list[str]) -> None:

@@ -23,10 +23,12 @@ __all__ = ["AXES", "CONFIDENCE", "MarkerHeader", "read_marker_header"]
 AXES = ("X", "Y", "Z")
 CONFIDENCE = "likelihood"  # the column by which DeepLabCut says how sure it is of a place
 MAX_LINES = 16  # lines in which a header is looked for
+MAX_NAME_CHARACTERS = 100  # of the name of a column
 MIN_MARKERS = 2  # that make a header one of markers
 
 _SHORT_UNITS = ("um", "mm", "cm", "m", "in", "ft", "px")
 _LINE = re.compile(r"(?m)^.*$")
+_SEPARATOR_LINE = re.compile(r'"?sep=.*\n', re.IGNORECASE)
 _SECTION = re.compile(r'(?m)^"?Trajectories"?[,;\t ]*$')
 _UNIT = (
     rf"(?:[\s_]*[(\[]\s*(?P<unit>[^()\[\]]+?)\s*[)\]]|[\s_]+(?P<word>{'|'.join(_SHORT_UNITS)}))?"
@@ -66,7 +68,8 @@ class MarkerHeader(NamedTuple):
 def read_marker_header(source: Source) -> MarkerHeader | None:
     """The header of a recording; None for any other text."""
     section = _SECTION.search(source.text) if "Trajectories" in source.text else None
-    start = section.start() if section else 0
+    stated = _SEPARATOR_LINE.match(source.text)  # a sheet of a workbook begins with it
+    start = section.start() if section else stated.end() if stated else 0
     lines = list(islice(_LINE.finditer(source.text, start), MAX_LINES))
     for number, line in enumerate(lines[1:], start=1):
         for separator in "\t,;":
@@ -106,6 +109,8 @@ def _of_one_line(source: Source, line: re.Match[str]) -> MarkerHeader | None:
 
 def _name_and_axis(text: str) -> tuple[str, str, str] | None:
     """The marker, the axis and the unit that the name of a column states."""
+    if len(text) > MAX_NAME_CHARACTERS:
+        return None
     if (found := _AXIS_LAST.fullmatch(text)) is not None:
         axis = found["axis"] or found["capital"]
         unit = (found["unit"] or found["word"] or "").lower()
