@@ -154,7 +154,8 @@ def test_the_markers_that_a_refusal_offers_are_on_one_body(read: Read) -> None:
     names, places = recording(60)
     rng = np.random.default_rng(2)
     loose = places[:, :1] + np.cumsum(rng.normal(size=(60, 1, 3)), axis=0) + [60, 0, 0]
-    text = recordings.nexus(("L1", *names), np.concatenate([loose, places], axis=1))
+    still = np.tile([200.0, 30.0, 880.0], (60, 1, 1))  # two at rest keep their distance, too
+    text = recordings.nexus(("L1", *names, "WALL"), np.concatenate([loose, places, still], axis=1))
     error = refusal(lambda: read(text))
     assert error.code == "E114"
     command = re.findall(r"`burmester synthesize \S+ --points (\S+)`", str(error.help))
@@ -189,6 +190,16 @@ def test_markers_of_two_bodies_are_refused_and_slow_slips_are_told(read: Read) -
         assert [each.code for each in task.notes] == codes
     loud = recordings.nexus(*recording(100, noise=1.0))  # noise alone is no slip
     assert [each.code for each in read(loud, points="M1,M2").notes] == ["W213"]
+
+
+def test_rotations_are_no_markers_and_digits_give_the_resolution(read: Read) -> None:
+    names, places = recording(40, noise=0.0)
+    error = refusal(lambda: read(recordings.motive(names, places)))
+    assert error.why == "its markers are Arm, M1, M2, M3 and BASE"
+    for points in ("M1,M2", "M1,M2,M3"):
+        task = read(recordings.nexus(names, places), points=points)
+        assert task.resolution[0] == 0.005
+        assert task.resolution[1] == pytest.approx(0.01 / 94.9, rel=0.01)
 
 
 # --- the rigid body
@@ -244,17 +255,17 @@ def test_no_other_shape_leaves_less() -> None:
 
 
 def test_three_markers_are_nearer_to_the_truth_than_two(read: Read) -> None:
-    names, places = recording(200, noise=0.5)
-    _, true = recording(200, noise=0.0)
+    names, places = recording(2000, noise=0.5)
+    _, true = recording(2000, noise=0.0)
     text = recordings.nexus(names, places)
     two, three = (read(text, points=points) for points in ("M1,M2", "M1,M2,M3"))
     _, angle = poses_of(true)
     off = [np.angle(np.exp(1j * (task.poses.angle - angle))).std() for task in (two, three)]
     assert off[1] < 0.95 * off[0]
     for task, spread in zip((two, three), off, strict=True):
-        assert task.resolution[1] / math.sqrt(3) == pytest.approx(spread, rel=0.15)
+        assert task.resolution[1] / math.sqrt(3) == pytest.approx(spread, rel=0.05)
         origin = task.poses.translation - true[:, 0, :2]
-        assert task.resolution[0] / math.sqrt(3) == pytest.approx(origin.std(), rel=0.15)
+        assert task.resolution[0] / math.sqrt(3) == pytest.approx(origin.std(), rel=0.05)
     assert re.search(r"off by 0\.(49|5)", note(three))
     assert re.search(r"apart, give or take 0\.(69|7)", note(two))
 
