@@ -37,6 +37,7 @@ POSES   a CSV, .xlsx, JSON, TOML or Parquet file, "-" for standard input, or
         A table starts with the line x,y,angle_deg (or angle_rad; x_mm,y_mm
         and the like name a unit; so do X [mm], Winkel [°] and others); the
         columns weight, name and exact may follow.
+        Recordings of markers (TRC, CSV, .xlsx) are read by --points.
 REGION  X,Y                    a point
         line:X,Y:X,Y           the endless line through two points
         segment:X,Y:X,Y        the piece between them

@@ -29,10 +29,10 @@ __all__ = ["is_cad_text", "read_cad_rows"]
 MAX_LINE_CHARACTERS = 500  # of a line; a longer one is no panel's
 
 _LINE = re.compile(r"(?m)^[^\S\n]*[^\s#].*$")
-_NUMBER = r"[-+\u2212]?[0-9.,]*[0-9][0-9.,]*(?:[eE][-+]?[0-9]+)?"
+_NUMBER = r"[-+\u2212]?[.,]?[0-9]+(?:[.,][0-9]+)*(?:[eE][-+]?[0-9]+)?"  # no comma at its end
 _WORD = r"[^\W\d_]+"
 _LABELLED = re.compile(
-    rf"(?P<label>{_WORD}(?:[ _]{_WORD})?)[ \t]*[:=][ \t]*(?P<value>{_NUMBER})"
+    rf"(?P<label>\u2206?{_WORD}(?:[ _]{_WORD})?)[ \t]*[:=][ \t]*(?P<value>{_NUMBER})"
     rf"(?:[ \t]*(?P<unit>°|\"|(?!{_WORD}[ \t]*[:=]){_WORD}))?"
 )
 _BETWEEN = re.compile(r"[\s,;|]*")
@@ -42,7 +42,7 @@ _BRACKETED = re.compile(
     re.IGNORECASE,
 )
 _COORDINATE = re.compile(rf"(?P<value>{_NUMBER})(?:[ \t]*(?P<unit>{_WORD}|\"))?")
-_DIFFERENCES = ("\u0394", "\u2206", "delta", "d")  # what a distance begins with
+_DIFFERENCES = ("\u03b4", "\u2206", "delta", "d")  # what a distance begins with
 
 
 class _Cell(NamedTuple):
