@@ -4,6 +4,8 @@ The linkage moves by plane trigonometry alone, and the files are written by hand
 package is used.  A missing marker is NaN here.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 FRAMES_A_SECOND = 100
@@ -14,11 +16,22 @@ LINKS = (40.0, 110.0, 80.0)
 MARKERS = {"M1": (30.0, 50.0), "M2": (120.0, 20.0), "M3": (60.0, -30.0)}
 
 
-def crank_rocker(angles):
+class FourBar(NamedTuple):
+    """A linkage whose crank turns fully, and markers on its coupler."""
+
+    ground: np.ndarray = GROUND
+    links: tuple[float, float, float] = LINKS
+    markers: dict[str, tuple[float, float]] = MARKERS
+
+
+USUAL = FourBar()
+
+
+def crank_rocker(angles, linkage=USUAL):
     """The pins on crank and rocker for angles of the crank, each (N, 2)."""
-    crank, coupler, rocker = LINKS
-    first = GROUND[0] + crank * np.stack([np.cos(angles), np.sin(angles)], axis=1)
-    between = GROUND[1] - first
+    crank, coupler, rocker = linkage.links
+    first = linkage.ground[0] + crank * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    between = linkage.ground[1] - first
     distance = np.hypot(*between.T)
     beside = np.arccos((coupler**2 + distance**2 - rocker**2) / (2 * coupler * distance))
     direction = np.arctan2(between[:, 1], between[:, 0]) + beside
@@ -26,16 +39,16 @@ def crank_rocker(angles):
     return first, second
 
 
-def recording(frames=200, noise=0.3, seed=1, turn=(0.3, 4.8), height=900.0):
+def recording(frames=200, *, noise=0.3, seed=1, turn=(0.3, 4.8), height=900.0, linkage=USUAL):
     """Names and places (N, K, 3) of the markers on the coupler and of one at rest, in mm."""
     rng = np.random.default_rng(seed)
-    first, second = crank_rocker(np.linspace(*turn, frames))
-    along = (second - first) / LINKS[1]
+    first, second = crank_rocker(np.linspace(*turn, frames), linkage)
+    along = (second - first) / linkage.links[1]
     across = np.stack([-along[:, 1], along[:, 0]], axis=1)
-    flat = [first + u * along + v * across for u, v in MARKERS.values()]
+    flat = [first + u * along + v * across for u, v in linkage.markers.values()]
     flat.append(np.tile([5.0, -20.0], (frames, 1)))
     places = np.stack([np.c_[each, np.full(frames, height)] for each in flat], axis=1)
-    return (*MARKERS, "BASE"), places + noise * rng.normal(size=places.shape)
+    return (*linkage.markers, "BASE"), places + noise * rng.normal(size=places.shape)
 
 
 def _cells(places, digits):

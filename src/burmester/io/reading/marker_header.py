@@ -23,6 +23,7 @@ __all__ = ["AXES", "CONFIDENCE", "MarkerHeader", "read_marker_header"]
 AXES = ("X", "Y", "Z")
 CONFIDENCE = "likelihood"  # the column by which DeepLabCut says how sure it is of a place
 MAX_LINES = 16  # lines in which a header is looked for
+MAX_LINE_CHARACTERS = 1_000_000  # of a line of the header: some 10,000 markers
 MAX_NAME_CHARACTERS = 100  # of the name of a column
 MIN_MARKERS = 2  # that make a header one of markers
 
@@ -71,6 +72,8 @@ def read_marker_header(source: Source) -> MarkerHeader | None:
     stated = _SEPARATOR_LINE.match(source.text)  # a sheet of a workbook begins with it
     start = section.start() if section else stated.end() if stated else 0
     lines = list(islice(_LINE.finditer(source.text, start), MAX_LINES))
+    if any(len(line[0]) > MAX_LINE_CHARACTERS for line in lines):
+        return None
     for number, line in enumerate(lines[1:], start=1):
         for separator in "\t,;":
             cells = _cells(line[0], separator)
