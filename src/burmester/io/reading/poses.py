@@ -39,8 +39,10 @@ from burmester.io.reading.cad_rows import is_cad_text, read_cad_rows
 from burmester.io.reading.csv_poses import read_csv
 from burmester.io.reading.documents import read_json, read_toml
 from burmester.io.reading.file_content import decode_text, read_source, require_moderate
+from burmester.io.reading.marker_choice import chosen_markers
 from burmester.io.reading.marker_header import read_marker_header
-from burmester.io.reading.marker_recording import MarkerRecording, read_recording, recorded_poses
+from burmester.io.reading.marker_poses import recorded_poses
+from burmester.io.reading.marker_recording import MarkerRecording
 from burmester.io.reading.parquet import is_parquet, read_parquet
 from burmester.io.reading.pose_table import UNITS, PoseTable, Source, extent, known_to
 from burmester.io.reading.row_selection import RowLabels, RowSelection, row_marks
@@ -200,7 +202,7 @@ def _table(
         require_moderate(source.text, tree=reader is not read_csv)
         if reader is read_csv:
             if columns is None and (header := read_marker_header(source)) is not None:
-                return _Recording(*read_recording(header, points))
+                return _Recording(*chosen_markers(header, points))
             _require_no_points(label, points)
             if columns is None and is_cad_text(source.text):
                 return read_cad_rows(source)
