@@ -147,6 +147,8 @@ def test_poses_are_not_taken_for_markers(read: Read) -> None:
     assert refusal(lambda: read(text)).code == "E107"
     assert read(re.sub("([va]_.)", r"#\1", text)).poses.shape == (4,)
     assert refusal(lambda: read(text, points="v,a")).code == "E114"
+    assert refusal(lambda: read(text, points="v,a", columns="x,y,angle_deg")).code == "E108"
+    assert refusal(lambda: read(re.sub("([va]_.)", r"#\1", text), plane="XY")).code == "E108"
 
 
 # --- which markers

@@ -185,6 +185,9 @@ def _table(
     label: str, data: bytes, columns: str | None, *, sheet: str | None, points: str | None
 ) -> PoseTable | _Recording:
     """The table in a file, by its first bytes and its suffix."""
+    if columns is not None and points is not None:
+        message = "--columns names the columns of poses, --points markers of a recording"
+        raise InputError("E108", message, where=label, help="leave one of the two out")
     suffix = PurePath(label).suffix.lower()
     if is_parquet(data) or (suffix == ".parquet" and data):
         _require_no_sheet(sheet)
