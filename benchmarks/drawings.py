@@ -20,10 +20,10 @@ from tests.oracles.random_dyads import PAIRS, random_dyad
 
 from burmester.errors import BurmesterError, InputError
 from burmester.export import Options, export
-from burmester.export.distances import distance
-from burmester.export.plates import assembly_of
-from burmester.export.sheet import laid_lengthwise
-from burmester.export.stock import stock_for
+from burmester.export.drawings.sheet import laid_lengthwise
+from burmester.export.parts.distances import distance
+from burmester.export.parts.plates import assembly_of
+from burmester.export.parts.stock import stock_for
 
 UNITS = {"mm": 40.0, "cm": 4.0, "in": 2.0, "m": 0.3, "ft": 0.5, None: 30.0}  # median lengths
 FORMATS = ("dxf", "svg", "pdf")

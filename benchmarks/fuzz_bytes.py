@@ -13,12 +13,12 @@ import tempfile
 import atheris
 
 with atheris.instrument_imports(include=["burmester.io", "tomllib", "json"]):
-    import burmester.io.reading.csv_poses
-    import burmester.io.reading.documents
-    import burmester.io.reading.limits_tree
-    import burmester.io.reading.parquet
     import burmester.io.reading.poses
-    import burmester.io.reading.requirements_tree  # noqa: F401
+    import burmester.io.reading.tables.csv_poses
+    import burmester.io.reading.tables.parquet
+    import burmester.io.reading.trees.documents
+    import burmester.io.reading.trees.limits_tree
+    import burmester.io.reading.trees.requirements_tree  # noqa: F401
 
 from tests.oracles.file_verdicts import judged
 from tests.oracles.fuzzed_files import STRANGE_WORDS, File, any_file

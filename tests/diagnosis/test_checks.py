@@ -54,7 +54,7 @@ def test_nothing_stands_out_of_sound_poses(task, check):
     assert "Nothing stands out. Next: burmester synthesize poses.csv" in out
     assert "3.301 by 2.65" in out
     assert "57.31°" in out  # 101.25 - 43.94
-    assert "±5e-05 and ±0.005°" in out
+    assert "positions to ±5e-05, angles to ±0.005°" in out
     assert "6 of 8: 2 independent quadrics" in out
 
 

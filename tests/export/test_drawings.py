@@ -12,10 +12,11 @@ import pytest
 from benchmarks import drawings as campaign
 
 from burmester.errors import BurmesterError
-from burmester.export import Options, dxf, svg
-from burmester.export.distances import distance
-from burmester.export.plates import assembly_of
-from burmester.export.sheet import laid_lengthwise
+from burmester.export import Options
+from burmester.export.drawings import dxf, svg
+from burmester.export.drawings.sheet import laid_lengthwise
+from burmester.export.parts.distances import distance
+from burmester.export.parts.plates import assembly_of
 from tests.oracles.handed_over import NAMES, joints, saved, scale_of, written
 
 

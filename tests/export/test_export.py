@@ -18,10 +18,11 @@ import pytest
 
 from burmester import export as exported
 from burmester.errors import BurmesterError, InputError
-from burmester.export import FORMATS, Options, export, format_of, mjcf
+from burmester.export import FORMATS, Options, export, format_of
+from burmester.export.models import mjcf
 from burmester.export.numbers import decimals_within, rounded
-from burmester.export.outlines import convex_hull
-from burmester.export.plates import assembly_of, outline_points
+from burmester.export.parts.outlines import convex_hull
+from burmester.export.parts.plates import assembly_of, outline_points
 from burmester.fourbar.dyad import PP
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement

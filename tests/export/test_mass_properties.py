@@ -11,7 +11,7 @@ import pytest
 
 from burmester.errors import InputError
 from burmester.export import Options, export
-from burmester.export.plates import assembly_of
+from burmester.export.parts.plates import assembly_of
 from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.dyad import PR, RP, RR
 from tests.oracles.handed_over import (

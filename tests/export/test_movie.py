@@ -16,7 +16,7 @@ import pytest
 from PIL import Image
 
 from burmester.errors import BurmesterError, InputError
-from burmester.export import movie
+from burmester.export.films import movie
 from burmester.export.options import Options
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.pose_error import PoseError

@@ -7,8 +7,9 @@ import pypdf
 import pytest
 
 from burmester.errors import BurmesterError, InputError
-from burmester.export import Options, export, pdf
-from burmester.export.plates import assembly_of
+from burmester.export import Options, export
+from burmester.export.drawings import pdf
+from burmester.export.parts.plates import assembly_of
 from tests.oracles.handed_over import GIVEN, rr, saved, scale_of, written
 
 MM = 25.4 / 72  # of a point

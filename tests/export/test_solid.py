@@ -15,10 +15,10 @@ import numpy as np
 import pytest
 
 from burmester.errors import BurmesterError, InputError
-from burmester.export import solid
 from burmester.export.options import Options
-from burmester.export.plates import assembly_of
-from burmester.export.stl import read_stl, shells_of
+from burmester.export.parts.plates import assembly_of
+from burmester.export.solids import solid
+from burmester.export.solids.stl import read_stl, shells_of
 from burmester.fourbar.dyad import PP, PR, RP, RR
 from burmester.fourbar.linkage import Linkage
 from burmester.io.saved import SavedLinkage

@@ -6,8 +6,8 @@ from itertools import pairwise
 import pytest
 
 from burmester.export import Options
-from burmester.export.plates import assembly_of
-from burmester.export.stock import INCHES, METRIC, nearest, stock_for
+from burmester.export.parts.plates import assembly_of
+from burmester.export.parts.stock import INCHES, METRIC, nearest, stock_for
 from tests.oracles.handed_over import NAMES, saved
 
 # ISO 273, fine series, as tables of suppliers print it: thread and hole in mm.

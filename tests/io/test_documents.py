@@ -17,7 +17,7 @@ from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Line, Point, Polygon, Segment
 from burmester.io import cases
 from burmester.io.reading.poses import read_task
-from burmester.io.reading.syntax_faults import syntax_fault
+from burmester.io.reading.trees.syntax_faults import syntax_fault
 from burmester.io.result import task_data
 from burmester.tasks.limits import KINDS, Limits
 from burmester.tasks.motion_task import Task

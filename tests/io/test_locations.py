@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from burmester.io.reading.locations import span_of
+from burmester.io.reading.trees.locations import span_of
 
 # Trees, and one of the ways to write each ------------------------------------------------------
 

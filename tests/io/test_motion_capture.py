@@ -24,8 +24,8 @@ from burmester.api.result import Result
 from burmester.api.synthesize import synthesize
 from burmester.diagnosis.odd_pose import odd_pose
 from burmester.errors import InputError
+from burmester.io.reading.markers.rigid_body import fit_rigid_body
 from burmester.io.reading.poses import read_task
-from burmester.io.reading.rigid_body import fit_rigid_body
 from burmester.tasks.motion_task import Task
 from tests.oracles import recordings
 from tests.oracles.recordings import GROUND, LINKS, crank_rocker, recording

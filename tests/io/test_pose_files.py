@@ -22,8 +22,8 @@ from hypothesis import strategies as st
 
 from burmester.errors import InputError
 from burmester.io import cases
-from burmester.io.reading import csv_poses
 from burmester.io.reading.poses import read_task
+from burmester.io.reading.tables import csv_poses
 from burmester.tasks.motion_task import Task
 
 Read = Callable[..., Task]

@@ -24,10 +24,10 @@ from hypothesis import strategies as st
 
 from burmester.errors import InputError
 from burmester.io.explain import pages
-from burmester.io.reading import csv_poses
-from burmester.io.reading.column_words import UNITS, WORDS
 from burmester.io.reading.pose_table import POINTS
 from burmester.io.reading.poses import read_task
+from burmester.io.reading.tables import csv_poses
+from burmester.io.reading.tables.column_words import UNITS, WORDS
 from burmester.tasks.motion_task import Task
 
 Read = Callable[..., Task]

@@ -12,8 +12,8 @@ import openpyxl
 import pytest
 
 from burmester.errors import InputError
-from burmester.io.reading import workbook as reader
 from burmester.io.reading.poses import read_task
+from burmester.io.reading.tables import workbook as reader
 from burmester.tasks.motion_task import Task
 from tests.oracles.workbooks import (
     DATE,

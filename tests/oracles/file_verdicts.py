@@ -3,8 +3,8 @@
 import re
 
 from burmester.errors import InputError
-from burmester.io.reading import csv_poses
 from burmester.io.reading.poses import read_task
+from burmester.io.reading.tables import csv_poses
 from tests.oracles import plain_reader
 
 

@@ -1,6 +1,6 @@
 """Linkages handed over: drawings, tables and models for other programs, each read back.
 
-A format is a module of this package with `write(chosen, path, options)` and
+A format is a module of this room with `write(chosen, path, options)` and
 `check(chosen, path, options)`, or `write_<name>` and `check_<name>` where one module has several.
 Every file is read back before it gets its name; a file that does not contain the linkage is
 deleted.
@@ -54,35 +54,43 @@ class Format:
 
 FORMATS: Final[Mapping[str, Format]] = {
     "dxf": Format(
-        "dxf",
+        "drawings.dxf",
         "drawing of the plates for cutting, and of the assembly (mm)",
         ".dxf",
         "export",
         ("ezdxf",),
     ),
-    "svg": Format("svg", "the same drawing, 1:1, for printing and laser cutting (mm)", ".svg"),
-    "pdf": Format(
-        "pdf", "the plates at 1:1, to print on A4 or Letter", ".pdf", "export", ("matplotlib",)
+    "svg": Format(
+        "drawings.svg", "the same drawing, 1:1, for printing and laser cutting (mm)", ".svg"
     ),
-    "step": Format("solid", "solid parts in their places (mm)", ".step", "solid", ("build123d",)),
+    "pdf": Format(
+        "drawings.pdf",
+        "the plates at 1:1, to print on A4 or Letter",
+        ".pdf",
+        "export",
+        ("matplotlib",),
+    ),
+    "step": Format(
+        "solids.solid", "solid parts in their places (mm)", ".step", "solid", ("build123d",)
+    ),
     "stl": Format(
-        "solid",
+        "solids.solid",
         "solid parts flat beside each other, for printing (mm)",
         ".stl",
         "solid",
         ("build123d",),
     ),
     "flat": Format(
-        "solid", "the same; --to stl does it now (STL, mm)", ".stl", "solid", ("build123d",)
+        "solids.solid", "the same; --to stl does it now (STL, mm)", ".stl", "solid", ("build123d",)
     ),
-    "openscad": Format("openscad", "OpenSCAD model, animated (mm)", ".scad"),
-    "mjcf": Format("mjcf", "MuJoCo model with a motor (m)", ".xml"),
-    "urdf": Format("urdf", "robot description; its loop is open (m)", ".urdf"),
+    "openscad": Format("solids.openscad", "OpenSCAD model, animated (mm)", ".scad"),
+    "mjcf": Format("models.mjcf", "MuJoCo model with a motor (m)", ".xml"),
+    "urdf": Format("models.urdf", "robot description; its loop is open (m)", ".urdf"),
     "pylinkage": Format("pylinkage", "Python script for pylinkage", ".py"),
     "csv": Format("tables", "table of the coupler's places along the motion", ".csv"),
     "json": Format("tables", "the linkage as JSON", ".json"),
-    "gif": Format("movie", "moving picture", ".gif", "export", ("PIL", "matplotlib")),
-    "mp4": Format("movie", "film", ".mp4", "export", ("imageio_ffmpeg", "matplotlib")),
+    "gif": Format("films.movie", "moving picture", ".gif", "export", ("PIL", "matplotlib")),
+    "mp4": Format("films.movie", "film", ".mp4", "export", ("imageio_ffmpeg", "matplotlib")),
 }
 
 PACKAGES: Final = {"PIL": "pillow", "imageio_ffmpeg": "imageio-ffmpeg"}  # module: what pip calls it

@@ -21,7 +21,7 @@ MILLIMETRES = {"um": 1e-3, "mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "ft":
 class Options:
     """The options of an export; a dimension that is None is chosen from the linkage's size.
 
-    Where the unit of lengths is known, it is a size that shops have: see `burmester.export.stock`.
+    Where the unit of lengths is known, it is a size that shops have: see `parts.stock`.
 
     Attributes
     ----------

@@ -17,7 +17,7 @@ import numpy as np
 
 from burmester.errors import InputError
 from burmester.export.escaping import python_docstring
-from burmester.export.joints import JointMotion, directions, ground_joint
+from burmester.export.models.joints import JointMotion, directions, ground_joint
 from burmester.export.numbers import number
 from burmester.export.options import Options
 from burmester.export.reference import PRECISION, Reference, description, require_equal

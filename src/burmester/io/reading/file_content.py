@@ -9,8 +9,7 @@ from typing import BinaryIO
 
 from burmester.errors import Advice, InputError
 from burmester.io import cases
-from burmester.io.reading.columns import HEADER
-from burmester.io.reading.pose_table import no_poses, shown
+from burmester.io.reading.pose_table import HEADER, no_poses, shown
 
 __all__ = [
     "ARCHIVE_HELP",

@@ -17,6 +17,7 @@ from burmester.numerics.arrays import FloatArray
 from burmester.printable import blanked
 
 __all__ = [
+    "HEADER",
     "MARKS",
     "NOT_FINITE",
     "NUMBER",
@@ -40,6 +41,7 @@ __all__ = [
     "shown",
 ]
 
+HEADER = "x,y,angle_deg"  # what a file may begin with
 UNITS = {"deg": "degrees", "rad": "radians"}
 NUMERIC = ("x", "y", "angle", "weight")
 POINTS = ("px", "py", "qx", "qy")  # in place of x, y and angle

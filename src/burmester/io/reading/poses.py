@@ -35,21 +35,21 @@ from numpy.typing import NDArray
 
 from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
-from burmester.io.reading.cad_rows import is_cad_text, read_cad_rows
-from burmester.io.reading.csv_poses import read_csv
-from burmester.io.reading.documents import read_json, read_toml
 from burmester.io.reading.file_content import decode_text, read_source, require_moderate
-from burmester.io.reading.marker_choice import chosen_markers
-from burmester.io.reading.marker_header import read_marker_header
-from burmester.io.reading.marker_poses import recorded_poses
-from burmester.io.reading.marker_recording import MarkerRecording
-from burmester.io.reading.parquet import is_parquet, read_parquet
+from burmester.io.reading.markers.marker_choice import chosen_markers
+from burmester.io.reading.markers.marker_header import read_marker_header
+from burmester.io.reading.markers.marker_poses import recorded_poses
+from burmester.io.reading.markers.marker_recording import MarkerRecording
+from burmester.io.reading.markers.tracked_points import TrackedRows, tracked_poses
 from burmester.io.reading.pose_table import UNITS, PoseTable, Source, extent, known_to
 from burmester.io.reading.row_selection import RowLabels, RowSelection, row_marks
 from burmester.io.reading.specification import Specification
 from burmester.io.reading.stated_requirements import combined_requirements
-from burmester.io.reading.tracked_points import TrackedRows, tracked_poses
-from burmester.io.reading.workbook import is_archive, read_sheet
+from burmester.io.reading.tables.cad_rows import is_cad_text, read_cad_rows
+from burmester.io.reading.tables.csv_poses import read_csv
+from burmester.io.reading.tables.parquet import is_parquet, read_parquet
+from burmester.io.reading.tables.workbook import is_archive, read_sheet
+from burmester.io.reading.trees.documents import read_json, read_toml
 from burmester.numerics.arrays import FloatArray
 from burmester.printable import blanked, printable
 from burmester.tasks.motion_task import Task

@@ -1,0 +1,247 @@
+"""DXF (R2010, millimetres): the plates laid out for cutting, and the assembly as a block.
+
+Outlines are closed polylines with exact arcs, holes are circles, slots are closed polylines.
+Dimensions are entities that measure, on the layer DIMENSIONS, which can be switched off.  The block
+ASSEMBLY is inserted where F has it, with the coupler at the chosen pose.  The bytes depend on the
+linkage and the options only, but for the order of two entries that ezdxf keeps in a set.
+
+E160 the file does not contain the linkage
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from burmester.errors import BurmesterError
+from burmester.export.drawings.dxf_dimensions import add_dimension, add_style, measured_in
+from burmester.export.drawings.measured import require_dimensions
+from burmester.export.drawings.sheet import Sheet, beside, carried, notes_on, sheet_of
+from burmester.export.escaping import dxf_text
+from burmester.export.options import Options
+from burmester.export.parts.plate import moved
+from burmester.export.parts.plates import Assembly, Plate, assembly_of, slot_outline
+from burmester.export.reference import (
+    Reference,
+    description,
+    dimension_notes,
+    printed_decimals,
+    require_equal,
+)
+from burmester.geometry.displacement import Displacement
+from burmester.io.saved import SavedLinkage
+from burmester.numerics.arrays import FloatArray
+
+__all__ = ["check", "write"]
+
+ezdxf: Any = import_module("ezdxf")
+
+TOLERANCE_MM = 1e-6  # largest deviation of what is read back
+MILLIMETRES_CODE = 4  # the code of millimetres in DXF
+LAYERS = {  # and their colours by the index of AutoCAD
+    "GROUND": 8,
+    "DRIVER": 1,
+    "COUPLER": 5,
+    "FOLLOWER": 3,
+    "HOLES": 7,
+    "SLOTS": 7,
+    "MARKS": 9,
+    "ASSEMBLY": 9,
+    "POSES": 6,
+    "DIMENSIONS": 30,
+    "TEXT": 7,
+}
+
+
+def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
+    """Write the drawing."""
+    assembly = assembly_of(chosen, options)
+    poses = Reference.of(chosen, options).poses
+    notes = description(chosen, options, "mm") + dimension_notes(chosen, options)
+    notes += notes_on(assembly)
+    _, decimals = printed_decimals(chosen, options)
+    sheet = sheet_of(assembly, poses, len(notes), decimals.lengths, options.dimensions)
+    fixed = ezdxf.options.write_fixed_meta_data_for_testing
+    try:
+        ezdxf.options.write_fixed_meta_data_for_testing = True  # no dates and no random numbers
+        document = ezdxf.new("R2010", units=MILLIMETRES_CODE)
+        document.header["$MEASUREMENT"] = 1
+        document.header["$INSUNITS"] = MILLIMETRES_CODE
+        document.header["$EXTMIN"] = (*sheet.low.tolist(), 0.0)
+        document.header["$EXTMAX"] = (*sheet.high.tolist(), 0.0)
+        for name, colour in LAYERS.items():
+            document.layers.add(name, color=colour)
+        add_style(document, sheet)
+        _draw(document, assembly, sheet, poses, notes)
+        middle, size = (sheet.low + sheet.high) / 2, sheet.high - sheet.low
+        document.set_modelspace_vport(float(size.max()), center=tuple(middle.tolist()))
+        document.saveas(path)
+    finally:
+        ezdxf.options.write_fixed_meta_data_for_testing = fixed
+
+
+def _draw(
+    document: Any,
+    assembly: Assembly,
+    sheet: Sheet,
+    poses: Displacement,
+    notes: list[str],
+) -> None:
+    space = document.modelspace()
+    for part, label in zip(sheet.parts, sheet.labels, strict=True):
+        layers = (part.plate.owner.upper(), "HOLES", "SLOTS", "MARKS")
+        _plate(space, moved(part.plate, part.place), layers, sheet)
+        _text(space, part.label, label, sheet.letters)
+        for each in part.lines:
+            add_dimension(document, each)
+    block = document.blocks.new("ASSEMBLY", base_point=(0, 0))
+    for plate in assembly.plates:
+        drawn = moved(plate, plate.at(assembly.drawn))
+        _plate(block, drawn, ("ASSEMBLY",) * 4, sheet)
+    space.add_blockref("ASSEMBLY", (0, 0), dxfattribs={"layer": "ASSEMBLY"})
+    for number in range(poses.shape[0]):
+        place = poses[number]
+        ends = place[None].act(np.array([[0.0, 0.0], [sheet.axes, 0.0], [0.0, sheet.axes / 2]]))
+        for end in ends[1:]:
+            space.add_line(_point(ends[0]), _point(end), dxfattribs={"layer": "POSES"})
+        _text(space, str(number + 1), beside(place, sheet), sheet.letters, layer="POSES")
+    for k, line in enumerate(notes):
+        at = sheet.notes - [0, 1.6 * k * sheet.letters]
+        _text(space, line, at, sheet.letters)
+
+
+def _plate(
+    space: Any,
+    drawn: tuple[FloatArray, FloatArray, FloatArray, FloatArray],
+    layers: tuple[str, ...],
+    sheet: Sheet,
+) -> None:
+    """Draw the outline, the holes, the slots and the marks of a plate, each on its layer."""
+    outline, holes, slots, marks = drawn
+    outline_layer, hole_layer, slot_layer, mark_layer = layers
+    _closed(space, outline, outline_layer)
+    for x, y, diameter in holes.tolist():
+        space.add_circle((x, y), diameter / 2, dxfattribs={"layer": hole_layer})
+    for slot in slots:
+        _closed(space, slot_outline(slot), slot_layer)
+    for mark in marks:
+        arm = 0.3 * sheet.letters
+        for way in ([arm, 0], [0, arm]):
+            ends = _point(mark - way), _point(mark + way)
+            space.add_line(*ends, dxfattribs={"layer": mark_layer})
+
+
+def _closed(space: Any, outline: FloatArray, layer: str) -> None:
+    space.add_lwpolyline(outline.tolist(), format="xyb", close=True, dxfattribs={"layer": layer})
+
+
+def _text(space: Any, text: str, at: FloatArray, height: float, layer: str = "TEXT") -> None:
+    space.add_text(dxf_text(text), height=height, dxfattribs={"layer": layer, "insert": _point(at)})
+
+
+def _point(at: FloatArray) -> tuple[float, float]:
+    return float(at[0]), float(at[1])
+
+
+def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
+    """Read the drawing back, audit it and compare it; raises E160."""
+    reference = Reference.of(chosen, options)
+    assembly = assembly_of(chosen, options)
+    poses = reference.poses
+    document = ezdxf.readfile(path)
+    auditor = document.audit()
+    if auditor.has_errors or auditor.has_fixes:
+        faults = [str(each.message) for each in (*auditor.errors, *auditor.fixes)]
+        raise BurmesterError(
+            "E160",
+            "what was written is no sound DXF file, so nothing was kept",
+            why="; ".join(faults[:3]),
+            help="this is a fault of burmester: report it, with the result file",
+        )
+    require_equal("the unit of the drawing", document.header["$INSUNITS"], MILLIMETRES_CODE, 0)
+    # The assembly holds a hole or a slot's middle line where the dyads have their pivots.
+    block = document.blocks.get("ASSEMBLY")
+    assert block is not None
+    (insert,) = document.modelspace().query("INSERT")
+    require_equal("the place of the assembly", tuple(insert.dxf.insert)[:2], (0, 0), 0)
+    circles = np.array([tuple(each.dxf.center)[:2] for each in block.query("CIRCLE")])
+    circles = circles.reshape(-1, 2)
+    place = reference.places[options.pose - 1]
+    expected = _pivots(reference, place)
+    for name, point in expected:
+        gap = np.linalg.norm(circles - point, axis=1)
+        require_equal(f"{name} in the assembly", gap.min(initial=np.inf), 0, TOLERANCE_MM)
+    for point in circles:
+        gap = min(float(np.linalg.norm(point - each)) for _, each in expected)
+        require_equal("a hole in the assembly", gap, 0, TOLERANCE_MM)
+    drawn = iter(block.query("LWPOLYLINE"))
+    for plate in assembly.plates:
+        outline, _, slots, _ = moved(plate, plate.at(assembly.drawn))
+        for rows in (outline, *map(slot_outline, slots)):
+            require_equal(f"{plate.name} in the assembly", _rows(next(drawn)), rows, TOLERANCE_MM)
+    placed = _check_plates(document, assembly)
+    if options.dimensions:
+        require_dimensions(placed, measured_in(document, TOLERANCE_MM), TOLERANCE_MM)
+    axes = document.modelspace().query('LINE[layer=="POSES"]')
+    starts = np.array([tuple(each.dxf.start)[:2] for each in axes])
+    require_equal("the poses", starts, np.repeat(poses.translation, 2, axis=0), TOLERANCE_MM)
+    ends = np.array([tuple(each.dxf.end)[:2] for each in axes])[::2] - starts[::2]
+    turned = np.exp(1j * (np.arctan2(ends[:, 1], ends[:, 0]) - poses.angle))
+    require_equal("the angles of the poses", np.abs(turned - 1), np.zeros(len(turned)), 1e-6)
+
+
+def _pivots(reference: Reference, place: Displacement) -> list[tuple[str, FloatArray]]:
+    """Every joint that has a hole, in F, with its name."""
+    pivots = []
+    for k, side in enumerate(("driver", "follower")):
+        fixed, moving = reference.fixed[k], reference.moving[k]
+        if fixed is not None:
+            pivots.append((f"the {side}'s fixed pivot", fixed))
+        if moving is not None:
+            pivots.append((f"the {side}'s moving pivot", place.act(moving)))
+    return pivots
+
+
+def _check_plates(document: Any, assembly: Assembly) -> list[tuple[Plate, Displacement]]:
+    """The plates laid out, by what lies within their outlines, and where they lie."""
+    space = document.modelspace()
+    outlines = {
+        layer: [each for each in space.query("LWPOLYLINE") if each.dxf.layer == layer]
+        for layer in ("GROUND", "DRIVER", "COUPLER", "FOLLOWER")
+    }
+    circles = np.array(
+        [(*tuple(each.dxf.center)[:2], 2 * each.dxf.radius) for each in space.query("CIRCLE")]
+    ).reshape(-1, 3)
+    slots = list(space.query('LWPOLYLINE[layer=="SLOTS"]'))
+    require_equal(
+        "the number of holes", len(circles), sum(len(p.holes) for p in assembly.plates), 0
+    )
+    require_equal("the number of slots", len(slots), sum(len(p.slots) for p in assembly.plates), 0)
+    placed = []
+    for plate in assembly.plates:
+        own = outlines[plate.owner.upper()].pop(0)
+        require_equal(f"whether the outline of {plate.name} is closed", own.closed, True, 0)
+        rows = _rows(own)
+        placed.append((plate, carried(plate, rows)))
+        outline, holes, wanted, _ = moved(*placed[-1])
+        require_equal(f"the outline of {plate.name}", rows, outline, TOLERANCE_MM)
+        if len(holes):
+            gaps = np.abs(circles[:, None] - holes).max(axis=-1).min(axis=0)
+            require_equal(f"the holes of {plate.name}", gaps, np.zeros(len(gaps)), TOLERANCE_MM)
+        for slot in wanted:
+            gaps_of = [
+                float(np.abs(each - slot_outline(slot)).max())
+                for each in map(_rows, slots)
+                if each.shape == slot_outline(slot).shape
+            ]
+            require_equal(
+                f"the slot of {plate.name}", min(gaps_of, default=np.inf), 0, TOLERANCE_MM
+            )
+    return placed
+
+
+def _rows(polyline: Any) -> FloatArray:
+    return np.array([tuple(point) for point in polyline.get_points(format="xyb")])

@@ -1,0 +1,120 @@
+"""Dimensions in DXF: entities that measure, drawn as the sheet has them and read back; in mm.
+
+E160 the file does not contain the linkage
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from burmester.export.drawings.dimension_lines import DimensionLine
+from burmester.export.drawings.measured import Measured, require_drawn
+from burmester.export.drawings.sheet import Sheet
+from burmester.export.reference import require_equal
+from burmester.numerics.arrays import FloatArray
+
+__all__ = ["add_dimension", "add_style", "measured_in"]
+
+DIMENSION_STYLE = "BURMESTER"
+DIAMETER_TYPE = 3  # of dimension entities
+
+
+def add_style(document: Any, sheet: Sheet) -> None:
+    """The style of dimensions: the letters and decimals of the sheet, closed arrows."""
+    style = document.dimstyles.new(DIMENSION_STYLE)
+    for key, value in {
+        "dimtxt": sheet.letters,
+        "dimasz": 0.8 * sheet.letters,
+        "dimexo": 0,
+        "dimexe": 0.5 * sheet.letters,
+        "dimgap": 0.35 * sheet.letters,
+        "dimdec": sheet.decimals,
+        "dimzin": 8,  # no zeros behind
+        "dimtad": 1,  # text above its line
+        "dimtih": 1,  # and not turned
+        "dimtoh": 1,
+        "dimtmove": 2,
+        "dimdsep": ord("."),
+        "dimscale": 1,
+    }.items():
+        style.set_dxf_attrib(key, value)
+
+
+def add_dimension(document: Any, line: DimensionLine) -> None:
+    """A dimension that measures; what it shows is drawn as the sheet has it."""
+    space = document.modelspace()
+    one, two = (_point(each) for each in line.measured)
+    start, end = line.lines[0]
+    _, *inches = line.text.partition(" [")
+    common = {
+        "text": "<>" + "".join(inches),
+        "dimstyle": DIMENSION_STYLE,
+        "dxfattribs": {"layer": "DIMENSIONS"},
+    }
+    if line.kind == "diameter":
+        middle = _point(line.measured.mean(axis=0))
+        made = space.add_diameter_dim(middle, mpoint=two, **common)
+    elif line.kind == "distance":
+        along = line.measured[1] - line.measured[0]
+        away = start - line.measured[0]
+        side = along[0] * away[1] - along[1] * away[0]
+        level = abs(side) / float(np.linalg.norm(along))
+        made = space.add_aligned_dim(one, two, distance=float(np.copysign(level, side)), **common)
+    else:
+        angle = 0.0 if line.kind == "length" else 90.0
+        made = space.add_linear_dim(_point(end), one, two, angle=angle, **common)
+    made.render()
+    entity = made.dimension
+    entity.dxf.text_midpoint = _point(line.at)
+    if line.kind != "diameter":
+        entity.dxf.defpoint = _point(end)
+    entity.dxf.actual_measurement = line.value
+    block = document.blocks.get(entity.dxf.geometry)
+    block.delete_all_entities()
+    for piece in line.lines:
+        block.add_line(*map(_point, piece), dxfattribs={"layer": "DIMENSIONS"})
+    for arrow in line.arrows:
+        block.add_solid([_point(each) for each in arrow], dxfattribs={"layer": "DIMENSIONS"})
+    block.add_mtext(
+        line.text.replace("Ø", "%%c"),
+        dxfattribs={
+            "layer": "DIMENSIONS",
+            "char_height": line.letters,
+            "insert": _point(line.at),
+            "attachment_point": 5,
+        },
+    )
+
+
+def measured_in(document: Any, tolerance: float) -> list[Measured]:
+    """The dimension entities, what they measure and what they show; raises E160."""
+    found = []
+    for entity in document.modelspace().query("DIMENSION"):
+        require_equal("the layer of a dimension", entity.dxf.layer == "DIMENSIONS", True, 0)
+        block = document.blocks.get(entity.dxf.geometry)
+        (shown,) = block.query("MTEXT")
+        require_equal(
+            "the layers of a dimension",
+            {each.dxf.layer for each in block} == {"DIMENSIONS"},
+            True,
+            0,
+        )
+        dxf, diameter = entity.dxf, entity.dimtype == DIAMETER_TYPE
+        ends = (dxf.defpoint, dxf.defpoint4) if diameter else (dxf.defpoint2, dxf.defpoint3)
+        rows = np.array([tuple(each)[:2] for each in ends])
+        text = shown.text.replace("%%c", "Ø")
+        lines = [
+            [tuple(each.dxf.start)[:2], tuple(each.dxf.end)[:2]] for each in block.query("LINE")
+        ]
+        require_drawn(np.array(lines), rows, diameter, tolerance)
+        require_equal("where a text is", dxf.text_midpoint, shown.dxf.insert, tolerance)
+        if not diameter:
+            require_equal("a dimension line", tuple(dxf.defpoint)[:2], lines[0][1], tolerance)
+        found.append(Measured(rows, float(entity.get_measurement()), text, diameter))
+    return found
+
+
+def _point(at: FloatArray) -> tuple[float, float]:
+    return float(at[0]), float(at[1])

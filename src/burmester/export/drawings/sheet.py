@@ -1,0 +1,199 @@
+"""Plates laid out apart for cutting, beside the assembly: the sheet that DXF and SVG draw.
+
+The assembly is where F has it, in millimetres; the plates lie in rows below it, each turned so that
+it lies lengthwise, with its dimension lines.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from burmester.describe.decimals import figures_of
+from burmester.export.drawings.dimension_lines import LETTER_WIDTH, DimensionLine, dimension_lines
+from burmester.export.parts.plates import Assembly, Plate, outline_points
+from burmester.export.parts.stock import INCH, stock_for
+from burmester.geometry.displacement import Displacement
+from burmester.numerics.arrays import FloatArray
+
+__all__ = ["Laid", "Sheet", "beside", "carried", "laid_lengthwise", "notes_on", "sheet_of"]
+
+ARC_TOLERANCE = 1e-3  # of the width: tolerance of arcs for the size of the sheet
+PLATE_SPACING = 0.7  # of the width: space between plates
+LETTER_HEIGHT = 0.35  # of the width: height of the text
+FINEST = 1e-3  # of the text's height: what the last decimal of a dimension line is worth, at least
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Laid:
+    """A plate where it is laid, with its dimension lines; millimetres.
+
+    place: sheet <- plate; low, high: corners (2,) of the box around all; label: its name.
+    """
+
+    plate: Plate
+    place: Displacement
+    lines: tuple[DimensionLine, ...]
+    low: FloatArray
+    high: FloatArray
+    label: str
+
+    def shifted(self, way: FloatArray) -> Laid:
+        """The same, moved by (2,)."""
+        place = Displacement(self.place.translation + way, self.place.angle)
+        lines = tuple(each.shifted(way) for each in self.lines)
+        return Laid(self.plate, place, lines, self.low + way, self.high + way, self.label)
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Sheet:
+    """Where everything is drawn, millimetres.
+
+    parts: plates where they are laid; labels: where their names begin, (2,) each; low, high:
+    corners (2,) of all; letters: the height of text; axes: the length of the axes that show a pose;
+    decimals: of dimension lines.
+    """
+
+    parts: tuple[Laid, ...]
+    labels: tuple[FloatArray, ...]
+    low: FloatArray
+    high: FloatArray
+    letters: float
+    axes: float
+    notes: FloatArray
+    decimals: int
+
+
+def laid_lengthwise(
+    assembly: Assembly, letters: float, decimals: int, dimensions: bool
+) -> list[Laid]:
+    """The plates of an assembly, each turned by 90° at most, so that its longest way is level.
+
+    letters: height of text; decimals: of lengths in mm; dimensions: whether they have dimension
+    lines.
+    """
+    decimals = shown_decimals(decimals, letters)
+    stock = stock_for(assembly.unit)
+
+    def text(length: float) -> str:
+        shown = _plain(length, decimals)
+        if not stock.inches:
+            return shown
+        own = f"{_plain(length / INCH, decimals + 1)} in"
+        return f"{shown} [{stock.name(length) if stock.has(length) else own}]"
+
+    laid = []
+    for plate in assembly.plates:
+        ends = plate.skeleton[:, None] - plate.skeleton
+        far = ends.reshape(-1, 2)[int((ends**2).sum(axis=-1).argmax())]
+        turn = -math.atan(far[1] / far[0]) if far[0] else -math.pi / 2 * bool(far[1])
+        place = Displacement(np.zeros(2), np.array(turn))
+        lines = dimension_lines(plate, turn, letters, text) if dimensions else []
+        box = [place.act(outline_points(plate, ARC_TOLERANCE * plate.radius))]
+        box += [np.stack([each.low, each.high]) for each in lines]
+        points = np.concatenate(box)
+        label = f"{plate.name}, layer {plate.layer}"
+        laid.append(Laid(plate, place, tuple(lines), points.min(axis=0), points.max(axis=0), label))
+    return laid
+
+
+def shown_decimals(decimals: int, letters: float) -> int:
+    """The decimals of dimension lines: those that keep the linkage's error, or a workshop's."""
+    return min(decimals, figures_of(FINEST * letters))
+
+
+def _plain(value: float, decimals: int) -> str:
+    text = f"{value:.{decimals}f}"
+    return text.rstrip("0").rstrip(".") if decimals else text
+
+
+def sheet_of(
+    assembly: Assembly,
+    poses: Displacement,
+    notes: int,
+    decimals: int = 3,
+    dimensions: bool = True,
+) -> Sheet:
+    """The layout of an assembly, poses (N,) in millimetres, and a number of lines of notes."""
+    width = assembly.dimensions.width
+    between, letters, axes = PLATE_SPACING * width, LETTER_HEIGHT * width, 0.8 * width
+    points = [
+        plate.at(assembly.drawn).act(outline_points(plate, ARC_TOLERANCE * width))
+        for plate in assembly.plates
+    ]
+    ends = np.array([[0.0, 0.0], [axes, 0.0], [0.0, axes]])
+    points.append(poses[:, None].act(ends).reshape(-1, 2))
+    both = np.concatenate(points)
+    low, high = both.min(axis=0), both.max(axis=0)
+    high[0] += 2 * letters  # a pose's number stands to the right of it
+    laid = laid_lengthwise(assembly, letters, decimals, dimensions)
+    widest = max(*(float(each.high[0] - each.low[0]) for each in laid), float(high[0] - low[0]))
+    x, y, row = float(low[0]), float(low[1]) - 2 * between, 0.0
+    start, right = x, float(high[0])
+    parts, labels = [], []
+    for each in laid:
+        size = each.high - each.low
+        if x > start and x + size[0] > start + widest * (1 + 1e-9):
+            x, y, row = start, y - row - between, 0.0
+        tall = float(size[1]) + 2 * letters
+        parts.append(each.shifted(np.array([x, y - tall]) - each.low))
+        labels.append(np.array([x, y - 1.2 * letters]))
+        name = LETTER_WIDTH * len(each.label) * letters
+        x, row = x + max(float(size[0]), name) + between, max(row, tall)
+        right = max(right, x - between)
+    y -= row + between
+    bottom = np.array([start, y])
+    low = np.array([start, y - notes * 1.6 * letters])
+    return Sheet(
+        tuple(parts),
+        tuple(labels),
+        low - between,
+        np.array([max(right, start + 45 * letters), float(high[1])]) + between,
+        letters,
+        axes,
+        bottom,
+        shown_decimals(decimals, letters),
+    )
+
+
+def carried(plate: Plate, rows: FloatArray) -> Displacement:
+    """The displacement that carries a plate's outline to one (k, 3) that was read.
+
+    It is that of the two points of the outline that are farthest apart.
+    """
+    ends = plate.outline[:, None, :2] - plate.outline[:, :2]
+    one, two = np.unravel_index(int((ends**2).sum(axis=-1).argmax()), ends.shape[:2])
+    (dx, dy), (x, y) = rows[one, :2] - rows[two, :2], ends[one, two]
+    angle = np.arctan2(dy * x - dx * y, dx * x + dy * y)
+    turn = Displacement(np.zeros(2), angle)
+    return Displacement(rows[one, :2] - turn.act(plate.outline[one, :2]), angle)
+
+
+def beside(pose: Displacement, sheet: Sheet) -> FloatArray:
+    """Where the number (2,) of a pose begins: behind its axes."""
+    behind = pose.act(np.full(2, -0.8 * sheet.letters))
+    return np.asarray(behind - np.array([0.3, 0.35]) * sheet.letters)
+
+
+def notes_on(assembly: Assembly) -> list[str]:
+    """Sentences on how the plates are made and put together."""
+    made, name = assembly.dimensions, stock_for(assembly.unit).name
+    notes = [
+        f"Holes {name(made.hole)}, pins {name(made.pin)}, links {name(made.width)} wide, plates "
+        f"{name(made.thickness)} thick, {name(made.gap)} apart."
+    ]
+    if assembly.assumed:
+        notes.append(
+            "They follow the linkage's size. With --unit they are sizes of drills, bars and sheets."
+        )
+    if assembly.plate("ground-2") is not None:
+        notes.append(
+            "Nothing moves of ground and ground-2: fix them to each other, out of the links' way, "
+            "as the assembly has them."
+        )
+    return [*notes, f"The assembly is drawn at pose {assembly.pose + 1}."]

@@ -1,0 +1,1 @@
+"""Films: the linkage drawn frame by frame."""

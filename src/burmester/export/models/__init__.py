@@ -1,0 +1,1 @@
+"""Models for simulation: MJCF and URDF, with masses, limits and a motor."""

@@ -1,0 +1,112 @@
+"""The bodies of a model for simulation: which plates and pins each has, and their simple shapes.
+
+A body's frame is that of its plate; the pin of a slider is a body of its own, with the pin's axis
+as the origin: `driver` or `follower`, as the side that the slider is on.  Heights are as in STEP:
+the lowest plate lies on z = 0.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import Literal, NamedTuple, final
+
+import numpy as np
+
+from burmester.export.parts.plate import Pin, Plate
+from burmester.export.parts.plates import Assembly
+from burmester.numerics.arrays import FloatArray
+
+__all__ = [
+    "INSET",
+    "METRES",
+    "BodyParts",
+    "Shape",
+    "heights_of",
+    "parts_of_bodies",
+    "shapes",
+]
+
+METRES = 1e-3  # metres in a millimetre
+INSET = 0.02  # of the thickness: each shape is lower by this, half at each end, than its part
+
+
+@final
+class BodyParts(NamedTuple):
+    """The plates and pins of a body, millimetres; pins at (x, y) of the body's frame."""
+
+    plates: list[Plate]
+    pins: list[Pin]
+
+
+@final
+class Shape(NamedTuple):
+    """A box or a cylinder that stands upright, metres.
+
+    centre: (3,); turn: of the box about z, radians; size: length, width and height of a box, or
+    diameter twice and height of a cylinder.
+    """
+
+    kind: Literal["box", "cylinder"]
+    centre: FloatArray
+    turn: float
+    size: tuple[float, float, float]
+
+
+def parts_of_bodies(made: Assembly, kinds: tuple[str, str]) -> dict[str, BodyParts]:
+    """The parts of ground, driver, coupler and follower; kinds: of the dyads, such as RR."""
+    bodies = {
+        name: BodyParts([each for each in made.plates if each.owner == name], [])
+        for name in ("ground", "driver", "coupler", "follower")
+    }
+    owners = {plate.name: plate.owner for plate in made.plates}
+    sliders = [
+        name for name, kind in zip(("driver", "follower"), kinds, strict=True) if kind != "RR"
+    ]
+    for pin in made.pins:
+        if {owners[each] for each in pin.joins} == {"ground", "coupler"}:
+            bodies[sliders.pop(0)].pins.append(replace(pin, x=0.0, y=0.0))
+        else:
+            bodies[owners[pin.plate]].pins.append(pin)
+    return bodies
+
+
+def heights_of(part: Plate | Pin, made: Assembly) -> tuple[float, float]:
+    """The lowest and the highest z of a part, millimetres."""
+    step = made.dimensions.thickness + made.dimensions.gap
+    low, high = (part.layer, part.layer) if isinstance(part, Plate) else (part.low, part.high)
+    return low * step, high * step + made.dimensions.thickness
+
+
+def shapes(body: BodyParts, made: Assembly) -> list[Shape]:
+    """Boxes along the sides of a body's plates, cylinders for their round corners and the pins.
+
+    A link with two holes is filled by them exactly, but for its holes; a plate with three corners
+    or more is left open inside.
+    """
+    found = list[Shape]()
+    for plate in body.plates:
+        low, high = _inset(plate, made)
+        middle, height, width = (low + high) / 2, high - low, 2 * plate.radius * METRES
+        corners = plate.skeleton * METRES
+        sides = list(zip(corners, np.roll(corners, -1, axis=0), strict=True))
+        for one, two in sides if len(corners) > 2 else sides[: len(corners) - 1]:
+            way, centre = two - one, np.append((one + two) / 2, middle)
+            size = (float(np.linalg.norm(way)), width, height)
+            found.append(Shape("box", centre, math.atan2(way[1], way[0]), size))
+        for corner in corners:
+            size = (width, width, height)
+            found.append(Shape("cylinder", np.append(corner, middle), 0.0, size))
+    for pin in body.pins:
+        low, high = _inset(pin, made)
+        centre = np.array([pin.x * METRES, pin.y * METRES, (low + high) / 2])
+        thick = pin.diameter * METRES
+        found.append(Shape("cylinder", centre, 0.0, (thick, thick, high - low)))
+    return found
+
+
+def _inset(part: Plate | Pin, made: Assembly) -> tuple[float, float]:
+    """The heights of a part's shapes, metres: plates that lie on each other do not touch."""
+    low, high = heights_of(part, made)
+    off = INSET / 2 * made.dimensions.thickness
+    return (low + off) * METRES, (high - off) * METRES

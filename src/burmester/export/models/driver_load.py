@@ -1,0 +1,95 @@
+"""What a driver bears: the force that holds the linkage against gravity, and the reduced inertia.
+
+By virtual work: for a unit speed of the driver's joint, the rate of the potential energy is the
+generalized force that holds the linkage, and twice the kinetic energy its reduced inertia.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Final, NamedTuple, final
+
+import numpy as np
+
+from burmester.errors import InputError
+from burmester.export.models.mass_properties import MassProperties
+from burmester.fourbar.dyad import PR, RP, RR, Dyad
+from burmester.fourbar.instantaneous import velocity
+from burmester.fourbar.linkage import Linkage
+from burmester.geometry.displacement import Displacement
+from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
+
+__all__ = ["DIRECTIONS", "STANDARD_GRAVITY", "DriverLoad", "require_up"]
+
+STANDARD_GRAVITY: Final = 9.80665  # m/s²
+DIRECTIONS: Final[Mapping[str, FloatArray]] = {
+    f"{sign}{axis}": (-1.0 if sign else 1.0) * np.eye(3)[number]
+    for sign in ("", "-")
+    for number, axis in enumerate("xyz")
+}
+
+
+@final
+class DriverLoad(NamedTuple):
+    """At coupler places (n,): newtons and kilograms, or N m and kg m² of a driver that turns.
+
+    holding: (n,), by which the motor holds the linkage still, positive the way the joint counts.
+    inertia: (n,), of all bodies, reduced to the driver's joint.  Not finite at dead points.
+    """
+
+    holding: FloatArray
+    inertia: FloatArray
+
+    @classmethod
+    def of(
+        cls,
+        linkage: Linkage,
+        places: Displacement,
+        bodies: Mapping[str, MassProperties],
+        up: FloatArray,
+    ) -> DriverLoad:
+        """The load of a linkage (metres); up: (3,), a direction of F."""
+        rates = velocity(linkage, places)
+        v, omega = complex_of(rates[..., :2]), rates[..., 2]
+        moving = [("coupler", v, omega, places.rotate(bodies["coupler"].centre[:2]))]
+        for name, dyad in (("driver", linkage.first), ("follower", linkage.second)):
+            speed, turning, angle = _side(dyad, places, v, omega)
+            arm = Displacement(np.zeros(2), angle).rotate(bodies[name].centre[:2])
+            moving.append((name, speed, turning, arm))
+        holding, inertia = np.zeros(places.shape), np.zeros(places.shape)
+        for name, speed, turning, arm in moving:
+            body = bodies[name]
+            with np.errstate(invalid="ignore", over="ignore"):
+                centre = speed + 1j * turning * complex_of(arm)
+                rise = centre.real * up[0] + centre.imag * up[1]
+                holding = holding + body.mass * STANDARD_GRAVITY * rise
+                inertia = inertia + body.mass * np.abs(centre) ** 2
+                inertia = inertia + body.inertia[2, 2] * turning**2
+        return cls(holding, inertia)
+
+
+def _side(
+    dyad: Dyad, places: Displacement, v: ComplexArray, omega: FloatArray
+) -> tuple[ComplexArray, FloatArray, FloatArray]:
+    """The velocity of the origin of a side's body, its angular velocity, and its angle."""
+    assert isinstance(dyad, RR | PR | RP)
+    if isinstance(dyad, RP):  # its pin turns with the slot
+        return np.zeros_like(v), omega, np.asarray(places.angle + dyad.normal_angle)
+    with np.errstate(invalid="ignore"):
+        pin = v + 1j * omega * complex_of(places.rotate(dyad.moving_pivot))
+        if isinstance(dyad, PR):
+            return pin, 0 * places.angle, 0 * places.angle
+        arm = complex_of(places.act(dyad.moving_pivot) - dyad.fixed_pivot)
+        return np.zeros_like(v), (pin / arm).imag, np.angle(arm)
+
+
+def require_up(up: str) -> FloatArray:
+    """A direction (3,) of F by its name; raises E162."""
+    if up in DIRECTIONS:
+        return DIRECTIONS[up]
+    raise InputError(
+        "E162",
+        f"there is no direction {up!r}",
+        why=f"up is {', '.join(DIRECTIONS)}: an axis of the plane of the poses, or z, across it",
+        help="give --up y",
+    )

@@ -1,0 +1,57 @@
+"""A servo on the driver's joint: a motor that a spring and a damper hold to its command.
+
+Its commands at the poses lead the driver by what the spring yields under the linkage's weight, so
+that the linkage comes to rest at the poses themselves.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Final, NamedTuple, final
+
+import numpy as np
+
+from burmester.export.models.driver_load import STANDARD_GRAVITY
+from burmester.export.models.dynamic_model import DynamicModel
+from burmester.io.saved import SavedLinkage
+from burmester.numerics.arrays import FloatArray
+
+__all__ = ["ARMATURE", "Servo"]
+
+LONGEST_STEP: Final = 1e-3  # seconds: time step, shorter for linkages below 10 cm
+STEP_SHARE: Final = 0.01  # of sqrt(span / g), the time of a fall: longest time step
+FREQUENCY: Final = 0.3  # radians a time step: natural frequency
+ARMATURE: Final = 0.01  # of the reduced inertia: that of the motor itself
+
+
+@final
+class Servo(NamedTuple):
+    """A servo, and the time step (seconds) that suits it.
+
+    frequency: natural, radians a second.
+    stiffness, damping, armature: newtons, metres and kilograms, or N m, radians and kg m².
+    controls: (N,), the commands at the poses, within the joint's limits; at a dead point, where no
+    motor holds, they do not lead.
+    """
+
+    time_step: float
+    frequency: float
+    stiffness: float
+    damping: float
+    armature: float
+    controls: FloatArray
+
+    @classmethod
+    def of(cls, model: DynamicModel, chosen: SavedLinkage) -> Servo:
+        """A servo with critical damping for the median of the inertia at the poses."""
+        step = min(LONGEST_STEP, STEP_SHARE * math.sqrt(model.reference.span / STANDARD_GRAVITY))
+        step = float(f"{step:.1e}")
+        load = model.load(chosen)
+        finite = load.inertia[np.isfinite(load.inertia)]
+        inertia = float(np.median(finite)) if len(finite) else model.masses["driver"].about_z()
+        frequency, moved = FREQUENCY / step, (1 + ARMATURE) * inertia
+        stiffness = moved * frequency**2
+        lead = np.nan_to_num(load.holding / stiffness, nan=0.0, posinf=0.0, neginf=0.0)
+        controls = np.clip(model.joints.at_poses[:, 0] + lead, model.low[0], model.high[0])
+        damping = 2 * moved * frequency
+        return cls(step, frequency, stiffness, damping, ARMATURE * inertia, controls)

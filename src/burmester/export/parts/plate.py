@@ -1,0 +1,137 @@
+"""A plate with its holes and slots, and a pin that joins two; millimetres."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal, TypeAlias, final
+
+import numpy as np
+
+from burmester.export.parts.outlines import convex_hull, points_on, rounded_hull
+from burmester.geometry.displacement import Displacement
+from burmester.numerics.arrays import FloatArray
+
+__all__ = ["Owner", "Pin", "Plate", "moved", "outline_points", "plate_of"]
+
+SLOT_RUN_OUT = 0.5  # of a hole's diameter: slot beyond each end of the pin's travel
+
+Owner: TypeAlias = Literal["ground", "driver", "coupler", "follower"]
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Plate:
+    """A flat part in a frame of its own, millimetres.
+
+    name: ground, ground-2 (the second one, above), driver, coupler or follower; owner: the link
+    that it is of.  The frames: of ground plates F, of the coupler M, of driver and follower the
+    fixed pivot with x towards the moving one.
+    outline: (k, 3) x, y, bulge, counter-clockwise, closed from the last to the first.
+    holes: (h, 3) x, y, diameter.  slots: (s, 5) x, y of both ends' centres, width.
+    marks: (m, 2), points to be marked: the body's origin.
+    layer: 0 and upwards.  skeleton: (n, 2), convex; the outline is all within `radius` of it.
+    fixed, moving: the pivots of a driver or follower, in F and in M.
+    """
+
+    name: str
+    owner: Owner
+    outline: FloatArray
+    holes: FloatArray
+    slots: FloatArray
+    marks: FloatArray
+    layer: int
+    skeleton: FloatArray
+    radius: float
+    fixed: FloatArray | None = None
+    moving: FloatArray | None = None
+
+    def at(self, places: Displacement) -> Displacement:
+        """Where the plate lies (F <- plate) when the coupler is at places (*,), millimetres."""
+        if self.owner == "ground":
+            return Displacement.identity(places.shape)
+        if self.owner == "coupler":
+            return places
+        assert self.fixed is not None
+        assert self.moving is not None
+        arm = places.act(self.moving) - self.fixed
+        return Displacement(self.fixed, np.arctan2(arm[..., 1], arm[..., 0]))
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Pin:
+    """A pin through layers `low` to `high`, at (x, y) of the plate of that name that holds it.
+
+    joins: the names of the plates that it joins.
+    """
+
+    plate: str
+    x: float
+    y: float
+    diameter: float
+    low: int
+    high: int
+    joins: tuple[str, str]
+
+
+def plate_of(
+    features: Sequence[FloatArray],
+    *,
+    name: str,
+    owner: Owner,
+    layer: int,
+    radius: float,
+    hole: float,
+    mark: bool = False,
+    fixed: FloatArray | None = None,
+    moving: FloatArray | None = None,
+) -> Plate:
+    """A plate around features: centres (1, 2) of holes, end centres (2, 2) of slots.
+
+    radius: between the features' centres and the outline.  hole: the diameter of holes and the
+    width of slots.  mark: whether the origin is marked.
+    """
+    holes = [[*each[0].tolist(), hole] for each in features if len(each) == 1]
+    slots = []
+    for each in features:
+        if len(each) == 2:
+            low, high = each
+            size = float(np.linalg.norm(high - low))
+            out = (high - low) / size * SLOT_RUN_OUT * hole if size > 0 else np.array([0.0, 0.0])
+            slots.append([*(low - out).tolist(), *(high + out).tolist(), hole])
+    origin = np.zeros((1, 2)) if mark else np.empty((0, 2))
+    ends = [np.reshape(slot[:4], (2, 2)) for slot in slots]
+    points = np.concatenate([np.reshape(each[:2], (1, 2)) for each in holes] + ends + [origin])
+    skeleton = convex_hull(points)
+    return Plate(
+        name,
+        owner,
+        rounded_hull(skeleton, radius),
+        np.reshape(np.array(holes, dtype=np.float64), (-1, 3)),
+        np.reshape(np.array(slots, dtype=np.float64), (-1, 5)),
+        origin,
+        layer,
+        skeleton,
+        radius,
+        fixed,
+        moving,
+    )
+
+
+def moved(plate: Plate, by: Displacement) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """The outline, holes, slots and marks of a plate, carried by a displacement."""
+    outline = np.column_stack([by.act(plate.outline[:, :2]), plate.outline[:, 2]])
+    holes = np.column_stack([by.act(plate.holes[:, :2]), plate.holes[:, 2]])
+    slots = np.column_stack(
+        [by.act(plate.slots[:, :2]), by.act(plate.slots[:, 2:4]), plate.slots[:, 4]]
+    )
+    return outline, holes, slots, by.act(plate.marks)
+
+
+def outline_points(shape: Plate | FloatArray, tolerance: float) -> FloatArray:
+    """A polygon (n, 2) on the outline of a plate, or on an outline (k, 3), not closed again.
+
+    Its sides leave the arcs by the tolerance at most; the ends of the arcs are among the points.
+    """
+    return points_on(shape.outline if isinstance(shape, Plate) else shape, tolerance)

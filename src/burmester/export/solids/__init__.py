@@ -1,0 +1,1 @@
+"""Solid parts: STEP, STL and OpenSCAD."""

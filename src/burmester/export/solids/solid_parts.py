@@ -1,0 +1,167 @@
+"""The solids of plates and pins, each in its place: extruded, with holes and slots; millimetres.
+
+One layer lies over the other with a gap between, the first on z = 0.  Pins have a running fit.
+`cad` is the build123d module, for it may be missing.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+
+from burmester.export.parts.plates import Assembly, Plate, slot_outline
+from burmester.geometry.displacement import Displacement
+from burmester.numerics.arrays import FloatArray
+
+__all__ = ["Part", "area_of", "laid", "parts_of", "placed"]
+
+MIN_EDGE: Final = 1e-4  # of a plate: shorter pieces of its outline are left out
+FLAT_SPACING: Final = 2.0  # widths of a link between parts that are laid flat
+COLOURS: Final = {
+    "ground": (0.48, 0.53, 0.58),
+    "driver": (0.90, 0.62, 0.0),
+    "coupler": (0.0, 0.45, 0.70),
+    "follower": (0.0, 0.62, 0.45),
+    "pin": (0.20, 0.24, 0.28),
+}
+
+
+class Part(NamedTuple):
+    """A solid in a frame of its own, and where it lies: its frame in F, and the height of z = 0.
+
+    area: of its outline without what is cut out; height: of the solid.
+    """
+
+    name: str
+    kind: str
+    solid: Any
+    place: Displacement
+    z: float
+    area: float
+    height: float
+
+
+def parts_of(cad: Any, made: Assembly) -> list[Part]:
+    """The plates and pins of an assembly."""
+    size = made.dimensions
+    step = size.thickness + size.gap
+    parts = [
+        Part(
+            plate.name,
+            plate.owner,
+            cad.Solid.extrude(_face(cad, plate), (0, 0, size.thickness)),
+            plate.at(made.drawn),
+            plate.layer * step,
+            area_of(plate),
+            size.thickness,
+        )
+        for plate in made.plates
+    ]
+    places = {part.name: part.place for part in parts}
+    for number, pin in enumerate(made.pins, start=1):
+        radius = pin.diameter / 2
+        height = (pin.high - pin.low) * step + size.thickness
+        parts.append(
+            Part(
+                f"pin-{number}",
+                "pin",
+                cad.Solid.make_cylinder(radius, height),
+                Displacement(places[pin.plate].act(np.array([pin.x, pin.y])), np.zeros(())),
+                pin.low * step,
+                math.pi * radius**2,
+                height,
+            )
+        )
+    return parts
+
+
+def placed(cad: Any, part: Part) -> Any:
+    """A copy of a part where it lies, with its name and colour."""
+    x, y = part.place.translation.tolist()
+    there = part.solid.moved(cad.Location((x, y, part.z), (0, 0, math.degrees(part.place.angle))))
+    there.label = part.name
+    there.color = cad.Color(*COLOURS[part.kind])
+    return there
+
+
+def laid(parts: Iterable[Part], made: Assembly) -> list[Part]:
+    """The parts in a column, the longest first, each lengthwise, and the pins behind them."""
+    plates = {plate.name: plate for plate in made.plates}
+    apart = FLAT_SPACING * made.dimensions.width
+    rows = []
+    for part in parts:
+        plate = plates.get(part.name)
+        if plate is None:
+            r = math.sqrt(part.area / math.pi)
+            rows.append((part, Displacement.identity(), np.array([[-r, -r], [r, r]])))
+            continue
+        ends = plate.skeleton[:, None] - plate.skeleton
+        far = ends.reshape(-1, 2)[int((ends**2).sum(axis=-1).argmax())]
+        turn = Displacement(np.zeros(2), -np.arctan2(far[1], far[0]))
+        corners = turn.act(plate.skeleton)
+        box = np.stack([corners.min(axis=0) - plate.radius, corners.max(axis=0) + plate.radius])
+        rows.append((part, turn, box))
+    rows.sort(key=lambda row: (row[0].kind == "pin", -float(np.ptp(row[2][:, 0]))))
+    x, y, out = 0.0, 0.0, list[Part]()
+    for part, turn, (low, high) in rows:
+        place = Displacement(np.array([x, y]) - low, turn.angle)
+        out.append(part._replace(place=place, z=0.0))
+        if part.kind == "pin":  # side by side
+            x += float(high[0] - low[0]) + apart
+        else:
+            y += float(high[1] - low[1]) + apart
+    return out
+
+
+def _face(cad: Any, plate: Plate) -> Any:
+    """The plate's outline with its holes and slots, on z = 0."""
+    inner = [
+        cad.Wire.make_circle(diameter / 2, cad.Plane((x, y, 0))) for x, y, diameter in plate.holes
+    ]
+    inner += [_wire(cad, slot_outline(slot)) for slot in plate.slots]
+    return cad.Face(_wire(cad, _plain(plate.outline)), inner)
+
+
+def _plain(outline: FloatArray) -> FloatArray:
+    """An outline (k, 3) without pieces so short that no mesh has room for them."""
+    rows = [outline[0].copy()]
+    least = MIN_EDGE * float(np.ptp(outline[:, :2], axis=0).max())
+    for row in outline[1:]:
+        if np.hypot(*(row - rows[-1])[:2]) < least:
+            rows[-1][2] = row[2]  # what comes after the short piece follows here
+        else:
+            rows.append(row.copy())
+    return np.array(rows)
+
+
+def _wire(cad: Any, outline: FloatArray) -> Any:
+    """A closed outline (k, 3) x, y, bulge as lines and arcs."""
+    edges = []
+    for (x, y, bulge), (u, v, _) in zip(outline, np.roll(outline, -1, axis=0), strict=True):
+        if bulge == 0:
+            edges.append(cad.Edge.make_line((x, y), (u, v)))
+        else:
+            middle = ((x + u + bulge * (v - y)) / 2, (y + v - bulge * (u - x)) / 2)
+            edges.append(cad.Edge.make_three_point_arc((x, y), middle, (u, v)))
+    return cad.Wire(edges)
+
+
+def area_of(plate: Plate) -> float:
+    """The area of a plate without its holes and slots."""
+    cut = sum(math.pi * diameter**2 / 4 for diameter in plate.holes[:, 2])
+    slots = sum(_within(slot_outline(each)) for each in plate.slots)
+    return float(_within(_plain(plate.outline)) - cut - slots)
+
+
+def _within(outline: FloatArray) -> float:
+    """The area within a closed outline (k, 3): of its polygon, and of the arcs' segments."""
+    (x, y, bulge), (u, v, _) = outline.T, np.roll(outline, -1, axis=0).T
+    quarter = np.arctan(bulge)
+    chord = np.hypot(u - x, v - y)
+    bent = bulge != 0
+    radius = chord[bent] / (2 * np.sin(2 * quarter[bent]))
+    segments = radius**2 * (4 * quarter[bent] - np.sin(4 * quarter[bent])) / 2
+    return float((x * v - u * y).sum() / 2 + (np.sign(bulge[bent]) * np.abs(segments)).sum())

@@ -1,0 +1,1 @@
+"""Recordings of markers: motion capture as poses."""

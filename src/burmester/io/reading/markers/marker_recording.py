@@ -1,0 +1,219 @@
+"""A recording of markers: the places of some of them, frame by frame.
+
+A marker is missing where its place is blank, NaN, 0,0,0 as lost markers are exported, or of a low
+likelihood.  Numbers are read as in any CSV file.
+"""
+
+from __future__ import annotations
+
+import re
+from array import array
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burmester.errors import InputError
+from burmester.io.reading import pose_table
+from burmester.io.reading.markers.marker_header import AXES, CONFIDENCE, MarkerHeader
+from burmester.io.reading.pose_table import decimals
+from burmester.io.reading.row_selection import RowLabels
+from burmester.io.reading.tables.csv_cells import cell_location, row_values, split_cells, unquoted
+from burmester.io.reading.tables.csv_poses import require_one_mark
+from burmester.io.reading.tables.wrong_numbers import not_a_number
+from burmester.numerics.arrays import FloatArray
+from burmester.wording import listed
+
+__all__ = ["MarkerRecording", "read_recording"]
+
+MIN_LIKELIHOOD = 0.6  # DeepLabCut's own default; a place less likely counts as missing
+MAX_COORDINATE = 1e60  # beyond it, fourth powers leave a double's range
+
+_LINE = re.compile(r"(?m)^.*\S.*$")
+_PLAIN = re.compile(r"-?[0-9]{1,9}\.[0-9]{1,15}")
+_MISSING = ("", "nan", "na", "n/a", "-nan", "-nan(ind)", "null", "none", "-")
+
+
+class MarkerRecording(NamedTuple):
+    """The places of some markers in all frames of a file."""
+
+    header: MarkerHeader
+    names: tuple[str, ...]
+    axes: tuple[str, ...]
+    places: FloatArray  # (N, K, A), NaN where a marker is missing
+    decimals: float  # the most that a coordinate is printed with
+    labels: RowLabels
+    starts: NDArray[np.intp]  # where the line of each frame begins in the text
+    reasons: dict[str, NDArray[np.bool_]]  # why markers are missing, and in which frames
+
+    def locate_row(self, row: int | None) -> str:
+        """Where a frame stands, by its number from 0; the file for None."""
+        source = self.header.source
+        if row is None:
+            return source.label
+        start = int(self.starts[row])
+        end = source.text.find("\n", start)
+        line = source.text[start : end if end >= 0 else len(source.text)]
+        return source.where(start, len(line.strip()))
+
+    def row_name(self, row: int) -> str:
+        return self.labels.names[row] if self.labels.frames else str(row + 1)
+
+
+def read_recording(
+    header: MarkerHeader, names: tuple[str, ...], *, one_mark: bool = True
+) -> MarkerRecording:
+    """The places of markers in all rows; raises E102 to E106 and E112.
+
+    one_mark: whether decimal commas have to be beyond doubt (E104).
+    """
+    axes = tuple(axis for axis in AXES if all(axis in header.markers[name] for name in names))
+    if len(axes) < 2:
+        message = f"{listed(names)} have no two axes in common"
+        help = "export X and Y of every marker"
+        raise InputError("E105", message, where=header.where, help=help)
+    columns = [header.markers[name][axis] for name in names for axis in axes]
+    sure = [header.markers[name].get(CONFIDENCE) for name in names]
+    used = columns + [column for column in sure if column is not None]
+    marks: dict[str, str] = {}  # mark of `plain_number` -> its first location
+    numbers, starts, most = array("d"), array("q"), 0.0
+    frames: list[str] = []
+    times: list[str] = []
+    for line, cells in _rows(header):
+        _require_width(header, line, cells, len(starts) + 1)
+        for place, column in enumerate(used):
+            text = _number(header, (line, cells), column, len(starts) + 1, marks)
+            numbers.append(float(text))
+            if place < len(columns) and "." in text:
+                most = max(most, decimals(text))
+        starts.append(line.start())
+        frames.append(_cell(cells, header.frame))
+        times.append(_cell(cells, header.time))
+    if not starts:
+        raise pose_table.no_poses("the file has only a header")
+    shown_marks = (pose_table.plain_number(text, header.separator)[1] for text in times[:100])
+    for mark in {".", ","}.intersection(filter(None, shown_marks)):
+        marks.setdefault(mark, "")  # a time, too, shows what a comma is
+    if one_mark:
+        require_one_mark(marks)
+    values = np.array(numbers).reshape(len(starts), len(used))
+    places, likely = values[:, : len(columns)].copy(), values[:, len(columns) :]
+    _require_near(header, places, starts)
+    places = places.reshape(len(starts), len(names), len(axes))
+    reasons = _forget_lost(places, likely, [k for k, each in enumerate(sure) if each is not None])
+    labels = _labels(frames, times, header.separator)
+    return MarkerRecording(header, names, axes, places, most, labels, np.array(starts), reasons)
+
+
+def _number(
+    header: MarkerHeader,
+    row: tuple[re.Match[str], list[str]],
+    column: int,
+    number: int,
+    marks: dict[str, str],
+) -> str:
+    """A cell with a decimal point, "nan" where it is missing; raises E103 and E104.
+
+    number: of the row, from 1.
+    """
+    line, cells = row
+    cell = _cell(cells, column)
+    if "." in marks and _PLAIN.fullmatch(cell):
+        return cell
+    if cell.lower() in _MISSING:
+        return "nan"
+    plain, mark = pose_table.plain_number(cell, header.separator)
+    if mark is None or not marks.get(mark):
+        where = cell_location(header.source, line.start(), cells, column)
+        if mark is None:
+            raise not_a_number(
+                cell, plain, row=number, unit=None, where=where, separator=header.separator
+            )
+        marks[mark] = where
+    return plain
+
+
+def _require_near(header: MarkerHeader, places: FloatArray, starts: Sequence[int]) -> None:
+    """Refuse places that cannot be computed with: E112."""
+    far = np.abs(places) > MAX_COORDINATE
+    if not far.any():
+        return
+    row, column = (int(k) for k in np.argwhere(far)[0])
+    source, start = header.source, starts[row]
+    end = source.text.find("\n", start)
+    where = source.where(start, (end if end >= 0 else len(source.text)) - start)
+    message = f"row {row + 1} has a place that is too far away to compute with"
+    why = f"it is {places[row, column]:g}, the limit is {MAX_COORDINATE:g}"
+    raise InputError("E112", message, where=where, why=why, help="write it in another unit")
+
+
+def _rows(header: MarkerHeader) -> Iterator[tuple[re.Match[str], list[str]]]:
+    """The lines with numbers, with their cells; a blank line and a line of words end them."""
+    text, end, separator = header.source.text, header.end, header.separator
+    for line in _LINE.finditer(text, header.end):
+        cells = split_cells(line[0], separator) if '"' in line[0] else line[0].split(separator)
+        if not line[0].strip(f'{separator}" '):
+            end = line.end()
+            continue
+        apart = text[end : line.start()].count("\n") > 1 and end > header.end
+        if apart and not pose_table.NUMBER_LIKE.fullmatch(next(filter(None, map(unquoted, cells)))):
+            return
+        yield line, cells
+        end = line.end()
+
+
+def _require_width(
+    header: MarkerHeader, line: re.Match[str], cells: list[str], number: int
+) -> None:
+    """Refuse a row with a number below no name (E106): a comma in a number may have split it."""
+    # an unquoted decimal comma makes two cells of one, and the last of them may be blank
+    given = len(cells) if header.separator == "," else len(row_values(cells))
+    if given > header.width:
+        where = cell_location(header.source, line.start(), cells, header.width)
+        message = f"row {number} has {given} cells, the header has {header.width}"
+        help = "delete what stands behind the last column, or write decimal points"
+        raise InputError("E106", message, where=where, help=help)
+
+
+def _cell(cells: list[str], column: int | None) -> str:
+    return unquoted(cells[column]) if column is not None and column < len(cells) else ""
+
+
+def _forget_lost(
+    places: FloatArray, likely: FloatArray, sure: list[int]
+) -> dict[str, NDArray[np.bool_]]:
+    """Set lost markers to NaN; returns the frames for each reason.
+
+    likely: (N, L), how sure the places of the markers `sure` are, from 0 to 1.
+    """
+    reasons = {"has no value": _any(np.isnan(places), axis=(1, 2))}
+    # a lost marker is exported as 0,0,0; one that never leaves 0 along an axis is in that plane
+    zero = (places == 0) | np.isnan(places)
+    planar = zero.all(axis=0).any(axis=1)
+    lost = (places == 0).all(axis=2) & ~planar & (places.shape[2] == len(AXES))
+    places[lost] = np.nan
+    reasons["is at 0,0,0"] = _any(lost, axis=1)
+    if sure:
+        doubtful = np.zeros(places.shape[:2], dtype=np.bool_)
+        doubtful[:, sure] = ~(likely >= MIN_LIKELIHOOD)
+        places[doubtful] = np.nan
+        reasons[f"has a likelihood below {MIN_LIKELIHOOD:g}"] = _any(doubtful, axis=1)
+    return reasons
+
+
+def _any(mask: NDArray[np.bool_], axis: int | tuple[int, ...]) -> NDArray[np.bool_]:
+    return np.asarray(mask.any(axis=axis), dtype=np.bool_)
+
+
+def _labels(frames: list[str], times: list[str], separator: str) -> RowLabels:
+    """What the frames are called: by the numbers in the file if they are whole and differ."""
+    are_frames = all(text.isascii() and text.isdigit() for text in frames)
+    are_frames = are_frames and len(set(frames)) == len(frames)
+
+    def seconds() -> FloatArray | None:
+        plain = [pose_table.plain_number(text, separator) for text in times]
+        known = all(mark is not None for _, mark in plain)
+        return np.array([float(text) for text, _ in plain]) if known else None
+
+    return RowLabels(len(frames), frames if are_frames else (), are_frames, seconds)

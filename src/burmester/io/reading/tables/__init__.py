@@ -1,0 +1,1 @@
+"""Tables of poses: CSV, workbooks, Parquet, and rows pasted from CAD."""

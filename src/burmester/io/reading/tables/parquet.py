@@ -1,0 +1,171 @@
+"""Poses in Parquet: columns as in the header of a CSV file, and every number as it is stored.
+
+Integers, floats and decimals are numbers; text is for names alone.  A resolution is taken from
+the shortest decimals that a number can be printed with.
+The errors are those that `burmester.io.reading.poses` lists.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from burmester.errors import InputError
+from burmester.io.reading import pose_table
+from burmester.io.reading.file_content import MAX_LINES, too_large
+from burmester.io.reading.pose_table import PoseTable, Rows, decimals, numeric_roles
+from burmester.io.reading.tables.columns import read_columns
+from burmester.numerics.arrays import FloatArray
+
+__all__ = ["is_parquet", "read_parquet"]
+
+_Where: TypeAlias = Callable[[int | None, int | None], str]  # the location of a column and a row
+
+
+def is_parquet(data: bytes) -> bool:
+    return data.startswith(b"PAR1")
+
+
+def read_parquet(label: str, data: bytes) -> PoseTable:
+    """The poses in the bytes of a Parquet file; raises E101 to E108, and E130 without pyarrow."""
+    file = _open(data)
+    names = _read_or_refuse(lambda: file.schema_arrow.names)
+
+    def where(i: int | None, row: int | None = None) -> str:
+        parts = [f"row {row + 1}"] if row is not None else []
+        if i is not None:
+            parts.append(pose_table.brief(f"column {names[i]}", f"column number {i + 1}"))
+        return f"{label}: {', '.join(parts)}" if parts else label
+
+    columns = read_columns(names, where, 'name it "#{}"')
+    indices = columns.indices
+    if (count := file.metadata.num_rows) > MAX_LINES:  # a few bytes may stand for them all
+        raise too_large(f"it has {count} rows, and {MAX_LINES} are the most")
+    stored = _read_or_refuse(lambda: file.read(columns=[names[i] for i in indices.values()]))
+    if not stored.num_rows:
+        raise pose_table.no_poses("the file has no rows")
+    numbers: list[FloatArray] = []
+    printed: dict[str, float] = {}
+    for role in numeric_roles(indices):
+        i = indices[role]
+        values, texts = _numbers(stored.column(names[i]), names[i], where(i))
+        if (bad := ~np.isfinite(values)).any():
+            row = int(bad.argmax())
+            given = "no value" if texts[row] is None else "a value that is not a finite number"
+            raise InputError(
+                "E103",
+                f"row {row + 1} has {given}",
+                where=where(i, row),
+                help="give a number, or delete the row",
+            )
+        numbers.append(values)
+        printed[role] = 0.0 if role == "weight" else max(decimals(text) for text in texts if text)
+    angle = printed.pop("angle", 0.0)
+    given_names = _list(stored, names, indices.get("name"), where)
+    names_of = columns.row_names([str(value) if value is not None else "" for value in given_names])
+    exact = _marks(stored, names, indices.get("exact"), where)
+    rows = Rows(
+        np.stack(numbers, axis=1),
+        (max(printed.values()), angle),
+        names_of,
+        exact,
+        2 * ("px" in indices),
+    )
+    return PoseTable(
+        rows,
+        length_unit=columns.length_unit,
+        angle_unit=columns.units.get("angle"),
+        where=where(indices.get("angle")),
+        say_unit="name the column angle_deg or angle_rad",
+        locate_row=lambda row: where(None, row),  # where(None, None) is the file
+        notes=columns.notes(),
+        read_as=f"Parquet: {columns.described(names)}",
+    )
+
+
+def _open(data: bytes) -> Any:
+    try:
+        import pyarrow
+        import pyarrow.parquet
+    except ImportError:
+        raise InputError(
+            "E130",
+            "reading Parquet needs pyarrow",
+            why="it cannot be imported",
+            help='pip install "burmester[data]"',
+        ) from None
+    return _read_or_refuse(lambda: pyarrow.parquet.ParquetFile(pyarrow.BufferReader(data)))
+
+
+def _read_or_refuse(read: Callable[[], Any]) -> Any:
+    """The result of a pyarrow call, or E101."""
+    try:
+        return read()
+    except Exception as error:  # of many kinds, for files that are damaged
+        why = str(error).partition("\n")[0][:200]
+        help = "write the file again, or save the poses as CSV"
+        raise InputError("E101", "this Parquet file cannot be read", why=why, help=help) from None
+
+
+def _numbers(column: Any, name: str, where: str) -> tuple[FloatArray, list[str | None]]:
+    """A column as doubles (NaN for no value), and as its shortest texts."""
+    from pyarrow import types
+
+    kind = column.type
+    if types.is_floating(kind):
+        values: list[Any] = column.to_pylist()
+        doubles = column.to_numpy().astype(np.float64)
+        if not types.is_float64(kind):  # 0.1 in 32 bits is printed as 0.1
+            short = np.float32 if types.is_float32(kind) else np.float16
+            return doubles, [None if v is None else _short(str(short(v))) for v in values]
+        return doubles, [None if v is None else _short(repr(v)) for v in values]
+    if types.is_integer(kind) or types.is_decimal(kind):
+        texts = [None if v is None else _short(str(v)) for v in column.to_pylist()]
+        return np.array([np.nan if text is None else float(text) for text in texts]), texts
+    message = f"the column {pose_table.shown(name)} holds {kind}, not numbers"
+    raise InputError("E104", message, where=where, help="store it as float64")
+
+
+def _short(text: str) -> str:
+    """A number without the noughts behind its point: those are not stored."""
+    mantissa, e, exponent = text.lower().partition("e")
+    mantissa = mantissa.rstrip("0").rstrip(".") if "." in mantissa else mantissa
+    return mantissa + e + exponent
+
+
+def _list(stored: Any, names: list[str], index: int | None, where: _Where) -> list[Any]:
+    """The values of a column that need not be there; raises E101 for what Python cannot hold.
+
+    Damaged text is a ValueError, a date beyond the year 9999 an OverflowError, and more kinds come
+    from types that a later Arrow may add.
+    """
+    if index is None:
+        return []
+    column, values = stored.column(names[index]), []
+    with contextlib.suppress(Exception):
+        return list(column.to_pylist())
+    for row, each in enumerate(column):
+        try:
+            values.append(each.as_py())
+        except Exception as error:
+            why = str(error).partition("\n")[0][:200]
+            message = f"row {row + 1} has a value that cannot be read"
+            help = "write the file again with another text there, or without this column"
+            raise InputError("E101", message, where=where(index, row), why=why, help=help) from None
+    return values
+
+
+def _marks(stored: Any, names: list[str], index: int | None, where: _Where) -> list[bool]:
+    """The column `exact`: true and false, or what stands for them in a CSV file."""
+    marks = []
+    for row, value in enumerate(_list(stored, names, index, where)):
+        text = "" if value is None else str(value).strip().lower()
+        if text not in pose_table.MARKS:
+            message = f"row {row + 1} has {pose_table.shown(value)} where yes or no belongs"
+            help = "store true for a pose to be met exactly, false for one to come near"
+            raise InputError("E104", message, where=where(index, row), help=help)
+        marks.append(pose_table.MARKS[text])
+    return marks

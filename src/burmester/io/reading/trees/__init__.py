@@ -1,0 +1,1 @@
+"""JSON and TOML: poses, body, limits and requirements as trees."""

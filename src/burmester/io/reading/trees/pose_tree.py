@@ -1,0 +1,225 @@
+"""Poses in the tree of a JSON or TOML file, and the keys beside them.
+
+At the top of a task other keys may stand (title, author, notes ...) and are not looked at, unless
+they are known ones misspelt or belong elsewhere.  Imported on first use, as pydantic is slow to
+import.
+"""
+
+from __future__ import annotations
+
+import math
+from decimal import Decimal
+from typing import Any
+
+import numpy as np
+
+from burmester.errors import InputError
+from burmester.io.reading.pose_table import POINTS, PoseTable, Rows
+from burmester.io.reading.specification import LIMIT_KEYS, TOP_KEYS, Specification
+from burmester.io.reading.stated_requirements import REQUIREMENT_KEYS
+from burmester.io.reading.trees.locations import Document, close_match
+from burmester.io.reading.trees.pose_model import POINT_KEYS, XY_ANGLE_KEYS, pose_fault, validated
+
+__all__ = ["read_tree"]
+
+_ANGLE_KEYS = {"angle": None, "angle_deg": "deg", "angle_rad": "rad"}
+_TRACKED_KEYS = frozenset({*POINT_KEYS, *POINTS})
+
+_MISPLACED = {  # keys that may stand beside the poses by mistake: the help
+    **dict.fromkeys(("weight", "weights"), "write each weight into its pose, as weight"),
+    **dict.fromkeys(("names",), "write each name into its pose, as name"),
+    **dict.fromkeys(
+        ("x", "y", "angle", "angles", "angle_deg", "angle_rad", *POINT_KEYS, *POINTS),
+        "write the numbers into the poses, one by one",
+    ),
+    **dict.fromkeys(("unit", "units"), "write angle_unit for angles, length_unit for lengths"),
+    **dict.fromkeys(("sigma",), "write pose_sigma with position and angle_deg"),
+}
+
+
+def read_tree(tree: Any, document: Document, example: str) -> PoseTable:
+    """The table in a parsed tree, whose numbers are Decimal (or int, in TOML).
+
+    example: a sound file in few words.  Raises E103 to E110, and what limits and requirements do.
+    """
+    if isinstance(tree, list):
+        tree, document = {"poses": tree}, document._replace(bare=True)
+    elif isinstance(tree, dict) and "poses" not in tree and isinstance(tree.get("task"), dict):
+        tree, document = tree["task"], document._replace(root=("task",))
+    specification = _specification(tree, document) if isinstance(tree, dict) else Specification()
+    tracked = _tracked(document, tree)
+    whole, poses = validated(document, tree, example, tracked)
+    unit: str | None = None
+    if tracked:
+        columns, where = _points(document, poses), ""
+    else:
+        angles, unit = _angles(document, whole, poses)
+        columns = {"x": [str(pose.x) for pose in poses], "y": [str(pose.y) for pose in poses]}
+        columns["angle"] = [str(angle) for angle in angles]
+        where = _where_unit(document, whole, poses)
+    if any(pose.weight is not None for pose in poses):  # a pose without one counts once
+        columns["weight"] = ["1" if pose.weight is None else str(pose.weight) for pose in poses]
+    numeric = list(columns)
+    if any(pose.name is not None for pose in poses):
+        columns["name"] = [pose.name or "" for pose in poses]
+    if any(pose.exact for pose in poses):
+        columns["exact"] = ["x" if pose.exact else "" for pose in poses]
+    rows = Rows.read(columns)
+    for i, j in np.argwhere(~np.isfinite(rows.values)):  # 1e400 is a finite Decimal
+        number = columns[numeric[j]][i]
+        fault = {"type": "finite_number", "loc": ("poses", int(i), numeric[j]), "input": number}
+        raise pose_fault(document, tree, example, tracked, fault)
+
+    def locate_row(row: int | None) -> str:
+        if row is None:
+            return document.where("poses", key=True)
+        return document.where("poses", row)
+
+    given = whole.pose_sigma
+    body = None
+    if "body" in tree:
+        from burmester.io.reading.trees.body_tree import read_body
+
+        body = read_body(tree, document)
+    return PoseTable(
+        rows,
+        length_unit=whole.length_unit or None,
+        angle_unit=unit,
+        where=where,
+        say_unit=f"write {example}",
+        specification=specification,
+        body=body,
+        pose_sigma=given and (given.position, math.radians(given.angle_deg)),
+        locate_row=locate_row,
+        notes=document.source.notes,
+    )
+
+
+def _specification(tree: dict[str, Any], document: Document) -> Specification:
+    """The limits and requirements beside the poses."""
+    _require_known(document, tree)
+    specification = Specification()
+    if not tree.keys().isdisjoint(LIMIT_KEYS):
+        from burmester.io.reading.trees.limits_tree import read_limits
+
+        specification = read_limits(tree, document)
+    if not tree.keys().isdisjoint(REQUIREMENT_KEYS):
+        from burmester.io.reading.trees.requirements_tree import read_requirements
+
+        specification = specification._replace(requirements=read_requirements(tree, document))
+    return specification
+
+
+def _require_known(document: Document, tree: dict[str, Any]) -> None:
+    """Refuse what stands beside the poses and is misspelt, or belongs elsewhere."""
+    for key in tree:
+        if key in TOP_KEYS or key in LIMIT_KEYS or key in REQUIREMENT_KEYS:
+            continue
+        if key in _MISPLACED:
+            message = f"{document.named(key)} stands beside the poses, where it has no effect"
+            help = f"{_MISPLACED[key]}, or delete it"
+        elif near := close_match(key, TOP_KEYS):
+            message, help = f"{document.named(key)} is not known", f"write {near} in its place"
+        else:
+            continue
+        raise InputError("E107", message, where=document.where(key, key=True), help=help)
+
+
+def _tracked(document: Document, tree: Any) -> bool:
+    """Whether the poses are two points each; raises E108 where some are and some are not."""
+    poses = tree.get("poses") if isinstance(tree, dict) else None
+    form: tuple[str, int] | None = None
+    for i, pose in enumerate(poses if isinstance(poses, list) else ()):
+        if isinstance(pose, dict):
+            points, xy_angle = (
+                not _TRACKED_KEYS.isdisjoint(pose),
+                not XY_ANGLE_KEYS.isdisjoint(pose),
+            )
+            if points and xy_angle:
+                of_points, of_angle = (
+                    min(keys & pose.keys()) for keys in (_TRACKED_KEYS, XY_ANGLE_KEYS)
+                )
+                message = f"pose {i + 1} has {of_points} and {of_angle}"
+                raise _two_forms(document, message, i, of_angle)
+            given = "points" if points else "angle" if xy_angle else ""
+        else:
+            given = "angle" if isinstance(pose, list) and len(pose) == 3 else ""
+        if given and form and form[0] != given:
+            first, last = ("two points", "x, y and an angle")[:: 1 if given == "angle" else -1]
+            message = f"pose {form[1] + 1} is {first}, pose {i + 1} is {last}"
+            raise _two_forms(document, message, i)
+        form = form or ((given, i) if given else None)
+    return form is not None and form[0] == "points"
+
+
+def _two_forms(document: Document, message: str, pose: int, key: str | None = None) -> InputError:
+    path: tuple[str | int, ...] = ("poses", pose, *([key] if key else []))
+    where = document.where(*path, key=key is not None)
+    why = "a pose is given by x, y and an angle, or by two points p and q of the body"
+    return InputError("E108", message, where=where, why=why, help="give all poses in one way")
+
+
+def _points(document: Document, poses: list[Any]) -> dict[str, list[str]]:
+    """The columns px, py, qx and qy; raises E105 and E108 where a point is not given once."""
+    columns: dict[str, list[str]] = {role: [] for role in POINTS}
+    for i, pose in enumerate(poses):
+        for point, roles in POINT_KEYS.items():
+            pair = getattr(pose, point)
+            single = {role: getattr(pose, role) for role in roles}
+            given = [role for role, value in single.items() if value is not None]
+            if pair is not None and given:
+                message = f"pose {i + 1} has {point} and {given[0]}"
+                where = document.where("poses", i, given[0], key=True)
+                raise InputError(
+                    "E108", message, where=where, help=f"delete {given[0]}, or {point}"
+                )
+            if pair is None and len(given) < 2:
+                lacking = next((role for role in roles if given and role not in given), point)
+                message = f"{document.named('poses', i, lacking)} is missing"
+                x, y = roles
+                help = f"give {x} and {y}, or {point} with two numbers in brackets"
+                where = document.where("poses", i)
+                raise InputError("E105", message, where=where, help=help)
+            for role, value in zip(roles, pair or single.values(), strict=True):
+                columns[role].append(str(value))
+    return columns
+
+
+def _where_unit(document: Document, whole: Any, poses: list[Any]) -> str:
+    """Where the angles' unit is stated, or should be."""
+    if whole.angle_unit:
+        return document.where("angle_unit")
+    for key in ("angle_deg", "angle_rad"):
+        if poses and getattr(poses[0], key) is not None:
+            return document.where("poses", 0, key, key=True)
+    return document.where("poses", key=True)
+
+
+def _angles(document: Document, whole: Any, poses: list[Any]) -> tuple[list[Decimal], str | None]:
+    """The angles and their unit, if every pose has one angle and all are in one unit."""
+    units = {whole.angle_unit} - {None}
+    angles = []
+    for i, pose in enumerate(poses):
+        given = [key for key in _ANGLE_KEYS if getattr(pose, key) is not None]
+        if len(given) != 1:
+            code = "E108" if given else "E105"
+            message = f"pose {i + 1} has {' and '.join(given) or 'no angle'}"
+            help = "give every pose one angle, as angle_deg or as angle_rad"
+            where = document.where("poses", i)
+            if given:
+                where = document.where("poses", i, given[1], key=True)
+            raise InputError(code, message, where=where, help=help)
+        angles.append(getattr(pose, given[0]))
+        units.add(_ANGLE_KEYS[given[0]] or whole.angle_unit)
+        if len(units) > 1:
+            message = "the angles are stated in different units"
+            why = None
+            if whole.angle_unit:
+                why = f'angle_unit is "{whole.angle_unit}", pose {i + 1} has {given[0]}'
+            elif i:
+                why = f"pose {i + 1} has {given[0]}, the pose before has not"
+            help = "state one unit: angle_deg in every pose, or angle_rad in every pose"
+            keyed = {"key": True} if isinstance(_ANGLE_KEYS[given[0]], str) else {}
+            where = document.where("poses", i, *([given[0]] if keyed else []), **keyed)
+            raise InputError("E110", message, where=where, why=why, help=help)
+    return angles, next(iter(units), None)
