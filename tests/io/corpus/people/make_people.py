@@ -1,6 +1,6 @@
 """Make files as people have them, and the key that was written by hand beside each.
 
-    python -m tests.io.corpus.people.make
+    python -m tests.io.corpus.people.make_people
 
 The numbers of a key are typed again, not taken from the content above it.  Nothing of burmester is
 imported.  The files are kept as they are made.
