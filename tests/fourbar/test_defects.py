@@ -18,6 +18,7 @@ import pytest
 from scipy.optimize import minimize_scalar
 
 from burmester.fourbar.circuits import Circuits, circuit_of
+from burmester.fourbar.defect_messages import PoseNames
 from burmester.fourbar.defects import judge
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
@@ -844,3 +845,29 @@ if __name__ == "__main__":
         total += result
     print("all", dict(total))
     sys.exit(bool(wrong(total)))
+
+
+def test_changes_in_a_row_are_one_in_messages():
+    """As noise near a dead point makes them."""
+    names = PoseNames(None)
+    assert names.between([(3, 4)]) == "between poses 4 and 5"
+    row = [(6, 7), (7, 8), (8, 9)]
+    assert names.between(row) == "3 times between poses 7 and 10"
+    assert names.between([*row, (20, 21)]) == (
+        "3 times between poses 7 and 10 and between poses 21 and 22"
+    )
+    assert names.between([(0, 1), (2, 3)]) == "between poses 1 and 2 and between poses 3 and 4"
+
+
+@pytest.mark.parametrize(
+    ("order", "text"),
+    [
+        ([0, 1, 3, 2], "1-2-4-3"),
+        ([*range(9), 10, 9, *range(11, 60)], "1 to 9, 11, 10, 12 to 60"),
+        ([0, *range(59, 0, -1)], "1, 60 to 2"),
+        ([*range(30, 45), *range(30)], "31 to 45, 1 to 30"),
+        ([0, 20, 1, 21, 2, 22, 3, 23, 4, 24, 5, 25, 6], "1, 21, 2, 22, 3, 23, ..."),
+    ],
+)
+def test_an_order_of_many_poses_is_told_by_runs(order, text):
+    assert PoseNames(None).in_order(order) == text
