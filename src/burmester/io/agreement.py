@@ -140,7 +140,8 @@ def _require_parts(parts: Iterator[_Part] | Sequence[_Part], what: str) -> None:
             agree = stated == given and type(stated) is type(given)
         if not agree:
             why = (
-                f"{path_of(*part.keys)} is {_told(stated)}; its dyads and poses give {_told(given)}"
+                f"{path_of(*part.keys)} is {_told(stated)}; "
+                f"the rest of the file gives {_told(given)}"
             )
             raise InputError("E152", what, why=why, help=AGAIN)
 
