@@ -13,6 +13,7 @@ import pytest
 from burmester.errors import InputError
 from burmester.io.reading.poses import read_task
 from burmester.tasks.motion_task import Task
+from tests.oracles.refusals import outcome, refusal
 
 Read = Callable[..., Task]
 
@@ -40,21 +41,6 @@ def read(tmp_path: Path) -> Read:
         return read_task(path, **options)
 
     return read
-
-
-def refusal(attempt: Callable[[], object]) -> InputError:
-    with pytest.raises(InputError) as caught:
-        attempt()
-    assert caught.value.where
-    assert caught.value.help
-    return caught.value
-
-
-def outcome(attempt: Callable[[], Task]) -> Task | InputError:
-    try:
-        return attempt()
-    except InputError as error:
-        return error
 
 
 def rows(seed: int) -> list[tuple[str, str, str]]:

@@ -29,6 +29,7 @@ from burmester.io.reading.poses import read_task
 from burmester.tasks.motion_task import Task
 from tests.oracles import recordings
 from tests.oracles.recordings import GROUND, LINKS, crank_rocker, recording
+from tests.oracles.refusals import outcome, refusal
 from tests.oracles.simulation import driven_either_way
 
 Read = Callable[..., Task]
@@ -44,14 +45,6 @@ def read(tmp_path: Path) -> Read:
         return read_task(path, **options)
 
     return read
-
-
-def refusal(attempt: Callable[[], object]) -> InputError:
-    with pytest.raises(InputError) as caught:
-        attempt()
-    assert caught.value.where
-    assert caught.value.help
-    return caught.value
 
 
 def note(task: Task) -> str:
@@ -544,10 +537,3 @@ def test_broken_recordings_are_read_or_refused(read: Read) -> None:
             assert np.isfinite(came.poses.translation).all()
         read_or_not[isinstance(came, InputError)] += 1
     assert min(read_or_not) > 100
-
-
-def outcome(attempt: Callable[[], Task]) -> Task | InputError:
-    try:
-        return attempt()
-    except InputError as error:
-        return error

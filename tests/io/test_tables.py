@@ -29,6 +29,7 @@ from burmester.io.reading.poses import read_task
 from burmester.io.reading.tables import csv_poses
 from burmester.io.reading.tables.column_words import UNITS, WORDS
 from burmester.tasks.motion_task import Task
+from tests.oracles.refusals import outcome, refusal
 
 Read = Callable[..., Task]
 
@@ -47,21 +48,6 @@ def read(tmp_path_factory: pytest.TempPathFactory) -> Read:
         return read_task(path, **options)
 
     return read
-
-
-def refusal(attempt: Callable[[], object]) -> InputError:
-    with pytest.raises(InputError) as caught:
-        attempt()
-    assert caught.value.where
-    assert caught.value.help
-    return caught.value
-
-
-def outcome(attempt: Callable[[], Task]) -> Task | InputError:
-    try:
-        return attempt()
-    except InputError as error:
-        return error
 
 
 def require_same(task: Task, other: Task, names: tuple[str, ...] | None = None) -> None:

@@ -18,7 +18,7 @@ from burmester.tasks import notation
 from burmester.wording import figure, listed, with_article
 
 __all__ = [
-    "beside_the_best",
+    "alternatives",
     "best_sentences",
     "digits_note",
     "dyads_title",
@@ -46,7 +46,7 @@ def best_sentences(synthesis: Synthesis) -> list[str]:
     """What the best usable linkage does, and why it is not another one; none without it."""
     if not synthesis.usable:
         return []
-    return [headline(synthesis), *beside_the_best(synthesis)]
+    return [headline(synthesis), *alternatives(synthesis)]
 
 
 def headline(synthesis: Synthesis) -> str:
@@ -62,7 +62,7 @@ def headline(synthesis: Synthesis) -> str:
     )
 
 
-def beside_the_best(synthesis: Synthesis) -> Iterator[str]:
+def alternatives(synthesis: Synthesis) -> Iterator[str]:
     """Why the best usable linkage is not another one, and what others would cost."""
     best, task, size = synthesis.usable[0], synthesis.task, synthesis.length
     outcome = synthesis.outcome

@@ -38,7 +38,7 @@ __all__ = [
     "location_lines",
     "message",
     "note",
-    "put",
+    "print_trimmed",
     "show",
     "wrapped",
 ]
@@ -77,7 +77,7 @@ def draw(lines: Sequence[Text], console: Console) -> None:
         console.print(plain, soft_wrap=True)
 
 
-def put(renderable: RenderableType, console: Console) -> None:
+def print_trimmed(renderable: RenderableType, console: Console) -> None:
     """Print tables and texts without blanks at the ends of their lines."""
     for segments in console.render_lines(renderable, pad=False):
         line = Text()

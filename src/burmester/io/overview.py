@@ -16,7 +16,7 @@ from rich.text import Text
 
 from burmester.diagnosis.checks import Diagnosis
 from burmester.io.linkage_table import new_table
-from burmester.io.message import put, wrapped
+from burmester.io.message import print_trimmed, wrapped
 from burmester.io.message import show as show_message
 from burmester.io.result import message_data, motion_data, task_data
 from burmester.tasks.motion_kinds import General
@@ -45,7 +45,7 @@ def check_data(diagnosis: Diagnosis) -> dict[str, Any]:
 def show(diagnosis: Diagnosis, console: Console) -> None:
     """The poses as they were read, what they are, and what stands out."""
     task = diagnosis.task
-    put(_poses(task), console)
+    print_trimmed(_poses(task), console)
     console.print()
     for name, text in _facts(diagnosis):
         for line in wrapped(text, console.width, Text(f"{name:10}", style="bold")):

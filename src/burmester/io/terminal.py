@@ -12,7 +12,7 @@ from burmester.describe import sentences
 from burmester.describe.digits import dyad_error, fitted_decimals, sides
 from burmester.io import linkage_table
 from burmester.io.linkage_table import new_table
-from burmester.io.message import draw, message, note, put, show
+from burmester.io.message import draw, message, note, print_trimmed, show
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.synthesis.result import Synthesis
 
@@ -38,11 +38,11 @@ def show_synthesis(
         rest = [each for each in synthesis.linkages if each not in three]
     if everything and rest:
         title = "Not usable, and why" if synthesis.usable else "Not usable either"
-        put(Text(f"\n{title}", style="bold"), console)
-        put(linkage_table.unusable(synthesis, rest, console.width), console)
+        print_trimmed(Text(f"\n{title}", style="bold"), console)
+        print_trimmed(linkage_table.unusable(synthesis, rest, console.width), console)
     # Without a linkage the dyads are all there is.
     if synthesis.dyads and (dyads or not synthesis.linkages):
-        put(_dyads(synthesis, console.width), console)
+        print_trimmed(_dyads(synthesis, console.width), console)
     _in_all(synthesis, 0 if everything else len(rest), console, dyads)
     if synthesis.certificate is not None:
         for head, lines in (
@@ -53,14 +53,14 @@ def show_synthesis(
             ("Computed, not proved", synthesis.certificate.numerical),
         ):
             if lines:
-                put(Text(f"\n{head}:", style="bold"), console)
-                put(_bullets(lines), console)
+                print_trimmed(Text(f"\n{head}:", style="bold"), console)
+                print_trimmed(_bullets(lines), console)
     if synthesis.warnings:
         console.print()
     for warning in synthesis.warnings:
         show("warning", warning, console)
     if synthesis.dyads:
-        put(Text(f"\n{sentences.footnotes(synthesis)}", style="dim"), console)
+        print_trimmed(Text(f"\n{sentences.footnotes(synthesis)}", style="dim"), console)
 
 
 def _answer(synthesis: Synthesis, console: Console) -> None:
@@ -72,13 +72,13 @@ def _answer(synthesis: Synthesis, console: Console) -> None:
             draw(note("why", outcome.why, console.width), console)
         if outcome.help:
             draw(note("help", outcome.help, console.width), console)
-    put(Text(sentences.headline(synthesis), style="bold"), console)
-    for sentence in sentences.beside_the_best(synthesis):
-        put(Text(sentence), console)
+    print_trimmed(Text(sentences.headline(synthesis), style="bold"), console)
+    for sentence in sentences.alternatives(synthesis):
+        print_trimmed(Text(sentence), console)
     for part in linkage_table.in_full(synthesis, console):
-        put(part, console)
+        print_trimmed(part, console)
     if len(synthesis.usable) > 1:
-        put(linkage_table.usable_table(synthesis, console), console)
+        print_trimmed(linkage_table.usable_table(synthesis, console), console)
 
 
 def _no_answer(synthesis: Synthesis, three: Sequence[FoundLinkage], console: Console) -> None:
@@ -86,7 +86,7 @@ def _no_answer(synthesis: Synthesis, three: Sequence[FoundLinkage], console: Con
     outcome = synthesis.outcome
     draw(message("result", outcome.code, outcome.message, width=console.width), console)
     if three:
-        put(linkage_table.unusable(synthesis, three, console.width), console)
+        print_trimmed(linkage_table.unusable(synthesis, three, console.width), console)
     elif outcome.why:
         draw(note("why", outcome.why, console.width), console)
     if outcome.help:
@@ -107,7 +107,7 @@ def _in_all(synthesis: Synthesis, unlisted: int, console: Console, dyads: bool) 
         text = "; ".join(options)
         told.append(f"{text[0].upper()}{text[1:]}.")
     if told:
-        put(Text("\n" + " ".join(told)), console)
+        print_trimmed(Text("\n" + " ".join(told)), console)
 
 
 def _dyads(synthesis: Synthesis, width: int) -> Table:

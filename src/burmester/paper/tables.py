@@ -12,7 +12,7 @@ from rich.text import Text
 
 from burmester.describe.digits import short
 from burmester.io.linkage_table import new_table
-from burmester.io.message import put
+from burmester.io.message import print_trimmed
 from burmester.paper.comparison import Section, Verdict
 from burmester.paper.side_by_side import Answer, SideBySide
 
@@ -24,29 +24,31 @@ def show_reproduction(
 ) -> None:
     """The paper's numbers beside the computed ones, its tasks by five methods, and a count."""
     for section in sections:
-        put(Text(f"\n{section.title}", style="bold"), console)
+        print_trimmed(Text(f"\n{section.title}", style="bold"), console)
         if section.rows:
-            put(_comparisons(section), console)
+            print_trimmed(_comparisons(section), console)
         for row in section.rows:
             if row.note:
-                put(Text(f"{row.item}: {row.note}", style="dim"), console)
+                print_trimmed(Text(f"{row.item}: {row.note}", style="dim"), console)
         for remark in section.remarks:
-            put(Text(remark), console)
+            print_trimmed(Text(remark), console)
     if tasks:
-        put(Text("\nThe same tasks by other methods", style="bold"), console)
+        print_trimmed(Text("\nThe same tasks by other methods", style="bold"), console)
         text = (
             "rms and worst: the misses of the circle. starts: how many random ones lead to the "
             "dyad, the same for all; pencil (normalised) and complete method need none."
         )
-        put(Text(text), console)
+        print_trimmed(Text(text), console)
     for task in tasks:
-        put(Text(f"\n{task.title} by five methods", style="bold"), console)
-        put(_methods(task), console)
+        print_trimmed(Text(f"\n{task.title} by five methods", style="bold"), console)
+        print_trimmed(_methods(task), console)
         for remark in _of_starts(task.answers):
-            put(Text(remark), console)
+            print_trimmed(Text(remark), console)
     counts = Counter(row.verdict for section in sections for row in section.rows)
     verdicts = ", ".join(f"{counts[verdict]} {verdict}" for verdict in Verdict)
-    put(Text(f"\n{sum(counts.values())} printed numbers: {verdicts}", style="bold"), console)
+    print_trimmed(
+        Text(f"\n{sum(counts.values())} printed numbers: {verdicts}", style="bold"), console
+    )
 
 
 def _methods(task: SideBySide) -> Table:

@@ -259,11 +259,11 @@ def _undetermined(
         "R305",
         message,
         "to determine the pivots, add poses with more rotation, or give the poses with more digits",
-        f"{usable[0].id} works, and {_open(usable[0], task)}: {turns}",
+        f"{usable[0].id} works, and {_pivot_freedom(usable[0], task)}: {turns}",
     )
 
 
-def _open(found: FoundLinkage, task: Task) -> str:
+def _pivot_freedom(found: FoundLinkage, task: Task) -> str:
     """How far its pivots may be moved, all together, within what is known of the poses."""
     assert found.uncertainty is not None
     widest = max(each.half_width for each in found.uncertainty)
@@ -293,7 +293,7 @@ def linkage_advice(task: Task, linkages: Sequence[FoundLinkage], code: str) -> l
             Advice(
                 "W209",
                 f"the poses leave pivots of {listed(ids)} open; of {ids[0]}, "
-                f"{_open(loose[0], task)}",
+                f"{_pivot_freedom(loose[0], task)}",
                 "give more digits, or poses with more rotation between them",
             )
         )

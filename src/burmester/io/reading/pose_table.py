@@ -34,10 +34,10 @@ __all__ = [
     "cell_name",
     "decimals",
     "extent",
-    "known_to",
     "no_poses",
     "numeric_roles",
     "plain_number",
+    "resolution_by_digits",
     "shown",
 ]
 
@@ -49,7 +49,7 @@ MARKS = {"yes": True, "true": True, "1": True, "x": True}  # of an exact pose, i
 MARKS |= {"no": False, "false": False, "0": False, "": False}
 
 # Of the motion, or radians; numbers whose last digit leaves more open are meant exactly.
-MEANT = 5e-4
+MEANT_EXACTLY = 5e-4
 
 NUMBER = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?")
 NOT_FINITE = re.compile(r"[+-]?(nan|inf|infinity)", re.IGNORECASE)
@@ -190,7 +190,7 @@ def plain_number(cell: str, separator: str) -> tuple[str, str | None]:
     return plain, "," if "," in cell else "." if "." in cell else ""
 
 
-def known_to(half: float, size: float) -> float:
+def resolution_by_digits(half: float, size: float) -> float:
     """How exactly numbers are known by their digits: half of the last one, or 0 if that is coarse.
 
     half: of the last digit; size: of what the numbers measure, in the same unit.
@@ -198,7 +198,7 @@ def known_to(half: float, size: float) -> float:
     measures has finer digits.  Whether there is a decimal point says nothing: another unit would
     move it.
     """
-    return half if half <= MEANT * size else 0.0
+    return half if half <= MEANT_EXACTLY * size else 0.0
 
 
 def extent(points: FloatArray) -> float:

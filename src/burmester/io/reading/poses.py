@@ -41,7 +41,7 @@ from burmester.io.reading.markers.marker_header import read_marker_header
 from burmester.io.reading.markers.marker_poses import recorded_poses
 from burmester.io.reading.markers.marker_recording import MarkerRecording
 from burmester.io.reading.markers.tracked_points import TrackedRows, tracked_poses
-from burmester.io.reading.pose_table import UNITS, PoseTable, Source, extent, known_to
+from burmester.io.reading.pose_table import UNITS, PoseTable, Source, extent, resolution_by_digits
 from burmester.io.reading.row_selection import RowLabels, RowSelection, row_marks
 from burmester.io.reading.specification import Specification
 from burmester.io.reading.stated_requirements import combined_requirements
@@ -97,7 +97,8 @@ def read_task(
         Standard deviations of the positions (unit of the poses) and of the angles (radians).  The
         task's resolution is sqrt(3) times as much.  Without it, a standard deviation in the file
         is used, or for two tracked points one from the variation of their distance; else the
-        resolution is half of the last digit printed, and 0 where that is coarse (`known_to`).
+        resolution is half of the last digit printed, and 0 where that is coarse
+        (`resolution_by_digits`).
     columns : str, optional
         The header of a CSV file or a sheet that has none, separated by commas: "x,y,angle_deg".
         It replaces a header that is there.
@@ -348,7 +349,7 @@ def _oriented(
     length, angle = (0.5 * 10.0**-printed for printed in table.rows.decimals)
     if unit == "deg":
         angles, angle = np.radians(angles), math.radians(angle)
-    known = known_to(length, extent(values[:, :2])), known_to(angle, 1.0)
+    known = resolution_by_digits(length, extent(values[:, :2])), resolution_by_digits(angle, 1.0)
     return Displacement(values[:, :2], angles), known
 
 

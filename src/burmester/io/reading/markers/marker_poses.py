@@ -14,7 +14,7 @@ from burmester.io.reading.markers.marker_recording import MarkerRecording
 from burmester.io.reading.markers.rigid_body import fit_rigid_body
 from burmester.io.reading.markers.tracked_points import MAX_DISTANCE_CHANGE
 from burmester.io.reading.markers.working_plane import planar_points
-from burmester.io.reading.pose_table import PoseTable, Rows, extent, known_to
+from burmester.io.reading.pose_table import PoseTable, Rows, extent, resolution_by_digits
 from burmester.numerics.arrays import FloatArray
 from burmester.wording import listed, shortened
 
@@ -135,7 +135,7 @@ def _rigidity(
     jumps = series[2:] - 2 * series[1:-1] + series[:-2]
     jumps = jumps[np.isfinite(jumps).all(axis=(1, 2))]
     warning = []
-    half_digit = known_to(0.5 * 10.0**-recording.decimals, extent(flat[base, 0]))
+    half_digit = resolution_by_digits(0.5 * 10.0**-recording.decimals, extent(flat[base, 0]))
     if len(jumps) >= MIN_TRIPLES and rms > max(MIN_CHANGE * size, 4 * half_digit):
         noise = float(np.sqrt((jumps**2).sum(axis=2).mean() / 6))
         if fit.rms > NOISE_RATIO * noise:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
 from burmester.io.reading.markers.rigid_body import RigidFit, fit_rigid_body
-from burmester.io.reading.pose_table import extent, known_to
+from burmester.io.reading.pose_table import extent, resolution_by_digits
 from burmester.numerics.arrays import FloatArray
 from burmester.wording import listed
 
@@ -85,7 +85,7 @@ def tracked_poses(points: FloatArray, decimals: float, rows: TrackedRows) -> Tra
         raise rows.refusal(f"{rows.name(row)[0]} gives no angle", why, row)
     if not len(points):
         return Tracked(Displacement(p, np.arctan2(y, x)), (0.0, 0.0), None)
-    half = known_to(0.5 * 10.0**-decimals, extent(p))
+    half = resolution_by_digits(0.5 * 10.0**-decimals, extent(p))
     resolution = (half, min(2 * half / float(distance.min()), math.pi))
     # two coordinates a point, each within half a digit, and the rounding of doubles besides
     rounding = 4 * float(np.finfo(np.float64).eps * np.abs(points).max())
