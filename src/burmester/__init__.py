@@ -61,6 +61,8 @@ if TYPE_CHECKING:
     from burmester.tasks.limits import Limits as Limits
     from burmester.tasks.motion_task import Task as Task
     from burmester.tasks.requirements import Requirements as Requirements
+    from burmester.tasks.surroundings import KeepOut as KeepOut
+    from burmester.tasks.surroundings import Surroundings as Surroundings
 if TYPE_CHECKING:
     from typing import Any
 
@@ -76,6 +78,7 @@ _ROOMS = {
     "Diagnosis": "diagnosis.checks",
     "Displacement": "geometry.displacement",
     "InputError": "errors",
+    "KeepOut": "tasks.surroundings",
     "Limits": "tasks.limits",
     "Line": "geometry.regions",
     "Linkage": "fourbar.linkage",
@@ -86,6 +89,7 @@ _ROOMS = {
     "Result": "api.result",
     "ResultLinkage": "api.linkage",
     "Segment": "geometry.regions",
+    "Surroundings": "tasks.surroundings",
     "Task": "tasks.motion_task",
     "best_dyads": "dyads.local_minima",
     "box": "geometry.regions",
@@ -126,6 +130,7 @@ __all__ = [
     "Diagnosis",
     "Displacement",
     "InputError",
+    "KeepOut",
     "Limits",
     "Line",
     "Linkage",
@@ -136,6 +141,7 @@ __all__ = [
     "Result",
     "ResultLinkage",
     "Segment",
+    "Surroundings",
     "Task",
     "__version__",
     "best_dyads",

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import Final, NamedTuple, TypeAlias, final
 
 import numpy as np
@@ -23,9 +22,12 @@ __all__ = [
     "Segment",
     "box",
     "narrowed",
+    "require_searchable",
 ]
 
-MAX_CORNERS = 100  # of a polygon; every edge and corner is searched, a second or two for as many
+# Corners of a polygon: every edge is compared with every other one; flattened arcs have some 100.
+MAX_CORNERS = 2000
+MAX_SEARCHED_CORNERS = 100  # where each edge and corner is searched, a second or two for as many
 MAX_COORDINATE = 1e60  # length; fourth powers of greater ones overflow, refused with E112
 MIN_WIDTH = 1e-12  # share of a polygon's length; a narrower polygon has no inside
 STRAIGHT_CORNER_SINE = 1e-9  # of the turn at a corner; below it both edges count as one line
@@ -206,8 +208,8 @@ class Polygon:
     Raises
     ------
     InputError
-        E131 (not rows of two finite real numbers, no inside, edges that cross, more than 100
-        corners), E112 (too large).
+        E131 (not rows of two finite real numbers, no inside, edges that cross or touch, more than
+        2000 corners), E112 (too large).
 
     Examples
     --------
@@ -225,7 +227,7 @@ class Polygon:
             raise InputError(
                 "E131",
                 f"a polygon of {len(v)} corners",
-                why="every edge and every corner is searched by itself",
+                why="every edge is compared with every other one",
                 help=f"take {MAX_CORNERS} of its corners at most",
             )
         values = np.linalg.svd(v - v[:1], compute_uv=False) if len(v) > 2 else np.zeros(2)
@@ -236,10 +238,12 @@ class Polygon:
                 why=f"its {max(len(v), 1)} different corners lie on one line",
                 help="give three corners or more that enclose one, or a line or a point instead",
             )
-        if _crosses_itself(v):
+        if (meeting := _first_meeting(v)) is not None:
             raise InputError(
                 "E131",
-                "a polygon crosses itself",
+                f"a polygon crosses itself near {_shown(meeting.at)}",
+                why=f"the edges behind its corners {meeting.first + 1} and {meeting.second + 1} "
+                "meet there",
                 help="give its corners in order around it",
             )
         x, y = (v - v[0]).T
@@ -443,20 +447,59 @@ def _from_segment(points: FloatArray, start: FloatArray, end: FloatArray) -> Flo
     return np.asarray(np.linalg.norm(points - foot, axis=-1))
 
 
-def _crosses_itself(v: FloatArray) -> bool:
-    """Whether two edges of a polygon that are no neighbours meet."""
-    ring = [*v, v[0]]
-    edges = list(pairwise(ring))
+class _Meeting(NamedTuple):
+    """Two edges of a polygon that meet, by the numbers of the corners they begin at, and where."""
 
-    def side(a: FloatArray, b: FloatArray, p: FloatArray) -> float:
-        return float(np.sign((b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])))
+    first: int
+    second: int
+    at: FloatArray
 
-    for i, (a, b) in enumerate(edges):
-        for j in range(i + 2, len(edges) - (i == 0)):
-            c, d = edges[j]
-            sides = side(a, b, c), side(a, b, d), side(c, d, a), side(c, d, b)
-            apart = np.maximum(a, b) < np.minimum(c, d), np.maximum(c, d) < np.minimum(a, b)
-            meet = sides[0] * sides[1] <= 0 and sides[2] * sides[3] <= 0
-            if meet and not np.any(apart):
-                return True
-    return False
+
+def _first_meeting(v: FloatArray) -> _Meeting | None:
+    """The first two edges of a polygon that meet, neighbours only where one goes back."""
+    w = np.roll(v, -1, axis=0)
+    after = np.roll(w, -1, axis=0)
+    back = (_side(v, w, after) == 0) & (((w - v) * (after - w)).sum(axis=-1) < 0)
+    if back.any():
+        k = int(back.argmax())
+        return _Meeting(k, (k + 1) % len(v), w[k])
+    low, high, count = np.minimum(v, w), np.maximum(v, w), len(v)
+    for i, (a, b) in enumerate(zip(v, w, strict=True)):
+        others = np.arange(i + 2, count - (i == 0))
+        near = (low[others] <= high[i]).all(axis=-1) & (high[others] >= low[i]).all(axis=-1)
+        others = others[near]
+        c, d = v[others], w[others]
+        ends = _side(a, b, c) * _side(a, b, d) <= 0
+        meet = others[ends & (_side(c, d, a) * _side(c, d, b) <= 0)]
+        if len(meet):
+            j = int(meet[0])
+            return _Meeting(i, j, _common_point(a, b, v[j], w[j]))
+    return None
+
+
+def _side(a: FloatArray, b: FloatArray, p: FloatArray) -> FloatArray:
+    """On which side of the lines from a to b points lie, all (*, 2), broadcast: -1, 0 or 1."""
+    along, to = b - a, p - a
+    return np.asarray(np.sign(along[..., 0] * to[..., 1] - along[..., 1] * to[..., 0]))
+
+
+def _common_point(a: FloatArray, b: FloatArray, c: FloatArray, d: FloatArray) -> FloatArray:
+    """A point (2,) that two segments share, which meet."""
+    along, other, to = b - a, d - c, c - a
+    cross = along[0] * other[1] - along[1] * other[0]
+    if cross != 0:
+        share = (to[0] * other[1] - to[1] * other[0]) / cross
+    else:  # they overlap
+        share = min(float(to @ along), float((d - a) @ along)) / float(along @ along)
+    return np.asarray(a + np.clip(share, 0.0, 1.0) * along)
+
+
+def require_searchable(region: Region) -> None:
+    """Refuse a region with more edges and corners than a search goes through: E131."""
+    if isinstance(region, Polygon) and len(region.vertices) > MAX_SEARCHED_CORNERS:
+        raise InputError(
+            "E131",
+            f"a polygon of {len(region.vertices)} corners for pivots",
+            why="every edge and every corner is searched by itself",
+            help=f"take {MAX_SEARCHED_CORNERS} of its corners at most",
+        )

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from typing import Final, Literal, TypeAlias, final, get_args
 
 from burmester.errors import InputError
-from burmester.geometry.regions import Region
+from burmester.geometry.regions import Region, require_searchable
 from burmester.values import real_numbers, require_instance, shown
 
 __all__ = ["KINDS", "Kind", "Limits"]
@@ -66,6 +66,7 @@ class Limits:
             if (region := getattr(self, name)) is not None:
                 help = "give a region such as Point((1, 2)), or None for any place"
                 require_instance(region, get_args(Region), name, help, code="E131")
+                require_searchable(region)
         bounds = real_numbers(self.length, (2,), "length", code="E131", finite=False)
         least, most = (float(bound) for bound in bounds)
         if not (least >= 0 and most > 0 and least < float("inf")):

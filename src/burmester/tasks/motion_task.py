@@ -17,6 +17,7 @@ from burmester.printable import printable
 from burmester.tasks.frames import frames_of
 from burmester.tasks.limits import Limits
 from burmester.tasks.requirements import Requirements, require_possible
+from burmester.tasks.surroundings import Surroundings
 from burmester.values import real_numbers, require_instance, shown
 
 __all__ = [
@@ -71,7 +72,10 @@ class Task:
     requirements : Requirements
         The conditions on the whole linkage, none by default.
     body : Polygon, optional
-        The outline of the body, in M.  It says what an angle error counts as.
+        The outline of the body, in M.  It says what an angle error counts as, and what must stay
+        clear of the surroundings.
+    surroundings : Surroundings, optional
+        What the body and the links must not touch between the poses.
     notes : tuple of Advice
         What was assumed, passed over or left out when the poses were read.  They are the first
         warnings of a synthesis.
@@ -107,6 +111,7 @@ class Task:
     limits: tuple[Limits, ...] = ()
     requirements: Requirements = field(default=Requirements())
     body: Polygon | None = None
+    surroundings: Surroundings | None = None
     notes: tuple[Advice, ...] = ()
     read_as: str | None = None
 
@@ -219,6 +224,9 @@ class Task:
         )
         if self.body is not None:
             require_instance(self.body, Polygon, "the body of a task", "give a Polygon")
+        if self.surroundings is not None:
+            what = "the surroundings of a task"
+            require_instance(self.surroundings, Surroundings, what, "give a Surroundings")
         for name, value in own.items():
             object.__setattr__(self, name, value)
 
@@ -232,6 +240,7 @@ class Task:
         limits: tuple[Limits, ...] = (),
         requirements: Requirements = Requirements(),  # noqa: B008  frozen
         body: Polygon | None = None,
+        surroundings: Surroundings | None = None,
     ) -> Task:
         """A task from rows of numbers.
 
@@ -241,7 +250,7 @@ class Task:
             x, y and angle of the body's frame M, seen in F.
         angle_unit : {"deg", "rad"}
             The unit of the angles; it is never guessed.
-        length_unit, limits, requirements, body
+        length_unit, limits, requirements, body, surroundings
             As in `Task`.
 
         Raises
@@ -254,7 +263,12 @@ class Task:
         angle = np.radians(table[:, 2]) if angle_unit == "deg" else table[:, 2]
         poses = Displacement(table[:, :2], angle)
         return cls(
-            poses, length_unit=length_unit, limits=limits, requirements=requirements, body=body
+            poses,
+            length_unit=length_unit,
+            limits=limits,
+            requirements=requirements,
+            body=body,
+            surroundings=surroundings,
         )
 
 

@@ -12,7 +12,7 @@ from typing import Final, Literal, TypeAlias, final, get_args
 import numpy as np
 
 from burmester.errors import InputError
-from burmester.geometry.regions import Line, Polygon, Region
+from burmester.geometry.regions import Line, Polygon, Region, require_searchable
 from burmester.tasks.limits import Kind, Limits
 from burmester.values import shown
 from burmester.wording import listed, with_article
@@ -126,6 +126,8 @@ class Requirements:
                 why="the pivots must have room in it",
                 help="give a box by two corners, or a polygon by three or more",
             )
+        if self.footprint is not None:
+            require_searchable(self.footprint)
         ratio = _number(self.link_ratio, "the greatest link ratio", infinite=True)
         if ratio < 1:
             raise InputError(
