@@ -591,6 +591,17 @@ CASES: dict[str, Case] = {
     "sigma without angle": Case(
         "E134", f"{S} --pose-sigma 0.05", Args(f"{S} --pose-sigma 0.05,0.1"), FEW
     ),
+    # --- tolerances of poses
+    "tolerance below zero": Case(
+        "E135",
+        lambda: api("tasks.pose_tolerances.PoseTolerances")([[0, -1]], [0]),
+        Call(lambda: api("tasks.pose_tolerances.PoseTolerances")([[0, 1]], [0])),
+    ),
+    "free in everything": Case(
+        "E136",
+        lambda: api("tasks.pose_tolerances.PoseTolerances")([[np.inf, np.inf]], [np.inf]),
+        Call(lambda: api("tasks.pose_tolerances.PoseTolerances")([[np.inf, np.inf]], [0.1])),
+    ),
     # --- tracked points, libraries, files, linkages, bugs
     "points not on one body": Case(
         "E111",

@@ -16,9 +16,11 @@ from burmester.numerics.arrays import FloatArray
 from burmester.printable import printable
 from burmester.tasks.frames import frames_of
 from burmester.tasks.limits import Limits
+from burmester.tasks.pose_tolerances import COMPONENTS, PoseTolerances, nominal_values
 from burmester.tasks.requirements import Requirements, require_possible
 from burmester.tasks.surroundings import Surroundings
 from burmester.values import real_numbers, require_instance, shown
+from burmester.wording import count as count_of
 
 __all__ = [
     "COARSE",
@@ -76,6 +78,10 @@ class Task:
         clear of the surroundings.
     surroundings : Surroundings, optional
         What the body and the links must not touch between the poses.
+    tolerances : PoseTolerances, optional
+        How far from each pose the body may be, per component exact, within a tolerance or free.
+        Without them the poses of a task are met exactly where that is possible, else as closely
+        as possible.
     notes : tuple of Advice
         What was assumed, passed over or left out when the poses were read.  They are the first
         warnings of a synthesis.
@@ -91,8 +97,9 @@ class Task:
         E103 (a number that is not finite), E112 (one too large or too small to compute with, or
         weights too far apart), E120 (too few poses), E122 (weights, names or marks that do not
         fit the poses), E125 (values of a wrong type or shape), E132 (requirements that the limits
-        contradict), E133 (more exact conditions than a dyad can meet), E134 (a driver named by
-        limits that are not two).
+        contradict), E133 (more exact conditions than a dyad or a linkage can meet), E134 (a driver
+        named by limits that are not two), E135 (tolerances that do not fit the poses), E136
+        (tolerances that a pose marked exact contradicts).
 
     Examples
     --------
@@ -112,6 +119,7 @@ class Task:
     requirements: Requirements = field(default=Requirements())
     body: Polygon | None = None
     surroundings: Surroundings | None = None
+    tolerances: PoseTolerances | None = None
     notes: tuple[Advice, ...] = ()
     read_as: str | None = None
 
@@ -171,6 +179,8 @@ class Task:
                 f"{len(self.names)} names for {count} poses",
                 help="give one name a pose, or none",
             )
+        if self.tolerances is not None:
+            _require_fitting(self.tolerances, count, self.exact)
         require_possible(self.requirements, self.limits)
 
     def _own_values(self) -> None:
@@ -227,6 +237,9 @@ class Task:
         if self.surroundings is not None:
             what = "the surroundings of a task"
             require_instance(self.surroundings, Surroundings, what, "give a Surroundings")
+        if self.tolerances is not None:
+            help = "give a PoseTolerances"
+            require_instance(self.tolerances, PoseTolerances, "the tolerances of a task", help)
         for name, value in own.items():
             object.__setattr__(self, name, value)
 
@@ -241,16 +254,18 @@ class Task:
         requirements: Requirements = Requirements(),  # noqa: B008  frozen
         body: Polygon | None = None,
         surroundings: Surroundings | None = None,
+        tolerances: PoseTolerances | None = None,
     ) -> Task:
         """A task from rows of numbers.
 
         Parameters
         ----------
         rows : (N, 3) array_like
-            x, y and angle of the body's frame M, seen in F.
+            x, y and angle of the body's frame M, seen in F.  Components that `tolerances` leave
+            free may be nan: they get a value between their neighbours, to draw the pose with.
         angle_unit : {"deg", "rad"}
             The unit of the angles; it is never guessed.
-        length_unit, limits, requirements, body, surroundings
+        length_unit, limits, requirements, body, surroundings, tolerances
             As in `Task`.
 
         Raises
@@ -259,7 +274,9 @@ class Task:
             E110 (no such angle unit) and what `Task` raises.
         """
         require_angle_unit(angle_unit)
-        table = real_numbers(rows, (None, 3), "the poses")
+        table = real_numbers(rows, (None, 3), "the poses", finite=tolerances is None)
+        if isinstance(tolerances, PoseTolerances) and tolerances.shape == table.shape[:1]:
+            table = _with_nominal_values(table, tolerances, angle_unit)
         angle = np.radians(table[:, 2]) if angle_unit == "deg" else table[:, 2]
         poses = Displacement(table[:, :2], angle)
         return cls(
@@ -269,6 +286,7 @@ class Task:
             requirements=requirements,
             body=body,
             surroundings=surroundings,
+            tolerances=tolerances,
         )
 
 
@@ -283,6 +301,47 @@ def require_angle_unit(unit: object) -> None:
         why="the unit of angles is never guessed",
         help='say angle_unit="deg" or angle_unit="rad"',
     )
+
+
+def _with_nominal_values(
+    table: FloatArray, tolerances: PoseTolerances, angle_unit: AngleUnit | None
+) -> FloatArray:
+    """Rows (N, 3) with `nominal_values` in place of nan, where the component is free."""
+    out, free = np.array(table), tolerances.free & np.isnan(table)
+    whole = 360.0 if angle_unit == "deg" else 2 * np.pi
+    for column, turn in enumerate((None, None, whole)):
+        out[:, column] = nominal_values(table[:, column], free[:, column], turn=turn)
+    return out
+
+
+def _require_fitting(
+    tolerances: PoseTolerances, count: int, exact: NDArray[np.bool_] | None
+) -> None:
+    """Refuse tolerances that do not fit the poses: E135, E136 (marks), E133 (too many)."""
+    if tolerances.shape != (count,):
+        raise InputError(
+            "E135",
+            f"tolerances of {count_of(tolerances.shape[0], 'pose')}, and {count} poses",
+            why="every pose has tolerances of its own",
+            help="give tolerances for every pose; 0 is exact, inf is free",
+        )
+    if exact is not None and len(both := np.flatnonzero(exact & ~tolerances.exact_poses)):
+        pose = int(both[0])
+        component = COMPONENTS[int(tolerances.bounds[pose].argmax())]
+        raise InputError(
+            "E136",
+            f"pose {pose + 1} is marked exact, and its {component} has a tolerance above zero",
+            why="an exact pose is met in x, y and angle",
+            help="take the mark away, or give this pose the tolerance 0 in all three",
+        )
+    if tolerances.conditions > 2 * CONDITIONS:
+        raise InputError(
+            "E133",
+            f"{tolerances.conditions} exact conditions, and a four-bar can meet {2 * CONDITIONS}",
+            why="a component of a pose without a tolerance is exact; a pose that is exact in x, y "
+            "and angle is two conditions, in two of them one",
+            help="give more components a tolerance, all poses the same one by default",
+        )
 
 
 def _parts(poses: Displacement) -> tuple[FloatArray, FloatArray]:
