@@ -8,8 +8,8 @@ from benchmarks.practical_tasks import practical_tasks
 
 from burmester import RR, Linkage, read_task
 from burmester.fourbar.pose_error import PoseError
-from burmester.linkages.quality import Standard
 from burmester.linkages.ranking import digits_leave_open, is_trade, ranked
+from burmester.linkages.standard import Standard
 from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.requirements import Requirements
 from tests.oracles.hard_tasks import comes_by

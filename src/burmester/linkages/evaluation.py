@@ -20,10 +20,10 @@ from burmester.geometry.displacement import Displacement
 from burmester.linkages.constraints import AllConstraints
 from burmester.linkages.found_linkage import FoundLinkage, Pair, Side, with_driver_first
 from burmester.linkages.possible_types import links_covariance, possible_types
-from burmester.linkages.quality import Standard
 from burmester.linkages.ranking import DEFAULT_TOLERANCE, ranked
 from burmester.linkages.requirement_check import Violation, violations
 from burmester.linkages.rounding import rounded
+from burmester.linkages.standard import Standard
 from burmester.linkages.target import Target
 from burmester.linkages.tolerances import spread
 from burmester.linkages.uncertainty import (

@@ -56,7 +56,7 @@ class FoundLinkage:
         The requirements that it violates with that driver.
     shortcomings : tuple of str
         Where it falls short of what a linkage to build is to be, where the task asks for nothing
-        (`quality.Standard`).
+        (`standard.Standard`).
     from_search : bool
         Whether it comes from the search for defect-free linkages.
     uncertainty : tuple of two DyadUncertainty, optional

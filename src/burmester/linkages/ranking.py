@@ -1,6 +1,6 @@
 """The order of linkages: the one to build first, each once.
 
-Usable linkages stand before others.  Among them those that meet the standard (`quality`) come
+Usable linkages stand before others.  Among them those that meet the standard (`standard`) come
 first, if they come near enough to the poses; within each group the nearest one, by both errors.
 What the digits of the poses leave open makes no linkage nearer than another.
 """

@@ -1,6 +1,6 @@
 """Linkages to build, from those that are close and not sound.
 
-The closest linkages are refined again, with either dyad driving, under the standard (`quality`):
+The closest linkages are refined again, with either dyad driving, under the standard (`standard`):
 they give up some nearness for a transmission angle and sane links.  A heuristic: that no other
 linkage within the bound is sound is not proved.
 """
@@ -16,7 +16,7 @@ from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.linkages.defect_free_search import driving_sides, refined_on_branch
 from burmester.linkages.evaluation import Candidates, Evaluation
 from burmester.linkages.found_linkage import FoundLinkage
-from burmester.linkages.quality import Standard
+from burmester.linkages.standard import Standard
 
 __all__ = ["sound_linkages"]
 

@@ -15,7 +15,7 @@ from burmester.errors import Advice
 from burmester.fourbar.dyad import RR
 from burmester.linkages.explanation import by_nearness, hints, in_short, nearness
 from burmester.linkages.found_linkage import FoundLinkage
-from burmester.linkages.quality import LEAST_TRANSMISSION
+from burmester.linkages.standard import LEAST_TRANSMISSION
 from burmester.synthesis.dyad_search import DyadSearch, exact_dyads
 from burmester.synthesis.result import Outcome
 from burmester.tasks.motion_task import CONDITIONS, Task, characteristic_length
