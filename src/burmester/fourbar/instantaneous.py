@@ -1,4 +1,4 @@
-"""Instantaneous kinematics: velocity, instant centre, centrodes, transmission angle at a place.
+"""Instantaneous kinematics: velocity, instant centre, centrodes, transmission of force at a place.
 
 Each dyad lets the coupler move only so that it does no work against one force, which acts along a
 line: an RR's link, the normal of a PR's line through its moving pivot, the normal of an RP's line
@@ -13,13 +13,21 @@ from typing import NamedTuple
 import numpy as np
 
 from burmester.errors import InputError
-from burmester.fourbar.dyad import PP, PR, RP, RR
+from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.loop_closure import with_trailing_axes
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
 
-__all__ = ["Centrodes", "centrodes", "instant_centre", "transmission_angle", "twist", "velocity"]
+__all__ = [
+    "Centrodes",
+    "centrodes",
+    "instant_centre",
+    "mechanical_advantage",
+    "transmission_angle",
+    "twist",
+    "velocity",
+]
 
 
 class Centrodes(NamedTuple):
@@ -53,27 +61,48 @@ def velocity(linkage: Linkage, places: Displacement) -> FloatArray:
     (v1, v2, omega) as in `twist`; not finite at dead points of that input.
     Raises InputError E401 where the first dyad is PP, which has no single input.
     """
-    motion, driver = twist(linkage, places), with_trailing_axes(linkage.first, len(places.shape))
+    motion = twist(linkage, places)
+    speed = _input_speed(linkage.first, places, motion)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return motion / speed[..., None]
+
+
+def mechanical_advantage(linkage: Linkage, places: Displacement) -> FloatArray:
+    """The force (*,) at the origin of the body that a unit effort of the first dyad balances.
+
+    The force acts along the path of that origin at places (*,), and nothing else loads the
+    linkage, which has neither friction nor weight.  So by virtual work it is the driver's speed
+    over the origin's: a force per torque, 1 / length, where the input turns; a plain number, force
+    per force, where it slides.  0 at a dead point, where no effort moves the body; infinite where
+    the origin is at rest while the driver moves, as in a toggle; nan at a change point.
+    Raises InputError E401 as `velocity` does.
+    """
+    motion = twist(linkage, places)
+    speed = np.abs(_input_speed(linkage.first, places, motion))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.asarray(speed / np.hypot(motion[..., 0], motion[..., 1]))
+
+
+def _input_speed(first: Dyad, places: Displacement, motion: FloatArray) -> FloatArray:
+    """The speed (*,) of the input of first dyads as couplers at places (*,) move (*, 3)."""
+    driver = with_trailing_axes(first, len(places.shape))
     v, omega = complex_of(motion[..., :2]), motion[..., 2]
     if isinstance(driver, RP):
-        speed = omega
-    elif isinstance(driver, PP):
+        return omega
+    if isinstance(driver, PP):
         raise InputError(
             "E401",
             "this linkage cannot be driven by its first dyad",
             why="a PP dyad has no one joint to drive",
             help="drive it by the other dyad, if that is RR or PR: exchange the two",
         )
-    else:
-        arm = complex_of(places.rotate(driver.moving_pivot))
-        v_pin = v + 1j * omega * arm
-        if isinstance(driver, RR):
-            arm = arm + complex_of(places.translation - driver.fixed_pivot)
-            speed = (v_pin / arm).imag
-        else:
-            speed = (v_pin * np.exp(-1j * driver.normal_angle)).imag
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return motion / speed[..., None]
+    arm = complex_of(places.rotate(driver.moving_pivot))
+    v_pin = v + 1j * omega * arm
+    if isinstance(driver, RR):
+        arm = arm + complex_of(places.translation - driver.fixed_pivot)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.asarray((v_pin / arm).imag)
+    return np.asarray((v_pin * np.exp(-1j * driver.normal_angle)).imag)
 
 
 def instant_centre(linkage: Linkage, places: Displacement) -> FloatArray:
@@ -94,7 +123,9 @@ def centrodes(linkage: Linkage, places: Displacement) -> Centrodes:
 def transmission_angle(linkage: Linkage, places: Displacement) -> FloatArray:
     """The angle (*,) in [0, pi/2] between the force on the second dyad and its lever, radians.
 
-    The first dyad drives.  The angle is 0 at its dead points and best at pi/2.
+    The first dyad drives.  The angle is 0 at its dead points and best at pi/2.  It is the
+    complement of the pressure angle, between the force and the way that its point can go: for a
+    slider between the force and its line.
 
     An RR or PR that follows an RR or PR: between the coupler, from pin to pin, and the follower
     (for PR the normal of its line).  The same after an RP: between the normal of the driving slot,

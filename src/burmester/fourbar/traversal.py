@@ -45,6 +45,7 @@ __all__ = [
     "first_where",
     "other_way_round",
     "pose_range",
+    "quarters_inside",
     "traversal_of",
 ]
 
@@ -195,7 +196,7 @@ def traversal_of(
 def pose_range(traversal: Traversal, view: DrivenView) -> PoseRange:
     """The range between the poses of each linkage, in their order."""
     on_circuit, along, circuits = traversal.on_circuit, traversal.order.along, traversal.circuits
-    quarters, inside = _quarters(along, circuits)
+    quarters, inside = quarters_inside(along, circuits)
     counts = np.concatenate([on_circuit, inside], axis=1)
     with np.errstate(invalid="ignore", divide="ignore"):
         between = circuits.couplers(quarters)
@@ -279,7 +280,7 @@ def _step_unit(
     return np.where(circuits.closed | ~on_circuit.any(axis=1), 1.0, arm + np.ptp(s, axis=1))
 
 
-def _quarters(along: FloatArray, circuits: Circuits) -> tuple[FloatArray, BoolArray]:
+def quarters_inside(along: FloatArray, circuits: Circuits) -> tuple[FloatArray, BoolArray]:
     """The parameters (k, 5) inside the range where f turns back, and which of them exist."""
     low, high = along.min(axis=1, keepdims=True), along.max(axis=1, keepdims=True)
     at = QUARTER_TURN * (np.floor(low / QUARTER_TURN) + np.arange(1, 1 + MAX_QUARTER_TURNS))

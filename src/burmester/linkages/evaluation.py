@@ -251,8 +251,7 @@ class Evaluation:
             weights=weights,
             fixed=active,
         )
-        span = np.linalg.norm(np.ptp(self.task.poses.translation, axis=0))
-        size = max(float(span), self.problem.length_per_radian)
+        size = self.problem.motion_size
         regions = uncertainties(spreads, batch[sound], places, unit, size)
         links = links_covariance(batch[sound], spreads) * unit**2
         out = list(found)

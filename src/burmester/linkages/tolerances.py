@@ -21,7 +21,12 @@ from typing import NamedTuple, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.fourbar.foot_points import constraint_normals, places_of, rows_of
+from burmester.fourbar.foot_points import (
+    ConstraintNormals,
+    constraint_normals,
+    places_of,
+    rows_of,
+)
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.built_linkages import (
@@ -35,8 +40,10 @@ from burmester.linkages.uncertainty import line_middle
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import concatenate, take
 
-__all__ = ["Spread", "sensitivity", "spread"]
+__all__ = ["Spread", "sensitivity", "sensitivity_bound", "spread"]
 
+EXACT_GAP = 1e-9  # lengths; poses that are missed by less are met
+NORMAL_NUDGE = 1e-7  # radians to either side of a normal; vectors nearer to parallel are as one
 TANGENT_STEP = 1e-5  # lengths along the coupler's curve, of the forces' difference quotients
 DIRECTIONS = 90  # number of directions on half a circle in which the greatest error is computed
 POSES_PER_BLOCK = 256  # number of poses computed at once; bounds the memory
@@ -223,21 +230,71 @@ def sensitivity(
     step = 2 * TANGENT_STEP * length
     turning = np.einsum("kna,kanc->knc", multipliers, (ahead.force - behind.force) / step)
     turning[..., 2] /= length
-    partial = (ahead.by_dimension - behind.by_dimension) / step
     curvature = 1 + (turning * tangent).sum(axis=-1)  # of the distance; positive at a minimum
-    # One dimension after the other: back to the moved manifold, then along to the nearest place.
-    moved = np.zeros((*places.shape, 3, 2, DIMENSIONS))
-    for side in (0, 1):
-        for j in range(DIMENSIONS):
-            values = np.zeros((*places.shape, 2))
-            values[..., side] = by_dimension[:, side, :, j]
-            back = -np.einsum("kna,knac->knc", at.solve(values), at.force)
-            along = (turning * back).sum(axis=-1) + multipliers[..., side] * partial[:, side, :, j]
-            moved[..., side, j] = back - (along / curvature)[..., None] * tangent
     errors = dimensions_by_errors(batch, line_middle(batch, places), length)
-    return np.asarray(np.einsum("kncsj,ksji->kncsi", moved[..., :2, :, :], errors)).reshape(
-        *places.shape, 2, 2 * DIMENSIONS
+    by_error = by_dimension @ errors
+    partial = (ahead.by_dimension - behind.by_dimension) / step @ errors
+    moved = np.empty((*places.shape, 2, 2, DIMENSIONS))
+    for side, way in enumerate(_ways_back(at)):
+        # Back to the moved manifold, then along to the nearest place.
+        along = multipliers[..., side, None] * partial[:, side]
+        along = along - (turning * way).sum(axis=-1)[..., None] * by_error[:, side]
+        along = along / curvature[..., None]
+        for c in (0, 1):
+            back = way[..., c, None] * by_error[:, side]
+            moved[..., c, side, :] = -back - along * tangent[..., c, None]
+    return moved.reshape(*places.shape, 2, 2 * DIMENSIONS)
+
+
+def sensitivity_bound(
+    batch: LinkageBatch, poses: Displacement, places: Displacement, length: float
+) -> FloatArray:
+    """The greatest position error (k, N) that errors of 1 cause at places nearest to poses (N,).
+
+    All coordinates of pivots and lengths are off by up to 1, in the worst way.  To first order: t
+    times this is what errors up to a small t do.  Arguments as in `sensitivity`.
+    """
+    gap = np.abs(rows_of(places, length) - rows_of(poses, length)).max(axis=(-2, -1))
+    out, met = np.empty(places.shape), gap <= EXACT_GAP
+    if met.any():
+        out[met] = _bound_where_met(batch[met], places[met], length)
+    if not met.all():
+        out[~met] = _greatest_sum(sensitivity(batch[~met], poses, places[~met], length))
+    return out
+
+
+def _bound_where_met(batch: LinkageBatch, places: Displacement, length: float) -> FloatArray:
+    """The same where poses are met: no gap bends the way, and all errors of a dyad push alike."""
+    miss, force, by_dimension = batch.jacobians(places)
+    errors = dimensions_by_errors(batch, line_middle(batch, places), length)
+    most = np.abs(by_dimension @ errors).sum(axis=-1)
+    one, two = (
+        way[..., :2] * most[:, side, :, None]
+        for side, way in enumerate(_ways_back(constraint_normals(miss, force, length)))
     )
+    both = (np.hypot(end[..., 0], end[..., 1]) for end in (one + two, one - two))
+    return np.asarray(np.maximum(*both))
+
+
+def _ways_back(at: ConstraintNormals) -> Iterator[FloatArray]:
+    """For either dyad the way (k, N, 3) to its manifold, off by 1, along that of the other."""
+    for unit in np.eye(2):
+        yield np.einsum("kna,knac->knc", at.solve(unit), at.force)
+
+
+def _greatest_sum(parts: FloatArray) -> FloatArray:
+    """The greatest length (*,) of a sum of vectors (*, 2, n), each with either sign.
+
+    The sums fill a polygon: the farthest one is a corner of it, and on either side of the normal
+    to each vector there is one.
+    """
+    most = np.zeros((*parts.shape[:-2], parts.shape[-1]))
+    for turn in (NORMAL_NUDGE, -NORMAL_NUDGE):
+        normal = np.stack([-parts[..., 1, :], parts[..., 0, :]], axis=-2) + turn * parts
+        sign = np.sign(np.einsum("...cj,...ci->...ji", normal, parts))
+        corner = np.einsum("...ji,...ci->...cj", sign, parts)
+        most = np.maximum(most, np.hypot(corner[..., 0, :], corner[..., 1, :]))
+    return np.asarray(most.max(axis=-1))
 
 
 def _blocks(count: int) -> Iterator[slice]:

@@ -11,6 +11,7 @@ from burmester.tasks.length_per_radian import default_length_per_radian
 from burmester.tasks.motion_class import MotionClass
 from burmester.tasks.motion_kinds import FewPoses, Undetermined
 from burmester.tasks.motion_task import CONDITIONS, Task, characteristic_length
+from burmester.tasks.notation import span
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.thin_regions import with_limits_to_search
 
@@ -46,6 +47,11 @@ class SynthesisProblem:
     def length_per_radian(self) -> float:
         """What a radian of angle error counts as, in the task's unit."""
         return self.options.length_per_radian or default_length_per_radian(self.given)
+
+    @property
+    def motion_size(self) -> float:
+        """The span of the poses' origins, or the length per radian where that is more."""
+        return max(span(self.given), self.length_per_radian)
 
     @property
     def is_special(self) -> bool:

@@ -1,0 +1,128 @@
+"""The box that holds all pivots of a linkage while it moves over a range.
+
+Fixed pivots stay.  A moving pivot runs along an arc or a line between the ends of its dyad's own
+input; the arc's extreme points are at whole quarter turns.  The driver's input runs from end to
+end of the range.  The other dyad's turns back where it would lock as a driver itself, and these
+places are known in closed form.  So the box is exact, and nothing is sampled, except where a
+linkage is at a change point: there the two dyads may divide the places differently into circuits.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from burmester.fourbar.circuits import Circuits, locate
+from burmester.fourbar.dyad import PR, RP, RR
+from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.pose_order import FULL_TURN, BoolArray
+from burmester.fourbar.traversal import quarters_inside
+from burmester.geometry.displacement import Displacement
+from burmester.numerics.arrays import FloatArray
+
+__all__ = ["extent", "pivot_box"]
+
+QUARTER_TURN: Final = np.pi / 2  # radians
+ROUNDING_STEP: Final = 1e-9  # radians; a step back round a circuit that is less is rounding
+SAMPLES: Final = 361  # number of places at which a linkage at a change point is looked at
+
+
+def extent(circuits: Circuits, parameters: FloatArray, inputs: FloatArray) -> FloatArray:
+    """The diagonal (k,) of `pivot_box`, a length."""
+    box = pivot_box(circuits, parameters, inputs)
+    return np.asarray(np.linalg.norm(box[:, 1] - box[:, 0], axis=-1))
+
+
+def pivot_box(circuits: Circuits, parameters: FloatArray, inputs: FloatArray) -> FloatArray:
+    """The least and the greatest coordinates (k, 2, 2), in F, of all pivots over a range.
+
+    circuits: (k,), of linkages that their first dyads drive, as given (see `Circuits.of`).
+    parameters, inputs: (k, 2), the ends of the range by the parameter of the circuit and by the
+        driver's input (`PoseRange.along` and `PoseRange.input_range`).
+
+    An RP has no moving pivot: the point of its line that is in use is its fixed pivot.
+    nan where there is no circuit.
+    """
+    first, second = circuits.loop.first, circuits.loop.second
+    assert isinstance(second, RR | PR | RP)
+    points = [dyad.fixed_pivot[:, None] for dyad in (first, second) if isinstance(dyad, RR | RP)]
+    if not isinstance(first, RP):
+        points.append(_path(first, inputs))
+    if not isinstance(second, RP):
+        other, whole = _other_inputs(circuits, parameters)
+        path = _path(second, other)
+        path[~np.asarray(whole)] = np.nan
+        points.append(path)
+        lost = np.flatnonzero(~whole & np.isfinite(parameters).all(axis=1))
+        if len(lost):
+            points.append(np.full((len(whole), SAMPLES, 2), np.nan))
+            some = circuits[lost]
+            at = np.linspace(parameters[lost, 0], parameters[lost, 1], SAMPLES, axis=-1)
+            points[-1][lost] = some.couplers(at).act(second.moving_pivot[lost, None])
+    every = np.concatenate(points, axis=1)
+    box = np.stack([end.reduce(every, axis=1) for end in (np.fmin, np.fmax)], axis=1)
+    known = np.isfinite(inputs).all(axis=1)
+    return np.where(known.reshape(-1, 1, 1), box, np.nan)
+
+
+def _path(dyad: RR | PR, inputs: FloatArray) -> FloatArray:
+    """Points (k, *, 2) of moving pivots: the ends of their paths, and where an arc is extreme."""
+    if isinstance(dyad, PR):
+        angle, offset = dyad.normal_angle[:, None], dyad.offset[:, None]
+        n1, n2 = np.cos(angle), np.sin(angle)
+        return np.stack([offset * n1 - inputs * n2, offset * n2 + inputs * n1], axis=-1)
+    low, high = inputs[:, :1], inputs[:, 1:]
+    at = QUARTER_TURN * (np.floor(low / QUARTER_TURN) + np.arange(1, 5))
+    angle = np.concatenate([inputs, np.where(at < high, at, low)], axis=1)
+    way = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    return np.asarray(dyad.fixed_pivot[:, None] + dyad.radius[:, None, None] * way)
+
+
+def _other_inputs(circuits: Circuits, parameters: FloatArray) -> tuple[FloatArray, BoolArray]:
+    """The least and the greatest input (k, 2) of the second dyads over a range, and which are sure.
+
+    As a driver, the second dyad has a parameter of its own along the same circuit.  The middle of
+    the range tells in which sense it runs.
+    """
+    loop = circuits.loop
+    own = Circuits.of(Linkage(loop.second, loop.first), as_given=True)
+    low, high = parameters[:, 0], parameters[:, 1]
+    with np.errstate(invalid="ignore", divide="ignore"):
+        places = circuits.couplers(np.stack([low, (low + high) / 2, high], axis=-1))
+        location = locate(own, places)
+        number, start = location.circuit, location.parameter
+        sure = (number >= 0).all(axis=1) & (number == number[:, :1]).all(axis=1)
+        sure &= np.isfinite(start).all(axis=1) & ~circuits.near_change_point
+        own = own[np.arange(len(sure)), np.maximum(number[:, 1], 0)]
+        along = np.where(own.closed[:, None], _unwrapped(start), start)[:, [0, 2]]
+        # Both ends in the order of this parameter.
+        order = np.argsort(along, axis=1)
+        ends = np.take_along_axis(along, order, axis=1)
+        outer = places[:, [0, 2]][np.arange(len(sure))[:, None], order]
+        at, inside = quarters_inside(ends, own)
+        between = own.couplers(at)
+        every = Displacement(
+            np.concatenate([outer.translation, between.translation], axis=1),
+            np.concatenate([outer.angle, between.angle], axis=1),
+        )
+        inputs = own.inputs(np.concatenate([ends, at], axis=1), every)
+    inputs[:, 2:][~inside] = np.nan
+    ends = np.stack([end.reduce(inputs, axis=1) for end in (np.fmin, np.fmax)], axis=-1)
+    return ends, np.asarray(sure & np.isfinite(ends).all(axis=1))
+
+
+def _unwrapped(start: FloatArray) -> FloatArray:
+    """Three angles (k, 3) in a row round a circle, changed by whole turns, in either sense.
+
+    In the sense that takes one turn at most.
+    """
+    step = np.diff(start, axis=1)
+    tried = []
+    for sense in (1.0, -1.0):
+        way = np.mod(sense * step, FULL_TURN)
+        tried.append(np.where(way > FULL_TURN - ROUNDING_STEP, way - FULL_TURN, way))
+    up, down = tried
+    use_up = up.sum(axis=1) <= down.sum(axis=1)
+    way = np.where(use_up[:, None], up, -down)
+    return np.concatenate([start[:, :1], start[:, :1] + np.cumsum(way, axis=1)], axis=1)

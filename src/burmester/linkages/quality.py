@@ -1,0 +1,125 @@
+"""The quality of a linkage: what a designer pays for, once it meets its poses.
+
+Three figures by which linkages are chosen: how well it transmits (greater is better), how much room
+it takes, and how much worse it gets as it is built (less is better).  Others for who needs them.
+
+The rule: recommended is the linkage with the greatest least transmission angle; of those within one
+degree of it, the smallest.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Self, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burmester.fourbar.circuits import Circuits
+from burmester.fourbar.defects import Driven
+from burmester.fourbar.instantaneous import mechanical_advantage
+from burmester.fourbar.linkage_batch import LinkageBatch
+from burmester.fourbar.pivot_box import extent
+from burmester.fourbar.reserve import reserve
+from burmester.geometry.displacement import Displacement
+from burmester.numerics.arrays import FloatArray
+
+__all__ = ["SAME_TRANSMISSION", "Quality", "best_first"]
+
+SAME_TRANSMISSION = math.radians(1.0)  # an angle lower by no more counts as good
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Quality:
+    """Figures of linkages (*,), each with its driver, between the first and the last pose.
+
+    Attributes
+    ----------
+    transmission : (*,) array of float
+        The least transmission angle over the range, in radians: for sliders, too, the complement
+        of the pressure angle.
+    extent : (*,) array of float
+        The diagonal of the box, parallel to the axes of F, that holds all pivots over the range,
+        in sizes of the motion (`tasks.problem.SynthesisProblem.motion_size`).
+    sensitivity : (*,) array of float
+        The greatest position error at a pose per unit of error, to first order: all coordinates of
+        pivots and all link lengths are off by up to that unit, in the worst way.  No unit.
+    driver_turn : (*,) array of float
+        How far the driver goes over the range, in radians, or a length where it slides.
+    advantage : (*, 2) array of float
+        The mechanical advantage at the first and at the last pose, as `mechanical_advantage` has
+        it: the force at the origin of the body per torque of the driver (1 / length), or per force
+        where the driver slides.
+    reserve : (*, 2) array of float
+        How far the driver goes on below and above the range of its input before it locks or comes
+        to a change point, in radians or a length; infinite where nothing stops it.
+
+    A figure that does not exist is nan: of a linkage whose motion is not determined.
+    """
+
+    transmission: FloatArray
+    extent: FloatArray
+    sensitivity: FloatArray
+    driver_turn: FloatArray
+    advantage: FloatArray
+    reserve: FloatArray
+
+    @classmethod
+    def of(
+        cls,
+        batch: LinkageBatch,
+        places: Displacement,
+        driven: Sequence[Driven],
+        sensitivity: FloatArray,
+        *,
+        size: float,
+    ) -> Self:
+        """The quality of linkages (k,) that their first dyads drive.
+
+        places: (k, N), the linkages' nearest to the poses; driven: their motions there.
+        sensitivity: (k,), the greatest of `tolerances.sensitivity_bound`; size: of the motion.
+        """
+        none = (np.full((len(batch), *shape), np.nan) for shape in ((), (2,), (2,)))
+        reach, advantage, room = none
+        inputs = np.array([each.input_range for each in driven]).reshape(-1, 2)
+        number = np.array([each.circuit for each in driven])
+        parameters = np.array(
+            [
+                [end.reduce(each.parameter, initial=np.nan) for end in (np.fmin, np.fmax)]
+                for each in driven
+            ]
+        ).reshape(-1, 2)
+        for index, linkage in batch.alike():
+            circuits = Circuits.of(linkage, as_given=True)
+            circuits = circuits[np.arange(len(index)), np.maximum(number[index], 0)]
+            reach[index] = extent(circuits, parameters[index], inputs[index]) / size
+            room[index] = reserve(circuits, inputs[index])
+            advantage[index] = mechanical_advantage(linkage, places[index][:, [0, -1]])
+        transmission = np.array([each.least_over_range for each in driven])
+        turn = np.ptp(inputs, axis=1)
+        return cls(transmission, reach, sensitivity, turn, advantage, room)
+
+
+def best_first(
+    transmission: FloatArray, extent: FloatArray, sensitivity: FloatArray | None = None
+) -> NDArray[np.intp]:
+    """The order (n,) of linkages by the rule, the recommended one first.
+
+    The rule is applied again to those that are left, so that each place has a linkage as the
+    recommended one of the rest.  Equal ones are ordered by their sensitivity, then as they come.
+    transmission: (n,), radians; extent: (n,), any unit.  nan is the worst of all.
+    """
+    transmission = np.nan_to_num(transmission, nan=-np.inf)
+    extent = np.nan_to_num(extent, nan=np.inf)
+    tie = np.zeros(len(extent)) if sensitivity is None else np.nan_to_num(sensitivity, nan=np.inf)
+    left = np.lexsort((tie, extent))  # the smallest first
+    order = []
+    while len(left):
+        near = transmission[left] >= transmission[left].max() - SAME_TRANSMISSION
+        at = int(near.argmax())
+        order.append(left[at])
+        left = np.delete(left, at)
+    return np.array(order, dtype=np.intp)

@@ -1,0 +1,57 @@
+"""The quality of linkages, against linkages that are driven and built amiss."""
+
+from itertools import product
+
+import numpy as np
+import pytest
+
+from burmester.fourbar.dyad import PR, RP, RR
+from burmester.linkages.quality import best_first
+from burmester.linkages.tolerances import sensitivity_bound, spread
+from tests.oracles.built_amiss import asked, built_amiss, driven, problem
+from tests.oracles.refits import dyads_of, numbers_of
+
+KINDS = pytest.mark.parametrize("second", [RR, PR, RP])
+H = 1e-4  # the error of a dimension in difference quotients
+CORNERS = np.array(list(product([1.0, -1.0], repeat=8 + 2)))
+
+
+@KINDS
+@pytest.mark.parametrize("off", [0.0, 0.03])
+def test_sensitivity_is_the_worst_of_all_corners_of_linkages_built_amiss(second, off):
+    dyads, rows, drive, found = problem(20, second, off)
+    rows, drive, found = rows[:3], drive[:3], found[:3]
+    told = sensitivity_bound(*asked(dyads, rows, found))[0]
+    columns, _ = built_amiss(dyads, found)
+    z, kinds = numbers_of(dyads), [RR, second]
+
+    def moved(amiss):
+        return driven(dyads_of(kinds, z + H * amiss), rows, drive)[:, :2]
+
+    slope = np.array([moved(column) - moved(-column) for column in columns]) / (2 * H)
+    corners = np.unique(CORNERS[:, : len(columns)], axis=0)
+    errors = np.linalg.norm(np.einsum("sj,jnc->snc", corners, slope), axis=-1)
+    assert np.allclose(told, errors.max(axis=0), rtol=1e-4)
+    # And built in that worst corner, it comes out as bad.
+    corner = corners[errors.max(axis=1).argmax()]
+    worst = np.linalg.norm(moved(corner @ columns) - found[:, :2], axis=-1).max() / H
+    assert np.isclose(worst, told.max(), rtol=0.05)
+
+
+@KINDS
+def test_sensitivity_is_the_bound_of_a_small_tolerance(second):
+    dyads, rows, _, found = problem(30, second, 0.0)
+    batch, poses, places, length = asked(dyads, rows, found)
+    tolerance = 1e-6
+    bound = spread(batch, poses, places, length, tolerance).bound[0]
+    told = sensitivity_bound(batch, poses, places, length).max()
+    assert np.isclose(bound / tolerance, told, rtol=1e-3)
+
+
+def test_the_rule_takes_the_best_angle_and_of_those_within_a_degree_the_smallest():
+    angle = np.radians([40.0, 60.0, 59.5, 58.9, 20.0, np.nan])
+    extent = np.array([1.0, 5.0, 3.0, 2.0, 1.0, 1.0])
+    assert best_first(angle, extent).tolist() == [2, 1, 3, 0, 4, 5]
+    # Of equals the one that is less spoilt by errors.
+    same = np.full(3, 1.0)
+    assert best_first(same, same, np.array([3.0, 1.0, 2.0])).tolist() == [1, 2, 0]
