@@ -169,13 +169,26 @@ def test_a_missing_file(tmp_path):
 
 
 def test_sound_input_without_a_linkage_is_exit_code_1(tmp_path):
+    file = tmp_path / "turn.csv"
+    file.write_text("x,y,angle_deg\n0,0,0\n0,0,20\n0,0,50\n0,0,90\n")
+    done = run("synthesize", file)
+    assert done.returncode == 1
+    assert "turn" in done.stdout
+    data = valid(run("synthesize", file, "--json").stdout)
+    assert data["outcome"]["code"] == "R315"
+
+
+def test_few_poses_get_the_best_of_infinitely_many(tmp_path):
     file = tmp_path / "four.csv"
     file.write_text("\n".join(TABLE_2.splitlines()[:5]))
     done = run("synthesize", file)
-    assert done.returncode == 1
+    assert done.returncode == 0
     assert "infinitely many" in done.stdout
+    assert "--min-transmission" in done.stdout
     data = valid(run("synthesize", file, "--json").stdout)
-    assert data["outcome"]["code"] == "R303"
+    assert data["outcome"]["code"] == "R308"
+    assert data["family"]["pairs"] > 10_000
+    assert all(each["usable"] for each in data["linkages"])
 
 
 def test_methods_by_number_of_poses(poses):

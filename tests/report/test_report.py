@@ -632,7 +632,10 @@ def test_paper_has_all_numbers(browser, file, synthesis):
 CIRCLE = np.linspace(0, 1.2, 7)
 OTHERS = {
     "R303": lambda: Task.from_rows(
-        [(0, 0, 0), (12, 5, 20), (20, 14, 45), (24, 25, 70)], angle_unit="deg", length_unit="mm"
+        [(0, 0, 0), (12, 5, 20), (20, 14, 45), (24, 25, 70)],
+        angle_unit="deg",
+        length_unit="mm",
+        limits=(Limits(fixed_pivot=Point(np.array([30.0, -9.0]))), Limits()),
     ),
     "R312": lambda: Task(
         Displacement(np.stack([10 * CIRCLE, 5 * CIRCLE], axis=-1), np.full(7, 0.3)),

@@ -12,7 +12,9 @@ from burmester import synthesize
 from burmester.errors import InputError
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.geometry.displacement import Displacement
+from burmester.geometry.regions import Point
 from burmester.io.reading.poses import read_task
+from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
 from tests.oracles.swept import TooFineError, circuits
 from tests.oracles.tracer import driven
@@ -323,15 +325,20 @@ def test_repeated_poses_count_once(count):
 
 
 @pytest.mark.parametrize("different", [1, 2, 3, 4])
-def test_too_few_different_poses_are_no_dyads(different):
+def test_poses_that_repeat_count_once(different):
     rows = np.random.default_rng(3).normal(size=(different, 3))
-    synthesis = synthesize(Task(Displacement.from_poses(np.vstack([rows] * 6))))
-    assert synthesis.outcome.code == {1: "R310", 2: "R311"}.get(different, "R303")
-    assert synthesis.dyads == ()
-    if different == 2:
-        assert "only 2 of the 12 poses are different" in synthesis.outcome.message
-    if different > 2:
-        assert f"{6 * different} poses, {different} of them different" in synthesis.outcome.message
+    task = Task(Displacement.from_poses(np.vstack([rows] * 6)))
+    synthesis = synthesize(task)
+    if different == 1:
+        assert (synthesis.outcome.code, synthesis.dyads) == ("R310", ())
+        return
+    told = f"only {different} of the {6 * different} poses are different"
+    assert told in " ".join(each.message for each in synthesis.warnings)
+    assert synthesis.outcome.code in {"R308", "R309"}
+    for each in synthesis.usable:
+        assert each.error.position.shape == (6 * different,)
+        for dyad in each.dyads:
+            assert np.abs(dyad.dyad.residual(task.poses)).max() < 1e-8
 
 
 def test_weights_of_repeated_poses_add_up():
@@ -348,8 +355,18 @@ def test_weights_of_repeated_poses_add_up():
 def test_three_and_four_poses_have_a_family(count):
     rng = np.random.default_rng(1)
     synthesis = synthesize(Task(Displacement.from_poses(rng.normal(size=(count, 3)))))
-    assert synthesis.outcome.code == "R303"
+    assert synthesis.outcome.code in {"R308", "R309"}
     assert "infinitely many" in synthesis.outcome.message
+
+
+def test_a_limit_that_no_dyad_meets_exactly_leaves_the_other_dyad_open():
+    rows = [(0, 0, 0), (12.5, 40, 20), (30, 77, 45), (95, 110, 95)]
+    limits = (Limits(fixed_pivot=Point(np.array([100.0, -20.0]))), Limits())
+    synthesis = synthesize(Task.from_rows(rows, angle_unit="deg", limits=limits))
+    assert synthesis.outcome.code == "R303"
+    assert "the other dyad: a one-parameter family" in synthesis.outcome.message
+    for found in synthesis.dyads:
+        assert np.allclose(found.dyad.fixed_pivot, [100, -20])
 
 
 @pytest.mark.slow

@@ -37,7 +37,7 @@ class Diagnosis:
     task : Task
         The task as given.
     motion : MotionClass or None
-        The class of its motion; None for one or two poses.
+        The class of its motion; None for one pose.
     findings : tuple of Advice
         What to look at, in the order of the checks; nothing is changed by them.
 
@@ -91,7 +91,7 @@ def diagnose(task: Task) -> Diagnosis:
     require_instance(
         task, Task, "task", 'give a Task, such as Task.from_rows(rows, angle_unit="deg")'
     )
-    motion = classify_motion(task) if task.poses.shape[0] > 2 else None
+    motion = classify_motion(task) if task.poses.shape[0] > 1 else None
     checks = [_far_away(task), _exchanged(task)]
     if motion is not None:
         checks.insert(0, _repeats(task, motion))

@@ -47,6 +47,7 @@ CLOSENESS = 1e-9  # of the task's size or of a number itself; rounding changes l
 ROUNDING = 1e-14  # of the farthest pivot; rounding of what is computed from it
 PLACE_ERROR = 1e-6  # of the task's size; places are found by iteration, to fewer digits
 ANGLE_CLOSENESS = 1e-5  # degrees; beside a dead point a transmission angle loses half its digits
+WORKING = ("R300", "R305", "R307", "R308")  # outcomes with a usable linkage
 AGAIN = "the file has been changed: make it anew with `burmester synthesize POSES -o result.json`"
 
 
@@ -178,11 +179,11 @@ def _task_parts(result: WrittenResult, task: Task) -> _Parts:
         yield from _line_parts(dyad, ("dyads", k), task.poses, slack)
     usable = any(each.usable for each in result.linkages)
     code, keys = result.outcome.code, ("outcome", "code")
-    if not result.linkages and code in ("R300", "R301", "R305", "R307"):
+    if not result.linkages and code in (*WORKING, "R301"):
         yield _Part(keys, code, "no linkage")
     elif result.linkages and code in ("R302", "R303", "R306"):
         yield _Part(keys, code, "linkages")
-    elif usable is not (code != "R301") and code in ("R300", "R301", "R305", "R307"):
+    elif usable is not (code in WORKING) and code in (*WORKING, "R301", "R309"):
         yield _Part(keys, code, "a usable linkage" if usable else "no usable linkage")
 
 

@@ -17,6 +17,7 @@ from burmester.dyads.local_minima import BestDyads
 from burmester.dyads.pencil import Pencil
 from burmester.dyads.selection import Fit
 from burmester.errors import Advice, BurmesterError
+from burmester.families.family import RULE, Family
 from burmester.geometry.regions import Line, Point, Polygon, Segment
 from burmester.io.linkage_data import dyad_data, linkage_data, number, poses_data
 from burmester.io.reading.stated_requirements import requirements_data
@@ -55,6 +56,7 @@ def synthesis_data(synthesis: Synthesis) -> dict[str, Any]:
         "singular_values": _singular_values(synthesis),
         **_critical_points(synthesis),
         "search": [_search(fit) for fit in synthesis.fits],
+        "family": None if synthesis.family is None else _family(synthesis.family),
         "certificate": None
         if synthesis.certificate is None
         else _certificate(synthesis.certificate),
@@ -155,6 +157,17 @@ def _search(fit: Fit) -> dict[str, Any]:
         return {"kind": "critical points", **found, **health, **ways}
     names = ("systems", "found", "lost", "unsettled")
     return {"kind": "faces", **{name: getattr(search, name) for name in names}}
+
+
+def _family(family: Family) -> dict[str, Any]:
+    """How linkages were chosen where the poses leave infinitely many."""
+    return {
+        "rule": RULE,
+        "assumed": [{"message": each.message, "option": each.option} for each in family.bounds],
+        "given_up": family.given_up,
+        "dyads": family.dyads,
+        "pairs": family.pairs,
+    }
 
 
 def _degrees_above(radius: float) -> float:

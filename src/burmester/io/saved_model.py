@@ -335,6 +335,19 @@ class _Search(_Part):
     kind: Literal["pencil", "five poses", "critical points", "faces"]
 
 
+class _Assumed(_Part):
+    message: _Text
+    option: _Text
+
+
+class _Family(_Part):
+    rule: _Text
+    assumed: Annotated[list[_Assumed], Field(max_length=MOST_ITEMS)]
+    given_up: bool
+    dyads: Annotated[int, Field(ge=0)]
+    pairs: Annotated[int, Field(ge=0)]
+
+
 class WrittenResult(_Part):
     """A result as it stands in the file."""
 
@@ -346,6 +359,7 @@ class WrittenResult(_Part):
     warnings: Annotated[list[_Warning], Field(max_length=MOST_ITEMS)]
     motion: _Motion | None = None
     search: Annotated[list[_Search], Field(max_length=2)] = []
+    family: _Family | None = None
     certificate: _Certificate | None = None
     characteristic_length: _Size | None = None
     length_per_radian: _Size | None = None

@@ -19,7 +19,7 @@ from burmester.synthesis.result import Synthesis
 __all__ = ["show_synthesis"]
 
 NARROW = 64  # columns; in a narrower terminal both sides of a dyad are in one column
-PLAIN = ("R300", "R305", "R307")  # outcomes that are told without their code
+PLAIN = ("R300", "R305", "R307", "R308")  # outcomes that are told without their code
 
 
 def show_synthesis(

@@ -47,6 +47,7 @@ QUOTIENTS = DifferenceQuotients(stride=1e-7)  # of limits, by the dimensions
 ACTIVE_LIMIT = 1e-9  # lengths; a limit nearer than this is active
 FIXED, MOVING = slice(0, 2), slice(2, 4)  # the pivots' coordinates in an RR dyad's dimensions
 DRIVEN_FROM_THE_OTHER_SIDE = {"crank-rocker": "rocker-crank", "rocker-crank": "crank-rocker"}
+SIDES: tuple[Side, Side] = ("first", "second")
 MAX_ROUNDED = 5  # round at most this many linkages
 
 
@@ -55,6 +56,7 @@ class Candidates(NamedTuple):
 
     from_search: (k,), which come from the search for defect-free linkages.
     own: the same linkages in the task's own frames, with all their digits.
+    drivers: (k,), the sides that drive, where that is settled; else the better one does.
     """
 
     batch: LinkageBatch
@@ -62,6 +64,7 @@ class Candidates(NamedTuple):
     pairs: list[Pair]
     from_search: NDArray[np.bool_]
     own: LinkageBatch | None = None
+    drivers: NDArray[np.intp] | None = None
 
 
 @final
@@ -84,6 +87,17 @@ class Evaluation:
 
     def evaluate(self, candidates: Candidates) -> list[FoundLinkage]:
         """The linkages with errors, verdicts, drivers and uncertainties, ranked."""
+        found, batch, rows = self._judged(candidates)
+        return ranked(self._with_uncertainty(found, batch, rows), self.problem)
+
+    def members(self, candidates: Candidates) -> list[FoundLinkage]:
+        """The same for linkages of a family, in their order: no pose determines their pivots."""
+        return self._judged(candidates)[0]
+
+    def _judged(
+        self, candidates: Candidates
+    ) -> tuple[list[FoundLinkage], LinkageBatch, FloatArray]:
+        """The linkages in their order, as found and as a batch (dyads alike), and their places."""
         candidates = take(candidates, np.flatnonzero(_sizable(candidates.batch)))
         own = (
             candidates.batch.from_canonical(self.target.frames)
@@ -99,7 +113,8 @@ class Evaluation:
         out = []
         for k, verdict in enumerate(verdicts):
             linkage = own.linkage(k)
-            driver, missing, usable = self.driver(linkage, verdict)
+            settled = None if candidates.drivers is None else SIDES[candidates.drivers[k]]
+            driver, missing, usable = self.driver(linkage, verdict, settled)
             parts = linkage, verdict, driver, candidates.pairs[k]
             if driver == "second" and len(self.task.limits) < 2:
                 sides[k] = (1, 0)
@@ -124,7 +139,7 @@ class Evaluation:
         batch = LinkageBatch(
             candidates.batch.kinds[rows, sides], candidates.batch.dimensions[rows, sides]
         )
-        return ranked(self._with_uncertainty(out, batch, candidates.rows), self.problem)
+        return out, batch, candidates.rows
 
     def rounded(self, found: list[FoundLinkage]) -> list[FoundLinkage]:
         """The first MAX_ROUNDED linkages with rounded dimensions, evaluated and ranked again."""
@@ -206,11 +221,11 @@ class Evaluation:
         return [verdict for verdict in out if verdict is not None]
 
     def driver(
-        self, linkage: Linkage, verdict: Verdict
+        self, linkage: Linkage, verdict: Verdict, settled: Side | None = None
     ) -> tuple[Side, tuple[Violation, ...], bool]:
         """The preferred driver, the violated requirements, and whether the linkage is usable."""
         asked = self.task.requirements
-        sides: tuple[Side, ...] = ("first", "second")
+        sides: tuple[Side, ...] = SIDES if settled is None else (settled,)
         if asked.driver in sides:
             sides = (asked.driver,)
 

@@ -3,8 +3,8 @@
 Three figures by which linkages are chosen: how well it transmits (greater is better), how much room
 it takes, and how much worse it gets as it is built (less is better).  Others for who needs them.
 
-The rule: recommended is the linkage with the greatest least transmission angle; of those within one
-degree of it, the smallest.
+The rule: recommended is the linkage with the greatest least transmission angle; of those within
+half a degree of it, the smallest.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from burmester.numerics.arrays import FloatArray
 
 __all__ = ["SAME_TRANSMISSION", "Quality", "best_first"]
 
-SAME_TRANSMISSION = math.radians(1.0)  # an angle lower by no more counts as good
+SAME_TRANSMISSION = math.radians(0.5)  # an angle lower by no more counts as good
 
 
 @final

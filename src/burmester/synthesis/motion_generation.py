@@ -16,12 +16,16 @@ from burmester.dyads.five_poses import FivePoseDyads
 from burmester.dyads.local_minima import BestDyads, best_dyads
 from burmester.dyads.selection import FoundDyad, found_dyads
 from burmester.errors import Advice, InputError
+from burmester.families.family import best_of_family
 from burmester.fourbar.dyad import Dyad
+from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.pose_error import PoseError
+from burmester.linkages.evaluation import Candidates, Evaluation
 from burmester.linkages.found_linkage import FoundLinkage, Pair
-from burmester.linkages.from_dyads import linkages_from_dyads
+from burmester.linkages.from_dyads import linkages_from_dyads, target_of
 from burmester.progress import step
 from burmester.synthesis.dyad_search import DyadSearch, search_dyads
+from burmester.synthesis.family_outcome import family_summary
 from burmester.synthesis.method import with_method
 from burmester.synthesis.outcome import dyad_advice, family, linkage_advice, summary
 from burmester.synthesis.result import Outcome, Synthesis
@@ -59,7 +63,7 @@ def synthesize(
     if problem.is_special:
         return _special_motion(problem, known)
     if max(problem.missing_conditions) > 0 and options.method in ("auto", "exact"):
-        return _dyad_family(problem, known)
+        return _of_family(problem, known)
     problem = with_method(problem)
     step("looking for dyads")
     search = search_dyads(problem)
@@ -92,8 +96,48 @@ def _require_few(task: Task) -> None:
         )
 
 
+def _of_family(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthesis:
+    """Too few conditions leave infinitely many linkages: the best of them."""
+    task, target = problem.task, target_of(problem)
+    found = None if min(problem.missing_conditions) < 0 else best_of_family(problem, target)
+    if found is None:
+        return _dyad_family(problem, findings)
+    evaluation = Evaluation(problem, target)
+    own, searched = found.batch.from_canonical(target.frames), np.ones(len(found.batch), dtype=bool)
+    pairs = [_numbered(own.linkage(k), 2 * k + 1, task) for k in range(len(own))]
+    members = evaluation.members(
+        Candidates(found.batch, found.rows, pairs, searched, own, found.drivers)
+    )
+    if problem.options.rounds:
+        members = evaluation.rounded(members)
+    members = [
+        replace(each, id=f"L{rank}", rank=rank)
+        for rank, each in enumerate(evaluation.with_spreads(members), start=1)
+    ]
+    linkages = _at_all_poses(problem, members)
+    dyads = tuple(dyad for each in linkages for dyad in each.dyads)
+    outcome, advice = family_summary(problem, found, linkages)
+    warnings = (*findings, *advice, *linkage_advice(problem.given, linkages, outcome.code))
+    return Synthesis(problem, outcome, dyads, linkages, warnings, family=found)
+
+
+def _numbered(linkage: Linkage, number: int, task: Task) -> Pair:
+    """The dyads of a linkage, numbered from `number`."""
+    first, second = (
+        FoundDyad(f"D{number + k}", dyad, *_miss(dyad, task))
+        for k, dyad in enumerate((linkage.first, linkage.second))
+    )
+    return first, second
+
+
+def _miss(dyad: Dyad, task: Task) -> tuple[float, float]:
+    """The root mean square and the greatest distance of a dyad from the poses of a task."""
+    residual = np.abs(dyad.residual(task.poses))
+    return float(np.sqrt((residual**2).mean())), float(residual.max())
+
+
 def _dyad_family(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthesis:
-    """Too few conditions: infinitely many dyads, if not of both limits then of one."""
+    """Infinitely many dyads, and no pair of them that meets the poses: those of one limit."""
     task, missing, dyads = problem.task, problem.missing_conditions, []
     for number, (each, left) in enumerate(zip(task.limits, missing, strict=False), start=1):
         if left <= 0:
@@ -111,9 +155,7 @@ def _special_motion(problem: SynthesisProblem, findings: Sequence[Advice]) -> Sy
     kind, task = problem.motion.kind, problem.given
     dyads = []
     for number, dyad in enumerate(kind.dyads, start=1):
-        residual = np.abs(dyad.residual(task.poses))
-        rms = float(np.sqrt((residual**2).mean()))
-        dyads.append(FoundDyad(f"D{number}", dyad, rms, float(residual.max())))
+        dyads.append(FoundDyad(f"D{number}", dyad, *_miss(dyad, task)))
     pairs = list(combinations(dyads, 2))
     linkages = _linkages(problem.merged(), pairs, refine=False) if pairs else ()
     outcome = Outcome(kind.code, kind.message, kind.help)
@@ -127,9 +169,15 @@ def _linkages(
     problem: SynthesisProblem, pairs: Sequence[Pair], *, refine: bool = True
 ) -> tuple[FoundLinkage, ...]:
     """The linkages of pairs of dyads, with their errors at all poses, repeated ones too."""
-    found = linkages_from_dyads(problem, pairs, refine=refine)
+    return _at_all_poses(problem, linkages_from_dyads(problem, pairs, refine=refine))
+
+
+def _at_all_poses(
+    problem: SynthesisProblem, found: Sequence[FoundLinkage]
+) -> tuple[FoundLinkage, ...]:
+    """The linkages with their errors at all poses, repeated ones too."""
     if problem.motion is None or problem.task.poses.shape == problem.given.poses.shape:
-        return found
+        return tuple(found)
     group, poses = problem.motion.group, problem.given.poses
     return tuple(
         replace(each, error=PoseError.at(each.error.places[group], poses)) for each in found

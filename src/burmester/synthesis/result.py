@@ -8,6 +8,7 @@ from typing import final
 from burmester.certificates.certificate import Certificate
 from burmester.dyads.selection import Fit, FoundDyad
 from burmester.errors import Advice
+from burmester.families.family import Family
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.tasks.motion_class import MotionClass
 from burmester.tasks.motion_task import Task
@@ -24,8 +25,9 @@ class Outcome:
 
     R300 usable linkages; R301 linkages, none of them usable; R302 too few dyads for a linkage;
     R303 infinitely many linkages; R305 usable linkages, but no pivots determined; R306 no dyad
-    within the limits; R307 approximate linkages, as two real dyads do not exist; R310 and above:
-    a special motion, see `motion_kinds` and `special_motions`.  why: with numbers.
+    within the limits; R307 approximate linkages, as two real dyads do not exist; R308 the best of
+    infinitely many linkages; R309 none of them works; R310 and above: a special motion, see
+    `motion_kinds` and `special_motions`.  why: with numbers.
     """
 
     code: str
@@ -45,6 +47,7 @@ class Synthesis:
         one is not usable, or none near it is sound, with linkages that a search has found.
     fits: what the method learnt (singular values, all roots); two where the task has two limits.
     certificate: what of it is proved, if the options ask for a certificate.
+    family: how linkages were chosen where the poses leave infinitely many.
     """
 
     problem: SynthesisProblem
@@ -54,6 +57,7 @@ class Synthesis:
     warnings: tuple[Advice, ...] = ()
     fits: tuple[Fit, ...] = ()
     certificate: Certificate | None = None
+    family: Family | None = None
 
     @property
     def task(self) -> Task:
@@ -62,7 +66,7 @@ class Synthesis:
 
     @property
     def motion(self) -> MotionClass | None:
-        """What the poses are, known before any fit; None for one or two of them."""
+        """What the poses are, known before any fit; None for one of them."""
         return self.problem.motion
 
     @property

@@ -217,7 +217,8 @@ def _kind(
     if len(representatives) == 1:
         kind = Rest(count)
     elif len(representatives) == 2:
-        kind = FewPoses(count, representatives, len(representatives) == distinct)
+        if distinct > 2:
+            kind = FewPoses(count, representatives, repeats=False)
     elif motion.constant_angle:
         kind = _translation(motion, unit)
     elif (rotation := _rotation(motion, unit)) is not None:

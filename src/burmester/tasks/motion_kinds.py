@@ -65,7 +65,7 @@ class Rest(MotionKindBase):
 
     @property
     def help(self) -> str:
-        return "give at least 3 different poses, or fix the body to the ground"
+        return "give 2 different poses or more, or fix the body to the ground"
 
 
 @final
@@ -183,7 +183,8 @@ class General(MotionKindBase):
             2: "a general motion: two dyads at most, one four-bar, meet all poses exactly",
             3: "a general motion: at most four dyads meet all poses exactly",
             4: "four poses: a one-parameter family of dyads meets them",
-        }.get(self.nullity, "three poses: a two-parameter family of dyads meets them")
+            5: "three poses: a two-parameter family of dyads meets them",
+        }.get(self.nullity, "two poses: a three-parameter family of dyads meets them")
 
     @property
     def help(self) -> str:

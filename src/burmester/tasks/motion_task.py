@@ -44,7 +44,7 @@ MOST_TURN = 1e9  # radians; of an angle beyond it few digits say where the body 
 MOST_RATIO = 1e12  # of two weights; beyond it the lighter pose is lost in rounding
 MOST_NAME = 500  # characters of the name of a pose, which messages repeat
 MOST_UNIT = 100  # characters of a unit
-LEAST_POSES = 3  # two poses are met by every moving pivot with a whole line of fixed pivots
+LEAST_POSES = 2  # one pose is met by every linkage
 
 
 @final
@@ -55,7 +55,7 @@ class Task:
     Attributes
     ----------
     poses : Displacement
-        Shape (N,), N >= 3.  Fewer are enough where a limit puts a pivot at a point or on a line.
+        Shape (N,), N >= 2.  One is enough where a limit puts a pivot at a point or on a line.
     weights : (N,) array, optional
         Above zero; None for equal ones.  A pose of weight 2 counts as if it were given twice.
     names : tuple of str, optional
@@ -131,8 +131,9 @@ class Task:
             raise InputError(
                 "E120",
                 f"{count} pose{'' if count == 1 else 's'}: too few for a linkage",
-                why="two poses or fewer leave the choice of every pivot open",
-                help="give at least 3 poses; 5 are met exactly, 6 or more as closely as possible",
+                why="a body that stays where it is needs no linkage",
+                help="give 2 poses or more; up to 5 are met exactly, 6 or more as closely as "
+                "possible",
             )
         self.poses.require_finite()
         _require_computable(self.poses)

@@ -26,7 +26,7 @@ class SynthesisProblem:
     given: the task as its user gave it.
     task: the same, but every repeated pose once where dyads are looked for; weights add up.  A
         region thinner than rounding is its segment or point.
-    motion: the class of its motion; None for one or two poses.
+    motion: the class of its motion; None for one pose.
     length: its characteristic length, in its unit.
     """
 
@@ -63,9 +63,7 @@ class SynthesisProblem:
             return False
         kind = self.motion.kind
         settled = any(each.conditions for each in self.given.limits)
-        few = isinstance(kind, FewPoses) and (
-            settled or (kind.repeats and self.motion.distinct > 2)
-        )
+        few = isinstance(kind, FewPoses) and (settled or kind.repeats)
         small = isinstance(kind, Undetermined) and settled
         return not (few or small)
 

@@ -1,0 +1,202 @@
+"""Linkages assessed in one batch: whether they work, and the three figures of their quality."""
+
+from __future__ import annotations
+
+from typing import Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burmester.families.open_task import Conditions, OpenTask, Trials
+from burmester.fourbar.circuits import Circuits
+from burmester.fourbar.dyad import PR, RP, RR
+from burmester.fourbar.linkage import GRASHOF_SUMS, Linkage
+from burmester.fourbar.linkage_batch import LinkageBatch
+from burmester.fourbar.pivot_box import extent
+from burmester.fourbar.pose_order import REPEATED_POSE_STEP, OrderTolerance
+from burmester.fourbar.traversal import (
+    DrivenView,
+    PoseRange,
+    Traversal,
+    first_where,
+    other_way_round,
+    pose_range,
+    traversal_of,
+)
+from burmester.geometry.displacement import Displacement
+from burmester.geometry.regions import Polygon
+from burmester.linkages.tolerances import sensitivity_bound
+from burmester.numerics.arrays import FloatArray
+from burmester.numerics.bundles import take
+
+__all__ = ["AIMS", "Assessment", "assessed", "costs"]
+
+FRAMES: Final = 17  # number of places along the range at which pivots are held against a footprint
+NONE: Final = 10.0  # violation of a linkage that has no motion at all
+BAD: Final = 1e6  # what a violation of 1 counts as, beside any aim
+LOST: Final = 1.0  # violation of a linkage that leaves its branch, beside how far it does
+CHANGE_POINT: Final = 1e-3  # of all links together; least Grashof excess of a sane linkage
+
+
+class Assessment(NamedTuple):
+    """What linkages (k,) are worth.
+
+    violation: (k,), 0 where a linkage meets all conditions, else how far it is from that.
+    transmission: (k,), the least transmission angle over the range, radians; below zero off the
+        branch.
+    extent, sensitivity: (k,), as in `linkages.quality`.
+    """
+
+    violation: FloatArray
+    transmission: FloatArray
+    extent: FloatArray
+    sensitivity: FloatArray
+
+    @property
+    def good(self) -> NDArray[np.bool_]:
+        """Which linkages meet all conditions."""
+        return np.asarray(self.violation == 0)
+
+
+def assessed(trials: Trials, task: OpenTask) -> Assessment:
+    """The assessment of linkages (k,) that pass through the places at their offsets."""
+    count = len(trials)
+    out = Assessment(np.zeros(count), *(np.full(count, np.nan) for _ in range(3)))
+    every = np.arange(count)[:, None]
+    order = np.stack([trials.driver, 1 - trials.driver], axis=1)
+    batch = trials.batch
+    led = LinkageBatch(batch.kinds[every, order], batch.dimensions[every, order])
+    places = task.places(trials.offsets)
+    for index, linkage in led.alike():
+        part = _of_alike(linkage, places[index], task.conditions)
+        for whole, values in zip(out, part, strict=True):
+            whole[index] = values
+    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+        bound = sensitivity_bound(led, places, places, task.length)
+        out.sensitivity[:] = bound.max(axis=1)
+    return out
+
+
+def _of_alike(linkage: Linkage, places: Displacement, conditions: Conditions) -> Assessment:
+    """Linkages (k,) of one pair of kinds, driven by their first dyads, at places (k, N)."""
+    with np.errstate(invalid="ignore", divide="ignore"):
+        view = DrivenView.of(linkage, places)
+        every = np.ones(places.shape, dtype=bool)
+        tolerance = OrderTolerance(np.zeros(len(every)), 0.0)
+        traversal = traversal_of(linkage, view, every, tolerance, conditions.any_order)
+        ranged = pose_range(traversal, view)
+        traversal, ranged = other_way_round(traversal, ranged, view, conditions.any_order)
+        violation, transmission = _along_poses(traversal, ranged, view, conditions)
+        ends = _ends(traversal.order.along)
+        size = extent(traversal.circuits, ends, ranged.input_range) / conditions.span
+        violation = violation + _of_proportions(linkage, places, conditions)
+        if conditions.footprint is not None:
+            frames = _frames(traversal.circuits, ends)
+            violation = violation + _outside(linkage, frames, conditions.footprint)
+        if conditions.crank:
+            turns = traversal.circuits.closed & (traversal.circuits.branches == 1)
+            violation = violation + LOST * ~turns
+        return Assessment(np.nan_to_num(violation, nan=NONE), transmission, size, size)
+
+
+def _along_poses(
+    traversal: Traversal, ranged: PoseRange, view: DrivenView, conditions: Conditions
+) -> tuple[FloatArray, FloatArray]:
+    """Violations (k,) of branch, order and transmission, and the least transmission angles (k,)."""
+    on, clear = traversal.on_circuit, traversal.clear
+    own = np.take_along_axis(traversal.branch_key, first_where(clear, on)[:, None], axis=1)
+    elsewhere = np.where(clear & (traversal.branch_key != own), view.transmission, 0.0)
+    least = np.where(
+        traversal.crosses_branches, -elsewhere.max(axis=1), np.nan_to_num(ranged.least_transmission)
+    )
+    violation = np.where(on.all(axis=1), 0.0, NONE)
+    short = np.maximum(conditions.transmission - least, 0.0)
+    violation += np.where(traversal.crosses_branches, LOST, 0.0) + np.where(short > 0, short, 0.0)
+    back = np.where(traversal.order.back > REPEATED_POSE_STEP, traversal.order.back, 0.0)
+    return violation + np.minimum(back, NONE), least
+
+
+def _ends(along: FloatArray) -> FloatArray:
+    """The ends (k, 2) of the range of parameters (k, N)."""
+    return np.stack([np.fmin.reduce(along, axis=1), np.fmax.reduce(along, axis=1)], axis=-1)
+
+
+def _frames(circuits: Circuits, ends: FloatArray) -> Displacement:
+    """Places (k, FRAMES) of the coupler along a range of parameters (k, 2)."""
+    share = np.linspace(0.0, 1.0, FRAMES)
+    return circuits.couplers(ends[:, :1] + (ends[:, 1:] - ends[:, :1]) * share)
+
+
+def _pivots(linkage: Linkage, frames: Displacement) -> list[FloatArray]:
+    """All pivots (k, *, 2) over places (k, FRAMES)."""
+    dyads = linkage.first, linkage.second
+    fixed = [dyad.fixed_pivot[:, None] for dyad in dyads if isinstance(dyad, RR | RP)]
+    moving = [dyad.moving_pivot[:, None] for dyad in dyads if isinstance(dyad, RR | PR)]
+    return fixed + [frames.act(each) for each in moving]
+
+
+def _outside(linkage: Linkage, frames: Displacement, footprint: Polygon) -> FloatArray:
+    """How far pivots (k,) leave the footprint."""
+    points = np.concatenate(_pivots(linkage, frames), axis=1)
+    return np.asarray(footprint.distance(points).max(axis=1))
+
+
+def _of_proportions(linkage: Linkage, places: Displacement, conditions: Conditions) -> FloatArray:
+    """Violations (k,) of the bounds on links and of the types, as logarithms of ratios."""
+    one, other = linkage.first, linkage.second
+    links = [dyad.radius for dyad in (one, other) if isinstance(dyad, RR)]
+    if isinstance(one, RR | RP) and isinstance(other, RR | RP):
+        links.append(np.linalg.norm(one.fixed_pivot - other.fixed_pivot, axis=-1))
+    if isinstance(one, RR | PR) and isinstance(other, RR | PR):
+        links.append(np.linalg.norm(one.moving_pivot - other.moving_pivot, axis=-1))
+    out = np.zeros(places.shape[0])
+    if links:
+        every = np.stack(links)
+        least, most = every.min(axis=0), every.max(axis=0)
+        out += np.log(np.maximum(conditions.shortest / np.maximum(least, 1e-300), 1.0))
+        out += np.log(np.maximum(most / conditions.longest, 1.0))
+    if len(links) == len(GRASHOF_SUMS[0]):
+        out += np.log(np.maximum(most / np.maximum(least, 1e-300) / conditions.ratio, 1.0))
+        four = np.stack(
+            [links[2], links[0], links[3], links[1]]
+        )  # ground, driver, coupler, follower
+        sums = np.asarray(GRASHOF_SUMS) @ four
+        if not conditions.change_point:
+            least_sum = CHANGE_POINT * four.sum(axis=0)
+            out += np.maximum(least_sum - np.abs(sums).min(axis=0), 0.0) / least_sum
+        code = ((sums > 0) * np.array([[1], [2], [4]])).sum(axis=0)
+        out += LOST * ~conditions.types[code]
+    if frozenset({type(one), type(other)}) not in conditions.kinds:
+        out += LOST
+    return out
+
+
+def _by_transmission(value: Assessment) -> FloatArray:
+    smaller = 0.002 * np.minimum(value.extent, 10.0)  # of two that transmit alike
+    return np.asarray(smaller - value.transmission)
+
+
+def _by_extent(value: Assessment) -> FloatArray:
+    return np.asarray(np.log(value.extent))
+
+
+def _by_sensitivity(value: Assessment) -> FloatArray:
+    return np.asarray(np.log(value.sensitivity))
+
+
+def _by_all(value: Assessment) -> FloatArray:
+    sine = np.sin(np.maximum(value.transmission, 1e-3))
+    return np.asarray(np.log(value.extent * value.sensitivity / sine**2))
+
+
+AIMS: Final = (_by_transmission, _by_extent, _by_sensitivity, _by_all)
+
+
+def costs(value: Assessment, aims: NDArray[np.intp]) -> FloatArray:
+    """What is made least (k,): the violation, or where there is none one of the AIMS (k,)."""
+    out = np.zeros(len(aims))
+    for number, aim in enumerate(AIMS):
+        own = aims == number
+        out[own] = aim(take(value, own))
+    with np.errstate(invalid="ignore"):
+        return np.where(value.good, out, BAD * (1 + value.violation))

@@ -1,0 +1,131 @@
+"""What is assumed of a linkage where a task with few poses says nothing.
+
+Few poses leave infinitely many linkages, most of them useless: as long as a street, or locked.  So
+what the task leaves open is bounded by conventions of practice, and every bound that was used is
+told, with the option that changes it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Final, Self, final
+
+import numpy as np
+
+from burmester.geometry.regions import Polygon
+from burmester.linkages.standard import (
+    LEAST_TRANSMISSION,
+    LONGEST_LINK,
+    MOST_LINK_RATIO,
+    SHORTEST_LINK,
+)
+from burmester.numerics.arrays import FloatArray
+from burmester.tasks.limits import Limits
+from burmester.tasks.notation import length_of
+from burmester.tasks.problem import SynthesisProblem
+from burmester.wording import figure
+
+__all__ = ["Assumptions", "Bound"]
+
+REACH: Final = 1.0  # motion sizes; how far pivots may lie from the body's places where none says
+WIDE: Final = 3.0  # the same, where nothing works within that
+LEAST_USEFUL: Final = 5.0  # degrees of transmission, where nothing transmits as it should
+LINK_RATIO: Final = 5.0  # longest over shortest of four links, where the task states none
+OUTLINE_SHARE: Final = 0.1  # of an outline's diagonal; how far beside the body its pivots may lie
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Bound:
+    """Something that is assumed, in words, and the option that changes it."""
+
+    message: str
+    option: str
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Assumptions:
+    """Bounds for what the task leaves open.
+
+    fixed, moving: where pivots lie that no limit holds, in F and in M.
+    size: of the motion, a length; transmission: radians; ratio: of links.
+    bounds: what of it the task did not say itself.
+    """
+
+    fixed: Polygon
+    moving: Polygon
+    size: float
+    transmission: float
+    ratio: float
+    bounds: tuple[Bound, ...]
+
+    @classmethod
+    def attempts(cls, problem: SynthesisProblem) -> Iterator[tuple[Self, bool]]:
+        """What is assumed first, and next if nothing works; and whether something is given up."""
+        yield cls.of(problem), False
+        limits = problem.task.limits or (Limits(),)
+        open_ = any(None in (each.fixed_pivot, each.moving_pivot) for each in limits)
+        asked = problem.given.requirements
+        if open_:
+            yield cls.of(problem, WIDE), False
+        if not asked.transmission or not math.isfinite(asked.link_ratio):
+            yield cls.of(problem, WIDE if open_ else REACH, strict=False), True
+
+    @classmethod
+    def of(cls, problem: SynthesisProblem, reach: float = REACH, *, strict: bool = True) -> Self:
+        """What is assumed of a problem.
+
+        reach: motion sizes, how far pivots may lie away; strict: whether linkages that one would
+        rather not build are left out.
+        """
+        task, asked = problem.given, problem.given.requirements
+        size = problem.motion_size
+        bounds = []
+        if task.body is None:
+            body = np.zeros((1, 2))
+            moving, near = reach * size, "the origin of M"
+        else:
+            body = task.body.vertices
+            moving = OUTLINE_SHARE * reach / REACH * float(np.linalg.norm(np.ptp(body, axis=0)))
+            near = "the body's outline"
+        around = task.poses[:, None].act(body).reshape(-1, 2)
+        limits = task.limits or (Limits(),)
+        if any(each.fixed_pivot is None for each in limits):
+            beside = (
+                f"fixed pivots at most {length_of(reach * size, task)} beside the body's places"
+            )
+            bounds.append(Bound(beside, "--fixed-pivot"))
+        if any(each.moving_pivot is None for each in limits):
+            away = f"moving pivots at most {length_of(moving, task)} from {near}"
+            bounds.append(Bound(away, "--moving-pivot"))
+        transmission, ratio = asked.transmission, asked.link_ratio
+        if not transmission:
+            least = LEAST_TRANSMISSION if strict else LEAST_USEFUL
+            transmission = math.radians(least)
+            words = f"a transmission angle of {least:g}° or more"
+            bounds.append(Bound(words, "--min-transmission"))
+        if not math.isfinite(ratio):
+            ratio = LINK_RATIO if strict else MOST_LINK_RATIO
+            words = f"a longest link of at most {figure(ratio)} times the shortest"
+            bounds.append(Bound(words, "--link-ratio"))
+        fixed, own = _box(around, reach * size), _box(body, moving)
+        return cls(fixed, own, size, transmission, ratio, tuple(bounds))
+
+    @property
+    def shortest(self) -> float:
+        """The shortest link, a length."""
+        return SHORTEST_LINK * self.size
+
+    @property
+    def longest(self) -> float:
+        """The longest link, a length."""
+        return LONGEST_LINK * self.size
+
+
+def _box(points: FloatArray, margin: float) -> Polygon:
+    """The box around points (k, 2), wider by a margin on each side."""
+    (left, low), (right, high) = points.min(axis=0) - margin, points.max(axis=0) + margin
+    return Polygon(np.array([(left, low), (right, low), (right, high), (left, high)]))

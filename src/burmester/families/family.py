@@ -1,0 +1,331 @@
+"""The best linkages of a family: of all that meet few poses, or poses within tolerances.
+
+Dyads are drawn from the family, all their pairs are looked at, and the best of those that work are
+improved for each of several aims.  Kept are linkages of which none is worse in all three figures
+of quality, far from each other.  A search: that none better exists is not proved.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Final, NamedTuple, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burmester.families.assessment import AIMS, Assessment, assessed, costs
+from burmester.families.assumptions import Assumptions, Bound
+from burmester.families.dyad_samples import drawn_dyads
+from burmester.families.evolution import improved
+from burmester.families.front import far_apart, front
+from burmester.families.open_task import Conditions, DyadFreedom, OpenTask, Trials
+from burmester.families.pairing import promising_pairs
+from burmester.families.pivot_freedom import PivotFreedom
+from burmester.fourbar.dyad import RP, RR
+from burmester.fourbar.linkage import TYPE_OF_SIGNS
+from burmester.fourbar.linkage_batch import DYAD_KINDS, LinkageBatch
+from burmester.geometry.regions import Polygon
+from burmester.linkages.quality import best_first
+from burmester.linkages.target import Target
+from burmester.numerics.arrays import FloatArray
+from burmester.numerics.bundles import concatenate, take
+from burmester.tasks.limits import Limits
+from burmester.tasks.motion_task import Task
+from burmester.tasks.problem import SynthesisProblem
+from burmester.tasks.requirements import TYPES
+
+__all__ = ["RULE", "Family", "best_of_family"]
+
+RULE: Final = (
+    "Recommended is a linkage with pins before one with a slider, then the one with the greatest "
+    "least transmission angle, then, within half a degree of it, the smallest"
+)
+
+# How many dyads are drawn of each kind: RR, PR, RP; with pins alone, and with sliders.
+PINS: Final = {0: 450}
+SLIDERS: Final = {0: 200, 1: 80, 2: 80}
+JUDGED: Final = 1500  # number of pairs of each two kinds that are judged
+POPULATIONS: Final = (8, 3, 3, 4)  # number of starts for each of the AIMS
+GENERATIONS: Final = 25  # of the evolution from them
+APART: Final = 0.15  # motion sizes; starts are farther from each other
+SHOWN: Final = 12  # number of linkages that are kept at most
+SHOWN_SLIDERS: Final = 4  # of these with sliders, where pins alone work
+SHOWN_FAILING: Final = 3  # number of linkages that are told where none works
+SLIDER_GENERATIONS: Final = 12  # of the evolution of linkages with sliders
+MIN_DRAWN: Final = 24  # number of dyads of a kind that are drawn at least
+MOST_STARTS: Final = 300  # number of linkages among which starts are looked for
+PINNED: Final = frozenset({RR})  # the kinds of a linkage with pins alone
+SHOWN_APART: Final = 0.3  # motion sizes; least distance of those
+MOST_ON_FRONT: Final = 2000  # number of linkages that are compared with each other
+VARIANTS: Final = 12  # number of draws of poses within their tolerances
+FREE_ANGLE: Final = math.pi / 6  # radians; how far from its nominal value a free angle is sought
+FREE_LENGTH: Final = 0.5  # motion sizes; the same for a free coordinate
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Family:
+    """The best linkages of a family, the recommended one first, and how they were found.
+
+    batch: linkages (k,) in the frames of the target, the driver first unless the task has two
+        limits; drivers: (k,), the sides that drive; rows: (k, N, 3), their places at the poses.
+    works: whether they meet all conditions; else they are the nearest to doing so.
+    bounds: what was assumed.
+    given_up: whether bounds that were only assumed had to be given up.
+    dyads, pairs: how many were drawn, and looked at; working: how many linkages were met that work.
+    """
+
+    batch: LinkageBatch
+    drivers: NDArray[np.intp]
+    rows: FloatArray
+    works: bool
+    bounds: tuple[Bound, ...]
+    given_up: bool
+    dyads: int
+    pairs: int
+    working: int
+
+
+class _Pool(NamedTuple):
+    """Linkages that were judged, and of how many dyads and pairs."""
+
+    trials: Trials
+    value: Assessment
+    dyads: int
+    pairs: int
+
+
+def best_of_family(problem: SynthesisProblem, target: Target) -> Family | None:
+    """The best linkages of all that meet the poses of a problem; None where no dyad does.
+
+    Where none keeps what is assumed, pivots may lie farther away, then the rest is given up.
+    """
+    first: Family | None = None
+    for assumed, given_up in Assumptions.attempts(problem):
+        task = _open_task(problem, target, assumed)
+        found = _searched(task, assumed)
+        if found is not None and found.works:
+            return replace(found, given_up=given_up)
+        first = first or found
+    return first
+
+
+def _searched(task: OpenTask, assumed: Assumptions) -> Family | None:
+    """The best linkages of an open task, or the nearest to meeting its conditions."""
+    rng = np.random.default_rng(0)
+    kinds = task.conditions.kinds
+    pools = []
+    for counts, pairs, generations in (
+        (PINS, kinds & {PINNED}, GENERATIONS),
+        (SLIDERS, kinds - {PINNED}, SLIDER_GENERATIONS),
+    ):
+        pool = _drawn(task, pairs, counts, rng) if pairs else None
+        if pool is not None:
+            pools.append(_improved(pool, task, generations, rng))
+    if not pools:
+        return None
+    index = [_shown(pool, task) for pool in pools]
+    good = [int(pool.value.good[k[:1]].sum()) for pool, k in zip(pools, index, strict=True)]
+    if len(pools) > 1:  # sliders come after pins, and are few beside them
+        index[1] = index[1][: SHOWN_SLIDERS if good[0] else SHOWN]
+        if any(good):
+            index = [k if works else k[:0] for k, works in zip(index, good, strict=True)]
+        index[0] = index[0][: SHOWN - len(index[1])]
+    chosen = [take(pool.trials, k) for pool, k in zip(pools, index, strict=True)]
+    trials = concatenate(chosen)
+    return Family(
+        _driver_first(trials, task),
+        np.zeros_like(trials.driver) if task.is_symmetric else trials.driver,
+        task.rows(trials.offsets),
+        any(good),
+        assumed.bounds,
+        False,
+        sum(pool.dyads for pool in pools),
+        sum(pool.pairs for pool in pools),
+        sum(int(pool.value.good.sum()) for pool in pools),
+    )
+
+
+def _drawn(
+    task: OpenTask,
+    kinds: frozenset[frozenset[type]],
+    counts: Mapping[int, int],
+    rng: np.random.Generator,
+) -> _Pool | None:
+    """Linkages of dyads drawn at random, judged; None where no two dyads meet the poses.
+
+    kinds: the pairs of kinds of dyads; counts: how many dyads of each kind.
+    """
+    trials, dyads, pairs = [], 0, 0
+    variants = 1 if task.is_exact else VARIANTS
+    share = {kind: max(count // variants, MIN_DRAWN) for kind, count in counts.items()}
+    for variant in range(variants):
+        offsets = rng.uniform(-1, 1, size=task.half_widths.shape) * task.half_widths
+        if variant == 0:
+            offsets[:] = 0.0
+        one = drawn_dyads(task, task.sides[0], offsets, share, rng)
+        other = one if task.is_symmetric else drawn_dyads(task, task.sides[1], offsets, share, rng)
+        dyads += len(one) + (0 if task.is_symmetric else len(other))
+        poses = task.places(offsets[None])[0]
+        for side, (first, second) in enumerate(((one, other), (other, one))):
+            if side not in task.conditions.drivers or (side == 1 and task.is_symmetric):
+                continue
+            most = JUDGED // variants
+            found = promising_pairs(first, second, poses, task.conditions, kinds=kinds, most=most)
+            pairs += found.seen
+            ends = (first, found.driver), (second, found.follower)
+            ends = ends[::-1] if side else ends
+            batch = LinkageBatch(
+                np.stack([dyad.kinds[k] for dyad, k in ends], axis=1),
+                np.stack([dyad.dimensions[k] for dyad, k in ends], axis=1),
+            )
+            every = np.broadcast_to(offsets, (len(batch), *offsets.shape))
+            trials.append(Trials(batch, every, np.full(len(batch), side)))
+    every_trial = concatenate(trials)
+    if not len(every_trial):
+        return None
+    return _Pool(every_trial, assessed(every_trial, task), dyads, pairs)
+
+
+def _improved(pool: _Pool, task: OpenTask, generations: int, rng: np.random.Generator) -> _Pool:
+    """The linkages that work, with those that evolve from the best of each aim."""
+    points = _pins(pool.trials, task) / task.conditions.span
+    starts, aims = [], []
+    for aim, most in enumerate(POPULATIONS):
+        cost = costs(pool.value, np.full(len(points), aim))
+        first = np.argsort(cost, kind="stable")[:MOST_STARTS]
+        apart = _spread(points[first], most)
+        starts += first[apart].tolist()
+        aims += [aim] * len(apart)
+        if not pool.value.good.any():
+            break  # all aims are the same: to meet the conditions
+    index = np.array(starts, dtype=np.intp)
+    trials, value = improved(
+        take(pool.trials, index),
+        take(pool.value, index),
+        np.array(aims, dtype=np.intp),
+        task,
+        generations=generations,
+        rng=rng,
+    )
+    if not len(trials):
+        return pool
+    good = np.flatnonzero(pool.value.good)
+    every = concatenate([take(pool.trials, good), trials])
+    worth = concatenate([take(pool.value, good), value])
+    return pool._replace(trials=every, value=worth)
+
+
+def _spread(points: FloatArray, most: int) -> list[int]:
+    """The first of points (k, n), best first, and further ones that are APART from these."""
+    chosen: list[int] = []
+    for k in range(len(points)):
+        if len(chosen) == most:
+            break
+        if not chosen or np.linalg.norm(points[chosen] - points[k], axis=1).min() > APART:
+            chosen.append(k)
+    return chosen
+
+
+def _shown(pool: _Pool, task: OpenTask) -> NDArray[np.intp]:
+    """The recommended linkage and others of the front, far from each other, best first."""
+    value = pool.value
+    if not value.good.any():
+        return np.argsort(value.violation, kind="stable")[:SHOWN_FAILING]
+    good = np.flatnonzero(value.good)
+    best = good[best_first(value.transmission[good], value.extent[good])[0]]
+    figures = np.stack([-value.transmission, value.extent, value.sensitivity], axis=1)
+    some = np.union1d(good[:: max(1, len(good) // MOST_ON_FRONT)], [best])
+    on_front = some[front(figures[some])]
+    on_front = np.concatenate([[best], on_front[on_front != best]])
+    aims = [int(aim(take(value, on_front)).argmin()) for aim in AIMS[1:]]
+    points = _pins(take(pool.trials, on_front), task) / task.conditions.span
+    chosen = far_apart(points, [0, *aims], SHOWN, SHOWN_APART)
+    rest = on_front[chosen[1:]]
+    rest = rest[best_first(value.transmission[rest], value.extent[rest])]
+    return np.concatenate([[best], rest])
+
+
+def _pins(trials: Trials, task: OpenTask) -> FloatArray:
+    """Where pivots and lines (k, 8) are at the first pose, the driver first."""
+    batch = _driver_first(trials, task, always=True)
+    z = batch.dimensions[..., :4].copy()
+    first = task.poses[0]
+    for side in (0, 1):
+        moving = batch.kinds[:, side] != DYAD_KINDS.index(RP)
+        z[moving, side, 2:4] = first.act(z[moving, side, 2:4])
+    return z.reshape(len(z), -1)
+
+
+def _driver_first(trials: Trials, task: OpenTask, *, always: bool = False) -> LinkageBatch:
+    """The linkages with the driver first, unless each side has limits of its own."""
+    if not (always or task.is_symmetric):
+        return trials.batch
+    rows = np.arange(len(trials))[:, None]
+    order = np.stack([trials.driver, 1 - trials.driver], axis=1)
+    return LinkageBatch(trials.batch.kinds[rows, order], trials.batch.dimensions[rows, order])
+
+
+def _open_task(problem: SynthesisProblem, target: Target, assumed: Assumptions) -> OpenTask:
+    """The poses and limits of a problem, in the frames of its target."""
+    task, frames, unit = problem.task, target.frames, float(target.frames.length)
+    sides = []
+    for limits in task.limits or (Limits(),):
+        pivots = (
+            PivotFreedom.of(limits.fixed_pivot, assumed.fixed, frames.fixed_origin, unit),
+            PivotFreedom.of(limits.moving_pivot, assumed.moving, frames.moving_origin, unit),
+        )
+        kinds = tuple(k for k, kind in enumerate(DYAD_KINDS) if kind.__name__ in limits.allowed)
+        least, most = limits.length
+        sides.append(DyadFreedom(*pivots, (least / unit, most / unit), kinds))
+    half_widths, axes = _tolerances(task, target, assumed.size / unit)
+    both = sides[0], sides[-1]
+    bounds = _conditions(task, both, target, assumed)
+    return OpenTask(target.poses, target.length, frames, both, half_widths, axes, bounds)
+
+
+def _tolerances(task: Task, target: Target, size: float) -> tuple[FloatArray, FloatArray]:
+    """Half widths (N, 3) of the tolerances of a task, and directions (N, 3, 3) of their axes."""
+    count = target.poses.shape[0]
+    axes = np.broadcast_to(np.eye(3), (count, 3, 3)).copy()
+    if (given := task.tolerances) is None:
+        return np.zeros((count, 3)), axes
+    unit = float(target.frames.length)
+    half = given.bounds * [1 / unit, 1 / unit, target.length]
+    free = [FREE_LENGTH * size, FREE_LENGTH * size, FREE_ANGLE * target.length]
+    axes[:, :2, :2] = given.directions(task.poses).swapaxes(-1, -2)
+    return np.where(np.isinf(half), free, half), axes
+
+
+def _conditions(
+    task: Task, sides: tuple[DyadFreedom, DyadFreedom], target: Target, assumed: Assumptions
+) -> Conditions:
+    """What linkages must be, in the frames of an open task."""
+    asked, unit = task.requirements, float(target.frames.length)
+    footprint = asked.footprint
+    if footprint is not None:
+        footprint = Polygon((footprint.vertices - target.frames.fixed_origin) / unit)
+    types = np.zeros(2**3, dtype=bool)
+    for signs, name in TYPE_OF_SIGNS.items():
+        types[sum(2**k for k, sign in enumerate(signs) if sign > 0)] = asked.allows(name)
+    classes = {kind.__name__: kind for kind in DYAD_KINDS}
+    pairs = (pair for name, pair in TYPES.items() if asked.allows(name))
+    kinds = frozenset(frozenset(classes[kind] for kind in pair) for pair in pairs)
+    if all(0 in side.kinds for side in sides) and asked.types is None:
+        kinds = frozenset(pair for pair in kinds if RR in pair)  # two sliders only if asked for
+    return Conditions(
+        transmission=assumed.transmission,
+        shortest=assumed.shortest / unit,
+        longest=assumed.longest / unit,
+        ratio=assumed.ratio,
+        span=assumed.size / unit,
+        types=types,
+        kinds=kinds,
+        drivers={"first": (0,), "second": (1,)}.get(asked.driver, (0, 1)),
+        crank=asked.driver == "crank",
+        any_order=asked.any_order,
+        change_point=asked.types is not None,
+        footprint=footprint,
+    )

@@ -1,0 +1,61 @@
+"""What came of a task whose poses leave infinitely many linkages, in words."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from burmester.errors import Advice
+from burmester.families.family import RULE, Family
+from burmester.linkages.explanation import in_short
+from burmester.linkages.found_linkage import FoundLinkage
+from burmester.synthesis.result import Outcome
+from burmester.tasks.problem import SynthesisProblem
+from burmester.wording import count, listed
+
+__all__ = ["family_summary"]
+
+
+def family_summary(
+    problem: SynthesisProblem, family: Family, linkages: Sequence[FoundLinkage]
+) -> tuple[Outcome, list[Advice]]:
+    """The outcome and the warnings of a task whose linkages were chosen from a family."""
+    poses = count(problem.given.poses.shape[0], "pose")
+    advice = [] if not family.bounds else [_assumed(family)]
+    looked = f"{family.pairs:,} pairs of {family.dyads:,} dyads"
+    usable = [each for each in linkages if each.usable]
+    if not usable:
+        why = None
+        if linkages:
+            nearest = linkages[0]
+            why = f"the nearest to it, {nearest.id}, "
+            why += in_short(nearest, problem.given, problem.length)
+        outcome = Outcome(
+            "R309",
+            f"no usable linkage: {poses} leave infinitely many, and none works of {looked} "
+            "that were looked at",
+            "give the limits more room, ask for less, or move a pose",
+            why,
+        )
+        return outcome, advice
+    if family.given_up:
+        first = linkages[0]
+        advice.append(
+            Advice(
+                "W216",
+                f"no linkage keeps what was assumed; {first.id} {listed(first.shortcomings)}"
+                if first.shortcomings
+                else "no linkage keeps what was assumed, and the next best are listed",
+                "give the pivots more room, or move a pose",
+            )
+        )
+    message = f"{poses} leave infinitely many linkages; these were chosen from {looked}. {RULE}"
+    return Outcome("R308", message), advice
+
+
+def _assumed(family: Family) -> Advice:
+    """What was assumed where the task says nothing, and the options that change it."""
+    return Advice(
+        "W215",
+        f"assumed, as the task does not say: {listed([each.message for each in family.bounds])}",
+        f"change it with {listed([each.option for each in family.bounds], 'or')}",
+    )
