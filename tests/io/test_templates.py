@@ -214,6 +214,25 @@ def test_the_knee_turns_about_the_point_it_names():
     assert x < 0
 
 
+@pytest.mark.parametrize(
+    ("name", "room"),
+    [
+        ("lid-hinge", lambda x, y: np.maximum(x, y)),  # beside the rear wall, or above it
+        ("tailgate", lambda x, y: np.maximum(x, y)),  # behind the roof, or above it
+        ("folding-table", lambda x, y: -y),  # below the table top, which it touches at first
+    ],
+)
+def test_the_body_passes_what_its_file_names(name, room):
+    task, synthesis = solved(name)
+    place, angle = on_the_way(synthesis.usable[0].linkage, task.poses)
+    z = task.body.vertices @ [1, 1j]
+    edges = np.concatenate([z + share * (np.roll(z, -1) - z) for share in np.linspace(0, 1, 40)])
+    at = place[:, None] + np.exp(1j * angle)[:, None] * edges
+    least = room(at.real, at.imag).min()
+    assert least > -1e-6
+    assert (least > 4) == (name != "folding-table")
+
+
 def blocks():
     """What may be uncommented in the file with every key, by its first line."""
     return {found[0].split("\n")[0][1:]: found for found in BLOCK.finditer(templates.text())}

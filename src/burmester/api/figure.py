@@ -1,4 +1,4 @@
-"""A linkage at its poses, drawn by Matplotlib."""
+"""A linkage at its poses with the body it moves, drawn by Matplotlib."""
 
 from __future__ import annotations
 
@@ -7,7 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from burmester import plot
+from burmester.errors import InputError
+from burmester.export.coupler_motion import CouplerMotion
 from burmester.fourbar.dyad import PP
+from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
 from burmester.plot.plane import span_of
 from burmester.web.still import own_circuit
@@ -17,6 +20,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 __all__ = ["linkage_figure"]
+
+SWEPT_PLACES = 49  # of the body along the motion; each is a thin outline
 
 
 def linkage_figure(saved: SavedLinkage, ax: Axes | None = None) -> Figure:
@@ -30,10 +35,14 @@ def linkage_figure(saved: SavedLinkage, ax: Axes | None = None) -> Figure:
         if not isinstance(linkage.first, PP) and not isinstance(linkage.second, PP):
             own = own_circuit(linkage, places[there])
             plot.coupler_curve(ax, linkage, only=own, size=span_of(poses))
-        for k in there:
-            middle = k == there[len(there) // 2]
+        middle = int(there[len(there) // 2]) if len(there) else None
+        if saved.task.body is not None:
+            shown = places if len(there) else poses
+            outline = saved.task.body.vertices
+            plot.body(ax, outline, shown, at=middle, along=_along(saved))
+        for k in there.tolist():
             plot.linkage(
-                ax, linkage, places[int(k)], travel=travel, faint=not middle, names=bool(middle)
+                ax, linkage, places[k], travel=travel, faint=k != middle, names=k == middle
             )
         plot.poses(ax, poses)
         plot.legend(ax)
@@ -41,3 +50,11 @@ def linkage_figure(saved: SavedLinkage, ax: Axes | None = None) -> Figure:
     drawing = ax.get_figure(root=True)
     assert drawing is not None
     return drawing
+
+
+def _along(saved: SavedLinkage) -> Displacement | None:
+    """Places of the body from the first pose to the last; None where nothing leads there."""
+    try:
+        return CouplerMotion.of(saved, SWEPT_PLACES).places
+    except InputError:
+        return None

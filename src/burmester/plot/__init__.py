@@ -24,6 +24,7 @@ from burmester.plot.charts import pose_errors, transmission
 from burmester.plot.common_curve import common_curve
 from burmester.plot.maps import centre_point_curve, circle_point_curve, pivot_map
 from burmester.plot.mechanism import linkage
+from burmester.plot.outlines import body, keep_out
 from burmester.plot.paper import write_figures
 from burmester.plot.plane import achieved, centrodes, coupler_curve, poses
 from burmester.plot.space import image_space
@@ -34,6 +35,7 @@ __all__ = [
     "Box",
     "Camera",
     "achieved",
+    "body",
     "centre_point_curve",
     "centrodes",
     "circle_point_curve",
@@ -43,6 +45,7 @@ __all__ = [
     "finish",
     "house_style",
     "image_space",
+    "keep_out",
     "legend",
     "linkage",
     "pivot_map",

@@ -53,6 +53,8 @@ def report_data(synthesis: Synthesis) -> dict[str, Any]:
         "method": synthesis.method,
         "unit": task.length_unit,
         "poses": _poses(task),
+        "body": None if task.body is None else task.body.vertices.tolist(),
+        "keep_out": _keep_out(task),
         "scene": scene,
         "motion": None
         if synthesis.motion is None
@@ -88,6 +90,11 @@ def _poses(task: Task) -> list[dict[str, Any]]:
         if task.weights is not None:
             pose["weight"] = float(task.weights[index])
     return poses
+
+
+def _keep_out(task: Task) -> list[dict[str, Any]]:
+    """Regions to keep out of: name, outline in F, and a point inside where the name stands."""
+    return []
 
 
 def _dyad(synthesis: Synthesis, found: FoundDyad) -> dict[str, Any]:

@@ -446,8 +446,8 @@ function hull(points) {
     }
     return kept.slice(0, -1);
   };
-  const corners = [...half(sorted), ...half(sorted.reverse())];
-  return corners.length ? corners : sorted.slice(0, 1);
+  const corners2 = [...half(sorted), ...half(sorted.reverse())];
+  return corners2.length ? corners2 : sorted.slice(0, 1);
 }
 
 // src/burmester/web/widget/words.mjs
@@ -487,7 +487,7 @@ function spaceStory(linkage) {
   const surface = (side) => h("b", { class: `bm-side${side}` }, linkage.led[side].id);
   return [plain, " The surfaces are all places that dyad ", surface(0), " (driver) and dyad ", surface(1), " (follower) allow; where they meet, the line, the coupler moves."];
 }
-function keyOf(hasLinkages) {
+function keyOf(data, hasLinkages) {
   const one = (sign, text) => h("li", {}, s("svg", { width: 34, height: 20, viewBox: "-4 -13 34 20", "aria-hidden": "true", class: "bm-key" }, sign), text);
   const link = (side) => s("g", { class: `bm-link bm-side${side}` }, s("path", { class: "bm-bar", d: "M0 -3H22" }), s("path", { class: "bm-core", d: "M0 -3H22" }));
   const items = [one(s("g", { class: "bm-wanted" }, s("path", { d: axes(22) }), s("circle", { r: 4 })), "wanted pose")];
@@ -500,6 +500,9 @@ function keyOf(hasLinkages) {
       one(s("path", { class: "bm-curve bm-here", d: "M-2 2C6 -16 18 -10 28 -4" }), "path of the origin of M")
     );
   }
+  const box = "M-2 6H26V-10H-2Z";
+  if (data.body) items.push(one(s("path", { class: "bm-ghost", d: "M-2 5L22 7L26 -1L4 -9Z" }), "body at the poses"));
+  if (data.keep_out.length) items.push(one(s("g", {}, s("path", { class: "bm-region-edge", d: box, fill: "none" }), s("path", { class: "bm-hatch", d: "M-2 1L9 -10M2 6L18 -10M12 6L26 -8" })), "keep out"));
   return h("ul", { class: "bm-keys" }, items);
 }
 
@@ -1373,13 +1376,80 @@ var PivotMap = class {
   }
 };
 
+// src/burmester/web/widget/outlines.mjs
+var HATCH = 9;
+var PALEST = 0.45;
+var LONGEST_NAME = 28;
+var LEAST_SHARE = 4;
+var patterns = 0;
+var closed = (points, view, [x, y]) => `M${points.map((each) => `${px(x + view.scale * each[0])} ${px(y - view.scale * each[1])}`).join("L")}Z`;
+var bodyPath = (data, view, attributes) => data.body ? s("path", { ...attributes, d: closed(data.body, view, [0, 0]) }) : null;
+var placesAtPoses = (data, linkage) => data.poses.map((pose, k) => {
+  const row = linkage?.pose_errors[k], at = row && row.x !== null ? row : pose;
+  return { x: at.x, y: at.y, a: radians(at.angle_deg) };
+});
+function ghosts(data, linkage, view) {
+  const group = s("g", { class: "bm-ghosts" });
+  if (!data.body) return group;
+  const places = placesAtPoses(data, linkage), last = Math.max(1, places.length - 1);
+  places.forEach(({ x, y, a }, k) => {
+    const opacity = (PALEST + (1 - PALEST) * k / last).toFixed(3);
+    group.append(bodyPath(data, view, { class: "bm-ghost", "data-pose": k + 1, opacity, transform: transform(view.X(x), view.Y(y), a) }));
+  });
+  return group;
+}
+function keepOut(data, view) {
+  const group = s("g", { class: "bm-keep-out" });
+  if (!data.keep_out.length) return group;
+  const id = `bm-hatch-${patterns += 1}`;
+  group.append(
+    s(
+      "defs",
+      {},
+      s(
+        "pattern",
+        { id, width: HATCH, height: HATCH, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" },
+        s("path", { class: "bm-hatch", d: `M0 0V${HATCH}` })
+      )
+    )
+  );
+  for (const region of data.keep_out) {
+    const d = closed(region.outline, view, [view.left, view.top]);
+    group.append(s("g", { class: "bm-region" }, s("title", {}, region.name || "keep out"), s("path", { class: "bm-region-plain", d }), s("path", { class: "bm-region-edge", d, fill: `url(#${id})` })));
+  }
+  return group;
+}
+function keepOutNames(data, view, labels) {
+  return data.keep_out.filter(({ name }) => name).map(({ name, at: [x, y] }) => {
+    const text = shortened(name, LONGEST_NAME);
+    labels.block(view.X(x), view.Y(y), 7.2 * text.length, 14);
+    return s("text", { class: "bm-region-name", x: px(view.X(x)), y: px(view.Y(y) + 4), "text-anchor": "middle" }, text);
+  });
+}
+function corners(data, linkage, places) {
+  const found = data.keep_out.flatMap((region) => region.outline);
+  if (data.body) for (const place of [...placesAtPoses(data, linkage), ...places]) for (const corner of data.body) found.push(act(place, corner));
+  return found;
+}
+function widened(box, data, linkage, places, all) {
+  const reach = all ? Infinity : (LEAST_SHARE - 1) / 2 * Math.max(box[2] - box[0], box[3] - box[1]);
+  const wide = [...box];
+  for (const corner of corners(data, linkage, places)) {
+    for (const k of [0, 1]) {
+      wide[k] = Math.max(box[k] - reach, Math.min(wide[k], corner[k]));
+      wide[k + 2] = Math.min(box[k + 2] + reach, Math.max(wide[k + 2], corner[k]));
+    }
+  }
+  return wide;
+}
+
 // src/burmester/web/widget/mechanism.mjs
 var BODY_AXIS = AXIS + 10;
 var LETTER = 14;
 var BLOCK_IN_SLOT = [18, 10];
 var SPARE = 5;
 var ARROW = 24;
-function mechanism(linkage, view, places) {
+function mechanism(data, linkage, view, places) {
   const parts = {
     links: s("g"),
     blocks: s("g"),
@@ -1387,8 +1457,13 @@ function mechanism(linkage, view, places) {
     coupler: s("g", { class: "bm-coupler" }),
     corners: [[0, 0]],
     // of the body's plate, in pixels from the origin of M
-    moves: [(place) => parts.coupler.setAttribute("transform", transform(view.X(place.x), view.Y(place.y), place.a))]
+    moves: []
   };
+  const outline = bodyPath(data, view, { class: "bm-body-outline" });
+  parts.moves.push((place) => {
+    const at = transform(view.X(place.x), view.Y(place.y), place.a);
+    for (const part of [parts.coupler, outline]) part?.setAttribute("transform", at);
+  });
   linkage.led.forEach((dyad, side) => {
     if (dyad.moving_pivot) parts.corners.push([view.scale * dyad.moving_pivot[0], -view.scale * dyad.moving_pivot[1]]);
     if (dyad.kind === "RR") addLink(parts, dyad, side, view);
@@ -1397,7 +1472,7 @@ function mechanism(linkage, view, places) {
   });
   const letter = addBody(parts, linkage, view);
   const arrow = driverArrow(parts, linkage.led[0], view);
-  const group = s("g", { class: "bm-linkage" }, arrow, parts.links, parts.coupler, parts.blocks, parts.pins, letter);
+  const group = s("g", { class: "bm-linkage" }, outline, arrow, parts.links, parts.coupler, parts.blocks, parts.pins, letter);
   return { group, show: (place) => parts.moves.forEach((move) => move(place)) };
 }
 var groundPin = (dyad, r, view) => s("circle", {
@@ -1437,7 +1512,7 @@ function addBlockOnRail({ blocks, moves }, dyad, side, view) {
     slider.setAttribute("transform", transform(view.X(x), view.Y(y), along));
   });
 }
-function addSlot({ blocks, pins, coupler, corners, moves }, dyad, side, view, places) {
+function addSlot({ blocks, pins, coupler, corners: corners2, moves }, dyad, side, view, places) {
   const S = view.scale, [low, high] = travelOf(dyad, places), end = (BLOCK_IN_SLOT[0] / 2 + SPARE) / S;
   const seen = (along) => (([x, y]) => [S * x, -S * y])(pointOnLine(dyad, along));
   const ends = [seen(low - end), seen(high + end)];
@@ -1448,7 +1523,7 @@ function addSlot({ blocks, pins, coupler, corners, moves }, dyad, side, view, pl
     s("path", { class: "bm-slot-edge", d }),
     s("path", { class: "bm-slot", d, "data-dyad": dyad.id })
   );
-  corners.push(seen((low + high) / 2));
+  corners2.push(seen((low + high) / 2));
   const [nx, ny] = normalOf(dyad), [cx, cy] = dyad.fixed_pivot;
   const slider = block(dyad, side, ...BLOCK_IN_SLOT);
   blocks.append(slider);
@@ -1457,9 +1532,9 @@ function addSlot({ blocks, pins, coupler, corners, moves }, dyad, side, view, pl
     (place) => slider.setAttribute("transform", transform(view.X(cx), view.Y(cy), place.a + Math.atan2(nx, -ny)))
   );
 }
-function addBody({ coupler, corners, moves }, linkage, view) {
+function addBody({ coupler, corners: corners2, moves }, linkage, view) {
   const S = view.scale;
-  const d = `M${hull(corners).map((corner) => corner.map(px).join(" ")).join("L")}Z`;
+  const d = `M${hull(corners2).map((corner) => corner.map(px).join(" ")).join("L")}Z`;
   coupler.prepend(s("path", { class: "bm-plate-rim", d }), s("path", { class: "bm-plate", d }));
   coupler.append(
     s("path", { class: "bm-body-frame", d: axes(BODY_AXIS) }),
@@ -1524,7 +1599,9 @@ var Plane = class {
   build(linkage, way, stretch, { factor, fill, far }) {
     const { data, svg } = this, path = linkage?.ways[way];
     this.places = path ? placesOf(data, linkage, path, stretch) : [];
-    const box = boundsOf(data, linkage, this.places, far);
+    const bare = boundsOf(data, linkage, this.places, far);
+    const box = widened(bare, data, linkage, this.places, far);
+    this.cut = !far && widened(bare, data, linkage, this.places, true).some((each, k) => each !== box[k]);
     const width = Math.max(260, this.parent.clientWidth);
     const shape = (box[3] - box[1]) / (box[2] - box[0]);
     const own = clamp(width * clamp(shape, 0.45, 1), 260, clamp(0.62 * window.innerHeight, 340, 680));
@@ -1539,10 +1616,10 @@ var Plane = class {
     svg.dataset.left = view.left;
     svg.dataset.top = view.top;
     svg.replaceChildren();
-    svg.append(this.grid());
+    svg.append(this.grid(), keepOut(data, view), ghosts(data, linkage, view));
     if (linkage) svg.append(this.paths());
     const labels = new Labels(view);
-    this.names = s("g", { class: "bm-names" });
+    this.names = s("g", { class: "bm-names" }, keepOutNames(data, view, labels));
     if (linkage) svg.append(this.ground(labels));
     for (const pose of data.poses) {
       const x = view.X(pose.x), y = view.Y(pose.y), angle = radians(pose.angle_deg);
@@ -1554,7 +1631,7 @@ var Plane = class {
       }
     }
     svg.append(this.poses(linkage, factor, labels));
-    this.moving = path ? mechanism(linkage, view, this.places) : null;
+    this.moving = path ? mechanism(data, linkage, view, this.places) : null;
     if (this.moving) svg.append(this.moving.group);
     if (linkage && !far) this.farPivots(labels);
     svg.append(this.names);
@@ -1982,7 +2059,7 @@ var USUAL_LIMIT = 40;
 var MANY_POSES3 = 40;
 var HEADROOM = 1.32;
 var INSET = 8;
-var LONGEST_NAME = 16;
+var LONGEST_NAME2 = 16;
 var NAME_WIDTH = 11;
 var Plots = class {
   constructor(data, parent, scrub) {
@@ -2013,7 +2090,7 @@ var Plots = class {
     const width = this.width = Math.max(260, this.parent.clientWidth);
     const poses = linkage.pose_errors.map((row, k) => ({ ...row, pose: data.poses[k] })).filter((row) => row.way === index);
     const upright = poses.some(({ pose }) => pose.label !== pose.name);
-    const longest = Math.max(0, ...poses.map(({ pose }) => shortened(poseName(pose), LONGEST_NAME).length));
+    const longest = Math.max(0, ...poses.map(({ pose }) => shortened(poseName(pose), LONGEST_NAME2).length));
     this.top = TOP + (upright ? 6.2 * longest + 6 : 0);
     const height = this.top + 3 * PANEL + 2 * GAP + BOTTOM;
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
@@ -2102,7 +2179,7 @@ var Plots = class {
       if (x - last < NAME_WIDTH) continue;
       last = x;
       const text = s("text", { class: "bm-dot-name bm-upright", transform: `translate(${px(x + 4)} ${px(y)}) rotate(-90)` });
-      text.append(shortened(poseName(row.pose), LONGEST_NAME));
+      text.append(shortened(poseName(row.pose), LONGEST_NAME2));
       this.svg.append(s("g", {}, s("title", {}, poseName(row.pose)), text));
     }
   }
@@ -2156,7 +2233,7 @@ function unfoldForPrint(root, signal) {
 var REDUCED_MOTION = "(prefers-reduced-motion: reduce)";
 var DARK_SCHEME = "(prefers-color-scheme: dark)";
 var HIGHEST = 0.66;
-var LONGEST_NAME2 = 5;
+var LONGEST_NAME3 = 5;
 var KINDS = " RR: a link with two pins; PR: a slider on the ground; RP: a pin on the ground in a slot of the body.";
 var section = (name, title, ...content) => h("section", { class: `bm-card bm-${name}`, "aria-label": title }, h("h2", {}, title), ...content);
 var Report = class {
@@ -2165,7 +2242,7 @@ var Report = class {
     this.el = el;
     this.options = options;
     this.ended = new AbortController();
-    const short = data.poses.every((pose) => pose.name.length <= LONGEST_NAME2);
+    const short = data.poses.every((pose) => pose.name.length <= LONGEST_NAME3);
     data.poses.forEach((pose, k) => pose.label = short ? pose.name : String(k + 1));
     this.linkages = data.linkages.map((linkage) => ({
       ...linkage,
@@ -2214,14 +2291,21 @@ var Report = class {
       this.story,
       drawing,
       player ? [player.element, this.assemblies.element] : null,
-      h("div", { class: "bm-under" }, keyOf(Boolean(player)), player ? h("div", { class: "bm-choose" }, this.farPivots(), this.magnification()) : null)
+      h("div", { class: "bm-under" }, keyOf(data, Boolean(player)), player ? h("div", { class: "bm-choose" }, this.farPivots(), this.magnification()) : null)
     );
   }
-  /** Whether the picture is to hold pivots far from the poses; only where there are some. */
+  /** Whether the picture is to hold far pivots and outlines that leave it; only where there are some. */
   farPivots() {
     this.far = h("input", { type: "checkbox", onchange: () => this.draw() });
-    this.farLabel = h("label", { class: "bm-factor bm-far-pivots", hidden: true }, this.far, " Whole linkage, with far pivots");
+    this.farName = h("span", {});
+    this.farLabel = h("label", { class: "bm-factor bm-far-pivots", hidden: true }, this.far, " ", this.farName);
     return this.farLabel;
+  }
+  offerAll(linkage) {
+    if (!this.farLabel) return;
+    const pivots = hasFarPivots(this.data, linkage, this.plane.places);
+    this.farLabel.hidden = !pivots && !this.plane.cut && !this.far.checked;
+    this.farName.textContent = pivots ? "Whole linkage, with far pivots" : "All of the body and its surroundings";
   }
   magnification() {
     this.factor = h(
@@ -2300,7 +2384,7 @@ var Report = class {
     this.plots?.build(linkage, way, stretch);
     const factor = Number(this.factor?.value ?? 0), far = Boolean(this.far?.checked);
     this.plane.build(linkage, way, stretch, { factor, fill: this.room(), far });
-    if (this.farLabel) this.farLabel.hidden = !hasFarPivots(this.data, linkage, this.plane.places);
+    this.offerAll(linkage);
     this.plane.svg.setAttribute("aria-label", linkage ? `${linkage.id}, a ${linkage.type}, at the poses. Space plays, arrow keys move the driver.` : "The poses");
     this.space.build(linkage, way);
     this.map?.build(linkage);

@@ -4,6 +4,7 @@ import { s } from "./dom.mjs";
 import { AXIS, BLOCK, axes, hull, transform } from "./drawing.mjs";
 import { act, normalOf } from "./kinematics.mjs";
 import { px } from "./numbers.mjs";
+import { bodyPath } from "./outlines.mjs";
 import { pointOnLine, travelOf } from "./travel.mjs";
 
 const BODY_AXIS = AXIS + 10; // pixels: the x axis of the body
@@ -16,12 +17,17 @@ const ARROW = 24; // pixels: how far the arrow of a sliding driver stands from i
  *
  * places: all that are shown; slots are as long as they need.
  */
-export function mechanism(linkage, view, places) {
+export function mechanism(data, linkage, view, places) {
   const parts = {
     links: s("g"), blocks: s("g"), pins: s("g"), coupler: s("g", { class: "bm-coupler" }),
     corners: [[0, 0]], // of the body's plate, in pixels from the origin of M
-    moves: [(place) => parts.coupler.setAttribute("transform", transform(view.X(place.x), view.Y(place.y), place.a))],
+    moves: [],
   };
+  const outline = bodyPath(data, view, { class: "bm-body-outline" });
+  parts.moves.push((place) => {
+    const at = transform(view.X(place.x), view.Y(place.y), place.a);
+    for (const part of [parts.coupler, outline]) part?.setAttribute("transform", at);
+  });
   linkage.led.forEach((dyad, side) => {
     if (dyad.moving_pivot) parts.corners.push([view.scale * dyad.moving_pivot[0], -view.scale * dyad.moving_pivot[1]]);
     if (dyad.kind === "RR") addLink(parts, dyad, side, view);
@@ -30,7 +36,7 @@ export function mechanism(linkage, view, places) {
   });
   const letter = addBody(parts, linkage, view);
   const arrow = driverArrow(parts, linkage.led[0], view);
-  const group = s("g", { class: "bm-linkage" }, arrow, parts.links, parts.coupler, parts.blocks, parts.pins, letter);
+  const group = s("g", { class: "bm-linkage" }, outline, arrow, parts.links, parts.coupler, parts.blocks, parts.pins, letter);
   return { group, show: (place) => parts.moves.forEach((move) => move(place)) };
 }
 

@@ -6,6 +6,7 @@ import { act, normalOf } from "./kinematics.mjs";
 import { Labels } from "./labels.mjs";
 import { mechanism } from "./mechanism.mjs";
 import { clamp, fixed, px, radians, ticks } from "./numbers.mjs";
+import { ghosts, keepOut, keepOutNames, widened } from "./outlines.mjs";
 import { decimalsOf } from "./tables.mjs";
 import { placesOf, pointOnLine, travelOf } from "./travel.mjs";
 
@@ -49,7 +50,9 @@ export class Plane {
   build(linkage, way, stretch, { factor, fill, far }) {
     const { data, svg } = this, path = linkage?.ways[way];
     this.places = path ? placesOf(data, linkage, path, stretch) : [];
-    const box = boundsOf(data, linkage, this.places, far);
+    const bare = boundsOf(data, linkage, this.places, far);
+    const box = widened(bare, data, linkage, this.places, far);
+    this.cut = !far && widened(bare, data, linkage, this.places, true).some((each, k) => each !== box[k]);
     const width = Math.max(260, this.parent.clientWidth);
     const shape = (box[3] - box[1]) / (box[2] - box[0]);
     const own = clamp(width * clamp(shape, 0.45, 1), 260, clamp(0.62 * window.innerHeight, 340, 680));
@@ -64,10 +67,10 @@ export class Plane {
     svg.dataset.left = view.left;
     svg.dataset.top = view.top;
     svg.replaceChildren();
-    svg.append(this.grid());
+    svg.append(this.grid(), keepOut(data, view), ghosts(data, linkage, view));
     if (linkage) svg.append(this.paths());
     const labels = new Labels(view);
-    this.names = s("g", { class: "bm-names" });
+    this.names = s("g", { class: "bm-names" }, keepOutNames(data, view, labels));
     if (linkage) svg.append(this.ground(labels));
     for (const pose of data.poses) {
       const x = view.X(pose.x), y = view.Y(pose.y), angle = radians(pose.angle_deg);
@@ -79,7 +82,7 @@ export class Plane {
       }
     }
     svg.append(this.poses(linkage, factor, labels));
-    this.moving = path ? mechanism(linkage, view, this.places) : null;
+    this.moving = path ? mechanism(data, linkage, view, this.places) : null;
     if (this.moving) svg.append(this.moving.group);
     if (linkage && !far) this.farPivots(labels);
     svg.append(this.names);

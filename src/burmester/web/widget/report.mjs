@@ -81,15 +81,23 @@ export class Report {
       this.story,
       drawing,
       player ? [player.element, this.assemblies.element] : null,
-      h("div", { class: "bm-under" }, keyOf(Boolean(player)), player ? h("div", { class: "bm-choose" }, this.farPivots(), this.magnification()) : null),
+      h("div", { class: "bm-under" }, keyOf(data, Boolean(player)), player ? h("div", { class: "bm-choose" }, this.farPivots(), this.magnification()) : null),
     );
   }
 
-  /** Whether the picture is to hold pivots far from the poses; only where there are some. */
+  /** Whether the picture is to hold far pivots and outlines that leave it; only where there are some. */
   farPivots() {
     this.far = h("input", { type: "checkbox", onchange: () => this.draw() });
-    this.farLabel = h("label", { class: "bm-factor bm-far-pivots", hidden: true }, this.far, " Whole linkage, with far pivots");
+    this.farName = h("span", {});
+    this.farLabel = h("label", { class: "bm-factor bm-far-pivots", hidden: true }, this.far, " ", this.farName);
     return this.farLabel;
+  }
+
+  offerAll(linkage) {
+    if (!this.farLabel) return;
+    const pivots = hasFarPivots(this.data, linkage, this.plane.places);
+    this.farLabel.hidden = !pivots && !this.plane.cut && !this.far.checked;
+    this.farName.textContent = pivots ? "Whole linkage, with far pivots" : "All of the body and its surroundings";
   }
 
   magnification() {
@@ -176,7 +184,7 @@ export class Report {
     this.plots?.build(linkage, way, stretch);
     const factor = Number(this.factor?.value ?? 0), far = Boolean(this.far?.checked);
     this.plane.build(linkage, way, stretch, { factor, fill: this.room(), far });
-    if (this.farLabel) this.farLabel.hidden = !hasFarPivots(this.data, linkage, this.plane.places);
+    this.offerAll(linkage);
     this.plane.svg.setAttribute("aria-label", linkage ? `${linkage.id}, a ${linkage.type}, at the poses. Space plays, arrow keys move the driver.` : "The poses");
     this.space.build(linkage, way);
     this.map?.build(linkage);

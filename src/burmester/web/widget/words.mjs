@@ -50,7 +50,7 @@ export function spaceStory(linkage) {
 }
 
 /** The signs of the drawing, and what they mean. */
-export function keyOf(hasLinkages) {
+export function keyOf(data, hasLinkages) {
   const one = (sign, text) => h("li", {}, s("svg", { width: 34, height: 20, viewBox: "-4 -13 34 20", "aria-hidden": "true", class: "bm-key" }, sign), text);
   const link = (side) => s("g", { class: `bm-link bm-side${side}` }, s("path", { class: "bm-bar", d: "M0 -3H22" }), s("path", { class: "bm-core", d: "M0 -3H22" }));
   const items = [one(s("g", { class: "bm-wanted" }, s("path", { d: axes(22) }), s("circle", { r: 4 })), "wanted pose")];
@@ -63,5 +63,8 @@ export function keyOf(hasLinkages) {
       one(s("path", { class: "bm-curve bm-here", d: "M-2 2C6 -16 18 -10 28 -4" }), "path of the origin of M"),
     );
   }
+  const box = "M-2 6H26V-10H-2Z";
+  if (data.body) items.push(one(s("path", { class: "bm-ghost", d: "M-2 5L22 7L26 -1L4 -9Z" }), "body at the poses"));
+  if (data.keep_out.length) items.push(one(s("g", {}, s("path", { class: "bm-region-edge", d: box, fill: "none" }), s("path", { class: "bm-hatch", d: "M-2 1L9 -10M2 6L18 -10M12 6L26 -8" })), "keep out"));
   return h("ul", { class: "bm-keys" }, items);
 }

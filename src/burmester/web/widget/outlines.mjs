@@ -1,0 +1,94 @@
+// The outline of the body, and the regions that body and links have to keep out of.
+
+import { s } from "./dom.mjs";
+import { transform } from "./drawing.mjs";
+import { act } from "./kinematics.mjs";
+import { px, radians } from "./numbers.mjs";
+import { shortened } from "./tables.mjs";
+
+const HATCH = 9; // pixels between the lines of a hatch
+const PALEST = 0.45; // how strong the outline is at the first pose, of its strength at the last
+const LONGEST_NAME = 28; // characters of a region's name that the drawing has room for
+const LEAST_SHARE = 4; // outlines leave the linkage a quarter of the picture at least, unless all of them is asked for
+
+let patterns = 0; // ids of hatches are unique on the page
+
+/** A closed path through points (x, y) of the plane or of M, in pixels from its origin. */
+const closed = (points, view, [x, y]) => `M${points.map((each) => `${px(x + view.scale * each[0])} ${px(y - view.scale * each[1])}`).join("L")}Z`;
+
+/** The outline of the body, in pixels from the origin of M, or null. */
+export const bodyPath = (data, view, attributes) => (data.body ? s("path", { ...attributes, d: closed(data.body, view, [0, 0]) }) : null);
+
+/** Where the body is at every pose: the place that a linkage takes for it, or else the pose itself. */
+const placesAtPoses = (data, linkage) =>
+  data.poses.map((pose, k) => {
+    const row = linkage?.pose_errors[k], at = row && row.x !== null ? row : pose;
+    return { x: at.x, y: at.y, a: radians(at.angle_deg) };
+  });
+
+/** The body at every pose, the paler the earlier. */
+export function ghosts(data, linkage, view) {
+  const group = s("g", { class: "bm-ghosts" });
+  if (!data.body) return group;
+  const places = placesAtPoses(data, linkage), last = Math.max(1, places.length - 1);
+  places.forEach(({ x, y, a }, k) => {
+    const opacity = (PALEST + ((1 - PALEST) * k) / last).toFixed(3);
+    group.append(bodyPath(data, view, { class: "bm-ghost", "data-pose": k + 1, opacity, transform: transform(view.X(x), view.Y(y), a) }));
+  });
+  return group;
+}
+
+/** The regions to keep out of, hatched, with their names. */
+export function keepOut(data, view) {
+  const group = s("g", { class: "bm-keep-out" });
+  if (!data.keep_out.length) return group;
+  const id = `bm-hatch-${(patterns += 1)}`;
+  group.append(
+    s(
+      "defs",
+      {},
+      s(
+        "pattern",
+        { id, width: HATCH, height: HATCH, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" },
+        s("path", { class: "bm-hatch", d: `M0 0V${HATCH}` }),
+      ),
+    ),
+  );
+  for (const region of data.keep_out) {
+    const d = closed(region.outline, view, [view.left, view.top]);
+    group.append(s("g", { class: "bm-region" }, s("title", {}, region.name || "keep out"), s("path", { class: "bm-region-plain", d }), s("path", { class: "bm-region-edge", d, fill: `url(#${id})` })));
+  }
+  return group;
+}
+
+/** The names of the regions, each at a point inside; their places are kept free of other labels. */
+export function keepOutNames(data, view, labels) {
+  return data.keep_out.filter(({ name }) => name).map(({ name, at: [x, y] }) => {
+    const text = shortened(name, LONGEST_NAME);
+    labels.block(view.X(x), view.Y(y), 7.2 * text.length, 14);
+    return s("text", { class: "bm-region-name", x: px(view.X(x)), y: px(view.Y(y) + 4), "text-anchor": "middle" }, text);
+  });
+}
+
+/** Corners of all outlines in the plane: regions, the body at the poses and at some places. */
+function corners(data, linkage, places) {
+  const found = data.keep_out.flatMap((region) => region.outline);
+  if (data.body) for (const place of [...placesAtPoses(data, linkage), ...places]) for (const corner of data.body) found.push(act(place, corner));
+  return found;
+}
+
+/** The box of the picture that holds the outlines, too, all of them or as far as the linkage stays large.
+ *
+ * box: [x low, y low, x high, y high] of what else there is.
+ */
+export function widened(box, data, linkage, places, all) {
+  const reach = all ? Infinity : ((LEAST_SHARE - 1) / 2) * Math.max(box[2] - box[0], box[3] - box[1]);
+  const wide = [...box];
+  for (const corner of corners(data, linkage, places)) {
+    for (const k of [0, 1]) {
+      wide[k] = Math.max(box[k] - reach, Math.min(wide[k], corner[k]));
+      wide[k + 2] = Math.min(box[k + 2] + reach, Math.max(wide[k + 2], corner[k]));
+    }
+  }
+  return wide;
+}
