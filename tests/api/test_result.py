@@ -16,6 +16,7 @@ from burmester import InputError
 from burmester.fourbar.dyad import RR
 from burmester.geometry.displacement import Displacement
 from burmester.tasks.motion_task import Task
+from tests.oracles.bodies import BODY, REGIONS, bodied, carried, same_ring
 from tests.oracles.five_poses import ROWS
 from tests.oracles.witness import places
 
@@ -266,6 +267,28 @@ def test_the_still_drawing_has_the_poses_and_links_in_their_proportions(results)
         curve = np.concatenate(points_of(svg, "#8796a8"))
         for place in scale * found.error.places.translation + shift:
             assert np.hypot(*(curve - place).T).min() < 8
+
+
+def test_the_still_drawing_has_the_body_and_its_surroundings():
+    result = burmester.synthesize(bodied())
+    svg = result.best._repr_html_()
+    poses = result.task.poses
+    origins = np.array([each[1] for each in points_of(svg, "#d0493c")])
+    wanted = poses.translation
+    scale = np.linalg.norm(origins - origins.mean(0)) / np.linalg.norm(wanted - wanted.mean(0))
+    shift = origins.mean(0) - scale * wanted.mean(0)
+    rings = points_of(svg, "#2f9583", "polygon")
+    for corners in carried(BODY, *wanted.T, poses.angle):
+        assert min(same_ring(ring, scale * corners + shift) for ring in rings) < 0.3
+    rings = points_of(svg, "#8a8f98", "polygon")
+    for ring, (corners, _) in zip(rings, REGIONS, strict=True):
+        assert same_ring(ring, scale * np.array(corners) + shift) < 0.3
+    width, height = map(int, re.search(r'viewBox="0 0 (\d+) (\d+)"', svg).groups())
+    for ring in (*rings, *points_of(svg, "#2f9583", "polygon")):
+        assert (ring[:, 0] >= 0).all()
+        assert (ring[:, 0] <= width).all()
+        assert (-ring[:, 1] >= 0).all()
+        assert (-ring[:, 1] <= height).all()
 
 
 def test_a_result_without_linkages_is_shown_in_words():

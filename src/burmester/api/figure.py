@@ -36,6 +36,8 @@ def linkage_figure(saved: SavedLinkage, ax: Axes | None = None) -> Figure:
             own = own_circuit(linkage, places[there])
             plot.coupler_curve(ax, linkage, only=own, size=span_of(poses))
         middle = int(there[len(there) // 2]) if len(there) else None
+        if saved.task.surroundings is not None:
+            plot.keep_out(ax, saved.task.surroundings.keep_out)
         if saved.task.body is not None:
             shown = places if len(there) else poses
             outline = saved.task.body.vertices

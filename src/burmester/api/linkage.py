@@ -126,7 +126,7 @@ class _Handover:
 
     def _repr_html_(self) -> str:
         saved = self.saved()
-        drawing = still(saved.linkage, saved.error.places, saved.task.poses, self._title())
+        drawing = still(saved.linkage, saved.error.places, saved.task, self._title())
         caption = f"<figcaption>{escape(self._title())}</figcaption>"
         return f"<figure>{drawing}{caption}{dimensions_as_html(saved)}</figure>"
 

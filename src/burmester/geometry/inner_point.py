@@ -9,13 +9,17 @@ from burmester.numerics.arrays import FloatArray
 __all__ = ["inner_point"]
 
 GRID_SIDE = 40  # points along a side of the grid; the point is the best of these, not the very best
+AS_DEEP = (
+    0.95  # of the greatest depth: of points as deep as that the one nearest to the middle is taken
+)
 
 
 def inner_point(vertices: FloatArray) -> FloatArray:
-    """The point (2,) of a grid over a polygon (n, 2) that is farthest from its edges.
+    """The point (2,) of a grid over a polygon (n, 2) that is about the farthest from its edges.
 
-    The vertices stand in order around it, in either sense.  The point lies inside the polygon, unless
-    that is thinner than the grid is fine: then it is the middle of an edge.
+    The vertices stand in order around it, in either sense.  Of points about as far the one nearest
+    to the middle of the vertices' box is taken.  The point lies inside the polygon, unless that is
+    thinner than the grid is fine: then it is the middle of an edge.
     """
     start, end = vertices, np.roll(vertices, -1, axis=0)
     low, high = start.min(axis=0), start.max(axis=0)
@@ -33,4 +37,6 @@ def inner_point(vertices: FloatArray) -> FloatArray:
     along = ((points - start) * way).sum(axis=-1) / (way * way).sum(axis=-1)
     foot = start + np.clip(along, 0, 1)[..., None] * way
     away = np.linalg.norm(points - foot, axis=-1).min(axis=1)
-    return np.asarray(points[int(np.where(inside, away, -1.0).argmax()), 0])
+    deep = inside & (away >= AS_DEEP * away[inside].max())
+    off = np.linalg.norm(points[:, 0] - (low + high) / 2, axis=-1)
+    return np.asarray(points[int(np.where(deep, off, np.inf).argmin()), 0])

@@ -14,8 +14,8 @@ from numpy.typing import ArrayLike
 
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.inner_point import inner_point
-from burmester.numerics.arrays import FloatArray
 from burmester.plot.style import GREY, ORANGE, plain
+from burmester.tasks.surroundings import KeepOut
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -106,15 +106,15 @@ def body(
     return DrawnBody(polygons, swept)
 
 
-def keep_out(ax: Axes, regions: Iterable[tuple[str, FloatArray]]) -> DrawnKeepOut:
+def keep_out(ax: Axes, regions: Iterable[KeepOut]) -> DrawnKeepOut:
     """Regions that body and links must not touch: hatched, with their names.
 
     Parameters
     ----------
     ax : Axes
         Matplotlib axes.
-    regions : iterable of (str, (n, 2) array)
-        A name, which may be empty, and corners in order around the region, in F.
+    regions : iterable of KeepOut
+        The regions, in F.
 
     Returns
     -------
@@ -123,15 +123,15 @@ def keep_out(ax: Axes, regions: Iterable[tuple[str, FloatArray]]) -> DrawnKeepOu
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from burmester import plot
+    >>> from burmester import KeepOut, Polygon, plot
     >>> ax = plot.figure(4, 3).add_subplot()
-    >>> shelf = np.array([(0, 0), (2, 0), (2, 1), (0, 1)])
-    >>> [each.get_text() for each in plot.keep_out(ax, [("shelf", shelf)]).labels]
+    >>> shelf = KeepOut(Polygon([(0, 0), (2, 0), (2, 1)]), "shelf")
+    >>> [each.get_text() for each in plot.keep_out(ax, [shelf]).labels]
     ['shelf']
     """
     polygons, labels = list[Polygon](), list[Text]()
-    for name, corners in regions:
+    for region in regions:
+        corners = region.polygon.vertices
         polygons.append(
             Polygon(
                 corners,
@@ -144,11 +144,13 @@ def keep_out(ax: Axes, regions: Iterable[tuple[str, FloatArray]]) -> DrawnKeepOu
             )
         )
         ax.add_patch(polygons[-1])
-        if name:
+        if region.name:
             x, y = inner_point(corners).tolist()
             backing = {"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 1.0}
             labels.append(
-                ax.text(x, y, plain(name), bbox=backing, fontsize=7.5, ha="center", va="center")
+                ax.text(
+                    x, y, plain(region.name), bbox=backing, fontsize=7.5, ha="center", va="center"
+                )
             )
             labels[-1].set(zorder=1.05, clip_on=True)
     return DrawnKeepOut(polygons, labels)

@@ -17,6 +17,7 @@ from burmester.describe.dimensions import decimals_of, dimensions
 from burmester.dyads.selection import FoundDyad
 from burmester.fourbar.dyad import Dyad
 from burmester.geometry.displacement import Displacement
+from burmester.geometry.inner_point import inner_point
 from burmester.io.linkage_data import dyad_data, linkage_data, number, poses_data
 from burmester.io.result import message_data
 from burmester.linkages import explanation
@@ -94,7 +95,16 @@ def _poses(task: Task) -> list[dict[str, Any]]:
 
 def _keep_out(task: Task) -> list[dict[str, Any]]:
     """Regions to keep out of: name, outline in F, and a point inside where the name stands."""
-    return []
+    if task.surroundings is None:
+        return []
+    return [
+        {
+            "name": each.name or "",
+            "outline": each.polygon.vertices.tolist(),
+            "at": inner_point(each.polygon.vertices).tolist(),
+        }
+        for each in task.surroundings.keep_out
+    ]
 
 
 def _dyad(synthesis: Synthesis, found: FoundDyad) -> dict[str, Any]:

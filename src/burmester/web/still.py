@@ -1,7 +1,8 @@
 """A linkage at one of its poses as a still drawing: SVG as text, without any library.
 
-Ground and links are dark, the body is blue, the poses are red frames, the way of the body's origin
-is dashed.  Colours are chosen for light and dark pages alike.
+Ground and links are dark, the coupler is blue, the poses are red frames, the way of the body's
+origin is dashed; the body's outline is green, regions to keep out of are grey.  Colours are chosen
+for light and dark pages alike.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
+from burmester.tasks.motion_task import Task
 
 __all__ = ["own_circuit", "still"]
 
@@ -23,14 +25,16 @@ SIZE_PX = 420.0  # the longer side of the picture
 MARGIN = 0.07  # share of the drawing's size that stays free on each side
 SAMPLES = 361  # points of the coupler curve
 REACH = 1.2  # sizes of what is drawn beside it, from which on the coupler curve is cut off
-LINK, BODY, POSE, CURVE = "#5d6b7a", "#3f86d8", "#d0493c", "#8796a8"
+LINK, COUPLER, POSE, CURVE = "#5d6b7a", "#3f86d8", "#d0493c", "#8796a8"
+BODY, KEEP_OUT = "#2f9583", "#8a8f98"
 
 
-def still(linkage: Linkage, places: Displacement, poses: Displacement, title: str) -> str:
-    """An SVG of a linkage (its driver first) at the middle one of its places (N,) for poses (N,).
+def still(linkage: Linkage, places: Displacement, task: Task, title: str) -> str:
+    """An SVG of a linkage (its driver first) at the middle one of its places (N,) for a task.
 
-    Places that do not exist are nan; where there is none at all only the poses are drawn.
+    Places that do not exist are nan; where there is none at all only the task is drawn.
     """
+    poses = task.poses
     there = np.flatnonzero(np.isfinite(places.angle))
     shapes: list[tuple[str, FloatArray]] = [
         _frame(poses[k], poses) for k in range(len(poses.angle))
@@ -42,12 +46,13 @@ def still(linkage: Linkage, places: Displacement, poses: Displacement, title: st
         corners = [place.translation, *(pin for _, pin in guides)]
         shapes = [
             (
-                f'fill="{BODY}" fill-opacity=".15" stroke="{BODY}" stroke-width="2"',
+                f'fill="{COUPLER}" fill-opacity=".15" stroke="{COUPLER}" stroke-width="2"',
                 np.array(corners),
             ),
             *shapes,
             *((f'fill="none" stroke="{LINK}" stroke-width="4"', ends) for ends, _ in guides),
         ]
+        shapes[:0] = _body(task, travel, place)
         pins = [*_pivots(linkage, place)]
         seen = np.concatenate([points for _, points in shapes])
         shapes[:0] = [
@@ -56,7 +61,29 @@ def still(linkage: Linkage, places: Displacement, poses: Displacement, title: st
         ]
     else:
         pins = []
+        shapes[:0] = _body(task, poses, None)
+    shapes[:0] = _keep_out(task)
     return _svg(shapes, pins, title)
+
+
+def _body(
+    task: Task, places: Displacement, here: Displacement | None
+) -> list[tuple[str, FloatArray]]:
+    """The body's outline at places (n,), faintly, and strongly where it is drawn."""
+    if task.body is None:
+        return []
+    faint = f'fill="{BODY}" fill-opacity=".05" stroke="{BODY}" stroke-opacity=".6"'
+    strong = f'fill="{BODY}" fill-opacity=".18" stroke="{BODY}" stroke-width="1.5"'
+    corners = task.body.vertices
+    drawn = [(faint, places[k].act(corners)) for k in range(len(places.angle))]
+    return drawn + ([] if here is None else [(strong, here.act(corners))])
+
+
+def _keep_out(task: Task) -> list[tuple[str, FloatArray]]:
+    if task.surroundings is None:
+        return []
+    style = f'fill="{KEEP_OUT}" fill-opacity=".4" stroke="{KEEP_OUT}" stroke-width="1.5"'
+    return [(style, each.polygon.vertices) for each in task.surroundings.keep_out]
 
 
 def _frame(pose: Displacement, poses: Displacement) -> tuple[str, FloatArray]:

@@ -1380,7 +1380,7 @@ var PivotMap = class {
 var HATCH = 9;
 var PALEST = 0.45;
 var LONGEST_NAME = 28;
-var LEAST_SHARE = 4;
+var MOST_SIZES = 5;
 var patterns = 0;
 var closed = (points, view, [x, y]) => `M${points.map((each) => `${px(x + view.scale * each[0])} ${px(y - view.scale * each[1])}`).join("L")}Z`;
 var bodyPath = (data, view, attributes) => data.body ? s("path", { ...attributes, d: closed(data.body, view, [0, 0]) }) : null;
@@ -1432,15 +1432,17 @@ function corners(data, linkage, places) {
   return found;
 }
 function widened(box, data, linkage, places, all) {
-  const reach = all ? Infinity : (LEAST_SHARE - 1) / 2 * Math.max(box[2] - box[0], box[3] - box[1]);
-  const wide = [...box];
-  for (const corner of corners(data, linkage, places)) {
+  const sizeOf = ([x, y, u, v]) => Math.max(u - x, v - y);
+  const points = corners(data, linkage, places), wide = [...box];
+  for (const corner of points) {
     for (const k of [0, 1]) {
-      wide[k] = Math.max(box[k] - reach, Math.min(wide[k], corner[k]));
-      wide[k + 2] = Math.min(box[k + 2] + reach, Math.max(wide[k + 2], corner[k]));
+      wide[k] = Math.min(wide[k], corner[k]);
+      wide[k + 2] = Math.max(wide[k + 2], corner[k]);
     }
   }
-  return wide;
+  if (all || sizeOf(wide) <= MOST_SIZES * sizeOf(box)) return wide;
+  const reach = (MOST_SIZES - 1) / 2 * sizeOf(box);
+  return wide.map((each, k) => k < 2 ? Math.max(each, box[k] - reach) : Math.min(each, box[k] + reach));
 }
 
 // src/burmester/web/widget/mechanism.mjs

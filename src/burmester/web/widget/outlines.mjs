@@ -9,7 +9,7 @@ import { shortened } from "./tables.mjs";
 const HATCH = 9; // pixels between the lines of a hatch
 const PALEST = 0.45; // how strong the outline is at the first pose, of its strength at the last
 const LONGEST_NAME = 28; // characters of a region's name that the drawing has room for
-const LEAST_SHARE = 4; // outlines leave the linkage a quarter of the picture at least, unless all of them is asked for
+const MOST_SIZES = 5; // of the linkage: outlines widen the picture to no more, unless all of them is asked for
 
 let patterns = 0; // ids of hatches are unique on the page
 
@@ -77,18 +77,20 @@ function corners(data, linkage, places) {
   return found;
 }
 
-/** The box of the picture that holds the outlines, too, all of them or as far as the linkage stays large.
+/** The box of the picture that holds the outlines, too: all of them, or as far as the linkage stays large.
  *
  * box: [x low, y low, x high, y high] of what else there is.
  */
 export function widened(box, data, linkage, places, all) {
-  const reach = all ? Infinity : ((LEAST_SHARE - 1) / 2) * Math.max(box[2] - box[0], box[3] - box[1]);
-  const wide = [...box];
-  for (const corner of corners(data, linkage, places)) {
+  const sizeOf = ([x, y, u, v]) => Math.max(u - x, v - y);
+  const points = corners(data, linkage, places), wide = [...box];
+  for (const corner of points) {
     for (const k of [0, 1]) {
-      wide[k] = Math.max(box[k] - reach, Math.min(wide[k], corner[k]));
-      wide[k + 2] = Math.min(box[k + 2] + reach, Math.max(wide[k + 2], corner[k]));
+      wide[k] = Math.min(wide[k], corner[k]);
+      wide[k + 2] = Math.max(wide[k + 2], corner[k]);
     }
   }
-  return wide;
+  if (all || sizeOf(wide) <= MOST_SIZES * sizeOf(box)) return wide;
+  const reach = ((MOST_SIZES - 1) / 2) * sizeOf(box);
+  return wide.map((each, k) => (k < 2 ? Math.max(each, box[k] - reach) : Math.min(each, box[k] + reach)));
 }
