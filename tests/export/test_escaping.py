@@ -17,6 +17,7 @@ import pypdf
 import pytest
 from matplotlib.cbook import is_math_text
 
+from burmester import KeepOut, Polygon, Surroundings
 from burmester.api.linkage import ReadLinkage
 from burmester.errors import InputError
 from burmester.export import FORMATS, Options, export
@@ -31,6 +32,7 @@ from burmester.export.escaping import (
 )
 from burmester.plot.style import plain
 from burmester.printable import printable
+from tests.oracles.bodies import BODY
 from tests.oracles.handed_over import saved
 from tests.oracles.hostile_texts import PAYLOADS, RAN
 from tests.oracles.openscad_tokens import tokens
@@ -172,8 +174,11 @@ KEPT = {"A", "B", "B1", "B2", "driver", "follower", "body", "body_x"}
 
 
 def hostile(text, name="crank-rocker, mm"):
-    """A linkage whose id, type and dyads' ids are a text."""
-    return replace(saved(name, poses=4), id=text, type=text, ids=(text, text + "2"))
+    """A linkage whose id, type and dyads' ids are a text, and that of a region to keep out of."""
+    chosen = saved(name, poses=4)
+    kept = KeepOut(Polygon([(0, 90), (30, 90), (30, 110)]), printable(text)[:100])
+    task = replace(chosen.task, body=Polygon(BODY), surroundings=Surroundings((kept,)))
+    return replace(chosen, id=text, type=text, ids=(text, text + "2"), task=task)
 
 
 @pytest.fixture(scope="module")

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.inner_point import inner_point
-from burmester.plot.style import GREY, ORANGE, plain
+from burmester.plot.style import GREEN, GREY, plain
 from burmester.tasks.surroundings import KeepOut
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ __all__ = ["DrawnBody", "DrawnKeepOut", "body", "keep_out"]
 FIRST, LAST = 0.45, 1.0  # strength of the outline at the first pose and at the last
 FILL = 0.1  # of its strength: how opaque the inside of an outline is
 SWEPT = 0.22  # opacity of the outlines along the motion
-STRONG = ORANGE  # colour of the body
+STRONG = GREEN  # colour of the body
 
 
 class DrawnBody(NamedTuple):

@@ -19,6 +19,7 @@ import numpy as np
 from burmester.errors import BurmesterError
 from burmester.export.drawings.dxf_dimensions import add_dimension, add_style, measured_in
 from burmester.export.drawings.measured import require_dimensions
+from burmester.export.drawings.outlines import Outlines, hatch, name_start, require_outlines
 from burmester.export.drawings.sheet import Sheet, beside, carried, notes_on, sheet_of
 from burmester.export.escaping import dxf_text
 from burmester.export.options import Options
@@ -51,6 +52,8 @@ LAYERS = {  # and their colours by the index of AutoCAD
     "MARKS": 9,
     "ASSEMBLY": 9,
     "POSES": 6,
+    "BODY": 4,
+    "KEEP_OUT": 8,
     "DIMENSIONS": 30,
     "TEXT": 7,
 }
@@ -59,11 +62,14 @@ LAYERS = {  # and their colours by the index of AutoCAD
 def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
     """Write the drawing."""
     assembly = assembly_of(chosen, options)
-    poses = Reference.of(chosen, options).poses
+    reference = Reference.of(chosen, options)
+    outlines = Outlines.of(chosen, reference)
     notes = description(chosen, options, "mm") + dimension_notes(chosen, options)
     notes += notes_on(assembly)
     _, decimals = printed_decimals(chosen, options)
-    sheet = sheet_of(assembly, poses, len(notes), decimals.lengths, options.dimensions)
+    sheet = sheet_of(
+        assembly, reference.poses, len(notes), decimals.lengths, options.dimensions, outlines
+    )
     fixed = ezdxf.options.write_fixed_meta_data_for_testing
     try:
         ezdxf.options.write_fixed_meta_data_for_testing = True  # no dates and no random numbers
@@ -75,7 +81,8 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
         for name, colour in LAYERS.items():
             document.layers.add(name, color=colour)
         add_style(document, sheet)
-        _draw(document, assembly, sheet, poses, notes)
+        _draw(document, assembly, sheet, reference.poses, notes)
+        _draw_outlines(document.modelspace(), outlines, sheet.letters)
         middle, size = (sheet.low + sheet.high) / 2, sheet.high - sheet.low
         document.set_modelspace_vport(float(size.max()), center=tuple(middle.tolist()))
         document.saveas(path)
@@ -111,6 +118,22 @@ def _draw(
     for k, line in enumerate(notes):
         at = sheet.notes - [0, 1.6 * k * sheet.letters]
         _text(space, line, at, sheet.letters)
+
+
+def _draw_outlines(space: Any, outlines: Outlines, letters: float) -> None:
+    """Draw the body at every pose, and the regions with hatches and names."""
+    for corners in outlines.body if outlines.body.size else ():
+        _ring(space, corners, "BODY")
+    for name, corners in outlines.regions:
+        _ring(space, corners, "KEEP_OUT")
+        for start, end in hatch(corners, letters):
+            space.add_line(_point(start), _point(end), dxfattribs={"layer": "KEEP_OUT"})
+        if name:
+            _text(space, name, name_start(name, corners, letters), letters, layer="KEEP_OUT")
+
+
+def _ring(space: Any, corners: FloatArray, layer: str) -> None:
+    _closed(space, np.column_stack([corners, np.zeros(len(corners))]), layer)
 
 
 def _plate(
@@ -185,6 +208,11 @@ def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
     placed = _check_plates(document, assembly)
     if options.dimensions:
         require_dimensions(placed, measured_in(document, TOLERANCE_MM), TOLERANCE_MM)
+    body, regions = (
+        [_rows(each) for each in document.modelspace().query(f'LWPOLYLINE[layer=="{layer}"]')]
+        for layer in ("BODY", "KEEP_OUT")
+    )
+    require_outlines(Outlines.of(chosen, reference), body, regions, TOLERANCE_MM)
     axes = document.modelspace().query('LINE[layer=="POSES"]')
     starts = np.array([tuple(each.dxf.start)[:2] for each in axes])
     require_equal("the poses", starts, np.repeat(poses.translation, 2, axis=0), TOLERANCE_MM)

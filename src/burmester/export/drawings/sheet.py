@@ -14,6 +14,7 @@ import numpy as np
 
 from burmester.describe.decimals import figures_of
 from burmester.export.drawings.dimension_lines import LETTER_WIDTH, DimensionLine, dimension_lines
+from burmester.export.drawings.outlines import Outlines
 from burmester.export.parts.plates import Assembly, Plate, outline_points
 from burmester.export.parts.stock import INCH, stock_for
 from burmester.geometry.displacement import Displacement
@@ -118,8 +119,12 @@ def sheet_of(
     notes: int,
     decimals: int = 3,
     dimensions: bool = True,
+    outlines: Outlines | None = None,
 ) -> Sheet:
-    """The layout of an assembly, poses (N,) in millimetres, and a number of lines of notes."""
+    """The layout of an assembly, poses (N,) in millimetres, and a number of lines of notes.
+
+    outlines: what else is drawn about the assembly.
+    """
     width = assembly.dimensions.width
     between, letters, axes = PLATE_SPACING * width, LETTER_HEIGHT * width, 0.8 * width
     points = [
@@ -128,6 +133,8 @@ def sheet_of(
     ]
     ends = np.array([[0.0, 0.0], [axes, 0.0], [0.0, axes]])
     points.append(poses[:, None].act(ends).reshape(-1, 2))
+    if outlines is not None:
+        points.append(outlines.corners())
     both = np.concatenate(points)
     low, high = both.min(axis=0), both.max(axis=0)
     high[0] += 2 * letters  # a pose's number stands to the right of it
@@ -149,11 +156,15 @@ def sheet_of(
     y -= row + between
     bottom = np.array([start, y])
     low = np.array([start, y - notes * 1.6 * letters])
+    high = np.array([max(right, start + 45 * letters), float(high[1])])
+    if outlines is not None:  # names may be long, and move nothing else
+        names = outlines.names(letters)
+        low, high = np.vstack([low, names]).min(axis=0), np.vstack([high, names]).max(axis=0)
     return Sheet(
         tuple(parts),
         tuple(labels),
         low - between,
-        np.array([max(right, start + 45 * letters), float(high[1])]) + between,
+        high + between,
         letters,
         axes,
         bottom,

@@ -18,6 +18,7 @@ import numpy as np
 
 from burmester.export.drawings.dimension_lines import DimensionLine
 from burmester.export.drawings.measured import Measured, require_dimensions, require_drawn
+from burmester.export.drawings.outlines import Outlines, hatch, name_start, require_outlines
 from burmester.export.drawings.sheet import beside, carried, notes_on, sheet_of
 from burmester.export.escaping import xml_text
 from burmester.export.options import Options
@@ -47,6 +48,8 @@ STYLE = """
   .driver { stroke: #c1272d } .coupler { stroke: #0057b8 } .follower { stroke: #1b7f3b }
   .ground { stroke: #555 } .hole, .slot { stroke: #000 }
   .mark { stroke: #888 } .pose { stroke: #a3238e } text.pose { stroke: none; fill: #a3238e }
+  .body { stroke: #00785a } .keep-out { stroke: #666 } .hatch { stroke: #999 }
+  text.keep-out { stroke: none; fill: #444 }
   .dimension { stroke: #a65200 } polygon.dimension { stroke: none; fill: #a65200 }
   text.dimension { stroke: none; fill: #a65200; text-anchor: middle }
   text { text-rendering: geometricPrecision; font-family: sans-serif; font-size: %spx; fill: #000 }
@@ -56,11 +59,12 @@ STYLE = """
 def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
     """Write the drawing."""
     assembly = assembly_of(chosen, options)
-    poses = Reference.of(chosen, options).poses
+    reference = Reference.of(chosen, options)
+    poses, outlines = reference.poses, Outlines.of(chosen, reference)
     notes = description(chosen, options, "mm") + dimension_notes(chosen, options)
     notes += notes_on(assembly)
     _, decimals = printed_decimals(chosen, options)
-    sheet = sheet_of(assembly, poses, len(notes), decimals.lengths, options.dimensions)
+    sheet = sheet_of(assembly, poses, len(notes), decimals.lengths, options.dimensions, outlines)
     hair = min(LINE_WIDTH_MM, OF_WIDTH * assembly.dimensions.width)
     size = sheet.high - sheet.low
     box = f"{_n(sheet.low[0])} {_n(-sheet.high[1])} {_n(size[0])} {_n(size[1])}"
@@ -88,6 +92,7 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
                 lines += _dimension(line)
             lines.append("</g>")
         lines.append("</g>")
+    lines += _outlines(outlines, sheet.letters)
     lines.append('<g id="assembly">')
     for plate in sorted(assembly.plates, key=lambda each: each.layer):
         lines.append(f'<g id="placed-{plate.name}">')
@@ -121,6 +126,27 @@ def _plate(
         for way in ([0.3 * letters, 0], [0, 0.3 * letters]):
             lines.append(_line(mark - way, mark + way, "mark"))
     return lines
+
+
+def _outlines(outlines: Outlines, letters: float) -> list[str]:
+    """Two groups, layers in Inkscape, of which either may have nothing in it."""
+    lines = ['<g id="keep-out" inkscape:groupmode="layer" inkscape:label="keep out">']
+    for name, corners in outlines.regions:
+        lines.append('<g class="region">')
+        lines.append(f'<path class="keep-out" d="{_path(_straight(corners))}"/>')
+        lines += [_line(start, end, "hatch") for start, end in hatch(corners, letters)]
+        if name:
+            lines.append(_text(name, name_start(name, corners, letters), ' class="keep-out"'))
+        lines.append("</g>")
+    lines += ["</g>", '<g id="body" inkscape:groupmode="layer" inkscape:label="body">']
+    if outlines.body.size:
+        lines += [f'<path class="body" d="{_path(_straight(each))}"/>' for each in outlines.body]
+    return [*lines, "</g>"]
+
+
+def _straight(corners: FloatArray) -> FloatArray:
+    """Corners (k, 2) as an outline (k, 3) without arcs."""
+    return np.column_stack([corners, np.zeros(len(corners))])
 
 
 def _dimension(line: DimensionLine) -> list[str]:
@@ -224,6 +250,9 @@ def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
         _check_plate(group, plate, plate.at(place), tolerance)
     if options.dimensions:
         require_dimensions(placed, read, tolerance)
+    outlines = Outlines.of(chosen, reference)
+    regions = [path for each in groups["keep-out"] for path in _paths(each)]
+    require_outlines(outlines, _paths(groups["body"]), regions, tolerance)
     lines = _lines(groups["poses"])
     start, way = lines[::2, :2], lines[::2, 2:] - lines[::2, :2]
     require_equal("the places of the poses", start, reference.poses.translation, tolerance)
