@@ -22,6 +22,7 @@ from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.pose_error import PoseError
 from burmester.tasks.motion_task import Task
 from tests.oracles import witness
+from tests.oracles.bodies import BODY, REGIONS, bodied, carried
 from tests.oracles.saved_linkages import PAPER, paper, saved
 
 pytestmark = pytest.mark.slow
@@ -159,6 +160,48 @@ def test_the_path_grows_and_nothing_leaves_the_picture(films):
     for k in (4, 8, 15, 20):
         assert blue(pictures[23], at[k])
         assert not blue(pictures[0], at[k])
+
+
+@pytest.mark.parametrize("to", ["gif", "mp4"])
+def test_the_body_moves_with_the_linkage_amid_its_surroundings(films, tmp_path, to):
+    around, chosen = bodied(), films.paper
+    task = replace(chosen.task, body=around.body, surroundings=around.surroundings)
+    path, larger = tmp_path / f"out.{to}", replace(SMALL, width_px=640)
+    getattr(movie, f"write_{to}")(replace(chosen, task=task), path, larger)
+    getattr(movie, f"check_{to}")(replace(chosen, task=task), path, larger)
+    pictures = gif(path)[0] if to == "gif" else mp4(path)
+    pins = [yellow(picture) for picture in pictures]
+    a, b, rest = fitted(crank(24), pins)
+    assert rest.max() < 0.5
+    drive = 0.08 + 2 * np.pi * np.arange(24) / 24
+    where, phi = (each[1] for each in witness.places(*PAPER, drive))
+    rings = carried(BODY, where.real, where.imag, phi) @ [1, 1j]
+    shares = np.linspace(0.1, 0.9, 9)[:, None]
+    edges = (rings[:, None] + shares * (np.roll(rings, -1, axis=1) - rings)[:, None]).reshape(
+        24, -1
+    )
+    height, width, _ = pictures[0].shape
+
+    def green(picture, z):
+        column, row = (round(float(v)) for v in (z.real, z.imag))
+        near = picture[row - 2 : row + 3, column - 2 : column + 3].astype(int)
+        strong = (near[..., 1] > near[..., 0] + 90) & (near[..., 0] < 110)
+        return bool(strong.any())
+
+    for corners in (rings, *(np.array(each) @ [1, 1j] for each, _ in REGIONS)):
+        at = np.conj(a + b * corners)
+        assert at.real.min() > 50
+        assert at.real.max() < width
+        assert at.imag.min() > 25
+        assert at.imag.max() < height - 35
+    here, gone = [], []
+    for k in range(0, 24, 4):
+        at = np.conj(a + b * edges[k])
+        here += [green(pictures[k], z) for z in at]
+        gone += [green(pictures[(k + 12) % 24], z) for z in at]
+    # Links and pivots lie over some of it; half a turn later it, or the body at a pose, crosses it.
+    assert np.mean(here) > 0.9
+    assert np.mean(gone) < np.mean(here) - 0.3
 
 
 def test_mp4_of_a_crank(films):

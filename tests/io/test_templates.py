@@ -217,8 +217,8 @@ def test_the_knee_turns_about_the_point_it_names():
 @pytest.mark.parametrize(
     ("name", "room"),
     [
-        ("lid-hinge", lambda x, y: np.maximum(x, y)),  # beside the rear wall, or above it
-        ("tailgate", lambda x, y: np.maximum(x, y)),  # behind the roof, or above it
+        ("lid-hinge", np.maximum),  # beside the rear wall, or above it
+        ("tailgate", np.maximum),  # behind the roof, or above it
         ("folding-table", lambda x, y: -y),  # below the table top, which it touches at first
     ],
 )

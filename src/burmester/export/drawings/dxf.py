@@ -68,7 +68,12 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
     notes += notes_on(assembly)
     _, decimals = printed_decimals(chosen, options)
     sheet = sheet_of(
-        assembly, reference.poses, len(notes), decimals.lengths, options.dimensions, outlines
+        assembly,
+        reference.poses,
+        len(notes),
+        decimals.lengths,
+        options.dimensions,
+        outlines=outlines,
     )
     fixed = ezdxf.options.write_fixed_meta_data_for_testing
     try:

@@ -54,7 +54,8 @@ class Outlines:
         ends = []
         for name, corners in self.regions:
             start = name_start(name, corners, letters)
-            ends += [start, start + [LETTER_WIDTH * len(name) * letters, letters]]
+            across = np.array([LETTER_WIDTH * len(name) * letters, letters])
+            ends += [start, start + across]
         return np.reshape(ends, (-1, 2))
 
 

@@ -119,6 +119,7 @@ def sheet_of(
     notes: int,
     decimals: int = 3,
     dimensions: bool = True,
+    *,
     outlines: Outlines | None = None,
 ) -> Sheet:
     """The layout of an assembly, poses (N,) in millimetres, and a number of lines of notes.

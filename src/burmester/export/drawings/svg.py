@@ -64,7 +64,9 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
     notes = description(chosen, options, "mm") + dimension_notes(chosen, options)
     notes += notes_on(assembly)
     _, decimals = printed_decimals(chosen, options)
-    sheet = sheet_of(assembly, poses, len(notes), decimals.lengths, options.dimensions, outlines)
+    sheet = sheet_of(
+        assembly, poses, len(notes), decimals.lengths, options.dimensions, outlines=outlines
+    )
     hair = min(LINE_WIDTH_MM, OF_WIDTH * assembly.dimensions.width)
     size = sheet.high - sheet.low
     box = f"{_n(sheet.low[0])} {_n(-sheet.high[1])} {_n(size[0])} {_n(size[1])}"

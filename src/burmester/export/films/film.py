@@ -114,6 +114,12 @@ class Film:
         """The driver first."""
         return self.chosen.linkage
 
+    @property
+    def outline(self) -> FloatArray | None:
+        """The corners (n, 2) of the body, in M, where the task has them."""
+        body = self.chosen.task.body
+        return None if body is None else body.vertices
+
     @cached_property
     def grown(self) -> NDArray[np.intp]:
         """How many pictures' points (count,) the path has."""

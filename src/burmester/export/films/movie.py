@@ -2,7 +2,8 @@
 
 The camera stands still and both axes have one scale.  A driver that turns fully goes round once;
 any other goes from the first pose to the last and back.  The wanted poses stand as frames, the
-body's own frame moves with it, and the path of its origin grows.
+body's own frame moves with it, and the path of its origin grows.  The body's outline moves, too,
+and stands faintly at the poses; regions to keep out of are hatched.
 
 E130 imageio-ffmpeg is missing        E160 what was written shows another motion
 E162 a film that cannot be drawn
@@ -241,6 +242,8 @@ def _pictures(film: Film) -> Iterator[Picture]:
             drawn = plot.linkage(ax, film.linkage, place, travel=along)
             own = [*drawn.links, drawn.coupler, *drawn.ground]
             own += [drawn.fixed_pivots, drawn.moving_pivots]
+            if film.outline is not None:
+                own += plot.body(ax, film.outline, place[None], at=0).places
             grown.set_data(*path[: film.grown[number]].T)
             frame.set_data(*place.act(body).T)
             mark.set_center(tuple(pivot[number].tolist()))
@@ -262,6 +265,15 @@ def _shown_poses(points: FloatArray) -> NDArray[np.intp]:
     return np.unique(np.concatenate([some, points.argmin(axis=0), points.argmax(axis=0)]))
 
 
+def _background(film: Film, shown: NDArray[np.intp], ax: Axes) -> None:
+    """Draw the regions to keep out of, and the body faintly where it is at some of the poses."""
+    chosen = film.chosen
+    if chosen.task.surroundings is not None:
+        plot.keep_out(ax, chosen.task.surroundings.keep_out)
+    if film.outline is not None:
+        plot.body(ax, film.outline, chosen.error.places[shown])
+
+
 def _stage(film: Film) -> Stage:
     """Axes that hold the whole motion, with the path, the poses and a title, drawn once."""
     task, motion, linkage = film.chosen.task, film.motion, film.linkage
@@ -274,6 +286,9 @@ def _stage(film: Film) -> Stage:
         plot.poses(ax, task.poses[shown], numbers=False)
         for number in some:
             plot.linkage(ax, linkage, motion.places[number], travel=(motion.places,))
+        if film.outline is not None:
+            plot.body(ax, film.outline, motion.places[some])
+        _background(film, shown, ax)
         plot.finish(ax, film.chosen.unit, room=0.04)
         (left, right), (low, high) = ax.get_xlim(), ax.get_ylim()
 
@@ -295,6 +310,7 @@ def _stage(film: Film) -> Stage:
             line.set(color=GREY, lw=0.9, linestyle=(0, (3, 2)))
         for cross in curve.dead_points:
             cross.remove()
+        _background(film, shown, ax)
         over = list[Artist]()
         long = X_AXIS_LENGTH * span_of(task.poses)
         for color, reached in ((VERMILION, True), (GREY, False)):
