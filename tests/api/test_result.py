@@ -61,7 +61,7 @@ def test_rows_radians_a_displacement_and_a_task_are_one_motion(five):
         ({"angle_unit": "deg", "poses": np.ma.masked_equal(ROWS, 8.17)}, "E125", "masked"),
         ({"angle_unit": "deg", "poses": [(0, 0), *ROWS]}, "E125", "lengths"),
         ({"angle_unit": "deg", "poses": [(np.nan, 0, 0), *ROWS]}, "E103", "nan"),
-        ({"angle_unit": "deg", "poses": ROWS[:2]}, "E120", "2 poses"),
+        ({"angle_unit": "deg", "poses": ROWS[:1]}, "E120", "1 pose"),
         ({"angle_unit": "deg", "poses": [(1e80, 0, 0), *ROWS]}, "E112", "too large"),
         ({"angle_unit": "deg", "length_unit": 25.4}, "E125", "length unit"),
         ({"angle_unit": "deg", "method": "best"}, "E134", "'best'"),

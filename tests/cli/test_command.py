@@ -110,7 +110,6 @@ BAD = {
     "header only": ("x,y,angle_deg\n", "E102", ["bad.csv"]),
     "no unit": (TABLE_2.replace("angle_deg", "angle"), "E110", ["--angle-unit", "bad.csv:1"]),
     "no y": (TABLE_2.replace("x,y,", "x,z,"), "E10", ["y"]),
-    "two poses": ("\n".join(TABLE_2.splitlines()[:3]), "E120", ["2 poses"]),
     "one pose": ("\n".join(TABLE_2.splitlines()[:2]), "E120", ["1 pose"]),
     "short row": (TABLE_2.replace(",101.25", ""), "E106", ["bad.csv:11"]),
 }
@@ -278,9 +277,14 @@ def test_poses_and_pivots_make_five_conditions(tmp_path):
     assert read["linkages"] == data["linkages"]
     assert read["task"] == data["task"]
     assert read["task"]["limits"][0]["length"] == {"least": 1, "most": 20}
-    one = run("synthesize", file, "--fixed-pivot=1,-2")
-    assert one.returncode == 1
-    assert "the other dyad: a two-parameter family" in " ".join(one.stdout.split())
+    one = run("synthesize", file, "--fixed-pivot=1,-2", "--json")
+    assert one.returncode == 0
+    open_ = valid(one.stdout)
+    assert open_["outcome"]["code"] == "R308"
+    for linkage in open_["linkages"]:
+        assert np.allclose(linkage["dyads"][0]["fixed_pivot"], [1, -2], rtol=0, atol=1e-12)
+        for dyad in linkage["dyads"]:
+            assert dyad["kind"] != "RR" or np.abs(circle_misses(dyad, open_)).max() < 1e-9
 
 
 def circle_misses(dyad, data):

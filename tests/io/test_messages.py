@@ -412,11 +412,11 @@ CASES: dict[str, Case] = {
     ),
     "two angle units": Case("E110", f"{S} --angle-unit rad", Args(S), GOOD),
     # --- tasks
-    "two poses": Case(
+    "one pose": Case(
         "E120",
         S,
-        Write("poses.csv", "\n".join(TEN.splitlines()[:4])),
-        {"poses.csv": "\n".join(TEN.splitlines()[:3])},
+        Write("poses.csv", "\n".join(TEN.splitlines()[:3])),
+        {"poses.csv": "\n".join(TEN.splitlines()[:2])},
     ),
     "exact method for ten": Case("E121", f"{S} --method exact", Args(S), ALL),
     "pencil for five": Case("E121", f"{S} --method pencil", Args(S), GOOD),
@@ -821,8 +821,8 @@ CASES: dict[str, Case] = {
     "two poses differ": Case(
         "R311",
         S,
-        Write("poses.csv", rows("1,2,30 4,3,70 5,5,90")),
-        {"poses.csv": rows("1,2,30 1,2,30 4,3,70")},
+        Write("poses.csv", rows("1.0,2.0,30 4.0,3.0,70 5.0,5.0,90")),
+        {"poses.csv": rows("1.000,2.000,30 1.001,2.001,30 4.000,3.000,70")},
         exit=1,
     ),
     "along a line": Case(

@@ -469,15 +469,13 @@ def test_five_poses_and_repeats_are_a_five_pose_task():
     assert (doubled[found.first[found.five]] == rows).all()
 
 
-@pytest.mark.parametrize(("different", "kind"), [(1, Rest), (2, FewPoses), (3, General)])
+@pytest.mark.parametrize(("different", "kind"), [(1, Rest), (2, General), (3, General)])
 def test_few_different_poses(different, kind):
     rng = np.random.default_rng(2)
     rows = rng.normal(size=(different, 3))[rng.permutation(np.arange(9) % different)]
     found = classify_motion(task_of(rows))
     assert isinstance(found.kind, kind)
     assert found.distinct == different
-    if kind is FewPoses:
-        assert "only 2 of the 9 poses are different" in found.kind.message
 
 
 # --- general motions are never called special

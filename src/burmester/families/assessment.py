@@ -172,8 +172,9 @@ def _of_proportions(linkage: Linkage, places: Displacement, conditions: Conditio
 
 
 def _by_transmission(value: Assessment) -> FloatArray:
-    smaller = 0.002 * np.minimum(value.extent, 10.0)  # of two that transmit alike
-    return np.asarray(smaller - value.transmission)
+    # The size of what makes the choice between linkages that transmit alike.
+    other = 0.002 * np.minimum(np.log(value.extent * value.sensitivity), 10.0)
+    return np.asarray(other - value.transmission)
 
 
 def _by_extent(value: Assessment) -> FloatArray:

@@ -28,6 +28,7 @@ from burmester.fourbar.linkage import TYPE_OF_SIGNS
 from burmester.fourbar.linkage_batch import DYAD_KINDS, LinkageBatch
 from burmester.geometry.regions import Polygon
 from burmester.linkages.quality import best_first
+from burmester.linkages.standard import Standard
 from burmester.linkages.target import Target
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import concatenate, take
@@ -40,7 +41,8 @@ __all__ = ["RULE", "Family", "best_of_family"]
 
 RULE: Final = (
     "Recommended is a linkage with pins before one with a slider, then the one with the greatest "
-    "least transmission angle, then, within half a degree of it, the smallest"
+    "least transmission angle, then, within half a degree of it, the one with the least product of "
+    "extent and sensitivity"
 )
 
 # How many dyads are drawn of each kind: RR, PR, RP; with pins alone, and with sliders.
@@ -48,7 +50,9 @@ PINS: Final = {0: 450}
 SLIDERS: Final = {0: 200, 1: 80, 2: 80}
 JUDGED: Final = 1500  # number of pairs of each two kinds that are judged
 POPULATIONS: Final = (8, 3, 3, 4)  # number of starts for each of the AIMS
-GENERATIONS: Final = 25  # of the evolution from them
+# Of the evolution from them, by the number of poses: two poses leave more freedom than four.
+GENERATIONS: Final = {2: 45, 3: 30, 4: 20}
+MOST_GENERATIONS: Final = 60  # with tolerances, which leave more
 APART: Final = 0.15  # motion sizes; starts are farther from each other
 SHOWN: Final = 12  # number of linkages that are kept at most
 SHOWN_SLIDERS: Final = 4  # of these with sliders, where pins alone work
@@ -109,7 +113,7 @@ def best_of_family(problem: SynthesisProblem, target: Target) -> Family | None:
         if found is not None and found.works:
             return replace(found, given_up=given_up)
         first = first or found
-    return first
+    return None if first is None else replace(first, given_up=True)
 
 
 def _searched(task: OpenTask, assumed: Assumptions) -> Family | None:
@@ -118,10 +122,11 @@ def _searched(task: OpenTask, assumed: Assumptions) -> Family | None:
     kinds = task.conditions.kinds
     pools = []
     for counts, pairs, generations in (
-        (PINS, kinds & {PINNED}, GENERATIONS),
+        (PINS, kinds & {PINNED}, GENERATIONS.get(task.poses.shape[0], MOST_GENERATIONS)),
         (SLIDERS, kinds - {PINNED}, SLIDER_GENERATIONS),
     ):
-        pool = _drawn(task, pairs, counts, rng) if pairs else None
+        able = all(set(side.kinds) & set(counts) for side in task.sides)
+        pool = _drawn(task, pairs, counts, rng) if pairs and able else None
         if pool is not None:
             pools.append(_improved(pool, task, generations, rng))
     if not pools:
@@ -235,7 +240,7 @@ def _shown(pool: _Pool, task: OpenTask) -> NDArray[np.intp]:
     if not value.good.any():
         return np.argsort(value.violation, kind="stable")[:SHOWN_FAILING]
     good = np.flatnonzero(value.good)
-    best = good[best_first(value.transmission[good], value.extent[good])[0]]
+    best = good[best_first(*(figure[good] for figure in value[1:]))[0]]
     figures = np.stack([-value.transmission, value.extent, value.sensitivity], axis=1)
     some = np.union1d(good[:: max(1, len(good) // MOST_ON_FRONT)], [best])
     on_front = some[front(figures[some])]
@@ -244,7 +249,7 @@ def _shown(pool: _Pool, task: OpenTask) -> NDArray[np.intp]:
     points = _pins(take(pool.trials, on_front), task) / task.conditions.span
     chosen = far_apart(points, [0, *aims], SHOWN, SHOWN_APART)
     rest = on_front[chosen[1:]]
-    rest = rest[best_first(value.transmission[rest], value.extent[rest])]
+    rest = rest[best_first(*(figure[rest] for figure in value[1:]))]
     return np.concatenate([[best], rest])
 
 
@@ -326,6 +331,6 @@ def _conditions(
         drivers={"first": (0,), "second": (1,)}.get(asked.driver, (0, 1)),
         crank=asked.driver == "crank",
         any_order=asked.any_order,
-        change_point=asked.types is not None,
+        change_point=Standard.of(task).change_point,
         footprint=footprint,
     )

@@ -4,7 +4,8 @@ Three figures by which linkages are chosen: how well it transmits (greater is be
 it takes, and how much worse it gets as it is built (less is better).  Others for who needs them.
 
 The rule: recommended is the linkage with the greatest least transmission angle; of those within
-half a degree of it, the smallest.
+half a degree of it, the one with the least product of extent and sensitivity.  The smallest alone
+would have its pivots side by side, where every error of a pin turns the body.
 """
 
 from __future__ import annotations
@@ -104,18 +105,16 @@ class Quality:
 
 
 def best_first(
-    transmission: FloatArray, extent: FloatArray, sensitivity: FloatArray | None = None
+    transmission: FloatArray, extent: FloatArray, sensitivity: FloatArray
 ) -> NDArray[np.intp]:
     """The order (n,) of linkages by the rule, the recommended one first.
 
     The rule is applied again to those that are left, so that each place has a linkage as the
-    recommended one of the rest.  Equal ones are ordered by their sensitivity, then as they come.
-    transmission: (n,), radians; extent: (n,), any unit.  nan is the worst of all.
+    recommended one of the rest.  Equal ones stay as they come.
+    transmission: (n,), radians; extent, sensitivity: (n,), any unit.  nan is the worst of all.
     """
     transmission = np.nan_to_num(transmission, nan=-np.inf)
-    extent = np.nan_to_num(extent, nan=np.inf)
-    tie = np.zeros(len(extent)) if sensitivity is None else np.nan_to_num(sensitivity, nan=np.inf)
-    left = np.lexsort((tie, extent))  # the smallest first
+    left = np.argsort(np.nan_to_num(extent * sensitivity, nan=np.inf), kind="stable")
     order = []
     while len(left):
         near = transmission[left] >= transmission[left].max() - SAME_TRANSMISSION

@@ -17,6 +17,7 @@ from burmester.fourbar.linkage import GRASHOF_SUMS
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import least_angle, length_of, span
+from burmester.tasks.repeated_poses import rotation_range
 from burmester.tasks.requirements import Requirements
 from burmester.wording import figure
 
@@ -27,6 +28,7 @@ MOST_LINK_RATIO = 10.0  # longest over shortest of four links
 # Spans of the motion: a shorter link magnifies the errors of its pins at the body; a longer one is
 # hardly to be placed.
 SHORTEST_LINK, LONGEST_LINK = 0.05, 10.0
+SAME_ANGLE = 1e-9  # radians; a body that turns by less has nothing but parallelograms
 CHANGE_POINT = 1e-3  # of all links together: a linkage whose Grashof excess is less may flip over
 ROUNDING_DEGREES = 1e-6  # degrees; an angle lower by less is as good
 
@@ -55,7 +57,7 @@ class Standard:
             0.0 if asked.transmission_deg else LEAST_TRANSMISSION,
             math.inf if math.isfinite(asked.link_ratio) else MOST_LINK_RATIO,
             span(task),
-            asked.types is not None,
+            asked.types is not None or rotation_range(task.poses.angle) <= SAME_ANGLE,
         )
 
     @property

@@ -38,7 +38,7 @@ def family_summary(
         )
         return outcome, advice
     if family.given_up:
-        first = linkages[0]
+        first = usable[0]
         advice.append(
             Advice(
                 "W216",

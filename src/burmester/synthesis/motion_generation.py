@@ -30,10 +30,11 @@ from burmester.synthesis.method import with_method
 from burmester.synthesis.outcome import dyad_advice, family, linkage_advice, summary
 from burmester.synthesis.result import Outcome, Synthesis
 from burmester.tasks.feasibility import require_feasible
-from burmester.tasks.motion_kinds import FewPoses, Rest
+from burmester.tasks.motion_kinds import FewPoses, MotionKind, Rest
 from burmester.tasks.motion_task import Task
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
+from burmester.tasks.special_motions import CircularTranslation
 
 __all__ = ["synthesize"]
 
@@ -60,10 +61,13 @@ def synthesize(
     diagnosis = diagnose(task)
     problem = SynthesisProblem.of(task, diagnosis.motion, options)
     known = (*task.notes, *diagnosis.findings)
+    open_ = max(problem.missing_conditions) > 0 and options.method in ("auto", "exact")
     if problem.is_special:
-        return _special_motion(problem, known)
-    if max(problem.missing_conditions) > 0 and options.method in ("auto", "exact"):
-        return _of_family(problem, known)
+        parallel = isinstance(_kind(problem), CircularTranslation)
+        chosen = _of_family(problem.merged(), known) if open_ and parallel else None
+        return chosen or _special_motion(problem, known)
+    if open_:
+        return _of_family(problem, known) or _dyad_family(problem, known)
     problem = with_method(problem)
     step("looking for dyads")
     search = search_dyads(problem)
@@ -96,12 +100,16 @@ def _require_few(task: Task) -> None:
         )
 
 
-def _of_family(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthesis:
-    """Too few conditions leave infinitely many linkages: the best of them."""
+def _kind(problem: SynthesisProblem) -> MotionKind | None:
+    return None if problem.motion is None else problem.motion.kind
+
+
+def _of_family(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthesis | None:
+    """Too few conditions leave infinitely many linkages: the best of them; None if none meets."""
     task, target = problem.task, target_of(problem)
     found = None if min(problem.missing_conditions) < 0 else best_of_family(problem, target)
     if found is None:
-        return _dyad_family(problem, findings)
+        return None
     evaluation = Evaluation(problem, target)
     own, searched = found.batch.from_canonical(target.frames), np.ones(len(found.batch), dtype=bool)
     pairs = [_numbered(own.linkage(k), 2 * k + 1, task) for k in range(len(own))]
