@@ -170,7 +170,10 @@ def test_the_least_transmission_angle_is_that_of_the_whole_way(cases, name):
             assert said["range"] <= said["poses"] + 1e-9
             table = screen().split("Usable, the best first")[1]
             row = next(line for line in table.splitlines() if line.startswith(f"{linkage['id']} "))
-            assert float(row.split()[-1].rstrip("°")) == pytest.approx(least, abs=0.1)
+            *_, angle, extent, sensitivity = row.split()
+            assert float(angle.rstrip("°")) == pytest.approx(least, abs=0.1)
+            assert float(extent) == pytest.approx(linkage["quality"]["extent"], rel=0.05)
+            assert float(sensitivity) == pytest.approx(linkage["quality"]["sensitivity"], rel=0.05)
             tried += 1
     assert tried >= 2
 

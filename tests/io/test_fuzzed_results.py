@@ -77,7 +77,7 @@ def test_a_sample_of_the_campaign(trees, tmp_path):
         rng = random.Random(seed)
         verdicts[judged(with_faults(rng, rng.choice(trees)), tmp_path, rng.choice(QUICK))] += 1
     assert verdicts["E150"] > 60
-    assert verdicts["exported"] > 8
+    assert verdicts["exported"] > 5
 
 
 # What follows from the rest of a linkage: none of it can be changed alone.
@@ -98,6 +98,10 @@ DETERMINED = (
     "follower",
     "turns_fully",
     "range",
+    "transmission_deg",
+    "extent",
+    "sensitivity",
+    "driver_turn_deg",
     "defects",
     "radius",
 )

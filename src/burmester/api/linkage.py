@@ -165,6 +165,7 @@ class ResultLinkage(_Handover, FoundLinkage):
             self.error,
             self.driven.least_over_range,
             self.other_types,
+            self.quality,
         )
 
     def __repr__(self) -> str:

@@ -9,6 +9,7 @@ from html import escape
 from burmester.describe.decimals import decimals_of_linkage
 from burmester.describe.digits import angle_error, degrees
 from burmester.describe.dimensions import dimensions_of
+from burmester.describe.quality_words import in_short
 from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import ROUNDING
 from burmester.tasks.length_per_radian import default_length_per_radian
@@ -18,14 +19,14 @@ from burmester.wording import listed
 
 __all__ = ["as_html", "as_line", "as_text", "dimensions_as_html"]
 
-HEADS = ("", "type", "dyads", "worst", "angle", "transm.", "")
-NUMBERS = range(3, 6)  # columns of numbers, set to the right
+HEADS = ("", "type", "dyads", "worst", "angle", "transm.", "ext.", "sens.", "")
+NUMBERS = range(3, 8)  # columns of numbers, set to the right
 
 
 def as_line(linkage: SavedLinkage) -> str:
     """A linkage in one line: "L1: crank-rocker of D1 and D2, misses by ..."."""
     first, second = linkage.ids
-    _, _, _, worst, angle, least, verdict = _cells(linkage)
+    _, _, _, worst, angle, least, *_, verdict = _cells(linkage)
     if "-" in (worst, angle):
         how = "cannot be assembled near every pose"
     elif worst == angle == "exact":
@@ -100,6 +101,7 @@ def _cells(linkage: SavedLinkage) -> tuple[str, ...]:
         _position(error.worst, task),
         angle_error(float(error.angle.max())) if math.isfinite(error.worst) else degrees(math.nan),
         least_angle(linkage.least_transmission),
+        *in_short(linkage.quality),
         "" if linkage.usable else "not usable",
     )
 

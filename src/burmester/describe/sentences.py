@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from burmester.describe import quality_words
 from burmester.describe.digits import degrees, fitted_decimals, sides, worst_errors
 from burmester.describe.dimensions import certain, decimals_of
 from burmester.linkages import explanation
@@ -269,7 +270,7 @@ def footnotes(synthesis: Synthesis) -> str:
     if len(synthesis.usable) > 1:
         text += (
             " The first of two dyads drives; worst and angle: the greatest misses at a pose; "
-            "transm.: the least transmission angle between the poses."
+            f"transm.: the least transmission angle between the poses; {quality_words.COLUMNS}."
         )
     if any(found.other_types for found in synthesis.usable):
         text += " A type with ± could be another within the uncertainty of the links; see --json."

@@ -1,9 +1,9 @@
 """Whether the parts of a result agree: what its dyads and poses determine is computed again.
 
 From the dyads of a linkage, its places and the poses follow its errors, its links and its type;
-whether it is usable, with which driver, its defects and its transmission angles.  Other numbers
-(the regions of uncertainty, the spread of errors as built, the certificate) are not computed again,
-and nothing is made of them where a result is read.
+whether it is usable, with which driver, its defects, its transmission angles and its quality.
+Other numbers (the regions of uncertainty, the spread of errors as built, the certificate) are not
+computed again, and nothing is made of them where a result is read.
 
 E152 a part of a result that its own dyads and poses do not give
 """
@@ -35,6 +35,7 @@ from burmester.io.saved_model import (
 from burmester.linkages.evaluation import Evaluation
 from burmester.linkages.found_linkage import Side, with_driver_first
 from burmester.linkages.from_dyads import target_of
+from burmester.linkages.quality import Quality
 from burmester.tasks.motion_class import classify_motion
 from burmester.tasks.motion_task import Task, characteristic_length
 from burmester.tasks.options import SynthesisOptions
@@ -46,6 +47,9 @@ __all__ = ["Judged", "judged_again"]
 CLOSENESS = 1e-9  # of the task's size or of a number itself; rounding changes less
 ROUNDING = 1e-14  # of the farthest pivot; rounding of what is computed from it
 PLACE_ERROR = 1e-6  # of the task's size; places are found by iteration, to fewer digits
+# Of a figure of quality: beside a dead point, and for bodies that hardly are determined, rounding
+# changes the last digits.
+QUALITY_CLOSENESS = 1e-5
 ANGLE_CLOSENESS = 1e-5  # degrees; beside a dead point a transmission angle loses half its digits
 WORKING = ("R300", "R305", "R307", "R308")  # outcomes with a usable linkage
 AGAIN = "the file has been changed: make it anew with `burmester synthesize POSES -o result.json`"
@@ -65,6 +69,7 @@ class Judged(NamedTuple):
     driver: Side
     usable: bool
     verdict: Verdict
+    quality: Quality | None = None
 
     @property
     def led(self) -> Linkage:
@@ -115,6 +120,9 @@ def judged_again(result: WrittenResult, task: Task) -> list[Judged]:
         if written.coupler is None or any(each.kind == "rounding" for each in written.unmet):
             usable = False
         own = Judged(linkages[k], errors[k], side, usable, verdict)
+        if written.coupler is not None:
+            (quality,) = evaluation.qualities([own.led], places[[k]], [own.driven])
+            own = own._replace(quality=quality)
         slack = CLOSENESS * size + ROUNDING * _reach(_sides(own.linkage))
         parts = [
             *_verdict_parts(written, k, own),
@@ -126,6 +134,7 @@ def judged_again(result: WrittenResult, task: Task) -> list[Judged]:
                 keys = ("linkages", k, "dyads", number)
                 parts += _line_parts(dyad, keys, own.error.places, slack)
             parts += [*_type_parts(written, k, own, slack), *_motion_parts(written, k, own)]
+            parts += _quality_parts(written, k, own)
         _require_parts(parts, f"linkage {written.id} does not do what the file says of it")
         judged.append(own)
     return judged
@@ -257,6 +266,40 @@ def _motion_parts(written: WrittenLinkage, index: int, own: Judged) -> _Parts:
         drive, keys = getattr(written.drives, name), ("linkages", index, "drives", name)
         yield from _driven_parts(drive, keys, driven, driven.defects)
         yield _Part((*keys, "turns_fully"), drive.turns_fully, driven.turns_fully)
+
+
+def _quality_parts(written: WrittenLinkage, index: int, own: Judged) -> _Parts:
+    """Its figures of quality, where the file has them."""
+    stated, quality = written.quality, own.quality
+    if stated is None or quality is None:
+        return
+    keys, slides = ("linkages", index, "quality"), isinstance(own.led.first, PR)
+    turn, reserve = quality.driver_turn, quality.reserve
+    if not slides:
+        turn, reserve = np.degrees(turn), np.degrees(reserve)
+    figures = (
+        ("transmission_deg", np.degrees(quality.transmission)),
+        ("extent", quality.extent),
+        ("sensitivity", quality.sensitivity),
+        ("driver_travel" if slides else "driver_turn_deg", turn),
+    )
+    for name, value in figures:
+        given = _number(float(value))
+        tolerance = ANGLE_CLOSENESS + QUALITY_CLOSENESS * abs(given or 0.0)
+        yield _Part((*keys, name), getattr(stated, name), given, tolerance)
+    pairs = (
+        ("mechanical_advantage", quality.advantage),
+        ("reserve" if slides else "reserve_deg", reserve),
+    )
+    for name, values in pairs:
+        said = getattr(stated, name)
+        if said is None:
+            yield _Part((*keys, name), "left out", "two numbers")
+            continue
+        for k, value in enumerate(values):
+            given = _number(value)
+            tolerance = QUALITY_CLOSENESS * (1 + abs(given or 0.0))
+            yield _Part((*keys, name, k), said[k], given, tolerance)
 
 
 def _driven_parts(

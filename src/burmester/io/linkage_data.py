@@ -92,6 +92,7 @@ def linkage_data(found: FoundLinkage, tolerance: float | None = None) -> dict[st
         "angle_error_deg": _errors(np.degrees(found.error.angle)),
         "combined_error": number(found.combined_error),
         "shortcomings": list(found.shortcomings),
+        "quality": _quality(found),
         "defects": [_defect(each) for each in found.defects],
         "unmet": [{"kind": each.kind, "message": each.message} for each in found.violations],
         "sought": found.from_search,
@@ -133,6 +134,29 @@ def _transmission(driven: Driven) -> dict[str, float | None]:
     return {
         "poses": number(math.degrees(driven.least_at_poses)),
         "range": number(math.degrees(driven.least_over_range)),
+    }
+
+
+def _quality(found: FoundLinkage) -> dict[str, Any] | None:
+    """The figures of quality, angles in degrees; None where no place is near some pose.
+
+    A figure that is infinite, or does not exist, is null: nothing stops the driver, or the origin
+    of the body rests while the driver moves.
+    """
+    quality = found.quality
+    if quality is None:
+        return None
+    slides = isinstance(found.driver_first.first, PR)
+    turn, reserve = quality.driver_turn, quality.reserve
+    if not slides:
+        turn, reserve = np.degrees(turn), np.degrees(reserve)
+    return {
+        "transmission_deg": number(math.degrees(quality.transmission)),
+        "extent": number(float(quality.extent)),
+        "sensitivity": number(float(quality.sensitivity)),
+        "driver_travel" if slides else "driver_turn_deg": number(float(turn)),
+        "mechanical_advantage": [number(value) for value in quality.advantage],
+        "reserve" if slides else "reserve_deg": [number(value) for value in reserve],
     }
 
 

@@ -12,6 +12,7 @@ from rich.text import Text
 from burmester.describe import sentences
 from burmester.describe.digits import links, worst_errors
 from burmester.describe.dimensions import certain, decimals_of, dimensions
+from burmester.describe.quality_words import in_short, quality_note
 from burmester.io.message import wrapped
 from burmester.io.sketch import sketch
 from burmester.linkages import explanation
@@ -63,17 +64,20 @@ def usable_table(synthesis: Synthesis, console: Console) -> Table:
     pins = [places for places, found in zip(decimals, usable, strict=True) if found.linkage.links]
     most = max(pins, default=0)
     unlimited = console.options.update(max_width=10 * console.width)
-    trials = [(most, 1), *((most - cut, 0) for cut in range(min(MOST_CUT, most) + 1))]
-    for places, gap in trials if pins else ():
-        table = _usable(synthesis, usable, [min(each, places) for each in decimals], gap)
+    cuts = [most - cut for cut in range(min(MOST_CUT, most) + 1)]
+    trials = [(most, 1, True), *((places, 0, dyads) for dyads in (True, False) for places in cuts)]
+    for places, gap, dyads in trials if pins else ():
+        shown = [min(each, places) for each in decimals]
+        table = _usable(synthesis, usable, shown, gap, dyads=dyads)
         if places < most:
             table.title = f"{table.title}; links to {count(places, 'decimal')}"
         if console.measure(table, options=unlimited).maximum <= console.width:
             return table
-    table = _usable(synthesis, usable, None, 1)
-    if console.measure(table, options=unlimited).maximum <= console.width:
-        return table
-    return _usable(synthesis, usable, None, 0, dyads=False)
+    for gap, dyads in ((1, True), (0, True), (0, False)):
+        table = _usable(synthesis, usable, None, gap, dyads=dyads)
+        if console.measure(table, options=unlimited).maximum <= console.width:
+            return table
+    return _usable(synthesis, usable, None, 0, dyads=False, quality=False)
 
 
 def _usable(
@@ -83,6 +87,7 @@ def _usable(
     gap: int,
     *,
     dyads: bool = True,
+    quality: bool = True,
 ) -> Table:
     table = new_table("Usable, the best first", gap)
     table.add_column("", no_wrap=True)
@@ -91,7 +96,7 @@ def _usable(
         table.add_column("dyads", no_wrap=True)
     for name in LINKS if decimals is not None else ():
         table.add_column(name, justify="right", no_wrap=True)
-    for name in ("worst", "angle", "transm."):
+    for name in ("worst", "angle", "transm.", *(("ext.", "sens.") if quality else ())):
         table.add_column(name, justify="right", no_wrap=True)
     for k, found in enumerate(usable):
         # Of the longest name, the second word stands under the first.
@@ -103,6 +108,7 @@ def _usable(
             *(() if decimals is None else links(found, decimals[k])),
             *worst_errors(synthesis, found),
             notation.least_angle(found.driven.least_over_range),
+            *(in_short(found.quality) if quality else ()),
         )
     return table
 
@@ -147,6 +153,9 @@ def in_full(synthesis: Synthesis, console: Console) -> Iterator[Text | Table]:
         both = Table.grid(padding=(0, GAP, 0, 0))
         both.add_row(table, Text("\n".join(drawn)))
         yield both
+    quality = quality_note(best, synthesis.task)
+    if quality is not None:
+        yield Text(quality)
     digits, uncertainty = sentences.digits_note, sentences.uncertainty_note
     made = (sentences.tolerance_note, sentences.rounding_note)
     for note in (digits, uncertainty, sentences.type_note, *made):

@@ -23,6 +23,7 @@ from burmester.io.reading.file_content import read_source
 from burmester.io.reading.poses import read_task
 from burmester.io.result import SCHEMA
 from burmester.linkages.found_linkage import Side
+from burmester.linkages.quality import Quality
 from burmester.printable import printable
 from burmester.synthesis.result import Outcome
 from burmester.tasks.motion_task import Task
@@ -45,6 +46,7 @@ class SavedLinkage:
     drive where the linkage is not usable.
     least_transmission: the least transmission angle between the poses, in radians.
     other_types: the other types that the uncertainty of the links leaves possible.
+    quality: what a designer pays for; None where it has no places near the poses.
     """
 
     id: str
@@ -57,6 +59,7 @@ class SavedLinkage:
     error: PoseError
     least_transmission: float = math.nan
     other_types: tuple[str, ...] = ()
+    quality: Quality | None = None
 
     @property
     def unit(self) -> str | None:
@@ -140,6 +143,7 @@ def read_result(source: str | os.PathLike[str]) -> Result:
             found.error,
             found.driven.least_over_range,
             tuple((each.possible_types or ())[1:]),
+            found.quality,
         )
         for each, found in zip(written.linkages, judged, strict=True)
     )

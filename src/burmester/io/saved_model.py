@@ -27,6 +27,7 @@ __all__ = [
     "WrittenDrive",
     "WrittenDyad",
     "WrittenLinkage",
+    "WrittenQuality",
     "WrittenResult",
     "path_of",
     "written_result",
@@ -201,6 +202,33 @@ class _Transmission(_Part):
     range: Annotated[float, Field(ge=0, le=90)] | None
 
 
+_Sizes = Annotated[list[_Size | None], Field(min_length=2, max_length=2)]
+
+
+class WrittenQuality(_Part):
+    """The figures of quality of one linkage."""
+
+    transmission_deg: Annotated[float, Field(ge=0, le=90)] | None
+    extent: _Size | None
+    sensitivity: _Size | None
+    driver_turn_deg: _Size | None = None
+    driver_travel: _Size | None = None
+    mechanical_advantage: _Sizes
+    reserve_deg: _Sizes | None = None
+    reserve: _Sizes | None = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _one_driver(cls, given: Any) -> Any:
+        turns, slides = ("driver_turn_deg", "reserve_deg"), ("driver_travel", "reserve")
+        if isinstance(given, dict) and [key in given for key in turns + slides] not in (
+            [True, True, False, False],
+            [False, False, True, True],
+        ):
+            raise PydanticCustomError("driver", "driver")
+        return _without_null(given, "reserve_deg", "reserve")
+
+
 class WrittenDrive(_Part):
     """The verdicts with one dyad as the driver."""
 
@@ -296,6 +324,7 @@ class WrittenLinkage(_Part):
     angle_error_deg: _Errors
     combined_error: _Size | None = None
     shortcomings: _Texts = []
+    quality: WrittenQuality | None = None
     usable: bool
     defects: _Defects
     driver: Side | None
@@ -379,6 +408,7 @@ def written_result(tree: dict[str, Any], help: str) -> WrittenResult:
         "missing": "it is missing",
         "none": "it is null",
         "travel": "it has travel and travel_deg, or neither of them",
+        "driver": "it has figures of a driver that turns and of one that slides, or not all",
         "union_tag_not_found": "its kind is missing",
         "string_unicode": "there is half a character in it",
         "string_pattern_mismatch": f"it is {given}, and burmester writes {_example(path)}",

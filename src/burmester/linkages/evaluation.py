@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.dyads.selection import FoundDyad
-from burmester.fourbar.defects import Defect, Verdict, judge
+from burmester.fourbar.defects import Defect, Driven, Verdict, judge
 from burmester.fourbar.dyad import Dyad
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
@@ -20,12 +20,13 @@ from burmester.geometry.displacement import Displacement
 from burmester.linkages.constraints import AllConstraints
 from burmester.linkages.found_linkage import FoundLinkage, Pair, Side, with_driver_first
 from burmester.linkages.possible_types import links_covariance, possible_types
+from burmester.linkages.quality import Quality
 from burmester.linkages.ranking import DEFAULT_TOLERANCE, ranked
 from burmester.linkages.requirement_check import Violation, violations
 from burmester.linkages.rounding import rounded
 from burmester.linkages.standard import Standard
 from burmester.linkages.target import Target
-from burmester.linkages.tolerances import spread
+from burmester.linkages.tolerances import sensitivity_bound, spread
 from burmester.linkages.uncertainty import (
     DETERMINED_SHARE,
     covariance,
@@ -135,6 +136,7 @@ class Evaluation:
                 from_search=bool(candidates.from_search[k]),
             )
             out.append(replace(found, shortcomings=standard.shortcomings(found, self.task)))
+        out = self._with_quality(out, places)
         rows = np.arange(len(own))[:, None]
         batch = LinkageBatch(
             candidates.batch.kinds[rows, sides], candidates.batch.dimensions[rows, sides]
@@ -243,6 +245,29 @@ class Evaluation:
         best = min(sides, key=lambda side: ranked[side][0])
         (defects, missing, *_), reasons = ranked[best]
         return best, reasons, not (verdict.defects or defects or missing)
+
+    def qualities(
+        self, linkages: Sequence[Linkage], places: Displacement, driven: Sequence[Driven]
+    ) -> list[Quality]:
+        """The quality of linkages (k,), the driver first, at places (k, N) in the task's frames."""
+        batch, target = LinkageBatch.of(linkages), self.target
+        here = target.places_of(target.rows_at(places))
+        there = batch.to_canonical(target.frames)
+        bound = sensitivity_bound(there, target.poses, here, target.length).max(axis=-1)
+        every = Quality.of(batch, places, driven, bound, size=self.problem.motion_size)
+        return [take(every, k) for k in range(len(linkages))]
+
+    def _with_quality(self, found: list[FoundLinkage], places: Displacement) -> list[FoundLinkage]:
+        """The linkages with their quality, where their places (k, N) exist."""
+        sound = [k for k, each in enumerate(found) if math.isfinite(each.combined_error)]
+        if not sound:
+            return found
+        driven = [found[k].driven for k in sound]
+        told = self.qualities([found[k].driver_first for k in sound], places[sound], driven)
+        out = list(found)
+        for k, quality in zip(sound, told, strict=True):
+            out[k] = replace(out[k], quality=quality)
+        return out
 
     def _with_uncertainty(
         self, found: list[FoundLinkage], batch: LinkageBatch, rows: FloatArray

@@ -9,6 +9,7 @@ from burmester.dyads.selection import FoundDyad
 from burmester.fourbar.defects import Defect, Driven, Verdict
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.pose_error import PoseError
+from burmester.linkages.quality import Quality
 from burmester.linkages.requirement_check import Violation
 from burmester.linkages.tolerances import Spread
 from burmester.linkages.uncertainty import DyadUncertainty
@@ -57,6 +58,8 @@ class FoundLinkage:
     shortcomings : tuple of str
         Where it falls short of what a linkage to build is to be, where the task asks for nothing
         (`standard.Standard`).
+    quality : Quality, optional
+        What a designer pays for, with the preferred driver; None where the error is infinite.
     from_search : bool
         Whether it comes from the search for defect-free linkages.
     uncertainty : tuple of two DyadUncertainty, optional
@@ -89,6 +92,7 @@ class FoundLinkage:
     usable: bool
     violations: tuple[Violation, ...] = ()
     shortcomings: tuple[str, ...] = ()
+    quality: Quality | None = None
     from_search: bool = False
     uncertainty: tuple[DyadUncertainty, DyadUncertainty] | None = None
     determined: bool = True

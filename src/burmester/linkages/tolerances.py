@@ -46,6 +46,7 @@ EXACT_GAP = 1e-9  # lengths; poses that are missed by less are met
 NORMAL_NUDGE = 1e-7  # radians to either side of a normal; vectors nearer to parallel are as one
 TANGENT_STEP = 1e-5  # lengths along the coupler's curve, of the forces' difference quotients
 DIRECTIONS = 90  # number of directions on half a circle in which the greatest error is computed
+PLACES_PER_BLOCK = 30_000  # number of places whose sensitivity is computed at once; the same
 POSES_PER_BLOCK = 256  # number of poses computed at once; bounds the memory
 # First order is kept if it is right to this share: at CORNERS corners of the tolerance, for the
 # 95 % of PILOT_DRAWS linkages, and for the worst corner found from these.
@@ -256,10 +257,14 @@ def sensitivity_bound(
     """
     gap = np.abs(rows_of(places, length) - rows_of(poses, length)).max(axis=(-2, -1))
     out, met = np.empty(places.shape), gap <= EXACT_GAP
-    if met.any():
-        out[met] = _bound_where_met(batch[met], places[met], length)
-    if not met.all():
-        out[~met] = _greatest_sum(sensitivity(batch[~met], poses, places[~met], length))
+    count = max(1, PLACES_PER_BLOCK // places.shape[-1])
+    for some in (np.flatnonzero(met), np.flatnonzero(~met)):
+        for at in range(0, len(some), count):
+            rows = some[at : at + count]
+            if met[rows[0]]:
+                out[rows] = _bound_where_met(batch[rows], places[rows], length)
+            else:
+                out[rows] = _greatest_sum(sensitivity(batch[rows], poses, places[rows], length))
     return out
 
 

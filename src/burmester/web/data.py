@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from burmester.describe import digits, sentences
+from burmester.describe import digits, quality_words, sentences
 from burmester.describe.dimensions import decimals_of, dimensions
 from burmester.dyads.selection import FoundDyad
 from burmester.fourbar.dyad import Dyad
@@ -147,6 +147,7 @@ def _linkage(
             "rms": digits.position_error(synthesis, found.error.rms),
             "rms_angle": digits.angle_error(float(np.sqrt((found.error.angle**2).mean()))),
             "transmission": notation.least_angle(found.driven.least_over_range),
+            "quality": quality_words.facts(found, task),
             "turns_fully": found.driven.turns_fully,
             "links": _links(synthesis, found),
             "dimensions": [each._asdict() for each in dimensions(synthesis, found)],

@@ -122,6 +122,8 @@ function linkageTable(data) {
     "worst miss",
     "worst angle",
     "least transm.",
+    "extent",
+    "sensitivity",
     { name: "why not", text: true }
   ];
   const rows = data.linkages.map(
@@ -139,9 +141,11 @@ function linkageTable(data) {
           each.said.worst,
           each.said.angle,
           each.said.transmission,
+          each.said.quality.extent ?? "–",
+          each.said.quality.sensitivity ?? "–",
           each.said.reasons.join("; ") || "–"
         ],
-        [1, 2, 3, 4, 12],
+        [1, 2, 3, 4, 14],
         heads
       )
     )
@@ -476,6 +480,7 @@ function factsOf(data, linkage) {
     ["worst miss", missOf(said.worst, said.angle, unit2)],
     ["rms miss", missOf(said.rms, said.rms_angle, unit2)],
     ["least transmission angle", said.transmission === "-" ? "–" : said.transmission],
+    ...Object.entries(said.quality),
     ["driver", `${linkage.led[0].id}${said.turns_fully ? ", turns fully" : ""}`],
     ...said.freedom ? [["pivots", said.freedom.replace("pivots ", "")]] : []
   ];
@@ -563,6 +568,7 @@ function card(linkage, unit2, onclick) {
       {},
       fact("worst miss", missOf(said.worst, said.angle, unit2).split(" and ").map((part, k) => [k ? ", " : "", h("span", { class: "bm-whole-word" }, part)])),
       fact("transmission", said.transmission === "-" ? "–" : said.transmission === "0°" ? "down to 0°" : `${said.transmission} or more`),
+      said.quality.extent ? fact("extent, sensitivity", [h("span", { class: "bm-whole-word" }, said.quality.extent), ", ", h("span", { class: "bm-whole-word" }, said.quality.sensitivity)], "bm-detail") : null,
       fact("driver", `${linkage.led[0].id}${said.turns_fully ? ", turns fully" : ""}`),
       links.length ? fact("links", links.map((each, k) => [k ? " " : "", h("span", {}, each)]), "bm-detail bm-links") : fact("dyads", linkage.dyads.map((dyad) => `${dyad.id} (${dyad.kind})`).join(" · "), "bm-detail")
     ),

@@ -43,6 +43,7 @@ function card(linkage, unit, onclick) {
       {},
       fact("worst miss", missOf(said.worst, said.angle, unit).split(" and ").map((part, k) => [k ? ", " : "", h("span", { class: "bm-whole-word" }, part)])),
       fact("transmission", said.transmission === "-" ? "–" : said.transmission === "0°" ? "down to 0°" : `${said.transmission} or more`),
+      said.quality.extent ? fact("extent, sensitivity", [h("span", { class: "bm-whole-word" }, said.quality.extent), ", ", h("span", { class: "bm-whole-word" }, said.quality.sensitivity)], "bm-detail") : null,
       fact("driver", `${linkage.led[0].id}${said.turns_fully ? ", turns fully" : ""}`),
       links.length ? fact("links", links.map((each, k) => [k ? " " : "", h("span", {}, each)]), "bm-detail bm-links") : fact("dyads", linkage.dyads.map((dyad) => `${dyad.id} (${dyad.kind})`).join(" · "), "bm-detail"),
     ),

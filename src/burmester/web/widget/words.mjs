@@ -26,7 +26,7 @@ export function wayStory(way, poses) {
   return `${here}; ${ends}`;
 }
 
-/** Verdict, links, errors, transmission angle and driver. */
+/** Verdict, links, errors, quality and driver. */
 export function factsOf(data, linkage) {
   const { said } = linkage, unit = data.unit ? ` ${data.unit}` : "";
   const rows = [
@@ -35,6 +35,7 @@ export function factsOf(data, linkage) {
     ["worst miss", missOf(said.worst, said.angle, unit)],
     ["rms miss", missOf(said.rms, said.rms_angle, unit)],
     ["least transmission angle", said.transmission === "-" ? "–" : said.transmission],
+    ...Object.entries(said.quality),
     ["driver", `${linkage.led[0].id}${said.turns_fully ? ", turns fully" : ""}`],
     ...(said.freedom ? [["pivots", said.freedom.replace("pivots ", "")]] : []),
   ];
