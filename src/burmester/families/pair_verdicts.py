@@ -1,0 +1,295 @@
+"""The verdicts on many pairs of dyads that meet few poses exactly, all in one batch.
+
+By the closed forms of circuits, branches, order and transmission; nothing along a motion is
+sampled, but for a footprint.  A pair counts as driven from its better side: by the dyad with which
+it comes nearer to working, and of two with which it works as well by the one with the greater
+transmission angle.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import Final, NamedTuple, Self, TypeAlias, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burmester.fourbar.dyad import PR, RP, RR, dimensions_of, shape_of
+from burmester.fourbar.linkage import GRASHOF_SUMS, GRASHOF_TIE, TYPE_OF_SIGNS, Linkage
+from burmester.fourbar.pose_order import REPEATED_POSE_STEP, BoolArray, OrderTolerance
+from burmester.fourbar.traversal import (
+    DEAD_POINT_ANGLE,
+    DrivenView,
+    PoseRange,
+    Traversal,
+    other_way_round,
+    pose_range,
+    traversal_of,
+)
+from burmester.geometry.displacement import Displacement
+from burmester.geometry.regions import Polygon
+from burmester.linkages.standard import CHANGE_POINT, LONGEST_LINK, Standard
+from burmester.numerics.arrays import FloatArray
+from burmester.numerics.bundles import concatenate, take
+from burmester.tasks.limits import Limits
+from burmester.tasks.motion_task import Task
+from burmester.tasks.notation import span
+
+__all__ = [
+    "CLASS_WORDS",
+    "Ground",
+    "PairBounds",
+    "PairClass",
+    "PairVerdicts",
+    "judged_pairs",
+    "meets_limits",
+]
+
+PAIRS_PER_BLOCK = 8192  # judged at once; their arrays fit the processor's cache
+FOOTPRINT_SAMPLES = 25  # places between the poses at which pivots are held against a footprint
+MET = 1e-9  # relative, and radians: a bound that is missed by less is met
+
+
+class PairClass(IntEnum):
+    """What becomes of a pair of dyads, from the best to the worst.
+
+    A pair with several faults has the class of the worst.
+    """
+
+    WORKS = 0
+    OUTSIDE_BOUNDS = 1
+    ORDER = 2
+    BRANCH = 3
+    CIRCUIT = 4
+    NO_LINKAGE = 5
+
+
+CLASS_WORDS: Final[Mapping[PairClass, str]] = {
+    PairClass.WORKS: "works",
+    PairClass.OUTSIDE_BOUNDS: "meets the poses, but is outside the limits or below the standard",
+    PairClass.ORDER: "order defect: meets the poses in another order",
+    PairClass.BRANCH: "branch defect: locks between two poses",
+    PairClass.CIRCUIT: "circuit defect: has to be taken apart between two poses",
+    PairClass.NO_LINKAGE: "no linkage: a dyad with itself, or one without a finite pivot",
+}
+
+Ground: TypeAlias = RR | PR | RP
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class PairBounds:
+    """What pairs are held to, beside what their task itself asks; lengths in the task's unit.
+
+    transmission: the least transmission angle over the range, radians.
+    ratio: of the longest of four links to the shortest.
+    shortest, longest: of the links.
+    change_point: whether a pair may be at a change point.
+    fixed, moving: where pivots lie that no limit of the task holds, in F and in M; None is
+        anywhere.
+    """
+
+    transmission: float
+    ratio: float
+    shortest: float
+    longest: float
+    change_point: bool = False
+    fixed: Polygon | None = None
+    moving: Polygon | None = None
+
+    @classmethod
+    def of(cls, task: Task) -> Self:
+        """The standard of `linkages.standard`, and what the task asks."""
+        standard, asked = Standard.of(task), task.requirements
+        both = standard.requirements(asked)
+        return cls(
+            both.transmission,
+            both.link_ratio,
+            standard.shortest,
+            LONGEST_LINK * standard.span,
+            standard.change_point,
+        )
+
+
+class PairVerdicts(NamedTuple):
+    """The verdicts on pairs of dyads (*,).
+
+    classes: (*,), of `PairClass`.
+    transmission: (*,), the least transmission angle over the range between the poses, radians; nan
+        but for pairs that work, or are outside the bounds only.
+    driver: (*,), 0 where the first dyad drives, 1 where the second does.
+    """
+
+    classes: NDArray[np.int8]
+    transmission: FloatArray
+    driver: NDArray[np.int8]
+
+
+def judged_pairs(first: Ground, second: RR, task: Task, bounds: PairBounds) -> PairVerdicts:
+    """The verdicts on pairs (k,) of dyads that meet all poses of a task exactly.
+
+    The body and its surroundings are not looked at.
+    """
+    parts = []
+    for start in range(0, len(second.radius), PAIRS_PER_BLOCK):
+        span = slice(start, start + PAIRS_PER_BLOCK)
+        parts.append(_judged(first[span], second[span], task, bounds))
+    return concatenate(parts)
+
+
+def _judged(first: Ground, second: RR, task: Task, bounds: PairBounds) -> PairVerdicts:
+    """As `judged_pairs`, for as many pairs as fit the cache.
+
+    Circuits come first: they do not depend on the driver, and most pairs end there.
+    """
+    count, poses = len(second.radius), task.poses
+    classes = np.full((2, count), PairClass.NO_LINKAGE, dtype=np.int8)
+    angle = np.full((2, count), np.nan)
+    finite = np.flatnonzero(_is_finite(first) & _is_finite(second))
+    first, second = first[finite], second[finite]
+    places = Displacement(
+        np.broadcast_to(poses.translation, (len(finite), *poses.translation.shape)),
+        np.broadcast_to(poses.angle, (len(finite), *poses.shape)),
+    )
+    sides = Linkage(first, second), Linkage(second, first)
+    views = [DrivenView.of(side, places) for side in sides]
+    split, whole = _circuits(*views)
+    classes[:, finite[split]] = PairClass.CIRCUIT
+    one = np.flatnonzero(whole)
+    on = np.ones((len(one), *poses.shape), dtype=bool)
+    exact, any_order = OrderTolerance(np.zeros(len(one)), 0.0), task.requirements.any_order
+    allowed = _within_limits(first[one], second[one], task, bounds)
+    for driver in (0, 1):
+        side = Linkage(sides[driver].first[one], sides[driver].second[one])
+        view = _rows(views[driver], one)
+        traversal = traversal_of(side, view, on, exact, any_order)
+        traversal, ranged = other_way_round(traversal, pose_range(traversal, view), view, any_order)
+        verdict = _motion_class(traversal, ranged)
+        works = np.flatnonzero(verdict == PairClass.WORKS)
+        good = allowed[driver] & _as_asked(side, traversal, ranged, task, bounds)
+        angle[driver, finite[one[works]]] = ranged.least_transmission[works]
+        verdict[works[~good[works]]] = PairClass.OUTSIDE_BOUNDS
+        classes[driver, finite[one]] = verdict
+    rank = np.nan_to_num(angle)
+    second_drives = (classes[1] < classes[0]) | ((classes[1] == classes[0]) & (rank[1] > rank[0]))
+    pick = second_drives.astype(np.int8), np.arange(count)
+    return PairVerdicts(classes[pick], angle[pick], pick[0])
+
+
+def _is_finite(dyad: Ground) -> BoolArray:
+    """Which dyads (k,) have finite dimensions."""
+    parts = [value if value.ndim == 1 else value.sum(axis=-1) for value, *_ in dimensions_of(dyad)]
+    return np.asarray(np.isfinite(np.sum(parts, axis=0)))
+
+
+def _circuits(one: DrivenView, other: DrivenView) -> tuple[BoolArray, BoolArray]:
+    """Which linkages (k,) have poses on two circuits, and which have all on one; see `judge`."""
+    label = np.where(one.location.circuit < 0, other.location.circuit, one.location.circuit)
+    least = np.fmin(one.transmission, other.transmission)
+    weak = one.circuits.near_change_point[:, :1] & (least < DEAD_POINT_ANGLE)
+    met = [((label == number) & ~weak).any(axis=1) for number in (0, 1)]
+    return met[0] & met[1], (met[0] ^ met[1]) & ((label >= 0) | weak).all(axis=1)
+
+
+def _rows(view: DrivenView, index: NDArray[np.intp]) -> DrivenView:
+    """The view of some of its linkages."""
+    return DrivenView(
+        view.places[index],
+        view.circuits[index],
+        take(view.location, index),
+        view.transmission[index],
+    )
+
+
+def _motion_class(traversal: Traversal, ranged: PoseRange) -> NDArray[np.int8]:
+    """The class (k,) of motions on one circuit, before anything is asked of them; see `judge`."""
+    order = traversal.order
+    out = np.full(len(order.back), PairClass.WORKS, dtype=np.int8)
+    out[order.back > np.maximum(REPEATED_POSE_STEP, order.slack)] = PairClass.ORDER
+    locks = traversal.crosses_branches | (ranged.least_transmission < DEAD_POINT_ANGLE)
+    out[locks] = PairClass.BRANCH
+    out[~traversal.on_circuit.any(axis=1)] = PairClass.NO_LINKAGE
+    return out
+
+
+def _as_asked(
+    side: Linkage, traversal: Traversal, ranged: PoseRange, task: Task, bounds: PairBounds
+) -> BoolArray:
+    """Which linkages (k,), driven by their first dyads, are as the task and the bounds ask."""
+    asked = task.requirements
+    good: BoolArray = ~(ranged.least_transmission < bounds.transmission - MET)
+    built = [dyad.radius for dyad in (side.first, side.second) if isinstance(dyad, RR)]
+    if (links := side.links) is not None:
+        built = list(links)
+        length = np.stack(built, axis=-1)
+        good &= length.max(axis=-1) <= bounds.ratio * (1 + MET) * length.min(axis=-1)
+        sums, whole = length @ GRASHOF_SUMS.T, length.sum(axis=-1)
+        change = np.abs(sums).min(axis=-1)
+        good &= bounds.change_point | (change >= CHANGE_POINT * whole)
+        types = [name for name in set(TYPE_OF_SIGNS.values()) if asked.allows(name)]
+        signs = [key for key, name in TYPE_OF_SIGNS.items() if name in types]
+        of_type = (np.sign(sums)[:, None] == np.reshape(signs, (-1, 3))).all(axis=-1).any(axis=-1)
+        at_change = change <= GRASHOF_TIE * whole
+        good &= np.where(at_change, asked.allows("change-point"), of_type)
+    else:
+        good &= asked.allows(side.type)
+    for length in built:
+        good &= (length >= bounds.shortest) & (length <= bounds.longest)
+    if asked.driver == "crank":
+        good &= traversal.circuits.closed & (traversal.circuits.branches == 1)
+    if asked.footprint is not None:
+        some = np.flatnonzero(good)
+        good[some] = _within_footprint(side, traversal, some, asked.footprint)
+    return good
+
+
+def _within_footprint(
+    side: Linkage, traversal: Traversal, some: NDArray[np.intp], footprint: Polygon
+) -> BoolArray:
+    """Whether all pivots of some linkages (n,) stay in a footprint, at samples of their motions."""
+    along = traversal.order.along[some]
+    share = np.linspace(0, 1, FOOTPRINT_SAMPLES)
+    low, high = along.min(axis=1, keepdims=True), along.max(axis=1, keepdims=True)
+    places = traversal.circuits[some].couplers(low + share * (high - low))
+    slack = MET * float(np.ptp(footprint.vertices, axis=0).max())
+    inside = np.ones(len(some), dtype=bool)
+    for dyad in (side.first, side.second):
+        if isinstance(dyad, RR | RP):
+            inside &= footprint.distance(dyad.fixed_pivot[some]) <= slack
+        if isinstance(dyad, RR | PR):
+            points = places.act(dyad.moving_pivot[some, None])
+            inside &= (footprint.distance(points) <= slack).all(axis=1)
+    return inside
+
+
+def _within_limits(
+    first: Ground, second: RR, task: Task, bounds: PairBounds
+) -> tuple[BoolArray, BoolArray]:
+    """Which pairs (k,) are within the task's limits, driven by the first and the second dyad."""
+    one, other = (task.limits * 2)[:2] if task.limits else (Limits(), Limits())
+    straight, crossed = (
+        meets_limits(first, a, task, bounds) & meets_limits(second, b, task, bounds)
+        for a, b in ((one, other), (other, one))
+    )
+    if task.requirements.driver == "first":
+        return straight, crossed
+    if task.requirements.driver == "second":
+        return crossed, straight
+    return straight | crossed, straight | crossed
+
+
+def meets_limits(dyad: Ground, limits: Limits, task: Task, bounds: PairBounds) -> BoolArray:
+    """Whether dyads (*,) are within limits; rounding is allowed for, by the size of the task."""
+    slack = MET * max(span(task), float(np.abs(task.poses.translation).max()))
+    good = np.full(shape_of(dyad), type(dyad).__name__ in limits.allowed)
+    regions = limits.fixed_pivot or bounds.fixed, limits.moving_pivot or bounds.moving
+    if isinstance(dyad, RR | RP) and regions[0] is not None:
+        good &= regions[0].distance(dyad.fixed_pivot) <= slack
+    if isinstance(dyad, RR | PR) and regions[1] is not None:
+        good &= regions[1].distance(dyad.moving_pivot) <= slack
+    if isinstance(dyad, RR):
+        least, most = limits.length
+        good &= (dyad.radius >= least * (1 - MET)) & (dyad.radius <= most * (1 + MET))
+    return good

@@ -1,0 +1,239 @@
+"""The map of a family, against linkages that are driven pose by pose by code of its own."""
+
+from collections import Counter
+
+import numpy as np
+import pytest
+
+from burmester import PR, RR, Displacement, InputError, Linkage, Polygon, Task, dyad_curve
+from burmester.dyads.three_poses import dyad_with_fixed_pivot
+from burmester.families.family_map import curve_map, plane_map
+from burmester.families.pair_verdicts import PairClass
+from burmester.fourbar.defects import judge
+from burmester.io.cases import load
+from burmester.tasks.limits import Limits
+from burmester.tasks.requirements import GROUPS, Requirements
+from tests.oracles.pair_verdicts import CLASSES, verdict
+
+RANDOM = range(8)
+
+
+def random_task(rng, count, **more):
+    turn = np.sort(rng.uniform(-1.2, 1.6, count))
+    return Task(Displacement(rng.normal(size=(count, 2)), turn), **more)
+
+
+def published_task(**more):
+    """Four of five poses that a good four-bar meets: much of their family works."""
+    return Task.from_rows(load("ge2012-exact")["poses"][:4], angle_unit="deg", **more)
+
+
+def compared(found, task, pairs):
+    """How many verdicts on pairs (i, j) are the witness's own; asserts that no one differs."""
+    span = float(np.hypot(*np.ptp(task.poses.translation, axis=0)))
+    seen = Counter()
+    for i, j in pairs:
+        first = found.first[i] if found.kind == "curve" else found.first
+        second = found.second[j] if found.kind == "curve" else found.second[i, j]
+        told = verdict((first, second), task.poses, span)
+        if told is None:
+            continue
+        name, angle = told
+        assert found.verdicts.classes[i, j] == CLASSES.index(name), (i, j, told)
+        assert np.degrees(found.verdicts.transmission[i, j]) == pytest.approx(
+            angle, abs=0.02, nan_ok=True
+        )
+        seen[name] += 1
+    return seen
+
+
+def some_pairs(found, rng, count):
+    """Pairs of each class that there is, `count` of each at most, but for those of one dyad."""
+    for kind in PairClass:
+        if kind != PairClass.NO_LINKAGE:
+            rows = np.argwhere(found.verdicts.classes == kind)
+            yield from rng.permutation(rows)[:count].tolist()
+
+
+def test_random_pairs_of_four_poses_are_as_a_witness_drives_them():
+    rng, seen = np.random.default_rng(7), Counter()
+    for _ in RANDOM:
+        task = random_task(rng, 4)
+        found = curve_map(task, samples=90)
+        seen += compared(found, task, some_pairs(found, rng, 6))
+    assert min(seen[name] for name in CLASSES) >= 10, seen
+
+
+def test_random_pairs_of_three_poses_are_as_a_witness_drives_them():
+    rng, seen = np.random.default_rng(8), Counter()
+    for _ in RANDOM:
+        task = random_task(rng, 3)
+        chosen = dyad_with_fixed_pivot(task.poses, rng.normal(size=2))
+        found = plane_map(task, chosen, [-4, -4], [4, 4], columns=30, rows=25)
+        seen += compared(found, task, some_pairs(found, rng, 6))
+    assert min(seen[name] for name in CLASSES) >= 10, seen
+
+
+def test_a_curve_s_map_is_the_same_for_both_orders_of_a_pair():
+    found = curve_map(published_task(), samples=60)
+    classes, angle, driver = found.verdicts
+    assert (classes == classes.T).all()
+    assert np.array_equal(angle, angle.T, equal_nan=True)
+    off = ~np.eye(len(classes), dtype=bool)
+    worked = off & np.isfinite(angle)
+    assert worked.any()
+    assert (driver[worked] == 1 - driver.T[worked]).all()
+    assert (classes.diagonal() == PairClass.NO_LINKAGE).all()
+    best, greatest = found.best_partner()
+    for k in range(len(best)):
+        row = [
+            (c, -t if np.isfinite(t) else 0.0) for c, t in zip(classes[k], angle[k], strict=True)
+        ]
+        assert (best[k], -np.nan_to_num(greatest[k])) == min(row)
+
+
+def test_places_along_the_loops_are_even():
+    task = published_task()
+    found, curve = curve_map(task, samples=80), dyad_curve(task.poses, 80)
+    sizes = [part.radius.size for part in curve.components]
+    assert np.bincount(found.loop).tolist() == sizes
+    start = 0
+    for part, size in zip(curve.components, sizes, strict=True):
+        own = slice(start, start + size)
+        assert np.array_equal(found.first.fixed_pivot[own], part.fixed_pivot)
+        assert np.diff(found.position[own]) == pytest.approx(1 / size)
+        assert 0 <= found.position[own].min() < found.position[own].max() < 1
+        start += size
+
+
+BOX = Polygon([[-3.0, -3.0], [3.0, -3.0], [3.0, 3.0], [-3.0, 3.0]])
+BODY_BOX = Polygon([[-2.0, -2.0], [2.0, -2.0], [2.0, 2.0], [-2.0, 2.0]])
+
+
+def inside(box, point):
+    (x0, y0), (x1, y1) = box.vertices.min(axis=0), box.vertices.max(axis=0)
+    return x0 <= point[0] <= x1 and y0 <= point[1] <= y1
+
+
+@pytest.mark.parametrize("two", [False, True])
+def test_pairs_outside_the_limits_are_outside_the_bounds(two):
+    own = Limits(fixed_pivot=BOX, length=(0.3, 5.0))
+    limits = (own, Limits(moving_pivot=BODY_BOX)) if two else (own,)
+    free = published_task()
+    task = Task(free.poses, limits=limits)
+    before, after = (curve_map(each, samples=100) for each in (free, task))
+
+    def meets(dyad, each):
+        ok = each.fixed_pivot is None or inside(each.fixed_pivot, dyad.fixed_pivot)
+        ok &= each.moving_pivot is None or inside(each.moving_pivot, dyad.moving_pivot)
+        return ok and each.length[0] <= dyad.radius <= each.length[1]
+
+    kept = lost = 0
+    for i, j in np.argwhere(before.verdicts.classes == PairClass.WORKS):
+        one, other = before.first[i], before.first[j]
+        a, b = (limits * 2)[:2]
+        ok = (meets(one, a) and meets(other, b)) or (meets(one, b) and meets(other, a))
+        want = PairClass.WORKS if ok else PairClass.OUTSIDE_BOUNDS
+        assert after.verdicts.classes[i, j] == want
+        kept, lost = kept + ok, lost + (not ok)
+    assert min(kept, lost) > 0
+
+
+@pytest.mark.parametrize(
+    ("asked", "holds"),
+    [
+        ({"transmission_deg": 45}, lambda links, angle, kind: angle >= np.radians(45)),
+        ({"link_ratio": 3}, lambda links, angle, kind: max(links) <= 3 * min(links)),
+        ({"types": {"grashof"}}, lambda links, angle, kind: kind in GROUPS["grashof"]),
+    ],
+)
+def test_what_the_task_asks_is_asked_of_each_pair(asked, holds):
+    free = published_task()
+    task = Task(free.poses, requirements=Requirements(**asked))
+    before, after = (curve_map(each, samples=100) for each in (free, task))
+    kept = lost = 0
+    for i, j in np.argwhere(before.verdicts.classes == PairClass.WORKS):
+        pair = Linkage(before.first[i], before.first[j])
+        ok = holds(pair.links, before.verdicts.transmission[i, j], pair.type)
+        assert after.verdicts.classes[i, j] == (PairClass.WORKS if ok else PairClass.OUTSIDE_BOUNDS)
+        kept, lost = kept + ok, lost + (not ok)
+    assert min(kept, lost) > 0
+
+
+def test_pivots_keep_to_the_footprint_along_the_motion():
+    free = published_task()
+    room = Polygon([[-6.0, -6.0], [6.0, -6.0], [6.0, 6.0], [-6.0, 6.0]])
+    small = Polygon(room.vertices / 2)
+    classes = [
+        curve_map(Task(free.poses, requirements=Requirements(footprint=each)), samples=80)
+        for each in (room, small)
+    ]
+    wide, narrow = (each.verdicts.classes == PairClass.WORKS for each in classes)
+    assert wide.sum() > narrow.sum() > 0
+    assert (narrow <= wide).all()
+    for i, j in np.argwhere(narrow):
+        for dyad in (classes[1].first[i], classes[1].first[j]):
+            assert inside(small, dyad.fixed_pivot)
+            assert all(inside(small, at) for at in free.poses.act(dyad.moving_pivot))
+
+
+def test_any_order_leaves_no_order_defect():
+    free = published_task()
+    before = curve_map(free, samples=80).verdicts.classes
+    after = curve_map(Task(free.poses, requirements=Requirements(any_order=True)), samples=80)
+    assert (before == PairClass.ORDER).sum() > 100
+    assert (after.verdicts.classes != PairClass.ORDER).all()
+    assert ((after.verdicts.classes == PairClass.CIRCUIT) == (before == PairClass.CIRCUIT)).all()
+
+
+def test_a_slider_may_be_the_chosen_dyad_of_three_poses():
+    rng = np.random.default_rng(5)
+    at = random_task(rng, 3).poses
+    # A slider through three places in a row of one point of the body.
+    slider = PR(0.3, 0.2, [0.4, -0.1])
+    along = np.array([-1.0, 0.2, 1.3])[:, None] * [-np.sin(0.3), np.cos(0.3)]
+    point = 0.2 * np.array([np.cos(0.3), np.sin(0.3)]) + along
+    poses = Displacement(point - at.rotate(np.array([0.4, -0.1])), at.angle)
+    found = plane_map(Task(poses), slider, [-4, -4], [4, 4], columns=20, rows=20)
+    seen = set()
+    for i, j in np.ndindex(20, 20):
+        pair = Linkage(slider, found.second[i, j])
+        (told,) = judge(
+            Linkage(slider[None], found.second[i, j][None]),
+            poses[None],
+            missed=np.zeros((1, 3)),
+            reach=1.0,
+        )
+        assert pair.type == "slider-crank"
+        sides = [
+            {d.kind for d in (*told.defects, *each.defects)} for each in (told.first, told.second)
+        ]
+        sound = any(not each for each in sides)
+        kind = found.verdicts.classes[i, j]
+        assert sound == (kind <= PairClass.OUTSIDE_BOUNDS)
+        seen.add(int(kind))
+    assert len(seen) > 2
+
+
+def test_another_number_of_poses_is_refused():
+    five = random_task(np.random.default_rng(1), 5)
+    with pytest.raises(InputError, match="4 poses are needed"):
+        curve_map(five)
+    with pytest.raises(InputError, match="3 poses"):
+        plane_map(five, RR([0, 0], [1, 0], 1.0), [-1, -1], [1, 1])
+
+
+@pytest.mark.parametrize("driver", ["first", "second"])
+def test_the_driver_that_is_asked_for_drives(driver):
+    low, high = BOX.vertices.min(axis=0), BOX.vertices.max(axis=0)
+    left = Polygon([low, [0, low[1]], [0, high[1]], [low[0], high[1]]])
+    right = Polygon([[0, low[1]], [high[0], low[1]], high, [0, high[1]]])
+    limits = Limits(fixed_pivot=left), Limits(fixed_pivot=right)
+    task = published_task(limits=limits, requirements=Requirements(driver=driver))
+    found = curve_map(task, samples=100)
+    where = left if driver == "first" else right
+    works = np.argwhere(found.verdicts.classes == PairClass.WORKS)
+    assert len(works) > 0
+    for i, j in works:
+        drives = (found.first[i], found.first[j])[found.verdicts.driver[i, j]]
+        assert inside(where, drives.fixed_pivot)
