@@ -15,6 +15,9 @@ from matplotlib.testing.compare import compare_images
 from PIL import Image
 
 from burmester import PR, RP, RR, Displacement, InputError, Linkage, Task, dyad_curve, synthesize
+from burmester.dyads.three_poses import dyad_with_fixed_pivot
+from burmester.families.family_map import curve_map, plane_map
+from burmester.families.pair_verdicts import PairClass
 from burmester.fourbar.pose_error import PoseError
 from burmester.io.cases import load
 from burmester.plot import (
@@ -26,6 +29,8 @@ from burmester.plot import (
     circle_point_curve,
     common_curve,
     coupler_curve,
+    family_figure,
+    family_map,
     figure,
     finish,
     house_style,
@@ -33,6 +38,7 @@ from burmester.plot import (
     legend,
     linkage,
     paper,
+    partner_curve,
     pivot_map,
     pose_errors,
     poses,
@@ -468,6 +474,77 @@ def test_the_pivot_map_has_the_colours_of_the_least_errors(ax):
         radius = np.sqrt((arm**2).mean())
         assert values[j, i] == pytest.approx(np.sqrt(((arm - radius) ** 2).mean()), rel=1e-6)
     assert drawn.mesh.norm.vmin <= values.min() * 1.0001
+
+
+def shown(degrees, top):
+    """The colour of a pair that works, on a scale from 30° to `top`."""
+    return mpl.colormaps["cividis"]((degrees - 30) / (top - 30))[:3]
+
+
+def test_the_square_of_four_poses_has_the_colours_of_its_pairs(ax):
+    found = curve_map(Task(TABLE2.poses[[0, 1, 2, 3]]), samples=60)
+    works = np.argwhere(found.verdicts.classes == PairClass.WORKS)
+    angle = np.degrees(found.verdicts.transmission)
+    i, j = works[np.argmax(angle[tuple(works.T)])]
+    drawn = family_map(ax, found, Linkage(found.first[i], found.first[j]))
+    picture = np.asarray(drawn.image.get_array())
+    top = 5 * np.ceil(angle[i, j] / 5)
+    for a, b in works[::40]:  # the first dyad to the right, the second one up
+        assert picture[b, a] == pytest.approx(shown(angle[a, b], top))
+    others = {k: set() for k in PairClass if k != PairClass.WORKS}
+    for (a, b), kind in np.ndenumerate(found.verdicts.classes):
+        if kind != PairClass.WORKS:
+            others[PairClass(kind)].add(tuple(picture[b, a].tolist()))
+    assert all(len(tints) == 1 for tints in others.values())
+    # Without hue: each two tints are told apart by their lightness.
+    light = sorted(np.dot(next(iter(tints)), [0.2126, 0.7152, 0.0722]) for tints in others.values())
+    assert np.diff(light).min() > 0.02
+    (ring,) = drawn.recommended
+    assert ring.get_xydata().tolist() == [[i + 0.5, j + 0.5], [j + 0.5, i + 0.5]]
+
+
+def test_the_centre_point_curve_has_the_colours_of_the_best_partners(ax):
+    found = curve_map(Task(TABLE2.poses[[0, 1, 2, 3]]), samples=60)
+    drawn = partner_curve(ax, found, within=1e6)
+    (line,) = drawn.loops
+    middles = np.array([piece[1] for piece in line.get_segments()])
+    assert middles == pytest.approx(found.first.fixed_pivot)
+    classes, angle = found.verdicts.classes, np.degrees(found.verdicts.transmission)
+    top = 5 * np.ceil(np.nanmax(np.where(classes == PairClass.WORKS, angle, np.nan)) / 5)
+    for k in np.flatnonzero((classes == PairClass.WORKS).any(axis=1)):
+        best = angle[k][classes[k] == PairClass.WORKS].max()
+        assert line.get_colors()[k][:3] == pytest.approx(shown(best, top))
+
+
+def test_the_rectangle_of_three_poses_shows_pairs_where_their_pivots_are(ax):
+    task = Task(TABLE2.poses[[0, 4, 9]])
+    chosen = dyad_with_fixed_pivot(task.poses, [-2.0, -1.0])
+    found = plane_map(task, chosen, [-6, -4], [2, 5], columns=33, rows=37)
+    works = np.argwhere(found.verdicts.classes == PairClass.WORKS)
+    row, column = works[len(works) // 2]
+    drawn = family_map(ax, found, Linkage(chosen, found.second[row, column]))
+    x0, x1, y0, y1 = drawn.image.get_extent()
+    at = [x0 + (column + 0.5) * (x1 - x0) / 33, y0 + (row + 0.5) * (y1 - y0) / 37]
+    assert at == pytest.approx([-6 + column * 8 / 32, -4 + row * 9 / 36])
+    assert drawn.recommended[0].get_xydata()[1] == pytest.approx(at)
+    # A pole stays where it is when the body goes from one of its poses to the other.
+    for (a, b), pole in zip(combinations(range(3), 2), found.poles, strict=True):
+        point = task.poses[a].inverse().act(pole)
+        assert task.poses[b].act(point) == pytest.approx(pole)
+
+
+def test_the_figure_of_a_family_says_its_tints_in_words():
+    found = curve_map(Task(TABLE2.poses[[0, 1, 2, 3]]), samples=30)
+    drawing = family_figure(found, Linkage(found.first[3], found.first[17]))
+    (words,) = drawing.legends
+    assert [text.get_text() for text in words.get_texts()] == [
+        "outside limits or standard",
+        "order defect",
+        "branch defect",
+        "circuit defect",
+        "recommended",
+    ]
+    assert "transmission angle" in drawing.axes[2].get_ylabel()
 
 
 def test_burmester_curves_are_circles_through_four_poses(ax):

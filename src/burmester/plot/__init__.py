@@ -22,6 +22,7 @@ if find_spec("matplotlib") is None:
 from burmester.plot.camera import Box, Camera
 from burmester.plot.charts import pose_errors, transmission
 from burmester.plot.common_curve import common_curve
+from burmester.plot.family_map import family_figure, family_map, partner_curve
 from burmester.plot.maps import centre_point_curve, circle_point_curve, pivot_map
 from burmester.plot.mechanism import linkage
 from burmester.plot.outlines import body, keep_out
@@ -41,6 +42,8 @@ __all__ = [
     "circle_point_curve",
     "common_curve",
     "coupler_curve",
+    "family_figure",
+    "family_map",
     "figure",
     "finish",
     "house_style",
@@ -48,6 +51,7 @@ __all__ = [
     "keep_out",
     "legend",
     "linkage",
+    "partner_curve",
     "pivot_map",
     "pose_errors",
     "poses",
