@@ -36,8 +36,15 @@ __all__ = ["synthesize"]
     help="Exit with 1 if the poses leave open where the pivots are.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object and nothing else.")
+@click.option(
+    "--map",
+    "family_map",
+    metavar="FILE",
+    help="Write the map of the family of three or four poses to FILE as well: numbers (.json) or a "
+    "figure (.png, .svg, .pdf).",
+)
 @click.option("-o", "--output", metavar="FILE", help="Write that object to FILE as well.")
-@click.option("--force", is_flag=True, help="Write FILE even if it exists.")
+@click.option("--force", is_flag=True, help="Write files even if they exist.")
 def synthesize(
     poses: str,
     *,
@@ -45,11 +52,13 @@ def synthesize(
     dyads: bool,
     require_determined: bool,
     as_json: bool,
+    family_map: str | None,
     output: str | None,
     force: bool,
     **given: Any,
 ) -> int:
     """Find four-bars that guide a body through POSES."""
+    from burmester.cli.family_map import require_map_file, write_map
     from burmester.cli.progress_line import working
     from burmester.io import files
     from burmester.io.result import json_line, synthesis_data
@@ -57,7 +66,13 @@ def synthesize(
 
     if output is not None:
         files.require_writable(output, force=force, source=poses)
+    if family_map is not None:
+        require_map_file(family_map)
+        files.require_writable(family_map, force=force, source=poses)
     synthesis = run_synthesis(poses, **given)
+    if family_map is not None:
+        with working("drawing the map"):
+            click.echo(write_map(synthesis, family_map, force=force), err=True)
     if output is not None:
         with working("writing the result"):
             files.write(output, json_line(synthesis_data(synthesis)), force=force)

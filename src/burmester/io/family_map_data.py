@@ -1,0 +1,112 @@
+"""The map of a family as plain data: the object that `burmester synthesize --map FILE` writes.
+
+The contract is `family_map.schema.json` beside this file.  A number that does not exist (the
+transmission angle of a pair that does not work, a pivot at infinity) is null.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from burmester.families.family_map import FamilyMap
+from burmester.families.pair_verdicts import CLASS_WORDS, Ground
+from burmester.fourbar.dyad import PR, RP, RR
+from burmester.fourbar.linkage import Linkage
+from burmester.geometry.regions import Polygon
+from burmester.io.linkage_data import number, poses_data
+from burmester.numerics.arrays import FloatArray
+
+__all__ = ["family_map_data"]
+
+SCHEMA = "burmester.family_map/1"
+
+
+def family_map_data(found: FamilyMap, recommended: Linkage | None = None) -> dict[str, Any]:
+    """The map as an object ready for JSON.
+
+    recommended: the linkage of the task that is recommended; of a curve its place is told.
+    """
+    classes, angle, driver = found.verdicts
+    data: dict[str, Any] = {
+        "schema": SCHEMA,
+        "kind": found.kind,
+        "length_unit": found.task.length_unit,
+        "poses": poses_data(found.task.poses),
+        "bounds": {
+            "transmission_deg": math.degrees(found.bounds.transmission),
+            "link_ratio": number(found.bounds.ratio),
+            "shortest_link": found.bounds.shortest,
+            "longest_link": found.bounds.longest,
+            "fixed_pivot": _corners(found.bounds.fixed),
+            "moving_pivot": _corners(found.bounds.moving),
+        },
+        "class_words": list(CLASS_WORDS.values()),
+    }
+    if found.kind == "curve":
+        assert isinstance(found.first, RR)
+        data["curve"] = {
+            "loop": found.loop.tolist(),
+            "position": found.position.tolist(),
+            **_circles(found.first),
+        }
+        data["recommended"] = _place(found, recommended)
+    else:
+        data["chosen"] = _dyad(found.first)
+        data["plane"] = _circles(found.second)
+        data["poles"] = _numbers(found.poles)
+    return data | {
+        "class": classes.tolist(),
+        "transmission_deg": _numbers(np.degrees(angle)),
+        "driver": driver.tolist(),
+    }
+
+
+def _place(found: FamilyMap, recommended: Linkage | None) -> list[int] | None:
+    """The numbers of the two dyads of a linkage along the curve."""
+    if recommended is None:
+        return None
+    places = [
+        found.nearest(each) if isinstance(each, Ground) else None
+        for each in (recommended.first, recommended.second)
+    ]
+    known = [place for place in places if place is not None]
+    return known if len(known) == len(places) else None
+
+
+def _circles(dyads: RR) -> dict[str, Any]:
+    return {
+        "fixed_pivot": _numbers(dyads.fixed_pivot),
+        "moving_pivot": _numbers(dyads.moving_pivot),
+        "radius": _numbers(dyads.radius),
+    }
+
+
+def _dyad(dyad: Ground) -> dict[str, Any]:
+    """One dyad by its kind's own dimensions."""
+    data: dict[str, Any] = {"kind": type(dyad).__name__}
+    match dyad:
+        case RR():
+            data |= _circles(dyad)
+        case PR():
+            data["moving_pivot"] = dyad.moving_pivot.tolist()
+        case RP():
+            data["fixed_pivot"] = dyad.fixed_pivot.tolist()
+    if not isinstance(dyad, RR):
+        data["line"] = {
+            "normal_deg": math.degrees(dyad.normal_angle),
+            "offset": float(dyad.offset),
+        }
+    return data
+
+
+def _numbers(values: FloatArray) -> Any:
+    """Nested lists of an array; None where there is no number."""
+    return np.where(np.isfinite(values), values, None).tolist()  # type: ignore[call-overload]
+
+
+def _corners(region: Polygon | None) -> Any:
+    """The corners of a region, where there is one."""
+    return None if region is None else region.vertices.tolist()

@@ -1,0 +1,35 @@
+"""The map of the family of what came of a task of three or four poses."""
+
+from __future__ import annotations
+
+from burmester.families.family_map import COLUMNS, CURVE_SAMPLES, ROWS, FamilyMap, family_map
+from burmester.fourbar.linkage import Linkage
+from burmester.synthesis.result import Synthesis
+
+__all__ = ["family_map_of", "recommended"]
+
+
+def recommended(synthesis: Synthesis) -> Linkage | None:
+    """The linkage that stands first, if it works."""
+    first = next(iter(synthesis.linkages), None)
+    return first.linkage if first is not None and first.usable else None
+
+
+def family_map_of(
+    synthesis: Synthesis,
+    *,
+    samples: int = CURVE_SAMPLES,
+    columns: int = COLUMNS,
+    rows: int = ROWS,
+) -> FamilyMap | None:
+    """The map of the task's family, with the bounds that its linkages were held to.
+
+    Of three poses beside the first dyad of the linkage that is recommended.  None where there is no
+    such linkage, or the motion is a special one, which has no such family.  Raises as `family_map`.
+    """
+    problem = synthesis.problem
+    if problem.is_special:
+        return None
+    return family_map(
+        problem.task, recommended(synthesis), samples=samples, columns=columns, rows=rows
+    )
