@@ -26,6 +26,7 @@ from burmester.synthesis.result import Synthesis
 from burmester.tasks import notation
 from burmester.tasks.motion_task import Task
 from burmester.web.branches import Branches, branches_of
+from burmester.web.family_map import family_map
 from burmester.web.image_space import chart_of, space_of
 from burmester.web.pivot_map import pivot_map
 
@@ -70,6 +71,7 @@ def report_data(synthesis: Synthesis) -> dict[str, Any]:
         "chart": chart,
         "space": space_of(None, task.poses, None, chart),
         "pivot_map": pivot_map(synthesis, scene),
+        "family_map": family_map(synthesis),
         "asked_transmission_deg": task.requirements.transmission_deg or None,
         "footnotes": sentences.footnotes(synthesis),
     }

@@ -3,6 +3,7 @@
 import { Assemblies } from "./assemblies.mjs";
 import { Cards } from "./cards.mjs";
 import { h } from "./dom.mjs";
+import { FamilyMap } from "./family_map.mjs";
 import { header } from "./header.mjs";
 import { ImageSpace } from "./image_space.mjs";
 import { listenToKeys } from "./keyboard.mjs";
@@ -58,7 +59,8 @@ export class Report {
     body.append(main);
     main.append(this.stage());
     if (linkages.length) main.append(this.numbersAndPlots());
-    main.append(this.imageSpace());
+    const family = data.family_map ? this.familyMap() : null;
+    main.append(...(this.family?.isCurve ? [family, this.imageSpace()] : [this.imageSpace(), ...(family ? [family] : [])]));
     if (data.pivot_map) main.append(this.pivotMap());
     this.poses = section("pose-box", "Pose by pose");
     main.append(this.poses);
@@ -140,6 +142,15 @@ export class Report {
     );
   }
 
+  familyMap() {
+    const picture = h("div", { class: "bm-fill" });
+    this.family = new FamilyMap(this.data, picture);
+    const story = this.family.isCurve
+      ? "Every dyad that meets the four poses is a place on a curve. Here each is paired with each other one; a pair that works is coloured by its least transmission angle, driven from its better side."
+      : "Beside the dyad that is chosen, each fixed pivot in the plane has one dyad that meets the three poses. A place where the two make a linkage that works is coloured by its least transmission angle, driven from its better side.";
+    return section(`family bm-family-${this.data.family_map.kind}`, "All linkages of these poses", h("p", { class: "bm-story" }, story), picture);
+  }
+
   /** For print, and for those who read: the dimensions of every linkage. */
   everyDimension() {
     const parts = this.linkages.map((each) => h("div", { class: "bm-every-one" }, dimensionTable(this.data, each)));
@@ -188,6 +199,7 @@ export class Report {
     this.plane.svg.setAttribute("aria-label", linkage ? `${linkage.id}, a ${linkage.type}, at the poses. Space plays, arrow keys move the driver.` : "The poses");
     this.space.build(linkage, way);
     this.map?.build(linkage);
+    this.family?.build(linkage, this.linkages.indexOf(linkage));
     if (!player?.path) this.space.hide();
     player?.drawStops();
     player?.show();
