@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from burmester import Task, synthesize
-from burmester.families.family_map import curve_map
 from burmester.families.pair_verdicts import CLASS_WORDS, PairClass
 from burmester.io.cases import load
 from burmester.report.page import page as page_of
+from burmester.synthesis.family_map import family_map_of
 from tests.oracles import browser as browsers
 
 SAMPLES = 120
@@ -24,14 +24,15 @@ PICKED = """() => [...document.querySelectorAll('.bm-pair-link')].map((link) => 
 def four(tmp_path_factory):
     task = Task.from_rows(load("ge2012-exact")["poses"][:4], angle_unit="deg", length_unit="mm")
     file = tmp_path_factory.mktemp("family") / "four.html"
-    text = page_of(synthesize(task), "four poses")
+    result = synthesize(task)
+    text = page_of(result, "four poses")
     assert len(text.encode()) < 1e6
     file.write_text(text, encoding="utf-8")
-    return task, file
+    return family_map_of(result, samples=SAMPLES), file
 
 
 def test_each_pair_is_told_and_drawn_by_keyboard(browser, four):
-    task, file = four
+    found, file = four
     with browsers.opened(browser, file) as (page, said, _):
         chart = page.get_by_role("application", name=re.compile("family map", re.IGNORECASE))
         assert chart.count() == 1
@@ -39,9 +40,7 @@ def test_each_pair_is_told_and_drawn_by_keyboard(browser, four):
         assert readout.evaluate("node => node.tagName") == "OUTPUT"
         assert chart.get_attribute("aria-describedby") == readout.get_attribute("id")
         shown = page.evaluate("JSON.parse(document.getElementById('data').textContent)")
-        found = curve_map(task, samples=SAMPLES)
-        place = shown["family_map"]["places"][0] if shown["linkages"] else None
-        i, j = place or (SAMPLES // 2, SAMPLES // 2)
+        i, j = shown["family_map"]["places"][0]  # the cursor starts at the linkage
         chart.focus()
         seen = set()
         for key in [*CORNER, *ROUND * 4]:
@@ -72,8 +71,7 @@ def test_each_pair_is_told_and_drawn_by_keyboard(browser, four):
 
 
 def test_the_square_has_the_colours_of_its_pairs(browser, four):
-    task, file = four
-    found = curve_map(task, samples=SAMPLES)
+    found, file = four
     with browsers.opened(browser, file) as (page, _, _asked):
         pixels = np.array(
             page.evaluate("""() => { const c = document.querySelector('.bm-pairs-map canvas');
@@ -86,10 +84,11 @@ def test_the_square_has_the_colours_of_its_pairs(browser, four):
         tints[kind] = tint
     assert len(set(tints.values())) == len(tints)
     works = classes == PairClass.WORKS
+    assert works.sum() > 20
     light = pixels[works.T] @ [0.2126, 0.7152, 0.0722]  # lighter throughout as the angle grows
     degrees = np.degrees(found.verdicts.transmission.T[works.T]).astype(int)
     shades = [set(light[degrees == each].tolist()) for each in np.unique(degrees)]
-    assert len(shades) > 20
+    assert len(shades) > 5
     assert all(len(each) == 1 for each in shades)
     assert (np.diff([each.pop() for each in shades]) > 0).all()
 

@@ -235,8 +235,9 @@ def family_map(
     Raises
     ------
     InputError
-        E121 (another number of poses), E123 (limits put a pivot at a point or on a line, so that
-        no dyad of a map is within them), E124 (four poses that do not determine a curve).
+        E121 (another number of poses), E123 (tolerances of poses; limits that put a pivot at a
+        point or on a line, so that no dyad of a map is within them), E124 (four poses that do not
+        determine a curve).
     """
     count = task.poses.shape[0]
     if count not in (3, 4):
@@ -245,6 +246,13 @@ def family_map(
             f"the map of a family takes 3 or 4 different poses, not {count}",
             why="two poses leave more freedom than a map shows, five leave none",
             help="leave the map out",
+        )
+    if task.tolerances is not None:
+        raise InputError(
+            "E123",
+            "the map of a family is one of poses that are met exactly",
+            why="poses within tolerances have dyads beside those of a map",
+            help="leave the map out, or the tolerances",
         )
     exact = [limits.conditions for limits in task.limits]
     if sum(exact) if count == 4 or len(exact) < 2 else min(exact):

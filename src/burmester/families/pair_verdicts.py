@@ -16,6 +16,7 @@ from typing import Final, NamedTuple, Self, TypeAlias, final
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.families.assumptions import Assumptions
 from burmester.fourbar.dyad import PR, RP, RR, dimensions_of, shape_of
 from burmester.fourbar.linkage import GRASHOF_SUMS, GRASHOF_TIE, TYPE_OF_SIGNS, Linkage
 from burmester.fourbar.pose_order import REPEATED_POSE_STEP, BoolArray, OrderTolerance
@@ -110,6 +111,19 @@ class PairBounds:
             standard.shortest,
             LONGEST_LINK * standard.span,
             standard.change_point,
+        )
+
+    @classmethod
+    def assumed(cls, assumptions: Assumptions, task: Task) -> Self:
+        """What is assumed of the linkages of a family, and what the task asks."""
+        return cls(
+            assumptions.transmission,
+            assumptions.ratio,
+            assumptions.shortest,
+            assumptions.longest,
+            task.requirements.types is not None,
+            assumptions.fixed,
+            assumptions.moving,
         )
 
 

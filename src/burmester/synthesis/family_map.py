@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from burmester.families.assumptions import Assumptions
 from burmester.families.family_map import COLUMNS, CURVE_SAMPLES, ROWS, FamilyMap, family_map
+from burmester.families.pair_verdicts import PairBounds
 from burmester.fourbar.linkage import Linkage
 from burmester.synthesis.result import Synthesis
 
@@ -30,6 +32,14 @@ def family_map_of(
     problem = synthesis.problem
     if problem.is_special:
         return None
-    return family_map(
-        problem.task, recommended(synthesis), samples=samples, columns=columns, rows=rows
-    )
+    best, bounds = recommended(synthesis), _bounds(synthesis)
+    return family_map(problem.task, best, bounds, samples=samples, columns=columns, rows=rows)
+
+
+def _bounds(synthesis: Synthesis) -> PairBounds | None:
+    """What the linkages of the family were held to; None where they were not chosen from one."""
+    if synthesis.family is None:
+        return None
+    attempts = Assumptions.attempts(synthesis.problem)
+    known = next(each for each, _ in attempts if each.bounds == synthesis.family.bounds)
+    return PairBounds.assumed(known, synthesis.problem.task)
