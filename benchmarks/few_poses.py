@@ -1,0 +1,148 @@
+"""Is the recommended linkage of two, three, four poses the best?  Held against brute force.
+
+    python -m benchmarks.few_poses --count 100 --seed 0
+    python -m benchmarks.few_poses --count 100 --seed 0 --search
+
+The tasks are those of `tests/oracles/few_pose_tasks.py`: two, three and four poses in turns, boxes
+for both pivots, spans of 50 to 500 mm, turns of 10 to 150 degrees; of some nobody knows whether
+they can be solved.  The witness is `tests/oracles/few_poses.py`, which shares no code with the
+package.  `--search` runs it, and keeps what it finds in `few_poses.json` beside this file: without
+it the kept linkages are taken, driven again.  What is compared is the least transmission angle over
+the range that the poses use, by the better driver; of both sides the same witness drives it.
+
+Exit code 1 if a task that brute force solves is answered with none, or if fewer than 95 in 100
+recommended linkages are within a degree of the best found.
+"""
+
+import argparse
+import json
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+from tests.oracles.few_pose_tasks import few_pose_task
+from tests.oracles.few_poses import FINE, Best, FewPoses
+
+from burmester.fourbar.dyad import RR
+from burmester.geometry.displacement import Displacement
+from burmester.geometry.regions import box
+from burmester.synthesis.motion_generation import synthesize
+from burmester.tasks.limits import Limits
+from burmester.tasks.motion_task import Task
+
+KEPT = Path(__file__).with_suffix(".json")
+ROUNDS, STARTS = 4, 40  # of brute force
+NEAR = 1.0  # degrees; a linkage this much below the best found is as good
+SHARE = 0.95  # of the tasks in which the recommended linkage is to be as good
+
+
+def task_of(given):
+    """A task as the package takes it; link ratio and transmission angle by default."""
+    limits = tuple(
+        Limits(fixed_pivot=box(*fixed), moving_pivot=box(*moving), kinds=frozenset({"RR"}))
+        for fixed, moving in given.boxes
+    )
+    return Task(Displacement.from_poses(given.rows), limits=limits, length_unit="mm")
+
+
+def brute_force(seed, rounds=ROUNDS, starts=STARTS):
+    """The best linkage found of one task, or None."""
+    given = few_pose_task(seed)
+    return FewPoses(given.rows, given.boxes).best(np.random.default_rng([16, seed]), rounds, starts)
+
+
+def angle_of(given, pivots):
+    """The least transmission angle of a linkage (4,) in degrees, driven by the witness."""
+    search = FewPoses(given.rows, given.boxes)
+    z = (np.asarray(pivots) - [search.middle, 0, search.middle, 0]) / search.unit
+    return float(search.judged(z[None], FINE)[0][0])
+
+
+def pivots_of(linkage):
+    """Fixed and moving pivots (4,) of a linkage of two RR dyads, as complex numbers."""
+    dyads = (linkage.first, linkage.second)
+    assert all(isinstance(dyad, RR) for dyad in dyads)
+    return np.array(
+        [dyads[k // 2].fixed_pivot if k % 2 == 0 else dyads[k // 2].moving_pivot for k in range(4)]
+    ) @ [1, 1j]
+
+
+def kept():
+    """The linkages that brute force found, by seed; None where it found none."""
+    found = {}
+    for seed, each in json.loads(KEPT.read_text()).items():
+        pivots = None if each is None else np.array(each["pivots"]) @ [1, 1j]
+        found[int(seed)] = None if each is None else Best(each["angle"], pivots)
+    return found
+
+
+def compared(seed, witness):
+    """One task: the angles of the recommended linkage, of the best usable one, and of brute force.
+
+    0 where there is none.  With the time it took, s.
+    """
+    given = few_pose_task(seed)
+    start = time.perf_counter()
+    result = synthesize(task_of(given))
+    took = time.perf_counter() - start
+    ours = [angle_of(given, pivots_of(found.linkage)) for found in result.usable]
+    theirs = 0.0 if witness is None else angle_of(given, witness.pivots)
+    return given, (ours[0] if ours else 0.0), max(ours, default=0.0), theirs, took
+
+
+def search(seeds):
+    """Run brute force, and keep what it finds beside what is kept already."""
+    data = json.loads(KEPT.read_text()) if KEPT.exists() else {}
+    for seed in seeds:
+        start, found = time.perf_counter(), brute_force(seed)
+        told = None
+        if found is not None:
+            pivots = [[round(point.real, 9), round(point.imag, 9)] for point in found.pivots]
+            told = {"angle": round(found.angle, 4), "pivots": pivots}
+        data[str(seed)] = told
+        angle = "none" if found is None else f"{found.angle:.2f} degrees"
+        print(f"{seed:4d} {angle}; {time.perf_counter() - start:.1f} s", flush=True)
+    lines = [f"{json.dumps(k)}: {json.dumps(data[k])}" for k in sorted(data, key=int)]
+    KEPT.write_text("{\n" + ",\n".join(lines) + "\n}\n")
+
+
+def main():
+    """Run the campaign, and say where the recommended linkage is not the best found."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--count", type=int, default=100)
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--search", action="store_true", help="run brute force, and keep it")
+    asked = parser.parse_args()
+    seeds = range(asked.seed, asked.seed + asked.count)
+    if asked.search:
+        search(seeds)
+        return 0
+    known, rows, none = kept(), [], []
+    for seed in seeds:
+        given, ours, best, theirs, took = compared(seed, known[seed])
+        what = "as good" if ours >= theirs - NEAR else "worse"
+        if ours == 0 < theirs:
+            none.append(seed)
+            what = "none"
+        rows.append((len(given.rows), ours, best, theirs, took, what))
+        print(
+            f"{seed:4d} {given.family:4s} {len(given.rows)} poses: recommended {ours:.2f}, best of "
+            f"the list {best:.2f}, brute force {theirs:.2f}; {what}; {took:.2f} s",
+            flush=True,
+        )
+    print("\nposes, tasks, solved by brute force, by burmester, as good or better, median time")
+    for count in (2, 3, 4):
+        of = [row for row in rows if row[0] == count]
+        if of:
+            print(
+                f"{count}, {len(of)}, {sum(r[3] > 0 for r in of)}, {sum(r[1] > 0 for r in of)}, "
+                f"{sum(r[5] == 'as good' for r in of)}, {np.median([r[4] for r in of]):.2f} s"
+            )
+    good = sum(row[5] == "as good" for row in rows)
+    print(f"{good} of {len(rows)} as good as brute force; answered with none: {none or 'no task'}")
+    return int(bool(none) or good < SHARE * len(rows))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
