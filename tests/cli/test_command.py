@@ -71,6 +71,8 @@ def test_main_job_prints_the_published_linkage(poses):
         "motiongen-rrrp",
         "motiongen-rrpr",
         "motiongen-prpr",
+        "motiongen-three-pivots",
+        "motiongen-four-line",
     ],
 )
 def test_json_keeps_the_contract(case):

@@ -272,11 +272,13 @@ def test_standard_input_is_bytes(monkeypatch: pytest.MonkeyPatch) -> None:
 CASES = {
     "ge2012-approximate": (10, (-0.9822, -1.0389, 78.54)),
     "ge2012-exact": (10, (-0.8253, -1.0329, 91.91)),
+    "motiongen-four-line": (4, (-7.35277, 1.83234, 42.4862)),
     "motiongen-mixed5": (5, (-7.9264, 1.2469, 11.07)),
     "motiongen-prpr": (10, (3.4099, -4.2601, -19.18)),
     "motiongen-rrpr": (10, (-0.2632, 5.2514, 65.14)),
     "motiongen-rrrp": (10, (4.2333, 0.4588, -74.56)),
     "motiongen-shoulder": (5, (-3.9696, -2.6338, 37.23)),
+    "motiongen-three-pivots": (3, (-5.5262849783, 3.3309916872, 10.0)),
 }
 
 

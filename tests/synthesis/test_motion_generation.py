@@ -185,6 +185,32 @@ def test_published_five_pose_tasks_give_every_pair(name, dyads):
     drive_all(synthesis)
 
 
+@pytest.mark.parametrize(("name", "order"), [("three-pivots", slice(None)), ("four-line", [2, 0])])
+def test_published_few_poses_with_pivots_at_points_or_on_a_line(name, order):
+    """All dyads that the case holds, solved with 40 digits, and every pair of them.
+
+    The first linkage has the dyads of the two points in their order; on the line it has the third
+    and the first, and the other two pairs do not work.
+    """
+    case = json.loads(
+        resources.files("burmester").joinpath(f"cases/motiongen-{name}.json").read_text()
+    )
+    synthesis = synthesize(read_task(f"case:motiongen-{name}"))
+    found = [each.dyad for each in synthesis.dyads]
+    rows = np.array([[*d.fixed_pivot, d.radius, *d.moving_pivot] for d in found])
+    known = np.array(case["exact_dyads"])
+    assert len(rows) == len(known) == case["real_dyads"]
+    at = np.lexsort(rows.T[::-1])
+    assert rows[at] == pytest.approx(known[np.lexsort(known.T[::-1])], abs=1e-8)
+    assert len(synthesis.linkages) == case["fourbars"]
+    assert all(found.error.worst < 1e-9 for found in synthesis.linkages)
+    best = synthesis.linkages[0].linkage
+    pivots = np.array([best.first.fixed_pivot, best.second.fixed_pivot])
+    assert pivots == pytest.approx(known[order][:, :2], abs=1e-8)
+    assert [each.usable for each in synthesis.linkages].count(True) == 1
+    drive_all(synthesis)
+
+
 @pytest.mark.parametrize("seed", range(12))
 @pytest.mark.parametrize("second", [RR, PR, RP])
 @pytest.mark.parametrize("count", [5, 6, 12])
