@@ -46,6 +46,18 @@ def task_of(given):
     return Task(Displacement.from_poses(given.rows), limits=limits, length_unit="mm")
 
 
+def file_of(seed):
+    """The same task as a TOML file."""
+    given = few_pose_task(seed)
+    rows = ", ".join(f"[{x:.2f}, {y:.2f}, {np.degrees(turn):.2f}]" for x, y, turn in given.rows)
+    text = f'length_unit = "mm"\nangle_unit = "deg"\nposes = [{rows}]\n'
+    head = "[[limits]]" if len(given.boxes) > 1 else "[limits]"
+    for fixed, moving in given.boxes:
+        text += f"{head}\nfixed_pivot = {{ box = {fixed.tolist()} }}\n"
+        text += f'moving_pivot = {{ box = {moving.tolist()} }}\nkinds = ["RR"]\n'
+    return text
+
+
 def brute_force(seed, rounds=ROUNDS, starts=STARTS):
     """The best linkage found of one task, or None."""
     given = few_pose_task(seed)

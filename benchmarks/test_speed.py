@@ -15,6 +15,8 @@ from scipy.optimize import fsolve, least_squares
 from tests.oracles.conics import as_rows, circle_equations
 from tests.oracles.witness import span
 
+from benchmarks.bounded import measured
+from benchmarks.few_poses import brute_force, file_of
 from benchmarks.many_poses import TABLE_5, design, in_one_task, near_table_5
 from burmester import best_dyads, critical_dyads, dyads_of_five, fit_pencil, synthesize
 from burmester.fourbar.dyad import RR
@@ -28,6 +30,7 @@ FIVE = pytest.mark.benchmark(group="3. five poses, all four dyads, motiongen-sho
 STACK = pytest.mark.benchmark(group="5. tasks of ten poses, 100,000 in one call: time of one task")
 BEST = pytest.mark.benchmark(group="7. every locally best RR dyad, 10 poses of Table 5")
 PEERS = pytest.mark.benchmark(group="9. all RR, PR and RP dyads, 10 poses of Table 5, and peers")
+FEW = pytest.mark.benchmark(group="31. two, three and four poses with boxes, beside brute force")
 COLD = pytest.mark.benchmark(group="6. a fresh interpreter")
 
 
@@ -282,3 +285,29 @@ def test_fourbarhinge(measure):
     worst = max(np.hypot(*gap.T).max() for gap in gaps)
     what = "fourbarhinge's `CouplerMotionSynthesis`, one linkage"
     measure(what, solve, rounds=3, linkages=1, worst_position_error=f"{worst:.2g}")
+
+
+# 31 -----------------------------------------------------------------------------------------
+
+
+@FEW
+@pytest.mark.parametrize("count", [2, 3, 4])
+def test_few_poses(measure, benchmark, tmp_path, count):
+    """The cold command on the first task of so many poses, whose answer is a whole front."""
+    (tmp_path / "task.toml").write_text(file_of(count + 1))
+    arguments = ["synthesize", "task.toml"]
+    notes = {} if benchmark.disabled else {"peak_MB": round(measured(arguments, tmp_path).peak)}
+    command, goal = [sys.executable, "-m", "burmester", *arguments], "2 s" if count == 2 else "1 s"
+
+    def call():
+        subprocess.run(command, check=True, capture_output=True, cwd=tmp_path)
+
+    measure(f"`burmester synthesize TOML`, {count} poses", call, rounds=7, goal=goal, **notes)
+
+
+@FEW
+@pytest.mark.parametrize("count", [2, 3, 4])
+def test_few_poses_by_brute_force(measure, count):
+    """One linkage, from one round of 24 starts of SLSQP, without an interpreter to start."""
+    what = f"brute force of the tests, {count} poses, one linkage"
+    measure(what, brute_force, count + 1, 1, 24, rounds=3)
