@@ -1,0 +1,178 @@
+"""The least clearances of many linkages at given frames: a condition in a search.
+
+At the frames the distances are exact but for the outline of a body of many corners, which is taken
+with fewer: to a five-hundredth of its size.  Between the frames nothing is looked at.  So what is
+told is too much by at most half of the longest way of a point between two frames, and as a rule by
+far less: where the distance has a minimum, by the square of the step.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Final
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from burmester.clearance.moving_parts import lugs, shortened
+from burmester.clearance.shapes import area, distances, moved, segments
+from burmester.geometry.displacement import Displacement
+from burmester.geometry.regions import Polygon
+from burmester.numerics.arrays import FloatArray
+from burmester.tasks.surroundings import Surroundings
+
+__all__ = ["least_clearances"]
+
+FEW_CORNERS: Final = 48  # an outline of more is taken with fewer
+OUTLINE_TOLERANCE: Final = 2e-3  # of the outline's size
+STRIDE: Final = 5  # every fifth frame comes first
+MAX_PLACES: Final = 200_000  # places of linkages compared at once; memory for some 100 MB
+
+
+def least_clearances(
+    places: Displacement,
+    bars: FloatArray,
+    body: Polygon | None,
+    around: Surroundings,
+    *,
+    enough: float = np.inf,
+) -> FloatArray:
+    """The least clearance of linkages (k,) at their places (k, n), approximately.
+
+    Parameters
+    ----------
+    places : Displacement, (k, n)
+        Of the coupler; places that are not finite are passed over.
+    bars : (k, n, m, 2, 2) array
+        Ends of the bars in F, `moving_parts.bars_of`; nan for bars that there are not.
+    body : Polygon, optional
+        The outline, in M.
+    around : Surroundings
+        What body and bars must not touch.
+    enough : float
+        A clearance above which it does not matter: so much is told then, and it is faster.
+
+    Returns
+    -------
+    (k,) array
+        Not below 0, `enough` at most; 0 where something touches, `enough` where nothing is near or
+        no place is finite.
+    """
+    count = places.shape[0]
+    rows = max(1, MAX_PLACES // max(places.shape[1], 1))
+    simple = None if body is None else _simplified(body)
+    parts = [
+        _least(places[k : k + rows], bars[k : k + rows], simple, around, enough)
+        for k in range(0, count, rows)
+    ]
+    return np.concatenate(parts) if parts else np.empty(0)
+
+
+def _least(
+    places: Displacement,
+    bars: FloatArray,
+    body: Polygon | None,
+    around: Surroundings,
+    enough: float,
+) -> FloatArray:
+    least = np.full(places.shape[0], float(enough))
+    finite = np.isfinite(places.angle) & np.isfinite(places.translation).all(axis=-1)
+    there = np.asarray(np.isfinite(bars).all(axis=(-1, -2)))
+    half = around.link_width / 2
+    for each in around.keep_out:
+        if body is not None:
+            _lower_to_body(least, places, finite, body, each.polygon)
+        for number in range(bars.shape[2]):
+            _lower_to_bars(least, bars[:, :, number], there[:, :, number], each.polygon, half)
+    if body is not None and around.body_in_plane:
+        for number in (0, 1):
+            _lower_to_own_links(least, places, bars[:, :, number], body, around)
+    return np.asarray(np.maximum(least, 0.0))
+
+
+def _lower(
+    least: FloatArray,
+    bounds: FloatArray,
+    distances_at: Callable[[NDArray[np.intp], NDArray[np.intp]], FloatArray],
+) -> None:
+    """Lower `least` (k,), in place, to distances at rows and frames.
+
+    bounds: (k, n), below which no distance is; infinite where nothing is asked.  Few frames come
+    first, so that the others need be looked at only where they can be lower still.
+    """
+    for stride in (STRIDE, 1):
+        row, frame = np.nonzero(bounds[:, ::stride] < least[:, None])
+        if len(row):
+            frame = frame * stride
+            np.minimum.at(least, row, distances_at(row, frame))
+            bounds[row, frame] = np.inf
+
+
+def _lower_to_body(
+    least: FloatArray,
+    places: Displacement,
+    finite: NDArray[np.bool_],
+    body: Polygon,
+    region: Polygon,
+) -> None:
+    """The body and a region; whichever has fewer corners is moved."""
+    middle = (body.vertices.min(axis=0) + body.vertices.max(axis=0)) / 2
+    reach = float(np.linalg.norm(body.vertices - middle, axis=-1).max())
+    at = places.act(middle)
+    bounds = np.where(finite, _from_box(at, at, region) - reach, np.inf)
+
+    def distances_at(row: NDArray[np.intp], frame: NDArray[np.intp]) -> FloatArray:
+        some = places[row, frame]
+        if len(region.vertices) < len(body.vertices):
+            return distances(moved(region, some.inverse()), area(body))
+        return distances(moved(body, some), area(region))
+
+    _lower(least, bounds, distances_at)
+
+
+def _lower_to_bars(
+    least: FloatArray, ends: FloatArray, there: NDArray[np.bool_], region: Polygon, half: float
+) -> None:
+    """Bars (k, n, 2, 2) and a region."""
+    shape = area(region)
+    low, high = ends.min(axis=-2), ends.max(axis=-2)
+    bounds = np.where(there, _from_box(low, high, region) - half, np.inf)
+    _lower(least, bounds, lambda *at: distances(segments(ends[at]), shape) - half)
+
+
+def _lower_to_own_links(
+    least: FloatArray,
+    places: Displacement,
+    ends: FloatArray,
+    body: Polygon,
+    around: Surroundings,
+) -> None:
+    """The body and links (k, n, 2, 2) in its plane, those that have a length."""
+    inside, half = area(body), around.link_width / 2
+    long = np.isfinite(ends).all(axis=(-1, -2)) & np.any(ends[:, :, 0] != ends[:, :, 1], axis=-1)
+    long &= np.isfinite(places.angle)
+
+    def distances_at(row: NDArray[np.intp], frame: NDArray[np.intp]) -> FloatArray:
+        own = places[row, frame].inverse()[:, None].act(ends[row, frame])
+        _, first, linkage = np.unique(row, return_index=True, return_inverse=True)
+        lug = lugs(own[first, 1], body, around)[linkage]
+        return distances(segments(shortened(own, lug)), inside) - half
+
+    _lower(least, np.where(long, -np.inf, np.inf), distances_at)
+
+
+def _from_box(low: FloatArray, high: FloatArray, region: Polygon) -> FloatArray:
+    """How far boxes from low to high (*, 2) are from the box about a region, (*,)."""
+    least, most = region.vertices.min(axis=0), region.vertices.max(axis=0)
+    gap = np.maximum(np.maximum(least - high, low - most), 0.0)
+    return np.asarray(np.hypot(gap[..., 0], gap[..., 1]))
+
+
+def _simplified(body: Polygon) -> Polygon:
+    """An outline with fewer corners, where it has many."""
+    if len(body.vertices) <= FEW_CORNERS:
+        return body
+    size = float(np.linalg.norm(np.ptp(body.vertices, axis=0)))
+    short = area(body).simplify(OUTLINE_TOLERANCE * size, preserve_topology=True)
+    return Polygon(shapely.get_coordinates(short.exterior)[:-1])
