@@ -42,6 +42,7 @@ from burmester.io.reading.poses import read_task
 from burmester.io.result import failure, synthesis_data
 from burmester.io.saved import read_result
 from burmester.tasks.motion_class import classify_motion
+from tests.oracles.drawings import svg
 from tests.oracles.recordings import nexus, recording
 from tests.oracles.ten_poses import ROWS, TEN
 
@@ -98,6 +99,7 @@ POINTS = "px,py,qx,qy\n0,0,5,0\n3,1,7,4\n4,3,7,7\n5,3,5,8\n6,2,3,6\n"
 GOOD = {"poses.csv": FIVE}
 FEW = {"poses.csv": "\n".join(FIVE.splitlines()[:4])}
 ALL = {"poses.csv": TEN}
+LID_PATH = '<path id="lid" d="M 0 0 L 4 0 L 4 2 L 0 2 z"/>'
 
 
 def with_z(heights):
@@ -754,6 +756,61 @@ CASES: dict[str, Case] = {
         "export result.json -o a.py --linkage L2",
         Args("export result.json -o a.csv --linkage L2 --to csv"),
         {"result.json": lambda: result(TEN)},
+    ),
+    # --- outlines and surroundings
+    "a drawing of another kind": Case(
+        "E170",
+        f"{S} --body lid.png",
+        Args(f"{S} --body lid.svg"),
+        {**ALL, "lid.svg": svg(LID_PATH, "")},
+    ),
+    "a drawing with a gap": Case(
+        "E171",
+        f"{S} --body lid.svg",
+        Edit("lid.svg", "L 0 2.1", "L 0 2 z"),
+        {**ALL, "lid.svg": svg('<path d="M 0 0 L 4 0 L 4 2 L 0 2.1"/>', "")},
+    ),
+    "a drawing with a hole": Case(
+        "E172",
+        f"{S} --body lid.svg",
+        Args(f"{S} --body lid.svg:lid"),
+        {**ALL, "lid.svg": svg(f'{LID_PATH}<circle id="hole" cx="2" cy="1" r="0.5"/>', "")},
+    ),
+    "no such layer": Case(
+        "E173",
+        f"{S} --body lid.svg:outline",
+        Args(f"{S} --body lid.svg:lid"),
+        {**ALL, "lid.svg": svg(LID_PATH, "")},
+    ),
+    "millimetres for poses without a unit": Case(
+        "E174",
+        f"{S} --body lid.svg",
+        Edit("poses.csv", "x,y", "x_mm,y_mm"),
+        {**ALL, "lid.svg": svg(LID_PATH, 'width="4mm" height="2mm" viewBox="0 0 4 2"')},
+    ),
+    "a region over the body": Case(
+        "E175",
+        "synthesize task.toml",
+        Edit("task.toml", "[[-3, 0], [-1, 3]]", "[[30, 0], [39, 9]]"),
+        {
+            "task.toml": toml_poses()
+            + "body = [[-1, -1], [1, -1], [1, 1], [-1, 1]]\n"
+            + '[[keep_out]]\nname = "bumper"\nbox = [[-3, 0], [-1, 3]]\n'
+        },
+    ),
+    "links of less than no width": Case(
+        "E176", f"{S} --link-width -3", Args(f"{S} --link-width 3"), ALL
+    ),
+    "an outline from a drawing": Case(
+        "W218",
+        f"{S} --body lid.svg",
+        Write(
+            "task.toml",
+            toml_poses() + "body = [[0, 0], [4, 0], [4, -2], [0, -2]]\n",
+            "synthesize task.toml",
+        ),
+        {**ALL, "lid.svg": svg(LID_PATH, "")},
+        exit=0,
     ),
     "driver without a joint": Case(
         "E401",

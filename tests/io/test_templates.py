@@ -25,6 +25,7 @@ from burmester.io.reading.poses import read_task
 from burmester.io.reading.stated_requirements import FILE_KEYS
 from burmester.tasks.length_per_radian import default_length_per_radian
 from tests.oracles import witness
+from tests.oracles.drawings import dxf, svg
 
 TRADES = (
     "folding-table",
@@ -247,11 +248,11 @@ def uncommented(start):
 
 
 def test_every_block_is_tried_below():
-    starts = ["{ x = 55.20", "poses = [", "body", "pose_sigma", "[limits]", "[[limits]]"]
-    starts.append("[requirements]")
+    starts = ["{ x = 55.20", "poses = [", "body = [[", "body = {", "pose_sigma", "[[keep_out]]"]
+    starts += ["[surroundings]", "[limits]", "[[limits]]", "[requirements]"]
     assert [start.startswith(each) for start, each in zip(blocks(), starts, strict=True)] == [
         True
-    ] * 7
+    ] * 10
     keys = ("weight", "name", "exact", "fixed_pivot", "moving_pivot", "length", "kinds", *FILE_KEYS)
     for key in keys:
         assert re.search(rf"\b{key} = ", templates.text()), key
@@ -272,13 +273,31 @@ def test_blocks_of_the_poses():
     assert points.poses.angle == pytest.approx(base.poses.angle, abs=math.radians(0.01))
     for pose in tomllib.loads(uncommented("poses = ["))["poses"]:
         assert math.dist(pose["p"], pose["q"]) == pytest.approx(60, abs=0.01)
-    (body,) = (start for start in blocks() if start.startswith("body"))
+    (body,) = (start for start in blocks() if start.startswith("body = [["))
     # A bar of 100 by 20 about (40, 0).
     gyration = math.sqrt((100**2 + 20**2) / 12 + 40**2)
     assert default_length_per_radian(read(uncommented(body))) == pytest.approx(gyration)
     (sigma,) = (start for start in blocks() if start.startswith("pose_sigma"))
     resolution = read(uncommented(sigma)).resolution
     assert resolution == pytest.approx((math.sqrt(3) * 0.01, math.sqrt(3) * math.radians(0.01)))
+
+
+def test_blocks_of_outlines_and_surroundings(tmp_path):
+    starts = ("body = {", "[[keep_out]]", "[surroundings]")
+    (tmp_path / "lid.dxf").write_bytes(
+        dxf(lambda _, space: space.add_circle((5, 5), 4, dxfattribs={"layer": "OUTLINE"}))
+    )
+    (tmp_path / "wall.svg").write_bytes(svg('<rect id="wall" y="90" width="9" height="9"/>'))
+    texts = [uncommented(next(s for s in blocks() if s.startswith(start))) for start in starts]
+    read_texts = []
+    for text in texts:
+        (tmp_path / "task.toml").write_text(text)
+        read_texts.append(read_task(tmp_path / "task.toml"))
+    drawn, kept, around = read_texts
+    assert np.abs(drawn.body.vertices - 5).max() == pytest.approx(4, rel=1e-3)
+    assert kept.surroundings.names == ("'bumper'", "region 2")
+    given = around.surroundings
+    assert (given.link_width, given.margin, given.body_in_plane) == (8, 2, False)
 
 
 def test_blocks_of_limits_and_requirements():

@@ -163,6 +163,24 @@ SPECIFICATION: tuple[Decorator, ...] = (
         help="Kinds of dyads allowed: links RR, sliders PR, slots RP.",
     ),
     _specification(
+        "--body",
+        metavar="FILE[:PART]",
+        help="The outline of the body in a DXF or SVG file, or in one layer (DXF) or id (SVG) of "
+        "it; its origin and axes are those of the body's frame.",
+    ),
+    _specification(
+        "--keep-out",
+        metavar="FILE[:PART]",
+        multiple=True,
+        help="A region of the ground that body and links must not touch between the poses, "
+        "likewise.",
+    ),
+    _specification(
+        "--link-width",
+        metavar="LENGTH",
+        help="Width of the links, with round ends, for keep-out regions; by default 0.",
+    ),
+    _specification(
         "--exact",
         metavar="1,5",
         multiple=True,
@@ -287,6 +305,7 @@ def read_poses(poses: str, **given: Any) -> Task:
     """The task in the file POSES, by the options of POSES and, if given, of SPECIFICATION."""
     from burmester.io.reading import requirements_text as text
     from burmester.io.reading.limits_text import limits_from_options
+    from burmester.io.reading.outline_options import OutlineOptions
     from burmester.io.reading.poses import read_task
 
     further: dict[str, Any] = {}
@@ -296,7 +315,12 @@ def read_poses(poses: str, **given: Any) -> Task:
             **{name: given[name] for name in _REQUIREMENTS}
         )
         specification = limits_from_options(*limits)._replace(requirements=requirements)
-        further = {"specification": specification, "exact": given["exact"]}
+        outlines = OutlineOptions(given["body"], given["keep_out"], given["link_width"])
+        further = {
+            "specification": specification,
+            "exact": given["exact"],
+            "outlines": outlines,
+        }
     sigma = given["pose_sigma"]
     return read_task(
         poses,

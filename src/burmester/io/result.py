@@ -21,6 +21,7 @@ from burmester.families.family import RULE, Family
 from burmester.geometry.regions import Line, Point, Polygon, Segment
 from burmester.io.linkage_data import dyad_data, linkage_data, number, poses_data
 from burmester.io.reading.stated_requirements import requirements_data
+from burmester.io.reading.stated_surroundings import surroundings_data
 from burmester.synthesis.result import Outcome, Synthesis
 from burmester.tasks.limits import KINDS, Limits
 from burmester.tasks.motion_class import MotionClass
@@ -87,6 +88,8 @@ def task_data(task: Task) -> dict[str, Any]:
         data["limits"] = [_limits(each) for each in task.limits]
     if task.body is not None:
         data["body"] = task.body.vertices.tolist()
+    if task.surroundings is not None:
+        data |= surroundings_data(task.surroundings)
     if task.requirements.has_any:
         data["requirements"] = requirements_data(task.requirements)
     position, angle = (given / math.sqrt(3) for given in task.resolution)

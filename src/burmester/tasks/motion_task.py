@@ -18,7 +18,7 @@ from burmester.tasks.frames import frames_of
 from burmester.tasks.limits import Limits
 from burmester.tasks.pose_tolerances import COMPONENTS, PoseTolerances, nominal_values
 from burmester.tasks.requirements import Requirements, require_possible
-from burmester.tasks.surroundings import Surroundings
+from burmester.tasks.surroundings import Surroundings, require_clear_at_poses
 from burmester.values import real_numbers, require_instance, shown
 from burmester.wording import count as count_of
 
@@ -99,7 +99,8 @@ class Task:
         fit the poses), E125 (values of a wrong type or shape), E132 (requirements that the limits
         contradict), E133 (more exact conditions than a dyad or a linkage can meet), E134 (a driver
         named by limits that are not two), E135 (tolerances that do not fit the poses), E136
-        (tolerances that a pose marked exact contradicts).
+        (tolerances that a pose marked exact contradicts), E175 (a body that touches a keep-out
+        region at a pose).
 
     Examples
     --------
@@ -183,6 +184,18 @@ class Task:
         if self.tolerances is not None:
             _require_fitting(self.tolerances, count, self.exact)
         require_possible(self.requirements, self.limits)
+        self._require_clear()
+
+    def _require_clear(self) -> None:
+        """Refuse a body that touches a keep-out region at a pose that is exact: E175."""
+        if self.body is None or self.surroundings is None or not self.surroundings.keep_out:
+            return
+        exact = np.arange(self.poses.shape[0])
+        if self.tolerances is not None:  # others may be met beside the region
+            exact = np.flatnonzero(self.tolerances.exact_poses)
+        given = self.names or ("",) * self.poses.shape[0]
+        names = [f"pose {k + 1}" + (f" ({given[k]})" if given[k] else "") for k in exact]
+        require_clear_at_poses(self.body, self.surroundings, self.poses[exact], names)
 
     def _own_values(self) -> None:
         """Refuse values of a wrong type or shape, and keep a copy of the others."""

@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 
 from burmester.errors import InputError
+from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
 from burmester.printable import printable
 from burmester.values import real_numbers, require_instance, shown
 
-__all__ = ["KeepOut", "Surroundings"]
+__all__ = ["KeepOut", "Surroundings", "require_clear_at_poses"]
 
 MAX_REGIONS = 100  # keep-out regions of a task; each is compared with body and links
+POSES_AT_ONCE = 1000  # poses whose outlines are compared at once
 MAX_NAME = 100  # characters of the name of a region, which messages repeat
 
 
@@ -139,3 +141,34 @@ class Surroundings:
             f"'{each.name}'" if each.name else f"region {number}"
             for number, each in enumerate(self.keep_out, 1)
         )
+
+
+def require_clear_at_poses(
+    body: Polygon, around: Surroundings, poses: Displacement, names: Sequence[str]
+) -> None:
+    """Refuse poses (N,) at which the body touches a keep-out region: E175.
+
+    names: of the poses in messages, "pose 2"; poses that are not finite are passed over.
+    """
+    import shapely  # noqa: PLC0415  only tasks with surroundings need it
+
+    regions = [shapely.Polygon(each.polygon.vertices) for each in around.keep_out]
+    known = np.flatnonzero(np.isfinite(poses.angle) & np.isfinite(poses.translation).all(axis=-1))
+    for start in range(0, len(known), POSES_AT_ONCE):
+        some = known[start : start + POSES_AT_ONCE]
+        outlines = shapely.polygons(poses[some][:, None].act(body.vertices))
+        for name, region in zip(around.names, regions, strict=True):
+            if not (met := shapely.intersects(outlines, region)).any():
+                continue
+            at = int(met.argmax())
+            shared = shapely.intersection(outlines[at], region)
+            how = "lies over" if shared.area > 0 else "touches"
+            x, y = shapely.get_coordinates(shapely.point_on_surface(shared))[0]
+            raise InputError(
+                "E175",
+                f"the body {how} keep-out {name} at {names[some[at]]}",
+                why=f"both have the point ({x:.6g}, {y:.6g}) of the ground, "
+                "and no linkage can meet that pose and stay clear",
+                help="correct the outline of the body, the pose or the region; "
+                "what may touch at a pose is no keep-out region",
+            )

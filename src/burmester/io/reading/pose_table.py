@@ -13,6 +13,7 @@ import numpy as np
 from burmester.errors import Advice, InputError
 from burmester.geometry.regions import Polygon
 from burmester.io.reading.specification import Specification
+from burmester.io.reading.stated_surroundings import StatedSurroundings
 from burmester.numerics.arrays import FloatArray
 from burmester.printable import blanked
 
@@ -101,6 +102,7 @@ class PoseTable(NamedTuple):
     say_unit: str  # how to state it there
     specification: Specification = Specification()
     body: Polygon | None = None  # its outline, in M
+    surroundings: StatedSurroundings = StatedSurroundings()
     pose_sigma: tuple[float, float] | None = None  # standard deviations of the poses, if stated
     # where a row stands, by its number from 0; None is for where they begin
     locate_row: Callable[[int | None], str] | None = None

@@ -17,8 +17,8 @@ E103 a number that is not finite    E108 given twice, or contradictory
 E104 not a number, or ambiguous     E109 not JSON or TOML at all
 E105 header, column or key missing  E110 angle unit missing or contradicted
 E111 points that give no pose       E122 no such pose to be exact, or left out
-E113 not in one plane               E130 pyarrow or openpyxl missing
-E114 markers not known or chosen
+E113 not in one plane               E130 a library is missing
+E114 markers not known or chosen    E170 to E176 drawings and surroundings
 """
 
 from __future__ import annotations
@@ -41,6 +41,7 @@ from burmester.io.reading.markers.marker_header import read_marker_header
 from burmester.io.reading.markers.marker_poses import recorded_poses
 from burmester.io.reading.markers.marker_recording import MarkerRecording
 from burmester.io.reading.markers.tracked_points import TrackedRows, tracked_poses
+from burmester.io.reading.outline_options import OutlineOptions
 from burmester.io.reading.pose_table import UNITS, PoseTable, Source, extent, resolution_by_digits
 from burmester.io.reading.row_selection import RowLabels, RowSelection, row_marks
 from burmester.io.reading.specification import Specification
@@ -75,6 +76,7 @@ def read_task(
     every: int | None = None,
     first: str | None = None,
     last: str | None = None,
+    outlines: OutlineOptions = OutlineOptions(),  # noqa: B008  frozen
     data: bytes | None = None,
 ) -> Task:
     """Read the task in a file, on standard input or in a carried case.
@@ -122,6 +124,8 @@ def read_task(
 
     Poses are numbered as in the file, whichever are left out, and take these numbers as their
     names if they have none.  In a recording they are the numbers of its frames.
+    outlines : OutlineOptions
+        Outlines in drawings: of the body, of keep-out regions; and the width of the links.
     data : bytes, optional
         The content of the source, if it has been read already.
 
@@ -133,8 +137,8 @@ def read_task(
     Raises
     ------
     InputError
-        E101 to E114, E122 and E130 as listed above, and the errors of `Limits`, `Requirements` and
-        `Task`.
+        E101 to E114, E122, E130 and E170 to E176 as listed above, and the errors of `Limits`,
+        `Requirements` and `Task`.
 
     Examples
     --------
@@ -159,6 +163,7 @@ def read_task(
             angle_unit=angle_unit,
             specification=specification,
             pose_sigma=pose_sigma,
+            outlines=outlines,
         )
     except InputError as error:
         error.where = blanked(error.where or label)
@@ -289,6 +294,7 @@ def _task(
     angle_unit: str | None,
     specification: Specification | None,
     pose_sigma: tuple[float, float] | None,
+    outlines: OutlineOptions,
 ) -> Task:
     """The task in the rows of a table that are taken."""
     rows = table.rows
@@ -305,6 +311,8 @@ def _task(
             break
     stated_in_file = table.specification
     whole = stated_in_file.merged(specification) if specification else stated_in_file
+    body, body_notes = outlines.body_beside(table.body, table.length_unit)
+    around, region_notes = outlines.surroundings_beside(table.surroundings, table.length_unit)
     numbers = 2 * rows.points or 3  # in a row, before its weight
     try:
         return Task(
@@ -316,13 +324,16 @@ def _task(
             exact=exact,
             limits=whole.limits(),
             requirements=combined_requirements(whole.requirements),
-            body=table.body,
-            notes=table.notes,
+            body=body,
+            surroundings=around.surroundings(),
+            notes=table.notes + body_notes + region_notes,
             read_as=table.read_as,
         )
     except InputError as error:
         if error.code in ("E132", "E134"):  # limits and requirements, not the poses
             error.where = error.where or whole.locations
+        elif error.code == "E175":  # outlines that overlap at a pose
+            error.where = error.where or around.where or None
         elif error.code == "E120" and table.locate_row and not error.where:  # too few poses
             error.where = table.locate_row(None)
         if error.code == "E120" and left_out:

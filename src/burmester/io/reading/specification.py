@@ -32,7 +32,10 @@ OptionalRegion: TypeAlias = Region | None  # None leaves a dyad free
 OptionalKinds: TypeAlias = frozenset[Kind] | None
 
 # The keys at the top of a task in a file.
-TOP_KEYS = ("poses", "angle_unit", "length_unit", "pose_sigma", "body", "limits", "requirements")
+TOP_KEYS = (
+    "poses", "angle_unit", "length_unit", "pose_sigma", "body", "keep_out", "surroundings",
+    "limits", "requirements",
+)  # fmt: skip
 
 # `limits`, and keys that may stand beside the poses by mistake, where they would limit nothing.
 LIMIT_KEYS = ("limits", "limit", "exact", "fixed_pivot", "moving_pivot", "length", "kinds")

@@ -17,6 +17,7 @@ from burmester.errors import InputError
 from burmester.io.reading.pose_table import POINTS, PoseTable, Rows
 from burmester.io.reading.specification import LIMIT_KEYS, TOP_KEYS, Specification
 from burmester.io.reading.stated_requirements import REQUIREMENT_KEYS
+from burmester.io.reading.stated_surroundings import StatedSurroundings
 from burmester.io.reading.trees.locations import Document, close_match
 from burmester.io.reading.trees.pose_model import POINT_KEYS, XY_ANGLE_KEYS, pose_fault, validated
 
@@ -34,6 +35,9 @@ _MISPLACED = {  # keys that may stand beside the poses by mistake: the help
     ),
     **dict.fromkeys(("unit", "units"), "write angle_unit for angles, length_unit for lengths"),
     **dict.fromkeys(("sigma",), "write pose_sigma with position and angle_deg"),
+    **dict.fromkeys(
+        ("link_width", "margin", "body_in_plane"), "write it into the table surroundings"
+    ),
 }
 
 
@@ -76,22 +80,30 @@ def read_tree(tree: Any, document: Document, example: str) -> PoseTable:
         return document.where("poses", row)
 
     given = whole.pose_sigma
-    body = None
-    if "body" in tree:
+    body, surroundings, drawn = None, StatedSurroundings(), document.source.notes
+    length_unit = whole.length_unit or None
+    if tree.get("body") is not None:
         from burmester.io.reading.trees.body_tree import read_body
 
-        body = read_body(tree, document)
+        body, notes = read_body(tree, document, length_unit)
+        drawn += notes
+    if not {"keep_out", "surroundings"}.isdisjoint(tree):
+        from burmester.io.reading.trees.surroundings_tree import read_surroundings
+
+        surroundings, notes = read_surroundings(tree, document, length_unit)
+        drawn += notes
     return PoseTable(
         rows,
-        length_unit=whole.length_unit or None,
+        length_unit=length_unit,
         angle_unit=unit,
         where=where,
         say_unit=f"write {example}",
         specification=specification,
         body=body,
+        surroundings=surroundings,
         pose_sigma=given and (given.position, math.radians(given.angle_deg)),
         locate_row=locate_row,
-        notes=document.source.notes,
+        notes=drawn,
     )
 
 

@@ -1,0 +1,1 @@
+"""Outlines from drawings: a closed curve of a DXF or SVG file as a polygon."""
