@@ -24,6 +24,7 @@ TASK = {
         {"x": -2.9116, "y": 0.9103, "angle_deg": 44.55},
     ],
     "body": [[0, 0], [1, 0], [0, 1]],
+    "keep_out": [{"box": [[500, 500], [510, 510]]}],
     "limits": {"kinds": ["RR", "PR", "RP"]},
     "requirements": {"footprint": {"box": [[-50, -50], [50, 50]]}, "any_order": True},
 }

@@ -10,6 +10,7 @@ from burmester.describe.digits import degrees, fitted_decimals, sides, worst_err
 from burmester.describe.dimensions import certain, decimals_of
 from burmester.linkages import explanation
 from burmester.linkages.built_linkages import DRAWS
+from burmester.linkages.clearance_check import clearance_in_words
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.linkages.ranking import TRADE_GAIN, closest_usable, digits_leave_open, is_trade
 from burmester.linkages.uncertainty import pose_sigma
@@ -21,6 +22,7 @@ from burmester.wording import figure, listed, with_article
 __all__ = [
     "alternatives",
     "best_sentences",
+    "clearance_note",
     "digits_note",
     "dyads_title",
     "footnotes",
@@ -146,6 +148,7 @@ def notes(synthesis: Synthesis, found: FoundLinkage) -> list[str]:
         digits_note,
         uncertainty_note,
         type_note,
+        clearance_note,
         tolerance_note,
         rounding_note,
     )
@@ -168,6 +171,13 @@ def digits_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
         return None
     away = notation.length_of(position, synthesis.task)
     return f"Built from the digits above, {found.id} misses by {away} and {degrees(angle)} at most."
+
+
+def clearance_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
+    """How far it stays from its surroundings, and where it comes nearest."""
+    if found.clearance is None or found.clearance.touches:
+        return None
+    return f"Clearance: {clearance_in_words(found.clearance, synthesis.problem)}."
 
 
 def dyads_title(synthesis: Synthesis) -> str:
@@ -272,6 +282,8 @@ def footnotes(synthesis: Synthesis) -> str:
             " The first of two dyads drives; worst and angle: the greatest misses at a pose; "
             f"transm.: the least transmission angle between the poses; {quality_words.COLUMNS}."
         )
+    if task.surroundings is not None and len(synthesis.usable) > 1:
+        text += " clear: the least clearance from the surroundings between the poses."
     if any(found.other_types for found in synthesis.usable):
         text += " A type with ± could be another within the uncertainty of the links; see --json."
     return text

@@ -1,7 +1,8 @@
 """Whether the parts of a result agree: what its dyads and poses determine is computed again.
 
 From the dyads of a linkage, its places and the poses follow its errors, its links and its type;
-whether it is usable, with which driver, its defects, its transmission angles and its quality.
+whether it is usable, with which driver, its defects, its transmission angles, its quality and
+its clearance.
 Other numbers (the regions of uncertainty, the spread of errors as built, the certificate) are not
 computed again, and nothing is made of them where a result is read.
 
@@ -17,6 +18,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from burmester.clearance.least_clearance import Clearance, distance_of_pair
 from burmester.describe.decimals import direction_deg
 from burmester.errors import InputError
 from burmester.fourbar.defects import Defect, Driven, Verdict
@@ -32,6 +34,7 @@ from burmester.io.saved_model import (
     WrittenResult,
     path_of,
 )
+from burmester.linkages.clearance_check import clearance_of, too_close
 from burmester.linkages.evaluation import Evaluation
 from burmester.linkages.found_linkage import Side, with_driver_first
 from burmester.linkages.from_dyads import target_of
@@ -52,6 +55,7 @@ PLACE_ERROR = 1e-6  # of the task's size; places are found by iteration, to fewe
 QUALITY_CLOSENESS = 1e-5
 ANGLE_CLOSENESS = 1e-5  # degrees; beside a dead point a transmission angle loses half its digits
 WORKING = ("R300", "R305", "R307", "R308")  # outcomes with a usable linkage
+CLEARANCE_ERROR = 2  # times that computed again; the error that a least clearance may state
 AGAIN = "the file has been changed: make it anew with `burmester synthesize POSES -o result.json`"
 
 
@@ -117,6 +121,8 @@ def judged_again(result: WrittenResult, task: Task) -> list[Judged]:
     size, judged = characteristic_length(task), []
     for k, (written, verdict) in enumerate(zip(result.linkages, verdicts, strict=True)):
         side, _, usable = evaluation.driver(linkages[k], verdict)
+        clearance = clearance_of(linkages[k], verdict, side, problem)
+        usable = usable and not too_close(clearance, problem)
         if written.coupler is None or any(each.kind == "rounding" for each in written.unmet):
             usable = False
         own = Judged(linkages[k], errors[k], side, usable, verdict)
@@ -135,6 +141,7 @@ def judged_again(result: WrittenResult, task: Task) -> list[Judged]:
                 parts += _line_parts(dyad, keys, own.error.places, slack)
             parts += [*_type_parts(written, k, own, slack), *_motion_parts(written, k, own)]
             parts += _quality_parts(written, k, own)
+            parts += _clearance_parts(written, k, own, clearance, task)
         _require_parts(parts, f"linkage {written.id} does not do what the file says of it")
         judged.append(own)
     return judged
@@ -300,6 +307,34 @@ def _quality_parts(written: WrittenLinkage, index: int, own: Judged) -> _Parts:
             given = _number(value)
             tolerance = QUALITY_CLOSENESS * (1 + abs(given or 0.0))
             yield _Part((*keys, name, k), said[k], given, tolerance)
+
+
+def _clearance_parts(
+    written: WrittenLinkage, index: int, own: Judged, clearance: Clearance | None, task: Task
+) -> _Parts:
+    """Its least clearance, and the distance of the two parts named at the place told.
+
+    Where distances are alike, rounding chooses the place: it is not computed again.
+    """
+    stated, keys = written.clearance, ("linkages", index, "clearance")
+    if stated is None or clearance is None or task.surroundings is None:
+        words = {True: "left out", False: "a least clearance"}
+        yield _Part(keys, words[stated is None], words[clearance is None])
+        return
+    slack = PLACE_ERROR * characteristic_length(task)
+    slack += ROUNDING * _reach(_sides(own.linkage))
+    least = (*keys, "least")
+    yield _Part(least, stated.least, clearance.least, stated.error + clearance.error + slack)
+    at = stated.place
+    place = Displacement(np.array([at.x, at.y]), np.radians(at.angle_deg))
+    pair = stated.part, stated.obstacle
+    there = distance_of_pair(own.led, task.body, task.surroundings, pair, place)
+    yield _Part(least, stated.least, _number(there), slack)
+    known = max(stated.poses) <= task.poses.shape[0]
+    yield _Part((*keys, "poses"), stated.poses, stated.poses if known else "poses of the task")
+    bound = CLEARANCE_ERROR * max(clearance.error, slack)
+    error = min(stated.error, bound)
+    yield _Part((*keys, "error"), stated.error, error, slack)
 
 
 def _driven_parts(

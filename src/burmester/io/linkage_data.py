@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from burmester.clearance.least_clearance import Clearance
 from burmester.describe.decimals import direction_deg
 from burmester.dyads.selection import FoundDyad
 from burmester.fourbar.defects import Defect, Driven
@@ -103,6 +104,8 @@ def linkage_data(found: FoundLinkage, tolerance: float | None = None) -> dict[st
         },
         "pivot_uncertainty": _uncertainty(found),
     }
+    if found.clearance is not None:
+        data["clearance"] = _clearance(found.clearance, found.driver_first.first)
     if (links := found.driver_first.links) is not None:
         data["links"] = {name: float(length) for name, length in links._asdict().items()}
     if np.isfinite(found.error.angle).all():
@@ -170,6 +173,23 @@ def _drive(dyad: Dyad, driven: Driven) -> dict[str, Any]:
         "min_transmission_angle_deg": _transmission(driven),
         "circuit": driven.circuit if driven.circuit >= 0 else None,
         "travel" if slides else "travel_deg": [number(end) for end in travel],
+    }
+
+
+def _clearance(clearance: Clearance, driver: Dyad) -> dict[str, Any]:
+    """The least clearance, what is nearest to what, and where."""
+    slides = isinstance(driver, PR)
+    at = clearance.input if slides else math.degrees(clearance.input)
+    (place,) = poses_data(clearance.place[None])
+    return {
+        "least": number(clearance.least),
+        "error": number(clearance.error),
+        "part": clearance.part,
+        "obstacle": clearance.obstacle,
+        "poses": [pose + 1 for pose in clearance.poses],
+        "input" if slides else "input_deg": number(at),
+        "place": place,
+        "points": clearance.points.tolist(),
     }
 
 

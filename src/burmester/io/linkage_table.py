@@ -19,7 +19,7 @@ from burmester.linkages import explanation
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.synthesis.result import Synthesis
 from burmester.tasks import notation
-from burmester.wording import count
+from burmester.wording import count, figure
 
 __all__ = [
     "closest_three",
@@ -96,7 +96,9 @@ def _usable(
         table.add_column("dyads", no_wrap=True)
     for name in LINKS if decimals is not None else ():
         table.add_column(name, justify="right", no_wrap=True)
-    for name in ("worst", "angle", "transm.", *(("ext.", "sens.") if quality else ())):
+    near = synthesis.task.surroundings is not None
+    figures = (*(("ext.", "sens.") if quality else ()), *(("clear",) if near else ()))
+    for name in ("worst", "angle", "transm.", *figures):
         table.add_column(name, justify="right", no_wrap=True)
     for k, found in enumerate(usable):
         # Of the longest name, the second word stands under the first.
@@ -109,8 +111,14 @@ def _usable(
             *worst_errors(synthesis, found),
             notation.least_angle(found.driven.least_over_range),
             *(in_short(found.quality) if quality else ()),
+            *((_clear(found),) if near else ()),
         )
     return table
+
+
+def _clear(found: FoundLinkage) -> str:
+    """The least clearance for a cell."""
+    return "-" if found.clearance is None else figure(found.clearance.least)
 
 
 def unusable(synthesis: Synthesis, found: Sequence[FoundLinkage], width: int) -> Group:
@@ -157,7 +165,7 @@ def in_full(synthesis: Synthesis, console: Console) -> Iterator[Text | Table]:
     if quality is not None:
         yield Text(quality)
     digits, uncertainty = sentences.digits_note, sentences.uncertainty_note
-    made = (sentences.tolerance_note, sentences.rounding_note)
+    made = (sentences.clearance_note, sentences.tolerance_note, sentences.rounding_note)
     for note in (digits, uncertainty, sentences.type_note, *made):
         text = note(synthesis, best)
         if text is not None:

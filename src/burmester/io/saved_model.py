@@ -24,6 +24,7 @@ from burmester.tasks.requirements import TYPES
 from burmester.values import shown
 
 __all__ = [
+    "WrittenClearance",
     "WrittenDrive",
     "WrittenDyad",
     "WrittenLinkage",
@@ -302,6 +303,28 @@ class _Rounded(_Part):
     angle_error_before_deg: _Errors
 
 
+class WrittenClearance(_Part):
+    """The least clearance of a linkage as it stands in the file."""
+
+    least: _Size
+    error: _Size
+    part: Literal["the body", "the driver", "the follower", "the coupler"]
+    obstacle: Annotated[str, Field(max_length=MOST_NAME)]
+    poses: Annotated[
+        list[Annotated[int, Field(ge=1, le=MOST_POSES)]], Field(min_length=2, max_length=2)
+    ]
+    input: _Number | None = None
+    input_deg: _Number | None = None
+    place: _Place
+    points: Annotated[list[_Pair], Field(min_length=2, max_length=2)]
+
+    @model_validator(mode="before")
+    @classmethod
+    def _stated(cls, given: Any) -> Any:
+        """No null for what is either there or left out."""
+        return _without_null(given, "input", "input_deg")
+
+
 class _Links(_Part):
     ground: _Size
     driver: _Size
@@ -329,10 +352,11 @@ class WrittenLinkage(_Part):
     defects: _Defects
     driver: Side | None
     min_transmission_angle_deg: _Transmission
-    unmet: Annotated[list[_Unmet], Field(max_length=6)]
+    unmet: Annotated[list[_Unmet], Field(max_length=7)]
     sought: bool
     drives: _Drives
     pivot_uncertainty: _Uncertainty | None
+    clearance: WrittenClearance | None = None
     links: _Links | None = None
     coupler: Annotated[list[_Place], Field(max_length=MOST_POSES)] | None = None
     tolerance: _Tolerance | None = None
@@ -342,7 +366,9 @@ class WrittenLinkage(_Part):
     @classmethod
     def _stated(cls, given: Any) -> Any:
         """No null for what is either an object or left out."""
-        return _without_null(given, "possible_types", "links", "coupler", "tolerance", "rounded")
+        return _without_null(
+            given, "possible_types", "clearance", "links", "coupler", "tolerance", "rounded"
+        )
 
 
 class _CertifiedDyad(_Part):

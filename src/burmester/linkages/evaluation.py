@@ -17,6 +17,7 @@ from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
+from burmester.linkages.clearance_check import clearance_of, too_close
 from burmester.linkages.constraints import AllConstraints
 from burmester.linkages.found_linkage import FoundLinkage, Pair, Side, with_driver_first
 from burmester.linkages.possible_types import links_covariance, possible_types
@@ -116,6 +117,9 @@ class Evaluation:
             linkage = own.linkage(k)
             settled = None if candidates.drivers is None else SIDES[candidates.drivers[k]]
             driver, missing, usable = self.driver(linkage, verdict, settled)
+            clearance = clearance_of(linkage, verdict, driver, self.problem)
+            missing += (close := too_close(clearance, self.problem))
+            usable = usable and not close
             parts = linkage, verdict, driver, candidates.pairs[k]
             if driver == "second" and len(self.task.limits) < 2:
                 sides[k] = (1, 0)
@@ -134,6 +138,7 @@ class Evaluation:
                 usable,
                 missing,
                 from_search=bool(candidates.from_search[k]),
+                clearance=clearance,
             )
             out.append(replace(found, shortcomings=standard.shortcomings(found, self.task)))
         out = self._with_quality(out, places)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
+from burmester.clearance.least_clearance import Clearance
 from burmester.dyads.selection import FoundDyad
 from burmester.fourbar.defects import Defect, Driven, Verdict
 from burmester.fourbar.linkage import Linkage
@@ -72,6 +73,9 @@ class FoundLinkage:
         Of the error, for links and pivots built within a tolerance.
     error_before_rounding : PoseError, optional
         The error before the dimensions were rounded.
+    clearance : Clearance, optional
+        The least clearance from the surroundings between the poses; None without surroundings,
+        and where it does not come from pose to pose.
 
     Examples
     --------
@@ -99,6 +103,7 @@ class FoundLinkage:
     other_types: tuple[str, ...] = ()
     spread: Spread | None = None
     error_before_rounding: PoseError | None = None
+    clearance: Clearance | None = None
 
     @property
     def type(self) -> str:
