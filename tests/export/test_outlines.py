@@ -1,6 +1,7 @@
 """The body and its surroundings in drawings, read by ezdxf and svgelements."""
 
 import io
+import re
 from dataclasses import replace
 
 import ezdxf
@@ -54,6 +55,7 @@ def of_dxf(path):
         for each in on("LINE", "KEEP_OUT")
     ]
     texts = [each.dxf.text for each in on("TEXT", "KEEP_OUT")]
+    assert not any(re.search(r"%%|\\[UM]\+|\^(?! )", each) for each in texts)  # no codes of DXF
     kept = [[each[:, :2] for each in rings[layer]] for layer in ("BODY", "KEEP_OUT")]
     return *kept, lines, texts
 
