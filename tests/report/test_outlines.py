@@ -2,6 +2,7 @@
 
 import json
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -145,3 +146,19 @@ def test_the_pages_data_carry_the_outlines(file, found):
         # Its name stands inside: the angles that its corners are seen under make a whole turn.
         z = np.array(kept["outline"]) @ [1, 1j] - complex(*kept["at"])
         assert abs(np.angle(np.roll(z, -1) / z).sum()) == pytest.approx(2 * np.pi)
+
+
+def test_without_a_linkage_everything_is_shown(browser, tmp_path):
+    task = bodied(size=30)
+    file = tmp_path / "none.html"
+    found = replace(synthesize(task), linkages=(), dyads=())
+    file.write_text(page_of(found, "none"), encoding="utf-8")
+    with browsers.opened(browser, file) as (page, said, _):
+        drawn = page.evaluate(OUTLINES)
+        wanted = carried(30 * np.array(BODY), *task.poses.translation.T, task.poses.angle)
+        for ghost, corners in zip(drawn["ghosts"], wanted, strict=True):
+            assert same_ring(ghost["plane"], corners) < PIXEL / drawn["scale"]
+            assert (np.array(ghost["pixels"]) >= 0).all()
+            assert (np.array(ghost["pixels"]) <= drawn["size"]).all()
+        assert drawn["body"] == []
+        assert said == []

@@ -1710,7 +1710,7 @@ var PivotMap = class {
 var HATCH = 9;
 var PALEST = 0.45;
 var LONGEST_NAME = 28;
-var MOST_SIZES = 5;
+var LEAST_LINKAGE = 110;
 var patterns = 0;
 var closed = (points, view, [x, y]) => `M${points.map((each) => `${px(x + view.scale * each[0])} ${px(y - view.scale * each[1])}`).join("L")}Z`;
 var bodyPath = (data, view, attributes) => data.body ? s("path", { ...attributes, d: closed(data.body, view, [0, 0]) }) : null;
@@ -1761,7 +1761,7 @@ function corners(data, linkage, places) {
   if (data.body) for (const place of [...placesAtPoses(data, linkage), ...places]) for (const corner of data.body) found.push(act(place, corner));
   return found;
 }
-function widened(box, data, linkage, places, all) {
+function widened(box, data, linkage, places, width, all) {
   const sizeOf = ([x, y, u, v]) => Math.max(u - x, v - y);
   const points = corners(data, linkage, places), wide = [...box];
   for (const corner of points) {
@@ -1770,8 +1770,9 @@ function widened(box, data, linkage, places, all) {
       wide[k + 2] = Math.max(wide[k + 2], corner[k]);
     }
   }
-  if (all || sizeOf(wide) <= MOST_SIZES * sizeOf(box)) return wide;
-  const reach = (MOST_SIZES - 1) / 2 * sizeOf(box);
+  const most = Math.max(2, width / LEAST_LINKAGE);
+  if (all || !linkage || sizeOf(wide) <= most * sizeOf(box)) return wide;
+  const reach = (most - 1) / 2 * sizeOf(box);
   return wide.map((each, k) => k < 2 ? Math.max(each, box[k] - reach) : Math.min(each, box[k] + reach));
 }
 
@@ -1932,9 +1933,9 @@ var Plane = class {
     const { data, svg } = this, path = linkage?.ways[way];
     this.places = path ? placesOf(data, linkage, path, stretch) : [];
     const bare = boundsOf(data, linkage, this.places, far);
-    const box = widened(bare, data, linkage, this.places, far);
-    this.cut = !far && widened(bare, data, linkage, this.places, true).some((each, k) => each !== box[k]);
     const width = Math.max(260, this.parent.clientWidth);
+    const box = widened(bare, data, linkage, this.places, width, far);
+    this.cut = !far && widened(bare, data, linkage, this.places, width, true).some((each, k) => each !== box[k]);
     const shape = (box[3] - box[1]) / (box[2] - box[0]);
     const own = clamp(width * clamp(shape, 0.45, 1), 260, clamp(0.62 * window.innerHeight, 340, 680));
     const height = Math.round(fill ? clamp(fill, own, 1.15 * width) : own);

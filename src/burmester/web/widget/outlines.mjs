@@ -9,7 +9,7 @@ import { shortened } from "./tables.mjs";
 const HATCH = 9; // pixels between the lines of a hatch
 const PALEST = 0.45; // how strong the outline is at the first pose, of its strength at the last
 const LONGEST_NAME = 28; // characters of a region's name that the drawing has room for
-const MOST_SIZES = 5; // of the linkage: outlines widen the picture to no more, unless all of them is asked for
+const LEAST_LINKAGE = 110; // pixels: outlines leave the linkage as large as that, unless all of them is asked for
 
 let patterns = 0; // ids of hatches are unique on the page
 
@@ -79,9 +79,9 @@ function corners(data, linkage, places) {
 
 /** The box of the picture that holds the outlines, too: all of them, or as far as the linkage stays large.
  *
- * box: [x low, y low, x high, y high] of what else there is.
+ * box: [x low, y low, x high, y high] of what else there is; width: of the picture, in pixels.
  */
-export function widened(box, data, linkage, places, all) {
+export function widened(box, data, linkage, places, width, all) {
   const sizeOf = ([x, y, u, v]) => Math.max(u - x, v - y);
   const points = corners(data, linkage, places), wide = [...box];
   for (const corner of points) {
@@ -90,7 +90,8 @@ export function widened(box, data, linkage, places, all) {
       wide[k + 2] = Math.max(wide[k + 2], corner[k]);
     }
   }
-  if (all || sizeOf(wide) <= MOST_SIZES * sizeOf(box)) return wide;
-  const reach = ((MOST_SIZES - 1) / 2) * sizeOf(box);
+  const most = Math.max(2, width / LEAST_LINKAGE); // sizes of the linkage
+  if (all || !linkage || sizeOf(wide) <= most * sizeOf(box)) return wide;
+  const reach = ((most - 1) / 2) * sizeOf(box);
   return wide.map((each, k) => (k < 2 ? Math.max(each, box[k] - reach) : Math.min(each, box[k] + reach)));
 }

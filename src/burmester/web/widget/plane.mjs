@@ -51,9 +51,9 @@ export class Plane {
     const { data, svg } = this, path = linkage?.ways[way];
     this.places = path ? placesOf(data, linkage, path, stretch) : [];
     const bare = boundsOf(data, linkage, this.places, far);
-    const box = widened(bare, data, linkage, this.places, far);
-    this.cut = !far && widened(bare, data, linkage, this.places, true).some((each, k) => each !== box[k]);
     const width = Math.max(260, this.parent.clientWidth);
+    const box = widened(bare, data, linkage, this.places, width, far);
+    this.cut = !far && widened(bare, data, linkage, this.places, width, true).some((each, k) => each !== box[k]);
     const shape = (box[3] - box[1]) / (box[2] - box[0]);
     const own = clamp(width * clamp(shape, 0.45, 1), 260, clamp(0.62 * window.innerHeight, 340, 680));
     const height = Math.round(fill ? clamp(fill, own, 1.15 * width) : own);
