@@ -1711,6 +1711,7 @@ var HATCH = 9;
 var PALEST = 0.45;
 var LONGEST_NAME = 28;
 var LEAST_LINKAGE = 110;
+var MOST_PLACES = 400;
 var patterns = 0;
 var closed = (points, view, [x, y]) => `M${points.map((each) => `${px(x + view.scale * each[0])} ${px(y - view.scale * each[1])}`).join("L")}Z`;
 var bodyPath = (data, view, attributes) => data.body ? s("path", { ...attributes, d: closed(data.body, view, [0, 0]) }) : null;
@@ -1758,7 +1759,8 @@ function keepOutNames(data, view, labels) {
 }
 function corners(data, linkage, places) {
   const found = data.keep_out.flatMap((region) => region.outline);
-  if (data.body) for (const place of [...placesAtPoses(data, linkage), ...places]) for (const corner of data.body) found.push(act(place, corner));
+  const some = places.filter((_, k) => k % Math.ceil(places.length / MOST_PLACES) === 0);
+  if (data.body) for (const place of [...placesAtPoses(data, linkage), ...some]) for (const corner of data.body) found.push(act(place, corner));
   return found;
 }
 function widened(box, data, linkage, places, width, all) {

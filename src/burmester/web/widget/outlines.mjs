@@ -11,6 +11,8 @@ const PALEST = 0.45; // how strong the outline is at the first pose, of its stre
 const LONGEST_NAME = 28; // characters of a region's name that the drawing has room for
 const LEAST_LINKAGE = 110; // pixels: outlines leave the linkage as large as that, unless all of them is asked for
 
+const MOST_PLACES = 400; // of the motion whose outlines the picture is made to hold; its margin holds those between
+
 let patterns = 0; // ids of hatches are unique on the page
 
 /** A closed path through points (x, y) of the plane or of M, in pixels from its origin. */
@@ -73,7 +75,8 @@ export function keepOutNames(data, view, labels) {
 /** Corners of all outlines in the plane: regions, the body at the poses and at some places. */
 function corners(data, linkage, places) {
   const found = data.keep_out.flatMap((region) => region.outline);
-  if (data.body) for (const place of [...placesAtPoses(data, linkage), ...places]) for (const corner of data.body) found.push(act(place, corner));
+  const some = places.filter((_, k) => k % Math.ceil(places.length / MOST_PLACES) === 0);
+  if (data.body) for (const place of [...placesAtPoses(data, linkage), ...some]) for (const corner of data.body) found.push(act(place, corner));
   return found;
 }
 
