@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from burmester import export as export
     from burmester import plot as plot
     from burmester import report as report
+    from burmester.api.judge import judge as judge
     from burmester.api.linkage import ResultLinkage as ResultLinkage
     from burmester.api.result import Result as Result
     from burmester.api.result import read_result as read_result
@@ -94,6 +95,7 @@ _ROOMS = {
     "best_dyads": "dyads.local_minima",
     "box": "geometry.regions",
     "diagnose": "diagnosis.checks",
+    "judge": "api.judge",
     "read_result": "api.result",
     "read_task": "io.reading.poses",
     "synthesize": "api.synthesize",
@@ -147,6 +149,7 @@ __all__ = [
     "best_dyads",
     "box",
     "diagnose",
+    "judge",
     "read_result",
     "read_task",
     "synthesize",

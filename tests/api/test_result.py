@@ -366,3 +366,26 @@ for name in burmester.__all__:
     getattr(burmester, name)
 """
     subprocess.run([sys.executable, "-c", program], check=True)
+
+
+def test_a_linkage_that_exists_is_judged(tmp_path):
+    task = burmester.read_task("case:motiongen-shoulder")
+    result = burmester.synthesize(task)
+    second, file = result["L2"], result.save(tmp_path / "result.json")
+    dyads = second.linkage.first, second.linkage.second
+    pivots = [(dyad.fixed_pivot.tolist(), dyad.moving_pivot) for dyad in dyads]
+    saved = burmester.read_result(file)["L2"]
+    for linkage in (second, second.linkage, dyads, pivots, saved):
+        judged = burmester.judge(task, linkage)
+        assert (judged.outcome.code, judged.best.id) == ("R330", "L1")
+        assert judged.best.type == second.type
+        assert judged.best.error.worst < 1e-9
+        assert judged.best.driven.least_over_range == pytest.approx(second.driven.least_over_range)
+    assert burmester.judge(task, file, id="L2").best.type == second.type
+    better = burmester.judge(task.poses, second, improve=True)
+    assert better.outcome.message.startswith("the linkage works; ")
+    for wrong in (3, None, dyads[:1], (1, 2), [pivots[0], "x"], [((1, 2), (3, np.nan))] * 2):
+        with pytest.raises(InputError) as caught:
+            burmester.judge(task, wrong)
+        assert caught.value.code == "E153"
+        assert "--" not in caught.value.help

@@ -219,6 +219,17 @@ def in_backticks(help):
 
 
 S = "synthesize poses.csv"
+J = "judge poses.csv"
+FIRST, SECOND = "--dyad -2.2,0.1:1.24,0.1", "--dyad 1.14,0.39:4.58,1.31"
+CRANK = """\
+[[dyads]]
+fixed_pivot = [-2.2, 0.1]
+moving_pivot = [1.24, 0.1]
+
+[[dyads]]
+fixed_pivot = [1.14, 0.39]
+moving_pivot = [4.58, 1.31]
+"""
 CASES: dict[str, Case] = {
     # --- usage
     "argument missing": Case("E100", "synthesize", Args("synthesize --help")),
@@ -733,6 +744,42 @@ CASES: dict[str, Case] = {
         lambda help: Write("result.json", result(TEN)),
         {"result.json": lambda: re.sub(r'("coupler": \[{"x": )[^,]+', r"\g<1>9", result(TEN))},
     ),
+    "one dyad": Case(
+        "E153",
+        f"{J} --dyad 3.1,1.89:5.02,-7.45",
+        lambda help: Args(f"{J} {re.search('--dyad.*', help)[0]}"),
+        GOOD,
+    ),
+    "a dyad of five numbers": Case(
+        "E153", f"{J} --dyad -2.2,0.1,3:1.24,0.1 {SECOND}", Args(f"{J} {FIRST} {SECOND}"), GOOD
+    ),
+    "one length for two links": Case(
+        "E153",
+        f"{J} {FIRST} {SECOND} --length 1.24",
+        Args(f"{J} {FIRST} {SECOND} --length 1.24 --length any"),
+        GOOD,
+    ),
+    "the same fixed pivot": Case(
+        "E154", f"{J} {FIRST} --dyad -2.2,0.1:4.58,1.31", Args(f"{J} {FIRST} {SECOND}"), GOOD
+    ),
+    "a linkage that does not close": Case(
+        "E155",
+        f"{J} {FIRST} {SECOND} --length 9 --length 1",
+        Args(f"{J} {FIRST} {SECOND}"),
+        GOOD,
+    ),
+    "poses in place of a linkage": Case(
+        "E156",
+        f"{J} --linkage poses.csv",
+        lambda help: Write("crank.toml", CRANK, f"{J} --linkage crank.toml"),
+        GOOD,
+    ),
+    "a misspelt key of a dyad": Case(
+        "E156",
+        f"{J} --linkage crank.toml",
+        Write("crank.toml", CRANK),
+        {**GOOD, "crank.toml": CRANK.replace("moving_pivot", "movingpivot", 1)},
+    ),
     "no such format": Case(
         "E161",
         "export result.json -o a.xyz",
@@ -867,6 +914,14 @@ CASES: dict[str, Case] = {
     "none within the limits": Case("R306", f"{S} --kinds PP", Args(f"{S} --kinds PP,RR"), GOOD, 1),
     "approximate ones": Case(
         "R307", S, None, {"poses.csv": rows("0,0,30 1,1,36 2,4,43 3,9,55 4,16,70")}, exit=0
+    ),
+    "a given linkage that works": Case("R330", f"{J} {FIRST} {SECOND}", None, GOOD, exit=0),
+    "a given linkage that does not": Case(
+        "R331",
+        f"{J} {FIRST} --dyad 3.1,1.89:5.02,-7.45",
+        Args(f"{J} {FIRST} {SECOND}"),
+        GOOD,
+        exit=1,
     ),
     "no motion": Case(
         "R310",
@@ -1052,6 +1107,9 @@ CASES: dict[str, Case] = {
         Edit("poses.csv", "x,y,z,", 'x,y,"#z",'),
         {"poses.csv": with_z([2.5] * 5)},
         exit=0,
+    ),
+    "pivots at no one distance": Case(
+        "W219", f"{J} {FIRST} --dyad 1.14,0.39:1.31,4.58", Args(f"{J} {FIRST} {SECOND}"), GOOD, 1
     ),
     "markers on two bodies": Case(
         "W214",
@@ -1290,7 +1348,7 @@ def test_the_same_message_in_json(name, run, broken, hurried):
         text = drawn(raised(case.run), 10_000)
     elif case.run.startswith(("new", "export")):  # which have no --json
         return
-    elif "synthesize" not in case.run:
+    elif not case.run.startswith(("synthesize", "judge")):
         done = run(f"{case.run} --json", 10_000)
         data, text = json.loads(done.out), done.err
     else:
@@ -1368,7 +1426,7 @@ def test_following_the_help_to_the_letter_works(name, run, broken, hurried):
         case Call():
             follow.call()
             return
-    if "synthesize" not in line or "--help" in line:
+    if not line.startswith(("synthesize", "judge")) or "--help" in line:
         done = run(line)
         assert (done.exit, done.err) == (0, "")
         return

@@ -13,7 +13,7 @@ from burmester.synthesis import motion_generation
 from burmester.tasks.motion_task import AngleUnit, Task
 from burmester.tasks.options import Method, Norm, SynthesisOptions
 
-__all__ = ["synthesize"]
+__all__ = ["synthesize", "task_of"]
 
 
 def synthesize(
@@ -95,11 +95,11 @@ def synthesize(
         rounding_step=rounding_step,
         stock_lengths=stock_lengths,
     )
-    task = _task(poses, angle_unit, length_unit)
+    task = task_of(poses, angle_unit, length_unit)
     return Result.of(motion_generation.synthesize(task, options))
 
 
-def _task(
+def task_of(
     poses: Task | Displacement | ArrayLike, angle_unit: AngleUnit | None, length_unit: str | None
 ) -> Task:
     """The task that poses make; E110 where the unit of angles is open or stated twice."""

@@ -18,6 +18,7 @@ from burmester.cli.cases import cases
 from burmester.cli.check import check
 from burmester.cli.explain import explain
 from burmester.cli.export import export
+from burmester.cli.judge import judge
 from burmester.cli.new import new
 from burmester.cli.output import EXIT_FOUND, EXIT_INTERRUPT, EXIT_NOTHING, console, print_json
 from burmester.cli.report import report
@@ -40,7 +41,7 @@ def burmester(context: click.Context) -> None:
         click.echo(context.get_help())
 
 
-for command in (new, check, synthesize, report, export, explain, cases, reproduce):
+for command in (new, check, synthesize, judge, report, export, explain, cases, reproduce):
     burmester.add_command(command)
 
 

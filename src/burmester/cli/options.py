@@ -6,17 +6,20 @@ take their values.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial, reduce
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import click
 
 if TYPE_CHECKING:
+    from burmester.fourbar.linkage import Linkage
+    from burmester.synthesis.given_linkage import GivenDyad
     from burmester.synthesis.result import Synthesis
     from burmester.tasks.motion_task import Task
 
 __all__ = [
+    "JUDGEMENT",
     "MANUFACTURING",
     "METHOD",
     "POSES",
@@ -25,6 +28,7 @@ __all__ = [
     "Sectioned",
     "pose_arguments",
     "read_poses",
+    "run_judgement",
     "run_synthesis",
     "with_options",
 ]
@@ -80,9 +84,27 @@ class Sectioned(click.Command):
                     formatter.write_dl(rows)
 
 
-HEADS = ("Poses", "Limits and requirements", "Method", "Manufacturing", "Output")
-_poses, _specification, _method, _manufacturing = (
+HEADS = ("Linkage", "Poses", "Limits and requirements", "Method", "Manufacturing", "Output")
+_linkage, _poses, _specification, _method, _manufacturing = (
     partial(click.option, cls=_Option, section=head) for head in HEADS[:-1]
+)
+
+LINKAGE: tuple[Decorator, ...] = (
+    _linkage("--linkage", metavar="FILE", help="The file that holds the linkage."),
+    _linkage(
+        "--id",
+        metavar="ID",
+        help="The linkage of a result, such as L2; by default its first one.",
+    ),
+    _linkage("--dyad", metavar="DYAD", multiple=True, help="A dyad of the linkage; give two."),
+    _linkage(
+        "--length",
+        metavar="LENGTH",
+        multiple=True,
+        help="Length of the link of each --dyad that is a link, in their order (any: it follows "
+        "from the poses); MIN:MAX is a limit instead, as in `burmester synthesize`.",
+    ),
+    _linkage("--improve", is_flag=True, help="Look for the nearest better linkages as well."),
 )
 
 POSES: tuple[Decorator, ...] = (
@@ -137,6 +159,12 @@ POSES: tuple[Decorator, ...] = (
     ),
 )
 
+_length: Decorator = _specification(
+    "--length",
+    metavar="MIN:MAX",
+    multiple=True,
+    help="Length of the link of an RR dyad; MIN or MAX may be left out.",
+)
 SPECIFICATION: tuple[Decorator, ...] = (
     _specification(
         "--fixed-pivot",
@@ -150,12 +178,7 @@ SPECIFICATION: tuple[Decorator, ...] = (
         multiple=True,
         help="Region of a moving pivot, on the body.",
     ),
-    _specification(
-        "--length",
-        metavar="MIN:MAX",
-        multiple=True,
-        help="Length of the link of an RR dyad; MIN or MAX may be left out.",
-    ),
+    _length,
     _specification(
         "--kinds",
         metavar="RR,PR,RP",
@@ -229,16 +252,7 @@ SPECIFICATION: tuple[Decorator, ...] = (
     ),
 )
 
-METHOD: tuple[Decorator, ...] = (
-    _method(
-        "--method",
-        type=click.Choice(["auto", "pencil", "complete", "exact"]),
-        metavar="METHOD",
-        default="auto",
-        show_default=True,
-        help="pencil: the paper's two dyads for 6 poses or more; complete: every locally best dyad "
-        "for 6 or more; exact: all dyads through 5; auto: complete for 6 or more, exact for 5.",
-    ),
+MEASURE: tuple[Decorator, ...] = (
     _method(
         "--norm",
         type=click.Choice(["rms", "worst"]),
@@ -253,6 +267,19 @@ METHOD: tuple[Decorator, ...] = (
         help="The position error that counts as much as one radian of angle error; by default a "
         "third of the travel per radian of turn, or the radius of gyration of the body.",
     ),
+)
+
+METHOD: tuple[Decorator, ...] = (
+    _method(
+        "--method",
+        type=click.Choice(["auto", "pencil", "complete", "exact"]),
+        metavar="METHOD",
+        default="auto",
+        show_default=True,
+        help="pencil: the paper's two dyads for 6 poses or more; complete: every locally best dyad "
+        "for 6 or more; exact: all dyads through 5; auto: complete for 6 or more, exact for 5.",
+    ),
+    *MEASURE,
     _method("--certify", is_flag=True, help="Prove with interval arithmetic what can be proved."),
     _method(
         "--raw",
@@ -282,6 +309,16 @@ MANUFACTURING: tuple[Decorator, ...] = (
         multiple=True,
         help="Available link lengths; the nearest are used, and the linkage is checked again.",
     ),
+)
+
+
+# What a linkage that exists is judged by; its --length is that of its links.
+JUDGEMENT = (
+    LINKAGE,
+    POSES,
+    tuple(each for each in SPECIFICATION if each is not _length),
+    MEASURE,
+    MANUFACTURING[:1],
 )
 
 
@@ -338,10 +375,7 @@ def run_synthesis(poses: str, **given: Any) -> Synthesis:
     from burmester.synthesis.motion_generation import synthesize
     from burmester.tasks.options import SynthesisOptions
 
-    further: dict[str, Any] = {}
-    for keyword, option in _LENGTH_OPTIONS.items():
-        if given[keyword] is not None:
-            further[keyword] = text.positive_length(option, given[keyword])
+    further = _lengths(given)
     if given["stock_lengths"]:
         further["stock_lengths"] = text.lengths("--stock", given["stock_lengths"])
     options = SynthesisOptions(
@@ -353,6 +387,43 @@ def run_synthesis(poses: str, **given: Any) -> Synthesis:
     )
     with working("reading the poses"):
         return synthesize(read_poses(poses, **given), options)
+
+
+def run_judgement(
+    poses: str, *, linkage: str | None, id: str | None, dyad: tuple[str, ...], **given: Any
+) -> Synthesis:
+    """The judgement of a linkage at the poses in the file POSES, by the options of JUDGEMENT."""
+    from burmester.cli.progress_line import working
+    from burmester.io.linkage_file import read_linkage
+    from burmester.io.reading.dyads_text import (
+        dyads_from_options,
+        lengths_and_limits,
+        require_one_source,
+    )
+    from burmester.synthesis.judgement import judge_linkage
+    from burmester.tasks.options import SynthesisOptions
+
+    require_one_source(poses, linkage, dyad, id)
+    lengths, limits = lengths_and_limits(given.pop("length"), typed=bool(dyad))
+    options = SynthesisOptions(norm=given["norm"], **_lengths(given))
+    with working("reading the poses"):
+        task = read_poses(poses, length=limits, **given)
+        if linkage is None:
+            one: Linkage | Sequence[GivenDyad] = dyads_from_options(dyad, lengths)
+        else:
+            one = read_linkage(linkage, id, task.length_unit)
+        return judge_linkage(task, one, options, improve=given["improve"])
+
+
+def _lengths(given: dict[str, Any]) -> dict[str, Any]:
+    """The options that are a length, by their names in `SynthesisOptions`."""
+    from burmester.io.reading import requirements_text as text
+
+    return {
+        keyword: text.positive_length(option, given[keyword])
+        for keyword, option in _LENGTH_OPTIONS.items()
+        if given.get(keyword) is not None
+    }
 
 
 _ROWS = ("columns", "sheet", "points", "plane", "drop", "every", "first", "last")

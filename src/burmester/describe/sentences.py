@@ -15,7 +15,7 @@ from burmester.linkages.found_linkage import FoundLinkage
 from burmester.linkages.ranking import TRADE_GAIN, closest_usable, digits_leave_open, is_trade
 from burmester.linkages.uncertainty import pose_sigma
 from burmester.numerics.arrays import ROUNDING
-from burmester.synthesis.result import Synthesis
+from burmester.synthesis.result import JUDGED, Synthesis
 from burmester.tasks import notation
 from burmester.wording import figure, listed, with_article
 
@@ -268,16 +268,16 @@ def footnotes(synthesis: Synthesis) -> str:
     text = f"Lengths in {unit}; F is the ground, M the body."
     if synthesis.linkages:
         counts = notation.length_of(math.radians(synthesis.length_per_radian), task)
-        text += (
+        order = (
             " Usable linkages come first, of these the ones with good transmission and "
-            "proportions, then the nearest; "
-            f"1° counts as {counts}."
+            "proportions, then the nearest;"
         )
+        text += f"{'' if synthesis.outcome.code in JUDGED else order} 1° counts as {counts}."
     if not any(task.resolution):
         text += " The poses are taken as exact; --pose-sigma says otherwise."
     if any(dyad.id[0] == "M" for found in synthesis.linkages for dyad in found.dyads):
         text += " Dyads M come from the pivot map."
-    if len(synthesis.usable) > 1:
+    if len(synthesis.usable) > 1 and synthesis.outcome.code not in JUDGED:
         text += (
             " The first of two dyads drives; worst and angle: the greatest misses at a pose; "
             f"transm.: the least transmission angle between the poses; {quality_words.COLUMNS}."

@@ -39,6 +39,7 @@ from burmester.linkages.evaluation import Evaluation
 from burmester.linkages.found_linkage import Side, with_driver_first
 from burmester.linkages.from_dyads import target_of
 from burmester.linkages.quality import Quality
+from burmester.synthesis.result import JUDGED
 from burmester.tasks.motion_class import classify_motion
 from burmester.tasks.motion_task import Task, characteristic_length
 from burmester.tasks.options import SynthesisOptions
@@ -195,8 +196,12 @@ def _task_parts(result: WrittenResult, task: Task) -> _Parts:
         yield from _line_parts(dyad, ("dyads", k), task.poses, slack)
     usable = any(each.usable for each in result.linkages)
     code, keys = result.outcome.code, ("outcome", "code")
-    if not result.linkages and code in (*WORKING, "R301"):
+    if not result.linkages and code in (*WORKING, "R301", *JUDGED):
         yield _Part(keys, code, "no linkage")
+    elif code in JUDGED:  # of the linkage that was given, which is the first
+        given = result.linkages[0].usable
+        if given is not (code == "R330"):
+            yield _Part(keys, code, f"{'a' if given else 'no'} usable linkage as given")
     elif result.linkages and code in ("R302", "R303", "R306"):
         yield _Part(keys, code, "linkages")
     elif usable is not (code in WORKING) and code in (*WORKING, "R301", "R309"):

@@ -138,12 +138,12 @@ def unusable(synthesis: Synthesis, found: Sequence[FoundLinkage], width: int) ->
     return Group(*rows)
 
 
-def in_full(synthesis: Synthesis, console: Console) -> Iterator[Text | Table]:
-    """The best usable linkage: its dimensions, how certain they are, and what follows of that.
+def in_full(synthesis: Synthesis, best: FoundLinkage, console: Console) -> Iterator[Text | Table]:
+    """One linkage: its dimensions, how certain they are, and what follows of that.
 
     Beside them, where a terminal can show it and has room, the linkage in braille; else above.
     """
-    best, unit = synthesis.usable[0], synthesis.task.length_unit
+    unit = synthesis.task.length_unit
     yield Text(f"\n{best.id} in full{f', in {unit}' if unit else ''}", style="bold")
     unlimited = console.options.update(max_width=10 * console.width)
     table = _dimensions(synthesis, best)
@@ -168,14 +168,15 @@ def in_full(synthesis: Synthesis, console: Console) -> Iterator[Text | Table]:
     made = (sentences.clearance_note, sentences.tolerance_note, sentences.rounding_note)
     for note in (digits, uncertainty, sentences.type_note, *made):
         text = note(synthesis, best)
-        if text is not None:
+        if text is not None and (best.usable or note not in (uncertainty, sentences.type_note)):
             yield Text(text, style="dim" if note is uncertainty else "")
 
 
 def _dimensions(synthesis: Synthesis, best: FoundLinkage, stacked: bool = False) -> Table:
     """The dimensions of a linkage; stacked: the half-widths under the values."""
     table = Table.grid(padding=(0, 2, 0, 0))
-    exact, last = certain(synthesis, best), None
+    # What the poses leave open of a linkage says nothing where that one does not meet them.
+    exact, last = certain(synthesis, best) or not best.usable, None
     for dyad, what, value, give in dimensions(synthesis, best):
         cells = (f"{value}\n{give}",) if stacked and give else (value, give)
         table.add_row("" if dyad == last else dyad, what, *(cells[:1] if exact else cells))

@@ -11,6 +11,7 @@ import math
 from typing import Any
 
 from burmester.certificates.certificate import Certificate
+from burmester.describe.moved_pivots import moved_pivots
 from burmester.dyads.critical_points import COUNT, CriticalDyads
 from burmester.dyads.five_poses import FivePoseDyads
 from burmester.dyads.local_minima import BestDyads
@@ -22,7 +23,9 @@ from burmester.geometry.regions import Line, Point, Polygon, Segment
 from burmester.io.linkage_data import dyad_data, linkage_data, number, poses_data
 from burmester.io.reading.stated_requirements import requirements_data
 from burmester.io.reading.stated_surroundings import surroundings_data
-from burmester.synthesis.result import Outcome, Synthesis
+from burmester.linkages.found_linkage import FoundLinkage
+from burmester.linkages.nearby_linkages import Move, greatest_move, moves
+from burmester.synthesis.result import JUDGED, Outcome, Synthesis
 from burmester.tasks.limits import KINDS, Limits
 from burmester.tasks.motion_class import MotionClass
 from burmester.tasks.motion_task import Task
@@ -50,7 +53,10 @@ def synthesis_data(synthesis: Synthesis) -> dict[str, Any]:
         "task": task_data(task),
         "motion": None if motion is None else motion_data(motion),
         "dyads": [dyad_data(dyad, synthesis.task.poses) for dyad in synthesis.dyads],
-        "linkages": [linkage_data(each, tolerance) for each in synthesis.linkages],
+        "linkages": [
+            {**linkage_data(each, tolerance), **_beside_given(synthesis, each)}
+            for each in synthesis.linkages
+        ],
         "warnings": list(map(message_data, synthesis.warnings)),
         "characteristic_length": synthesis.length,
         "length_per_radian": synthesis.length_per_radian,
@@ -62,6 +68,31 @@ def synthesis_data(synthesis: Synthesis) -> dict[str, Any]:
         if synthesis.certificate is None
         else _certificate(synthesis.certificate),
     }
+
+
+def _beside_given(synthesis: Synthesis, found: FoundLinkage) -> dict[str, Any]:
+    """Whether a linkage is the one that was given, or how far that one's pivots move to it."""
+    if synthesis.outcome.code not in JUDGED:
+        return {}
+    given = synthesis.linkages[0]
+    if found is given:
+        return {"given": True}
+    return {
+        "given": False,
+        "moved": {
+            "message": moved_pivots(synthesis, given, found),
+            "greatest": greatest_move(given, found),
+            "dyads": [_move(each) for each in moves(given, found)],
+        },
+    }
+
+
+def _move(move: Move) -> dict[str, Any]:
+    """The move of one dyad; what it does not have is left out."""
+    names = ("fixed_pivot", "moving_pivot", "length", "line")
+    data: dict[str, Any] = {"dyad": move.dyad}
+    data |= {name: each for name in names if (each := getattr(move, name)) is not None}
+    return data if move.turn is None else data | {"turn_deg": math.degrees(move.turn)}
 
 
 def message_data(message: Advice | Outcome) -> dict[str, Any]:

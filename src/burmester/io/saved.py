@@ -97,14 +97,14 @@ class Result(NamedTuple):
         )
 
 
-def read_result(source: str | os.PathLike[str]) -> Result:
-    """The result in a file, or on standard input ("-").
+def read_result(source: str | os.PathLike[str], data: bytes | None = None) -> Result:
+    """The result in a file, or on standard input ("-"); data: its bytes, where they are known.
 
     Raises E101, E109, E150 and E152, and what reading the poses of its task raises.
     """
     path = os.fspath(source)
     label = "<stdin>" if path == "-" else printable(path)
-    data = read_source(path)
+    data = read_source(path) if data is None else data
     try:
         tree = json.loads(data, parse_int=_whole_number)
     except (ValueError, RecursionError) as error:

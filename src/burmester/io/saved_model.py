@@ -38,6 +38,7 @@ MOST = 1e100  # the greatest number of a result; poses and dyads are far below
 MOST_TEXT = 10_000  # characters of a sentence
 MOST_ITEMS = 10_000  # dyads, linkages, warnings, and what each of them lists
 MOST_POSES = 10_000_000
+MOST_UNMET = 20  # requirements and limits that a linkage misses, each once for a dyad
 
 
 def _known(name: str) -> str:
@@ -335,6 +336,21 @@ class _Links(_Part):
 _Types = Annotated[list[_Type], Field(min_length=1, max_length=8), AfterValidator(_once)]
 
 
+class _Move(_Part):
+    dyad: _DyadId
+    fixed_pivot: _Size = 0.0
+    moving_pivot: _Size = 0.0
+    length: _Number = 0.0
+    line: _Size = 0.0
+    turn_deg: _Size = 0.0
+
+
+class _Moved(_Part):
+    message: _Text
+    greatest: _Size
+    dyads: Annotated[list[_Move], Field(min_length=2, max_length=2)]
+
+
 class WrittenLinkage(_Part):
     """A linkage as it stands in the file."""
 
@@ -352,7 +368,7 @@ class WrittenLinkage(_Part):
     defects: _Defects
     driver: Side | None
     min_transmission_angle_deg: _Transmission
-    unmet: Annotated[list[_Unmet], Field(max_length=7)]
+    unmet: Annotated[list[_Unmet], Field(max_length=MOST_UNMET)]
     sought: bool
     drives: _Drives
     pivot_uncertainty: _Uncertainty | None
@@ -361,14 +377,23 @@ class WrittenLinkage(_Part):
     coupler: Annotated[list[_Place], Field(max_length=MOST_POSES)] | None = None
     tolerance: _Tolerance | None = None
     rounded: _Rounded | None = None
+    given: bool = False
+    moved: _Moved | None = None
 
     @model_validator(mode="before")
     @classmethod
     def _stated(cls, given: Any) -> Any:
         """No null for what is either an object or left out."""
-        return _without_null(
-            given, "possible_types", "clearance", "links", "coupler", "tolerance", "rounded"
+        optional = (
+            "possible_types",
+            "clearance",
+            "links",
+            "coupler",
+            "tolerance",
+            "rounded",
+            "moved",
         )
+        return _without_null(given, *optional)
 
 
 class _CertifiedDyad(_Part):

@@ -10,11 +10,12 @@ from rich.text import Text
 
 from burmester.describe import sentences
 from burmester.describe.digits import dyad_error, fitted_decimals, sides
+from burmester.describe.moved_pivots import improvements
 from burmester.io import linkage_table
 from burmester.io.linkage_table import new_table
 from burmester.io.message import draw, message, note, print_trimmed, show
 from burmester.linkages.found_linkage import FoundLinkage
-from burmester.synthesis.result import Synthesis
+from burmester.synthesis.result import JUDGED, Synthesis
 
 __all__ = ["show_synthesis"]
 
@@ -29,7 +30,10 @@ def show_synthesis(
 
     everything: also the linkages that are not usable, with the reasons; dyads: also the dyads.
     """
-    if synthesis.usable:
+    if synthesis.outcome.code in JUDGED:
+        _judged(synthesis, console)
+        rest = []
+    elif synthesis.usable:
         _answer(synthesis, console)
         rest = [each for each in synthesis.linkages if not each.usable]
     else:
@@ -43,7 +47,8 @@ def show_synthesis(
     # Without a linkage the dyads are all there is.
     if synthesis.dyads and (dyads or not synthesis.linkages):
         print_trimmed(_dyads(synthesis, console.width), console)
-    _in_all(synthesis, 0 if everything else len(rest), console, dyads)
+    if synthesis.outcome.code not in JUDGED:
+        _in_all(synthesis, 0 if everything else len(rest), console, dyads)
     if synthesis.certificate is not None:
         for head, lines in (
             (
@@ -75,10 +80,31 @@ def _answer(synthesis: Synthesis, console: Console) -> None:
     print_trimmed(Text(sentences.headline(synthesis), style="bold"), console)
     for sentence in sentences.alternatives(synthesis):
         print_trimmed(Text(sentence), console)
-    for part in linkage_table.in_full(synthesis, console):
+    for part in linkage_table.in_full(synthesis, synthesis.usable[0], console):
         print_trimmed(part, console)
     if len(synthesis.usable) > 1:
         print_trimmed(linkage_table.usable_table(synthesis, console), console)
+
+
+def _judged(synthesis: Synthesis, console: Console) -> None:
+    """A linkage that was given, in full whether it works or not."""
+    outcome, given = synthesis.outcome, synthesis.linkages[0]
+    draw(message("result", outcome.code, outcome.message, width=console.width), console)
+    if not given.usable:
+        print_trimmed(linkage_table.unusable(synthesis, [given], console.width), console)
+    elif outcome.why:
+        draw(note("why", outcome.why, console.width), console)
+    if outcome.help:
+        draw(note("help", outcome.help, console.width), console)
+    if given.usable:
+        print_trimmed(Text(sentences.headline(synthesis), style="bold"), console)
+    for part in linkage_table.in_full(synthesis, given, console):
+        print_trimmed(part, console)
+    if better := improvements(synthesis):
+        print_trimmed(Text("\nBetter ones near it, the nearest first", style="bold"), console)
+        print_trimmed(_bullets(better), console)
+        for part in linkage_table.in_full(synthesis, synthesis.linkages[1], console):
+            print_trimmed(part, console)
 
 
 def _no_answer(synthesis: Synthesis, three: Sequence[FoundLinkage], console: Console) -> None:

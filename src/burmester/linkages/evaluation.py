@@ -20,6 +20,7 @@ from burmester.geometry.displacement import Displacement
 from burmester.linkages.clearance_check import clearance_of, too_close
 from burmester.linkages.constraints import AllConstraints
 from burmester.linkages.found_linkage import FoundLinkage, Pair, Side, with_driver_first
+from burmester.linkages.limit_check import limit_violations
 from burmester.linkages.possible_types import links_covariance, possible_types
 from burmester.linkages.quality import Quality
 from burmester.linkages.ranking import DEFAULT_TOLERANCE, ranked
@@ -41,7 +42,7 @@ from burmester.numerics.weights import weights_or_ones
 from burmester.tasks.motion_task import Task
 from burmester.tasks.problem import SynthesisProblem
 
-__all__ = ["Candidates", "Evaluation"]
+__all__ = ["Candidates", "Evaluation", "at_given_poses"]
 
 MIN_LINK = 1e-6  # motion sizes; linkages with a shorter ground link or coupler are dropped
 EXACT_WEIGHT = 1e8  # weight of an exact pose in the covariance
@@ -230,7 +231,10 @@ class Evaluation:
     def driver(
         self, linkage: Linkage, verdict: Verdict, settled: Side | None = None
     ) -> tuple[Side, tuple[Violation, ...], bool]:
-        """The preferred driver, the violated requirements, and whether the linkage is usable."""
+        """The preferred driver, what is violated, and whether the linkage is usable.
+
+        Requirements depend on the driver, limits do not.
+        """
         asked = self.task.requirements
         sides: tuple[Side, ...] = SIDES if settled is None else (settled,)
         if asked.driver in sides:
@@ -248,8 +252,10 @@ class Evaluation:
 
         ranked = {side: merit(side) for side in sides}
         best = min(sides, key=lambda side: ranked[side][0])
-        (defects, missing, *_), reasons = ranked[best]
-        return best, reasons, not (verdict.defects or defects or missing)
+        (defects, *_), reasons = ranked[best]
+        size, unit = float(self.target.frames.length), self.task.length_unit
+        reasons += limit_violations(linkage, self.task.limits, size, unit)
+        return best, reasons, not (verdict.defects or defects or reasons)
 
     def qualities(
         self, linkages: Sequence[Linkage], places: Displacement, driven: Sequence[Driven]
@@ -309,6 +315,18 @@ class Evaluation:
                 other_types=_other_types(out[k], links[at]),
             )
         return out
+
+
+def at_given_poses(
+    found: Sequence[FoundLinkage], problem: SynthesisProblem
+) -> tuple[FoundLinkage, ...]:
+    """The linkages with their errors at all poses as given, repeated ones too."""
+    if problem.motion is None or problem.task.poses.shape == problem.given.poses.shape:
+        return tuple(found)
+    group, poses = problem.motion.group, problem.given.poses
+    return tuple(
+        replace(each, error=PoseError.at(each.error.places[group], poses)) for each in found
+    )
 
 
 def _sizable(batch: LinkageBatch) -> NDArray[np.bool_]:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from math import inf
+from typing import NamedTuple
 
 import numpy as np
 
@@ -38,12 +39,12 @@ from burmester.linkages.ranking import (
 from burmester.linkages.sound_linkages import sound_linkages
 from burmester.linkages.target import Target
 from burmester.linkages.trade import trades
-from burmester.numerics.arrays import ROUNDING
+from burmester.numerics.arrays import ROUNDING, FloatArray
 from burmester.progress import step
 from burmester.tasks.problem import SynthesisProblem
 from burmester.wording import count
 
-__all__ = ["linkages_from_dyads", "target_of"]
+__all__ = ["linkages_from_dyads", "places_to_judge", "target_of"]
 
 # Stay on one circuit if its worst error is at most this many times the unrestricted one.
 ONE_CIRCUIT_RATIO = 2.0
@@ -118,15 +119,7 @@ def target_of(problem: SynthesisProblem) -> Target:
 def _of_pairs(start: LinkageBatch, pairs: list[Pair], target: Target, refine: bool) -> Candidates:
     """The pairs with their places, on one circuit where that costs little, and refined."""
     every = np.arange(len(start))
-    rows = rows_of(on_circuits(start, target.poses, target.length), target.length)
-    one = rows[every, np.nan_to_num(target.cost(rows), nan=np.inf).argmin(axis=1)]
-    places = nearest(target.places_of(rows), target.poses, target.length)
-    best = rows_of(places, target.length)
-    wanted = rows_of(target.poses, target.length)
-    away, least = (
-        np.sqrt(np.nan_to_num(((each - wanted) ** 2).sum(axis=-1), nan=np.inf)).max(axis=1)
-        for each in (one, best)
-    )
+    _, one, best, away, least = _places(start, target)
     apart = away > np.maximum(ONE_CIRCUIT_RATIO * least, ROUNDING)
     both = apart & np.isfinite(away) & np.isfinite(least) & refine
     index = np.concatenate([every, np.flatnonzero(both)])
@@ -145,6 +138,46 @@ def _of_pairs(start: LinkageBatch, pairs: list[Pair], target: Target, refine: bo
     changed = changed.any(axis=(1, 2), keepdims=True)
     own = np.where(changed, candidates.batch.from_canonical(target.frames).dimensions, own)
     return candidates._replace(own=LinkageBatch(candidates.batch.kinds, own))
+
+
+class _Places(NamedTuple):
+    """Places of linkages (k,) nearest to the poses.
+
+    both: (k, 2, N, 3), on each circuit; one: (k, N, 3), on the nearer of them; best: (k, N, 3), on
+    either at each pose.  away, least: (k,), the greatest distance of `one` and of `best`.
+    """
+
+    both: FloatArray
+    one: FloatArray
+    best: FloatArray
+    away: FloatArray
+    least: FloatArray
+
+
+def _places(batch: LinkageBatch, target: Target) -> _Places:
+    rows = rows_of(on_circuits(batch, target.poses, target.length), target.length)
+    one = rows[np.arange(len(batch)), np.nan_to_num(target.cost(rows), nan=np.inf).argmin(axis=1)]
+    places = nearest(target.places_of(rows), target.poses, target.length)
+    best = rows_of(places, target.length)
+    wanted = rows_of(target.poses, target.length)
+    away, least = (
+        np.sqrt(np.nan_to_num(((each - wanted) ** 2).sum(axis=-1), nan=np.inf)).max(axis=1)
+        for each in (one, best)
+    )
+    return _Places(rows, one, best, away, least)
+
+
+def places_to_judge(batch: LinkageBatch, target: Target) -> list[FloatArray]:
+    """The rows (N, 3) of places at which one linkage is to be judged, each for itself.
+
+    Those on each circuit that has some near all poses, and those on both where one circuit alone
+    is much farther away.
+    """
+    rows, one, best, away, least = (each[0] for each in _places(batch, target))
+    ways = [each for each in rows if np.isfinite(each).all()]
+    if not ways or away > max(ONE_CIRCUIT_RATIO * least, ROUNDING):
+        ways.append(best if np.isfinite(least) else one)
+    return ways
 
 
 def _refined(candidates: Candidates, target: Target) -> Candidates:

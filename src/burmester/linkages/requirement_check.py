@@ -20,7 +20,7 @@ from burmester.wording import figure, with_article
 __all__ = ["Violation", "ViolationKind", "violations"]
 
 ViolationKind: TypeAlias = Literal[
-    "transmission", "type", "driver", "footprint", "link ratio", "clearance", "rounding"
+    "transmission", "type", "driver", "footprint", "link ratio", "limit", "clearance", "rounding"
 ]
 
 # Relative, and radians for angles.  A requirement missed by less than this is met.

@@ -19,8 +19,7 @@ from burmester.errors import Advice, InputError
 from burmester.families.family import best_of_family
 from burmester.fourbar.dyad import Dyad
 from burmester.fourbar.linkage import Linkage
-from burmester.fourbar.pose_error import PoseError
-from burmester.linkages.evaluation import Candidates, Evaluation
+from burmester.linkages.evaluation import Candidates, Evaluation, at_given_poses
 from burmester.linkages.found_linkage import FoundLinkage, Pair
 from burmester.linkages.from_dyads import linkages_from_dyads, target_of
 from burmester.progress import step
@@ -122,7 +121,7 @@ def _of_family(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthes
         replace(each, id=f"L{rank}", rank=rank)
         for rank, each in enumerate(evaluation.with_spreads(members), start=1)
     ]
-    linkages = _at_all_poses(problem, members)
+    linkages = at_given_poses(members, problem)
     dyads = tuple(dyad for each in linkages for dyad in each.dyads)
     outcome, advice = family_summary(problem, found, linkages)
     warnings = (*findings, *advice, *linkage_advice(problem.given, linkages, outcome.code))
@@ -177,19 +176,7 @@ def _linkages(
     problem: SynthesisProblem, pairs: Sequence[Pair], *, refine: bool = True
 ) -> tuple[FoundLinkage, ...]:
     """The linkages of pairs of dyads, with their errors at all poses, repeated ones too."""
-    return _at_all_poses(problem, linkages_from_dyads(problem, pairs, refine=refine))
-
-
-def _at_all_poses(
-    problem: SynthesisProblem, found: Sequence[FoundLinkage]
-) -> tuple[FoundLinkage, ...]:
-    """The linkages with their errors at all poses, repeated ones too."""
-    if problem.motion is None or problem.task.poses.shape == problem.given.poses.shape:
-        return tuple(found)
-    group, poses = problem.motion.group, problem.given.poses
-    return tuple(
-        replace(each, error=PoseError.at(each.error.places[group], poses)) for each in found
-    )
+    return at_given_poses(linkages_from_dyads(problem, pairs, refine=refine), problem)
 
 
 def _odd_pose(problem: SynthesisProblem, search: DyadSearch) -> list[Advice]:

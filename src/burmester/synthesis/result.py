@@ -15,7 +15,9 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.options import Method, SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
 
-__all__ = ["Outcome", "Synthesis"]
+__all__ = ["JUDGED", "Outcome", "Synthesis"]
+
+JUDGED = ("R330", "R331")  # the outcomes of a linkage that was given
 
 
 @final
@@ -27,7 +29,8 @@ class Outcome:
     R303 infinitely many linkages; R305 usable linkages, but no pivots determined; R306 no dyad
     within the limits; R307 approximate linkages, as two real dyads do not exist; R308 the best of
     infinitely many linkages; R309 none of them works; R310 and above: a special motion, see
-    `motion_kinds` and `special_motions`.  why: with numbers.
+    `motion_kinds` and `special_motions`; R330 a given linkage works, R331 it does not.  why: with
+    numbers.
     """
 
     code: str

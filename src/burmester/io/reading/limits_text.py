@@ -141,12 +141,12 @@ def _kinds(source: Source) -> OptionalKinds:
 def number_from_text(source: Source, cell: str, at: int, code: str = "E131") -> float:
     """The finite number in a cell that begins `at` this place of a text, or an error.
 
-    E131 for a coordinate or a bound; E134 for one that has to be positive.
+    E131 for a coordinate or a bound, E153 for one of a dyad; E134 for one that has to be positive.
     """
     plain, mark = plain_number(cell.strip(), ",")
     if mark is None:
         at += len(cell) - len(cell.lstrip())
-        such = "-12.5 or 3e-4" if code == "E131" else "12.5 or 3e-4"
+        such = "12.5 or 3e-4" if code == "E134" else "-12.5 or 3e-4"
         help = f"write digits with at most a decimal point and an exponent, such as {such}"
         message = f"{shown(cell.strip())} is not a finite number"
         short = len(cell) <= 40 and cell.isprintable()

@@ -1,0 +1,120 @@
+"""A linkage that exists, judged in one call."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from typing import TypeAlias
+
+from numpy.typing import ArrayLike
+
+from burmester.api.python_words import in_python_words
+from burmester.api.result import Result
+from burmester.api.synthesize import task_of
+from burmester.errors import InputError
+from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
+from burmester.fourbar.linkage import Linkage
+from burmester.geometry.displacement import Displacement
+from burmester.io.linkage_file import read_linkage
+from burmester.io.saved import SavedLinkage
+from burmester.linkages.found_linkage import FoundLinkage
+from burmester.synthesis.given_linkage import GivenDyad, OpenLink
+from burmester.synthesis.judgement import judge_linkage
+from burmester.tasks.motion_task import AngleUnit, Task
+from burmester.tasks.options import Norm, SynthesisOptions
+from burmester.values import real_numbers, shown
+
+__all__ = ["judge"]
+
+Pivots: TypeAlias = tuple[ArrayLike, ArrayLike]
+AnyLinkage: TypeAlias = (
+    Linkage | FoundLinkage | SavedLinkage | Sequence[Dyad | Pivots] | str | os.PathLike[str]
+)
+
+
+def judge(
+    poses: Task | Displacement | ArrayLike,
+    linkage: AnyLinkage,
+    *,
+    improve: bool = False,
+    id: str | None = None,
+    angle_unit: AngleUnit | None = None,
+    length_unit: str | None = None,
+    norm: Norm = "rms",
+    length_per_radian: float | None = None,
+    manufacturing_tolerance: float | None = None,
+) -> Result:
+    """One linkage that exists, judged as `synthesize` judges its own.
+
+    Parameters
+    ----------
+    poses : Task, Displacement or (N, 3) array_like
+        The motion, with limits and requirements if it is a `Task`; see `synthesize`.
+    linkage : Linkage, a linkage of a result, two dyads, or a file
+        A dyad is an RR, PR or RP, or its two pivots ((X, Y) in F, (x, y) in M) alone: then the
+        length of its link follows from the poses.  A file is a result, an export to JSON, or a file
+        of two dyads (see "Judge a linkage that exists" in the manual).
+    improve : bool
+        Whether the nearest better linkages are looked for, too.
+    id : str, optional
+        The linkage of a file that holds a result, such as "L2"; its first one if not given.
+    angle_unit, length_unit, norm, length_per_radian, manufacturing_tolerance
+        As in `synthesize`.
+
+    Returns
+    -------
+    Result
+        The given linkage as L1, with its errors and its verdict, then the better ones.
+
+    Raises
+    ------
+    InputError
+        E112 (numbers too large), E125 and E153 (no linkage), E154 (two dyads that make none), E155
+        (lengths that can be assembled nowhere), of files E101, E109, E150 to E152 and E156, and
+        what `Task` raises.
+
+    Examples
+    --------
+    >>> import burmester
+    >>> task = burmester.read_task("case:motiongen-shoulder")
+    >>> pivots = [((16.53, -5.91), (21.72, -6.41)), ((24.2, -8.7), (23.3, -18.7))]
+    >>> judged = burmester.judge(task, pivots)
+    >>> print(judged.outcome.message)
+    the linkage works
+    """
+    options = SynthesisOptions(
+        norm=norm,
+        length_per_radian=length_per_radian,
+        manufacturing_tolerance=manufacturing_tolerance,
+    )
+    task = task_of(poses, angle_unit, length_unit)
+    with in_python_words():
+        given = _linkage(linkage, id, task.length_unit)
+        return Result.of(judge_linkage(task, given, options, improve=improve))
+
+
+def _linkage(given: AnyLinkage, id: str | None, unit: str | None) -> Linkage | Sequence[GivenDyad]:
+    """What `judge_linkage` takes, or E153."""
+    if isinstance(given, str | os.PathLike):
+        return read_linkage(given, id, unit)
+    if isinstance(given, FoundLinkage | SavedLinkage):
+        return given.linkage
+    if isinstance(given, Linkage):
+        return given
+    if not isinstance(given, list | tuple) or len(given) != 2:
+        raise InputError(
+            "E153",
+            "this is no linkage",
+            why=f"it is {shown(given)}",
+            help="give a Linkage, a linkage of a result, a file, or two dyads such as "
+            "((100, -68), (53, -47)) and ((12, -17), (80, -17))",
+        )
+    first, second = given
+    return [_dyad(first, 1), _dyad(second, 2)]
+
+
+def _dyad(given: Dyad | Pivots, number: int) -> GivenDyad:
+    if isinstance(given, RR | PR | RP | PP):
+        return given
+    pivots = real_numbers(given, (2, 2), f"the pivots of D{number}", code="E153")
+    return OpenLink(pivots[0], pivots[1])

@@ -1,0 +1,209 @@
+"""A linkage that exists, from a file: of a result, of an export to JSON, or of pivots.
+
+A result of `synthesize` or `judge` holds linkages with their ids.  An export to JSON, and a file
+that a person writes, hold two `dyads`, in JSON or TOML:
+
+fixed_pivot = [X, Y]     in F; missing in a dyad with a slider on the ground (PR)
+moving_pivot = [x, y]    in M; missing in a dyad with a slot in the body (RP)
+length = L               of the link between them (RR); it follows from the poses where it is left
+                         out.  An export calls it radius.
+line = {point = [X, Y], direction_deg = A}    of a slider in F, of a slot in M; an export gives
+                         normal_deg and offset instead
+
+Other keys of a file are not looked at (the poses of an export, say), other keys of a dyad refused.
+
+E101 not readable       E109 neither JSON nor TOML     E151 no linkage of this id
+E152 a result that contradicts itself                  E156 another kind of file
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import tomllib
+from typing import Any
+
+import numpy as np
+
+from burmester.errors import InputError
+from burmester.fourbar.dyad import PR, RP, RR
+from burmester.fourbar.linkage import Linkage
+from burmester.io.reading.dyads_text import line_through
+from burmester.io.reading.file_content import read_source
+from burmester.io.result import SCHEMA
+from burmester.io.saved import read_result
+from burmester.linkages.found_linkage import with_driver_first
+from burmester.numerics.arrays import FloatArray
+from burmester.printable import printable
+from burmester.synthesis.given_linkage import GivenDyad, OpenLink
+from burmester.values import shown
+
+__all__ = ["read_linkage"]
+
+KEYS = {"id", "kind", "fixed_pivot", "moving_pivot", "length", "radius", "line"}
+LINE_KEYS = ({"point", "direction_deg"}, {"normal_deg", "offset"})
+NO_LINKAGE = "this file holds no linkage"
+HELP = (
+    "give a result of `burmester synthesize POSES -o result.json`, an export to JSON, or a file "
+    "with two [[dyads]], each with fixed_pivot = [X, Y] and moving_pivot = [x, y]"
+)
+
+
+def read_linkage(
+    source: str | os.PathLike[str], id: str | None = None, unit: str | None = None
+) -> Linkage | tuple[GivenDyad, GivenDyad]:
+    """The linkage of a result, or the two dyads in another file, or on standard input ("-").
+
+    id: of a linkage of a result, the first if None; unit: of the lengths of the task, which a file
+    that states one has to share.
+    """
+    path = os.fspath(source)
+    label = "<stdin>" if path == "-" else printable(path)
+    try:
+        data = read_source(path)
+    except InputError as error:
+        error.message = error.message.replace("the poses", "the linkage")
+        error.where = error.where or label
+        raise
+    tree = _tree(data, label)
+    try:
+        if tree.get("schema") == SCHEMA:
+            return _of_result(path, data, id, unit)
+        _require_unit(tree.get("length_unit"), unit)
+        return _of_dyads(tree, id)
+    except InputError as error:
+        error.where = error.where or label
+        raise
+
+
+def _tree(data: bytes, label: str) -> dict[str, Any]:
+    """The object in a file; raises E109 and E156."""
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        why = f"byte {error.start + 1} is not UTF-8"
+        raise InputError("E156", NO_LINKAGE, where=label, why=why, help=HELP) from None
+    language = "JSON" if text.lstrip()[:1] in ("{", "[") and not _is_table(text) else "TOML"
+    try:
+        tree = json.loads(text) if language == "JSON" else tomllib.loads(text.replace("\r\n", "\n"))
+    except (ValueError, RecursionError) as error:
+        code, message, why = "E109", f"this is not {language}", printable(str(error))
+        if not label.lower().endswith((".json", ".toml")):
+            code, message, why = "E156", NO_LINKAGE, "it is neither JSON nor TOML"
+        raise InputError(code, message, where=label, why=why, help=HELP) from None
+    if not isinstance(tree, dict):
+        why = f"it is {shown(tree)}, not an object with dyads"
+        raise InputError("E156", NO_LINKAGE, where=label, why=why, help=HELP)
+    return tree
+
+
+def _is_table(text: str) -> bool:
+    """Whether a text that begins with a bracket is TOML: [table] or [[tables]]."""
+    return text.lstrip().partition("\n")[0].strip().strip("[]").strip().replace("_", "").isalpha()
+
+
+def _of_result(path: str, data: bytes, id: str | None, unit: str | None) -> Linkage:
+    """A linkage of a result, its dyads in the order of the file."""
+    try:
+        chosen = read_result(path, data).choose(id)
+    except InputError as error:
+        if error.code == "E151" and error.help:
+            error.help = error.help.replace("--linkage", "--id")
+        raise
+    _require_unit(chosen.unit, unit)
+    return with_driver_first(chosen.linkage, chosen.driver)  # as they stand in the file
+
+
+def _require_unit(stated: object, unit: str | None) -> None:
+    if unit and isinstance(stated, str) and stated and stated != unit:
+        raise InputError(
+            "E156",
+            f"the linkage is in {printable(stated)[:40]}, and the poses are in {unit}",
+            help=f"give both in one unit, such as {unit}",
+        )
+
+
+def _of_dyads(tree: dict[str, Any], id: str | None) -> tuple[GivenDyad, GivenDyad]:
+    """The linkage of a file with two dyads."""
+    dyads = tree.get("dyads")
+    if not isinstance(dyads, list) or not all(isinstance(each, dict) for each in dyads):
+        keys = ", ".join(sorted(map(shown, tree))[:5])
+        why = f"it has {keys or 'nothing'}, and no list of dyads"
+        raise InputError("E156", NO_LINKAGE, why=why, help=HELP)
+    if len(dyads) != 2:
+        why = f"it has {len(dyads)} dyads, and a linkage has two"
+        raise InputError("E156", NO_LINKAGE, why=why, help=HELP)
+    if id is not None and str(tree.get("id", id)).lower() != id.lower():
+        message = f"there is no linkage {printable(id)} in this file"
+        why, help = f"it has {shown(tree['id'])} only", "leave --id out"
+        raise InputError("E151", message, why=why, help=help)
+    return _dyad(dyads[0], "dyads[0]"), _dyad(dyads[1], "dyads[1]")
+
+
+def _dyad(tree: dict[str, Any], path: str) -> GivenDyad:
+    """A dyad from its object."""
+    for key in tree:
+        if key not in KEYS:
+            raise _fault(f"{path}.{printable(str(key))[:40]} is not known", f"{HELP}")
+    parts = {key for key in ("fixed_pivot", "moving_pivot", "line") if tree.get(key) is not None}
+    kind = {
+        frozenset({"fixed_pivot", "moving_pivot"}): "RR",
+        frozenset({"line", "moving_pivot"}): "PR",
+        frozenset({"fixed_pivot", "line"}): "RP",
+    }.get(frozenset(parts))
+    if kind is None or tree.get("kind", kind) != kind:
+        has = ", ".join(sorted(parts)) or "neither pivot"
+        stated = f" and is of kind {shown(tree['kind'])}" if "kind" in tree else ""
+        raise _fault(f"{path} is no dyad", HELP, f"it has {has}{stated}")
+    if kind == "RR":
+        fixed, moving = (_pair(tree, key, path) for key in ("fixed_pivot", "moving_pivot"))
+        lengths = [key for key in ("length", "radius") if tree.get(key) is not None]
+        if not lengths:
+            return OpenLink(fixed, moving)
+        if len(lengths) > 1:
+            raise _fault(f"{path} has a length and a radius", "give the length alone")
+        length = _number(tree[lengths[0]], f"{path}.{lengths[0]}")
+        if not length > 0:
+            help = "give a length above zero, or leave it out: then it follows from the poses"
+            raise _fault(f"{path}.{lengths[0]} is {length:g}", help)
+        return RR(fixed, moving, np.asarray(length))
+    line = _line(tree["line"], f"{path}.line")
+    if kind == "PR":
+        return PR(*line, _pair(tree, "moving_pivot", path))
+    return RP(_pair(tree, "fixed_pivot", path), *line)
+
+
+def _line(tree: object, path: str) -> tuple[FloatArray, FloatArray]:
+    """A line by its normal and offset, or by a point and its direction."""
+    if isinstance(tree, dict):
+        if LINE_KEYS[1] <= tree.keys():
+            normal = _number(tree["normal_deg"], f"{path}.normal_deg")
+            offset = _number(tree["offset"], f"{path}.offset")
+            return np.asarray(math.radians(normal)), np.asarray(offset)
+        if LINE_KEYS[0] <= tree.keys():
+            direction = _number(tree["direction_deg"], f"{path}.direction_deg")
+            return line_through(_pair(tree, "point", path), direction)
+    help = "write line = {point = [X, Y], direction_deg = 30}"
+    raise _fault(f"{path} is no line", help, f"it is {shown(tree)}")
+
+
+def _pair(tree: dict[str, Any], key: str, path: str) -> FloatArray:
+    value = tree[key]
+    if not isinstance(value, list) or len(value) != 2:
+        raise _fault(f"{path}.{key} is no point", f"write {key} = [X, Y]", f"it is {shown(value)}")
+    return np.array([_number(each, f"{path}.{key}[{k}]") for k, each in enumerate(value)])
+
+
+def _number(value: object, path: str) -> float:
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        try:
+            if math.isfinite(number := float(value)):
+                return number
+        except OverflowError:
+            pass
+    raise _fault(f"{path} is no finite number", "give a number", f"it is {shown(value)}")
+
+
+def _fault(message: str, help: str, why: str | None = None) -> InputError:
+    return InputError("E156", message, why=why, help=help)

@@ -1,0 +1,239 @@
+"""Better linkages near one that exists, and how far its pivots move.
+
+The linkage is refined with either dyad driving, on the branch where it is, under what the task asks
+and under transmission angles that rise from the standard's.  Between the linkage and each of these
+ends some more are taken, since a smaller move may do.  A heuristic: that no better linkage is
+nearer is not proved.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import NamedTuple, final
+
+import numpy as np
+
+from burmester.dyads.selection import FoundDyad
+from burmester.fourbar.dyad import PR, RP, RR, Dyad
+from burmester.fourbar.linkage_batch import LinkageBatch
+from burmester.linkages.constraints import AllConstraints
+from burmester.linkages.defect_free_search import (
+    defect_free_linkages,
+    driving_sides,
+    refined_on_branch,
+)
+from burmester.linkages.evaluation import Candidates, Evaluation
+from burmester.linkages.found_linkage import FoundLinkage
+from burmester.linkages.ranking import digits_leave_open, farthest_recommended
+from burmester.linkages.standard import Standard
+from burmester.linkages.target import Target
+from burmester.numerics.arrays import FloatArray, wrapped_angle
+from burmester.tasks.motion_task import CONDITIONS
+from burmester.tasks.notation import span
+
+__all__ = ["Move", "greatest_move", "moves", "nearby_linkages"]
+
+STEPS = 40  # number of steps of each refinement
+TRANSMISSION_GAINS = (10.0, 20.0, 30.0)  # degrees that are tried above the given linkage's angle
+MOST_TRANSMISSION = 75.0  # degrees; a higher angle is not asked for
+SHARES = np.array([0.25, 0.5, 0.75])  # of the way to the end of a refinement
+SETTLING_STEPS = 12  # number of steps from there to the poses that are to be met exactly
+ANGLE_GAIN = math.radians(2.0)  # radians; a linkage that transmits better by less is as good
+ERROR_GAIN = 0.9  # ratio of combined errors; a linkage that is nearer by less is as near
+MOST_KEPT = 3  # number of better linkages
+SAME_SHARE = 1e-3  # motion sizes; linkages whose pivots differ by less are one
+
+
+@final
+class Move(NamedTuple):
+    """How far one dyad of a linkage moves, in the task's unit; None for what it does not have.
+
+    fixed_pivot, moving_pivot: distances.  length: what the link gains.  line: the distance of the
+    middle of the old travel from the new line; turn: the angle between both lines, radians.
+    """
+
+    dyad: str
+    fixed_pivot: float | None = None
+    moving_pivot: float | None = None
+    length: float | None = None
+    line: float | None = None
+    turn: float | None = None
+
+    @property
+    def greatest(self) -> float:
+        """The greatest of these lengths."""
+        lengths = (self.fixed_pivot, self.moving_pivot, self.length, self.line)
+        return max(abs(each) for each in lengths if each is not None)
+
+
+def moves(given: FoundLinkage, other: FoundLinkage) -> list[Move]:
+    """How far the dyads of a linkage move to become those of another one, by their ids."""
+    known = {each.id: each.dyad for each in other.dyads}
+    return [_move(each, known[each.id], given) for each in sorted(given.dyads, key=_id)]
+
+
+def greatest_move(given: FoundLinkage, other: FoundLinkage) -> float:
+    """The greatest move of a pivot, a length or a line."""
+    return max(each.greatest for each in moves(given, other))
+
+
+def _id(dyad: FoundDyad) -> str:
+    return dyad.id
+
+
+def _move(own: FoundDyad, new: Dyad, given: FoundLinkage) -> Move:
+    old = own.dyad
+    if isinstance(old, RR) and isinstance(new, RR):
+        return Move(
+            own.id,
+            _apart(old.fixed_pivot, new.fixed_pivot),
+            _apart(old.moving_pivot, new.moving_pivot),
+            float(new.radius - old.radius),
+        )
+    if isinstance(old, PR) and isinstance(new, PR):
+        line, turn = _line_move(old, new, given)
+        moving = _apart(old.moving_pivot, new.moving_pivot)
+        return Move(own.id, moving_pivot=moving, line=line, turn=turn)
+    assert isinstance(old, RP)
+    assert isinstance(new, RP)
+    line, turn = _line_move(old, new, given)
+    return Move(own.id, _apart(old.fixed_pivot, new.fixed_pivot), line=line, turn=turn)
+
+
+def _apart(one: FloatArray, other: FloatArray) -> float:
+    return float(np.hypot(*(other - one)))
+
+
+def _line_move(old: PR | RP, new: PR | RP, given: FoundLinkage) -> tuple[float, float]:
+    """How far a line moves at the middle of its travel, and turns."""
+    middle = old.middle_of_travel(given.error.places)
+    normal = np.array([math.cos(new.normal_angle), math.sin(new.normal_angle)])
+    turn = float(wrapped_angle(2 * (new.normal_angle - old.normal_angle))) / 2
+    return abs(float(normal @ middle - new.offset)), abs(turn)
+
+
+def nearby_linkages(given: FoundLinkage, evaluation: Evaluation) -> list[FoundLinkage]:
+    """Better linkages near a given one, the nearest first; the standard says what is better.
+
+    Where it does not work, those that do; else those that meet the standard where it does not,
+    transmit better, or come nearer to the poses.
+    """
+    target = evaluation.target
+    batch = LinkageBatch.of([given.linkage]).to_canonical(target.frames)
+    ends: list[tuple[LinkageBatch, FloatArray]] = []
+    if np.isfinite(given.error.angle).all():
+        rows = target.rows_at(given.error.places[evaluation.problem.pose_numbers])[None]
+        for each in _targets(given, evaluation):
+            sides = driving_sides(each.requirements)
+            every = np.zeros(len(sides), dtype=int)
+            found = refined_on_branch(batch[every], rows[every], each, np.array(sides), steps=STEPS)
+            ends.append((found.batch[found.met], found.rows[found.met]))
+    better = _better(given, _between(given, batch, ends, evaluation), evaluation)
+    if not better and not given.usable:
+        searched = defect_free_linkages(batch, target, np.array([[0, 1]]))
+        if searched is not None:
+            met = searched.refined.met
+            found_there = (searched.refined.batch[met], searched.refined.rows[met])
+            better = _better(given, _between(given, batch, [found_there], evaluation), evaluation)
+    return better
+
+
+def _targets(given: FoundLinkage, evaluation: Evaluation) -> Iterator[Target]:
+    """What the linkage is refined for: what the task asks, the standard, better transmission."""
+    target, asked = evaluation.target, evaluation.task.requirements
+    yield target
+    sound = Standard.of(evaluation.task).requirements(asked)
+    least = float(np.nan_to_num(given.driven.least_over_range))
+    levels = [math.degrees(least) + gain for gain in TRANSMISSION_GAINS]
+    for level in [sound.transmission_deg, *levels]:
+        if sound.transmission_deg <= level <= MOST_TRANSMISSION:
+            yield replace(target, requirements=replace(sound, transmission_deg=level))
+
+
+def _between(
+    given: FoundLinkage,
+    batch: LinkageBatch,
+    ends: Sequence[tuple[LinkageBatch, FloatArray]],
+    evaluation: Evaluation,
+) -> list[FoundLinkage]:
+    """The linkages at the ends of refinements and on the way there, evaluated."""
+    target, found = evaluation.target, []
+    exact = target.exact is not None and bool(target.exact.any())
+    settles = exact or evaluation.task.poses.shape[0] < CONDITIONS
+    for end, rows in ends:
+        if not len(end):
+            continue
+        start = batch.dimensions
+        way = start + SHARES[:, None, None, None] * (end.dimensions - start)
+        kinds = np.tile(end.kinds, (len(SHARES), 1))
+        beside = LinkageBatch(kinds, way.reshape(-1, *way.shape[2:]))
+        near = target.places(beside)
+        sound = np.isfinite(near).all(axis=(1, 2))
+        beside, near = beside[sound], near[sound]
+        if settles and len(beside):
+            kept = AllConstraints(target.kept) if target.kept else None
+            settled = target.refine(
+                beside,
+                near,
+                constraints=kept,
+                steps=SETTLING_STEPS,
+                constrained_steps=SETTLING_STEPS,
+            )
+            beside, near = settled.batch[settled.met], settled.rows[settled.met]
+        every = LinkageBatch(
+            np.concatenate([end.kinds, beside.kinds]),
+            np.concatenate([end.dimensions, beside.dimensions]),
+        )
+        places = np.concatenate([rows, near])
+        for k in range(len(every)):  # each for itself: an order of all would drop some
+            candidates = Candidates(
+                every[k : k + 1], places[k : k + 1], [given.dyads], np.ones(1, dtype=bool)
+            )
+            found += evaluation.evaluate(candidates)
+    return found
+
+
+def _better(
+    given: FoundLinkage, found: Sequence[FoundLinkage], evaluation: Evaluation
+) -> list[FoundLinkage]:
+    """The better ones: the nearest, the nearest sound one, the closest, the best transmission."""
+    problem = evaluation.problem
+    open_ = digits_leave_open(problem)
+    most = max(farthest_recommended(given, problem), open_) if given.usable else math.inf
+    good = [
+        each
+        for each in found
+        if each.usable
+        and each.combined_error <= most
+        and (not given.usable or _gains(given, each, open_))
+    ]
+    good.sort(key=lambda each: greatest_move(given, each))
+    sound = [each for each in good if not each.shortcomings] or good
+    wanted = [
+        *sound[:1],
+        *sorted(sound, key=lambda each: max(each.combined_error, open_))[:1],
+        *sorted(sound, key=lambda each: -each.driven.least_over_range)[:1],
+    ]
+    chosen: list[FoundLinkage] = []
+    same = SAME_SHARE * max(span(problem.given), problem.length_per_radian)
+    for each in wanted:
+        if all(greatest_move(each, other) > same for other in chosen):
+            chosen.append(each)
+    return sorted(chosen, key=lambda each: greatest_move(given, each))[:MOST_KEPT]
+
+
+def _gains(given: FoundLinkage, other: FoundLinkage, open_: float) -> bool:
+    """Whether a linkage that works is better than another one that does, and in nothing worse."""
+    if len(other.shortcomings) > len(given.shortcomings):
+        return False
+    nearer = max(other.combined_error, open_) < ERROR_GAIN * max(given.combined_error, open_)
+    least, before = other.driven.least_over_range, given.driven.least_over_range
+    transmits = least > before + ANGLE_GAIN
+    if len(other.shortcomings) < len(given.shortcomings):
+        return True
+    worse = least < before - ANGLE_GAIN or other.combined_error * ERROR_GAIN > max(
+        given.combined_error, open_
+    )
+    return (nearer or transmits) and not worse

@@ -1,0 +1,145 @@
+"""The judgement of a linkage that exists: what is said of it is what synthesis says of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from burmester.diagnosis.checks import diagnose
+from burmester.fourbar.dyad import RR, Dyad
+from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.linkage_batch import LinkageBatch
+from burmester.linkages.evaluation import Candidates, Evaluation, at_given_poses
+from burmester.linkages.explanation import hints, in_short
+from burmester.linkages.found_linkage import FoundLinkage, Pair
+from burmester.linkages.from_dyads import places_to_judge, target_of
+from burmester.linkages.nearby_linkages import nearby_linkages
+from burmester.progress import step
+from burmester.synthesis.given_linkage import GivenDyad, dyads_at_poses, require_linkage
+from burmester.synthesis.outcome import linkage_advice
+from burmester.synthesis.result import Outcome, Synthesis
+from burmester.tasks.motion_task import Task
+from burmester.tasks.options import SynthesisOptions
+from burmester.tasks.problem import SynthesisProblem
+from burmester.wording import count, listed
+
+__all__ = ["judge_linkage"]
+
+
+def judge_linkage(
+    task: Task,
+    linkage: Linkage | Sequence[GivenDyad],
+    options: SynthesisOptions = SynthesisOptions(),  # noqa: B008  frozen
+    *,
+    improve: bool = False,
+) -> Synthesis:
+    """One linkage at the poses of a task, with errors, verdict, uncertainty and violations.
+
+    It has the dimensions that are given: nothing is refined.  It is judged at its places nearest to
+    the poses; where it works on one of its circuits, on that one.  Of a task with two limits, the
+    dyads are judged in the order that keeps more of them.
+
+    task: any number of poses.
+    linkage: the linkage, or its two dyads, RR, PR or RP, or pivots alone (`OpenLink`).
+
+    Raises InputError E112 (numbers too large), E154 (two dyads that make no linkage) and E155
+    (lengths that can be assembled nowhere).
+    """
+    dyads: Sequence[GivenDyad] = (
+        (linkage.first, linkage.second) if isinstance(linkage, Linkage) else linkage
+    )
+    both, advice = dyads_at_poses(dyads, task)
+    lengths = any(isinstance(each, RR) for each in dyads) and not isinstance(linkage, Linkage)
+    require_linkage(both, task, assembled=lengths)
+    step(f"looking at {task.poses.shape[0]} poses")
+    diagnosis = diagnose(task)
+    problem = SynthesisProblem.of(task, diagnosis.motion, options).merged()
+    evaluation = Evaluation(problem, target_of(problem))
+    given = _found_dyads(both, evaluation)
+    step("judging the linkage")
+    found = replace(_judged(given, evaluation), id="L1", rank=1)
+    every = [found]
+    if improve:
+        step("looking for better linkages near it")
+        near = nearby_linkages(found, evaluation)
+        every += [
+            replace(each, id=f"L{rank}", rank=rank) for rank, each in enumerate(near, start=2)
+        ]
+    if max(problem.missing_conditions) > 0:  # so few poses leave every pivot open
+        every = [replace(each, uncertainty=None, determined=True, other_types=()) for each in every]
+    linkages = at_given_poses(evaluation.with_spreads(every), problem)
+    outcome = _outcome(linkages, problem, improve)
+    warnings = (
+        *task.notes,
+        *advice,
+        *diagnosis.findings,
+        *linkage_advice(task, linkages, outcome.code),
+    )
+    return Synthesis(problem, outcome, _at_all_poses(given, task), linkages, warnings)
+
+
+def _found_dyads(dyads: tuple[Dyad, Dyad], evaluation: Evaluation) -> Pair:
+    """The dyads with their ids and errors."""
+    first, second = (
+        evaluation.dyad(f"D{number}", dyad) for number, dyad in enumerate(dyads, start=1)
+    )
+    return first, second
+
+
+def _at_all_poses(dyads: Pair, task: Task) -> Pair:
+    """The dyads with their errors at all poses, repeated ones too."""
+    out = []
+    for each in dyads:
+        miss = np.abs(each.dyad.residual(task.poses))
+        rms = float(np.sqrt((miss**2).mean()))
+        out.append(replace(each, rms_error=rms, max_error=float(miss.max())))
+    return out[0], out[1]
+
+
+def _judged(given: Pair, evaluation: Evaluation) -> FoundLinkage:
+    """The linkage on the circuit where it works, else where it is nearest; in the better order."""
+    orders = [given]
+    if len(evaluation.task.limits) > 1:
+        orders.append((given[1], given[0]))
+    found: list[FoundLinkage] = []
+    for pair in orders:
+        own = LinkageBatch.of([Linkage(pair[0].dyad, pair[1].dyad)])
+        batch = own.to_canonical(evaluation.target.frames)
+        for rows in places_to_judge(batch, evaluation.target):
+            none = np.zeros(1, dtype=bool)
+            found += evaluation.evaluate(Candidates(batch, rows[None], [pair], none, own))
+
+    def order(each: FoundLinkage) -> tuple[bool, int, float]:
+        broken = sum(violation.kind == "limit" for violation in each.violations)
+        return not each.usable, broken, each.combined_error
+
+    return min(found, key=order)
+
+
+def _outcome(linkages: Sequence[FoundLinkage], problem: SynthesisProblem, improve: bool) -> Outcome:
+    """R330 or R331 of the first linkage, the given one, and what to do."""
+    found, *near = linkages
+    task, size = problem.given, problem.length
+    works = "works within the requirements" if task.requirements.has_any else "works"
+    works = works if found.usable else f"does not {works.replace('works', 'work')}"
+    message, options = f"the linkage {works}", []
+    if improve and found.usable:
+        message += f"; {count(len(near), 'better one')} near it"
+    elif improve:
+        message += (
+            f"; {len(near)} near it {'does' if len(near) == 1 else 'do'}"
+            if near
+            else ("; none was found near it that does")
+        )
+    elif not found.usable or found.shortcomings:
+        options.append(
+            f"look for {'better ones near it' if found.usable else 'one near it that works'} "
+            "with --improve"
+        )
+    if found.usable:
+        short = f"it {listed(found.shortcomings)}" if found.shortcomings else None
+        return Outcome("R330", message, "; or ".join(options) or None, short)
+    options.append(hints([found], problem))
+    return Outcome("R331", message, "; or ".join(options), f"it {in_short(found, task, size)}")
