@@ -13,14 +13,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from burmester import Limits, Point, Task, synthesize
+from burmester import Task, synthesize
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.geometry.displacement import Displacement
-from burmester.geometry.regions import Point
 from burmester.report.page import as_script
 from burmester.report.page import page as page_of
 from burmester.synthesis.result import Synthesis
-from burmester.tasks.limits import Limits
 from burmester.web import data as report_data_module
 from burmester.web.branches import Branches
 from burmester.web.data import report_data

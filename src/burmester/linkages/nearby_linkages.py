@@ -1,9 +1,9 @@
 """Better linkages near one that exists, and how far its pivots move.
 
 The linkage is refined with either dyad driving, on the branch where it is, under what the task asks
-and under transmission angles that rise from the standard's.  Between the linkage and each of these
-ends some more are taken, since a smaller move may do.  A heuristic: that no better linkage is
-nearer is not proved.
+and under transmission angles that rise from the standard's.  What the first steps give is judged as
+well as the end, since a smaller move may do.  A heuristic: that no better linkage is nearer is not
+proved.
 """
 
 from __future__ import annotations
@@ -18,7 +18,6 @@ import numpy as np
 from burmester.dyads.selection import FoundDyad
 from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.fourbar.linkage_batch import LinkageBatch
-from burmester.linkages.constraints import AllConstraints
 from burmester.linkages.defect_free_search import (
     defect_free_linkages,
     driving_sides,
@@ -27,19 +26,18 @@ from burmester.linkages.defect_free_search import (
 from burmester.linkages.evaluation import Candidates, Evaluation
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.linkages.ranking import digits_leave_open, farthest_recommended
+from burmester.linkages.refinement import Refined
 from burmester.linkages.standard import Standard
 from burmester.linkages.target import Target
 from burmester.numerics.arrays import FloatArray, wrapped_angle
-from burmester.tasks.motion_task import CONDITIONS
-from burmester.tasks.notation import span
 
 __all__ = ["Move", "greatest_move", "moves", "nearby_linkages"]
 
-STEPS = 40  # number of steps of each refinement
+# Numbers of steps of the refinements: after a few of them a linkage may be better and still near.
+STEPS = (1, 4, 12, 40)
 TRANSMISSION_GAINS = (10.0, 20.0, 30.0)  # degrees that are tried above the given linkage's angle
 MOST_TRANSMISSION = 75.0  # degrees; a higher angle is not asked for
-SHARES = np.array([0.25, 0.5, 0.75])  # of the way to the end of a refinement
-SETTLING_STEPS = 12  # number of steps from there to the poses that are to be met exactly
+EXACT_SHARE = 1e-6  # motion sizes; a pose that is to be met exactly may be missed by so much
 ANGLE_GAIN = math.radians(2.0)  # radians; a linkage that transmits better by less is as good
 ERROR_GAIN = 0.9  # ratio of combined errors; a linkage that is nearer by less is as near
 MOST_KEPT = 3  # number of better linkages
@@ -120,24 +118,41 @@ def nearby_linkages(given: FoundLinkage, evaluation: Evaluation) -> list[FoundLi
     Where it does not work, those that do; else those that meet the standard where it does not,
     transmit better, or come nearer to the poses.
     """
-    target = evaluation.target
+    target, found = evaluation.target, []
     batch = LinkageBatch.of([given.linkage]).to_canonical(target.frames)
-    ends: list[tuple[LinkageBatch, FloatArray]] = []
     if np.isfinite(given.error.angle).all():
         rows = target.rows_at(given.error.places[evaluation.problem.pose_numbers])[None]
         for each in _targets(given, evaluation):
-            sides = driving_sides(each.requirements)
+            sides = np.array(driving_sides(each.requirements))
             every = np.zeros(len(sides), dtype=int)
-            found = refined_on_branch(batch[every], rows[every], each, np.array(sides), steps=STEPS)
-            ends.append((found.batch[found.met], found.rows[found.met]))
-    better = _better(given, _between(given, batch, ends, evaluation), evaluation)
+            for steps in STEPS:
+                refined = refined_on_branch(batch[every], rows[every], each, sides, steps=steps)
+                found += _judged(given, refined, evaluation)
+    better = _better(given, found, evaluation)
     if not better and not given.usable:
         searched = defect_free_linkages(batch, target, np.array([[0, 1]]))
         if searched is not None:
-            met = searched.refined.met
-            found_there = (searched.refined.batch[met], searched.refined.rows[met])
-            better = _better(given, _between(given, batch, [found_there], evaluation), evaluation)
+            better = _better(given, _judged(given, searched.refined, evaluation), evaluation)
     return better
+
+
+def _judged(given: FoundLinkage, refined: Refined, evaluation: Evaluation) -> list[FoundLinkage]:
+    """The linkages of a refinement that work and meet the exact poses."""
+    sound = np.flatnonzero(np.isfinite(refined.rows).all(axis=(1, 2)))
+    if not len(sound):
+        return []
+    pairs, searched = [given.dyads] * len(sound), np.ones(len(sound), dtype=bool)
+    found = evaluation.members(
+        Candidates(refined.batch[sound], refined.rows[sound], pairs, searched)
+    )
+    problem, exact = evaluation.problem, evaluation.task.exact
+    if exact is None:
+        return [each for each in found if each.usable]
+    most = max(digits_leave_open(problem), EXACT_SHARE * problem.motion_size)
+    length = problem.length_per_radian
+    return [
+        each for each in found if each.usable and (each.error.combined(length)[exact] <= most).all()
+    ]
 
 
 def _targets(given: FoundLinkage, evaluation: Evaluation) -> Iterator[Target]:
@@ -152,49 +167,6 @@ def _targets(given: FoundLinkage, evaluation: Evaluation) -> Iterator[Target]:
             yield replace(target, requirements=replace(sound, transmission_deg=level))
 
 
-def _between(
-    given: FoundLinkage,
-    batch: LinkageBatch,
-    ends: Sequence[tuple[LinkageBatch, FloatArray]],
-    evaluation: Evaluation,
-) -> list[FoundLinkage]:
-    """The linkages at the ends of refinements and on the way there, evaluated."""
-    target, found = evaluation.target, []
-    exact = target.exact is not None and bool(target.exact.any())
-    settles = exact or evaluation.task.poses.shape[0] < CONDITIONS
-    for end, rows in ends:
-        if not len(end):
-            continue
-        start = batch.dimensions
-        way = start + SHARES[:, None, None, None] * (end.dimensions - start)
-        kinds = np.tile(end.kinds, (len(SHARES), 1))
-        beside = LinkageBatch(kinds, way.reshape(-1, *way.shape[2:]))
-        near = target.places(beside)
-        sound = np.isfinite(near).all(axis=(1, 2))
-        beside, near = beside[sound], near[sound]
-        if settles and len(beside):
-            kept = AllConstraints(target.kept) if target.kept else None
-            settled = target.refine(
-                beside,
-                near,
-                constraints=kept,
-                steps=SETTLING_STEPS,
-                constrained_steps=SETTLING_STEPS,
-            )
-            beside, near = settled.batch[settled.met], settled.rows[settled.met]
-        every = LinkageBatch(
-            np.concatenate([end.kinds, beside.kinds]),
-            np.concatenate([end.dimensions, beside.dimensions]),
-        )
-        places = np.concatenate([rows, near])
-        for k in range(len(every)):  # each for itself: an order of all would drop some
-            candidates = Candidates(
-                every[k : k + 1], places[k : k + 1], [given.dyads], np.ones(1, dtype=bool)
-            )
-            found += evaluation.evaluate(candidates)
-    return found
-
-
 def _better(
     given: FoundLinkage, found: Sequence[FoundLinkage], evaluation: Evaluation
 ) -> list[FoundLinkage]:
@@ -205,9 +177,7 @@ def _better(
     good = [
         each
         for each in found
-        if each.usable
-        and each.combined_error <= most
-        and (not given.usable or _gains(given, each, open_))
+        if each.combined_error <= most and (not given.usable or _gains(given, each, open_))
     ]
     good.sort(key=lambda each: greatest_move(given, each))
     sound = [each for each in good if not each.shortcomings] or good
@@ -217,11 +187,21 @@ def _better(
         *sorted(sound, key=lambda each: -each.driven.least_over_range)[:1],
     ]
     chosen: list[FoundLinkage] = []
-    same = SAME_SHARE * max(span(problem.given), problem.length_per_radian)
+    same = SAME_SHARE * problem.motion_size
     for each in wanted:
         if all(greatest_move(each, other) > same for other in chosen):
             chosen.append(each)
-    return sorted(chosen, key=lambda each: greatest_move(given, each))[:MOST_KEPT]
+    chosen.sort(key=lambda each: greatest_move(given, each))
+    return [one for each in chosen[:MOST_KEPT] for one in _evaluated(each, evaluation)]
+
+
+def _evaluated(found: FoundLinkage, evaluation: Evaluation) -> list[FoundLinkage]:
+    """A linkage with its uncertainty."""
+    target = evaluation.target
+    own = LinkageBatch.of([found.linkage])
+    rows = target.rows_at(found.error.places)[None]
+    one = Candidates(own.to_canonical(target.frames), rows, [found.dyads], np.ones(1, bool), own)
+    return evaluation.evaluate(one)
 
 
 def _gains(given: FoundLinkage, other: FoundLinkage, open_: float) -> bool:

@@ -19,13 +19,14 @@ from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.fourbar.linkage import Linkage
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.weights import weights_or_ones
-from burmester.tasks.motion_task import MOST, Task
+from burmester.tasks.motion_task import MOST, Task, characteristic_length
 from burmester.tasks.notation import length_of, span
 from burmester.wording import figure
 
 __all__ = ["GivenDyad", "OpenLink", "dyads_at_poses", "require_linkage"]
 
-SAME_PIVOT = 1e-6  # spans of the motion; pivots that are nearer to each other are one
+SAME_PIVOT = 1e-6  # sizes of the motion; pivots that are nearer to each other are one
+FARTHEST = 1e6  # sizes of the motion; of what is farther away rounding takes too many digits
 # Share of a length; it is said where the poses put the pivots apart by lengths that differ more.
 LENGTH_SPREAD = 0.02
 
@@ -109,7 +110,7 @@ def require_linkage(dyads: tuple[Dyad, Dyad], task: Task, *, assembled: bool = F
     first, second = dyads
     for number, dyad in enumerate(dyads, start=1):
         _require_dyad(number, dyad, task)
-    size = SAME_PIVOT * max(span(task), np.finfo(float).tiny)
+    size = SAME_PIVOT * _size(task)
     pairs = []
     if isinstance(first, RR | RP) and isinstance(second, RR | RP):
         pairs.append(("fixed", first.fixed_pivot, second.fixed_pivot))
@@ -145,6 +146,14 @@ def _require_dyad(number: int, dyad: Dyad, task: Task) -> None:
                 why=f"its {each.name.replace('_', ' ')} is {value.tolist()}",
                 help="write the lengths in another unit",
             )
+    if (away := _farthest(dyad, task)) > FARTHEST * _size(task):
+        raise InputError(
+            "E112",
+            f"D{number} is too far from the poses to compute with",
+            why=f"a pivot, its link or its line is {length_of(away, task)} away; the poses span "
+            f"{length_of(span(task), task)}",
+            help="give pivots nearer to the poses, in their unit; for a link that long, a slider",
+        )
     if isinstance(dyad, PP):
         raise InputError(
             "E154",
@@ -152,7 +161,7 @@ def _require_dyad(number: int, dyad: Dyad, task: Task) -> None:
             why="no single joint drives a linkage with one",
             help="give an RR, a PR or an RP dyad",
         )
-    if isinstance(dyad, RR) and not dyad.radius > SAME_PIVOT * span(task):
+    if isinstance(dyad, RR) and not dyad.radius > SAME_PIVOT * _size(task):
         raise InputError(
             "E154",
             f"the moving pivot of D{number} is its fixed pivot",
@@ -161,6 +170,26 @@ def _require_dyad(number: int, dyad: Dyad, task: Task) -> None:
             help="move one of them: the fixed pivot is in the frame of the ground, the moving one "
             "in that of the body",
         )
+
+
+def _size(task: Task) -> float:
+    """The size of the motion."""
+    return max(span(task), characteristic_length(task))
+
+
+def _farthest(dyad: Dyad, task: Task) -> float:
+    """The greatest length of a dyad: its link, and how far it is from the body at the poses."""
+    middle = task.poses.translation.mean(axis=0)
+    lengths = [0.0]
+    if isinstance(dyad, RR | RP):
+        lengths.append(float(np.hypot(*(dyad.fixed_pivot - middle))))
+    if isinstance(dyad, RR | PR):
+        lengths.append(float(np.hypot(*dyad.moving_pivot)))
+    if isinstance(dyad, RR):
+        lengths.append(float(dyad.radius))
+    if isinstance(dyad, PR | RP):
+        lengths.append(float(np.abs(dyad.residual(task.poses)).max()))
+    return max(lengths)
 
 
 def _why_open(linkage: Linkage, task: Task) -> str:
