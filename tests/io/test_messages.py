@@ -97,6 +97,13 @@ FOUR = "\n".join(FIVE.splitlines()[:5])
 TWO_ANGLES = "0.2,2.4,10 2,-4.4,50 1.2,9.4,50 -6.7,-5.2,10 -2.7,-10.5,50 0,5.9,10 3.3,4,50"
 POINTS = "px,py,qx,qy\n0,0,5,0\n3,1,7,4\n4,3,7,7\n5,3,5,8\n6,2,3,6\n"
 GOOD = {"poses.csv": FIVE}
+LID = (
+    "burmester synthesize poses.csv --length-unit mm" if False else "burmester synthesize poses.csv"
+)
+OPENING = "0,0,0 30,77,45 95,110,95"
+FOUR_OPENING = "0,0,0 12.5,40,20 30,77,45 95,110,95"
+BOXES = "--fixed-pivot box:-50,-100:150,20 --moving-pivot box:-60,-60:60,60"
+WIDE = "--fixed-pivot box:-200,-200:250,250 --moving-pivot box:-150,-150:150,150"
 FEW = {"poses.csv": "\n".join(FIVE.splitlines()[:4])}
 ALL = {"poses.csv": TEN}
 LID_PATH = '<path id="lid" d="M 0 0 L 4 0 L 4 2 L 0 2 z"/>'
@@ -903,7 +910,21 @@ CASES: dict[str, Case] = {
         },
         exit=1,
     ),
-    "four poses": Case("R303", S, Write("poses.csv", FIVE), {"poses.csv": FOUR}, exit=1),
+    "four poses and a pivot at a point": Case(
+        "R303",
+        f"{S} --fixed-pivot=3,-2",
+        Write("poses.csv", FIVE, S),
+        {"poses.csv": FOUR},
+        exit=1,
+    ),
+    "four poses": Case("R308", S, None, {"poses.csv": FOUR}, exit=0),
+    "four poses in boxes": Case(
+        "R309",
+        f"{S} {BOXES}",
+        Args(S),
+        {"poses.csv": rows(OPENING.replace(" ", " 12.5,40,20 ", 1))},
+        exit=1,
+    ),
     "little rotation": Case(
         "R305",
         S,
@@ -933,8 +954,8 @@ CASES: dict[str, Case] = {
     "two poses differ": Case(
         "R311",
         S,
-        Write("poses.csv", rows("1.0,2.0,30 4.0,3.0,70 5.0,5.0,90")),
-        {"poses.csv": rows("1.000,2.000,30 1.001,2.001,30 4.000,3.000,70")},
+        Write("poses.csv", rows("1,2,30 4,3,70")),
+        {"poses.csv": rows("1.0000,2.0000,30.000 1.0001,2.0000,30.000 4.0000,3.0000,70.000")},
         exit=1,
     ),
     "along a line": Case(
@@ -1002,7 +1023,23 @@ CASES: dict[str, Case] = {
         {"poses.csv": "x,y,angle_deg\n" + exchanged(ROWS, 3, 7)},
         exit=1,
     ),
-    "not determined": Case("W203", S, Write("poses.csv", FIVE), {"poses.csv": FOUR}, exit=1),
+    "not determined": Case(
+        "W203",
+        f"{S} --fixed-pivot=3,-2",
+        Write("poses.csv", FIVE, S),
+        {"poses.csv": FOUR},
+        exit=1,
+    ),
+    "three poses alone": Case(
+        "W215",
+        S,
+        Args(f"{S} {WIDE} --min-transmission 40 --link-ratio 4"),
+        {"poses.csv": rows(OPENING)},
+        exit=0,
+    ),
+    "three poses in boxes": Case(
+        "W216", f"{S} {BOXES}", Args(f"{S} {WIDE}"), {"poses.csv": rows(OPENING)}, exit=0
+    ),
     "a very long link": Case(
         "W204",
         S,
@@ -1049,7 +1086,7 @@ CASES: dict[str, Case] = {
         S,
         Write("poses.csv", rows("0,0,0 3,1,40 4,3,70")),
         {"poses.csv": rows("7e9,0,0 7000000003,1,40 7000000004,3,70")},
-        exit=1,
+        exit=0,
     ),
     "a box thinner than rounding": Case(
         "W212",

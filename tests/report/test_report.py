@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from burmester import Task, synthesize
+from burmester import Limits, Point, Task, synthesize
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.geometry.displacement import Displacement
 from burmester.report.page import as_script

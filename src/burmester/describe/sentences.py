@@ -79,6 +79,9 @@ def alternatives(synthesis: Synthesis) -> Iterator[str]:
             f"the closest one, {nearest.id}, "
             f"{explanation.in_short(nearest, task, size)}."
         )
+    if synthesis.family is not None:
+        yield from _members(synthesis, best)
+        return
     yield from _prices(synthesis, best)
     if not best.determined:
         better = next((each for each in synthesis.usable if each.determined), None)
@@ -86,6 +89,27 @@ def alternatives(synthesis: Synthesis) -> Iterator[str]:
             yield (
                 f"The poses leave its pivots open; those of {better.id} they do not, and it "
                 f"{explanation.nearness(better, task, size)}."
+            )
+
+
+def _members(synthesis: Synthesis, best: FoundLinkage) -> Iterator[str]:
+    """The smallest and the least sensitive linkage of a family, where it is not the best one."""
+    pinned = best.linkage.links is not None
+    alike = [each for each in synthesis.usable if (each.linkage.links is not None) == pinned]
+    rated = [(each, each.quality) for each in alike if each.quality is not None]
+    if not rated:
+        return
+    smallest = min(rated, key=lambda each: float(each[1].extent))
+    surest = min(rated, key=lambda each: float(each[1].sensitivity))
+    told = {"Smallest": smallest, "Least sensitive to errors": surest}
+    if smallest[0] is surest[0]:
+        told = {"Smallest and least sensitive to errors": smallest}
+    for text, (each, quality) in told.items():
+        if each is not best:
+            yield (
+                f"{text}: {each.id}, {figure(float(quality.extent))} spans of the motion, errors "
+                f"up to {figure(float(quality.sensitivity))} times as large at a pose, "
+                f"transmission angle {notation.least_angle(float(quality.transmission))} or more."
             )
 
 

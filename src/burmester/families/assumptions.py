@@ -23,11 +23,11 @@ from burmester.linkages.standard import (
 )
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.limits import Limits
-from burmester.tasks.notation import length_of
+from burmester.tasks.notation import length_of, span
 from burmester.tasks.problem import SynthesisProblem
 from burmester.wording import figure
 
-__all__ = ["Assumptions", "Bound"]
+__all__ = ["LINK_RATIO", "Assumptions", "Bound"]
 
 REACH: Final = 1.0  # motion sizes; how far pivots may lie from the body's places where none says
 WIDE: Final = 3.0  # the same, where nothing works within that
@@ -84,6 +84,9 @@ class Assumptions:
         task, asked = problem.given, problem.given.requirements
         size = problem.motion_size
         bounds = []
+        if not span(task) > 0 and task.body is None:
+            words = f"a body of the size {length_of(size, task)}, as its origin stays where it is"
+            bounds.append(Bound(words, "--body"))
         if task.body is None:
             body = np.zeros((1, 2))
             moving, near = reach * size, "the origin of M"

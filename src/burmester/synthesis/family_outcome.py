@@ -5,14 +5,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from burmester.errors import Advice
+from burmester.families.assumptions import LINK_RATIO
 from burmester.families.family import RULE, Family
 from burmester.linkages.explanation import in_short
 from burmester.linkages.found_linkage import FoundLinkage
+from burmester.linkages.standard import LEAST_TRANSMISSION
 from burmester.synthesis.result import Outcome
 from burmester.tasks.problem import SynthesisProblem
 from burmester.wording import count, listed
 
-__all__ = ["family_summary"]
+__all__ = ["family_summary", "none_within_limits"]
 
 
 def family_summary(
@@ -42,14 +44,24 @@ def family_summary(
         advice.append(
             Advice(
                 "W216",
-                f"no linkage keeps what was assumed; {first.id} {listed(first.shortcomings)}"
-                if first.shortcomings
-                else "no linkage keeps what was assumed, and the next best are listed",
+                f"no linkage was found that transmits at {LEAST_TRANSMISSION:g}° and has a link "
+                f"ratio of {LINK_RATIO:g} at most, or what the task asks instead; {first.id} "
+                + listed(first.shortcomings or ("comes nearest",)),
                 "give the pivots more room, or move a pose",
             )
         )
     message = f"{poses} leave infinitely many linkages; these were chosen from {looked}. {RULE}"
     return Outcome("R308", message), advice
+
+
+def none_within_limits(problem: SynthesisProblem) -> Outcome:
+    """The outcome where no dyad of the family was found within the limits."""
+    poses = count(problem.given.poses.shape[0], "pose")
+    return Outcome(
+        "R309",
+        f"no linkage: {poses} leave infinitely many dyads, and none was found within the limits",
+        "give the limits more room, or allow another kind of dyad",
+    )
 
 
 def _assumed(family: Family) -> Advice:

@@ -24,7 +24,7 @@ from burmester.linkages.found_linkage import FoundLinkage, Pair
 from burmester.linkages.from_dyads import linkages_from_dyads, target_of
 from burmester.progress import step
 from burmester.synthesis.dyad_search import DyadSearch, search_dyads
-from burmester.synthesis.family_outcome import family_summary
+from burmester.synthesis.family_outcome import family_summary, none_within_limits
 from burmester.synthesis.method import with_method
 from burmester.synthesis.outcome import dyad_advice, family, linkage_advice, summary
 from burmester.synthesis.result import Outcome, Synthesis
@@ -65,8 +65,11 @@ def synthesize(
         parallel = isinstance(_kind(problem), CircularTranslation)
         chosen = _of_family(problem.merged(), known) if open_ and parallel else None
         return chosen or _special_motion(problem, known)
+    if open_ and min(problem.missing_conditions) < 0:
+        return _dyad_family(problem, known)
     if open_:
-        return _of_family(problem, known) or _dyad_family(problem, known)
+        found = _of_family(problem, known)
+        return found or Synthesis(problem, none_within_limits(problem), warnings=tuple(known))
     problem = with_method(problem)
     step("looking for dyads")
     search = search_dyads(problem)
@@ -106,7 +109,8 @@ def _kind(problem: SynthesisProblem) -> MotionKind | None:
 def _of_family(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthesis | None:
     """Too few conditions leave infinitely many linkages: the best of them; None if none meets."""
     task, target = problem.task, target_of(problem)
-    found = None if min(problem.missing_conditions) < 0 else best_of_family(problem, target)
+    step("looking at the linkages of the family")
+    found = best_of_family(problem, target)
     if found is None:
         return None
     evaluation = Evaluation(problem, target)
@@ -124,7 +128,8 @@ def _of_family(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthes
     linkages = at_given_poses(members, problem)
     dyads = tuple(dyad for each in linkages for dyad in each.dyads)
     outcome, advice = family_summary(problem, found, linkages)
-    warnings = (*findings, *advice, *linkage_advice(problem.given, linkages, outcome.code))
+    more = [] if found.given_up else linkage_advice(problem.given, linkages, outcome.code)
+    warnings = (*findings, *advice, *more)
     return Synthesis(problem, outcome, dyads, linkages, warnings, family=found)
 
 

@@ -91,9 +91,8 @@ class FewPoses(MotionKindBase):
     @property
     def help(self) -> str:
         poses = listed([str(i + 1) for i in self.representatives])
-        if len(self.representatives) < 3:
-            return f"keep poses {poses}, and add poses that differ from them: 3 or more in all"
         then = {
+            2: "a three-parameter family of dyads passes through them",
             3: "a two-parameter family of dyads passes through them",
             4: "a one-parameter family of dyads passes through them",
         }.get(len(self.representatives), "they are met exactly by at most four dyads")
