@@ -31,7 +31,7 @@ from burmester.linkages.quality import best_first
 from burmester.linkages.standard import Standard
 from burmester.linkages.target import Target
 from burmester.numerics.arrays import FloatArray
-from burmester.numerics.bundles import concatenate, take
+from burmester.numerics.bundles import concatenate, take, where
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.problem import SynthesisProblem
@@ -62,7 +62,7 @@ MIN_DRAWN: Final = 24  # number of dyads of a kind that are drawn at least
 MOST_STARTS: Final = 300  # number of linkages among which starts are looked for
 PINNED: Final = frozenset({RR})  # the kinds of a linkage with pins alone
 SHOWN_APART: Final = 0.3  # motion sizes; least distance of those
-MOST_ON_FRONT: Final = 2000  # number of linkages that are compared with each other
+MOST_COMPARED: Final = 2000  # number of linkages that are compared with each other, about
 VARIANTS: Final = 12  # number of draws of poses within their tolerances
 FREE_ANGLE: Final = math.pi / 6  # radians; how far from its nominal value a free angle is sought
 FREE_LENGTH: Final = 0.5  # motion sizes; the same for a free coordinate
@@ -93,12 +93,13 @@ class Family:
 
 
 class _Pool(NamedTuple):
-    """Linkages that were judged, and of how many dyads and pairs."""
+    """Linkages that were judged, of how many dyads and pairs, and how many of all work."""
 
     trials: Trials
     value: Assessment
     dyads: int
     pairs: int
+    working: int = 0
 
 
 def best_of_family(problem: SynthesisProblem, target: Target) -> Family | None:
@@ -120,7 +121,7 @@ def _searched(task: OpenTask, assumed: Assumptions) -> Family | None:
     """The best linkages of an open task, or the nearest to meeting its conditions."""
     rng = np.random.default_rng(0)
     kinds = task.conditions.kinds
-    pools = []
+    pools: list[_Pool] = []
     for counts, pairs, generations in (
         (PINS, kinds & {PINNED}, GENERATIONS.get(task.poses.shape[0], MOST_GENERATIONS)),
         (SLIDERS, kinds - {PINNED}, SLIDER_GENERATIONS),
@@ -128,7 +129,8 @@ def _searched(task: OpenTask, assumed: Assumptions) -> Family | None:
         able = all(set(side.kinds) & set(counts) for side in task.sides)
         pool = _drawn(task, pairs, counts, rng) if pairs and able else None
         if pool is not None:
-            pools.append(_improved(pool, task, generations, rng))
+            many = generations if pools or counts is PINS else MOST_GENERATIONS  # sliders alone
+            pools.append(_improved(pool, task, many, rng))
     if not pools:
         return None
     index = [_shown(pool, task) for pool in pools]
@@ -149,7 +151,7 @@ def _searched(task: OpenTask, assumed: Assumptions) -> Family | None:
         False,
         sum(pool.dyads for pool in pools),
         sum(pool.pairs for pool in pools),
-        sum(int(pool.value.good.sum()) for pool in pools),
+        sum(pool.working for pool in pools),
     )
 
 
@@ -215,12 +217,28 @@ def _improved(pool: _Pool, task: OpenTask, generations: int, rng: np.random.Gene
         generations=generations,
         rng=rng,
     )
-    if not len(trials):
-        return pool
     good = np.flatnonzero(pool.value.good)
     every = concatenate([take(pool.trials, good), trials])
+    if not len(every):
+        return pool
     worth = concatenate([take(pool.value, good), value])
-    return pool._replace(trials=every, value=worth)
+    best = np.argsort(-worth.transmission, kind="stable")[: MOST_COMPARED // 4]
+    some = np.union1d(best, np.arange(0, len(every), max(1, len(every) // MOST_COMPARED)))
+    found = pool._replace(trials=take(every, some), value=take(worth, some), working=len(every))
+    return _better_driven(found, task)
+
+
+def _better_driven(pool: _Pool, task: OpenTask) -> _Pool:
+    """The same linkages, driven by the other dyad where that transmits better and is allowed."""
+    if len(task.conditions.drivers) == 1:
+        return pool
+    other = replace(pool.trials, driver=1 - pool.trials.driver)
+    value = assessed(other, task)
+    better = value.good & (value.transmission > pool.value.transmission)
+    return pool._replace(
+        trials=replace(pool.trials, driver=np.where(better, other.driver, pool.trials.driver)),
+        value=where(better, value, pool.value),
+    )
 
 
 def _spread(points: FloatArray, most: int) -> list[int]:
@@ -242,8 +260,7 @@ def _shown(pool: _Pool, task: OpenTask) -> NDArray[np.intp]:
     good = np.flatnonzero(value.good)
     best = good[best_first(*(figure[good] for figure in value[1:]))[0]]
     figures = np.stack([-value.transmission, value.extent, value.sensitivity], axis=1)
-    some = np.union1d(good[:: max(1, len(good) // MOST_ON_FRONT)], [best])
-    on_front = some[front(figures[some])]
+    on_front = good[front(figures[good])]
     on_front = np.concatenate([[best], on_front[on_front != best]])
     aims = [int(aim(take(value, on_front)).argmin()) for aim in AIMS[1:]]
     points = _pins(take(pool.trials, on_front), task) / task.conditions.span
