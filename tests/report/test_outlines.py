@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from burmester import synthesize
+from burmester import KeepOut, Polygon, Surroundings, synthesize
 from burmester.report.page import page as page_of
 from tests.oracles import browser as browsers
 from tests.oracles.bodies import BODY, HOSTILE, REGIONS, bodied, carried, same_ring
@@ -161,4 +161,22 @@ def test_without_a_linkage_everything_is_shown(browser, tmp_path):
             assert (np.array(ghost["pixels"]) >= 0).all()
             assert (np.array(ghost["pixels"]) <= drawn["size"]).all()
         assert drawn["body"] == []
+        assert said == []
+
+
+def test_where_not_all_has_room_the_body_goes_before_the_regions(browser, tmp_path):
+    """A wall much longer than the linkage is cut, the body is not."""
+    task = bodied()
+    wall = Polygon(np.array([(8, -400), (9, -400), (9, 400), (8, 400)]))
+    file = tmp_path / "wall.html"
+    task = replace(task, surroundings=Surroundings((KeepOut(wall, "wall"),)))
+    file.write_text(page_of(synthesize(task), "wall"), encoding="utf-8")
+    with browsers.opened(browser, file) as (page, said, _):
+        drawn = page.evaluate(OUTLINES)
+        (region,) = drawn["regions"]
+        assert (np.array(region["pixels"]) < 0).any()
+        for each in (*drawn["ghosts"], *drawn["body"]):
+            assert (np.array(each["pixels"]) >= 0).all()
+            assert (np.array(each["pixels"]) <= drawn["size"]).all()
+        assert page.locator(".bm-far-pivots").is_visible()
         assert said == []

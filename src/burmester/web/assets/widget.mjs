@@ -450,8 +450,8 @@ function hull(points) {
     }
     return kept.slice(0, -1);
   };
-  const corners2 = [...half(sorted), ...half(sorted.reverse())];
-  return corners2.length ? corners2 : sorted.slice(0, 1);
+  const corners = [...half(sorted), ...half(sorted.reverse())];
+  return corners.length ? corners : sorted.slice(0, 1);
 }
 
 // src/burmester/web/widget/words.mjs
@@ -1757,25 +1757,20 @@ function keepOutNames(data, view, labels) {
     return s("text", { class: "bm-region-name", x: px(view.X(x)), y: px(view.Y(y) + 4), "text-anchor": "middle" }, text);
   });
 }
-function corners(data, linkage, places) {
-  const found = data.keep_out.flatMap((region) => region.outline);
+function bodyCorners(data, linkage, places) {
+  if (!data.body) return [];
   const some = places.filter((_, k) => k % Math.ceil(places.length / MOST_PLACES) === 0);
-  if (data.body) for (const place of [...placesAtPoses(data, linkage), ...some]) for (const corner of data.body) found.push(act(place, corner));
-  return found;
+  return [...placesAtPoses(data, linkage), ...some].flatMap((place) => data.body.map((corner) => act(place, corner)));
 }
+var sizeOf = ([x, y, u, v]) => Math.max(u - x, v - y);
+var including = (box, points) => points.reduce(([x, y, u, v], [a, b]) => [Math.min(x, a), Math.min(y, b), Math.max(u, a), Math.max(v, b)], box);
 function widened(box, data, linkage, places, width, all) {
-  const sizeOf = ([x, y, u, v]) => Math.max(u - x, v - y);
-  const points = corners(data, linkage, places), wide = [...box];
-  for (const corner of points) {
-    for (const k of [0, 1]) {
-      wide[k] = Math.min(wide[k], corner[k]);
-      wide[k + 2] = Math.max(wide[k + 2], corner[k]);
-    }
-  }
-  const most = Math.max(2, width / LEAST_LINKAGE);
-  if (all || !linkage || sizeOf(wide) <= most * sizeOf(box)) return wide;
-  const reach = (most - 1) / 2 * sizeOf(box);
-  return wide.map((each, k) => k < 2 ? Math.max(each, box[k] - reach) : Math.min(each, box[k] + reach));
+  const withBody = including(box, bodyCorners(data, linkage, places));
+  const whole = including(withBody, data.keep_out.flatMap((region) => region.outline));
+  const most = Math.max(2, width / LEAST_LINKAGE) * sizeOf(box);
+  if (all || !linkage || sizeOf(whole) <= most) return whole;
+  const inner = sizeOf(withBody) <= most ? withBody : box, reach = (most - sizeOf(inner)) / 2;
+  return whole.map((each, k) => k < 2 ? Math.max(each, inner[k] - reach) : Math.min(each, inner[k] + reach));
 }
 
 // src/burmester/web/widget/mechanism.mjs
@@ -1847,7 +1842,7 @@ function addBlockOnRail({ blocks, moves }, dyad, side, view) {
     slider.setAttribute("transform", transform(view.X(x), view.Y(y), along));
   });
 }
-function addSlot({ blocks, pins, coupler, corners: corners2, moves }, dyad, side, view, places) {
+function addSlot({ blocks, pins, coupler, corners, moves }, dyad, side, view, places) {
   const S = view.scale, [low, high] = travelOf(dyad, places), end = (BLOCK_IN_SLOT[0] / 2 + SPARE) / S;
   const seen = (along) => (([x, y]) => [S * x, -S * y])(pointOnLine(dyad, along));
   const ends = [seen(low - end), seen(high + end)];
@@ -1858,7 +1853,7 @@ function addSlot({ blocks, pins, coupler, corners: corners2, moves }, dyad, side
     s("path", { class: "bm-slot-edge", d }),
     s("path", { class: "bm-slot", d, "data-dyad": dyad.id })
   );
-  corners2.push(seen((low + high) / 2));
+  corners.push(seen((low + high) / 2));
   const [nx, ny] = normalOf(dyad), [cx, cy] = dyad.fixed_pivot;
   const slider = block(dyad, side, ...BLOCK_IN_SLOT);
   blocks.append(slider);
@@ -1867,9 +1862,9 @@ function addSlot({ blocks, pins, coupler, corners: corners2, moves }, dyad, side
     (place) => slider.setAttribute("transform", transform(view.X(cx), view.Y(cy), place.a + Math.atan2(nx, -ny)))
   );
 }
-function addBody({ coupler, corners: corners2, moves }, linkage, view) {
+function addBody({ coupler, corners, moves }, linkage, view) {
   const S = view.scale;
-  const d = `M${hull(corners2).map((corner) => corner.map(px).join(" ")).join("L")}Z`;
+  const d = `M${hull(corners).map((corner) => corner.map(px).join(" ")).join("L")}Z`;
   coupler.prepend(s("path", { class: "bm-plate-rim", d }), s("path", { class: "bm-plate", d }));
   coupler.append(
     s("path", { class: "bm-body-frame", d: axes(BODY_AXIS) }),

@@ -72,29 +72,29 @@ export function keepOutNames(data, view, labels) {
   });
 }
 
-/** Corners of all outlines in the plane: regions, the body at the poses and at some places. */
-function corners(data, linkage, places) {
-  const found = data.keep_out.flatMap((region) => region.outline);
+/** Corners of the body in the plane, at the poses and at some of the places. */
+function bodyCorners(data, linkage, places) {
+  if (!data.body) return [];
   const some = places.filter((_, k) => k % Math.ceil(places.length / MOST_PLACES) === 0);
-  if (data.body) for (const place of [...placesAtPoses(data, linkage), ...some]) for (const corner of data.body) found.push(act(place, corner));
-  return found;
+  return [...placesAtPoses(data, linkage), ...some].flatMap((place) => data.body.map((corner) => act(place, corner)));
 }
+
+const sizeOf = ([x, y, u, v]) => Math.max(u - x, v - y);
+
+/** A box, [x low, y low, x high, y high], that holds points, too. */
+const including = (box, points) =>
+  points.reduce(([x, y, u, v], [a, b]) => [Math.min(x, a), Math.min(y, b), Math.max(u, a), Math.max(v, b)], box);
 
 /** The box of the picture that holds the outlines, too: all of them, or as far as the linkage stays large.
  *
- * box: [x low, y low, x high, y high] of what else there is; width: of the picture, in pixels.
+ * Where not all has room, the body goes before the regions.
+ * box: of what else there is; width: of the picture, in pixels.
  */
 export function widened(box, data, linkage, places, width, all) {
-  const sizeOf = ([x, y, u, v]) => Math.max(u - x, v - y);
-  const points = corners(data, linkage, places), wide = [...box];
-  for (const corner of points) {
-    for (const k of [0, 1]) {
-      wide[k] = Math.min(wide[k], corner[k]);
-      wide[k + 2] = Math.max(wide[k + 2], corner[k]);
-    }
-  }
-  const most = Math.max(2, width / LEAST_LINKAGE); // sizes of the linkage
-  if (all || !linkage || sizeOf(wide) <= most * sizeOf(box)) return wide;
-  const reach = ((most - 1) / 2) * sizeOf(box);
-  return wide.map((each, k) => (k < 2 ? Math.max(each, box[k] - reach) : Math.min(each, box[k] + reach)));
+  const withBody = including(box, bodyCorners(data, linkage, places));
+  const whole = including(withBody, data.keep_out.flatMap((region) => region.outline));
+  const most = Math.max(2, width / LEAST_LINKAGE) * sizeOf(box);
+  if (all || !linkage || sizeOf(whole) <= most) return whole;
+  const inner = sizeOf(withBody) <= most ? withBody : box, reach = (most - sizeOf(inner)) / 2;
+  return whole.map((each, k) => (k < 2 ? Math.max(each, inner[k] - reach) : Math.min(each, inner[k] + reach)));
 }
