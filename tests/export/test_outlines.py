@@ -3,6 +3,7 @@
 import io
 import re
 from dataclasses import replace
+from xml.etree import ElementTree
 
 import ezdxf
 import numpy as np
@@ -25,7 +26,10 @@ def outlined(name, hostile=HOSTILE):
     at = chosen.task.poses.translation
     size = float(np.ptp(at, axis=0).max())
     body = size * np.array(BODY)
-    shapes = [size * HORSESHOE + at.max(axis=0), size * np.array(BODY[:3]) - 3 * size]
+    shapes = [
+        size * (HORSESHOE + 3) + at.max(axis=0),
+        size * (np.array(BODY[:3]) - 5) + at.min(axis=0),
+    ]
     kept = [
         KeepOut(Polygon(each), text) for each, text in zip(shapes, (hostile, None), strict=True)
     ]
@@ -178,3 +182,42 @@ def test_a_hatch_covers_a_region_and_nothing_else():
     assert np.ptp(spacing) < 1e-6
     # Area by strips as wide as the lines are apart: 5 x 4 without 3 x 3.
     assert abs(z[:, 1] - z[:, 0]).sum() * spacing[0] == pytest.approx(11, rel=0.02)
+
+
+def test_a_simulator_shows_the_body_and_lets_it_meet_nothing(tmp_path):
+    mujoco = pytest.importorskip("mujoco")
+    chosen, bodies, *_ = outlined("crank-rocker, mm")
+    models = []
+    for number, each in enumerate((chosen, saved("crank-rocker, mm"))):
+        (path,) = export(each, "mjcf", tmp_path / f"{number}.xml")
+        models.append(mujoco.MjModel.from_xml_path(str(path)))
+    model, bare = models
+    assert model.body_mass.tolist() == bare.body_mass.tolist()
+    assert model.body_inertia.tolist() == bare.body_inertia.tolist()
+    seen = np.flatnonzero((model.geom_contype == 0) & (model.geom_conaffinity == 0))
+    assert len(seen) == model.ngeom - bare.ngeom == len(BODY)
+    data = mujoco.MjData(model)
+    for k, corners in enumerate(bodies / 1000):
+        mujoco.mj_resetDataKeyframe(model, data, k)
+        mujoco.mj_forward(model, data)
+        middles = (corners + np.roll(corners, -1, axis=0)) / 2
+        assert same_ring(data.geom_xpos[seen, :2], middles) < 1e-9
+        along = np.linalg.norm(np.roll(corners, -1, axis=0) - corners, axis=1)
+        assert sorted(2 * model.geom_size[seen, 0]) == pytest.approx(sorted(along))
+
+
+def test_a_robot_description_shows_the_body_without_a_collision_shape(tmp_path):
+    chosen, *_ = outlined("crank-rocker, mm")
+    (path,) = export(chosen, "urdf", tmp_path / "out.urdf")
+    (link,) = ElementTree.parse(path).getroot().findall("link[@name='coupler']")
+    solid = [ElementTree.tostring(each) for each in link.iter("collision")]
+    seen = [
+        each
+        for each in link.iter("visual")
+        if ElementTree.tostring(each).replace(b"visual", b"collision") not in solid
+    ]
+    assert len(seen) == len(BODY)
+    lengths = [float(each.find("geometry/box").get("size").split()[0]) for each in seen]
+    corners = chosen.task.body.vertices
+    wanted = np.linalg.norm(np.roll(corners, -1, axis=0) - corners, axis=1) / 1000
+    assert sorted(lengths) == pytest.approx(sorted(wanted))

@@ -17,13 +17,13 @@ REGIONS = (
 )
 
 
-def bodied(source="case:ge2012-exact", size=1.0):
-    """A task with that body, `size` times as large, and those regions."""
-    regions = tuple(KeepOut(Polygon(corners), name) for corners, name in REGIONS)
+def bodied(source="case:ge2012-exact", size=1.0, regions=REGIONS):
+    """A task with that body, `size` times as large, and with regions."""
+    kept = tuple(KeepOut(Polygon(corners), name) for corners, name in regions)
     return replace(
         read_task(source),
         body=Polygon(size * np.array(BODY)),
-        surroundings=Surroundings(regions),
+        surroundings=Surroundings(kept) if kept else None,
     )
 
 

@@ -117,7 +117,7 @@ def test_a_body_much_larger_than_its_linkage_is_cut_unless_all_of_it_is_asked_fo
     browser, tmp_path
 ):
     file = tmp_path / "large.html"
-    file.write_text(page_of(synthesize(bodied(size=30)), "large"), encoding="utf-8")
+    file.write_text(page_of(synthesize(bodied(size=30, regions=())), "large"), encoding="utf-8")
     with browsers.opened(browser, file) as (page, said, _):
         before = page.evaluate(OUTLINES)
         corners = np.concatenate([each["pixels"] for each in before["ghosts"]])
@@ -149,7 +149,7 @@ def test_the_pages_data_carry_the_outlines(file, found):
 
 
 def test_without_a_linkage_everything_is_shown(browser, tmp_path):
-    task = bodied(size=30)
+    task = bodied(size=30, regions=())
     file = tmp_path / "none.html"
     found = replace(synthesize(task), linkages=(), dyads=())
     file.write_text(page_of(found, "none"), encoding="utf-8")

@@ -24,6 +24,7 @@ __all__ = [
     "Shape",
     "heights_of",
     "parts_of_bodies",
+    "rim",
     "shapes",
 ]
 
@@ -102,6 +103,19 @@ def shapes(body: BodyParts, made: Assembly) -> list[Shape]:
         centre = np.array([pin.x * METRES, pin.y * METRES, (low + high) / 2])
         thick = pin.diameter * METRES
         found.append(Shape("cylinder", centre, 0.0, (thick, thick, high - low)))
+    return found
+
+
+def rim(corners: FloatArray, made: Assembly) -> list[Shape]:
+    """Flat bars along the edges of the body's outline (n, 2), metres, as high as the coupler."""
+    coupler = made.plate("coupler")
+    assert coupler is not None
+    low, high = _inset(coupler, made)
+    found = list[Shape]()
+    for one, two in zip(corners, np.roll(corners, -1, axis=0), strict=True):
+        way, centre = two - one, np.append((one + two) / 2, (low + high) / 2)
+        size = (float(np.linalg.norm(way)), made.dimensions.thickness * METRES, high - low)
+        found.append(Shape("box", centre, math.atan2(way[1], way[0]), size))
     return found
 
 

@@ -13,7 +13,7 @@ from typing import Final, Self, final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from burmester.export.models.bodies import INSET, METRES, Shape, parts_of_bodies, shapes
+from burmester.export.models.bodies import INSET, METRES, Shape, parts_of_bodies, rim, shapes
 from burmester.export.models.driver_load import STANDARD_GRAVITY, DriverLoad, require_up
 from burmester.export.models.joints import JointMotion, require_bodies
 from burmester.export.models.mass_properties import MassProperties, require_density
@@ -38,14 +38,16 @@ MATERIALS: Final = {2700.0: "aluminium", 7850.0: "steel"}
 class DynamicModel:
     """The bodies ground, driver, coupler and follower, each in a frame of its own.
 
-    masses, shapes: by body.  joints: at the poses and in between.  low, high: (3,), the limits of
-    the joints driver, coupler and follower.  up: (3,), in F.
+    masses, shapes: by body.  outline: of what the coupler carries, only to be seen.
+    joints: at the poses and in between.  low, high: (3,), the limits of the joints driver, coupler
+    and follower.  up: (3,), in F.
     """
 
     reference: Reference
     made: Assembly
     masses: Mapping[str, MassProperties]
     shapes: Mapping[str, list[Shape]]
+    outline: list[Shape]
     joints: JointMotion
     low: FloatArray
     high: FloatArray
@@ -61,12 +63,14 @@ class DynamicModel:
         parts = parts_of_bodies(made, reference.kinds)
         joints = JointMotion.of(chosen, reference)
         run_out = SLOT_RUN_OUT * made.dimensions.hole * METRES
+        body = chosen.task.body
         margin = np.where(joints.turning, HINGE_MARGIN, run_out)
         return cls(
             reference,
             made,
             {name: MassProperties.of(each, made, density) for name, each in parts.items()},
             {name: shapes(each, made) for name, each in parts.items()},
+            [] if body is None else rim(body.vertices * reference.scale, made),
             joints,
             joints.low - margin,
             joints.high + margin,
@@ -119,6 +123,11 @@ class DynamicModel:
             f"Damping is a stand-in: {DAMPING_RATE:g} per second of the inertia, or on slides the "
             "mass, of the link that a joint carries. There is no dry friction in joints.",
         ]
+        if self.outline:
+            sentences.append(
+                "The outline of the body, bars on the coupler, is only to be seen: it weighs "
+                "nothing and touches nothing."
+            )
         return sentences
 
     def gravity(self) -> FloatArray:

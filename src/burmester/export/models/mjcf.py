@@ -40,7 +40,9 @@ COLOURS = {
     "coupler": "0 .34 .72 1",
     "follower": ".11 .5 .25 1",
     "ground": ".4 .4 .4 1",
+    "body": "0 .47 .35 1",
 }
+SEEN_ONLY = ' contype="0" conaffinity="0" group="1"'
 JOINED = (("world", "driver"), ("driver", "coupler"), ("coupler", "follower"))
 
 
@@ -232,10 +234,11 @@ def _solid(model: DynamicModel, name: str) -> list[str]:
     return [
         f'<inertial pos="{centre}" mass="{number(mass.mass)}" fullinertia="{inertia}"/>',
         *_geoms(model.shapes[name], name),
+        *(_geoms(model.outline, "body", SEEN_ONLY) if name == "coupler" else []),
     ]
 
 
-def _geoms(shapes: list[Shape], owner: str) -> list[str]:
+def _geoms(shapes: list[Shape], owner: str, more: str = "") -> list[str]:
     lines = []
     for shape in shapes:
         half = [number(each / 2) for each in shape.size]
@@ -244,7 +247,7 @@ def _geoms(shapes: list[Shape], owner: str) -> list[str]:
         x, y, z = map(number, shape.centre)
         lines.append(
             f'<geom type="{shape.kind}" pos="{x} {y} {z}"{turn} size="{size}" '
-            f'rgba="{COLOURS[owner]}"/>'
+            f'rgba="{COLOURS[owner]}"{more}/>'
         )
     return lines
 

@@ -193,17 +193,18 @@ def _link(model: DynamicModel, name: str, origin: FloatArray | list[float] = ORI
         f'iyz="{i[1][2]}" izz="{i[2][2]}"/>',
         "    </inertial>",
     ]
-    for shape in model.shapes[name]:
+    solid_shapes, seen = model.shapes[name], model.outline if name == "coupler" else []
+    both = ("visual", "collision")
+    for shape, uses in [(each, both) for each in solid_shapes] + [
+        (each, both[:1]) for each in seen
+    ]:
         x, y, z = map(number, shape.centre - off)
         long, wide, height = map(number, shape.size)
         solid = f'<box size="{long} {wide} {height}"/>'
         if shape.kind == "cylinder":
             solid = f'<cylinder radius="{number(shape.size[0] / 2)}" length="{height}"/>'
         place = f'<origin xyz="{x} {y} {z}" rpy="0 0 {number(shape.turn)}"/>'
-        lines += [
-            f"    <{what}>{place}<geometry>{solid}</geometry></{what}>"
-            for what in ("visual", "collision")
-        ]
+        lines += [f"    <{what}>{place}<geometry>{solid}</geometry></{what}>" for what in uses]
     return [*lines, "  </link>"]
 
 
