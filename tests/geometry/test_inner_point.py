@@ -34,5 +34,5 @@ def test_in_a_long_wall_it_is_near_the_middle():
 
 
 def test_one_too_thin_for_the_grid_gets_a_point_of_its_edge():
-    splinter = np.array([(0, 0), (7, 3), (7, 3 + 1e-9)])
+    splinter = np.array([(0, 0), (7, 3), (10, 0.1), (7, 3 + 1e-9)])
     assert inner_point(splinter) == pytest.approx([3.5, 1.5])
