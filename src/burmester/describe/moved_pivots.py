@@ -15,6 +15,8 @@ from burmester.wording import figure, listed
 
 __all__ = ["improvements", "moved_pivots"]
 
+TOLD_CHANGE = 0.1  # relative; a smaller change of extent or sensitivity is not told
+
 
 def improvements(synthesis: Synthesis) -> list[str]:
     """A sentence for each better linkage near a given one; none of other syntheses."""
@@ -28,11 +30,13 @@ def moved_pivots(synthesis: Synthesis, given: FoundLinkage, better: FoundLinkage
     """How far each pivot moves to a better linkage, what gets better, and at what price."""
     task = synthesis.task
     most = notation.length_of(greatest_move(given, better), task)
-    each = "; ".join(
-        f"{move.dyad}: {', '.join(_parts(move, task))}" for move in moves(given, better)
+    parts = [f"{each.dyad}: {', '.join(_parts(each, task))}" for each in moves(given, better)]
+    gains, prices = _changes(synthesis, given, better)
+    but = f", but {listed(prices)}" if gains and prices else ""
+    return (
+        f"{better.id} changes nothing by more than {most} ({'; '.join(parts)}): "
+        f"it {listed(gains or prices)}{but}."
     )
-    gains = listed(list(_gains(synthesis, given, better)))
-    return f"{better.id} changes nothing by more than {most} ({each}): it {gains}."
 
 
 def _parts(move: Move, task: Task) -> Iterator[str]:
@@ -50,19 +54,31 @@ def _parts(move: Move, task: Task) -> Iterator[str]:
         yield f"line {notation.length_of(move.line, task)} and {turn}°"
 
 
-def _gains(synthesis: Synthesis, given: FoundLinkage, better: FoundLinkage) -> Iterator[str]:
-    """What gets better, and at what price."""
+def _changes(
+    synthesis: Synthesis, given: FoundLinkage, better: FoundLinkage
+) -> tuple[list[str], list[str]]:
+    """What gets better, and what worse."""
     task, size = synthesis.task, synthesis.length
-    if not given.usable:
-        yield "works"
-    before, after = (each.driven.least_over_range for each in (given, better))
-    if math.isfinite(after):
-        text = f"transmits at {notation.least_angle(after)} or more"
-        if math.isfinite(before) and not any(each.kind == "branch" for each in given.defects):
-            text += f" instead of {notation.least_angle(before)}"
-        yield text
+    gains: list[str] = [] if given.usable else ["works"]
+    prices: list[str] = []
     near, was = (explanation.nearness(each, task, size) for each in (better, given))
-    if near == was:
-        yield near
-    else:
-        yield f"{near} instead of {was.removeprefix('misses by ').removeprefix('passes ')}"
+    if near != was:
+        text = f"{near} instead of {was.removeprefix('misses by ')}"
+        (gains if better.combined_error <= given.combined_error else prices).append(text)
+    locks = any(each.kind == "branch" for each in given.defects)
+    before, after = (each.driven.least_over_range for each in (given, better))
+    angles = [notation.least_angle(each) for each in (after, before)]
+    if math.isfinite(after) and (locks or not math.isfinite(before)):
+        gains.append(f"transmits at {angles[0]} or more")
+    elif angles[0] != angles[1]:
+        text = f"transmits at {angles[0]} or more instead of {angles[1]}"
+        (gains if after > before else prices).append(text)
+    if given.quality is not None and better.quality is not None:
+        for name, text in (
+            ("extent", "needs a box of {} instead of {} times the span"),
+            ("sensitivity", "errs by {} instead of {} times the errors of its parts"),
+        ):
+            new, old = (float(getattr(each.quality, name)) for each in (better, given))
+            if math.isfinite(new) and math.isfinite(old) and abs(new / old - 1) > TOLD_CHANGE:
+                (gains if new < old else prices).append(text.format(figure(new), figure(old)))
+    return gains, prices

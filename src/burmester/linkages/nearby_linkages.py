@@ -18,6 +18,7 @@ import numpy as np
 from burmester.dyads.selection import FoundDyad
 from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.fourbar.linkage_batch import LinkageBatch
+from burmester.linkages.constraints import AllConstraints
 from burmester.linkages.defect_free_search import (
     defect_free_linkages,
     driving_sides,
@@ -34,8 +35,8 @@ from burmester.numerics.arrays import FloatArray, wrapped_angle
 __all__ = ["Move", "greatest_move", "moves", "nearby_linkages"]
 
 # Numbers of steps of the refinements: after a few of them a linkage may be better and still near.
-STEPS = (1, 4, 12, 40)
-TRANSMISSION_GAINS = (10.0, 20.0, 30.0)  # degrees that are tried above the given linkage's angle
+STEPS = (1, 4, 12, 36)
+TRANSMISSION_GAINS = (10.0, 25.0)  # degrees that are tried above the given linkage's angle
 MOST_TRANSMISSION = 75.0  # degrees; a higher angle is not asked for
 EXACT_SHARE = 1e-6  # motion sizes; a pose that is to be met exactly may be missed by so much
 ANGLE_GAIN = math.radians(2.0)  # radians; a linkage that transmits better by less is as good
@@ -122,6 +123,12 @@ def nearby_linkages(given: FoundLinkage, evaluation: Evaluation) -> list[FoundLi
     batch = LinkageBatch.of([given.linkage]).to_canonical(target.frames)
     if np.isfinite(given.error.angle).all():
         rows = target.rows_at(given.error.places[evaluation.problem.pose_numbers])[None]
+        kept = AllConstraints(target.kept) if target.kept else None
+        for steps in STEPS:  # as near as the poses alone ask for
+            refined = target.refine(
+                batch, rows, constraints=kept, steps=steps, constrained_steps=steps
+            )
+            found += _judged(given, refined, evaluation)
         for each in _targets(given, evaluation):
             sides = np.array(driving_sides(each.requirements))
             every = np.zeros(len(sides), dtype=int)
