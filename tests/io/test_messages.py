@@ -614,13 +614,27 @@ CASES: dict[str, Case] = {
     # --- tolerances of poses
     "tolerance below zero": Case(
         "E135",
-        lambda: api("tasks.pose_tolerances.PoseTolerances")([[0, -1]], [0]),
-        Call(lambda: api("tasks.pose_tolerances.PoseTolerances")([[0, 1]], [0])),
+        f"{S} --pose-tolerance 0.1,-0.1,2",
+        Args(f"{S} --pose-tolerance 0.1,0.1,2"),
+        FEW,
+    ),
+    "tolerance blank": Case(
+        "E135",
+        S,
+        Edit("poses.csv", "4,3,70,\n", "4,3,70,0\n"),
+        {"poses.csv": "x,y,angle_deg,tol_x\n0,0,0,1\n3,1,40,1\n4,3,70,\n"},
     ),
     "free in everything": Case(
         "E136",
-        lambda: api("tasks.pose_tolerances.PoseTolerances")([[np.inf, np.inf]], [np.inf]),
-        Call(lambda: api("tasks.pose_tolerances.PoseTolerances")([[np.inf, np.inf]], [0.1])),
+        S,
+        Edit("poses.csv", "4,3,70,x y angle", "4,3,70,angle"),
+        {"poses.csv": "x,y,angle_deg,free\n0,0,0,\n3,1,40,\n4,3,70,x y angle\n"},
+    ),
+    "exact and a tolerance": Case(
+        "E136",
+        S,
+        Edit("poses.csv", "3,1,40,yes,1", "3,1,40,no,1"),
+        {"poses.csv": "x,y,angle_deg,exact,tol_x\n0,0,0,,1\n3,1,40,yes,1\n4,3,70,,1\n"},
     ),
     # --- tracked points, libraries, files, linkages, bugs
     "points not on one body": Case(

@@ -244,16 +244,26 @@ def uncommented(start):
     text, found = templates.text(), blocks()[start]
     body = re.sub("(?m)^#", "", found[0])
     text = text[: found.start()] + body + text[found.end() :]
-    return re.sub(r"(?ms)^poses = \[ #.*?^\]\n", "", text) if start == "poses = [" else text
+    others = "poses = [" in found[0]
+    return re.sub(r"(?ms)^poses = \[ #.*?^\]\n", "", text) if others else text
 
 
 def test_every_block_is_tried_below():
-    starts = ["{ x = 55.20", "poses = [", "body = [[", "body = {", "pose_sigma", "[[keep_out]]"]
+    starts = [
+        "{ x = 55.20",
+        "poses = [",
+        "tolerance",
+        "body = [[",
+        "body = {",
+        "pose_sigma",
+        "[[keep_out]]",
+    ]
     starts += ["[surroundings]", "[limits]", "[[limits]]", "[requirements]"]
     assert [start.startswith(each) for start, each in zip(blocks(), starts, strict=True)] == [
         True
-    ] * 10
-    keys = ("weight", "name", "exact", "fixed_pivot", "moving_pivot", "length", "kinds", *FILE_KEYS)
+    ] * 11
+    keys = ("weight", "name", "exact", "tolerance", "free", "axes")
+    keys += ("fixed_pivot", "moving_pivot", "length", "kinds", *FILE_KEYS)
     for key in keys:
         assert re.search(rf"\b{key} = ", templates.text()), key
 
@@ -298,6 +308,25 @@ def test_blocks_of_outlines_and_surroundings(tmp_path):
     assert kept.surroundings.names == ("'bumper'", "region 2")
     given = around.surroundings
     assert (given.link_width, given.margin, given.body_in_plane) == (8, 2, False)
+
+
+def test_the_block_of_tolerances():
+    base = read(templates.text())
+    (start,) = (start for start in blocks() if start.startswith("tolerance"))
+    task = read(uncommented(start))
+    degree, inf = math.radians(1), math.inf
+    assert task.tolerances.bounds.tolist() == [
+        [0.1, 0.5, degree],
+        [0.3, 0.3, inf],
+        [0.3, 0.3, degree],
+        [0, 0, 0],
+        [0.3, inf, degree],
+        [0.3, 0.3, degree],
+    ]
+    assert task.tolerances.axes == ("body", *["fixed"] * 5)
+    stated = np.array([True, True, True, True, False, True])
+    assert (task.poses.translation[stated] == base.poses.translation[stated]).all()
+    assert task.poses.translation[4, 1] == pytest.approx((25.93 + 35.57) / 2)
 
 
 def test_blocks_of_limits_and_requirements():

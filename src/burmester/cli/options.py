@@ -152,6 +152,13 @@ POSES: tuple[Decorator, ...] = (
     ),
     _poses("--to", "last", metavar="POSE", help="The last pose to take, likewise."),
     _poses(
+        "--pose-tolerance",
+        metavar="X,Y,DEG[,body]",
+        help="How far from a pose the body may be: to both sides in x, y and angle, for all poses "
+        "that state nothing else; 0 is exact, free means that it does not count; along the axes "
+        "of the ground, or of the body.",
+    ),
+    _poses(
         "--pose-sigma",
         metavar="LENGTH,DEG",
         help="Standard deviation of the poses' positions and angles; by default it follows from "
@@ -358,11 +365,12 @@ def read_poses(poses: str, **given: Any) -> Task:
             "exact": given["exact"],
             "outlines": outlines,
         }
-    sigma = given["pose_sigma"]
+    sigma, tolerance = given["pose_sigma"], given["pose_tolerance"]
     return read_task(
         poses,
         angle_unit=given["angle_unit"],
         pose_sigma=None if sigma is None else text.pose_sigma(sigma),
+        tolerance=None if tolerance is None else text.pose_tolerance(tolerance),
         **{name: given[name] for name in _ROWS if given[name]},
         **further,
     )

@@ -105,8 +105,15 @@ def disagreement(
 
     dyads: the best of all poses, where they are known; see `odd_pose`.
     """
+    if _has_free_parts(task):
+        return None
     odd = None if motion is None else odd_pose(task, motion, dyads)
     return None if odd is None else Advice("W201", odd.message, odd.help, odd.why)
+
+
+def _has_free_parts(task: Task) -> bool:
+    """Whether numbers of the poses are there for drawing only, and say nothing."""
+    return task.tolerances is not None and bool(task.tolerances.free.any())
 
 
 def _repeats(task: Task, motion: MotionClass) -> Advice | None:
@@ -127,7 +134,7 @@ def _repeats(task: Task, motion: MotionClass) -> Advice | None:
 
 def _exchanged(task: Task) -> Advice | None:
     """W202: two poses that seem to stand in each other's place."""
-    swap = swapped_poses(task)
+    swap = None if _has_free_parts(task) else swapped_poses(task)
     return None if swap is None else Advice("W202", swap.message, swap.help, swap.why)
 
 

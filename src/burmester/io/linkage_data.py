@@ -21,7 +21,7 @@ from burmester.linkages.found_linkage import FoundLinkage
 from burmester.linkages.tolerances import Spread
 from burmester.linkages.uncertainty import DyadUncertainty, PivotRegion
 
-__all__ = ["dyad_data", "linkage_data", "number", "poses_data"]
+__all__ = ["degrees_of", "dyad_data", "linkage_data", "number", "poses_data"]
 
 CONFIDENCE = 0.95
 
@@ -33,11 +33,16 @@ def number(value: float) -> float | None:
 
 def poses_data(poses: Displacement) -> list[dict[str, float]]:
     """Poses (N,) as rows of a file; an angle given as 45.58 degrees is written as 45.58."""
-    degrees = np.degrees(poses.angle)
-    short = np.array([float(f"{angle:.15g}") for angle in degrees.tolist()])
-    shown = np.where(np.radians(short) == poses.angle, short, degrees)
-    rows = zip(poses.translation.tolist(), shown.tolist(), strict=True)
+    shown = map(degrees_of, poses.angle.tolist())
+    rows = zip(poses.translation.tolist(), shown, strict=True)
     return [{"x": x, "y": y, "angle_deg": angle} for (x, y), angle in rows]
+
+
+def degrees_of(angle: float) -> float:
+    """Radians as degrees; what was given as 45.58 degrees is 45.58."""
+    degrees = float(np.degrees(angle))
+    short = float(f"{degrees:.15g}")
+    return short if np.radians(short) == angle else degrees
 
 
 def dyad_data(found: FoundDyad, places: Displacement) -> dict[str, Any]:

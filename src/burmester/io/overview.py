@@ -21,6 +21,7 @@ from burmester.io.message import show as show_message
 from burmester.io.result import message_data, motion_data, task_data
 from burmester.tasks.motion_kinds import General
 from burmester.tasks.motion_task import Task
+from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.wording import figure
 
 __all__ = ["check_data", "show"]
@@ -71,6 +72,8 @@ def _poses(task: Task) -> Table:
         columns[head] = [f"{value:.10g}" for value in values]
     if task.weights is not None:
         columns["weight"] = [f"{value:g}" for value in task.weights]
+    if task.tolerances is not None:
+        _add_tolerances(columns, task.tolerances, unit)
     if task.exact is not None:
         columns["exact"] = ["yes" if mark else "" for mark in task.exact]
     table = new_table()
@@ -83,6 +86,20 @@ def _poses(task: Task) -> Table:
     for row in rows:
         table.add_row(*map(Text, row))
     return table
+
+
+def _add_tolerances(columns: dict[str, list[str]], tolerances: PoseTolerances, unit: str) -> None:
+    """Put `free` in place of the values that do not count, and add columns of tolerances."""
+    free, bounds = tolerances.free, tolerances.bounds * [1.0, 1.0, 180 / math.pi]
+    for k, (name, of) in enumerate((("x", unit), ("y", unit), ("angle", " [°]"))):
+        head = f"{name}{of}"
+        shown = zip(columns[head], free[:, k], strict=True)
+        columns[head] = ["free" if mark else value for value, mark in shown]
+        columns[f"tol. {head}"] = [
+            f"{bound:.6g}" if math.isfinite(bound) else "free" for bound in bounds[:, k].tolist()
+        ]
+    if "body" in tolerances.axes:
+        columns["along"] = [{"fixed": "F", "body": "the body"}[each] for each in tolerances.axes]
 
 
 def _facts(diagnosis: Diagnosis) -> Iterator[tuple[str, str]]:

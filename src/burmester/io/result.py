@@ -20,7 +20,13 @@ from burmester.dyads.selection import Fit
 from burmester.errors import Advice, BurmesterError
 from burmester.families.family import RULE, Family
 from burmester.geometry.regions import Line, Point, Polygon, Segment
-from burmester.io.linkage_data import dyad_data, linkage_data, number, poses_data
+from burmester.io.linkage_data import (
+    degrees_of,
+    dyad_data,
+    linkage_data,
+    number,
+    poses_data,
+)
 from burmester.io.reading.stated_requirements import requirements_data
 from burmester.io.reading.stated_surroundings import surroundings_data
 from burmester.linkages.found_linkage import FoundLinkage
@@ -29,6 +35,7 @@ from burmester.synthesis.result import JUDGED, Outcome, Synthesis
 from burmester.tasks.limits import KINDS, Limits
 from burmester.tasks.motion_class import MotionClass
 from burmester.tasks.motion_task import Task
+from burmester.tasks.pose_tolerances import COMPONENTS, PoseTolerances
 
 __all__ = [
     "failure",
@@ -114,6 +121,9 @@ def task_data(task: Task) -> dict[str, Any]:
             plain_values = values if isinstance(values, tuple) else values.tolist()
             for pose, value in zip(poses, plain_values, strict=True):
                 pose[key] = value
+    if task.tolerances is not None:
+        for pose, stated in zip(poses, tolerances_data(task.tolerances), strict=True):
+            pose.update(stated)
     data: dict[str, Any] = {"poses": poses, "length_unit": task.length_unit}
     if task.limits:
         data["limits"] = [_limits(each) for each in task.limits]
@@ -126,6 +136,21 @@ def task_data(task: Task) -> dict[str, Any]:
     position, angle = (given / math.sqrt(3) for given in task.resolution)
     data["pose_sigma"] = {"position": position, "angle_deg": math.degrees(angle)}
     return data
+
+
+def tolerances_data(tolerances: PoseTolerances) -> list[dict[str, Any]]:
+    """The keys `tolerance` and `free` of each pose, as a file may hold them."""
+    out: list[dict[str, Any]] = []
+    for k, (x, y, angle) in enumerate(tolerances.bounds.tolist()):
+        bounds = {"x": x, "y": y, "angle_deg": degrees_of(angle)}
+        named = zip(COMPONENTS, bounds.values(), strict=True)
+        free = [component for component, bound in named if math.isinf(bound)]
+        tolerance: dict[str, Any] = {
+            key: bound for key, bound in bounds.items() if math.isfinite(bound)
+        }
+        data = {"tolerance": tolerance | {"axes": tolerances.axes[k]}}
+        out.append(data | ({"free": free} if free else {}))
+    return out
 
 
 def _limits(limits: Limits) -> dict[str, Any]:

@@ -20,6 +20,7 @@ from burmester.linkages.found_linkage import Side
 from burmester.linkages.requirement_check import ViolationKind
 from burmester.tasks.limits import KINDS
 from burmester.tasks.motion_task import MOST_NAME, MOST_UNIT
+from burmester.tasks.pose_tolerances import Component, ToleranceAxes
 from burmester.tasks.requirements import TYPES
 from burmester.values import shown
 
@@ -112,8 +113,17 @@ class _Place(_Part):
     angle_deg: _Number
 
 
+class _PoseTolerance(_Part):
+    x: _Size | None = None
+    y: _Size | None = None
+    angle_deg: _Size | None = None
+    axes: ToleranceAxes | None = None
+
+
 class _Pose(_Place):
     name: _Name | None = None
+    tolerance: _PoseTolerance | None = None
+    free: Annotated[list[Component], Field(max_length=2)] | None = None
 
 
 class _Sigma(_Part):

@@ -14,6 +14,7 @@ from burmester.errors import Advice, InputError
 from burmester.geometry.regions import Polygon
 from burmester.io.reading.specification import Specification
 from burmester.io.reading.stated_surroundings import StatedSurroundings
+from burmester.io.reading.stated_tolerances import DefaultTolerance, StatedTolerances
 from burmester.numerics.arrays import FloatArray
 from burmester.printable import blanked
 
@@ -67,12 +68,14 @@ class Rows(NamedTuple):
     names: list[str]  # one a pose, or none at all
     exact: list[bool]  # the same
     points: int = 0  # the tracked points whose x and y the values are, in place of x, y, angle
+    tolerances: StatedTolerances | None = None  # then x, y and angle may be nan, which is free
 
     @classmethod
     def read(cls, columns: dict[str, list[str]]) -> Rows:
         """The rows in texts by role; raises ValueError where float() does.
 
-        The roles are x, y, angle, or px, py, qx, qy; and weight, name and exact if there are any.
+        The roles are x, y, angle, or px, py, qx, qy; weight, name and exact if there are any;
+        and those of tolerances.
         """
         numeric = [columns[role] for role in numeric_roles(columns)]
         points = 2 if "px" in columns else 0
@@ -80,7 +83,8 @@ class Rows(NamedTuple):
         most = (max(printed), 0.0) if points else (max(printed[:2]), printed[2])
         values = np.array([[float(number) for number in column] for column in numeric]).T
         exact = [MARKS[mark.lower()] for mark in columns.get("exact", [])]
-        return cls(values, most, columns.get("name", []), exact, points)
+        tolerances = StatedTolerances.read(columns, len(values))
+        return cls(values, most, columns.get("name", []), exact, points, tolerances)
 
     @classmethod
     def joined(cls, parts: list[Rows]) -> Rows:
@@ -89,7 +93,9 @@ class Rows(NamedTuple):
         values = np.concatenate([part.values for part in parts])
         names = [name for part in parts for name in part.names]
         exact = [mark for part in parts for mark in part.exact]
-        return cls(values, (max(lengths), max(angles)), names, exact, parts[0].points)
+        stated = [part.tolerances for part in parts if part.tolerances is not None]
+        tolerances = StatedTolerances.joined(stated) if stated else None
+        return cls(values, (max(lengths), max(angles)), names, exact, parts[0].points, tolerances)
 
 
 class PoseTable(NamedTuple):
@@ -103,6 +109,7 @@ class PoseTable(NamedTuple):
     specification: Specification = Specification()
     body: Polygon | None = None  # its outline, in M
     surroundings: StatedSurroundings = StatedSurroundings()
+    tolerance: DefaultTolerance | None = None  # of poses that state none
     pose_sigma: tuple[float, float] | None = None  # standard deviations of the poses, if stated
     # where a row stands, by its number from 0; None is for where they begin
     locate_row: Callable[[int | None], str] | None = None

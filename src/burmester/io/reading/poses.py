@@ -18,7 +18,9 @@ E104 not a number, or ambiguous     E109 not JSON or TOML at all
 E105 header, column or key missing  E110 angle unit missing or contradicted
 E111 points that give no pose       E122 no such pose to be exact, or left out
 E113 not in one plane               E130 a library is missing
-E114 markers not known or chosen    E170 to E176 drawings and surroundings
+E114 markers not known or chosen    E135 a malformed tolerance of a pose
+E136 tolerances that contradict themselves
+E170 to E176 drawings and surroundings
 """
 
 from __future__ import annotations
@@ -26,6 +28,7 @@ from __future__ import annotations
 import functools
 import math
 import os
+import re
 from collections.abc import Callable, Sequence
 from pathlib import PurePath
 from typing import Literal, NamedTuple
@@ -45,7 +48,12 @@ from burmester.io.reading.outline_options import OutlineOptions
 from burmester.io.reading.pose_table import UNITS, PoseTable, Source, extent, resolution_by_digits
 from burmester.io.reading.row_selection import RowLabels, RowSelection, row_marks
 from burmester.io.reading.specification import Specification
-from burmester.io.reading.stated_requirements import combined_requirements
+from burmester.io.reading.stated_requirements import combined_requirements, one_line
+from burmester.io.reading.stated_tolerances import (
+    DefaultTolerance,
+    combined_tolerances,
+    with_nominal_values,
+)
 from burmester.io.reading.tables.cad_rows import is_cad_text, read_cad_rows
 from burmester.io.reading.tables.csv_poses import read_csv
 from burmester.io.reading.tables.parquet import is_parquet, read_parquet
@@ -68,6 +76,7 @@ def read_task(
     specification: Specification | None = None,
     exact: Sequence[str] = (),
     pose_sigma: tuple[float, float] | None = None,
+    tolerance: DefaultTolerance | None = None,
     columns: str | None = None,
     sheet: str | None = None,
     points: str | None = None,
@@ -101,6 +110,8 @@ def read_task(
         is used, or for two tracked points one from the variation of their distance; else the
         resolution is half of the last digit printed, and 0 where that is coarse
         (`resolution_by_digits`).
+    tolerance : DefaultTolerance, optional
+        How far from a pose the body may be, for all poses that the file states nothing of.
     columns : str, optional
         The header of a CSV file or a sheet that has none, separated by commas: "x,y,angle_deg".
         It replaces a header that is there.
@@ -164,6 +175,7 @@ def read_task(
             specification=specification,
             pose_sigma=pose_sigma,
             outlines=outlines,
+            tolerance=tolerance,
         )
     except InputError as error:
         error.where = blanked(error.where or label)
@@ -268,7 +280,11 @@ def _selected(
         kept = np.flatnonzero(selection.kept(labels))
         names = labels.of_kept(kept)
         if len(kept) < labels.size:
-            poses = table._replace(rows=table.rows._replace(values=table.rows.values[kept]))
+            stated = table.rows.tolerances
+            rows = table.rows._replace(
+                values=table.rows.values[kept], tolerances=stated and stated.at(kept)
+            )
+            poses = table._replace(rows=rows)
         tracked = TrackedRows(kept, table.locate_row)
         marks = _marked(table, labels, exact)
     if marks is not None:
@@ -295,6 +311,7 @@ def _task(
     specification: Specification | None,
     pose_sigma: tuple[float, float] | None,
     outlines: OutlineOptions,
+    tolerance: DefaultTolerance | None,
 ) -> Task:
     """The task in the rows of a table that are taken."""
     rows = table.rows
@@ -304,7 +321,11 @@ def _task(
         coordinates = values[:, : 2 * rows.points]
         poses, resolution, measured = tracked_poses(coordinates, rows.decimals[0], tracked)
     else:
-        poses, resolution = _oriented(table, values, angle_unit)
+        unit = _angle_unit(table, values, angle_unit)
+        values = np.concatenate(
+            [with_nominal_values(values[:, :3], rows.tolerances, unit), values[:, 3:]], axis=1
+        )
+        poses, resolution = _oriented(table, values, unit)
     for stated in (pose_sigma, table.pose_sigma, measured):
         if stated is not None:
             resolution = (math.sqrt(3) * stated[0], math.sqrt(3) * stated[1])
@@ -314,7 +335,18 @@ def _task(
     body, body_notes = outlines.body_beside(table.body, table.length_unit)
     around, region_notes = outlines.surroundings_beside(table.surroundings, table.length_unit)
     numbers = 2 * rows.points or 3  # in a row, before its weight
+    if table.tolerance and tolerance:
+        message = "the tolerance of all poses is in the file and in --pose-tolerance"
+        where = one_line(table.tolerance.where, tolerance.where)
+        raise InputError("E108", message, where=where, help="leave one of the two out")
     try:
+        tolerances = combined_tolerances(
+            rows.tolerances,
+            tolerance or table.tolerance,
+            len(values),
+            exact,
+            table.angle_unit or angle_unit or "deg",
+        )
         return Task(
             poses,
             weights=values[:, numbers] if values.shape[1] > numbers else None,
@@ -326,6 +358,7 @@ def _task(
             requirements=combined_requirements(whole.requirements),
             body=body,
             surroundings=around.surroundings(),
+            tolerances=tolerances,
             notes=table.notes + body_notes + region_notes,
             read_as=table.read_as,
         )
@@ -336,17 +369,21 @@ def _task(
             error.where = error.where or around.where or None
         elif error.code == "E120" and table.locate_row and not error.where:  # too few poses
             error.where = table.locate_row(None)
+        elif error.code in ("E135", "E136") and table.locate_row and not error.where:
+            found = re.match("pose ([0-9]+)", error.message)
+            row = int(tracked.numbers[int(found[1]) - 1]) if found else None
+            error.where = table.locate_row(row)
+            if found and row is not None:
+                error.message = f"pose {row + 1}{error.message[found.end() :]}"
         if error.code == "E120" and left_out:
             error.why = f"{left_out} of {left_out + len(values)} poses of the file are left out"
             error.help = "take more of them with --every, --from, --to and --drop"
         raise
 
 
-def _oriented(
-    table: PoseTable, values: FloatArray, angle_unit: str | None
-) -> tuple[Displacement, tuple[float, float]]:
-    """Poses from x, y, angle and their resolution, once the angle unit is beyond doubt."""
-    angles, stated = values[:, 2], table.angle_unit
+def _angle_unit(table: PoseTable, values: FloatArray, angle_unit: str | None) -> str:
+    """The unit of the angles, if it is beyond doubt; raises E110."""
+    angles, stated = values[:, 2][np.isfinite(values[:, 2])], table.angle_unit
     if stated and angle_unit and stated != angle_unit:
         message = f"the file states {UNITS[stated]}, --angle-unit states {UNITS[angle_unit]}"
         help = "leave --angle-unit out, or correct the unit in the file"
@@ -357,6 +394,14 @@ def _oriented(
         why = _both_readings(float(angles.min()), float(angles.max()), len(angles))
         help = f"{table.say_unit}, or pass --angle-unit deg or --angle-unit rad"
         raise InputError("E110", message, where=table.where, why=why, help=help)
+    return unit or "deg"
+
+
+def _oriented(
+    table: PoseTable, values: FloatArray, unit: str
+) -> tuple[Displacement, tuple[float, float]]:
+    """Poses from x, y, angle, and their resolution."""
+    angles = values[:, 2]
     length, angle = (0.5 * 10.0**-printed for printed in table.rows.decimals)
     if unit == "deg":
         angles, angle = np.radians(angles), math.radians(angle)

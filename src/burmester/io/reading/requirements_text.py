@@ -18,9 +18,16 @@ from burmester.io.reading.limits_text import (
 )
 from burmester.io.reading.pose_table import Source, shown
 from burmester.io.reading.stated_requirements import StatedRequirement, checked_requirement
+from burmester.io.reading.stated_tolerances import FREE_WORDS, DefaultTolerance
 from burmester.tasks.requirements import Driver
 
-__all__ = ["lengths", "pose_sigma", "positive_length", "requirements_from_options"]
+__all__ = [
+    "lengths",
+    "pose_sigma",
+    "pose_tolerance",
+    "positive_length",
+    "requirements_from_options",
+]
 
 FOOTPRINT_HELP = "write box:X,Y:X,Y from lower left to upper right, or polygon:X,Y:X,Y:X,Y, or any"
 
@@ -101,6 +108,29 @@ def pose_sigma(text: str) -> tuple[float, float]:
             raise option_fault(source, message, help, at=at, width=len(cell), code="E134")
         at += len(cell) + 1
     return values[0], math.radians(values[1])
+
+
+def pose_tolerance(text: str) -> DefaultTolerance:
+    """The tolerance X,Y,DEG of all poses, each a number or "free"; ",body" may follow."""
+    source = Source("--pose-tolerance", text)
+    *cells, end = text.split(",")
+    body = end.strip().lower() == "body"
+    cells += [] if body or end.strip().lower() == "fixed" else [end]
+    help = "write X,Y,DEG, such as 0.1,0.1,0.5; free in place of a number, 0 for exact; and ,body "
+    help += "behind them for tolerances along the body's own axes"
+    if len(cells) != 3:
+        raise option_fault(source, f"{shown(text)} is not X,Y,DEG", help, code="E135")
+    bounds, at = [], 0
+    for cell in cells:
+        free = cell.strip().lower() in FREE_WORDS
+        bounds.append(math.inf if free else number_from_text(source, cell, at, "E135"))
+        if bounds[-1] < 0:
+            message = f"{shown(cell.strip())} is below zero"
+            raise option_fault(source, message, help, at=at, width=len(cell), code="E135")
+        at += len(cell) + 1
+    x, y, angle = bounds
+    where = source.where(0, len(text))
+    return DefaultTolerance((x, y, angle), "body" if body else "fixed", "deg", where)
 
 
 def _number(field: str, option: str, text: str) -> StatedRequirement:

@@ -33,8 +33,8 @@ OptionalKinds: TypeAlias = frozenset[Kind] | None
 
 # The keys at the top of a task in a file.
 TOP_KEYS = (
-    "poses", "angle_unit", "length_unit", "pose_sigma", "body", "keep_out", "surroundings",
-    "limits", "requirements",
+    "poses", "angle_unit", "length_unit", "pose_sigma", "tolerance", "body", "keep_out",
+    "surroundings", "limits", "requirements",
 )  # fmt: skip
 
 # `limits`, and keys that may stand beside the poses by mistake, where they would limit nothing.

@@ -54,6 +54,11 @@ WORDS: dict[str, str] = {
 }
 WORDS["y"] = WORDS["x"].replace("x", "y").replace("X", "Y").replace("abscisse", "ordonnée")
 WORDS["z"] = WORDS["x"].replace("x", "z").replace("X", "Z").replace("abscisse", "cote")
+_TOLERANCE = "tol {0}, {0} tol, tolerance {0}, {0} tolerance, Toleranz {0}, {0} Toleranz, ±{0}, "
+_TOLERANCE += "tolérance {0}, tolleranza {0}, tolerancia {0}, {0} 公差"
+WORDS |= {f"tol_{part}": _TOLERANCE.format(part) for part in ("x", "y", "angle")}
+WORDS["tol_angle"] += ", Winkeltoleranz, Toleranz Winkel"
+WORDS |= {"tol_axes": "tol axes, tolerance axes", "free": "free, frei, libre, libero"}
 WORDS |= {point: point for point in POINTS}
 
 _LENGTHS: dict[str, str] = {
@@ -132,7 +137,8 @@ def _words() -> dict[str, str]:
 @functools.cache
 def _units(role: str) -> dict[str, tuple[str, ...]]:
     """The plain words of each unit that a role may have."""
-    tables = {"angle": _ANGLES, "time": _TIMES} | dict.fromkeys(("x", "y", "z", *POINTS), _LENGTHS)
+    tables = {"angle": _ANGLES, "tol_angle": _ANGLES, "time": _TIMES}
+    tables |= dict.fromkeys(("x", "y", "z", "tol_x", "tol_y", *POINTS), _LENGTHS)
     return {
         unit: tuple(map(_plain, text.split(", "))) for unit, text in tables.get(role, {}).items()
     }

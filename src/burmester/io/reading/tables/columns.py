@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 from burmester.errors import Advice, InputError
 from burmester.io.reading.pose_table import NUMERIC, POINTS, brief, shown
+from burmester.io.reading.stated_tolerances import TOLERANCE_ROLES
 from burmester.io.reading.tables.column_words import (
     IGNORED,
     LENGTHS,
@@ -30,7 +31,8 @@ _PASSED_OVER = ("time", "frame", "remark")
 MAX_NAMES = 12  # names of columns that an error lists, or compares with known ones
 _KNOWN = (
     "the known names are x, y (or x_mm, y_mm and so on), angle_deg, angle_rad, weight, exact and "
-    "name, or px, py, qx, qy in place of x, y and the angle"
+    "name, tol_x, tol_y, tol_angle, tol_axes and free, or px, py, qx, qy in place of x, y and the "
+    "angle"
 )
 
 
@@ -57,7 +59,7 @@ class Columns(NamedTuple):
         for role in sorted(roles, key=self.indices.__getitem__):
             index = self.indices[role]
             name = names[index].strip()
-            same = name.lower().partition("_")[0] == role
+            same = f"{name.lower()}_".startswith(f"{role}_")
             parts.append(name if same else f"{role} from `{name}`")
         return listed(parts)
 
@@ -75,6 +77,11 @@ class Columns(NamedTuple):
                 "times, frames, remarks and second numbers say nothing about a pose",
             ),
         )
+
+    @property
+    def may_be_free(self) -> bool:
+        """Whether a blank cell may stand for a free component of a pose."""
+        return not self.indices.keys().isdisjoint((*TOLERANCE_ROLES, "free", "tol_axes"))
 
     @property
     def length_unit(self) -> str | None:
@@ -132,12 +139,15 @@ def read_columns(
     lengths = _require_poses(names, indices, unknown, where)
     if unknown:
         raise _unknown(names, unknown[0], where, ignore)
-    for role in lengths[1:]:
+    tolerances = [role for role in TOLERANCE_ROLES[:2] if units.get(role) is not None]
+    for role in (*lengths[1:], *tolerances):
         if units[role] != units[first := lengths[0]]:
             message = (
                 f"{first} is in {units[first] or 'no unit'}, {role} in {units[role] or 'no unit'}"
             )
             one = "both columns" if len(lengths) == 2 else "all four columns"
+            if role in tolerances:
+                one = "tolerances and positions"
             where_role = where(indices[role])
             raise InputError("E108", message, where=where_role, help=f"give {one} the same unit")
     numbers = indices.pop("number", None)

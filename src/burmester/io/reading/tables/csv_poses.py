@@ -21,6 +21,7 @@ import numpy as np
 from burmester.errors import InputError
 from burmester.io.reading import pose_table
 from burmester.io.reading.pose_table import PoseTable, Rows, Source, brief, numeric_roles
+from burmester.io.reading.stated_tolerances import TOLERANCE_ROLES
 from burmester.io.reading.tables.column_words import known
 from burmester.io.reading.tables.csv_cells import (
     ROW_LINE,
@@ -31,6 +32,7 @@ from burmester.io.reading.tables.csv_cells import (
 )
 from burmester.io.reading.tables.csv_header import SEPARATOR_NAMES, Header, read_header
 from burmester.io.reading.tables.height import height_notes
+from burmester.io.reading.tables.tolerance_cells import WORD_ROLES, read_words, special_text
 from burmester.io.reading.tables.written_numbers import CellNumbers, written_number
 from burmester.io.reading.tables.wrong_numbers import not_a_number
 from burmester.numerics.arrays import FloatArray
@@ -70,6 +72,9 @@ def read_csv(source: Source, columns: str | None = None) -> PoseTable:
     notes = (*source.notes, *header.notes, *header.columns.notes(), *written.notes())
     where = "in the header" if columns is None else "in --columns"
     names = header.columns.row_names(rows.names)
+    if rows.tolerances is not None:
+        stated = rows.tolerances._replace(angle_unit=units.get("tol_angle"))
+        rows = rows._replace(tolerances=stated)
     return PoseTable(
         rows._replace(names=names),
         length_unit=header.columns._replace(units=units).length_unit,
@@ -86,6 +91,8 @@ def read_csv(source: Source, columns: str | None = None) -> PoseTable:
 def _plain_rows(block: str, header: Header, marks: dict[str, str]) -> Rows | None:
     """The rows of a block in which nothing is unusual, fast; None if something is."""
     separator, indices = header.separator, header.columns.indices
+    if header.columns.may_be_free:
+        return None
     if separator == " ":
         block = re.sub(r"(?m)^[ \t]+|[ \t]+$", "", re.sub(r"[ \t]+", " ", block))
     mark = "," if "," in marks else "."  # a comma once it is proved to be a decimal one
@@ -129,13 +136,19 @@ def _checked_rows(
     """The rows in any lines, cell by cell; the first of them is number `row` of the file."""
     indices, units = header.columns.indices, header.columns.units
     columns: dict[str, list[str]] = {role: [] for role in indices}
-    numeric = numeric_roles(indices)
+    tolerant, numeric = header.columns.may_be_free, [*numeric_roles(indices), *TOLERANCE_ROLES]
+    single = [(role, index) for role, index in indices.items() if role not in WORD_ROLES]
+    if tolerant:
+        columns |= {role: [] for role in WORD_ROLES}
     count = 0
     for line, cells in _rows(lines, header.separator):
         if len(cells) != len(header.names) or header.unnamed:
             _require_width(line, cells, header, row + count)
-        for role, index in indices.items():
+        for role, index in single:
             cell = unquoted(cells[index])
+            if tolerant and (special := special_text(cell, role)) is not None:
+                columns[role].append(special)
+                continue
             if role == "exact" and cell.lower() not in pose_table.MARKS:
                 where = cell_location(header.source, line.start(), cells, index, role)
                 raise _not_a_mark(cell, row + count, where)
@@ -146,7 +159,8 @@ def _checked_rows(
                 plain, mark = pose_table.plain_number(cell, header.separator)
                 if mark and header.source.sheet and '"' not in cells[index]:
                     mark = ""  # the point is not in the sheet: it holds a number, and no text
-                if mark is None and (number := written_number(cell, role, header.separator)):
+                number = written_number(cell, role, header.separator) if mark is None else None
+                if number and (number.unit is None or role not in TOLERANCE_ROLES):
                     written.add(number, cell, role, row + count, locate)
                     plain, mark = number.plain, number.mark
                 if mark not in marks:
@@ -162,6 +176,10 @@ def _checked_rows(
                     marks[mark] = locate()
                 cell = plain
             columns[role].append(cell)
+        if tolerant:
+            at = functools.partial(_cell_of_role, header, line, cells)
+            texts = {role: unquoted(cells[index]) for role, index in indices.items()}
+            read_words(columns, texts, row + count, at)
         count += 1
     return Rows.read(columns) if count else None
 
@@ -174,6 +192,14 @@ def _rows(
         cells = split_cells(line[0], separator)
         if any(map(unquoted, cells)):
             yield line, cells
+
+
+def _cell_of_role(header: Header, line: re.Match[str], cells: list[str], role: str) -> str:
+    """The location of the cell of a role; of the whole row where it has no column."""
+    index = header.columns.indices.get(role)
+    if index is None:
+        return header.source.where(line.start(), line.end() - line.start())
+    return cell_location(header.source, line.start(), cells, index, role)
 
 
 def _heights(header: Header) -> list[str] | None:

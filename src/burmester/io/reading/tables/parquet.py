@@ -17,8 +17,11 @@ from burmester.errors import InputError
 from burmester.io.reading import pose_table
 from burmester.io.reading.file_content import MAX_LINES, too_large
 from burmester.io.reading.pose_table import PoseTable, Rows, decimals, numeric_roles
-from burmester.io.reading.tables.columns import read_columns
+from burmester.io.reading.stated_tolerances import TOLERANCE_ROLES, StatedTolerances
+from burmester.io.reading.tables.columns import Columns, read_columns
+from burmester.io.reading.tables.tolerance_cells import WORD_ROLES, read_words, special_text
 from burmester.numerics.arrays import FloatArray
+from burmester.tasks.pose_tolerances import COMPONENTS
 
 __all__ = ["is_parquet", "read_parquet"]
 
@@ -52,7 +55,10 @@ def read_parquet(label: str, data: bytes) -> PoseTable:
     for role in numeric_roles(indices):
         i = indices[role]
         values, texts = _numbers(stored.column(names[i]), names[i], where(i))
-        if (bad := ~np.isfinite(values)).any():
+        bad = ~np.isfinite(values)
+        if columns.may_be_free and role in COMPONENTS:
+            bad &= np.array([text is not None for text in texts])  # no value may be a free one
+        if bad.any():
             row = int(bad.argmax())
             given = "no value" if texts[row] is None else "a value that is not a finite number"
             raise InputError(
@@ -62,8 +68,13 @@ def read_parquet(label: str, data: bytes) -> PoseTable:
                 help="give a number, or delete the row",
             )
         numbers.append(values)
-        printed[role] = 0.0 if role == "weight" else max(decimals(text) for text in texts if text)
+        printed[role] = 0.0
+        if role != "weight":
+            printed[role] = max((decimals(text) for text in texts if text), default=0.0)
     angle = printed.pop("angle", 0.0)
+    tolerances = None
+    if columns.may_be_free:
+        tolerances = _tolerances(stored, names, columns, where)
     given_names = _list(stored, names, indices.get("name"), where)
     names_of = columns.row_names([str(value) if value is not None else "" for value in given_names])
     exact = _marks(stored, names, indices.get("exact"), where)
@@ -73,6 +84,7 @@ def read_parquet(label: str, data: bytes) -> PoseTable:
         names_of,
         exact,
         2 * ("px" in indices),
+        tolerances,
     )
     return PoseTable(
         rows,
@@ -84,6 +96,35 @@ def read_parquet(label: str, data: bytes) -> PoseTable:
         notes=columns.notes(),
         read_as=f"Parquet: {columns.described(names)}",
     )
+
+
+def _tolerances(
+    stored: Any, names: list[str], columns: Columns, where: _Where
+) -> StatedTolerances | None:
+    """The columns of tolerances, read as those of a CSV file."""
+    cells: dict[str, list[str]] = {}
+    for role, index in columns.indices.items():
+        if role in (*COMPONENTS, *TOLERANCE_ROLES, *WORD_ROLES):
+            values = _list(stored, names, index, where)
+            cells[role] = ["" if value is None else str(value).strip() for value in values]
+    texts: dict[str, list[str]] = {role: [] for role in (*cells, *WORD_ROLES)}
+    for row in range(stored.num_rows):
+        given = {role: cell[row] for role, cell in cells.items()}
+
+        def at(role: str, row: int = row) -> str:
+            return where(columns.indices.get(role), row)
+
+        for role in TOLERANCE_ROLES:
+            if role in given:
+                text = special_text(given[role], role) or given[role]
+                if text not in ("nan", "inf") and not pose_table.NUMBER.fullmatch(text):
+                    message = f"row {row + 1} has {pose_table.shown(text)}, which is no tolerance"
+                    help = "store a number, 0 for exact, or no value"
+                    raise InputError("E104", message, where=at(role), help=help)
+                texts[role].append(text)
+        read_words(texts, given, row + 1, at)
+    found = StatedTolerances.read(texts, stored.num_rows)
+    return found and found._replace(angle_unit=columns.units.get("tol_angle"))
 
 
 def _open(data: bytes) -> Any:

@@ -42,10 +42,13 @@ def not_a_number(
     help = f"give a number{in_unit}, such as -12.5 or 3e-4, or delete the row"
     if NUMBER.fullmatch(plain):
         why = f"{shown(cell)} is beyond 1.8e308, the largest representable number"
+    elif not cell:
+        code, fault = "E104", "an empty cell where a number belongs"
+        help += "; for a component that is free, add the column free and write x, y or angle into "
+        help += "this row"
     elif not NOT_FINITE.fullmatch(plain):
-        code, fault = "E104", f"{'text' if cell else 'an empty cell'} where a number belongs"
-        if cell:
-            why = f"{shown(cell)} is not digits with at most a decimal point and an exponent"
+        code, fault = "E104", "text where a number belongs"
+        why = f"{shown(cell)} is not digits with at most a decimal point and an exponent"
         for look in (
             _formula,
             _date,

@@ -6,24 +6,29 @@ Imported on first use, as pydantic is slow to import.
 from __future__ import annotations
 
 import functools
+import math
 import operator
 import re
 from collections.abc import Iterable
 from decimal import Decimal
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError, model_validator
+from pydantic_core import PydanticCustomError
 
 from burmester.errors import InputError
 from burmester.io.reading.pose_table import NUMERIC, POINTS
 from burmester.io.reading.trees.limits_tree import Number
 from burmester.io.reading.trees.locations import Document, close_match
+from burmester.io.reading.trees.tolerance_model import ToleranceModel, tolerance_fault
+from burmester.tasks.pose_tolerances import COMPONENTS, Component
 
 __all__ = ["POINT_KEYS", "XY_ANGLE_KEYS", "pose_fault", "validated"]
 
 POINT_KEYS = {"p": ("px", "py"), "q": ("qx", "qy")}
 XY_ANGLE_KEYS = frozenset({"x", "y", "angle", "angle_deg", "angle_rad"})
 
+_COMMON_KEYS = ("weight", "exact", "name", "tolerance", "free")
 _SLICE = 1000  # poses checked at a time: all that is wrong in them is collected
 
 
@@ -32,11 +37,19 @@ class _Common(BaseModel):
     weight: Decimal | None = None
     name: str | None = None
     exact: bool | None = None
+    tolerance: ToleranceModel | None = None
+    free: list[Component] | None = None
+
+    def free_components(self) -> set[Component]:
+        """Those that `free` names, or whose tolerance says so."""
+        bounds = (math.nan,) * 3 if self.tolerance is None else self.tolerance.bounds(None)
+        said = {each for each, bound in zip(COMPONENTS, bounds, strict=True) if math.isinf(bound)}
+        return said | set(self.free or ())
 
 
 class _Pose(_Common):
-    x: Decimal
-    y: Decimal
+    x: Decimal | None = None
+    y: Decimal | None = None
     angle: Decimal | None = None
     angle_deg: Decimal | None = None
     angle_rad: Decimal | None = None
@@ -50,6 +63,16 @@ class _Pose(_Common):
         if isinstance(pose, dict) and int in map(type, pose.values()):
             return {key: _decimal(value) for key, value in pose.items()}
         return pose
+
+    @model_validator(mode="after")
+    def _complete(self) -> Self:
+        """Refuse a pose without x or y, if they are not free."""
+        free = self.free_components()
+        for key in ("x", "y"):
+            if getattr(self, key) is None and key not in free:
+                fault = "no_number" if key in self.model_fields_set else "missing"
+                raise PydanticCustomError("incomplete", "{key}", {"key": key, "fault": fault})
+        return self
 
 
 _Point = Annotated[list[Decimal], Field(min_length=2, max_length=2)]
@@ -117,6 +140,11 @@ def validated(document: Document, tree: Any, example: str, tracked: bool) -> tup
         if fault["loc"] and isinstance(fault["loc"][0], int):
             row, *keys = fault["loc"]
             fault["loc"] = ("poses", len(poses) + row, *keys)
+            if keys[:1] in (["tolerance"], ["free"]):
+                raise tolerance_fault(document, fault["loc"], fault) from None
+            if fault["type"] == "incomplete":
+                key, kind = fault["ctx"]["key"], fault["ctx"]["fault"]
+                fault |= {"type": kind, "loc": (*fault["loc"], key), "input": None}
         raise pose_fault(document, tree, example, tracked, fault) from None
 
 
@@ -130,9 +158,10 @@ def pose_fault(
     path = _as_written(tree, loc)
     name = document.named(*(loc if len(path) == len(loc) else path))
     value = document.shown(given, *path)
-    known = "x, y, angle_deg or angle_rad (or angle, with angle_unit), weight, exact and name"
+    known = "x, y, angle_deg or angle_rad (or angle, with angle_unit)"
     if tracked:
-        known = "px, py, qx and qy (or p and q with two numbers each), weight, exact and name"
+        known = "px, py, qx and qy (or p and q with two numbers each)"
+    known += ", weight, exact, name, tolerance and free"
     number = "write a number without quotes, with a point for its decimal mark"
     code, message, help = {
         "finite_number": ("E103", "is not a finite number", "give a number, or delete the pose"),
@@ -153,13 +182,15 @@ def pose_fault(
         why = f"{value} is beyond 1.8e308, the largest representable number"
     if kind == "missing" and loc[:1] == ("poses",) and len(loc) > 1:
         help = f"write it into the pose; a pose has {known}"
+        if not tracked:
+            help += f'. A component that is free is named by free = ["{loc[-1]}"]'
     if kind == "missing" and loc[:1] == ("pose_sigma",):
         help = "give pose_sigma both, position and angle_deg"
     if kind == "extra_forbidden" and len(loc) == 1:
         help = "delete it"
     elif kind == "extra_forbidden" and loc[0] == "poses":
         keys = (*POINTS, *POINT_KEYS) if tracked else (*XY_ANGLE_KEYS,)
-        if near := close_match(str(loc[-1]), (*keys, "weight", "exact", "name")):
+        if near := close_match(str(loc[-1]), (*keys, *_COMMON_KEYS)):
             help = f"write {near} in its place; a pose has {known}"
     elif kind == "extra_forbidden":
         help = "delete it; pose_sigma has position and angle_deg"

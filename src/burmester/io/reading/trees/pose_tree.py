@@ -18,8 +18,10 @@ from burmester.io.reading.pose_table import POINTS, PoseTable, Rows
 from burmester.io.reading.specification import LIMIT_KEYS, TOP_KEYS, Specification
 from burmester.io.reading.stated_requirements import REQUIREMENT_KEYS
 from burmester.io.reading.stated_surroundings import StatedSurroundings
+from burmester.io.reading.stated_tolerances import TOLERANCE_ROLES, DefaultTolerance
 from burmester.io.reading.trees.locations import Document, close_match
 from burmester.io.reading.trees.pose_model import POINT_KEYS, XY_ANGLE_KEYS, pose_fault, validated
+from burmester.tasks.pose_tolerances import COMPONENTS
 
 __all__ = ["read_tree"]
 
@@ -34,6 +36,8 @@ _MISPLACED = {  # keys that may stand beside the poses by mistake: the help
         "write the numbers into the poses, one by one",
     ),
     **dict.fromkeys(("unit", "units"), "write angle_unit for angles, length_unit for lengths"),
+    **dict.fromkeys(("free",), 'write it into the poses, or tolerance = { angle = "free" } here'),
+    **dict.fromkeys(("tolerances", "tol"), "write tolerance"),
     **dict.fromkeys(("sigma",), "write pose_sigma with position and angle_deg"),
     **dict.fromkeys(
         ("link_width", "margin", "body_in_plane"), "write it into the table surroundings"
@@ -58,8 +62,8 @@ def read_tree(tree: Any, document: Document, example: str) -> PoseTable:
         columns, where = _points(document, poses), ""
     else:
         angles, unit = _angles(document, whole, poses)
-        columns = {"x": [str(pose.x) for pose in poses], "y": [str(pose.y) for pose in poses]}
-        columns["angle"] = [str(angle) for angle in angles]
+        columns = {axis: [_written(getattr(pose, axis)) for pose in poses] for axis in ("x", "y")}
+        columns["angle"] = [_written(angle) for angle in angles]
         where = _where_unit(document, whole, poses)
     if any(pose.weight is not None for pose in poses):  # a pose without one counts once
         columns["weight"] = ["1" if pose.weight is None else str(pose.weight) for pose in poses]
@@ -68,8 +72,11 @@ def read_tree(tree: Any, document: Document, example: str) -> PoseTable:
         columns["name"] = [pose.name or "" for pose in poses]
     if any(pose.exact for pose in poses):
         columns["exact"] = ["x" if pose.exact else "" for pose in poses]
+    columns |= _tolerances(document, poses, unit)
     rows = Rows.read(columns)
     for i, j in np.argwhere(~np.isfinite(rows.values)):  # 1e400 is a finite Decimal
+        if columns[numeric[j]][i] == "nan":  # it is free
+            continue
         number = columns[numeric[j]][i]
         fault = {"type": "finite_number", "loc": ("poses", int(i), numeric[j]), "input": number}
         raise pose_fault(document, tree, example, tracked, fault)
@@ -101,10 +108,52 @@ def read_tree(tree: Any, document: Document, example: str) -> PoseTable:
         specification=specification,
         body=body,
         surroundings=surroundings,
+        tolerance=_default_tolerance(tree, document, unit),
         pose_sigma=given and (given.position, math.radians(given.angle_deg)),
         locate_row=locate_row,
         notes=drawn,
     )
+
+
+def _written(number: Decimal | None) -> str:
+    """A number as text; nan for a component that is free and has none."""
+    return "nan" if number is None else str(number)
+
+
+def _tolerances(document: Document, poses: list[Any], unit: str | None) -> dict[str, list[str]]:
+    """The columns of what the poses state of their tolerances; none where no pose does."""
+    if all(pose.tolerance is None and pose.free is None for pose in poses):
+        return {}
+    columns: dict[str, list[str]] = {"free": [], "tol_axes": []}
+    for i, pose in enumerate(poses):
+        free, path = pose.free_components(), ("poses", i, "tolerance")
+        columns["free"].append(" ".join(free))
+        columns["tol_axes"].append((pose.tolerance and pose.tolerance.axes) or "")
+        bounds = (math.nan,) * 3
+        if pose.tolerance is not None:
+            pose.tolerance.require_one_angle(document, *path)
+            bounds = pose.tolerance.bounds(unit)
+        for component, role, bound in zip(COMPONENTS, TOLERANCE_ROLES, bounds, strict=True):
+            if component in (pose.free or ()) and math.isfinite(bound):
+                raise InputError(
+                    "E136",
+                    f"{document.named(*path)}: a tolerance of {bound:g} for {component}, which "
+                    "free names",
+                    where=document.where(*path),
+                    why="a component within a tolerance is not free",
+                    help=f"take {component} out of free, or out of the tolerance",
+                )
+            columns.setdefault(role, []).append(repr(bound))
+    return columns
+
+
+def _default_tolerance(tree: Any, document: Document, unit: str | None) -> DefaultTolerance | None:
+    """The tolerance of all poses that state none."""
+    if not isinstance(tree, dict) or "tolerance" not in tree:
+        return None
+    from burmester.io.reading.trees.tolerance_model import read_tolerance
+
+    return read_tolerance(tree, document, unit)
 
 
 def _specification(tree: dict[str, Any], document: Document) -> Specification:
@@ -207,16 +256,26 @@ def _where_unit(document: Document, whole: Any, poses: list[Any]) -> str:
     return document.where("poses", key=True)
 
 
-def _angles(document: Document, whole: Any, poses: list[Any]) -> tuple[list[Decimal], str | None]:
-    """The angles and their unit, if every pose has one angle and all are in one unit."""
+def _angles(
+    document: Document, whole: Any, poses: list[Any]
+) -> tuple[list[Decimal | None], str | None]:
+    """The angles and their unit, if every pose has one angle and all are in one unit.
+
+    None for an angle that is free.
+    """
     units = {whole.angle_unit} - {None}
-    angles = []
+    angles: list[Decimal | None] = []
     for i, pose in enumerate(poses):
         given = [key for key in _ANGLE_KEYS if getattr(pose, key) is not None]
+        if not given and "angle" in pose.free_components():
+            angles.append(None)
+            continue
         if len(given) != 1:
             code = "E108" if given else "E105"
             message = f"pose {i + 1} has {' and '.join(given) or 'no angle'}"
             help = "give every pose one angle, as angle_deg or as angle_rad"
+            if not given:
+                help += ', or free = ["angle"] where it does not count'
             where = document.where("poses", i)
             if given:
                 where = document.where("poses", i, given[1], key=True)
