@@ -75,7 +75,7 @@ def _shortest(
     for s in (0, 1):
         whole[:, s, :, s] = gram[:, s]
         for t in (0, 1):
-            whole[:, s, np.arange(n), t, np.arange(n)] += shared[:, s, t].T
+            whole[:, s, np.arange(n), t, np.arange(n)] += shared[:, s, t]
     right = _solved(whole.reshape(k, 2 * n, 2 * n), residual.reshape(k, 2 * n)).reshape(k, 2, n)
     moved = np.einsum("ksnj,ksn,nj->knj", push, right, width)
     return np.einsum("ksnj,ksn->ksj", along, right), moved
