@@ -636,6 +636,13 @@ CASES: dict[str, Case] = {
         Edit("poses.csv", "3,1,40,yes,1", "3,1,40,no,1"),
         {"poses.csv": "x,y,angle_deg,exact,tol_x\n0,0,0,,1\n3,1,40,yes,1\n4,3,70,,1\n"},
     ),
+    "outside the tolerances": Case(
+        "R304",
+        f"{S} --pose-tolerance 0.00001,0.00001,0.0001",
+        Args(f"{S} --pose-tolerance 0.01,0.01,0.1"),
+        ALL,
+        exit=1,
+    ),
     # --- tracked points, libraries, files, linkages, bugs
     "points not on one body": Case(
         "E111",

@@ -13,6 +13,7 @@ from burmester.linkages.built_linkages import DRAWS
 from burmester.linkages.clearance_check import clearance_in_words
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.linkages.ranking import TRADE_GAIN, closest_usable, digits_leave_open, is_trade
+from burmester.linkages.tolerance_words import most_used
 from burmester.linkages.uncertainty import pose_sigma
 from burmester.numerics.arrays import ROUNDING
 from burmester.synthesis.result import JUDGED, Synthesis
@@ -28,6 +29,7 @@ __all__ = [
     "footnotes",
     "headline",
     "notes",
+    "pose_tolerance_note",
     "rounding_note",
     "standard_note",
     "tolerance_note",
@@ -114,6 +116,8 @@ def _members(synthesis: Synthesis, best: FoundLinkage) -> Iterator[str]:
 
 
 def _passes(synthesis: Synthesis, best: FoundLinkage) -> str:
+    if best.within_tolerance is not None:
+        return "stays inside the tolerance of every pose"
     if explanation.meets_exactly(best, synthesis.length):
         return "passes every pose exactly, up to rounding"
     worst = notation.length_of(best.error.worst, synthesis.task)
@@ -173,6 +177,7 @@ def notes(synthesis: Synthesis, found: FoundLinkage) -> list[str]:
         uncertainty_note,
         type_note,
         clearance_note,
+        pose_tolerance_note,
         tolerance_note,
         rounding_note,
     )
@@ -236,6 +241,16 @@ def uncertainty_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
         "(standard deviations: from their digits, or --pose-sigma)."
         + ("" if sure else f" {NOT_DETERMINED}")
     )
+
+
+def pose_tolerance_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
+    """How much of the poses' tolerances a linkage uses that stays inside them."""
+    tolerances = synthesis.task.tolerances
+    if found.within_tolerance is None or tolerances is None or not found.usable:
+        return None
+    if (tolerances.exact | tolerances.free).all():
+        return f"{found.id} meets all that is not free, up to rounding."
+    return f"Of the poses' tolerances {found.id} uses {most_used(found, synthesis.task)}."
 
 
 def tolerance_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:

@@ -107,6 +107,7 @@ def judge(
     length: float | None = None,
     names: Sequence[str] | None = None,
     any_order: bool = False,
+    order_slack: FloatArray | None = None,
 ) -> list[Verdict]:
     """The verdicts on linkages (k,) of one pair of kinds, RR, PR or RP, for either driver.
 
@@ -118,6 +119,8 @@ def judge(
         far they are missed.
     names: names of the poses in messages, instead of their numbers from 1.
     any_order: whether the poses may be met in any order.
+    order_slack: (k,), poses nearer than this along the circuit have no order; by default twice the
+        greatest distance by which a pose is missed.  Needed where `missed` is no distance.
 
     A branch defect is certain except within DEAD_POINT_ANGLE of a dead point, and where a linkage
     within 1e-9 of a change point passes it.  Such a linkage is taken as given (see `Circuits.of`);
@@ -161,7 +164,9 @@ def judge(
             )
         )
     distance = np.zeros(len(assembled))
-    if length is not None:
+    if order_slack is not None:
+        distance = order_slack
+    elif length is not None:
         distance = 2 * np.where(assembled, np.minimum(missed, reach), 0.0).max(axis=1)
     tolerance = OrderTolerance(distance, length or 0.0)
     first, second = (

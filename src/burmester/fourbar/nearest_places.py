@@ -20,7 +20,7 @@ from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["nearest", "on_circuits", "on_own_circuits"]
+__all__ = ["nearest", "on_circuits", "on_own_circuits", "places_at", "sampled"]
 
 
 class SearchEffort(NamedTuple):
@@ -154,14 +154,7 @@ class _CircuitSearch:
     ) -> Self:
         """The search on the circuits (k, 2) of linkages (k,), sampled."""
         row, side = np.nonzero(circuits.exists)
-        own, count = circuits[row, side], effort.samples
-        share = np.tile((np.arange(count) + 0.5) / count, (len(row), 1))
-        samples = _places_at(own, share, length)
-        for _ in range(REFINEMENTS if len(row) else 0):
-            wide = _relative_gaps(samples, length)
-            if not (wide > WIDE_GAP).any():
-                break
-            share, samples = _refined(own, share, samples, wide, length)
+        share, samples = sampled(circuits[row, side], length, effort.samples)
         after = _distance_to_next(samples, length)
         gap = np.roll(share, -1, axis=-1) - share
         gap[:, -1:] += 1
@@ -225,7 +218,7 @@ class _CircuitSearch:
         share, width = self.share[which, sample], self.gap[which, sample]
         for _ in range(BRACKETING_ROUNDS):
             tried = share[:, None] + width[:, None] * np.linspace(-1, 1, BRACKETING_SAMPLES)
-            gap = wrapped(_places_at(circuits, tried, self.length) - target[:, None], self.length)
+            gap = wrapped(places_at(circuits, tried, self.length) - target[:, None], self.length)
             best = np.nan_to_num((gap * gap).sum(axis=-1), nan=np.inf).argmin(axis=-1)
             share, near = tried[every, best], target + gap[every, best]
             width = width * 2.0 / (BRACKETING_SAMPLES - 1)
@@ -237,7 +230,19 @@ class _CircuitSearch:
         return np.where(worse[..., None], near, ends)
 
 
-def _places_at(circuits: Circuits, share: FloatArray, length: float) -> FloatArray:
+def sampled(circuits: Circuits, length: float, count: int) -> tuple[FloatArray, FloatArray]:
+    """Fractions (n, s) of circuits (n,) and samples (n, s, 3) there, more where they are wide."""
+    share = np.tile((np.arange(count) + 0.5) / count, (len(circuits.exists), 1))
+    samples = places_at(circuits, share, length)
+    for _ in range(REFINEMENTS if len(share) else 0):
+        wide = _relative_gaps(samples, length)
+        if not (wide > WIDE_GAP).any():
+            break
+        share, samples = _refined(circuits, share, samples, wide, length)
+    return share, samples
+
+
+def places_at(circuits: Circuits, share: FloatArray, length: float) -> FloatArray:
     """Places (*, s, 3) at fractions (s,) or (*, s) of circuits (*,)."""
     closed = circuits.closed[..., None]
     around = 2 * np.pi * (share % 1)
@@ -275,7 +280,7 @@ def _refined(
     at = np.argpartition(-gaps, GAPS_PER_REFINEMENT, axis=-1)[:, :GAPS_PER_REFINEMENT]
     middle = (share[:, :-1] + share[:, 1:]) / 2
     more = np.take_along_axis(middle, at, axis=-1)
-    samples = np.concatenate([samples, _places_at(circuits, more, length)], axis=1)
+    samples = np.concatenate([samples, places_at(circuits, more, length)], axis=1)
     share = np.concatenate([share, more], axis=1)
     order = np.argsort(share, axis=-1)
     in_order = np.take_along_axis(samples, order[..., None], axis=1)

@@ -39,10 +39,12 @@ from burmester.linkages.evaluation import Evaluation
 from burmester.linkages.found_linkage import Side, with_driver_first
 from burmester.linkages.from_dyads import target_of
 from burmester.linkages.quality import Quality
+from burmester.linkages.tolerance_boxes import counted_error, shares_used
 from burmester.synthesis.result import JUDGED
 from burmester.tasks.motion_class import classify_motion
 from burmester.tasks.motion_task import Task, characteristic_length
 from burmester.tasks.options import SynthesisOptions
+from burmester.tasks.pose_tolerances import COMPONENTS
 from burmester.tasks.problem import SynthesisProblem
 from burmester.values import shown
 
@@ -50,6 +52,8 @@ __all__ = ["Judged", "judged_again"]
 
 CLOSENESS = 1e-9  # of the task's size or of a number itself; rounding changes less
 ROUNDING = 1e-14  # of the farthest pivot; rounding of what is computed from it
+SHARE_CLOSENESS = 1e-5  # of a tolerance; shares are of places that are written with all digits
+NOT_USABLE = ("R301", "R304")  # outcomes with linkages of which none is usable
 PLACE_ERROR = 1e-6  # of the task's size; places are found by iteration, to fewer digits
 # Of a figure of quality: beside a dead point, and for bodies that hardly are determined, rounding
 # changes the last digits.
@@ -117,7 +121,7 @@ def judged_again(result: WrittenResult, task: Task) -> list[Judged]:
         np.stack([each.places.translation[numbers] for each in errors]),
         np.stack([each.places.angle[numbers] for each in errors]),
     )
-    once = [PoseError.at(places[k], problem.task.poses) for k in range(len(linkages))]
+    once = evaluation.errors(places)
     verdicts = evaluation.verdicts(LinkageBatch.of(linkages), places, once)
     size, judged = characteristic_length(task), []
     for k, (written, verdict) in enumerate(zip(result.linkages, verdicts, strict=True)):
@@ -134,6 +138,7 @@ def judged_again(result: WrittenResult, task: Task) -> list[Judged]:
         parts = [
             *_verdict_parts(written, k, own),
             *_error_parts(written, k, own, slack),
+            *_share_parts(written, k, own, task, problem.length),
             *_dyad_parts(written, k, own.linkage, evaluation, slack),
         ]
         if written.coupler is not None:  # else there are no places to judge it at
@@ -196,7 +201,7 @@ def _task_parts(result: WrittenResult, task: Task) -> _Parts:
         yield from _line_parts(dyad, ("dyads", k), task.poses, slack)
     usable = any(each.usable for each in result.linkages)
     code, keys = result.outcome.code, ("outcome", "code")
-    if not result.linkages and code in (*WORKING, "R301", *JUDGED):
+    if not result.linkages and code in (*WORKING, *NOT_USABLE, *JUDGED):
         yield _Part(keys, code, "no linkage")
     elif code in JUDGED:  # of the linkage that was given, which is the first
         given = result.linkages[0].usable
@@ -204,7 +209,7 @@ def _task_parts(result: WrittenResult, task: Task) -> _Parts:
             yield _Part(keys, code, f"{'a' if given else 'no'} usable linkage as given")
     elif result.linkages and code in ("R302", "R303", "R306"):
         yield _Part(keys, code, "linkages")
-    elif usable is not (code in WORKING) and code in (*WORKING, "R301", "R309"):
+    elif usable is not (code in WORKING) and code in (*WORKING, *NOT_USABLE, "R309"):
         yield _Part(keys, code, "a usable linkage" if usable else "no usable linkage")
 
 
@@ -225,6 +230,26 @@ def _error_parts(written: WrittenLinkage, index: int, own: Judged, slack: float)
         for name, said, value in (("max", stated.max, most), ("rms", stated.rms, rms)):
             given = None if written.coupler is None else _number(value)
             yield _Part(("linkages", index, key, name), said, given, tolerance)
+
+
+def _share_parts(
+    written: WrittenLinkage, index: int, own: Judged, task: Task, size: float
+) -> _Parts:
+    """What each pose uses of its tolerances; nothing where the task has none."""
+    keys, stated = ("linkages", index, "within_tolerance"), written.within_tolerance
+    if task.tolerances is None or written.coupler is None:
+        if task.tolerances is None and stated is not None:
+            yield _Part(keys, "there", "left out: the poses have no tolerances")
+        return
+    shares = shares_used(own.error.places, task, size)
+    count = len(stated or ())
+    yield _Part(keys, count, len(shares))
+    for k, (given, used) in enumerate(zip(stated or (), shares.tolist(), strict=False)):
+        for name, share in zip(COMPONENTS, used, strict=True):
+            slack = SHARE_CLOSENESS * max(1.0, share)
+            if task.tolerances.exact[k, COMPONENTS.index(name)]:
+                slack = max(slack, 1.0)  # of the rounding that an exact component is measured by
+            yield _Part((*keys, k, name), getattr(given, name), _number(share), slack)
 
 
 def _dyad_parts(
@@ -378,7 +403,7 @@ def _error(written: WrittenLinkage, linkage: Linkage, task: Task, index: int) ->
     """Its error at the places that the file gives, or at the nearest ones; raises E152."""
     size, count = characteristic_length(task), len(task.poses.angle)
     if written.coupler is None:
-        return PoseError.of(linkage, task.poses, size)
+        return counted_error(PoseError.of(linkage, task.poses, size).places, task)
     what = f"linkage {written.id} does not do what the file says of it"
     _require_parts([_Part(("linkages", index, "coupler"), len(written.coupler), count)], what)
     rows = np.array([(each.x, each.y, each.angle_deg) for each in written.coupler])
@@ -388,7 +413,7 @@ def _error(written: WrittenLinkage, linkage: Linkage, task: Task, index: int) ->
         where = path_of("linkages", index, "coupler")
         why = f"at the places in {where} its links are off by {off:.2g}"
         raise InputError("E152", what, why=why, help=AGAIN)
-    return PoseError.at(places, task.poses)
+    return counted_error(places, task)
 
 
 def _sides(linkage: Linkage) -> tuple[Dyad, Dyad]:

@@ -20,6 +20,7 @@ from burmester.geometry.displacement import Displacement
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.linkages.tolerances import Spread
 from burmester.linkages.uncertainty import DyadUncertainty, PivotRegion
+from burmester.tasks.pose_tolerances import COMPONENTS
 
 __all__ = ["degrees_of", "dyad_data", "linkage_data", "number", "poses_data"]
 
@@ -115,6 +116,11 @@ def linkage_data(found: FoundLinkage, tolerance: float | None = None) -> dict[st
         data["links"] = {name: float(length) for name, length in links._asdict().items()}
     if np.isfinite(found.error.angle).all():
         data["coupler"] = poses_data(found.error.places)
+    if found.within_tolerance is not None:
+        data["within_tolerance"] = [
+            {name: number(share) for name, share in zip(COMPONENTS, shares, strict=True)}
+            for shares in found.within_tolerance.tolist()
+        ]
     if found.spread is not None:
         data["tolerance"] = _spread(found.spread, tolerance)
     if (before := found.error_before_rounding) is not None:

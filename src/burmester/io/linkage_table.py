@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+import numpy as np
 from rich import box
 from rich.console import Console, Group
 from rich.table import Table
@@ -17,6 +18,7 @@ from burmester.io.message import wrapped
 from burmester.io.sketch import sketch
 from burmester.linkages import explanation
 from burmester.linkages.found_linkage import FoundLinkage
+from burmester.linkages.tolerance_words import share_texts
 from burmester.synthesis.result import Synthesis
 from burmester.tasks import notation
 from burmester.wording import count, figure
@@ -34,6 +36,7 @@ LINKS = ("ground", "driver", "coupler", "follower")
 MOST_CUT = 3  # decimals that link lengths in the table may lose on a narrow screen
 GAP = 4  # columns between dimensions and sketch
 LEAST_SKETCH, MOST_SKETCH = 22, 44  # columns of a sketch beside the dimensions
+MAX_POSES = 12  # poses in the table of tolerances
 INDENT = 5  # columns of reasons under their linkage
 
 
@@ -161,11 +164,18 @@ def in_full(synthesis: Synthesis, best: FoundLinkage, console: Console) -> Itera
         both = Table.grid(padding=(0, GAP, 0, 0))
         both.add_row(table, Text("\n".join(drawn)))
         yield both
+    if best.within_tolerance is not None:
+        yield _shares(synthesis, best)
     quality = quality_note(best, synthesis.task)
     if quality is not None:
         yield Text(quality)
     digits, uncertainty = sentences.digits_note, sentences.uncertainty_note
-    made = (sentences.clearance_note, sentences.tolerance_note, sentences.rounding_note)
+    made = (
+        sentences.clearance_note,
+        sentences.pose_tolerance_note,
+        sentences.tolerance_note,
+        sentences.rounding_note,
+    )
     for note in (digits, uncertainty, sentences.type_note, *made):
         text = note(synthesis, best)
         if text is not None and (best.usable or note not in (uncertainty, sentences.type_note)):
@@ -185,6 +195,24 @@ def _dimensions(synthesis: Synthesis, best: FoundLinkage, stacked: bool = False)
         ground, _, coupler, _ = links(best, decimals_of(synthesis, best).lengths)
         table.add_row("", "ground link", ground)
         table.add_row("", "coupler", coupler)
+    return table
+
+
+def _shares(synthesis: Synthesis, best: FoundLinkage) -> Table:
+    """What each pose uses of its tolerances; of many poses those that use most."""
+    task, texts = synthesis.task, share_texts(best, synthesis.task)
+    assert best.within_tolerance is not None
+    rows = np.arange(len(texts))
+    if len(rows) > MAX_POSES:
+        rows = np.sort(np.argsort(-best.within_tolerance.max(axis=1))[:MAX_POSES])
+    labels = notation.pose_labels(task, rows.tolist(), "number and name")
+    table = Table.grid(padding=(0, 2, 0, 0))
+    most = " (those that use most)" if len(rows) < len(texts) else ""
+    table.add_row(f"of the tolerance{most}", "x", "y", "angle", style="dim")
+    for column in table.columns[1:]:
+        column.justify = "right"
+    for label, row in zip(labels, rows.tolist(), strict=True):
+        table.add_row(Text(f"pose {label}"), *texts[row])
     return table
 
 

@@ -309,6 +309,12 @@ class _Tolerance(_Part):
     lost: Annotated[float, Field(ge=0, le=1)] | None = None
 
 
+class _Shares(_Part):
+    x: _Size | None
+    y: _Size | None
+    angle: _Size | None
+
+
 class _Rounded(_Part):
     position_error_before: _Errors
     angle_error_before_deg: _Errors
@@ -385,6 +391,7 @@ class WrittenLinkage(_Part):
     clearance: WrittenClearance | None = None
     links: _Links | None = None
     coupler: Annotated[list[_Place], Field(max_length=MOST_POSES)] | None = None
+    within_tolerance: Annotated[list[_Shares], Field(max_length=MOST_POSES)] | None = None
     tolerance: _Tolerance | None = None
     rounded: _Rounded | None = None
     given: bool = False
@@ -399,6 +406,7 @@ class WrittenLinkage(_Part):
             "clearance",
             "links",
             "coupler",
+            "within_tolerance",
             "tolerance",
             "rounded",
             "moved",

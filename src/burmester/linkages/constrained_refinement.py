@@ -241,7 +241,9 @@ def refine_constrained(
     )
     active = way.equal | (np.abs(way.multipliers) > ACTIVE_MULTIPLIER * way.penalty[:, None])
     state, met = _made_feasible(problem, ends.state, active, way.equal)
-    if problem.places_are_free:  # the nearest places, where they do as well
+    if (
+        problem.places_are_free and problem.metric is None
+    ):  # the nearest places, where they do as well
         near = problem.state(every, state.z, state.rows)
         also = problem.state_ahead(every, state.z, near.rows)
         value, _, _ = all_constraints(problem, every, also)
@@ -259,7 +261,7 @@ def refine_constrained(
 
 def _cost(problem: Problem, state: State) -> FloatArray:
     """The weighted sum (k,) of squared distances from the poses."""
-    gap = problem.share[:, None] * (state.rows - problem.wanted)
+    gap = problem.share[:, None] * problem.counted(state.rows - problem.wanted)
     return np.asarray((gap * gap).sum(axis=(1, 2)))
 
 

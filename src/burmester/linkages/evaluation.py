@@ -28,6 +28,8 @@ from burmester.linkages.requirement_check import Violation, violations
 from burmester.linkages.rounding import rounded
 from burmester.linkages.standard import Standard
 from burmester.linkages.target import Target
+from burmester.linkages.tolerance_boxes import ToleranceBoxes, counted_error, shares_used
+from burmester.linkages.tolerance_words import in_words_of_tolerances
 from burmester.linkages.tolerances import sensitivity_bound, spread
 from burmester.linkages.uncertainty import (
     DETERMINED_SHARE,
@@ -36,7 +38,7 @@ from burmester.linkages.uncertainty import (
     uncertainties,
 )
 from burmester.numerics.arrays import FloatArray
-from burmester.numerics.bundles import take
+from burmester.numerics.bundles import concatenate, take
 from burmester.numerics.differences import DifferenceQuotients
 from burmester.numerics.weights import weights_or_ones
 from burmester.tasks.motion_task import Task
@@ -51,6 +53,7 @@ ACTIVE_LIMIT = 1e-9  # lengths; a limit nearer than this is active
 FIXED, MOVING = slice(0, 2), slice(2, 4)  # the pivots' coordinates in an RR dyad's dimensions
 DRIVEN_FROM_THE_OTHER_SIDE = {"crank-rocker": "rocker-crank", "rocker-crank": "crank-rocker"}
 SIDES: tuple[Side, Side] = ("first", "second")
+SHARE_ROUNDING = 1e-9  # relative; a tolerance that is exceeded by less is kept
 MAX_ROUNDED = 5  # round at most this many linkages
 
 
@@ -95,20 +98,27 @@ class Evaluation:
 
     def members(self, candidates: Candidates) -> list[FoundLinkage]:
         """The same for linkages of a family, in their order: no pose determines their pivots."""
-        return self._judged(candidates)[0]
+        return self._judged(candidates, once=True)[0]
 
     def _judged(
-        self, candidates: Candidates
+        self, candidates: Candidates, *, once: bool = False
     ) -> tuple[list[FoundLinkage], LinkageBatch, FloatArray]:
-        """The linkages in their order, as found and as a batch (dyads alike), and their places."""
+        """The linkages in their order, as found and as a batch (dyads alike), and their places.
+
+        Where there are tolerances, at their places deepest inside, and at those given if they are
+        inside as well: these may be on another branch, or in another order.  once: at those given
+        only, where they are inside.
+        """
         candidates = take(candidates, np.flatnonzero(_sizable(candidates.batch)))
+        if self.target.boxes is not None:
+            candidates = _at_deepest_places(candidates, self.target, self.target.boxes, once=once)
         own = (
             candidates.batch.from_canonical(self.target.frames)
             if candidates.own is None
             else candidates.own
         )
         places = self.target.frames.from_canonical(self.target.places_of(candidates.rows))
-        errors = [PoseError.at(places[k], self.task.poses) for k in range(len(own))]
+        errors, shares = self.errors(places), self.shares(places)
         verdicts = self.verdicts(own, places, errors)
         combined = self.target.combined_error(candidates.rows) * float(self.target.frames.length)
         standard = Standard.of(self.task)
@@ -140,6 +150,7 @@ class Evaluation:
                 missing,
                 from_search=bool(candidates.from_search[k]),
                 clearance=clearance,
+                within_tolerance=None if shares is None else shares[k],
             )
             out.append(replace(found, shortcomings=standard.shortcomings(found, self.task)))
         out = self._with_quality(out, places)
@@ -198,6 +209,16 @@ class Evaluation:
             return FoundDyad(origin, dyad, rms, worst, False)
         return replace(origin, dyad=dyad, rms_error=rms, max_error=worst)
 
+    def errors(self, places: Displacement) -> list[PoseError]:
+        """The errors of linkages (k,) at places (k, N) in the task's own frames."""
+        return [counted_error(places[k], self.task) for k in range(len(places.angle))]
+
+    def shares(self, places: Displacement) -> FloatArray | None:
+        """How much of its tolerance each component uses at places (k, N): (k, N, 3), if any."""
+        if self.task.tolerances is None:
+            return None
+        return shares_used(places, self.task, float(self.target.frames.length))
+
     def verdicts(
         self, own: LinkageBatch, places: Displacement, errors: list[PoseError]
     ) -> list[Verdict]:
@@ -210,6 +231,12 @@ class Evaluation:
         if asked.within_deg is not None:
             length = reach / math.radians(asked.within_deg)
         missed = np.maximum(position, length * turn)
+        slack = None
+        if (shares := self.shares(places)) is not None:
+            slack = 2 * np.nan_to_num(np.hypot(position, length * turn)).max(axis=1)
+            stated = asked.within is not None or asked.within_deg is not None
+            missed = np.maximum(shares.max(axis=-1), missed / reach if stated else 0.0)
+            reach = 1 + SHARE_ROUNDING
         numbers = self.problem.pose_numbers
         given = self.task.names or ("",) * len(numbers)
         names = [name or str(number + 1) for name, number in zip(given, numbers, strict=True)]
@@ -223,8 +250,11 @@ class Evaluation:
                 length=length,
                 names=names,
                 any_order=asked.any_order,
+                order_slack=None if slack is None else slack[index],
             )
             for k, verdict in zip(index, verdicts, strict=True):
+                if shares is not None:
+                    verdict = in_words_of_tolerances(verdict, shares[k], names)  # noqa: PLW2901
                 out[k] = _with_numbers(verdict, numbers)
         return [verdict for verdict in out if verdict is not None]
 
@@ -323,10 +353,30 @@ def at_given_poses(
     """The linkages with their errors at all poses as given, repeated ones too."""
     if problem.motion is None or problem.task.poses.shape == problem.given.poses.shape:
         return tuple(found)
-    group, poses = problem.motion.group, problem.given.poses
+    group, given = problem.motion.group, problem.given
     return tuple(
-        replace(each, error=PoseError.at(each.error.places[group], poses)) for each in found
+        replace(
+            each,
+            error=counted_error(each.error.places[group], given),
+            within_tolerance=None
+            if each.within_tolerance is None
+            else shares_used(each.error.places[group], given, problem.length),
+        )
+        for each in found
     )
+
+
+def _at_deepest_places(
+    candidates: Candidates, target: Target, boxes: ToleranceBoxes, *, once: bool
+) -> Candidates:
+    """The candidates at their places deepest inside the boxes, and at their own if inside."""
+    inside = np.flatnonzero(boxes.boxes.share(candidates.rows).max(axis=-1) <= 1)
+    if once:
+        rows = target.places(candidates.batch, on_both=True)
+        rows[inside] = candidates.rows[inside]
+        return candidates._replace(rows=rows)
+    deepest = candidates._replace(rows=target.places(candidates.batch, on_both=True))
+    return concatenate([deepest, take(candidates, inside)]) if len(inside) else deepest
 
 
 def _sizable(batch: LinkageBatch) -> NDArray[np.bool_]:

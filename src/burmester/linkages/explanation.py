@@ -69,6 +69,8 @@ def in_short(found: FoundLinkage, task: Task, size: float) -> str:
 def _too_far(found: FoundLinkage, task: Task, defect: Defect) -> str | None:
     """An assembly defect in terms of the distance, if the linkage has places near those poses."""
     poses = list(defect.poses)
+    if task.tolerances is not None:
+        return None
     if defect.kind != "assembly" or not np.isfinite(found.error.position[poses]).all():
         return None
     away = length_of(float(found.error.position[poses].max()), task)

@@ -14,6 +14,7 @@ from burmester.linkages.quality import Quality
 from burmester.linkages.requirement_check import Violation
 from burmester.linkages.tolerances import Spread
 from burmester.linkages.uncertainty import DyadUncertainty
+from burmester.numerics.arrays import FloatArray
 
 __all__ = ["FoundLinkage", "Pair", "Side", "with_driver_first"]
 
@@ -69,6 +70,9 @@ class FoundLinkage:
         Whether these regions are small compared with the motion.
     other_types : tuple of str
         The other types of Grashof that errors of the poses leave possible (`possible_types`).
+    within_tolerance : (N, 3) array, optional
+        How much of its tolerance each component of each pose uses, where the task has tolerances:
+        at most 1 inside, 0 for free components.
     spread : Spread, optional
         Of the error, for links and pivots built within a tolerance.
     error_before_rounding : PoseError, optional
@@ -101,6 +105,7 @@ class FoundLinkage:
     uncertainty: tuple[DyadUncertainty, DyadUncertainty] | None = None
     determined: bool = True
     other_types: tuple[str, ...] = ()
+    within_tolerance: FloatArray | None = None
     spread: Spread | None = None
     error_before_rounding: PoseError | None = None
     clearance: Clearance | None = None

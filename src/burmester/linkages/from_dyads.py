@@ -38,6 +38,8 @@ from burmester.linkages.ranking import (
 )
 from burmester.linkages.sound_linkages import sound_linkages
 from burmester.linkages.target import Target
+from burmester.linkages.tolerance_boxes import ToleranceBoxes
+from burmester.linkages.tolerance_search import into_boxes
 from burmester.linkages.trade import trades
 from burmester.numerics.arrays import ROUNDING, FloatArray
 from burmester.progress import step
@@ -104,21 +106,30 @@ def target_of(problem: SynthesisProblem) -> Target:
             DyadLimitsConstraint(side, task.limits[min(side, len(task.limits) - 1)], frames)
             for side in (0, 1)
         )
+    poses, unit, boxes = frames.to_canonical(task.poses), float(frames.length), None
+    if task.tolerances is not None:
+        boxes = ToleranceBoxes.of(task.tolerances, poses, length / unit, unit)
+        kept = (*kept, boxes)
     return Target(
-        frames.to_canonical(task.poses),
-        length / float(frames.length),
+        poses,
+        length / unit,
         frames,
         task.requirements,
         kept,
         task.weights,
-        task.exact,
+        task.exact if boxes is None else None,
         problem.options.norm == "worst",
+        boxes,
     )
 
 
 def _of_pairs(start: LinkageBatch, pairs: list[Pair], target: Target, refine: bool) -> Candidates:
     """The pairs with their places, on one circuit where that costs little, and refined."""
     every = np.arange(len(start))
+    if target.boxes is not None:
+        none = np.zeros(len(start), dtype=bool)
+        candidates = Candidates(start, target.places(start), pairs, none)
+        return into_boxes(candidates, target) if refine else candidates
     _, one, best, away, least = _places(start, target)
     apart = away > np.maximum(ONE_CIRCUIT_RATIO * least, ROUNDING)
     both = apart & np.isfinite(away) & np.isfinite(least) & refine

@@ -67,7 +67,8 @@ def farthest_recommended(closest: FoundLinkage, problem: SynthesisProblem) -> fl
     Any where the task states a tolerance, which all usable ones keep; else ERROR_RATIO times the
     closest one's, or what the digits leave open.
     """
-    if problem.task.requirements.within is not None:
+    task = problem.task
+    if task.requirements.within is not None or task.tolerances is not None:
         return math.inf
     return ERROR_RATIO * max(closest.combined_error, digits_leave_open(problem))
 

@@ -78,6 +78,7 @@ def refine(
     exact: NDArray[np.bool_] | None = None,
     constraints: Constraints | None = None,
     free: NDArray[np.bool_] | None = None,
+    metric: FloatArray | None = None,
     worst: bool = False,
     steps: int = MAX_STEPS,
     constrained_steps: int = MAX_CONSTRAINED_STEPS,
@@ -105,6 +106,9 @@ def refine(
         All further constraints.
     free : (k, 10) array of bool, optional
         The dimensions that may change; by default all.
+    metric : (N, 3, 3) array of float, optional
+        What counts of the gap at each pose is this matrix times the gap (x, y, length x angle),
+        under constraints that use the places.
     worst : bool
         Minimise the greatest distance instead of the sum of squares: by sums of ever higher powers
         of the distances, and so to about half a percent.
@@ -117,7 +121,9 @@ def refine(
     slots = np.ones((count, 2, DIMENSIONS), dtype=bool)
     slots[..., -1] = batch.kinds == 0
     used = slots.reshape(count, SIZE) & (True if free is None else free)
-    problem = Problem(batch.kinds, rows_of(poses, length), length, share, exact, constraints, used)
+    problem = Problem(
+        batch.kinds, rows_of(poses, length), length, share, exact, constraints, used, metric
+    )
     state = problem.state(
         np.arange(count), batch.dimensions.reshape(count, SIZE), rows_of(places, length)
     )
@@ -132,7 +138,7 @@ def refine(
         else:
             state, done = _descend(problem, state, power, steps)
             rows = state.rows
-    size = share * np.sqrt(((rows - problem.wanted) ** 2).sum(axis=-1))
+    size = share * np.sqrt((problem.counted(rows - problem.wanted) ** 2).sum(axis=-1))
     cost = size.max(axis=-1) if worst else (size * size).sum(axis=-1) / 2
     lost = ~np.isfinite(cost)
     return Refined(problem.batch(np.arange(count), state.z), rows, cost, done & ~lost, met & ~lost)

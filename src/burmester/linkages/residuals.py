@@ -81,6 +81,8 @@ class Problem:
     wanted: (N, 3), the poses as rows of x, y, length x angle.
     share: (N,), roots of their weights, 0 for exact poses.
     free: (k, 10), which dimensions may change.
+    metric: (N, 3, 3), what counts of a gap at each pose is this matrix times the gap, where places
+        are free; None: all of it.
     """
 
     kinds: NDArray[np.int8]
@@ -90,6 +92,11 @@ class Problem:
     exact: NDArray[np.bool_]
     constraints: Constraints | None
     free: NDArray[np.bool_]
+    metric: FloatArray | None = None
+
+    def counted(self, gap: FloatArray) -> FloatArray:
+        """What counts of gaps (*, N, 3)."""
+        return gap if self.metric is None else matvec(self.metric, gap)
 
     def batch(self, which: NDArray[np.intp], z: FloatArray) -> LinkageBatch:
         """The linkages at the indices with dimensions z."""
@@ -141,7 +148,9 @@ class Problem:
             place_jacobian = np.zeros((*gap.shape, SIZE + len(every)))
             place_jacobian[..., :SIZE] = _normal_part(at, gap, partial)[2]
             place_jacobian[:, every, :, SIZE + every] = np.moveaxis(at.tangent, 1, 0)
-            return State(z, rows, gap, place_jacobian, place_jacobian)
+            if self.metric is None:
+                return State(z, rows, gap, place_jacobian, place_jacobian)
+            return State(z, rows, self.counted(gap), self.metric @ place_jacobian, place_jacobian)
 
     def constraint_values(
         self, which: NDArray[np.intp], state: State

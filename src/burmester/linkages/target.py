@@ -8,6 +8,7 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.fourbar.box_places import places_in_boxes
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.foot_points import places_of, rows_of
 from burmester.fourbar.linkage_batch import LinkageBatch
@@ -17,7 +18,9 @@ from burmester.linkages.constraints import (
     Constraints,
 )
 from burmester.linkages.refinement import Refined, refine
+from burmester.linkages.tolerance_boxes import ToleranceBoxes
 from burmester.numerics.arrays import FloatArray
+from burmester.numerics.linear_algebra import matvec
 from burmester.numerics.weights import shares
 from burmester.tasks.requirements import Requirements
 
@@ -29,8 +32,9 @@ __all__ = ["Target"]
 class Target:
     """Poses (N,) to come near to, in the frames of `pose_error.error_frames`, and what else holds.
 
-    kept: the limits of the dyads, as constraints.
+    kept: the limits of the dyads, as constraints, and the boxes.
     weights, exact, worst: as in `refine`.
+    boxes: where the task has tolerances; then errors count in their metric.
     """
 
     poses: Displacement
@@ -41,6 +45,16 @@ class Target:
     weights: FloatArray | None = None
     exact: NDArray[np.bool_] | None = None
     worst: bool = False
+    boxes: ToleranceBoxes | None = None
+
+    @property
+    def relaxed(self) -> Target:
+        """The same without the condition that places are inside the boxes."""
+        return self if self.boxes is None else self._with_boxes(replace(self.boxes, binding=False))
+
+    def _with_boxes(self, boxes: ToleranceBoxes) -> Target:
+        kept = tuple(each for each in self.kept if not isinstance(each, ToleranceBoxes))
+        return replace(self, kept=(*kept, boxes), boxes=boxes)
 
     def refine(self, batch: LinkageBatch, rows: FloatArray, **how: Any) -> Refined:
         """Linkages (k,) with places (k, N, 3), refined to the least error; how: as in `refine`."""
@@ -51,6 +65,7 @@ class Target:
             self.length,
             weights=self.weights,
             exact=self.exact,
+            metric=None if self.boxes is None else self.boxes.metric,
             **how,
         )
 
@@ -62,15 +77,29 @@ class Target:
         index = np.linspace(0, count - 1, most).round().astype(np.intp)
         if self.exact is not None:
             index = np.union1d(index, np.flatnonzero(self.exact))
+        thin = self if self.boxes is None else self._with_boxes(self.boxes.at(index))
         return replace(
-            self,
+            thin,
             poses=self.poses[index],
             weights=None if self.weights is None else self.weights[index],
             exact=None if self.exact is None else self.exact[index],
         )
 
-    def places(self, batch: LinkageBatch) -> FloatArray:
-        """Rows (k, N, 3) of the places nearest to the poses, on the circuit with the least cost."""
+    def places(self, batch: LinkageBatch, *, on_both: bool = False) -> FloatArray:
+        """Rows (k, N, 3) of the places nearest to the poses, on the circuit with the least cost.
+
+        Where there are boxes: of the places deepest inside them, on the circuit that uses the least
+        share of all.  on_both: on both circuits, where only so all are inside.
+        """
+        if self.boxes is not None:
+            rows, every = rows_of(places_in_boxes(batch, self.boxes.boxes), self.length), len(batch)
+            used = self.boxes.boxes.share(rows)
+            worst = used.max(axis=-1)
+            one = rows[np.arange(every), worst.argmin(axis=1)]
+            side = used.argmin(axis=1)
+            mixed = np.take_along_axis(rows, side[:, None, :, None], axis=1)[:, 0]
+            split = on_both & (used.min(axis=1).max(axis=-1) <= 1) & (worst.min(axis=1) > 1)
+            return np.where(split[:, None, None], mixed, one)
         rows = rows_of(on_circuits(batch, self.poses, self.length), self.length)
         cost = np.nan_to_num(self.cost(rows), nan=np.inf)
         return np.asarray(rows[np.arange(len(batch)), cost.argmin(axis=1)])
@@ -85,7 +114,10 @@ class Target:
 
     def combined_error(self, rows: FloatArray) -> FloatArray:
         """The error (*,) of rows (*, N, 3) that a refinement makes least; infinite where nan."""
-        gap = np.linalg.norm(rows - rows_of(self.poses, self.length), axis=-1)
+        away = rows - rows_of(self.poses, self.length)
+        if self.boxes is not None:
+            away = self.boxes.counted(rows)
+        gap = np.linalg.norm(away, axis=-1)
         gap = np.nan_to_num(gap, nan=np.inf)
         if self.worst:
             return np.asarray(gap.max(axis=-1))
@@ -94,5 +126,8 @@ class Target:
 
     def cost(self, rows: FloatArray) -> FloatArray:
         """The weighted sum of squared distances (*,) of rows (*, N, 3) from the poses."""
-        gap = ((rows - rows_of(self.poses, self.length)) ** 2).sum(axis=-1)
+        away = rows - rows_of(self.poses, self.length)
+        if self.boxes is not None:
+            away = matvec(self.boxes.metric, away)
+        gap = (away**2).sum(axis=-1)
         return np.asarray(gap.sum(axis=-1) if self.weights is None else gap @ self.weights)

@@ -28,6 +28,8 @@ STEPS = 40  # number of steps of these refinements
 def trades(best: FoundLinkage, evaluation: Evaluation) -> list[FoundLinkage]:
     """Linkages near a usable one that are truer in one error, as usable, and not much worse."""
     problem, target = evaluation.problem, evaluation.target
+    if target.boxes is not None:  # the tolerances say what an angle counts as
+        return []
     if not math.isfinite(best.combined_error) or (
         best.combined_error <= digits_leave_open(problem)
     ):

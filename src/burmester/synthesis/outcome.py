@@ -233,6 +233,8 @@ def _none_usable(
     task, size = problem.given, problem.length
     nearest = by_nearness(linkages, size)[0]
     works = "works within the requirements" if task.requirements.has_any else "works"
+    if task.tolerances is not None and all(map(_is_outside, linkages)):
+        return _outside_tolerances(problem, linkages, all_of_them + aside)
     if len(linkages) == 1:
         none = f"which does not {works.replace('works', 'work')}"
         why = "it"
@@ -245,6 +247,32 @@ def _none_usable(
         hints(linkages, problem),
         f"{why} {in_short(nearest, task, size)}",
     )
+
+
+def _is_outside(found: FoundLinkage) -> bool:
+    return any(each.kind == "assembly" for each in found.defects)
+
+
+def _outside_tolerances(
+    problem: SynthesisProblem, linkages: Sequence[FoundLinkage], message: str
+) -> Outcome:
+    """Linkages, and none of them inside the tolerances of all poses."""
+
+    def worst(each: FoundLinkage) -> float:
+        return math.inf if each.within_tolerance is None else float(each.within_tolerance.max())
+
+    task, nearest = problem.given, min(linkages, key=worst)
+    why = f"the one that exceeds them least, {nearest.id}, is "
+    why += "; ".join(each.message for each in nearest.defects if each.kind == "assembly")
+    help = "widen that tolerance, free a component that does not count, or leave a pose out"
+    if math.isfinite(worst(nearest)) and not _has_exact_parts(task):
+        times = math.ceil(100 * worst(nearest)) / 100
+        help += f"; with all tolerances {times:g} times as wide {nearest.id} would be inside"
+    return Outcome("R304", f"no linkage stays inside all tolerances: {message}", help, why)
+
+
+def _has_exact_parts(task: Task) -> bool:
+    return task.tolerances is not None and bool(task.tolerances.exact.any())
 
 
 def _undetermined(

@@ -169,6 +169,24 @@ class PoseTolerances:
         axes = np.array(self.axes)[index]
         return PoseTolerances(self.position[index], self.angle[index], tuple(axes.tolist()))
 
+    def merged(self, group: NDArray[np.int_]) -> PoseTolerances:
+        """Those of repeated poses in one, so tight that they hold for each.
+
+        group: (N,), which of the distinct poses each pose is.  Of boxes along different axes the
+        one taken is inside all of them.
+        """
+        bounds, axes = [], list[ToleranceAxes]()
+        for number in range(int(group.max()) + 1):
+            same = np.flatnonzero(group == number)
+            tightest = self.bounds[same].min(axis=0)
+            words = {self.axes[k] for k in same.tolist()}
+            if len(words) > 1:
+                tightest[:2] = tightest[:2].min() / math.sqrt(2)
+            bounds.append(tightest)
+            axes.append("body" if words == {"body"} else "fixed")
+        tight = np.array(bounds)
+        return PoseTolerances(tight[:, :2], tight[:, 2], tuple(axes))
+
 
 def nominal_values(
     values: FloatArray, free: NDArray[np.bool_], *, turn: float | None = None

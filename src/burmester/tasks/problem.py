@@ -9,7 +9,7 @@ import numpy as np
 
 from burmester.tasks.length_per_radian import default_length_per_radian
 from burmester.tasks.motion_class import MotionClass
-from burmester.tasks.motion_kinds import FewPoses, Undetermined
+from burmester.tasks.motion_kinds import FewPoses, Rest, Undetermined
 from burmester.tasks.motion_task import CONDITIONS, Task, characteristic_length
 from burmester.tasks.notation import span
 from burmester.tasks.options import SynthesisOptions
@@ -62,6 +62,8 @@ class SynthesisProblem:
         if self.motion is None or self.motion.determined:
             return False
         kind = self.motion.kind
+        if self.given.tolerances is not None:  # what is nearly special may be met otherwise
+            return isinstance(kind, Rest)
         settled = any(each.conditions for each in self.given.limits)
         few = isinstance(kind, FewPoses) and (settled or kind.repeats)
         small = isinstance(kind, Undetermined) and settled
@@ -86,6 +88,7 @@ class SynthesisProblem:
         if motion is None or motion.distinct == task.poses.shape[0]:
             return self
         size, first, exact, weights = motion.distinct, motion.first, task.exact, task.weights
+        tolerances = task.tolerances
         if weights is not None:
             weights = np.bincount(motion.group, weights, size).astype(np.float64)
         once = replace(
@@ -94,5 +97,6 @@ class SynthesisProblem:
             weights=weights,
             names=None if task.names is None else tuple(task.names[i] for i in first),
             exact=None if exact is None else np.bincount(motion.group, exact, size) > 0,
+            tolerances=None if tolerances is None else tolerances.merged(motion.group),
         )
         return replace(self, task=once)

@@ -22,6 +22,7 @@ from burmester.io.linkage_data import dyad_data, linkage_data, number, poses_dat
 from burmester.io.result import message_data
 from burmester.linkages import explanation
 from burmester.linkages.found_linkage import FoundLinkage
+from burmester.linkages.tolerance_words import share_texts
 from burmester.synthesis.result import Synthesis
 from burmester.tasks import notation
 from burmester.tasks.motion_task import Task
@@ -203,6 +204,10 @@ def _pose_errors(
             "way": None if at is None else at[0],
             "frame": None if at is None else at[1],
         }
+        shares: tuple[str | None, str | None] = (None, None)
+        if found.within_tolerance is not None:
+            x, y, turn = share_texts(found, synthesis.task)[pose]
+            shares = (f"{x} | {y}", turn)
         row["said"] = {
             "position": digits.position_error(synthesis, float(error.position[pose])),
             "turned": digits.angle_error(float(error.angle[pose])),
@@ -210,6 +215,9 @@ def _pose_errors(
             if math.isfinite(transmission[pose])
             else "-",
         }
+        for key, share in zip(("position", "turned"), shares, strict=True):
+            if share is not None:
+                row["said"][key] += f" ({share})"
         rows.append(row)
     return rows
 
