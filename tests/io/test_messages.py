@@ -1358,7 +1358,7 @@ def whole(text):
     return " ".join(" ".join(kept).split())
 
 
-TOLD = ("R300", "R305", "R307")
+TOLD = ("R300", "R305", "R307", "R308")
 ONLY_JSON = ("R320", "R321")  # kinds of motion that say no outcome
 SHOWN = [name for name, case in CASES.items() if case.code not in ONLY_JSON]
 
