@@ -2,6 +2,7 @@
 
     python -m benchmarks.few_poses --count 100 --seed 0
     python -m benchmarks.few_poses --count 100 --seed 0 --search
+    python -m benchmarks.few_poses --count 45 --seed 0 --sliders
 
 The tasks are those of `tests/oracles/few_pose_tasks.py`: two, three and four poses in turns, boxes
 for both pivots, spans of 50 to 500 mm, turns of 10 to 150 degrees; of some nobody knows whether
@@ -9,6 +10,9 @@ they can be solved.  The witness is `tests/oracles/few_poses.py`, which shares n
 package.  `--search` runs it, and keeps what it finds in `few_poses.json` beside this file: without
 it the kept linkages are taken, driven again.  What is compared is the least transmission angle over
 the range that the poses use, by the better driver; of both sides the same witness drives it.
+
+With `--sliders` one dyad is a link in its boxes, and the other a slider on the ground with its
+moving pivot in a box; brute force (`tests/oracles/few_poses_slider.py`) runs there each time.
 
 Exit code 1 if a task that brute force solves is answered with none, or if fewer than 95 in 100
 recommended linkages are within a degree of the best found.
@@ -23,6 +27,7 @@ from pathlib import Path
 import numpy as np
 from tests.oracles.few_pose_tasks import few_pose_task
 from tests.oracles.few_poses import FINE, Best, FewPoses
+from tests.oracles.few_poses_slider import SliderPoses
 
 from burmester.fourbar.dyad import RR
 from burmester.geometry.displacement import Displacement
@@ -103,6 +108,37 @@ def compared(seed, witness):
     return given, (ours[0] if ours else 0.0), max(ours, default=0.0), theirs, took
 
 
+def with_slider(seed):
+    """The same task for a link and a slider: the task, and its brute force."""
+    given = few_pose_task(seed)
+    (fixed, moving), (_, pivot) = (given.boxes * 2)[:2]
+    link = Limits(fixed_pivot=box(*fixed), moving_pivot=box(*moving), kinds=frozenset({"RR"}))
+    slider = Limits(moving_pivot=box(*pivot), kinds=frozenset({"PR"}))
+    poses = Displacement.from_poses(given.rows)
+    task = Task(poses, limits=(link, slider), length_unit="mm")
+    return task, SliderPoses(given.rows, fixed, moving, pivot)
+
+
+def slider_angle(witness, linkage):
+    """The least transmission angle of a link and a slider in degrees, driven by the witness."""
+    link, slider = linkage.first, linkage.second
+    pivots = np.array([link.fixed_pivot, link.moving_pivot, slider.moving_pivot]) @ [1, 1j]
+    z = (pivots - [witness.one.middle, 0, 0]) / witness.one.unit
+    return float(witness.judged(z[None], FINE)[0][0])
+
+
+def compared_sliders(seed):
+    """As `compared`, for a link and a slider; brute force runs here."""
+    task, witness = with_slider(seed)
+    start = time.perf_counter()
+    result = synthesize(task)
+    took = time.perf_counter() - start
+    ours = [slider_angle(witness, found.linkage) for found in result.usable]
+    found = witness.best(np.random.default_rng([17, seed]))
+    theirs = 0.0 if found is None else found[0]
+    return few_pose_task(seed), (ours[0] if ours else 0.0), max(ours, default=0.0), theirs, took
+
+
 def search(seeds):
     """Run brute force, and keep what it finds beside what is kept already."""
     data = json.loads(KEPT.read_text()) if KEPT.exists() else {}
@@ -125,6 +161,7 @@ def main():
     parser.add_argument("--count", type=int, default=100)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--search", action="store_true", help="run brute force, and keep it")
+    parser.add_argument("--sliders", action="store_true", help="a link and a slider, 2 or 3 poses")
     asked = parser.parse_args()
     seeds = range(asked.seed, asked.seed + asked.count)
     if asked.search:
@@ -132,7 +169,12 @@ def main():
         return 0
     known, rows, none = kept(), [], []
     for seed in seeds:
-        given, ours, best, theirs, took = compared(seed, known[seed])
+        if asked.sliders:
+            if seed % 3 == 2:
+                continue  # four poses: one pivot at most has them on a line
+            given, ours, best, theirs, took = compared_sliders(seed)
+        else:
+            given, ours, best, theirs, took = compared(seed, known[seed])
         what = "as good" if ours >= theirs - NEAR else "worse"
         if ours == 0 < theirs:
             none.append(seed)

@@ -1,10 +1,15 @@
 """The brute force that families are held against, held itself against what is known."""
 
+from dataclasses import fields
+
 import numpy as np
 import pytest
-from benchmarks.few_poses import angle_of, brute_force, kept
+from benchmarks.few_poses import angle_of, brute_force, kept, with_slider
 
-from burmester.fourbar.dyad import RR
+from burmester.fourbar.defects import judge
+from burmester.fourbar.dyad import PR, RR
+from burmester.fourbar.linkage import Linkage
+from burmester.geometry.displacement import Displacement
 from tests.oracles.few_pose_tasks import few_pose_task
 from tests.oracles.few_poses import FINE, FewPoses, span_of
 from tests.oracles.hard_tasks import sines
@@ -57,6 +62,35 @@ def test_it_is_as_good_as_a_linkage_that_is_known(seed):
     stored = kept()[seed]
     assert found.angle == pytest.approx(stored.angle, abs=0.3)
     assert angle_of(given, stored.pivots) == pytest.approx(stored.angle, abs=0.01)
+
+
+@pytest.mark.parametrize("seed", [3, 4, 7, 10])
+def test_sliders_of_brute_force_are_as_the_verdict_says(seed):
+    """The other code's linkage, judged by the package: poses met, and the same angle."""
+    task, search = with_slider(seed)
+    angle, (c, m, p) = search.best(np.random.default_rng(0), starts=8)
+    at = task.poses.translation @ [1, 1j]
+    pins = at + np.exp(1j * task.poses.angle) * p
+    normal = 1j * (pins[-1] - pins[0])
+    pair = [np.array([z.real, z.imag]) for z in (c, m, p)]
+    first = RR(pair[0], pair[1], abs(at[0] + np.exp(1j * task.poses.angle[0]) * m - c))
+    offset = float((pins[0] * np.conj(normal)).real / abs(normal))
+    linkage = Linkage(first, PR(float(np.angle(normal)), offset, pair[2]))
+    reach = 1e-5 * span_of(few_pose_task(seed).rows)
+    places = Displacement(task.poses.translation[None], task.poses.angle[None])
+    for dyad in (linkage.first, linkage.second):
+        assert np.abs(dyad.residual(task.poses)).max() < reach
+    batch = Linkage(*(stacked(dyad) for dyad in (linkage.first, linkage.second)))
+    (verdict,) = judge(batch, places, missed=np.zeros((1, len(at))), reach=reach)
+    assert verdict.defects == ()
+    driven = [each for each in (verdict.first, verdict.second) if not each.defects]
+    told = max(each.least_over_range for each in driven)
+    assert np.degrees(told) == pytest.approx(angle, abs=0.02)
+
+
+def stacked(dyad):
+    """A dyad as a batch of one."""
+    return type(dyad)(*(np.asarray(getattr(dyad, each.name))[None] for each in fields(dyad)))
 
 
 def test_what_it_finds_is_within_the_limits_and_led_through_the_poses():
