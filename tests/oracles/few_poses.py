@@ -18,7 +18,7 @@ from scipy.optimize import minimize
 
 FULL = 2 * np.pi
 LOCKED = 1.0 - 5e-7  # |cos| of the transmission angle at which a driver locks (0.06 degrees)
-DRAWN = 6000  # random dyads a box and round
+DRAWN = 6000  # random dyads of each pair of boxes, up to four times
 KEPT = 420  # dyads of which all pairs are driven
 COARSE, FINE = 40, 1500  # steps of a drive: of all pairs, and of what is told
 WITHIN = 9  # places from pose to pose at which SLSQP holds the transmission angle
@@ -55,9 +55,10 @@ class FewPoses:
     rows: (N, 3), x, y, angle (radians).
     boxes: for both dyads, or one for each: the corners (2, 2) of the boxes of its fixed and of its
         moving pivot.
+    draws: the random dyads of each round.
     """
 
-    def __init__(self, rows, boxes, bounds=None):
+    def __init__(self, rows, boxes, bounds=None, draws=DRAWN):
         rows = np.asarray(rows, dtype=float)
         self.unit, self.middle = span_of(rows), complex(*rows[:, :2].mean(axis=0))
         self.at = (rows[:, :2] @ [1, 1j] - self.middle) / self.unit
@@ -71,6 +72,7 @@ class FewPoses:
         ]
         self.same_boxes = len(boxes) == 1
         self.bounds = Bounds() if bounds is None else bounds
+        self.draws = draws
 
     # dyads ----------------------------------------------------------------------------------
 
@@ -116,7 +118,7 @@ class FewPoses:
         """Dyads c (k,), m (k,) that meet the poses within a pair of boxes, at most KEPT."""
         found = [np.empty((0, 2), complex)]
         for _ in range(4):
-            c, m = (drawn(rng, corners, DRAWN) for corners in box)
+            c, m = (drawn(rng, corners, self.draws) for corners in box)
             c, m = self.onto_the_poses(c, m, 30, box)
             good = (abs(self.misses(c, m)) < MET).all(axis=1)
             length = abs(self.pins(m)[:, 0] - c)
