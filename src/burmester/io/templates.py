@@ -1,4 +1,4 @@
-"""Task files to start from: one with every key, and constructed tasks from six trades."""
+"""Task files to start from: one with every key, and constructed tasks from many trades."""
 
 from __future__ import annotations
 
