@@ -159,6 +159,19 @@ def test_the_recommended_one_is_best_by_the_rule_and_no_other_is_surpassed():
         assert not (others <= row - 1e-9).all(axis=1).any()
 
 
+@pytest.mark.parametrize(("prefer", "figure"), [("size", "extent"), ("accuracy", "sensitivity")])
+def test_what_is_preferred_comes_first(prefer, figure):
+    task = task_of(OPENING)
+    usual = synthesize(task).usable
+    preferred = synthesize(task, prefer=prefer).usable
+    least = min(
+        float(getattr(each.quality, figure)) for each in preferred if each.linkage.links is not None
+    )
+    first = float(getattr(preferred[0].quality, figure))
+    assert first <= 1.1 * least
+    assert first < float(getattr(usual[0].quality, figure))
+
+
 def test_the_front_is_what_comparing_all_with_all_leaves():
     rng = np.random.default_rng(5)
     rows = rng.normal(size=(300, 3)).round(1)

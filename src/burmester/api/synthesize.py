@@ -11,7 +11,7 @@ from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
 from burmester.synthesis import motion_generation
 from burmester.tasks.motion_task import AngleUnit, Task
-from burmester.tasks.options import Method, Norm, SynthesisOptions
+from burmester.tasks.options import Method, Norm, Preference, SynthesisOptions
 
 __all__ = ["synthesize", "task_of"]
 
@@ -29,6 +29,7 @@ def synthesize(
     manufacturing_tolerance: float | None = None,
     rounding_step: float | None = None,
     stock_lengths: Sequence[float] = (),
+    prefer: Preference = "transmission",
 ) -> Result:
     """Every four-bar that guides a body through or near poses, judged and ranked.
 
@@ -60,6 +61,8 @@ def synthesize(
         Lengths and pivots are rounded to multiples of this length.
     stock_lengths : sequence of float
         The link lengths that are available.
+    prefer : {"transmission", "size", "accuracy"}
+        What the recommended linkage of two to four poses is best at.
 
     Returns
     -------
@@ -94,6 +97,7 @@ def synthesize(
         manufacturing_tolerance=manufacturing_tolerance,
         rounding_step=rounding_step,
         stock_lengths=stock_lengths,
+        prefer=prefer,
     )
     task = task_of(poses, angle_unit, length_unit)
     return Result.of(motion_generation.synthesize(task, options))

@@ -287,6 +287,13 @@ METHOD: tuple[Decorator, ...] = (
         "for 6 or more; exact: all dyads through 5; auto: complete for 6 or more, exact for 5.",
     ),
     *MEASURE,
+    _method(
+        "--prefer",
+        type=click.Choice(["transmission", "size", "accuracy"]),
+        default="transmission",
+        show_default=True,
+        help="What the recommended linkage of two to four poses is best at.",
+    ),
     _method("--certify", is_flag=True, help="Prove with interval arithmetic what can be proved."),
     _method(
         "--raw",
@@ -391,6 +398,7 @@ def run_synthesis(poses: str, **given: Any) -> Synthesis:
         given["norm"],
         normalise=not given["raw"],
         certify=given["certify"],
+        prefer=given["prefer"],
         **further,
     )
     with working("reading the poses"):

@@ -34,16 +34,22 @@ from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import concatenate, take, where
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
+from burmester.tasks.options import Preference
 from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.requirements import TYPES
 
-__all__ = ["RULE", "Family", "best_of_family"]
+__all__ = ["RULES", "Family", "best_of_family"]
 
-RULE: Final = (
-    "Recommended is a linkage with pins before one with a slider, then the one with the greatest "
-    "least transmission angle, then, within half a degree of it, the one with the least product of "
-    "extent and sensitivity"
-)
+_PINS: Final = "Recommended is a linkage with pins before one with a slider, then "
+_ALIKE: Final = "of those within a tenth of the least {} the one that transmits best"
+# The rule by which a linkage is recommended, by what is preferred.
+RULES: Final[Mapping[Preference, str]] = {
+    "transmission": f"{_PINS}the one with the greatest least transmission angle, then, within half "
+    "a degree of it, the one with the least product of extent and sensitivity",
+    "size": _PINS + _ALIKE.format("extent"),
+    "accuracy": _PINS + _ALIKE.format("sensitivity"),
+}
+AS_GOOD: Final = 1.1  # ratio to the least extent or sensitivity, up to which another one is as good
 
 # How many dyads are drawn of each kind: RR, PR, RP; with pins alone, and with sliders.
 PINS: Final = {0: 450}
@@ -258,7 +264,7 @@ def _shown(pool: _Pool, task: OpenTask) -> NDArray[np.intp]:
     if not value.good.any():
         return np.argsort(value.violation, kind="stable")[:SHOWN_FAILING]
     good = np.flatnonzero(value.good)
-    best = good[best_first(*(figure[good] for figure in value[1:]))[0]]
+    best = good[_recommended(take(value, good), task.conditions.prefer)]
     figures = np.stack([-value.transmission, value.extent, value.sensitivity], axis=1)
     on_front = good[front(figures[good])]
     on_front = np.concatenate([[best], on_front[on_front != best]])
@@ -268,6 +274,15 @@ def _shown(pool: _Pool, task: OpenTask) -> NDArray[np.intp]:
     rest = on_front[chosen[1:]]
     rest = rest[best_first(*(figure[rest] for figure in value[1:]))]
     return np.concatenate([[best], rest])
+
+
+def _recommended(value: Assessment, prefer: Preference) -> int:
+    """The index of the linkage that the rule recommends."""
+    if prefer != "transmission":
+        figure = value.extent if prefer == "size" else value.sensitivity
+        alike = np.flatnonzero(figure <= AS_GOOD * figure.min())
+        return int(alike[value.transmission[alike].argmax()])
+    return int(best_first(*value[1:])[0])
 
 
 def _pins(trials: Trials, task: OpenTask) -> FloatArray:
@@ -304,7 +319,7 @@ def _open_task(problem: SynthesisProblem, target: Target, assumed: Assumptions) 
         sides.append(DyadFreedom(*pivots, (least / unit, most / unit), kinds))
     half_widths, axes = _tolerances(task, target, assumed.size / unit)
     both = sides[0], sides[-1]
-    bounds = _conditions(task, both, target, assumed)
+    bounds = _conditions(problem, both, target, assumed)
     return OpenTask(target.poses, target.length, frames, both, half_widths, axes, bounds)
 
 
@@ -322,10 +337,14 @@ def _tolerances(task: Task, target: Target, size: float) -> tuple[FloatArray, Fl
 
 
 def _conditions(
-    task: Task, sides: tuple[DyadFreedom, DyadFreedom], target: Target, assumed: Assumptions
+    problem: SynthesisProblem,
+    sides: tuple[DyadFreedom, DyadFreedom],
+    target: Target,
+    assumed: Assumptions,
 ) -> Conditions:
     """What linkages must be, in the frames of an open task."""
-    asked, unit = task.requirements, float(target.frames.length)
+    task, unit = problem.task, float(target.frames.length)
+    asked = task.requirements
     footprint = asked.footprint
     if footprint is not None:
         footprint = Polygon((footprint.vertices - target.frames.fixed_origin) / unit)
@@ -350,4 +369,5 @@ def _conditions(
         any_order=asked.any_order,
         change_point=Standard.of(task).change_point,
         footprint=footprint,
+        prefer=problem.options.prefer,
     )

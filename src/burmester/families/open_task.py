@@ -15,6 +15,7 @@ from burmester.fourbar.linkage_batch import DIMENSIONS, DYAD_KINDS, LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
+from burmester.tasks.options import Preference
 
 __all__ = ["Conditions", "DyadFreedom", "OpenTask", "Trials"]
 
@@ -71,6 +72,7 @@ class Conditions:
     transmission: the least transmission angle over the range, radians.
     shortest, longest: of the links; ratio: of the longest of four to the shortest.
     span: of the motion, by which the extent is measured.
+    prefer: by which figure the recommended linkage is chosen.
     types: (8,), whether 4R linkages are allowed, by the signs of their Grashof sums, in binary.
     kinds: the pairs of kinds of dyads that are allowed; drivers: the sides that may drive.
     """
@@ -87,6 +89,7 @@ class Conditions:
     any_order: bool
     change_point: bool
     footprint: Polygon | None
+    prefer: Preference
 
 
 @final

@@ -18,7 +18,7 @@ from burmester.dyads.local_minima import BestDyads
 from burmester.dyads.pencil import Pencil
 from burmester.dyads.selection import Fit
 from burmester.errors import Advice, BurmesterError
-from burmester.families.family import RULE, Family
+from burmester.families.family import RULES, Family
 from burmester.geometry.regions import Line, Point, Polygon, Segment
 from burmester.io.linkage_data import (
     degrees_of,
@@ -35,6 +35,7 @@ from burmester.synthesis.result import JUDGED, Outcome, Synthesis
 from burmester.tasks.limits import KINDS, Limits
 from burmester.tasks.motion_class import MotionClass
 from burmester.tasks.motion_task import Task
+from burmester.tasks.options import Preference
 from burmester.tasks.pose_tolerances import COMPONENTS, PoseTolerances
 
 __all__ = [
@@ -70,7 +71,9 @@ def synthesis_data(synthesis: Synthesis) -> dict[str, Any]:
         "singular_values": _singular_values(synthesis),
         **_critical_points(synthesis),
         "search": [_search(fit) for fit in synthesis.fits],
-        "family": None if synthesis.family is None else _family(synthesis.family),
+        "family": None
+        if synthesis.family is None
+        else _family(synthesis.family, synthesis.options.prefer),
         "certificate": None
         if synthesis.certificate is None
         else _certificate(synthesis.certificate),
@@ -218,10 +221,10 @@ def _search(fit: Fit) -> dict[str, Any]:
     return {"kind": "faces", **{name: getattr(search, name) for name in names}}
 
 
-def _family(family: Family) -> dict[str, Any]:
+def _family(family: Family, prefer: Preference) -> dict[str, Any]:
     """How linkages were chosen where the poses leave infinitely many."""
     return {
-        "rule": RULE,
+        "rule": RULES[prefer],
         "assumed": [{"message": each.message, "option": each.option} for each in family.bounds],
         "given_up": family.given_up,
         "dyads": family.dyads,

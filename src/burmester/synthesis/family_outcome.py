@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from burmester.errors import Advice
 from burmester.families.assumptions import LINK_RATIO
-from burmester.families.family import RULE, Family
+from burmester.families.family import RULES, Family
 from burmester.linkages.explanation import in_short
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.linkages.standard import LEAST_TRANSMISSION
@@ -50,7 +50,8 @@ def family_summary(
                 "give the pivots more room, or move a pose",
             )
         )
-    message = f"{poses} leave infinitely many linkages; these were chosen from {looked}. {RULE}"
+    rule = RULES[problem.options.prefer]
+    message = f"{poses} leave infinitely many linkages; these were chosen from {looked}. {rule}"
     return Outcome("R308", message), advice
 
 

@@ -13,10 +13,11 @@ from burmester.errors import InputError
 from burmester.tasks.motion_task import MOST
 from burmester.wording import listed
 
-__all__ = ["Method", "Norm", "SynthesisOptions"]
+__all__ = ["Method", "Norm", "Preference", "SynthesisOptions"]
 
 Method: TypeAlias = Literal["auto", "pencil", "exact", "complete"]
 Norm: TypeAlias = Literal["rms", "worst"]
+Preference: TypeAlias = Literal["transmission", "size", "accuracy"]
 
 _LENGTHS: Final = ("length_per_radian", "manufacturing_tolerance", "rounding_step")
 
@@ -35,6 +36,10 @@ class SynthesisOptions:
         five conditions and complete where there are more.
     norm
         What is least: "rms", the sum of squared distances, or "worst", the greatest distance.
+    prefer
+        By which figure of quality the recommended linkage is chosen where few poses leave
+        infinitely many: "transmission", the greatest least transmission angle; "size", the least
+        extent; "accuracy", the least sensitivity.
     normalise
         False lets the pencil fit the numbers as they come, as the paper does.
     certify
@@ -65,10 +70,12 @@ class SynthesisOptions:
     manufacturing_tolerance: float | None = None
     rounding_step: float | None = None
     stock_lengths: Sequence[float] = ()
+    prefer: Preference = "transmission"
 
     def __post_init__(self) -> None:
         _require_word("method", self.method, get_args(Method))
         _require_word("norm", self.norm, get_args(Norm))
+        _require_word("prefer", self.prefer, get_args(Preference))
         for name in ("normalise", "certify"):
             if not isinstance(getattr(self, name), bool | np.bool_):
                 raise InputError(
