@@ -11,13 +11,14 @@ from tests.oracles import witness
 SWEEP = 14401  # input angles of one turn
 NEAR = 5e-3  # radians of the input, or of the transmission angle; nearer, a verdict is not certain
 NEAR_BOUND = 1e-3  # relative; a bound missed or met by less is not certain
-CLASSES = ("works", "below", "order", "branch", "circuit")
+CLASSES = ("works", "farther", "below", "order", "branch", "circuit")
 
 
-def verdict(pair, poses, span):
+def verdict(pair, poses, span, areas=None):
     """The class of a pair by its better driver, and the least transmission angle in degrees.
 
-    The standard is that of a task that asks for nothing.  None where it is too close to call.
+    The standard is that of a task that asks for nothing.  areas: two corners each of the boxes in
+    which fixed and moving pivots are assumed.  None where it is too close to call.
     """
     sides = [_driven(*way, poses) for way in (pair, pair[::-1])]
     if any(side is None for side in sides):
@@ -29,10 +30,25 @@ def verdict(pair, poses, span):
     for name, angle in sides:
         if abs(angle - 30) < 0.1 or angle < np.degrees(NEAR):
             return None
-        good = name != "works" or (sound and angle > 30)
-        told.append((CLASSES.index(name if good else "below"), -np.nan_to_num(angle), angle))
+        if name != "works":
+            own = name
+        elif not (sound and angle > 30):
+            own = "below"
+        else:
+            own = "works" if areas is None or _inside(pair, areas) else "farther"
+        told.append((CLASSES.index(own), -np.nan_to_num(angle), angle))
     best = min(told)
     return CLASSES[best[0]], best[2]
+
+
+def _inside(pair, areas):
+    """Whether both fixed and both moving pivots are in their boxes."""
+    return all(
+        low[k] <= point[k] <= high[k]
+        for dyad in pair
+        for point, (low, high) in zip((dyad.fixed_pivot, dyad.moving_pivot), areas, strict=True)
+        for k in range(2)
+    )
 
 
 def _driven(first, second, poses):

@@ -5,19 +5,32 @@
 
 import subprocess
 import sys
+from dataclasses import replace
 from itertools import combinations, pairwise
 from pathlib import Path
 
 import matplotlib as mpl
 import numpy as np
 import pytest
+from matplotlib.contour import QuadContourSet
 from matplotlib.testing.compare import compare_images
 from PIL import Image
 
-from burmester import PR, RP, RR, Displacement, InputError, Linkage, Task, dyad_curve, synthesize
+from burmester import (
+    PR,
+    RP,
+    RR,
+    Displacement,
+    InputError,
+    Linkage,
+    Polygon,
+    Task,
+    dyad_curve,
+    synthesize,
+)
 from burmester.dyads.three_poses import dyad_with_fixed_pivot
 from burmester.families.family_map import curve_map, plane_map
-from burmester.families.pair_verdicts import PairClass
+from burmester.families.pair_verdicts import PairBounds, PairClass
 from burmester.fourbar.pose_error import PoseError
 from burmester.io.cases import load
 from burmester.plot import (
@@ -491,9 +504,9 @@ def test_the_square_of_four_poses_has_the_colours_of_its_pairs(ax):
     top = 5 * np.ceil(angle[i, j] / 5)
     for a, b in works[::40]:  # the first dyad to the right, the second one up
         assert picture[b, a] == pytest.approx(shown(angle[a, b], top))
-    others = {k: set() for k in PairClass if k != PairClass.WORKS}
+    others = {k: set() for k in PairClass if k > PairClass.FARTHER}
     for (a, b), kind in np.ndenumerate(found.verdicts.classes):
-        if kind != PairClass.WORKS:
+        if kind > PairClass.FARTHER:
             others[PairClass(kind)].add(tuple(picture[b, a].tolist()))
     assert all(len(tints) == 1 for tints in others.values())
     # Without hue: each two tints are told apart by their lightness.
@@ -545,6 +558,22 @@ def test_the_figure_of_a_family_says_its_tints_in_words():
         "recommended",
     ]
     assert "transmission angle" in drawing.axes[2].get_ylabel()
+
+
+def test_pairs_that_work_with_pivots_where_they_are_assumed_are_outlined(ax):
+    task = Task(TABLE2.poses[[0, 1, 2, 3]])
+    corners = np.array([(-4.0, -5.0), (2.5, -5.0), (2.5, 6.0), (-4.0, 6.0)])
+    found = curve_map(task, replace(PairBounds.of(task), fixed=Polygon(corners)), samples=60)
+    family_map(ax, found)
+    lines = [each for each in ax.collections if isinstance(each, QuadContourSet)]
+    assert len(lines) == 2  # and a lighter one under it
+    edges = np.concatenate([path.vertices for path in lines[1].get_paths()])
+    works = found.verdicts.classes == PairClass.WORKS
+    at = np.argwhere(works) + 0.5
+    away = np.linalg.norm(edges[:, None] - at, axis=-1).min(axis=1)
+    assert away.max() < 1.01  # beside such a pair
+    (words,) = family_figure(found).legends
+    assert "works, pivots where assumed" in [text.get_text() for text in words.get_texts()]
 
 
 def test_burmester_curves_are_circles_through_four_poses(ax):

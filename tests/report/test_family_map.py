@@ -79,16 +79,16 @@ def test_the_square_has_the_colours_of_its_pairs(browser, four):
         ).reshape(SAMPLES, SAMPLES, 4)[::-1, :, :3]
     classes = found.verdicts.classes
     tints = {}
-    for kind in set(np.unique(classes).tolist()) - {PairClass.WORKS}:
+    for kind in set(np.unique(classes).tolist()) - {PairClass.WORKS, PairClass.FARTHER}:
         (tint,) = {tuple(each) for each in pixels[kind == classes.T].tolist()}
         tints[kind] = tint
     assert len(set(tints.values())) == len(tints)
-    works = classes == PairClass.WORKS
-    assert works.sum() > 20
+    works = classes <= PairClass.FARTHER
+    assert works.sum() > 100
     light = pixels[works.T] @ [0.2126, 0.7152, 0.0722]  # lighter throughout as the angle grows
     degrees = np.degrees(found.verdicts.transmission.T[works.T]).astype(int)
     shades = [set(light[degrees == each].tolist()) for each in np.unique(degrees)]
-    assert len(shades) > 5
+    assert len(shades) > 20
     assert all(len(each) == 1 for each in shades)
     assert (np.diff([each.pop() for each in shades]) > 0).all()
 

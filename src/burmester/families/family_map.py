@@ -99,8 +99,8 @@ class FamilyMap:
     def best_partner(self) -> tuple[NDArray[np.int8], FloatArray]:
         """For each dyad (n,) of a curve the best class it makes, and the greatest angle there.
 
-        The angle, in radians, is the greatest least transmission angle among the pairs that work,
-        else among those that are outside the bounds only; nan where there are none of either.
+        The angle, in radians, is the greatest least transmission angle among the pairs of that
+        class; nan where all have defects.
         """
         classes, angle, _ = self.verdicts
         best = classes.min(axis=1)
@@ -266,7 +266,6 @@ def family_map(
         return curve_map(task, bounds, samples)
     if recommended is None:
         return None
-    bounds = PairBounds.of(task) if bounds is None else bounds
     dyads = recommended.first, recommended.second
     at_a_place = [limits for limits in task.limits if limits.conditions]
     choices = [
@@ -274,7 +273,7 @@ def family_map(
         for one, other in (dyads, dyads[::-1])
         if not isinstance(one, PP)
         and isinstance(other, RR)
-        and all(meets_limits(one, limits, task, bounds) for limits in at_a_place)
+        and all(meets_limits(one, limits, task) for limits in at_a_place)
     ]
     if not choices:
         return None

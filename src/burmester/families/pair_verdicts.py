@@ -60,15 +60,17 @@ class PairClass(IntEnum):
     """
 
     WORKS = 0
-    OUTSIDE_BOUNDS = 1
-    ORDER = 2
-    BRANCH = 3
-    CIRCUIT = 4
-    NO_LINKAGE = 5
+    FARTHER = 1
+    OUTSIDE_BOUNDS = 2
+    ORDER = 3
+    BRANCH = 4
+    CIRCUIT = 5
+    NO_LINKAGE = 6
 
 
 CLASS_WORDS: Final[Mapping[PairClass, str]] = {
     PairClass.WORKS: "works",
+    PairClass.FARTHER: "works, but with pivots farther away than is assumed",
     PairClass.OUTSIDE_BOUNDS: "meets the poses, but is outside the limits or below the standard",
     PairClass.ORDER: "order defect: meets the poses in another order",
     PairClass.BRANCH: "branch defect: locks between two poses",
@@ -88,8 +90,8 @@ class PairBounds:
     ratio: of the longest of four links to the shortest.
     shortest, longest: of the links.
     change_point: whether a pair may be at a change point.
-    fixed, moving: where pivots lie that no limit of the task holds, in F and in M; None is
-        anywhere.
+    fixed, moving: where pivots are assumed to lie that no limit of the task holds, in F and in M;
+        None is anywhere.  A pair that works but for that has a class of its own.
     """
 
     transmission: float
@@ -132,7 +134,7 @@ class PairVerdicts(NamedTuple):
 
     classes: (*,), of `PairClass`.
     transmission: (*,), the least transmission angle over the range between the poses, radians; nan
-        but for pairs that work, or are outside the bounds only.
+        for pairs with defects.
     driver: (*,), 0 where the first dyad drives, 1 where the second does.
     """
 
@@ -174,7 +176,8 @@ def _judged(first: Ground, second: RR, task: Task, bounds: PairBounds) -> PairVe
     one = np.flatnonzero(whole)
     on = np.ones((len(one), *poses.shape), dtype=bool)
     exact, any_order = OrderTolerance(np.zeros(len(one)), 0.0), task.requirements.any_order
-    allowed = _within_limits(first[one], second[one], task, bounds)
+    allowed = _within_limits(first[one], second[one], task)
+    near = _within_limits(first[one], second[one], task, bounds.fixed, bounds.moving)
     for driver in (0, 1):
         side = Linkage(sides[driver].first[one], sides[driver].second[one])
         view = _rows(views[driver], one)
@@ -184,6 +187,7 @@ def _judged(first: Ground, second: RR, task: Task, bounds: PairBounds) -> PairVe
         works = np.flatnonzero(verdict == PairClass.WORKS)
         good = allowed[driver] & _as_asked(side, traversal, ranged, task, bounds)
         angle[driver, finite[one[works]]] = ranged.least_transmission[works]
+        verdict[works[~near[driver][works]]] = PairClass.FARTHER
         verdict[works[~good[works]]] = PairClass.OUTSIDE_BOUNDS
         classes[driver, finite[one]] = verdict
     rank = np.nan_to_num(angle)
@@ -279,12 +283,19 @@ def _within_footprint(
 
 
 def _within_limits(
-    first: Ground, second: RR, task: Task, bounds: PairBounds
+    first: Ground,
+    second: RR,
+    task: Task,
+    fixed: Polygon | None = None,
+    moving: Polygon | None = None,
 ) -> tuple[BoolArray, BoolArray]:
-    """Which pairs (k,) are within the task's limits, driven by the first and the second dyad."""
+    """Which pairs (k,) are within the task's limits, driven by the first and the second dyad.
+
+    fixed, moving: where pivots have to lie that no limit holds.
+    """
     one, other = (task.limits * 2)[:2] if task.limits else (Limits(), Limits())
     straight, crossed = (
-        meets_limits(first, a, task, bounds) & meets_limits(second, b, task, bounds)
+        meets_limits(first, a, task, fixed, moving) & meets_limits(second, b, task, fixed, moving)
         for a, b in ((one, other), (other, one))
     )
     if task.requirements.driver == "first":
@@ -294,15 +305,24 @@ def _within_limits(
     return straight | crossed, straight | crossed
 
 
-def meets_limits(dyad: Ground, limits: Limits, task: Task, bounds: PairBounds) -> BoolArray:
-    """Whether dyads (*,) are within limits; rounding is allowed for, by the size of the task."""
+def meets_limits(
+    dyad: Ground,
+    limits: Limits,
+    task: Task,
+    fixed: Polygon | None = None,
+    moving: Polygon | None = None,
+) -> BoolArray:
+    """Whether dyads (*,) are within limits; rounding is allowed for, by the size of the task.
+
+    fixed, moving: where pivots have to lie that the limits leave free.
+    """
     slack = MET * max(span(task), float(np.abs(task.poses.translation).max()))
     good = np.full(shape_of(dyad), type(dyad).__name__ in limits.allowed)
-    regions = limits.fixed_pivot or bounds.fixed, limits.moving_pivot or bounds.moving
-    if isinstance(dyad, RR | RP) and regions[0] is not None:
-        good &= regions[0].distance(dyad.fixed_pivot) <= slack
-    if isinstance(dyad, RR | PR) and regions[1] is not None:
-        good &= regions[1].distance(dyad.moving_pivot) <= slack
+    ground, body = limits.fixed_pivot or fixed, limits.moving_pivot or moving
+    if isinstance(dyad, RR | RP) and ground is not None:
+        good &= ground.distance(dyad.fixed_pivot) <= slack
+    if isinstance(dyad, RR | PR) and body is not None:
+        good &= body.distance(dyad.moving_pivot) <= slack
     if isinstance(dyad, RR):
         least, most = limits.length
         good &= (dyad.radius >= least * (1 - MET)) & (dyad.radius <= most * (1 + MET))

@@ -1,8 +1,9 @@
 """The map of a family: pairs of dyads coloured by what becomes of them.
 
 Pairs that work are coloured by their least transmission angle, in a scale that is dark where it is
-small and grows lighter throughout; the others have four greys and tints of different lightness, so
-that nothing depends on hue.
+small and grows lighter throughout; those with their pivots where they are assumed to lie have an
+outline.  The others have four greys and tints of different lightness, so that nothing depends on
+hue.
 """
 
 from __future__ import annotations
@@ -48,6 +49,7 @@ __all__ = ["MapMarks", "PartnerCurve", "family_figure", "family_map", "partner_c
 
 SCALE: Final = "cividis"  # of transmission angles
 SCALE_STEP: Final = 5.0  # degrees; that scale ends at a multiple of it
+SPECK: Final = 6  # of nine pairs around one that does not work; no outline goes around that one
 ROOM: Final = 1.2  # around what is shown of a centre-point curve, as a factor
 TINTS: Final = {
     PairClass.OUTSIDE_BOUNDS: "#9fb4c7",
@@ -236,7 +238,7 @@ def colors_of(found: FamilyMap, classes: NDArray[np.int8], transmission: FloatAr
     table = np.zeros((len(PairClass), 3))
     for kind, tint in TINTS.items():
         table[kind] = to_rgb(tint)
-    works = classes == PairClass.WORKS
+    works = classes <= PairClass.FARTHER
     shades = mpl.colormaps[SCALE](_norm(found)(np.degrees(np.where(works, transmission, 0.0))))
     return np.asarray(np.where(works[..., None], shades[..., :3], table[classes]))
 
@@ -258,6 +260,9 @@ def class_legend(drawing: Figure, found: FamilyMap, recommended: bool) -> Legend
         Patch(facecolor=TINTS[kind], edgecolor=GREY, lw=0.6, label=name)
         for kind, name in NAMES.items()
     ]
+    if PairClass.FARTHER in found.verdicts.classes:
+        words = "works, pivots where assumed"
+        handles.append(Line2D([], [], color=BLACK, lw=1.0, label=words))
     style: dict[str, object] = {"ls": "", "color": BLACK}
     if found.kind == "plane":
         handles.append(Line2D([], [], marker="^", ms=5.5, label="pole", **style))  # type: ignore[arg-type]
@@ -268,7 +273,7 @@ def class_legend(drawing: Figure, found: FamilyMap, recommended: bool) -> Legend
     return drawing.legend(
         handles=handles,
         loc="lower center",
-        ncols=4 if found.kind == "plane" else 5,
+        ncols=4 if found.kind == "plane" else 6,
         bbox_to_anchor=(0.5, 0.005),
         handlelength=1.4,
         columnspacing=1.6,
@@ -278,7 +283,7 @@ def class_legend(drawing: Figure, found: FamilyMap, recommended: bool) -> Legend
 def _norm(found: FamilyMap) -> Normalize:
     """From what is asked for to the next full step above the best pair."""
     asked = float(np.degrees(found.bounds.transmission))
-    works = np.where(found.verdicts.classes == PairClass.WORKS, found.verdicts.transmission, 0.0)
+    works = np.where(found.verdicts.classes <= PairClass.FARTHER, found.verdicts.transmission, 0.0)
     best = np.ceil(np.degrees(works.max(initial=0.0)) / SCALE_STEP) * SCALE_STEP
     return Normalize(asked, max(best, asked + SCALE_STEP))
 
@@ -291,7 +296,7 @@ def _view(found: FamilyMap, within: float | None) -> tuple[FloatArray, FloatArra
     if within is not None:
         return middle, np.full(2, within)
     assert isinstance(found.first, RR)
-    good = found.first.fixed_pivot[found.best_partner()[0] == PairClass.WORKS]
+    good = found.first.fixed_pivot[found.best_partner()[0] <= PairClass.FARTHER]
     good = good[(np.abs(good - middle) < most).all(axis=1)]
     if not len(good):
         return middle, np.full(2, most)
@@ -317,6 +322,8 @@ def _square(
     ax.set_yticks(ticks, names)
     ax.set_xlabel("place of one dyad along the curve")
     ax.set_ylabel("place of the other dyad along the curve")
+    middles: FloatArray = np.arange(n, dtype=np.float64) + 0.5
+    _outline(ax, found.verdicts.classes.T, middles, middles)
     marks: list[Line2D] = []
     if recommended is not None:
         one, other = (
@@ -339,6 +346,7 @@ def _rectangle(
     image = ax.imshow(
         colors, origin="lower", extent=(x0, x1, y0, y1), interpolation="nearest", zorder=0.5
     )
+    _outline(ax, found.verdicts.classes, at[0, :, 0], at[:, 0, 1])
     draw_poses(ax, found.task.poses, names=found.task.names, color=BLACK)
     names = ("12", "13", "23")
     for name, pole in zip(names, found.poles, strict=True):
@@ -367,6 +375,18 @@ def _is_finite(pieces: FloatArray, half: float) -> NDArray[np.bool_]:
     out = np.linalg.norm(at, axis=-1) > half
     turned = ((one * at).sum(axis=-1) < 0) | ((other * at).sum(axis=-1) < 0)
     return np.asarray(~(out & turned))
+
+
+def _outline(ax: Axes, classes: NDArray[np.int8], x: FloatArray, y: FloatArray) -> None:
+    """A line around the pairs (rows, columns) that work, where others work with farther pivots."""
+    if PairClass.FARTHER in classes and PairClass.WORKS in classes:
+        works = np.asarray(classes == PairClass.WORKS, dtype=np.float64)
+        edged = np.pad(works, 1)
+        rows, columns = works.shape
+        around = sum(edged[i : i + rows, j : j + columns] for i in range(3) for j in range(3))
+        works = np.where(around >= SPECK, 1.0, works)
+        for color, width in (("white", 2.4), (BLACK, 1.0)):
+            ax.contour(x, y, works, levels=[0.5], colors=color, linewidths=width, zorder=0.9)
 
 
 def _rings(ax: Axes, recommended: Linkage | None) -> list[Line2D]:

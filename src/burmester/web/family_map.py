@@ -32,7 +32,7 @@ def family_map(synthesis: Synthesis) -> dict[str, Any] | None:
     if found is None:
         return None
     low = float(np.degrees(found.bounds.transmission))
-    works = found.verdicts.classes == PairClass.WORKS
+    works = found.verdicts.classes <= PairClass.FARTHER
     best = float(np.degrees(np.where(works, found.verdicts.transmission, 0.0).max()))
     high = max(float(np.ceil(best / SCALE_STEP)) * SCALE_STEP, low + SCALE_STEP)
     data = {

@@ -6,9 +6,11 @@ import { h, rgb, s } from "./dom.mjs";
 import { Labels } from "./labels.mjs";
 import { clamp, figure, fixed, px } from "./numbers.mjs";
 
-const CLASSES = 6; // see PairClass of burmester/families/pair_verdicts.py
-const TINTS = ["", "outside", "order", "branch", "circuit", "none"]; // of classes, in the style sheet
-const SHORT = ["works", "outside limits or standard", "order defect", "branch defect", "circuit defect", ""];
+const CLASSES = 7; // see PairClass of burmester/families/pair_verdicts.py
+const TINTS = ["", "", "outside", "order", "branch", "circuit", "none"]; // of classes, in the style sheet
+const SHORT = ["works", "works", "outside limits or standard", "order defect", "branch defect", "circuit defect", ""];
+const SPECK = 6; // of nine pairs around one that does not work; no outline goes around that one
+const OUTSIDE = 2; // the first class that does not work
 const MARGIN = { left: 50, right: 8, top: 8, bottom: 26 }; // pixels around the square
 const SHARES = [0, 0.25, 0.5, 0.75]; // places along a loop that both pictures mark
 const LARGEST = 520; // pixels: the side of the square
@@ -72,7 +74,7 @@ export class FamilyMap {
     this.view = { width, height, margin, across, down };
     this.place = isCurve ? (this.map.places[index ?? 0] ?? null) : this.cellOf(this.map.recommended);
     this.paint();
-    svg.replaceChildren(isCurve ? this.axes() : this.ground());
+    svg.replaceChildren(...this.outline(), isCurve ? this.axes() : this.ground());
     this.drawn = s("g", { class: "bm-pair-drawn" });
     this.mark = s("path", { class: "bm-map-cursor", d: "M-11 0H-4M4 0H11M0 -11V-4M0 4V11" });
     if (!isCurve) svg.append(this.drawn);
@@ -90,7 +92,7 @@ export class FamilyMap {
 
   /** The colour of a pair: a tint by its class, or along the scale by its angle. */
   colour({ kind, degrees }) {
-    if (kind > 0) return this.tints[kind];
+    if (kind >= OUTSIDE) return this.tints[kind];
     const [low, high] = this.map.scale, share = 2 * clamp((degrees - low) / (high - low), 0, 1);
     const [from, to] = share < 1 ? [this.scale[0], this.scale[1]] : [this.scale[1], this.scale[2]];
     return from.map((c, k) => Math.round(c + (share % 1 || (share === 2 ? 1 : 0)) * (to[k] - c)));
@@ -107,6 +109,32 @@ export class FamilyMap {
       }
     }
     context.putImageData(image, 0, 0);
+  }
+
+  /** A line around the pairs that work with pivots where they are assumed, if others work, too. */
+  outline() {
+    const kinds = new Set(this.map.cells.map((code) => code % CLASSES));
+    this.outlined = kinds.has(0) && kinds.has(1);
+    if (!this.outlined) return [];
+    const own = (i, j) => i >= 0 && j >= 0 && i < this.columns && j < this.rows && this.pair([i, j]).kind === 0;
+    const mask = []; // with specks filled that do not work amid pairs that do
+    for (let j = -1; j <= this.rows; j += 1) {
+      for (let i = -1; i <= this.columns; i += 1) {
+        let around = 0;
+        for (const dj of [-1, 0, 1]) for (const di of [-1, 0, 1]) around += own(i + di, j + dj);
+        mask.push(own(i, j) || around >= SPECK);
+      }
+    }
+    const works = (i, j) => mask[(j + 1) * (this.columns + 2) + i + 1];
+    const corner = (i, j) => this.middleOf([i - 0.5, j - 0.5]).map(px).join(" "), parts = [];
+    for (let j = 0; j <= this.rows; j += 1) {
+      for (let i = 0; i <= this.columns; i += 1) {
+        if (works(i, j) !== works(i - 1, j)) parts.push(`M${corner(i, j)}L${corner(i, j + 1)}`);
+        if (works(i, j) !== works(i, j - 1)) parts.push(`M${corner(i, j)}L${corner(i + 1, j)}`);
+      }
+    }
+    const d = parts.join("");
+    return [s("path", { class: "bm-pair-halo bm-thin", d }), s("path", { class: "bm-pair-outline", d })];
   }
 
   /** The middle of a cell in pixels. */
@@ -212,7 +240,7 @@ export class FamilyMap {
     const poses = data.poses.map((pose) => [pose.x, pose.y]);
     const middle = [0, 1].map((k) => (Math.min(...poses.map((p) => p[k])) + Math.max(...poses.map((p) => p[k]))) / 2);
     const near = (p) => p.every((v, k) => Math.abs(v - middle[k]) < 3 * data.scene);
-    const held = [...poses, ...map.fixed.filter((p, i) => best[i].kind === 0 && near(p)), ...this.pinsOf(this.place)];
+    const held = [...poses, ...map.fixed.filter((p, i) => best[i].kind < OUTSIDE && near(p)), ...this.pinsOf(this.place)];
     const low = [0, 1].map((k) => Math.min(...held.map((p) => p[k]))), high = [0, 1].map((k) => Math.max(...held.map((p) => p[k])));
     const scale = Math.min(width / (high[0] - low[0] || data.scene), height / (high[1] - low[1] || data.scene)) * 0.8;
     this.toScene = (p) => [width / 2 + (p[0] - (low[0] + high[0]) / 2) * scale, height / 2 - (p[1] - (low[1] + high[1]) / 2) * scale];
@@ -262,7 +290,8 @@ export class FamilyMap {
     this.legend.replaceChildren(
       h("span", { class: "bm-pair-scale", "aria-hidden": "true" }),
       ` works: transmission angle from ${fixed(low, 0)}° to ${fixed(high, 0)}°. `,
-      ...TINTS.flatMap((name, kind) => (kind && SHORT[kind] && used.has(kind) ? [h("span", { class: "bm-pair-key" }, swatch(name), ` ${SHORT[kind]}`), " "] : [])),
+      ...TINTS.flatMap((name, kind) => (kind >= OUTSIDE && SHORT[kind] && used.has(kind) ? [h("span", { class: "bm-pair-key" }, swatch(name), ` ${SHORT[kind]}`), " "] : [])),
+      this.outlined ? "Outlined: works with pivots where they are assumed to lie; the rest works with pivots farther away. " : "",
       this.place ? (this.isCurve ? "Ring: this linkage." : "Ring: the linkage that is recommended. Triangles: poles.") : this.isCurve ? "" : "Triangles: poles.",
     );
   }
@@ -302,7 +331,7 @@ export class FamilyMap {
     const point = (p) => `(${p.map((v) => fixed(v, digits)).join(", ")})`;
     const dyad = ({ fixed: c, moving: m, length }) => `fixed pivot ${point(c)}, moving pivot ${point(m)}, link ${figure(length)}${unit}`;
     const dyads = this.dyadsOf(cell);
-    const does = kind < 2 ? `${words[kind]}; transmission angle ${degrees}° or more, driven by ${this.isCurve ? ["the first", "the second"][driver] : ["the dyad that is chosen", "the other one"][driver]}` : words[kind];
+    const does = kind <= OUTSIDE ? `${words[kind]}; transmission angle ${degrees}° or more, driven by ${this.isCurve ? ["the first", "the second"][driver] : ["the dyad that is chosen", "the other one"][driver]}` : words[kind];
     if (!this.isCurve) return `${capital(dyad(dyads[1]))}: ${does}.`;
     return `${this.placeName(cell[0])} with ${this.placeName(cell[1])}: ${does}. First: ${dyad(dyads[0])}. Second: ${dyad(dyads[1])}.`;
   }
