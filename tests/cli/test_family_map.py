@@ -65,3 +65,16 @@ def test_a_map_that_cannot_be_is_refused(tmp_path, count, options, code, helps):
     assert code in done.stderr
     assert helps in done.stderr
     assert list(tmp_path.iterdir()) == []
+
+
+def test_the_map_of_three_poses_has_the_dyad_that_is_recommended(tmp_path):
+    done = run(tmp_path, 3, "--map", "family.json", "-o", "result.json")
+    assert done.returncode == 0
+    data, result = (
+        json.loads((tmp_path / name).read_text(encoding="utf-8"))
+        for name in ("family.json", "result.json")
+    )
+    assert data["kind"] == "plane"
+    chosen, dyad = data["chosen"], result["linkages"][0]["dyads"][0]
+    for name in ("kind", "fixed_pivot", "moving_pivot", "radius"):
+        assert chosen[name] == dyad[name]

@@ -6,15 +6,26 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from burmester import PR, RR, Displacement, InputError, Linkage, Polygon, Task, dyad_curve
+from burmester import (
+    PR,
+    RR,
+    Displacement,
+    InputError,
+    Linkage,
+    Polygon,
+    Task,
+    dyad_curve,
+    synthesize,
+)
 from burmester.dyads.three_poses import dyad_with_fixed_pivot
 from burmester.families.family_map import curve_map, plane_map
-from burmester.families.pair_verdicts import PairBounds, PairClass
+from burmester.families.pair_verdicts import PairBounds, PairClass, judged_pairs
 from burmester.fourbar.defects import judge
 from burmester.io.cases import load
+from burmester.synthesis.family_map import family_map_of
 from burmester.tasks.limits import Limits
 from burmester.tasks.requirements import GROUPS, Requirements
-from tests.oracles.pair_verdicts import CLASSES, verdict
+from tests.oracles.pair_verdicts import CLASSES, driven, verdict
 
 RANDOM = range(8)
 
@@ -254,3 +265,65 @@ def test_the_driver_that_is_asked_for_drives(driver):
     for i, j in works:
         drives = (found.first[i], found.first[j])[found.verdicts.driver[i, j]]
         assert inside(where, drives.fixed_pivot)
+
+
+def published(name):
+    data = load(name)
+    task = Task.from_rows(data["poses"], angle_unit="deg")
+    c, r, m = (np.array(data["exact_dyads"])[:, at] for at in ([0, 1], 2, [3, 4]))
+    return task, RR(c, m, r)
+
+
+def test_motiongen_s_dyads_on_a_line_are_on_the_curve_and_judged_as_they_are_driven():
+    task, dyads = published("motiongen-four-line")
+    found = curve_map(task, samples=300)
+    for k in range(3):
+        at = found.nearest(dyads[k])
+        beside = found.first.fixed_pivot[[at - 1, at, (at + 1) % 300]]
+        steps = np.diff(beside, axis=0)
+        gap = dyads.fixed_pivot[k] - beside[:2]
+        off = steps[:, 0] * gap[:, 1] - steps[:, 1] * gap[:, 0]
+        assert (np.abs(off) / np.linalg.norm(steps, axis=1)).min() < 2e-3
+    one, other = np.array([0, 0, 1]), np.array([1, 2, 2])
+    told = judged_pairs(dyads[one], dyads[other], task, PairBounds.of(task))
+    span = float(np.hypot(*np.ptp(task.poses.translation, axis=0)))
+    for k in range(3):
+        name, angle = verdict((dyads[one[k]], dyads[other[k]]), task.poses, span)
+        assert told.classes[k] == CLASSES.index(name)
+        degrees = np.degrees(told.transmission[k])
+        assert degrees == pytest.approx(angle, abs=0.02, nan_ok=True)
+
+
+def test_motiongen_s_three_poses_with_two_fixed_pivots_have_their_place_in_the_plane():
+    task, dyads = published("motiongen-three-pivots")
+    found = plane_map(task, dyads[0], [-5, -1], [-1, 3], columns=5, rows=5)
+    own = found.second[2, 2]
+    assert own.fixed_pivot == pytest.approx([-3, 1])
+    assert own.moving_pivot == pytest.approx(dyads.moving_pivot[1])
+    name, angle = driven(dyads[0], dyads[1], task.poses)
+    assert name == "works"
+    assert angle < 30  # so it is below the standard
+    assert found.verdicts.classes[2, 2] == PairClass.OUTSIDE_BOUNDS
+    assert found.verdicts.driver[2, 2] == 0
+    assert np.degrees(found.verdicts.transmission[2, 2]) == pytest.approx(angle, abs=0.02)
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("count", [3, 4])
+def test_what_is_recommended_works_on_the_map_with_the_angle_that_is_told(count, seed):
+    rng = np.random.default_rng(seed)
+    poses = np.array([[0, 0, 0], [30, 40, 0.4], [70, 55, 0.8], [105, 50, 1.1]])[:count]
+    poses = poses + rng.normal(scale=0.2, size=(count, 3)) * [10, 10, 0.3]
+    result = synthesize(Task(Displacement(poses[:, :2], poses[:, 2]), length_unit="mm"))
+    best = result.linkages[0]
+    assert best.usable
+    found = family_map_of(result, samples=60, columns=8, rows=6)
+    first, second = (each[None] for each in (best.linkage.first, best.linkage.second))
+    told = judged_pairs(first, second, result.problem.task, found.bounds)
+    assert told.classes == PairClass.WORKS
+    assert told.transmission >= best.driven.least_over_range - 1e-9  # by the better driver
+    if count == 4:
+        i, j = (found.nearest(each) for each in (best.linkage.first, best.linkage.second))
+        assert found.verdicts.classes[i, j] <= PairClass.OUTSIDE_BOUNDS
+    else:
+        assert found.first in (best.linkage.first, best.linkage.second)

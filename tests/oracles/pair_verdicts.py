@@ -20,7 +20,7 @@ def verdict(pair, poses, span, areas=None):
     The standard is that of a task that asks for nothing.  areas: two corners each of the boxes in
     which fixed and moving pivots are assumed.  None where it is too close to call.
     """
-    sides = [_driven(*way, poses) for way in (pair, pair[::-1])]
+    sides = [driven(*way, poses) for way in (pair, pair[::-1])]
     if any(side is None for side in sides):
         return None
     sound = _proportions(pair, span)
@@ -51,7 +51,7 @@ def _inside(pair, areas):
     )
 
 
-def _driven(first, second, poses):
+def driven(first, second, poses):
     """The class with one driver, and the angle; None where it is too close to call."""
     d = poses.translation[:, 0] + 1j * poses.translation[:, 1]
     pin = d + np.exp(1j * poses.angle) * complex(*first.moving_pivot)

@@ -1,6 +1,7 @@
 """The map of a family on the page: what it says and draws of a pair is what was judged."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -113,4 +114,52 @@ def test_it_fits_every_width_in_both_schemes(browser, four, width, scheme):
               .map((text) => [text.left - box.left, box.right - text.right]); }"""
         )
         assert np.min(ends) > -1  # no tick is cut
+        assert said == []
+
+
+def test_the_plane_of_three_poses_is_told_by_keyboard_and_by_pointer(browser, tmp_path):
+    rows = [(0, 0, 0), (30, 40, 25), (70, 55, 50)]
+    task = Task.from_rows(rows, angle_unit="deg", length_unit="mm")
+    task = replace(task, names=("shut", "half", "open"))
+    result = synthesize(task)
+    file = tmp_path / "three.html"
+    file.write_text(page_of(result, "three poses"), encoding="utf-8")
+    found = family_map_of(result, columns=96, rows=72)
+    pivots = found.second.fixed_pivot
+    with browsers.opened(browser, file) as (page, said, _):
+        chart = page.get_by_role("application", name=re.compile("family map", re.IGNORECASE))
+        readout = page.locator(".bm-family .bm-readout")
+
+        def agrees():
+            text = readout.text_content()
+            pattern = r"Fixed pivot \((\S+), (\S+)\), moving pivot \((\S+), (\S+)\)"
+            told = np.array(re.search(pattern, text).groups(), dtype=float)
+            away = np.linalg.norm(pivots - told[:2], axis=-1)
+            j, i = np.unravel_index(away.argmin(), away.shape)
+            assert away[j, i] < 0.08  # as printed
+            assert told[2:] == pytest.approx(found.second.moving_pivot[j, i], rel=2e-2, abs=0.3)
+            kind = PairClass(found.verdicts.classes[j, i])
+            assert CLASS_WORDS[kind] in text
+            if angle := re.search(r"angle (\d+)° or more, driven by the (dyad|other)", text):
+                assert int(angle[1]) == int(np.degrees(found.verdicts.transmission[j, i]) + 1e-6)
+                assert (angle[2] == "other") == found.verdicts.driver[j, i]
+            return i, j
+
+        chart.focus()
+        seen = []
+        for key in ["ArrowRight", "Shift+ArrowDown", "ArrowLeft", "Shift+ArrowLeft", "ArrowUp"]:
+            page.keyboard.press(key)
+            seen.append(agrees())
+        steps = np.diff(seen, axis=0).tolist()
+        assert steps == [[0, -10], [-1, 0], [-10, 0], [0, 1]]
+        box = chart.bounding_box()
+        for across, down in ((0.1, 0.1), (0.5, 0.3), (0.9, 0.8)):
+            page.mouse.move(box["x"] + across * box["width"], box["y"] + down * box["height"])
+            i, j = agrees()
+            assert abs(i - across * 96) < 1.5
+            assert abs(j - (1 - down) * 72) < 1.5
+        page.mouse.move(box["x"] - 20, box["y"] - 20)
+        assert agrees() == seen[-1]  # back at the cursor
+        assert page.locator(".bm-family .bm-pole").count() == 3
+        assert "half" in page.locator(".bm-family").text_content()
         assert said == []

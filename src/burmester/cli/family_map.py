@@ -44,7 +44,7 @@ def write_map(synthesis: Synthesis, path: str, *, force: bool) -> str:
 
     found, best = family_map_of(synthesis), recommended(synthesis)
     if found is None:
-        return f"{printable(path)} not written: no linkage works beside whose dyad a map is drawn"
+        return f"{printable(path)} not written: these poses have no map"
     suffix = os.path.splitext(path)[1].lower()
     if suffix in FIGURES:
         from burmester import plot

@@ -26,14 +26,16 @@ def family_map_of(
 ) -> FamilyMap | None:
     """The map of the task's family, with the bounds that its linkages were held to.
 
-    Of three poses beside the first dyad of the linkage that is recommended.  None where there is no
-    such linkage, or the motion is a special one, which has no such family.  Raises as `family_map`.
+    Of three poses beside a dyad of the linkage that stands first, whether it works or not.  None
+    where there is none, or the motion is a special one, which has no such family.  Raises as
+    `family_map`.
     """
     problem = synthesis.problem
     if problem.is_special:
         return None
-    best, bounds = recommended(synthesis), _bounds(synthesis)
-    return family_map(problem.task, best, bounds, samples=samples, columns=columns, rows=rows)
+    first = synthesis.linkages[0].linkage if synthesis.linkages else None
+    bounds = _bounds(synthesis)
+    return family_map(problem.task, first, bounds, samples=samples, columns=columns, rows=rows)
 
 
 def _bounds(synthesis: Synthesis) -> PairBounds | None:

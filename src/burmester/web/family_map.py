@@ -12,7 +12,7 @@ from burmester.families.pair_verdicts import CLASS_WORDS, PairClass
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
 from burmester.numerics.arrays import FloatArray
-from burmester.synthesis.family_map import family_map_of
+from burmester.synthesis.family_map import family_map_of, recommended
 from burmester.synthesis.result import Synthesis
 
 __all__ = ["family_map"]
@@ -41,8 +41,9 @@ def family_map(synthesis: Synthesis) -> dict[str, Any] | None:
         "scale": [low, high],
         "cells": _cells(found),
     }
-    linkages = [each.linkage for each in synthesis.linkages]
-    return data | (_curve if found.kind == "curve" else _plane)(found, linkages)
+    if found.kind == "curve":
+        return data | _curve(found, [each.linkage for each in synthesis.linkages])
+    return data | _plane(found, synthesis.linkages[0].linkage, recommended(synthesis))
 
 
 def _cells(found: FamilyMap) -> list[int]:
@@ -70,10 +71,12 @@ def _curve(found: FamilyMap, linkages: list[Linkage]) -> dict[str, Any]:
     }
 
 
-def _plane(found: FamilyMap, linkages: list[Linkage]) -> dict[str, Any]:
-    """The corners of the rectangle, the dyad that is chosen, and the recommended linkage."""
+def _plane(found: FamilyMap, of: Linkage, recommended: Linkage | None) -> dict[str, Any]:
+    """The corners of the rectangle, the dyad that is chosen, and the recommended linkage.
+
+    of: the linkage that has the dyad that is chosen.
+    """
     first, at = found.first, found.second.fixed_pivot
-    of = linkages[0]
     other = of.second if of.first is first else of.first
     return {
         "columns": at.shape[1],
@@ -85,7 +88,9 @@ def _plane(found: FamilyMap, linkages: list[Linkage]) -> dict[str, Any]:
             "fixed": _short(first.fixed_pivot) if isinstance(first, RR | RP) else None,
             "moving": _short(first.moving_pivot) if isinstance(first, RR | PR) else None,
         },
-        "recommended": _short(other.fixed_pivot) if isinstance(other, RR) else None,
+        "recommended": _short(other.fixed_pivot)
+        if recommended is not None and isinstance(other, RR)
+        else None,
     }
 
 
