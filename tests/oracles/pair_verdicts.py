@@ -9,7 +9,9 @@ import numpy as np
 from tests.oracles import witness
 
 SWEEP = 14401  # input angles of one turn
-NEAR = 5e-3  # radians of the input, or of the transmission angle; nearer, a verdict is not certain
+NEAR = (
+    1.5e-3  # radians of the input, or of the transmission angle; nearer, a verdict is not certain
+)
 NEAR_BOUND = 1e-3  # relative; a bound missed or met by less is not certain
 CLASSES = ("works", "farther", "below", "order", "branch", "circuit")
 
