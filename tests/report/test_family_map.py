@@ -140,9 +140,9 @@ def test_the_plane_of_three_poses_is_told_by_keyboard_and_by_pointer(browser, tm
             assert told[2:] == pytest.approx(found.second.moving_pivot[j, i], rel=2e-2, abs=0.3)
             kind = PairClass(found.verdicts.classes[j, i])
             assert CLASS_WORDS[kind] in text
-            if angle := re.search(r"angle (\d+)° or more, driven by the (dyad|other)", text):
+            if angle := re.search(r"angle (\d+)° or more, driven by (the other|D\d+)", text):
                 assert int(angle[1]) == int(np.degrees(found.verdicts.transmission[j, i]) + 1e-6)
-                assert (angle[2] == "other") == found.verdicts.driver[j, i]
+                assert (angle[2] == "the other") == found.verdicts.driver[j, i]
             return i, j
 
         chart.focus()

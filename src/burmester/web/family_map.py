@@ -11,8 +11,9 @@ from burmester.families.family_map import FamilyMap
 from burmester.families.pair_verdicts import CLASS_WORDS, PairClass
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
+from burmester.linkages.found_linkage import FoundLinkage
 from burmester.numerics.arrays import FloatArray
-from burmester.synthesis.family_map import family_map_of, recommended
+from burmester.synthesis.family_map import family_map_of
 from burmester.synthesis.result import Synthesis
 
 __all__ = ["family_map"]
@@ -43,7 +44,7 @@ def family_map(synthesis: Synthesis) -> dict[str, Any] | None:
     }
     if found.kind == "curve":
         return data | _curve(found, [each.linkage for each in synthesis.linkages])
-    return data | _plane(found, synthesis.linkages[0].linkage, recommended(synthesis))
+    return data | _plane(found, synthesis.linkages[0])
 
 
 def _cells(found: FamilyMap) -> list[int]:
@@ -71,13 +72,13 @@ def _curve(found: FamilyMap, linkages: list[Linkage]) -> dict[str, Any]:
     }
 
 
-def _plane(found: FamilyMap, of: Linkage, recommended: Linkage | None) -> dict[str, Any]:
-    """The corners of the rectangle, the dyad that is chosen, and the recommended linkage.
-
-    of: the linkage that has the dyad that is chosen.
-    """
-    first, at = found.first, found.second.fixed_pivot
-    other = of.second if of.first is first else of.first
+def _plane(found: FamilyMap, of: FoundLinkage) -> dict[str, Any]:
+    """The corners of the rectangle, and the two dyads of the linkage that the map is of."""
+    at = found.second.fixed_pivot
+    chosen, other = of.dyads
+    if chosen.dyad is not found.first:
+        chosen, other = other, chosen
+    first, second = chosen.dyad, other.dyad
     return {
         "columns": at.shape[1],
         "rows": at.shape[0],
@@ -85,12 +86,14 @@ def _plane(found: FamilyMap, of: Linkage, recommended: Linkage | None) -> dict[s
         "high": _short(at[-1, -1]),
         "poles": [_short(pole) for pole in found.poles if np.isfinite(pole).all()],
         "chosen": {
+            "id": chosen.id,
             "fixed": _short(first.fixed_pivot) if isinstance(first, RR | RP) else None,
             "moving": _short(first.moving_pivot) if isinstance(first, RR | PR) else None,
         },
-        "recommended": _short(other.fixed_pivot)
-        if recommended is not None and isinstance(other, RR)
-        else None,
+        "other": {
+            "id": other.id,
+            "fixed": _short(second.fixed_pivot) if isinstance(second, RR) else None,
+        },
     }
 
 

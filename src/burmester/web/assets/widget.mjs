@@ -683,7 +683,7 @@ var FamilyMap = class {
     Object.assign(svg.parentElement.style, { width: `${width}px`, height: `${height}px` });
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     this.view = { width, height, margin, across, down };
-    this.place = isCurve ? this.map.places[index ?? 0] ?? null : this.cellOf(this.map.recommended);
+    this.place = isCurve ? this.map.places[index ?? 0] ?? null : this.cellOf(this.map.other.fixed);
     this.paint();
     svg.replaceChildren(...this.outline(), isCurve ? this.axes() : this.ground());
     this.drawn = s("g", { class: "bm-pair-drawn" });
@@ -796,7 +796,7 @@ var FamilyMap = class {
     out.append(s("rect", { x: left, y: margin.top, width: across, height: down, fill: "none" }));
     return out;
   }
-  /** Poses, poles and the pivot that is chosen, over the plane of three poses. */
+  /** Poses, poles and the fixed pivot of the dyad that is chosen, over the plane of three poses. */
   ground() {
     const out = s("g", {}), labels = new Labels(this.view);
     for (const pose of this.data.poses) {
@@ -809,7 +809,7 @@ var FamilyMap = class {
     }
     if (this.map.chosen.fixed) {
       const at = this.pixel(this.map.chosen.fixed);
-      out.append(s("circle", { class: "bm-its-pivot bm-side0", cx: at[0], cy: at[1], r: 6 }), labels.put(...at, "chosen", 12, { class: "bm-map-name" }));
+      out.append(s("circle", { class: "bm-its-pivot bm-side0", cx: at[0], cy: at[1], r: 6 }), labels.put(...at, this.map.chosen.id, 12, { class: "bm-map-name" }));
     }
     return out;
   }
@@ -886,7 +886,7 @@ var FamilyMap = class {
       ` works: transmission angle from ${fixed(low, 0)}° to ${fixed(high, 0)}°. `,
       ...TINTS.flatMap((name, kind) => kind >= OUTSIDE && SHORT[kind] && used.has(kind) ? [h("span", { class: "bm-pair-key" }, swatch(name), ` ${SHORT[kind]}`), " "] : []),
       this.outlined ? "Outlined: works with pivots where they are assumed to lie; the rest works with pivots farther away. " : "",
-      this.place ? this.isCurve ? "Ring: this linkage." : "Ring: the linkage that is recommended. Triangles: poles." : this.isCurve ? "" : "Triangles: poles."
+      this.place ? this.isCurve ? "Ring: this linkage." : `Ring: ${this.map.other.id}. Triangles: poles.` : this.isCurve ? "" : "Triangles: poles."
     );
   }
   /** Move the cursor by a key, from one pair to the next; it starts at the linkage. */
@@ -916,12 +916,12 @@ var FamilyMap = class {
     this.readout.textContent = cell ? this.words(cell) : "Point at the map to read a pair, or move over it by arrow keys.";
   }
   words(cell) {
-    const { kind, driver, degrees: degrees2 } = this.pair(cell), { words } = this.map;
+    const { kind, driver, degrees: degrees2 } = this.pair(cell), { map } = this, { words } = map;
     const digits = Math.max(0, 2 - Math.floor(Math.log10(this.data.scene))), unit2 = this.data.unit ? ` ${this.data.unit}` : "";
     const point = (p) => `(${p.map((v) => fixed(v, digits)).join(", ")})`;
     const dyad = ({ fixed: c, moving: m, length }) => `fixed pivot ${point(c)}, moving pivot ${point(m)}, link ${figure(length)}${unit2}`;
     const dyads = this.dyadsOf(cell);
-    const does = kind <= OUTSIDE ? `${words[kind]}; transmission angle ${degrees2}° or more, driven by ${this.isCurve ? ["the first", "the second"][driver] : ["the dyad that is chosen", "the other one"][driver]}` : words[kind];
+    const does = kind <= OUTSIDE ? `${words[kind]}; transmission angle ${degrees2}° or more, driven by ${this.isCurve ? ["the first", "the second"][driver] : [map.chosen.id, "the other one"][driver]}` : words[kind];
     if (!this.isCurve) return `${capital(dyad(dyads[1]))}: ${does}.`;
     return `${this.placeName(cell[0])} with ${this.placeName(cell[1])}: ${does}. First: ${dyad(dyads[0])}. Second: ${dyad(dyads[1])}.`;
   }
@@ -2706,8 +2706,8 @@ var Report = class {
   familyMap() {
     const picture = h("div", { class: "bm-fill" });
     this.family = new FamilyMap(this.data, picture);
-    const story = this.family.isCurve ? "Every dyad that meets the four poses is a place on a curve. Here each is paired with each other one; a pair that works is coloured by its least transmission angle, driven from its better side." : "Beside the dyad that is chosen, each fixed pivot in the plane has one dyad that meets the three poses. A place where the two make a linkage that works is coloured by its least transmission angle, driven from its better side.";
-    return section(`family bm-family-${this.data.family_map.kind}`, "All linkages of these poses", h("p", { class: "bm-story" }, story), picture);
+    const story = this.family.isCurve ? "Every dyad that meets the four poses is a place on a curve. Here each is paired with each other one; a pair that works is coloured by its least transmission angle, driven from its better side." : `Every fixed pivot has one dyad that meets the three poses. Here ${this.data.family_map.chosen.id} is paired with each of them, at the place of its fixed pivot; a pair that works is coloured by its least transmission angle, driven from its better side.`;
+    return section(`family bm-family-${this.data.family_map.kind}`, "Which pairs of dyads work", h("p", { class: "bm-story" }, story), picture);
   }
   /** For print, and for those who read: the dimensions of every linkage. */
   everyDimension() {

@@ -72,7 +72,7 @@ export class FamilyMap {
     Object.assign(svg.parentElement.style, { width: `${width}px`, height: `${height}px` });
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     this.view = { width, height, margin, across, down };
-    this.place = isCurve ? (this.map.places[index ?? 0] ?? null) : this.cellOf(this.map.recommended);
+    this.place = isCurve ? (this.map.places[index ?? 0] ?? null) : this.cellOf(this.map.other.fixed);
     this.paint();
     svg.replaceChildren(...this.outline(), isCurve ? this.axes() : this.ground());
     this.drawn = s("g", { class: "bm-pair-drawn" });
@@ -196,7 +196,7 @@ export class FamilyMap {
     return out;
   }
 
-  /** Poses, poles and the pivot that is chosen, over the plane of three poses. */
+  /** Poses, poles and the fixed pivot of the dyad that is chosen, over the plane of three poses. */
   ground() {
     const out = s("g", {}), labels = new Labels(this.view);
     for (const pose of this.data.poses) {
@@ -209,7 +209,7 @@ export class FamilyMap {
     }
     if (this.map.chosen.fixed) {
       const at = this.pixel(this.map.chosen.fixed);
-      out.append(s("circle", { class: "bm-its-pivot bm-side0", cx: at[0], cy: at[1], r: 6 }), labels.put(...at, "chosen", 12, { class: "bm-map-name" }));
+      out.append(s("circle", { class: "bm-its-pivot bm-side0", cx: at[0], cy: at[1], r: 6 }), labels.put(...at, this.map.chosen.id, 12, { class: "bm-map-name" }));
     }
     return out;
   }
@@ -292,7 +292,7 @@ export class FamilyMap {
       ` works: transmission angle from ${fixed(low, 0)}° to ${fixed(high, 0)}°. `,
       ...TINTS.flatMap((name, kind) => (kind >= OUTSIDE && SHORT[kind] && used.has(kind) ? [h("span", { class: "bm-pair-key" }, swatch(name), ` ${SHORT[kind]}`), " "] : [])),
       this.outlined ? "Outlined: works with pivots where they are assumed to lie; the rest works with pivots farther away. " : "",
-      this.place ? (this.isCurve ? "Ring: this linkage." : "Ring: the linkage that is recommended. Triangles: poles.") : this.isCurve ? "" : "Triangles: poles.",
+      this.place ? (this.isCurve ? "Ring: this linkage." : `Ring: ${this.map.other.id}. Triangles: poles.`) : this.isCurve ? "" : "Triangles: poles.",
     );
   }
 
@@ -326,12 +326,12 @@ export class FamilyMap {
   }
 
   words(cell) {
-    const { kind, driver, degrees } = this.pair(cell), { words } = this.map;
+    const { kind, driver, degrees } = this.pair(cell), { map } = this, { words } = map;
     const digits = Math.max(0, 2 - Math.floor(Math.log10(this.data.scene))), unit = this.data.unit ? ` ${this.data.unit}` : "";
     const point = (p) => `(${p.map((v) => fixed(v, digits)).join(", ")})`;
     const dyad = ({ fixed: c, moving: m, length }) => `fixed pivot ${point(c)}, moving pivot ${point(m)}, link ${figure(length)}${unit}`;
     const dyads = this.dyadsOf(cell);
-    const does = kind <= OUTSIDE ? `${words[kind]}; transmission angle ${degrees}° or more, driven by ${this.isCurve ? ["the first", "the second"][driver] : ["the dyad that is chosen", "the other one"][driver]}` : words[kind];
+    const does = kind <= OUTSIDE ? `${words[kind]}; transmission angle ${degrees}° or more, driven by ${this.isCurve ? ["the first", "the second"][driver] : [map.chosen.id, "the other one"][driver]}` : words[kind];
     if (!this.isCurve) return `${capital(dyad(dyads[1]))}: ${does}.`;
     return `${this.placeName(cell[0])} with ${this.placeName(cell[1])}: ${does}. First: ${dyad(dyads[0])}. Second: ${dyad(dyads[1])}.`;
   }

@@ -147,8 +147,8 @@ export class Report {
     this.family = new FamilyMap(this.data, picture);
     const story = this.family.isCurve
       ? "Every dyad that meets the four poses is a place on a curve. Here each is paired with each other one; a pair that works is coloured by its least transmission angle, driven from its better side."
-      : "Beside the dyad that is chosen, each fixed pivot in the plane has one dyad that meets the three poses. A place where the two make a linkage that works is coloured by its least transmission angle, driven from its better side.";
-    return section(`family bm-family-${this.data.family_map.kind}`, "All linkages of these poses", h("p", { class: "bm-story" }, story), picture);
+      : `Every fixed pivot has one dyad that meets the three poses. Here ${this.data.family_map.chosen.id} is paired with each of them, at the place of its fixed pivot; a pair that works is coloured by its least transmission angle, driven from its better side.`;
+    return section(`family bm-family-${this.data.family_map.kind}`, "Which pairs of dyads work", h("p", { class: "bm-story" }, story), picture);
   }
 
   /** For print, and for those who read: the dimensions of every linkage. */
