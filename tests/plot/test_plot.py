@@ -803,6 +803,36 @@ def test_other_drawings_look_as_they_did(tmp_path, found):
     assert compare_images(str(BASELINES / "plane.png"), str(path), TOLERANCE) is None
 
 
+@pytest.mark.parametrize("name", ["family-curve", "family-plane"])
+def test_maps_of_families_look_as_they_did(tmp_path, name):
+    path = tmp_path / f"{name}.png"
+    drawing = families()[name]
+    drawing.savefig(path, dpi=DPI)
+    assert compare_images(str(BASELINES / path.name), str(path), TOLERANCE) is None
+    assert overlaps(drawing) == []
+
+
+def families():
+    """Maps of MotionGen's four and three poses, with the best of their pairs."""
+    four, three = (
+        Task.from_rows(load(f"motiongen-{name}")["poses"], angle_unit="deg")
+        for name in ("four-line", "three-pivots")
+    )
+    curve = curve_map(four, samples=120)
+    chosen = dyad_with_fixed_pivot(three.poses, [-7.34106, 1.17668])
+    areas = Polygon([[-12, -4], [-2, -4], [-2, 8], [-12, 8]])
+    bounds = replace(PairBounds.of(three), fixed=areas)
+    plane = plane_map(three, chosen, [-11, -4], [3, 6.5], columns=120, rows=90, bounds=bounds)
+    out = {}
+    for name, found in (("family-curve", curve), ("family-plane", plane)):
+        works = found.verdicts.classes == PairClass.WORKS
+        angle = np.where(works, found.verdicts.transmission, 0)
+        i, j = np.unravel_index(angle.argmax(), angle.shape)
+        pair = (found.first[i], found.second[j]) if found is curve else (chosen, plane.second[i, j])
+        out[name] = family_figure(found, Linkage(*pair))
+    return out
+
+
 def others(found):
     """What the paper's figures do not show."""
     drawing = figure(11, 8, DPI)
@@ -884,3 +914,5 @@ if __name__ == "__main__":
         write_figures(BASELINES, ("png",), force=True)
         task_ = Task.from_rows(load("ge2012-approximate")["poses"], angle_unit="deg")
         others(synthesize(task_).linkages[0]).savefig(BASELINES / "plane.png")
+        for name_, drawing_ in families().items():
+            drawing_.savefig(BASELINES / f"{name_}.png", dpi=DPI)
