@@ -13,6 +13,7 @@ NEAR = (
     1.5e-3  # radians of the input, or of the transmission angle; nearer, a verdict is not certain
 )
 NEAR_BOUND = 1e-3  # relative; a bound missed or met by less is not certain
+NEAR_CHANGE = 1e-4  # of all links together; as near to a change point nothing is certain
 CLASSES = ("works", "farther", "below", "order", "branch", "circuit")
 
 
@@ -123,6 +124,8 @@ def _proportions(pair, span):
     ordered = np.sort(links)
     # Grashof's sum and the two others with the shortest link in them; all vanish at change points.
     sums = [abs(ordered[0] + ordered[k] - (ordered[1:].sum() - ordered[k])) for k in (1, 2, 3)]
+    if min(sums) < NEAR_CHANGE * sum(links):
+        return None  # two stretches of the input may be nearer to each other than two samples
     bounds = [
         (10 * low, high),
         (low, 0.05 * span),

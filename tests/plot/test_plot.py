@@ -560,6 +560,22 @@ def test_the_figure_of_a_family_says_its_tints_in_words():
     assert "transmission angle" in drawing.axes[2].get_ylabel()
 
 
+@pytest.mark.parametrize(
+    ("names", "shown"),
+    [
+        (("$\\frac$", "", "open"), [r"\$\frac\$", "2", "open"]),
+        (("shut", "half way to where it rests", "open"), ["1", "2", "3"]),
+    ],
+)
+def test_names_of_poses_in_a_map_are_no_formulas_and_not_long(ax, names, shown):
+    task = Task(TABLE2.poses[[0, 4, 9]], names=names)
+    chosen = dyad_with_fixed_pivot(task.poses, [-2.0, -1.0])
+    found = plane_map(task, chosen, [-6, -4], [2, 5], columns=5, rows=5)
+    family_map(ax, found)
+    assert [text.get_text() for text in ax.texts][:3] == shown
+    ax.figure.canvas.draw()
+
+
 def test_pairs_that_work_with_pivots_where_they_are_assumed_are_outlined(ax):
     task = Task(TABLE2.poses[[0, 1, 2, 3]])
     corners = np.array([(-4.0, -5.0), (2.5, -5.0), (2.5, 6.0), (-4.0, 6.0)])

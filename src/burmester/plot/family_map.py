@@ -38,6 +38,7 @@ from burmester.plot.style import (
     figure,
     house_style,
     label,
+    plain,
     settle_labels,
     with_unit,
 )
@@ -65,6 +66,7 @@ NAMES: Final = {
     PairClass.CIRCUIT: "circuit defect",
 }
 TICKS: Final = (0.0, 0.25, 0.5, 0.75)  # places along a loop that are marked, on both pictures
+LONGEST_NAME: Final = 12  # characters; names of poses that are longer give way to numbers
 LETTERS: Final = "ABCDEFGH"  # of loops, where there are several
 
 
@@ -174,7 +176,7 @@ def partner_curve(
             if (np.abs(pivots[k] - middle) < half).all():
                 places += ax.plot(*pivots[k], "|", ms=7, mew=1.0, color=BLACK, zorder=3)
                 label(ax, _tick(found, number, share), pivots[k], pivots[k] - middle, fontsize=7)
-    draw_poses(ax, found.task.poses, names=found.task.names, color=GREY)
+    draw_poses(ax, found.task.poses, names=_names(found), color=GREY)
     _rings(ax, recommended)
     box = ax.get_window_extent()
     half = half.max() * np.array([box.width, box.height]) / min(box.width, box.height)
@@ -347,7 +349,7 @@ def _rectangle(
         colors, origin="lower", extent=(x0, x1, y0, y1), interpolation="nearest", zorder=0.5
     )
     _outline(ax, found.verdicts.classes, at[0, :, 0], at[:, 0, 1])
-    draw_poses(ax, found.task.poses, names=found.task.names, color=BLACK)
+    draw_poses(ax, found.task.poses, names=_names(found), color=BLACK)
     names = ("12", "13", "23")
     for name, pole in zip(names, found.poles, strict=True):
         if (np.abs(pole - (low + high) / 2) <= (high - low) / 2).all():
@@ -400,6 +402,14 @@ def _ring(ax: Axes, x: object, y: object) -> list[Line2D]:
     halo = [withStroke(linewidth=3.6, foreground="white")]
     style: dict[str, object] = {"ms": 10, "mfc": "none", "mec": VERMILION, "mew": 1.8, "zorder": 6}
     return ax.plot(x, y, "o", path_effects=halo, **style)  # type: ignore[arg-type]
+
+
+def _names(found: FamilyMap) -> list[str] | None:
+    """The names of the poses, where all are short; else their numbers stand there."""
+    names = found.task.names
+    if names is None or max(map(len, names)) > LONGEST_NAME:
+        return None
+    return [plain(name) or str(k) for k, name in enumerate(names, start=1)]
 
 
 def _tick(found: FamilyMap, loop: int, share: float) -> str:
