@@ -22,11 +22,12 @@ if find_spec("matplotlib") is None:
 from burmester.plot.camera import Box, Camera
 from burmester.plot.charts import pose_errors, transmission
 from burmester.plot.common_curve import common_curve
-from burmester.plot.family_map import family_figure, family_map, partner_curve
+from burmester.plot.family_map import family_figure, family_map
 from burmester.plot.maps import centre_point_curve, circle_point_curve, pivot_map
 from burmester.plot.mechanism import linkage
 from burmester.plot.outlines import body, keep_out
 from burmester.plot.paper import write_figures
+from burmester.plot.partner_curve import partner_curve
 from burmester.plot.plane import achieved, centrodes, coupler_curve, poses
 from burmester.plot.space import image_space
 from burmester.plot.style import figure, finish, house_style, legend
