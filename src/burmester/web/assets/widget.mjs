@@ -577,6 +577,91 @@ function card(linkage, unit2, onclick) {
   );
 }
 
+// src/burmester/web/widget/family_pairs.mjs
+var CLASSES = 7;
+var OUTSIDE = 2;
+var SHARES = [0, 0.25, 0.5, 0.75];
+var FamilyPairs = class {
+  constructor(data) {
+    this.data = data;
+    this.map = data.family_map;
+    this.isCurve = this.map.kind === "curve";
+    this.columns = this.isCurve ? this.map.fixed.length : this.map.columns;
+    this.rows = this.isCurve ? this.columns : this.map.rows;
+    this.starts = [];
+    (this.map.loops ?? []).reduce((start, size) => (this.starts.push(start), start + size), 0);
+  }
+  /** The letter of a loop, where there are several. */
+  letter(loop) {
+    return this.starts.length > 1 ? `${"ABCDEFGH"[loop]} ` : "";
+  }
+  /** The pair at column i and row j: its class, its driver (0 or 1) and whole degrees. */
+  pair([i, j]) {
+    const { cells: cells2 } = this.map;
+    if (!this.isCurve) return this.decoded(cells2[j * this.columns + i]);
+    if (i === j) return { kind: CLASSES - 1, driver: 0, degrees: 0 };
+    const [a, b] = [Math.min(i, j), Math.max(i, j)], n = this.columns;
+    const pair = this.decoded(cells2[a * n - a * (a + 1) / 2 + b - a - 1]);
+    return i < j ? pair : { ...pair, driver: 1 - pair.driver };
+  }
+  decoded(code) {
+    const rest = Math.floor(code / CLASSES);
+    return { kind: code % CLASSES, driver: rest % 2, degrees: Math.floor(rest / 2) };
+  }
+  /** The best pair that a dyad of the curve makes. */
+  bestPartner(i) {
+    let best = { kind: CLASSES - 1, degrees: 0 };
+    for (let j = 0; j < this.columns; j += 1) {
+      const pair = this.pair([i, j]);
+      if (pair.kind < best.kind || pair.kind === best.kind && pair.degrees > best.degrees) best = pair;
+    }
+    return best;
+  }
+  /** The name of a place along the curve: its share of its loop, after the loop's letter. */
+  placeName(k) {
+    const loop = this.starts.findLastIndex((start) => start <= k), size = this.map.loops[loop];
+    return `${this.letter(loop)}${((k - this.starts[loop] + 0.5) / size).toFixed(2)}`;
+  }
+  /** The cell of a fixed pivot in the plane of three poses. */
+  cellOf(pivot) {
+    if (!pivot) return null;
+    const { low, high } = this.map, many = [this.columns, this.rows];
+    const at = pivot.map((v, k) => Math.round((v - low[k]) / (high[k] - low[k]) * (many[k] - 1)));
+    return at.every((v, k) => v >= 0 && v < many[k]) ? at : null;
+  }
+  /** The fixed pivot of a cell in the plane of three poses. */
+  pivotOf(cell) {
+    const { low, high } = this.map, many = [this.columns, this.rows];
+    return cell.map((v, k) => low[k] + v / (many[k] - 1) * (high[k] - low[k]));
+  }
+  /** Both dyads of a pair: fixed pivots in F, moving ones in M, lengths. */
+  dyadsOf(cell) {
+    const { map } = this;
+    if (this.isCurve) return cell.map((k) => ({ fixed: map.fixed[k], moving: map.moving[k], length: map.length[k] }));
+    return [map.chosen, dyadOfThree(this.data.poses, this.pivotOf(cell))];
+  }
+  /** The pivots of a pair in F, at pose 1. */
+  pinsOf(cell) {
+    if (!cell) return [];
+    return this.dyadsOf(cell).flatMap((each) => [...each.fixed ? [each.fixed] : [], ...each.moving ? [this.seen(each.moving)] : []]);
+  }
+  /** A point of the body in F, at pose 1. */
+  seen([x, y]) {
+    const [pose] = this.data.poses, turn = pose.angle_deg * Math.PI / 180, [cos, sin] = [Math.cos(turn), Math.sin(turn)];
+    return [pose.x + cos * x - sin * y, pose.y + sin * x + cos * y];
+  }
+};
+function dyadOfThree(poses, pivot) {
+  const [a, b, c] = poses.map((pose) => {
+    const turn = -pose.angle_deg * Math.PI / 180, [x, y] = [pivot[0] - pose.x, pivot[1] - pose.y];
+    return [Math.cos(turn) * x - Math.sin(turn) * y, Math.sin(turn) * x + Math.cos(turn) * y];
+  });
+  const u = [b[0] - a[0], b[1] - a[1]], v = [c[0] - a[0], c[1] - a[1]];
+  const cross2 = 2 * (u[0] * v[1] - u[1] * v[0]), uu = u[0] ** 2 + u[1] ** 2, vv = v[0] ** 2 + v[1] ** 2;
+  const arm = [(uu * v[1] - vv * u[1]) / cross2, (vv * u[0] - uu * v[0]) / cross2];
+  return { fixed: pivot, moving: [a[0] + arm[0], a[1] + arm[1]], length: Math.hypot(...arm) };
+}
+
 // src/burmester/web/widget/labels.mjs
 var Labels = class {
   constructor(view) {
@@ -616,14 +701,62 @@ var Labels = class {
   }
 };
 
+// src/burmester/web/widget/partner_curve.mjs
+var PartnerCurve = class {
+  constructor(data, pairs) {
+    this.data = data;
+    this.map = data.family_map;
+    this.pairs = pairs;
+    this.svg = s("svg", { class: "bm-pairs-scene", role: "img", "aria-label": "The centre-point curve, and the linkage of the pair at pose 1" });
+  }
+  /** Drawn anew; drawn: the group with the pair, place: of the linkage, colour: of a pair. */
+  build(width, height, { drawn, place, colour }) {
+    const { map, pairs, svg, data } = this;
+    svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    Object.assign(svg.style, { width: `${width}px`, height: `${height}px` });
+    const best = map.fixed.map((_, i) => pairs.bestPartner(i));
+    const poses = data.poses.map((pose) => [pose.x, pose.y]);
+    const middle = [0, 1].map((k) => (Math.min(...poses.map((p) => p[k])) + Math.max(...poses.map((p) => p[k]))) / 2);
+    const near = (p) => p.every((v, k) => Math.abs(v - middle[k]) < 3 * data.scene);
+    const held = [...poses, ...map.fixed.filter((p, i) => best[i].kind < OUTSIDE && near(p)), ...pairs.pinsOf(place)];
+    const low = [0, 1].map((k) => Math.min(...held.map((p) => p[k]))), high = [0, 1].map((k) => Math.max(...held.map((p) => p[k])));
+    const scale = Math.min(width / (high[0] - low[0] || data.scene), height / (high[1] - low[1] || data.scene)) * 0.8;
+    this.pixel = (p) => [width / 2 + (p[0] - (low[0] + high[0]) / 2) * scale, height / 2 - (p[1] - (low[1] + high[1]) / 2) * scale];
+    const curve = s("g", { class: "bm-pairs-curve" }), under = s("g", { class: "bm-pairs-under" }), labels = new Labels({ width, height });
+    const marks = s("g", { class: "bm-pairs-axes" });
+    const inside2 = ([x, y]) => x > 0 && y > 0 && x < width && y < height;
+    const beyond = (p, q) => !inside2(p) && !inside2(q) && (p[0] - width / 2) * (q[0] - width / 2) + (p[1] - height / 2) * (q[1] - height / 2) < 0;
+    pairs.starts.forEach((start, loop) => {
+      const size = map.loops[loop], at = (k) => this.pixel(map.fixed[start + (k + size) % size]);
+      const between = (p, q) => [(p[0] + q[0]) / 2, (p[1] + q[1]) / 2];
+      for (let k = 0; k < size; k += 1) {
+        const piece = [between(at(k - 1), at(k)), at(k), between(at(k), at(k + 1))];
+        if (beyond(at(k - 1), at(k)) || beyond(at(k), at(k + 1))) continue;
+        const d = `M${piece.map((p) => p.map(px).join(" ")).join("L")}`;
+        under.append(s("path", { d }));
+        curve.append(s("path", { d, stroke: `rgb(${colour(best[start + k]).join()})` }));
+      }
+      for (const share of SHARES) {
+        const [x, y] = at(Math.min(size - 1, Math.round(share * size)));
+        if (!inside2([x, y])) continue;
+        marks.append(s("circle", { class: "bm-pairs-mark", cx: px(x), cy: px(y), r: 2.2 }));
+        marks.append(labels.put(x, y, `${pairs.letter(loop)}${share}`, 12, {}));
+      }
+    });
+    const wanted = s("g", {});
+    for (const pose of data.poses) {
+      const [x, y] = this.pixel([pose.x, pose.y]).map(px);
+      wanted.append(s("path", { class: "bm-cross", d: `M${x - 4} ${y}h8M${x} ${y - 4}v8` }), labels.put(x, y, pose.label, 10, { class: "bm-map-name" }));
+    }
+    svg.replaceChildren(under, curve, marks, wanted, drawn);
+  }
+};
+
 // src/burmester/web/widget/family_map.mjs
-var CLASSES = 7;
 var TINTS = ["", "", "outside", "order", "branch", "circuit", "none"];
 var SHORT = ["works", "works", "outside limits or standard", "order defect", "branch defect", "circuit defect", ""];
 var SPECK = 6;
-var OUTSIDE = 2;
 var MARGIN = { left: 50, right: 8, top: 8, bottom: 26 };
-var SHARES = [0, 0.25, 0.5, 0.75];
 var LARGEST = 520;
 var BESIDE = 620;
 var FamilyMap = class {
@@ -631,9 +764,9 @@ var FamilyMap = class {
     this.data = data;
     this.map = data.family_map;
     this.parent = parent;
-    this.isCurve = this.map.kind === "curve";
-    this.columns = this.isCurve ? this.map.fixed.length : this.map.columns;
-    this.rows = this.isCurve ? this.columns : this.map.rows;
+    this.pairs = new FamilyPairs(data);
+    const { isCurve, columns, rows } = this.pairs;
+    Object.assign(this, { isCurve, columns, rows });
     this.canvas = h("canvas", { "aria-hidden": "true", width: this.columns, height: this.rows });
     const name = `bm-pairs-${Math.random().toString(36).slice(2)}`;
     const what = this.isCurve ? "pairs of dyads on the curve of four poses" : "the second fixed pivot of three poses";
@@ -645,31 +778,16 @@ var FamilyMap = class {
       "aria-describedby": name,
       "aria-label": `Family map: ${what}. Arrow keys move a cursor, with Shift by ten steps; what the pair does is told and drawn.`
     });
-    this.scene = this.isCurve ? s("svg", { class: "bm-pairs-scene", role: "img", "aria-label": "The centre-point curve, and the linkage of the pair at pose 1" }) : null;
+    this.curve = isCurve ? new PartnerCurve(data, this.pairs) : null;
     this.readout = h("output", { class: "bm-readout", id: name });
     this.legend = h("p", { class: "bm-legend" });
-    this.box = h("div", { class: "bm-pairs" }, h("div", { class: "bm-pairs-map" }, this.canvas, this.svg), this.scene);
+    this.box = h("div", { class: "bm-pairs" }, h("div", { class: "bm-pairs-map" }, this.canvas, this.svg), this.curve?.svg);
     parent.append(this.box, this.legend, this.readout);
     this.cursor = null;
     this.svg.addEventListener("pointermove", (event) => this.tell(this.cellAt(event)));
     this.svg.addEventListener("pointerdown", (event) => this.pin(this.cellAt(event)));
     this.svg.addEventListener("pointerleave", () => this.tell(this.cursor));
     this.svg.addEventListener("keydown", (event) => this.move(event));
-    this.starts = [];
-    (this.map.loops ?? []).reduce((start, size) => (this.starts.push(start), start + size), 0);
-  }
-  /** The pair at column i and row j: its class, its driver (0 or 1) and whole degrees. */
-  pair([i, j]) {
-    const { cells: cells2 } = this.map;
-    if (!this.isCurve) return this.decoded(cells2[j * this.columns + i]);
-    if (i === j) return { kind: CLASSES - 1, driver: 0, degrees: 0 };
-    const [a, b] = [Math.min(i, j), Math.max(i, j)], n = this.columns;
-    const pair = this.decoded(cells2[a * n - a * (a + 1) / 2 + b - a - 1]);
-    return i < j ? pair : { ...pair, driver: 1 - pair.driver };
-  }
-  decoded(code) {
-    const rest = Math.floor(code / CLASSES);
-    return { kind: code % CLASSES, driver: rest % 2, degrees: Math.floor(rest / 2) };
   }
   build(linkage, index) {
     const { parent, svg, isCurve } = this, wide = Math.max(240, parent.clientWidth);
@@ -683,14 +801,14 @@ var FamilyMap = class {
     Object.assign(svg.parentElement.style, { width: `${width}px`, height: `${height}px` });
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     this.view = { width, height, margin, across, down };
-    this.place = isCurve ? this.map.places[index ?? 0] ?? null : this.cellOf(this.map.other.fixed);
+    this.place = isCurve ? this.map.places[index ?? 0] ?? null : this.pairs.cellOf(this.map.other.fixed);
     this.paint();
     svg.replaceChildren(...this.outline(), isCurve ? this.axes() : this.ground());
     this.drawn = s("g", { class: "bm-pair-drawn" });
     this.mark = s("path", { class: "bm-map-cursor", d: "M-11 0H-4M4 0H11M0 -11V-4M0 4V11" });
     if (!isCurve) svg.append(this.drawn);
     svg.append(this.rings(), this.mark);
-    if (this.scene) this.buildScene(beside ? wide - width - 16 : wide, height);
+    this.curve?.build(beside ? wide - width - 16 : wide, height, { drawn: this.drawn, place: this.place, colour: (pair) => this.colour(pair) });
     this.explain();
     this.tell(this.cursor);
   }
@@ -713,7 +831,7 @@ var FamilyMap = class {
     const image = context.createImageData(this.columns, this.rows);
     for (let j = 0; j < this.rows; j += 1) {
       for (let i = 0; i < this.columns; i += 1) {
-        image.data.set([...this.colour(this.pair([i, j])), 255], 4 * ((this.rows - 1 - j) * this.columns + i));
+        image.data.set([...this.colour(this.pairs.pair([i, j])), 255], 4 * ((this.rows - 1 - j) * this.columns + i));
       }
     }
     context.putImageData(image, 0, 0);
@@ -723,7 +841,7 @@ var FamilyMap = class {
     const kinds = new Set(this.map.cells.map((code) => code % CLASSES));
     this.outlined = kinds.has(0) && kinds.has(1);
     if (!this.outlined) return [];
-    const own = (i, j) => i >= 0 && j >= 0 && i < this.columns && j < this.rows && this.pair([i, j]).kind === 0;
+    const own = (i, j) => i >= 0 && j >= 0 && i < this.columns && j < this.rows && this.pairs.pair([i, j]).kind === 0;
     const mask = [];
     for (let j = -1; j <= this.rows; j += 1) {
       for (let i = -1; i <= this.columns; i += 1) {
@@ -756,29 +874,12 @@ var FamilyMap = class {
     if (x < 0 || y < 0 || x >= across || y >= down) return this.cursor;
     return [Math.floor(x / across * this.columns), Math.floor((1 - y / down) * this.rows)].map((v, k) => clamp(v, 0, (k ? this.rows : this.columns) - 1));
   }
-  /** The cell of a fixed pivot in the plane of three poses. */
-  cellOf(pivot) {
-    if (!pivot) return null;
-    const { low, high } = this.map, many = [this.columns, this.rows];
-    const at = pivot.map((v, k) => Math.round((v - low[k]) / (high[k] - low[k]) * (many[k] - 1)));
-    return at.every((v, k) => v >= 0 && v < many[k]) ? at : null;
-  }
-  /** The fixed pivot of a cell in the plane of three poses. */
-  pivotOf(cell) {
-    const { low, high } = this.map, many = [this.columns, this.rows];
-    return cell.map((v, k) => low[k] + v / (many[k] - 1) * (high[k] - low[k]));
-  }
-  /** The name of a place along the curve: its share of its loop, after the loop's letter. */
-  placeName(k) {
-    const loop = this.starts.findLastIndex((start) => start <= k), size = this.map.loops[loop];
-    return `${this.starts.length > 1 ? `${"ABCDEFGH"[loop]} ` : ""}${((k - this.starts[loop] + 0.5) / size).toFixed(2)}`;
-  }
   /** Ticks and lines between loops, on both axes of the square. */
   axes() {
     const { margin, across, down } = this.view, out = s("g", { class: "bm-pairs-axes" });
-    const many = this.starts.length > 1, left = margin.left, foot2 = margin.top + down;
-    this.starts.forEach((start, loop) => {
-      const size = this.map.loops[loop], letter = many ? `${"ABCDEFGH"[loop]} ` : "";
+    const { pairs } = this, left = margin.left, foot2 = margin.top + down;
+    pairs.starts.forEach((start, loop) => {
+      const size = this.map.loops[loop], letter = pairs.letter(loop);
       const shares = size / this.columns * across < 150 ? [0, 0.5] : SHARES;
       for (const share of shares) {
         const along = (start + share * size) / this.columns * across, text = `${letter}${share}`;
@@ -828,56 +929,6 @@ var FamilyMap = class {
     }
     return out;
   }
-  /** The curve itself, in the colours of the best partners, with marks of places along it. */
-  buildScene(width, height) {
-    const { map, scene, data } = this;
-    scene.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    Object.assign(scene.style, { width: `${width}px`, height: `${height}px` });
-    const best = map.fixed.map((_, i) => this.bestPartner(i));
-    const poses = data.poses.map((pose) => [pose.x, pose.y]);
-    const middle = [0, 1].map((k) => (Math.min(...poses.map((p) => p[k])) + Math.max(...poses.map((p) => p[k]))) / 2);
-    const near = (p) => p.every((v, k) => Math.abs(v - middle[k]) < 3 * data.scene);
-    const held = [...poses, ...map.fixed.filter((p, i) => best[i].kind < OUTSIDE && near(p)), ...this.pinsOf(this.place)];
-    const low = [0, 1].map((k) => Math.min(...held.map((p) => p[k]))), high = [0, 1].map((k) => Math.max(...held.map((p) => p[k])));
-    const scale = Math.min(width / (high[0] - low[0] || data.scene), height / (high[1] - low[1] || data.scene)) * 0.8;
-    this.toScene = (p) => [width / 2 + (p[0] - (low[0] + high[0]) / 2) * scale, height / 2 - (p[1] - (low[1] + high[1]) / 2) * scale];
-    const curve = s("g", { class: "bm-pairs-curve" }), under = s("g", { class: "bm-pairs-under" }), labels = new Labels({ width, height });
-    const marks = s("g", { class: "bm-pairs-axes" });
-    const inside2 = ([x, y]) => x > 0 && y > 0 && x < width && y < height;
-    const beyond = (p, q) => !inside2(p) && !inside2(q) && (p[0] - width / 2) * (q[0] - width / 2) + (p[1] - height / 2) * (q[1] - height / 2) < 0;
-    this.starts.forEach((start, loop) => {
-      const size = map.loops[loop], at = (k) => this.toScene(map.fixed[start + (k + size) % size]);
-      const between = (p, q) => [(p[0] + q[0]) / 2, (p[1] + q[1]) / 2];
-      for (let k = 0; k < size; k += 1) {
-        const piece = [between(at(k - 1), at(k)), at(k), between(at(k), at(k + 1))];
-        if (beyond(at(k - 1), at(k)) || beyond(at(k), at(k + 1))) continue;
-        const d = `M${piece.map((p) => p.map(px).join(" ")).join("L")}`;
-        under.append(s("path", { d }));
-        curve.append(s("path", { d, stroke: `rgb(${this.colour(best[start + k]).join()})` }));
-      }
-      for (const share of SHARES) {
-        const [x, y] = at(Math.min(size - 1, Math.round(share * size)));
-        if (!inside2([x, y])) continue;
-        marks.append(s("circle", { class: "bm-pairs-mark", cx: px(x), cy: px(y), r: 2.2 }));
-        marks.append(labels.put(x, y, `${this.starts.length > 1 ? `${"ABCDEFGH"[loop]} ` : ""}${share}`, 12, {}));
-      }
-    });
-    const wanted = s("g", {});
-    for (const pose of data.poses) {
-      const [x, y] = this.toScene([pose.x, pose.y]).map(px);
-      wanted.append(s("path", { class: "bm-cross", d: `M${x - 4} ${y}h8M${x} ${y - 4}v8` }), labels.put(x, y, pose.label, 10, { class: "bm-map-name" }));
-    }
-    scene.replaceChildren(under, curve, marks, wanted, this.drawn);
-  }
-  /** The best pair that a dyad of the curve makes. */
-  bestPartner(i) {
-    let best = { kind: CLASSES - 1, degrees: 0 };
-    for (let j = 0; j < this.columns; j += 1) {
-      const pair = this.pair([i, j]);
-      if (pair.kind < best.kind || pair.kind === best.kind && pair.degrees > best.degrees) best = pair;
-    }
-    return best;
-  }
   explain() {
     const [low, high] = this.map.scale, swatch = (name) => h("span", { class: `bm-swatch bm-pair-${name}` });
     const used = new Set(this.map.cells.map((code) => code % CLASSES));
@@ -916,40 +967,24 @@ var FamilyMap = class {
     this.readout.textContent = cell ? this.words(cell) : "Point at the map to read a pair, or move over it by arrow keys.";
   }
   words(cell) {
-    const { kind, driver, degrees: degrees2 } = this.pair(cell), { map } = this, { words } = map;
+    const { kind, driver, degrees: degrees2 } = this.pairs.pair(cell), { map } = this, { words } = map;
     const digits = Math.max(0, 2 - Math.floor(Math.log10(this.data.scene))), unit2 = this.data.unit ? ` ${this.data.unit}` : "";
     const point = (p) => `(${p.map((v) => fixed(v, digits)).join(", ")})`;
     const dyad = ({ fixed: c, moving: m, length }) => `fixed pivot ${point(c)}, moving pivot ${point(m)}, link ${figure(length)}${unit2}`;
-    const dyads = this.dyadsOf(cell);
+    const dyads = this.pairs.dyadsOf(cell);
     const does = kind <= OUTSIDE ? `${words[kind]}; transmission angle ${degrees2}° or more, driven by ${this.isCurve ? ["the first", "the second"][driver] : [map.chosen.id, "the other one"][driver]}` : words[kind];
     if (!this.isCurve) return `${capital(dyad(dyads[1]))}: ${does}.`;
-    return `${this.placeName(cell[0])} with ${this.placeName(cell[1])}: ${does}. First: ${dyad(dyads[0])}. Second: ${dyad(dyads[1])}.`;
-  }
-  /** Both dyads of a pair: fixed pivots in F, moving ones in M, lengths. */
-  dyadsOf(cell) {
-    const { map } = this;
-    if (this.isCurve) return cell.map((k) => ({ fixed: map.fixed[k], moving: map.moving[k], length: map.length[k] }));
-    return [map.chosen, dyadOfThree(this.data.poses, this.pivotOf(cell))];
-  }
-  /** The pivots of a pair in F, at pose 1. */
-  pinsOf(cell) {
-    if (!cell) return [];
-    return this.dyadsOf(cell).flatMap((each) => [...each.fixed ? [each.fixed] : [], ...each.moving ? [this.seen(each.moving)] : []]);
-  }
-  /** A point of the body in F, at pose 1. */
-  seen([x, y]) {
-    const [pose] = this.data.poses, turn = pose.angle_deg * Math.PI / 180, [cos, sin] = [Math.cos(turn), Math.sin(turn)];
-    return [pose.x + cos * x - sin * y, pose.y + sin * x + cos * y];
+    return `${this.pairs.placeName(cell[0])} with ${this.pairs.placeName(cell[1])}: ${does}. First: ${dyad(dyads[0])}. Second: ${dyad(dyads[1])}.`;
   }
   drawPair(cell) {
     this.drawn.replaceChildren();
     if (!cell) return;
-    const to = this.isCurve ? this.toScene : (p) => this.pixel(p), [pose] = this.data.poses;
-    const dyads = this.dyadsOf(cell), pins = dyads.filter((each) => each.moving).map((each) => to(this.seen(each.moving)));
+    const to = this.isCurve ? this.curve.pixel : (p) => this.pixel(p), [pose] = this.data.poses;
+    const dyads = this.pairs.dyadsOf(cell), pins = dyads.filter((each) => each.moving).map((each) => to(this.pairs.seen(each.moving)));
     const line = (points, name) => s("path", { class: name, d: `M${points.map((p) => p.map(px).join(" ")).join("L")}` });
     this.drawn.append(line([...pins, to([pose.x, pose.y])], "bm-pair-body"));
     dyads.forEach((each, side) => {
-      if (each.fixed && each.moving) this.drawn.append(line([to(each.fixed), to(this.seen(each.moving))], `bm-pair-link bm-side${side}`));
+      if (each.fixed && each.moving) this.drawn.append(line([to(each.fixed), to(this.pairs.seen(each.moving))], `bm-pair-link bm-side${side}`));
       if (each.fixed) this.drawn.append(dot(to(each.fixed), `bm-pair-ground bm-side${side}`, 4.5));
     });
     for (const pin of pins) this.drawn.append(dot(pin, "bm-pair-pin", 3.2));
@@ -957,16 +992,6 @@ var FamilyMap = class {
 };
 var dot = ([x, y], name, r) => s("circle", { class: name, cx: px(x), cy: px(y), r });
 var capital = (text) => text[0].toUpperCase() + text.slice(1);
-function dyadOfThree(poses, pivot) {
-  const [a, b, c] = poses.map((pose) => {
-    const turn = -pose.angle_deg * Math.PI / 180, [x, y] = [pivot[0] - pose.x, pivot[1] - pose.y];
-    return [Math.cos(turn) * x - Math.sin(turn) * y, Math.sin(turn) * x + Math.cos(turn) * y];
-  });
-  const u = [b[0] - a[0], b[1] - a[1]], v = [c[0] - a[0], c[1] - a[1]];
-  const cross2 = 2 * (u[0] * v[1] - u[1] * v[0]), uu = u[0] ** 2 + u[1] ** 2, vv = v[0] ** 2 + v[1] ** 2;
-  const arm = [(uu * v[1] - vv * u[1]) / cross2, (vv * u[0] - uu * v[0]) / cross2];
-  return { fixed: pivot, moving: [a[0] + arm[0], a[1] + arm[1]], length: Math.hypot(...arm) };
-}
 
 // src/burmester/web/widget/header.mjs
 var OPEN = /^R(303|31)/;
