@@ -18,12 +18,14 @@ from burmester import (
     synthesize,
 )
 from burmester.dyads.three_poses import dyad_with_fixed_pivot
-from burmester.families.family_map import curve_map, plane_map
+from burmester.families.family_map import curve_map, family_map, plane_map
 from burmester.families.pair_verdicts import PairBounds, PairClass, judged_pairs
 from burmester.fourbar.defects import judge
+from burmester.geometry.regions import Point
 from burmester.io.cases import load
 from burmester.synthesis.family_map import family_map_of
 from burmester.tasks.limits import Limits
+from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.tasks.requirements import GROUPS, Requirements
 from tests.oracles.pair_verdicts import CLASSES, driven, verdict
 
@@ -327,3 +329,45 @@ def test_what_is_recommended_works_on_the_map_with_the_angle_that_is_told(count,
         assert found.verdicts.classes[i, j] <= PairClass.OUTSIDE_BOUNDS
     else:
         assert found.first in (best.linkage.first, best.linkage.second)
+
+
+def test_the_rectangle_of_three_poses_is_where_pivots_may_be():
+    poses = published_task().poses[:3]
+    pair = Linkage(*(dyad_with_fixed_pivot(poses, at) for at in ([-2.0, -1.0], [1.0, 2.0])))
+    boxes = [
+        Polygon([low, (high[0], low[1]), high, (low[0], high[1])])
+        for low, high in (((-3.0, -2.0), (0.0, 1.0)), ((0.0, 0.0), (2.0, 8.0)))
+    ]
+    tasks = {
+        "regions": Task(poses, limits=tuple(Limits(fixed_pivot=box) for box in boxes)),
+        "poses": Task(poses, limits=(Limits(fixed_pivot=boxes[0]), Limits())),
+    }
+    for name, task in tasks.items():
+        found = family_map(task, pair, columns=41, rows=31)
+        assert found.first is pair.first
+        at = found.second.fixed_pivot
+        low, high = at[0, 0], at[-1, -1]
+        corners = np.concatenate([box.vertices for box in boxes])
+        held = corners if name == "regions" else poses.translation
+        held = np.concatenate([held, [[-2.0, -1.0], [1.0, 2.0]]])
+        assert (held > low).all()
+        assert (held < high).all()
+        assert (high - low)[0] / (high - low)[1] == pytest.approx(4 / 3)
+        if name == "regions":  # and no more than it takes
+            assert (high - low).max() < 1.5 * np.ptp(held, axis=0).max()
+
+
+def test_of_three_poses_the_dyad_at_its_place_is_chosen():
+    poses = published_task().poses[:3]
+    one, other = (dyad_with_fixed_pivot(poses, at) for at in ([-2.0, -1.0], [1.0, 2.0]))
+    at_a_point = Limits(fixed_pivot=Point([1.0, 2.0])), Limits()
+    found = family_map(Task(poses, limits=at_a_point), Linkage(one, other), columns=5, rows=4)
+    assert found.first is other
+    slider = Linkage(one, PR(0.1, 0.2, [0.0, 1.0]))
+    assert isinstance(family_map(Task(poses), slider, columns=5, rows=4).first, PR)
+    assert family_map(Task(poses)) is None
+    with pytest.raises(InputError, match="no family to map"):
+        family_map(Task(poses, limits=at_a_point[:1]), Linkage(one, other))
+    tolerant = Task(poses, tolerances=PoseTolerances(np.full((3, 2), 0.1), np.full(3, 0.1)))
+    with pytest.raises(InputError, match="met exactly"):
+        family_map(tolerant, Linkage(one, other))

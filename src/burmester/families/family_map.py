@@ -36,6 +36,7 @@ __all__ = ["FamilyMap", "curve_map", "family_map", "plane_map"]
 
 CURVE_SAMPLES = 200  # dyads along the curve of four poses
 COLUMNS, ROWS = 160, 120  # fixed pivots of the map of three poses
+LIMITED_BORDER = 0.05  # of the longer side: the same around regions for pivots
 BORDER = 0.6  # spans of the motion around poses and pivots that the map of three poses shows
 
 
@@ -223,8 +224,8 @@ def family_map(
         Three or four different poses; see `curve_map`.
     recommended : Linkage, optional
         Of three poses, its first dyad is the one that is chosen: its second where the second is no
-        RR, or alone is where limits want a pivot at a point or on a line.  The rectangle holds the
-        poses and its fixed pivots.
+        RR, or alone is where limits want a pivot at a point or on a line.  The rectangle holds its
+        fixed pivots, and the regions for fixed pivots, or the poses where there are none.
     bounds : PairBounds, optional
         What pairs are held to; by default `PairBounds.of(task)`.
     samples : int
@@ -288,9 +289,18 @@ def _pivots(dyads: RR) -> FloatArray:
 
 
 def _rectangle(task: Task, pivots: list[FloatArray]) -> tuple[FloatArray, FloatArray]:
-    """Two corners of a rectangle that holds the poses and pivots, with a border, 4 wide to 3."""
-    points = np.concatenate([task.poses.translation, np.reshape(pivots, (-1, 2))])
+    """Two corners of a rectangle for fixed pivots, 4 wide to 3, with a border.
+
+    It holds the pivots, and where the task limits all fixed pivots these regions, else the poses.
+    """
+    regions = [each.fixed_pivot for each in task.limits if each.fixed_pivot is not None]
+    limited = bool(regions) and len(regions) == len(task.limits)
+    edges = [region.corners() for region in regions] if limited else [task.poses.translation]
+    known = [each for each in edges if each is not None]
+    points = np.concatenate([*known, np.reshape(pivots, (-1, 2))])
     low, high = points.min(axis=0), points.max(axis=0)
-    half = (high - low) / 2 + BORDER * max(span(task), float((high - low).max()) / 4)
+    size = float((high - low).max())
+    border = LIMITED_BORDER * size if limited else BORDER * max(span(task), size / 4)
+    half = (high - low) / 2 + max(border, LIMITED_BORDER * span(task))
     half = np.maximum(half, half[::-1] * np.array([COLUMNS / ROWS, ROWS / COLUMNS]))
     return (low + high) / 2 - half, (low + high) / 2 + half

@@ -52,6 +52,7 @@ if TYPE_CHECKING:
 
 __all__ = ["MapMarks", "family_figure", "family_map"]
 
+FRAME_SIZE: Final = 0.05  # of the width of a rectangle: the x axis of a pose
 SPECK: Final = 6  # of nine pairs around one that does not work; no outline goes around that one
 NAMES: Final = {
     PairClass.OUTSIDE_BOUNDS: "outside limits or standard",
@@ -233,7 +234,12 @@ def _rectangle(
         colors, origin="lower", extent=(x0, x1, y0, y1), interpolation="nearest", zorder=0.5
     )
     _outline(ax, found.verdicts.classes, at[0, :, 0], at[:, 0, 1])
-    draw_poses(ax, found.task.poses, names=pose_names(found), color=BLACK)
+    poses = found.task.poses
+    seen = (np.abs(poses.translation - (low + high) / 2) <= (high - low) / 2).all(axis=1)
+    labels = pose_names(found) or [str(k + 1) for k in range(len(seen))]
+    if seen.any():
+        shown = [name for name, here in zip(labels, seen, strict=True) if here]
+        draw_poses(ax, poses[seen], names=shown, color=BLACK, size=FRAME_SIZE * (x1 - x0))
     names = ("12", "13", "23")
     for name, pole in zip(names, found.poles, strict=True):
         if (np.abs(pole - (low + high) / 2) <= (high - low) / 2).all():
