@@ -8,8 +8,8 @@ far less: where the distance has a minimum, by the square of the step.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Final
+from collections.abc import Callable, Iterator
+from typing import Final, NamedTuple
 
 import numpy as np
 import shapely
@@ -22,7 +22,7 @@ from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.surroundings import Surroundings
 
-__all__ = ["least_clearances"]
+__all__ = ["least_clearances", "shares_too_close"]
 
 FEW_CORNERS: Final = 48  # an outline of more is taken with fewer
 OUTLINE_TOLERANCE: Final = 2e-3  # of the outline's size
@@ -69,6 +69,55 @@ def least_clearances(
     return np.concatenate(parts) if parts else np.empty(0)
 
 
+class _Pair(NamedTuple):
+    """A part of linkages (k,) and an obstacle, at frames (n,).
+
+    bounds: (k, n), below which no distance is; infinite where there is nothing.
+    distances_at: the distances at rows and frames.
+    """
+
+    bounds: FloatArray
+    distances_at: Callable[[NDArray[np.intp], NDArray[np.intp]], FloatArray]
+
+
+def _pairs(
+    places: Displacement, bars: FloatArray, body: Polygon | None, around: Surroundings
+) -> Iterator[_Pair]:
+    """All that must not touch."""
+    finite = np.isfinite(places.angle) & np.isfinite(places.translation).all(axis=-1)
+    half = around.link_width / 2
+    for each in around.keep_out:
+        if body is not None:
+            yield _body_and_region(places, finite, body, each.polygon)
+        for number in range(bars.shape[2]):
+            yield _bars_and_region(bars[:, :, number], each.polygon, half)
+    if body is not None and around.body_in_plane:
+        for number in (0, 1):
+            yield _links_and_body(places, bars[:, :, number], body, around)
+
+
+def shares_too_close(
+    places: Displacement,
+    bars: FloatArray,
+    body: Polygon | None,
+    around: Surroundings,
+    slack: float,
+) -> FloatArray:
+    """The share (k,) of the places (k, n) at which something is too close: how far from allowed.
+
+    Too close is what touches, or is nearer than the margin, by less than `slack` even where that
+    is kept: for what comes nearer between the frames.  The others are as in `least_clearances`.
+    """
+    within = around.margin + slack
+    simple = None if body is None else _simplified(body)
+    close = np.zeros(places.shape, dtype=bool)
+    for bounds, distances_at in _pairs(places, bars, simple, around):
+        row, frame = np.nonzero((bounds <= within) & ~close)
+        if len(row):
+            close[row, frame] = distances_at(row, frame) <= within
+    return np.asarray(close.mean(axis=1))
+
+
 def _least(
     places: Displacement,
     bars: FloatArray,
@@ -76,46 +125,24 @@ def _least(
     around: Surroundings,
     enough: float,
 ) -> FloatArray:
+    """As `least_clearances`.
+
+    Few frames come first, so that the others need be looked at only where they can be less still.
+    """
     least = np.full(places.shape[0], float(enough))
-    finite = np.isfinite(places.angle) & np.isfinite(places.translation).all(axis=-1)
-    there = np.asarray(np.isfinite(bars).all(axis=(-1, -2)))
-    half = around.link_width / 2
-    for each in around.keep_out:
-        if body is not None:
-            _lower_to_body(least, places, finite, body, each.polygon)
-        for number in range(bars.shape[2]):
-            _lower_to_bars(least, bars[:, :, number], there[:, :, number], each.polygon, half)
-    if body is not None and around.body_in_plane:
-        for number in (0, 1):
-            _lower_to_own_links(least, places, bars[:, :, number], body, around)
+    for bounds, distances_at in _pairs(places, bars, body, around):
+        for stride in (STRIDE, 1):
+            row, frame = np.nonzero(bounds[:, ::stride] < least[:, None])
+            if len(row):
+                frame = frame * stride
+                np.minimum.at(least, row, distances_at(row, frame))
+                bounds[row, frame] = np.inf
     return np.asarray(np.maximum(least, 0.0))
 
 
-def _lower(
-    least: FloatArray,
-    bounds: FloatArray,
-    distances_at: Callable[[NDArray[np.intp], NDArray[np.intp]], FloatArray],
-) -> None:
-    """Lower `least` (k,), in place, to distances at rows and frames.
-
-    bounds: (k, n), below which no distance is; infinite where nothing is asked.  Few frames come
-    first, so that the others need be looked at only where they can be lower still.
-    """
-    for stride in (STRIDE, 1):
-        row, frame = np.nonzero(bounds[:, ::stride] < least[:, None])
-        if len(row):
-            frame = frame * stride
-            np.minimum.at(least, row, distances_at(row, frame))
-            bounds[row, frame] = np.inf
-
-
-def _lower_to_body(
-    least: FloatArray,
-    places: Displacement,
-    finite: NDArray[np.bool_],
-    body: Polygon,
-    region: Polygon,
-) -> None:
+def _body_and_region(
+    places: Displacement, finite: NDArray[np.bool_], body: Polygon, region: Polygon
+) -> _Pair:
     """The body and a region; whichever has fewer corners is moved."""
     middle = (body.vertices.min(axis=0) + body.vertices.max(axis=0)) / 2
     reach = float(np.linalg.norm(body.vertices - middle, axis=-1).max())
@@ -128,26 +155,21 @@ def _lower_to_body(
             return distances(moved(region, some.inverse()), area(body))
         return distances(moved(body, some), area(region))
 
-    _lower(least, bounds, distances_at)
+    return _Pair(bounds, distances_at)
 
 
-def _lower_to_bars(
-    least: FloatArray, ends: FloatArray, there: NDArray[np.bool_], region: Polygon, half: float
-) -> None:
+def _bars_and_region(ends: FloatArray, region: Polygon, half: float) -> _Pair:
     """Bars (k, n, 2, 2) and a region."""
     shape = area(region)
-    low, high = ends.min(axis=-2), ends.max(axis=-2)
-    bounds = np.where(there, _from_box(low, high, region) - half, np.inf)
-    _lower(least, bounds, lambda *at: distances(segments(ends[at]), shape) - half)
+    one, other = ends[..., 0, :], ends[..., 1, :]
+    gap = _from_box(np.minimum(one, other), np.maximum(one, other), region)
+    bounds = np.where(np.isnan(gap), np.inf, gap - half)
+    return _Pair(bounds, lambda *at: distances(segments(ends[at]), shape) - half)
 
 
-def _lower_to_own_links(
-    least: FloatArray,
-    places: Displacement,
-    ends: FloatArray,
-    body: Polygon,
-    around: Surroundings,
-) -> None:
+def _links_and_body(
+    places: Displacement, ends: FloatArray, body: Polygon, around: Surroundings
+) -> _Pair:
     """The body and links (k, n, 2, 2) in its plane, those that have a length."""
     inside, half = area(body), around.link_width / 2
     long = np.isfinite(ends).all(axis=(-1, -2)) & np.any(ends[:, :, 0] != ends[:, :, 1], axis=-1)
@@ -159,14 +181,17 @@ def _lower_to_own_links(
         lug = lugs(own[first, 1], body, around)[linkage]
         return distances(segments(shortened(own, lug)), inside) - half
 
-    _lower(least, np.where(long, -np.inf, np.inf), distances_at)
+    return _Pair(np.where(long, -np.inf, np.inf), distances_at)
 
 
 def _from_box(low: FloatArray, high: FloatArray, region: Polygon) -> FloatArray:
-    """How far boxes from low to high (*, 2) are from the box about a region, (*,)."""
+    """How far boxes from low to high (*, 2) are from the box about a region, (*,); nan stays."""
     least, most = region.vertices.min(axis=0), region.vertices.max(axis=0)
-    gap = np.maximum(np.maximum(least - high, low - most), 0.0)
-    return np.asarray(np.hypot(gap[..., 0], gap[..., 1]))
+    square = np.zeros(low.shape[:-1])
+    for k in (0, 1):  # an axis of two is slow to reduce
+        gap = np.maximum(np.maximum(least[k] - high[..., k], low[..., k] - most[k]), 0.0)
+        square = square + gap * gap
+    return np.sqrt(square)
 
 
 def _simplified(body: Polygon) -> Polygon:

@@ -7,6 +7,8 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.clearance.many_linkages import shares_too_close
+from burmester.clearance.moving_parts import bars_of
 from burmester.families.open_task import Conditions, OpenTask, Trials
 from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.dyad import PR, RP, RR
@@ -32,6 +34,11 @@ from burmester.numerics.bundles import take
 __all__ = ["AIMS", "Assessment", "assessed", "costs"]
 
 FRAMES: Final = 17  # number of places along the range at which pivots are held against a footprint
+# Numbers of places along the range at which nothing must touch: the second one where none does.
+CLEARANCE_FRAMES: Final = (21, 81)
+# Motion sizes; how much more clearance is asked at these, for what comes nearer between them.
+CLEARANCE_SLACK: Final = 1e-3
+NEARLY: Final = 0.5  # violation; clearances of linkages that violate more are not looked at
 NONE: Final = 10.0  # violation of a linkage that has no motion at all
 BAD: Final = 1e6  # what a violation of 1 counts as, beside any aim
 LOST: Final = 1.0  # violation of a linkage that leaves its branch, beside how far it does
@@ -93,6 +100,10 @@ def _of_alike(linkage: Linkage, places: Displacement, conditions: Conditions) ->
         if conditions.footprint is not None:
             frames = _frames(traversal.circuits, ends)
             violation = violation + _outside(linkage, frames, conditions.footprint)
+        if conditions.around is not None:
+            violation = violation + _too_close(
+                linkage, traversal.circuits, ends, violation, conditions
+            )
         if conditions.crank:
             turns = traversal.circuits.closed & (traversal.circuits.branches == 1)
             violation = violation + LOST * ~turns
@@ -139,6 +150,29 @@ def _outside(linkage: Linkage, frames: Displacement, footprint: Polygon) -> Floa
     """How far pivots (k,) leave the footprint."""
     points = np.concatenate(_pivots(linkage, frames), axis=1)
     return np.asarray(footprint.distance(points).max(axis=1))
+
+
+def _too_close(
+    linkage: Linkage,
+    circuits: Circuits,
+    ends: FloatArray,
+    violation: FloatArray,
+    conditions: Conditions,
+) -> FloatArray:
+    """Violations (k,) of what must not be touched, of linkages that meet all else or nearly so."""
+    out = np.zeros(len(violation))
+    some = np.flatnonzero(violation < NEARLY)
+    around, slack = conditions.around, CLEARANCE_SLACK * conditions.span
+    for count in CLEARANCE_FRAMES:
+        if around is None or not len(some):
+            break
+        share = np.linspace(0.0, 1.0, count)
+        start, end = ends[some, :1], ends[some, 1:]
+        frames = circuits[some].couplers(start + (end - start) * share)
+        bars = bars_of(Linkage(linkage.first[some], linkage.second[some]), frames)
+        out[some] = shares_too_close(frames, bars, conditions.body, around, slack)
+        some = some[out[some] == 0]  # looked at more closely
+    return out
 
 
 def _of_proportions(linkage: Linkage, places: Displacement, conditions: Conditions) -> FloatArray:

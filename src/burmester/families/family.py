@@ -37,6 +37,7 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.options import Preference
 from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.requirements import TYPES
+from burmester.tasks.surroundings import KeepOut, Surroundings
 
 __all__ = ["RULES", "Family", "best_of_family"]
 
@@ -343,11 +344,11 @@ def _conditions(
     assumed: Assumptions,
 ) -> Conditions:
     """What linkages must be, in the frames of an open task."""
-    task, unit = problem.task, float(target.frames.length)
+    task, frames, unit = problem.task, target.frames, float(target.frames.length)
     asked = task.requirements
     footprint = asked.footprint
     if footprint is not None:
-        footprint = Polygon((footprint.vertices - target.frames.fixed_origin) / unit)
+        footprint = _in_frame(footprint, frames.fixed_origin, unit)
     types = np.zeros(2**3, dtype=bool)
     for signs, name in TYPE_OF_SIGNS.items():
         types[sum(2**k for k, sign in enumerate(signs) if sign > 0)] = asked.allows(name)
@@ -370,4 +371,21 @@ def _conditions(
         change_point=Standard.of(task).change_point,
         footprint=footprint,
         prefer=problem.options.prefer,
+        around=None if task.surroundings is None else _moved_around(task.surroundings, target),
+        body=None if task.body is None else _in_frame(task.body, frames.moving_origin, unit),
     )
+
+
+def _moved_around(around: Surroundings, target: Target) -> Surroundings:
+    """The surroundings in the frames of an open task."""
+    frames, unit = target.frames, float(target.frames.length)
+    regions = (
+        KeepOut(_in_frame(each.polygon, frames.fixed_origin, unit), each.name)
+        for each in around.keep_out
+    )
+    width, margin = around.link_width / unit, around.margin / unit
+    return Surroundings(tuple(regions), width, margin, around.body_in_plane)
+
+
+def _in_frame(polygon: Polygon, origin: FloatArray, unit: float) -> Polygon:
+    return Polygon((polygon.vertices - origin) / unit)

@@ -16,6 +16,7 @@ from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.options import Preference
+from burmester.tasks.surroundings import Surroundings
 
 __all__ = ["Conditions", "DyadFreedom", "OpenTask", "Trials"]
 
@@ -75,6 +76,7 @@ class Conditions:
     prefer: by which figure the recommended linkage is chosen.
     types: (8,), whether 4R linkages are allowed, by the signs of their Grashof sums, in binary.
     kinds: the pairs of kinds of dyads that are allowed; drivers: the sides that may drive.
+    around: what body, its outline, and links must stay clear of.
     """
 
     transmission: float
@@ -90,6 +92,8 @@ class Conditions:
     change_point: bool
     footprint: Polygon | None
     prefer: Preference
+    around: Surroundings | None = None
+    body: Polygon | None = None
 
 
 @final
