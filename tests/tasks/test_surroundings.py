@@ -14,6 +14,7 @@ from burmester import (
     Surroundings,
     Task,
 )
+from burmester.tasks.pose_tolerances import PoseTolerances
 
 SQUARE = Polygon([(0, 0), (4, 0), (4, 4), (0, 4)])
 ROWS = [(0, 0, 0), (10, 2, 20), (15, 9, 45)]
@@ -52,6 +53,40 @@ def test_malformed_surroundings_are_refused(given: dict, code: str, said: str) -
     with pytest.raises(InputError, match=said) as caught:
         Surroundings(**given)
     assert caught.value.code == code
+
+
+def test_a_body_is_clear_at_its_poses_or_refused() -> None:
+    body = Polygon([(-1, -1), (1, -1), (1, 1), (-1, 1)])
+    wall = Polygon([(12, 0), (14, 0), (14, 4), (12, 4)])  # beside the second pose
+
+    def task(
+        region: Polygon, margin: float = 0.0, tolerances: PoseTolerances | None = None
+    ) -> Task:
+        around = Surroundings(KeepOut(region, "wall"), margin=margin)
+        return Task.from_rows(
+            ROWS, angle_unit="deg", body=body, surroundings=around, tolerances=tolerances
+        )
+
+    near = 12 - 10 - np.cos(np.radians(20)) - np.sin(np.radians(20))  # of a corner of the body
+    assert task(wall, near - 1e-9).surroundings is not None
+    with pytest.raises(
+        InputError, match=r"is only 0\.718 from keep-out 'wall' at pose 2"
+    ) as caught:
+        task(wall, near + 1e-9)
+    assert caught.value.code == "E175"
+    over = Polygon(wall.vertices - [2, 0])
+    with pytest.raises(InputError, match="lies over keep-out 'wall' at pose 2"):
+        task(over)
+    with pytest.raises(InputError, match="touches keep-out 'wall' at pose 2"):
+        task(Polygon(wall.vertices - [near, 0]))
+    loose = PoseTolerances([[0, 0], [1, 0], [0, 0]], [0, 0, 0])
+    assert task(over, tolerances=loose).tolerances is loose  # it may be met beside the wall
+
+
+def test_links_clear_of_a_body_without_an_outline_are_refused() -> None:
+    with pytest.raises(InputError, match="no outline") as caught:
+        Task.from_rows(ROWS, angle_unit="deg", surroundings=Surroundings(body_in_plane=True))
+    assert caught.value.code == "E176"
 
 
 @pytest.mark.parametrize("name", [3, "x" * 101])

@@ -187,8 +187,17 @@ class Task:
         self._require_clear()
 
     def _require_clear(self) -> None:
-        """Refuse a body that touches a keep-out region at a pose that is exact: E175."""
-        if self.body is None or self.surroundings is None or not self.surroundings.keep_out:
+        """Refuse a body that touches a region at a pose that is exact, E175, or has none, E176."""
+        if self.surroundings is None:
+            return
+        if self.body is None:
+            if self.surroundings.body_in_plane:
+                raise InputError(
+                    "E176",
+                    "links are to stay clear of the body in their plane, and it has no outline",
+                    why="body_in_plane is true, and the task has no body",
+                    help="give the outline of the body, or leave body_in_plane out",
+                )
             return
         exact = np.arange(self.poses.shape[0])
         if self.tolerances is not None:  # others may be met beside the region

@@ -146,7 +146,7 @@ class Surroundings:
 def require_clear_at_poses(
     body: Polygon, around: Surroundings, poses: Displacement, names: Sequence[str]
 ) -> None:
-    """Refuse poses (N,) at which the body touches a keep-out region: E175.
+    """Refuse poses (N,) at which the body touches a keep-out region or is within the margin: E175.
 
     names: of the poses in messages, "pose 2"; poses that are not finite are passed over.
     """
@@ -158,17 +158,25 @@ def require_clear_at_poses(
         some = known[start : start + POSES_AT_ONCE]
         outlines = shapely.polygons(poses[some][:, None].act(body.vertices))
         for name, region in zip(around.names, regions, strict=True):
-            if not (met := shapely.intersects(outlines, region)).any():
+            apart = shapely.distance(outlines, region)
+            at = int(apart.argmin())
+            if apart[at] > 0 and apart[at] >= around.margin:
                 continue
-            at = int(met.argmax())
-            shared = shapely.intersection(outlines[at], region)
-            how = "lies over" if shared.area > 0 else "touches"
-            x, y = shapely.get_coordinates(shapely.point_on_surface(shared))[0]
-            raise InputError(
-                "E175",
-                f"the body {how} keep-out {name} at {names[some[at]]}",
-                why=f"both have the point ({x:.6g}, {y:.6g}) of the ground, "
-                "and no linkage can meet that pose and stay clear",
-                help="correct the outline of the body, the pose or the region; "
-                "what may touch at a pose is no keep-out region",
+            help = (
+                "correct the outline of the body, the pose or the region; "
+                "what may touch at a pose is no keep-out region"
             )
+            if apart[at] > 0:
+                how = f"is only {apart[at]:.3g} from"
+                why = (
+                    f"a margin of {around.margin:g} is asked for, and no linkage can keep it there"
+                )
+                help = f"ask for a margin of {apart[at] * 0.9:.2g} or less, or {help}"
+            else:
+                shared = shapely.intersection(outlines[at], region)
+                how = "lies over" if shared.area > 0 else "touches"
+                x, y = shapely.get_coordinates(shapely.point_on_surface(shared))[0]
+                why = f"both have the point ({x:.6g}, {y:.6g}) of the ground, "
+                why += "and no linkage can meet that pose and stay clear"
+            message = f"the body {how} keep-out {name} at {names[some[at]]}"
+            raise InputError("E175", message, why=why, help=help)
