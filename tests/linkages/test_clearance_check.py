@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import json
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +18,7 @@ from burmester.fourbar.dyad import RP
 from burmester.io import linkage_data
 from burmester.io.result import synthesis_data
 from burmester.io.saved import read_result
+from burmester.linkages.clearance_check import too_close
 from burmester.synthesis.motion_generation import synthesize as whole_synthesis
 from tests.oracles.clearance_sweep import Moved, sweep
 
@@ -87,16 +89,15 @@ def test_it_is_said_what_touches_what_between_which_poses(found):
 
 
 def test_a_margin_that_is_not_kept_is_told_with_both_lengths(found):
-    least = found.usable[0].clearance.least
-    around = Surroundings(found.task.surroundings.keep_out, WIDTH, 0.99 * least)
-    task = Task.from_rows(ROWS, angle_unit="deg", length_unit="mm", body=BODY, surroundings=around)
-    assert whole_synthesis(task).usable[0].clearance.least == pytest.approx(least, abs=0.01)
-    touching = box([125, 60], [135, 70])
-    around = Surroundings(KeepOut(touching), 0.0, 0.5)
-    small = box([-5, -5], [5, 5])
-    task = Task.from_rows(ROWS, angle_unit="deg", length_unit="mm", body=small, surroundings=around)
-    said = [w.message for each in whole_synthesis(task).linkages for w in each.violations]
-    assert not any("0.0 mm" in each for each in said)
+    best = found.usable[0]
+    near = replace(best.clearance, least=1.2, poses=(2, 3), part="the driver")
+    (violation,) = too_close(near, found.problem)
+    assert violation.kind == "clearance"
+    assert violation.message.startswith("the driver comes within 1.2 mm of")
+    assert " between poses 3 and 4, with the body at (" in violation.message
+    assert violation.message.endswith("; a margin of 2 mm is asked for")
+    assert too_close(replace(near, least=MARGIN), found.problem) == ()
+    assert too_close(None, found.problem) == ()
 
 
 def read_back(data, folder):

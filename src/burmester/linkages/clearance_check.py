@@ -54,7 +54,7 @@ def clearance_in_words(clearance: Clearance, problem: SynthesisProblem) -> str:
     if one != two:
         when = f"between {poses_in_words(task, [one, two])}"
     x, y = (figure(float(value)) for value in clearance.place.translation)
-    turned = figure(math.degrees(float(clearance.place.angle)))
+    turned = figure(round(math.degrees(float(clearance.place.angle)), 3))
     where = f"{when}, with the body at ({x}, {y}) and {turned}°"
     if clearance.touches:
         return f"{clearance.part} touches {clearance.obstacle} {where}"

@@ -115,6 +115,8 @@ def hints(linkages: Sequence[FoundLinkage], problem: SynthesisProblem) -> str:
         texts.append(text)
     if task.limits:
         texts.append("give the limits more room")
+    if any(why.kind == "clearance" for why in near[0].violations):
+        texts.append("make room where it touches")
     return "; or ".join(texts) or "move a pose"
 
 
