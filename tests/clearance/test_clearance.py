@@ -73,6 +73,13 @@ def test_no_point_goes_farther_between_two_frames_than_is_told() -> None:
         steps = np.diff(d[:, None].act(points).reshape(len(ways), 200, -1, 2), axis=1)
         gone = np.linalg.norm(steps, axis=-1).sum(axis=1).max(axis=1)
         assert (gone <= ways * (1 + 1e-9) + 1e-9).all()
+        # Neither coupler nor links turn back between two frames: the sum of small turns is all.
+        own = frames.ways()
+        turned = np.abs(np.diff(np.unwrap(d.angle.reshape(len(ways), 200)), axis=1)).sum(axis=1)
+        np.testing.assert_allclose(own.turn, turned, rtol=1e-6, atol=1e-6)
+        for pivot, told in zip(own.pivots, own.travel, strict=True):
+            path = np.diff(d.act(pivot).reshape(len(ways), 200, 2), axis=1)
+            np.testing.assert_allclose(told, np.linalg.norm(path, axis=-1).sum(axis=1), rtol=1e-4)
         done += 1
 
 
@@ -184,6 +191,21 @@ def test_links_in_the_plane_of_the_body_must_not_cross_it(moved: Moved) -> None:
         Surroundings(link_width=2),
     )
     assert free is None
+
+
+def test_a_link_may_lie_over_the_body_on_its_shortest_way_out() -> None:
+    # The pivots lie 6 within the lower edge, and the links come from below, steeply.
+    steep = Moved(CRANK, ROCKER, np.linspace(1.2, 1.8, 2001), 1)
+    deep = np.array([[-19, -8.8], [96, 7.6], [96, 60], [-19, 60]])
+    around = Surroundings(body_in_plane=True, link_width=2)
+    out = told(steep, deep, around, (0, 1000, 2000))
+    assert 0 < out.least < 14
+    aside = np.array([[-60, -8.8], [20, -8.8], [20, -60], [96, -60], [96, 60], [-60, 60]])
+    assert told(steep, aside, around, (0, 1000, 2000)).touches
+    places = places_at(steep, np.linspace(0, 2000, 36).astype(int))[None]
+    bars = bars_of(Linkage(CRANK[None], ROCKER[None]), places)
+    one = least_clearances(places, bars, Polygon(deep), around)[0]
+    assert one == pytest.approx(out.least, abs=0.3)
 
 
 def test_many_linkages_at_once_are_each_at_its_frames() -> None:
