@@ -14,11 +14,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import fields
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from burmester.clearance.least_clearance import Clearance, distance_of_pair
 from burmester.describe.decimals import direction_deg
 from burmester.errors import InputError
 from burmester.fourbar.defects import Defect, Driven, Verdict
@@ -47,6 +46,9 @@ from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.pose_tolerances import COMPONENTS
 from burmester.tasks.problem import SynthesisProblem
 from burmester.values import shown
+
+if TYPE_CHECKING:
+    from burmester.clearance.least_clearance import Clearance
 
 __all__ = ["Judged", "judged_again"]
 
@@ -351,6 +353,8 @@ def _clearance_parts(
         words = {True: "left out", False: "a least clearance"}
         yield _Part(keys, words[stated is None], words[clearance is None])
         return
+    from burmester.clearance.least_clearance import distance_of_pair
+
     slack = PLACE_ERROR * characteristic_length(task)
     slack += ROUNDING * _reach(_sides(own.linkage))
     least = (*keys, "least")

@@ -7,11 +7,10 @@ numbered from 1.
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from burmester.clearance.least_clearance import Clearance
 from burmester.describe.decimals import direction_deg
 from burmester.dyads.selection import FoundDyad
 from burmester.fourbar.defects import Defect, Driven
@@ -21,6 +20,9 @@ from burmester.linkages.found_linkage import FoundLinkage
 from burmester.linkages.tolerances import Spread
 from burmester.linkages.uncertainty import DyadUncertainty, PivotRegion
 from burmester.tasks.pose_tolerances import COMPONENTS
+
+if TYPE_CHECKING:
+    from burmester.clearance.least_clearance import Clearance
 
 __all__ = ["degrees_of", "dyad_data", "linkage_data", "number", "poses_data"]
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
-from burmester.clearance.least_clearance import Clearance, clearance_between_poses
 from burmester.fourbar.defects import Verdict
 from burmester.fourbar.linkage import Linkage
 from burmester.linkages.found_linkage import Side, with_driver_first
@@ -13,6 +13,9 @@ from burmester.linkages.requirement_check import Violation
 from burmester.tasks.notation import length_of, poses_in_words
 from burmester.tasks.problem import SynthesisProblem
 from burmester.wording import figure
+
+if TYPE_CHECKING:
+    from burmester.clearance.least_clearance import Clearance
 
 __all__ = ["clearance_in_words", "clearance_of", "too_close"]
 
@@ -28,6 +31,9 @@ def clearance_of(
     driven = verdict.first if driver == "first" else verdict.second
     if task.surroundings is None or verdict.defects or driven.defects:
         return None
+    # Shapely is imported for tasks with surroundings only.
+    from burmester.clearance.least_clearance import clearance_between_poses  # noqa: PLC0415
+
     led = with_driver_first(linkage, driver)
     clearance = clearance_between_poses(led, driven, task.body, task.surroundings)
     if clearance is None:

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal, TypeAlias
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
-from burmester.clearance.least_clearance import Clearance
 from burmester.dyads.selection import FoundDyad
 from burmester.fourbar.defects import Defect, Driven, Verdict
 from burmester.fourbar.linkage import Linkage
@@ -15,6 +14,9 @@ from burmester.linkages.requirement_check import Violation
 from burmester.linkages.tolerances import Spread
 from burmester.linkages.uncertainty import DyadUncertainty
 from burmester.numerics.arrays import FloatArray
+
+if TYPE_CHECKING:  # it imports Shapely, which only tasks with surroundings need
+    from burmester.clearance.least_clearance import Clearance
 
 __all__ = ["FoundLinkage", "Pair", "Side", "with_driver_first"]
 
