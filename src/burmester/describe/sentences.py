@@ -12,7 +12,14 @@ from burmester.linkages import explanation
 from burmester.linkages.built_linkages import DRAWS
 from burmester.linkages.clearance_check import clearance_in_words
 from burmester.linkages.found_linkage import FoundLinkage
-from burmester.linkages.ranking import TRADE_GAIN, closest_usable, digits_leave_open, is_trade
+from burmester.linkages.quality import RULE
+from burmester.linkages.ranking import (
+    TRADE_GAIN,
+    closest_usable,
+    digits_leave_open,
+    is_trade,
+    states_tolerance,
+)
 from burmester.linkages.tolerance_words import most_used
 from burmester.linkages.uncertainty import pose_sigma
 from burmester.numerics.arrays import ROUNDING
@@ -133,11 +140,15 @@ def _prices(synthesis: Synthesis, best: FoundLinkage) -> Iterator[str]:
     task, size = synthesis.task, synthesis.length
     closest = closest_usable(synthesis.linkages)
     assert closest is not None
-    if closest.shortcomings and not best.shortcomings and _nearer(closest, best, size):
+    stated, sounder = states_tolerance(task), closest.shortcomings and not best.shortcomings
+    if (stated or sounder) and _nearer(closest, best, size):
         near = explanation.nearness(closest, task, size)
-        short = " and ".join(closest.shortcomings)
-        yield f"Closest that works: {closest.id}, which {near}, but {short}."
-    if best.combined_error <= digits_leave_open(synthesis.problem):
+        least = notation.least_angle(closest.driven.least_over_range)
+        what = f"transmission angle {least} or more"
+        if closest.shortcomings:
+            what = f"but {' and '.join(closest.shortcomings)}"
+        yield f"Closest that works: {closest.id}, which {near}, {what}."
+    if stated or best.combined_error <= digits_leave_open(synthesis.problem):
         return
     others = [each for each in synthesis.usable if is_trade(each, best)]
     for text, error in (
@@ -300,6 +311,13 @@ def rounding_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
     return f"{text[0].upper()}{text[1:]}: {found.id} misses {after}, instead of {before}."
 
 
+def _order(synthesis: Synthesis) -> str:
+    """Which usable linkages come first."""
+    if states_tolerance(synthesis.task):
+        return f"the ones with sane proportions; {RULE}"
+    return "the ones with good transmission and proportions, then the nearest"
+
+
 def footnotes(synthesis: Synthesis) -> str:
     """What the columns of the tables are, and the order of their rows."""
     task = synthesis.task
@@ -307,10 +325,7 @@ def footnotes(synthesis: Synthesis) -> str:
     text = f"Lengths in {unit}; F is the ground, M the body."
     if synthesis.linkages:
         counts = notation.length_of(math.radians(synthesis.length_per_radian), task)
-        order = (
-            " Usable linkages come first, of these the ones with good transmission and "
-            "proportions, then the nearest;"
-        )
+        order = f" Usable linkages come first, of these {_order(synthesis)};"
         text += f"{'' if synthesis.outcome.code in JUDGED else order} 1° counts as {counts}."
     if not any(task.resolution):
         text += " The poses are taken as exact; --pose-sigma says otherwise."

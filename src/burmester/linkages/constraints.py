@@ -7,7 +7,7 @@ their coupler's places, in the frames of `pose_error.error_frames` and their uni
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar, Final, NamedTuple, Protocol, TypeAlias, final
 
 import numpy as np
@@ -163,7 +163,7 @@ class BranchAndOrder:
     """The constraint that all poses are on one branch, clear of its dead points, and in order.
 
     length: the length that a radian counts as in rows.  driver: (k,), the side that drives.
-    sign: (k,), of `signed_transmission_sine` on the branch; clear: its least size.
+    sign: (k,), of `signed_transmission_sine` on the branch; clear: (k,), its least size.
     sense: (k,), +1 or -1, of the input; ways: (k, N - 1), the steps from pose to pose in that sense
     at the start, which decide on whole turns.  ordered: whether each step must have that sense.
     """
@@ -171,7 +171,7 @@ class BranchAndOrder:
     length: float
     driver: NDArray[np.intp]
     sign: FloatArray
-    clear: float
+    clear: FloatArray
     sense: FloatArray
     ways: FloatArray
     ordered: bool
@@ -188,7 +188,8 @@ class BranchAndOrder:
     ) -> BranchAndOrder:
         """The constraint on a branch, in the order nearest to that of places rows (k, N, 3)."""
         driver, sign, middle = branch
-        clear = float(np.sin(max(CLEARANCE_ANGLE, requirements.transmission + TRANSMISSION_MARGIN)))
+        least = max(CLEARANCE_ANGLE, requirements.transmission + TRANSMISSION_MARGIN)
+        clear = np.full(len(batch), np.sin(least))
         drive, turns = input_of(batch, rows, length, driver)
         round_ = turns & np.isnan(middle)
         between = drive - np.nan_to_num(middle)[:, None]
@@ -206,12 +207,17 @@ class BranchAndOrder:
         ways = np.where(once[:, None], around, sense[:, None] * step)
         return cls(length, driver, sign, clear, sense, ways, not requirements.any_order)
 
+    def transmitting(self, least: FloatArray) -> BranchAndOrder:
+        """The same with a least transmission angle (k,) of each linkage's own, where it is more."""
+        return replace(self, clear=np.maximum(self.clear, np.sin(least + TRANSMISSION_MARGIN)))
+
     def __call__(
         self, batch: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
     ) -> ConstraintValues:
         driver, sense, ways = self.driver[which], self.sense[which, None], self.ways[which]
+        clear = self.clear[which, None]
         sine = self.sign[which, None] * signed_transmission_sine(batch, rows, self.length, driver)
-        out = [self.clear - sine]
+        out = [clear - sine]
         drive, turns = input_of(batch, rows, self.length, driver)
         more = sense * np.diff(drive, axis=1) - ways
         step = ways + np.where(turns[:, None], wrapped_angle(more), more)
@@ -225,7 +231,7 @@ class BranchAndOrder:
         ahead = sense * (at - drive[:, :1]) - start
         ahead = np.where(turns[:, None], ahead % (2 * np.pi), ahead)
         passed = (ahead > 0) & (ahead < along.max(axis=1, keepdims=True) - start)
-        out.append(np.where(passed, np.abs(cosine) - np.sqrt(1 - self.clear**2), -1.0))
+        out.append(np.where(passed, np.abs(cosine) - np.sqrt(1 - clear**2), -1.0))
         return _at_most(out)
 
 

@@ -102,11 +102,18 @@ def defect_free_linkages(
 
 
 def refined_on_branch(
-    batch: LinkageBatch, rows: FloatArray, target: Target, driver: NDArray[np.intp], *, steps: int
+    batch: LinkageBatch,
+    rows: FloatArray,
+    target: Target,
+    driver: NDArray[np.intp],
+    *,
+    steps: int,
+    transmission: FloatArray | None = None,
 ) -> Refined:
     """Linkages (k,) refined under all constraints, on the branches of their places (k, N, 3).
 
-    driver: (k,), the side that drives.
+    driver: (k,), the side that drives; transmission: (k,), a least angle for each, where more is
+    asked of it than the target does.
     """
     sine = signed_transmission_sine(batch, rows, target.length, driver)
     middle = _middle_inputs(batch, target.places_of(rows[:, 0]), driver)
@@ -115,7 +122,7 @@ def refined_on_branch(
     return target.refine(
         batch,
         rows,
-        constraints=_all_constraints(starts, target),
+        constraints=_all_constraints(starts, target, transmission),
         worst=target.worst,
         constrained_steps=steps,
     )
@@ -234,11 +241,15 @@ def middle_input(batch: LinkageBatch, places: Displacement, side: int) -> FloatA
     return out
 
 
-def _all_constraints(starts: _Starts, target: Target) -> AllConstraints:
+def _all_constraints(
+    starts: _Starts, target: Target, transmission: FloatArray | None = None
+) -> AllConstraints:
     """All that the linkages are to keep to."""
     asked = target.requirements
     _, batch, rows, branch = starts
     branch_and_order = BranchAndOrder.of(batch, rows, target.length, branch, asked)
+    if transmission is not None:
+        branch_and_order = branch_and_order.transmitting(transmission)
     driver = branch.driver
     types = np.array([_nearest_type(batch, k, int(side), asked) for k, side in enumerate(driver)])
     proportions = LinkProportions(target.length, target.frames, asked, driver, types)

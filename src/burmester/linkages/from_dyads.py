@@ -20,6 +20,7 @@ from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import DYAD_KINDS, LinkageBatch
 from burmester.fourbar.nearest_places import nearest, on_circuits, on_own_circuits
 from burmester.fourbar.pose_error import error_frames
+from burmester.linkages.best_within import best_within
 from burmester.linkages.constraints import AllConstraints, Constraints, DyadLimitsConstraint
 from burmester.linkages.defect_free_search import defect_free_linkages
 from burmester.linkages.evaluation import Candidates, Evaluation
@@ -35,6 +36,7 @@ from burmester.linkages.ranking import (
     digits_leave_open,
     farthest_recommended,
     ranked,
+    states_tolerance,
 )
 from burmester.linkages.sound_linkages import sound_linkages
 from burmester.linkages.target import Target
@@ -84,7 +86,12 @@ def linkages_from_dyads(
     if refine and (found or not pairs):
         found = _with_search(start, pairs, evaluation, found)
         if found and found[0].usable:
-            found = ranked([*found, *trades(found[0], evaluation)], problem)
+            if states_tolerance(problem.task):
+                step("looking for the best within the tolerance")
+                better = best_within(found, evaluation)
+            else:
+                better = trades(found[0], evaluation)
+            found = ranked([*found, *better], problem)
     if options.rounds:
         step(f"rounding the dimensions of {count(len(found), 'linkage')}")
         found = evaluation.rounded(found)

@@ -3,9 +3,8 @@
 Three figures by which linkages are chosen: how well it transmits (greater is better), how much room
 it takes, and how much worse it gets as it is built (less is better).  Others for who needs them.
 
-The rule: recommended is the linkage with the greatest least transmission angle; of those within
-half a degree of it, the one with the least product of extent and sensitivity.  The smallest alone
-would have its pivots side by side, where every error of a pin turns the body.
+One rule chooses by them: `RULE`.  The smallest alone would have its pivots side by side, where
+every error of a pin turns the body.
 """
 
 from __future__ import annotations
@@ -27,9 +26,14 @@ from burmester.fourbar.reserve import reserve
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["SAME_TRANSMISSION", "Quality", "best_first"]
+__all__ = ["RULE", "SAME_TRANSMISSION", "Quality", "best_first"]
 
 SAME_TRANSMISSION = math.radians(0.5)  # an angle lower by no more counts as good
+# The rule, as a sentence says it.
+RULE = (
+    "recommended is the linkage with the greatest least transmission angle; among those within "
+    "half a degree of it, the one with the least product of extent and sensitivity"
+)
 
 
 @final

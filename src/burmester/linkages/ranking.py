@@ -2,7 +2,8 @@
 
 Usable linkages stand before others.  Among them those that meet the standard (`standard`) come
 first, if they come near enough to the poses; within each group the nearest one, by both errors.
-What the digits of the poses leave open makes no linkage nearer than another.
+What the digits of the poses leave open makes no linkage nearer than another.  Where the task states
+a tolerance, all usable linkages keep it, and their quality orders each group (`quality`).
 """
 
 from __future__ import annotations
@@ -15,19 +16,23 @@ import numpy as np
 
 from burmester.fourbar.dyad import RR, Dyad
 from burmester.linkages.found_linkage import FoundLinkage
+from burmester.linkages.quality import best_first
 from burmester.linkages.uncertainty import DyadUncertainty
 from burmester.numerics.arrays import ROUNDING
+from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import span
 from burmester.tasks.problem import SynthesisProblem
 
 __all__ = [
     "DEFAULT_TOLERANCE",
     "TRADE_GAIN",
+    "by_quality",
     "closest_usable",
     "digits_leave_open",
     "farthest_recommended",
     "is_trade",
     "ranked",
+    "states_tolerance",
 ]
 
 # A linkage that meets the standard comes first if its error is at most this many times the least.
@@ -55,6 +60,21 @@ def digits_leave_open(problem: SynthesisProblem) -> float:
     return max(open_, ROUNDING * length)
 
 
+def states_tolerance(task: Task) -> bool:
+    """Whether a task says how far its poses may be missed, so that quality may decide."""
+    return task.requirements.within is not None or task.tolerances is not None
+
+
+def by_quality(found: Sequence[FoundLinkage]) -> list[FoundLinkage]:
+    """Linkages by the rule of `quality.best_first`."""
+    names = "transmission", "extent", "sensitivity"
+    figures = [
+        np.array([np.nan if e.quality is None else getattr(e.quality, name) for e in found])
+        for name in names
+    ]
+    return [found[k] for k in best_first(*figures).tolist()]
+
+
 def closest_usable(found: Iterable[FoundLinkage]) -> FoundLinkage | None:
     """The usable linkage of the least combined error."""
     usable = [each for each in found if each.usable]
@@ -67,8 +87,7 @@ def farthest_recommended(closest: FoundLinkage, problem: SynthesisProblem) -> fl
     Any where the task states a tolerance, which all usable ones keep; else ERROR_RATIO times the
     closest one's, or what the digits leave open.
     """
-    task = problem.task
-    if task.requirements.within is not None or task.tolerances is not None:
+    if states_tolerance(problem.task):
         return math.inf
     return ERROR_RATIO * max(closest.combined_error, digits_leave_open(problem))
 
@@ -83,14 +102,19 @@ def is_trade(other: FoundLinkage, best: FoundLinkage) -> bool:
 def ranked(found: Sequence[FoundLinkage], problem: SynthesisProblem) -> list[FoundLinkage]:
     """The order of linkages, equal ones once.
 
-    Of several failing linkages from one pair of dyads only the closest is kept.  The first is never
-    one that another of its group beats in both errors.
+    Of several failing linkages from one pair of dyads only the closest is kept.  Without a stated
+    tolerance the first is never one that another of its group beats in both errors.
     """
     floor, closest = digits_leave_open(problem), closest_usable(found)
+    stated = states_tolerance(problem.task)
+    usable = by_quality([each for each in found if each.usable]) if stated else []
+    place = {id(each): number for number, each in enumerate(usable)}
     most = 0.0 if closest is None else farthest_recommended(closest, problem)
 
     def order(each: FoundLinkage) -> tuple[bool, bool, float, float]:
         good = each.usable and not each.shortcomings and each.combined_error <= most
+        if stated and each.usable:
+            return False, not good, float(place[id(each)]), 0.0
         error = max(each.combined_error, floor)
         error = float(np.round(np.log(error) / ALIKE)) if math.isfinite(error) else math.inf
         least = float(np.nan_to_num(each.driven.least_over_range))
@@ -110,7 +134,7 @@ def ranked(found: Sequence[FoundLinkage], problem: SynthesisProblem) -> list[Fou
     first = next(
         (each for each in group if not any(_beats(one, each, floor) for one in group)), None
     )
-    if first is not None:
+    if first is not None and not stated:
         kept.remove(first)
         kept.insert(0, first)
     return kept

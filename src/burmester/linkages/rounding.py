@@ -187,7 +187,7 @@ class _Rounding:
         branch_and_order = BranchAndOrder.of(
             batch, here, target.length, DrivenBranch(lead, sine, middle), target.requirements
         )
-        clear = max(MIN_CLEARANCE_SINE, float(np.sin(target.requirements.transmission)))
+        clear = np.array([max(MIN_CLEARANCE_SINE, np.sin(target.requirements.transmission))])
         branch_and_order = replace(branch_and_order, clear=clear)
         types = np.array([_required_type(batch, driver, target)])
         links = LinkProportions(target.length, target.frames, target.requirements, lead, types)
