@@ -52,6 +52,6 @@ def test_the_rule_takes_the_best_angle_and_of_those_half_a_degree_the_least_prod
     angle = np.radians([40.0, 60.0, 59.6, 59.4, 20.0, np.nan])
     extent, sensitivity = np.array([[1.0, 5.0, 3.0, 2.0, 1.0, 1.0], [2.0, 2, 3, 1, 1, 1]])
     assert best_first(angle, extent, sensitivity).tolist() == [2, 1, 3, 0, 4, 5]
-    assert best_first(angle, extent, sensitivity[::-1])[0] == 1
+    assert best_first(angle, extent, np.array([1.0, 1, 3, 1, 1, 1]))[0] == 1
     same = np.full(3, 1.0)
     assert best_first(same, same, np.array([3.0, 1.0, 2.0])).tolist() == [1, 2, 0]
