@@ -6,9 +6,14 @@ import numpy as np
 import pytest
 
 from burmester.fourbar.dyad import PR, RP, RR
+from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.linkage_batch import LinkageBatch
+from burmester.geometry.displacement import Displacement
 from burmester.linkages.quality import best_first
-from burmester.linkages.tolerances import sensitivity_bound, spread
+from burmester.linkages.tolerances import sensitivity, sensitivity_bound, spread
 from tests.oracles.built_amiss import asked, built_amiss, driven, problem
+from tests.oracles.ranges import KINDS as PAIRS
+from tests.oracles.ranges import DrivenRange
 from tests.oracles.refits import dyads_of, numbers_of
 
 KINDS = pytest.mark.parametrize("second", [RR, PR, RP])
@@ -36,6 +41,22 @@ def test_sensitivity_is_the_worst_of_all_corners_of_linkages_built_amiss(second,
     corner = corners[errors.max(axis=1).argmax()]
     worst = np.linalg.norm(moved(corner @ columns) - found[:, :2], axis=-1).max() / H
     assert np.isclose(worst, told.max(), rtol=0.05)
+
+
+@pytest.mark.parametrize("kinds", PAIRS, ids=lambda k: "-".join(each.__name__ for each in k))
+def test_the_bound_is_that_of_the_worst_corner(kinds):
+    rng = np.random.default_rng(4)
+    for _ in range(10):
+        there = DrivenRange(kinds, rng)
+        batch = LinkageBatch.of([Linkage(*there.dyads)])
+        places, length = Displacement.from_poses(there.poses()[None]), 0.6
+        # Poses that are met, and poses that are missed by so little that nothing changes.
+        for off in (0.0, 1e-8):
+            poses = Displacement(places.translation[0] + off, places.angle[0])
+            slope = sensitivity(batch, poses, places, length)[0]
+            corners = np.linalg.norm(np.einsum("sj,ncj->snc", CORNERS, slope), axis=-1)
+            told = sensitivity_bound(batch, poses, places, length)[0]
+            assert np.allclose(told, corners.max(axis=0), rtol=1e-6)
 
 
 @KINDS

@@ -43,7 +43,7 @@ from burmester.numerics.bundles import concatenate, take
 __all__ = ["Spread", "sensitivity", "sensitivity_bound", "spread"]
 
 EXACT_GAP = 1e-9  # lengths; poses that are missed by less are met
-NORMAL_NUDGE = 1e-7  # radians to either side of a normal; vectors nearer to parallel are as one
+NORMAL_NUDGE = 1e-7  # radians beside a normal; vectors nearer to parallel are as one
 TANGENT_STEP = 1e-5  # lengths along the coupler's curve, of the forces' difference quotients
 DIRECTIONS = 90  # number of directions on half a circle in which the greatest error is computed
 PLACES_PER_BLOCK = 30_000  # number of places whose sensitivity is computed at once; the same
@@ -290,16 +290,13 @@ def _ways_back(at: ConstraintNormals) -> Iterator[FloatArray]:
 def _greatest_sum(parts: FloatArray) -> FloatArray:
     """The greatest length (*,) of a sum of vectors (*, 2, n), each with either sign.
 
-    The sums fill a polygon: the farthest one is a corner of it, and on either side of the normal
-    to each vector there is one.
+    The sums fill a polygon, whose edges are along the vectors: the farthest one is a corner of it,
+    and each corner is the one end of one edge.
     """
-    most = np.zeros((*parts.shape[:-2], parts.shape[-1]))
-    for turn in (NORMAL_NUDGE, -NORMAL_NUDGE):
-        normal = np.stack([-parts[..., 1, :], parts[..., 0, :]], axis=-2) + turn * parts
-        sign = np.sign(np.einsum("...cj,...ci->...ji", normal, parts))
-        corner = np.einsum("...ji,...ci->...cj", sign, parts)
-        most = np.maximum(most, np.hypot(corner[..., 0, :], corner[..., 1, :]))
-    return np.asarray(most.max(axis=-1))
+    normal = np.stack([-parts[..., 1, :], parts[..., 0, :]], axis=-2) + NORMAL_NUDGE * parts
+    sign = np.sign(np.einsum("...cj,...ci->...ji", normal, parts))
+    corner = np.einsum("...ji,...ci->...cj", sign, parts)
+    return np.asarray(np.hypot(corner[..., 0, :], corner[..., 1, :]).max(axis=-1))
 
 
 def _blocks(count: int) -> Iterator[slice]:
