@@ -74,5 +74,5 @@ def _driver(found: FoundLinkage, quality: Quality, task: Task) -> tuple[str, str
     else:
         reserve = ", and nothing stops it"
     force = [figure(float(each)) if math.isfinite(each) else "∞" for each in quality.advantage]
-    per = "" if slides else f" per {task.length_unit or 'unit of length'}"
-    return turn, reserve, f"{force[0]} at the first pose, {force[1]} at the last{per}"
+    per = "" if slides else f"/{task.length_unit}" if task.length_unit else " per length"
+    return turn, reserve, f"{force[0]}{per} at the first pose, {force[1]}{per} at the last"

@@ -294,7 +294,9 @@ class Evaluation:
         batch, target = LinkageBatch.of(linkages), self.target
         here = target.places_of(target.rows_at(places))
         there = batch.to_canonical(target.frames)
-        bound = sensitivity_bound(there, target.poses, here, target.length).max(axis=-1)
+        # Within tolerances a place need not be the nearest to its pose: errors count about it.
+        poses = target.poses if target.boxes is None else here
+        bound = sensitivity_bound(there, poses, here, target.length).max(axis=-1)
         every = Quality.of(batch, places, driven, bound, size=self.problem.motion_size)
         return [take(every, k) for k in range(len(linkages))]
 

@@ -123,7 +123,7 @@ function linkageTable(data) {
     "worst angle",
     "least transm.",
     "extent",
-    "sensitivity",
+    "sens.",
     { name: "why not", text: true }
   ];
   const rows = data.linkages.map(
@@ -141,7 +141,7 @@ function linkageTable(data) {
           each.said.worst,
           each.said.angle,
           each.said.transmission,
-          each.said.quality.extent ?? "–",
+          each.said.quality.extent?.split(" ")[0] ?? "–",
           each.said.quality.sensitivity ?? "–",
           each.said.reasons.join("; ") || "–"
         ],

@@ -65,7 +65,7 @@ export function linkageTable(data) {
   const names = ["ground", "driver", "coupler", "follower"];
   const heads = [
     "", { name: "verdict", text: true }, { name: "type", text: true }, { name: "dyads", text: true }, { name: "driver", text: true }, ...names.map((name) => `${name} link`),
-    "worst miss", "worst angle", "least transm.", "extent", "sensitivity", { name: "why not", text: true },
+    "worst miss", "worst angle", "least transm.", "extent", "sens.", { name: "why not", text: true },
   ];
   const rows = data.linkages.map((each) =>
     h(
@@ -76,7 +76,7 @@ export function linkageTable(data) {
           each.id, verdictOf(each), each.type, each.dyads.map((dyad) => dyad.id).join(" "), each.led[0].id,
           ...names.map((name) => each.said.links?.[name] ?? "–"),
           each.said.worst, each.said.angle, each.said.transmission,
-          each.said.quality.extent ?? "–", each.said.quality.sensitivity ?? "–", each.said.reasons.join("; ") || "–",
+          each.said.quality.extent?.split(" ")[0] ?? "–", each.said.quality.sensitivity ?? "–", each.said.reasons.join("; ") || "–",
         ],
         [1, 2, 3, 4, 14],
         heads,
