@@ -195,6 +195,10 @@ REFUSED = {
     "not finite": (svg('<path d="M 0 0 L 1e400 5 5 5z"/>'), "a.svg", "E170", "not finite"),
     "an open path": (svg('<path d="M 0 0 L 9 0 L 9 9"/>'), "a.svg", "E171", "none closes"),
     "no such id": (svg(f'<g id="b">{RECT}</g>'), "a.svg:lid", "E173", "'b'"),
+    "no id at all": (svg(RECT), "a.svg:lid", "E173", "it has no id"),
+    "an unknown encoding": (b'<?xml version="1.0" encoding="ebc"?><svg/>', "a.svg", "E170", "XML"),
+    "no model space": (dxf(square).replace(b"Model", b"Modle"), "a.dxf", "E170", "damaged"),
+    "far away": (dxf(lambda d, s: square(d, s, size=1e70)), "a.dxf", "E170", "too large"),
     "two shapes": (svg(RECT + '<circle r="3" id="c"/>'), "a.svg", "E172", "circle (id 'c') 6 by 6"),
 }
 

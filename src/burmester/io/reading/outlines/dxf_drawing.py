@@ -6,6 +6,7 @@ E170 a drawing that cannot be read        E130 ezdxf is missing
 from __future__ import annotations
 
 import io
+import logging
 from collections.abc import Iterator
 from typing import Any, Final
 
@@ -13,11 +14,11 @@ import numpy as np
 
 from burmester.errors import InputError
 from burmester.io.reading.outlines.curves import FLATNESS, Curve, Drawing, unreadable
-from burmester.io.reading.pose_table import shown
 
 __all__ = ["read_dxf"]
 
 UNITS: Final = {1: "in", 2: "ft", 4: "mm", 5: "cm", 6: "m", 13: "um", 14: "dm"}  # of $INSUNITS
+FAR: Final = 1e60  # no length of a drawing is as great
 MAX_ENTITIES: Final = 20_000  # those of blocks counted at each place
 ASCII_HELP: Final = "save it as DXF in text form (ASCII), of any version"
 
@@ -34,7 +35,20 @@ def read_dxf(data: bytes, part: str | None) -> Drawing:
             why="it cannot be imported",
             help='pip install "burmester[outlines]"',
         ) from None
+    # What ezdxf passes over in a damaged file is no message of ours.
+    logging.getLogger("ezdxf").addHandler(logging.NullHandler())
     document = _document(ezdxf, data)
+    try:
+        return _drawing(document, paths, part)
+    except InputError:
+        raise
+    except Exception as error:  # of many kinds, for files that are damaged
+        said = str(error).partition("\n")[0][:150] or type(error).__name__
+        raise unreadable(f"as DXF it is damaged: {said}", ASCII_HELP) from None
+
+
+def _drawing(document: Any, paths: Any, part: str | None) -> Drawing:
+    """The curves of the layers of a document, or of one of them."""
     layers: dict[str, None] = {}
     found: list[tuple[Any, str, str]] = []
     for entity, layer in _entities(document):
@@ -42,19 +56,14 @@ def read_dxf(data: bytes, part: str | None) -> Drawing:
         if kind not in CURVES:
             continue
         layers.setdefault(layer)
-        if part is not None and layer.lower() != part.lower():
-            continue
-        try:
+        if part is None or layer.lower() == part.lower():
             found.append((paths.make_path(entity), kind, layer))
-        except (TypeError, ValueError, ArithmeticError, ezdxf.lldxf.const.DXFError) as error:
-            why = f"a {kind} on layer {shown(layer)} is damaged: {str(error)[:100]}"
-            raise unreadable(why, "repair the drawing in the program that wrote it") from None
     points = [point for path, _, _ in found for point in path.control_vertices()]
     size = 0.0
     if points:
         xy = np.array([(point.x, point.y) for point in points])
-        if not np.isfinite(xy).all():
-            why = "it has a coordinate that is not finite"
+        if not (np.abs(xy) < FAR).all():
+            why = "it has a coordinate that is not finite, or too large"
             raise unreadable(why, "repair the drawing in the program that wrote it")
         size = float(np.hypot(*np.ptp(xy, axis=0)))
     curves = []

@@ -134,16 +134,16 @@ def _drawing(file: OutlineFile, folder: str) -> Drawing:
         raise unreadable("the file is empty", "give a DXF or an SVG file with the outline in it")
     drawing = read_dxf(data, file.part) if file.kind == ".dxf" else read_svg(data, file.part)
     if file.part is not None and not drawing.curves:
-        known = listed([shown(each) for each in drawing.parts[:MAX_NAMED]])
+        names = [shown(each) for each in drawing.parts[:MAX_NAMED]]
         further = len(drawing.parts) - MAX_NAMED
-        known += f" and {further} more" if further > 0 else ""
+        more = f" and {further} more" if further > 0 else ""
         raise InputError(
             "E173",
             f"there is no {drawing.part_word} {shown(file.part)} with a curve",
-            why=f"there are {known}" if known else "the drawing has no curves at all",
+            why=f"there are {listed(names)}{more}" if names else f"it has no {drawing.part_word}",
             help=f"name one of these, or no {drawing.part_word}"
-            if known
-            else "save the outline as lines, arcs, polylines or paths",
+            if names
+            else f"leave the {drawing.part_word} out",
         )
     return drawing
 

@@ -24,6 +24,7 @@ __all__ = ["read_svg"]
 
 PER_INCH: Final = 96.0  # pixels, as CSS has them
 MILLIMETRES: Final = {"mm": 1.0, "cm": 10.0, "q": 0.25, "in": 25.4, "pt": 25.4 / 72, "pc": 25.4 / 6}
+FAR: Final = 1e60  # pixels; no coordinate of a drawing is as great
 MAX_ELEMENTS: Final = 20_000  # shapes, each as often as it is used
 MAX_DEPTH: Final = 200  # of groups in groups
 MAX_CHORDS: Final = 1000  # of one arc or spline
@@ -75,7 +76,7 @@ def _root(data: bytes) -> ElementTree.Element:
         raise unreadable(why, PLAIN)
     try:
         root = ElementTree.fromstring(data)
-    except ElementTree.ParseError as error:
+    except (ElementTree.ParseError, ValueError, LookupError) as error:  # an encoding not known
         raise unreadable(f"it is not XML: {error}", "give a DXF or an SVG file") from None
     if root.tag.rpartition("}")[2] != "svg":
         raise unreadable("its root is no svg element", "give a DXF or an SVG file")
@@ -170,8 +171,8 @@ def _curves(svgelements: Any, chosen: list[Any], scale: float) -> Iterator[Curve
     """The subpaths as polylines, y upwards."""
     points = [p for path, _, _ in chosen for p in _control_points(svgelements, path)]
     xy = np.array(points, dtype=float).reshape(-1, 2)
-    if not np.isfinite(xy).all():
-        raise unreadable("it has a coordinate that is not finite", PLAIN)
+    if not (np.abs(xy) < FAR).all():
+        raise unreadable("it has a coordinate that is not finite, or too large", PLAIN)
     tolerance = FLATNESS * float(np.hypot(*np.ptp(xy, axis=0))) if len(xy) else 0.0
     for path, kind, names in chosen:
         corners: list[FloatArray] = []
