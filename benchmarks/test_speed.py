@@ -30,7 +30,7 @@ FIVE = pytest.mark.benchmark(group="3. five poses, all four dyads, motiongen-sho
 STACK = pytest.mark.benchmark(group="5. tasks of ten poses, 100,000 in one call: time of one task")
 BEST = pytest.mark.benchmark(group="7. every locally best RR dyad, 10 poses of Table 5")
 PEERS = pytest.mark.benchmark(group="9. all RR, PR and RP dyads, 10 poses of Table 5, and peers")
-FEW = pytest.mark.benchmark(group="31. two, three and four poses with boxes, beside brute force")
+FEW = pytest.mark.benchmark(group="32. two, three and four poses with boxes, beside brute force")
 COLD = pytest.mark.benchmark(group="6. a fresh interpreter")
 
 
@@ -287,7 +287,7 @@ def test_fourbarhinge(measure):
     measure(what, solve, rounds=3, linkages=1, worst_position_error=f"{worst:.2g}")
 
 
-# 31 -----------------------------------------------------------------------------------------
+# 32 -----------------------------------------------------------------------------------------
 
 
 @FEW

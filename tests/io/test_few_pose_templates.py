@@ -182,4 +182,4 @@ def test_brute_force_finds_no_much_better_one(name):
     search = FewPoses(rows, boxes_of(tree), Bounds(ratio))
     found = search.best(np.random.default_rng(3), starts=8)
     ours = judged(search, points(synthesis.usable[0].linkage))[0]
-    assert ours > found.angle - 3
+    assert ours > found.angle - 5
