@@ -258,3 +258,38 @@ def test_two_dyads_that_make_no_linkage(dyads, code):
     assert caught.value.help
     if code == "E155":  # a linkage of a result may be one that reaches no pose
         assert judge_linkage(task, Linkage(*dyads)).outcome.code == "R331"
+
+
+def test_an_exact_pose_that_is_missed_is_told():
+    task = task_of("lid-hinge")
+    dyads = RR((100, -68), (53, -47), 51.2), LID[1]
+    judged = judge_linkage(task, dyads)
+    assert judged.outcome.code == "R330"
+    told = f"it misses pose closed, which is to be met exactly, by {0.6:g} mm"
+    near = witness.misses(judged.linkages[0].linkage, task.poses, judged.length_per_radian)[0]
+    assert 0.1 < near < 1
+    assert judged.outcome.why.startswith(told[: told.index(" by ")])
+    assert judge_linkage(task, LID).outcome.why is None
+
+
+@pytest.mark.parametrize("count", [2, 3, 4])
+@pytest.mark.parametrize("seed", range(2))
+def test_better_linkages_for_few_poses_work_where_the_witness_drives_them(seed, count):
+    rng = np.random.default_rng([seed, count])
+    poses = task_of("lid-hinge").poses
+    few = Task(poses[np.sort(rng.choice(8, count, replace=False))])
+    off = rng.normal(scale=12, size=(2, 2, 2))
+    dyads = [
+        OpenLink(each.fixed_pivot + one, each.moving_pivot + other)
+        for each, (one, other) in zip(LID, off, strict=True)
+    ]
+    judged = judge_linkage(few, dyads, improve=True)
+    given, *near = judged.linkages
+    assert (judged.outcome.code == "R330") is given.usable
+    assert given.usable or near
+    for each in near:
+        assert each.usable
+        nearest = witness.misses(each.linkage, few.poses, judged.length_per_radian)
+        own = each.error.combined(judged.length_per_radian)
+        assert (nearest <= own + 1e-6).all()
+        assert own.max() <= 0.1 * judged.problem.motion_size * 1.5

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from burmester.diagnosis.checks import diagnose
+from burmester.families.family import best_of_family
 from burmester.fourbar.dyad import RR, Dyad
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
@@ -15,17 +16,20 @@ from burmester.linkages.evaluation import Candidates, Evaluation, at_given_poses
 from burmester.linkages.explanation import hints, in_short
 from burmester.linkages.found_linkage import FoundLinkage, Pair
 from burmester.linkages.from_dyads import places_to_judge, target_of
-from burmester.linkages.nearby_linkages import nearby_linkages
+from burmester.linkages.nearby_linkages import greatest_move, nearby_linkages
 from burmester.progress import step
 from burmester.synthesis.given_linkage import GivenDyad, dyads_at_poses, require_linkage
 from burmester.synthesis.outcome import linkage_advice
 from burmester.synthesis.result import Outcome, Synthesis
 from burmester.tasks.motion_task import Task
+from burmester.tasks.notation import length_of, poses_in_words
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
 from burmester.wording import count, listed
 
 __all__ = ["judge_linkage"]
+
+EXACT_SHARE = 1e-4  # motion sizes; it is said where a pose to be met exactly is missed by more
 
 
 def judge_linkage(
@@ -63,11 +67,11 @@ def judge_linkage(
     every = [found]
     if improve:
         step("looking for better linkages near it")
-        near = nearby_linkages(found, evaluation)
+        near = nearby_linkages(found, evaluation) or _of_family(found, evaluation)
         every += [
             replace(each, id=f"L{rank}", rank=rank) for rank, each in enumerate(near, start=2)
         ]
-    if max(problem.missing_conditions) > 0:  # so few poses leave every pivot open
+    if _is_open(problem):
         every = [replace(each, uncertainty=None, determined=True, other_types=()) for each in every]
     linkages = at_given_poses(evaluation.with_spreads(every), problem)
     outcome = _outcome(linkages, problem, improve)
@@ -118,6 +122,50 @@ def _judged(given: Pair, evaluation: Evaluation) -> FoundLinkage:
     return min(found, key=order)
 
 
+def _of_family(given: FoundLinkage, evaluation: Evaluation) -> list[FoundLinkage]:
+    """Of the linkages that few poses leave open the nearest of the same kinds, as D1 and D2.
+
+    Where the given one does not work, and none was found beside it.
+    """
+    problem = evaluation.problem
+    if given.usable or problem.is_special or not _is_open(problem):
+        return []
+    family = best_of_family(problem, evaluation.target)
+    if family is None or not family.works:
+        return []
+    own = family.batch.from_canonical(evaluation.target.frames)
+    kinds = [type(each.dyad) for each in given.dyads]
+    index, pairs = [], []
+    for k in range(len(own)):
+        linkage = own.linkage(k)
+        if [type(linkage.first), type(linkage.second)] == kinds:
+            index.append(k)
+            pairs.append(given.dyads)
+    if not index:
+        return []
+    searched = np.ones(len(index), dtype=bool)
+    found = evaluation.members(Candidates(family.batch[index], family.rows[index], pairs, searched))
+    usable = [each for each in found if each.usable]
+    return sorted(usable, key=lambda each: greatest_move(given, each))[:1]
+
+
+def _is_open(problem: SynthesisProblem) -> bool:
+    """Whether so few poses leave every pivot open."""
+    return max(problem.missing_conditions) > 0
+
+
+def _exact_note(found: FoundLinkage, task: Task, size: float) -> str | None:
+    """Of the poses that are to be met exactly the one that is missed most, if one is."""
+    if task.exact is None or not task.exact.any():
+        return None
+    missed = np.where(task.exact, np.nan_to_num(found.error.position, nan=np.inf), 0.0)
+    worst = int(missed.argmax())
+    if missed[worst] <= EXACT_SHARE * size:
+        return None
+    pose = poses_in_words(task, [worst])
+    return f"it misses {pose}, which is to be met exactly, by {length_of(missed[worst], task)}"
+
+
 def _outcome(linkages: Sequence[FoundLinkage], problem: SynthesisProblem, improve: bool) -> Outcome:
     """R330 or R331 of the first linkage, the given one, and what to do."""
     found, *near = linkages
@@ -139,7 +187,9 @@ def _outcome(linkages: Sequence[FoundLinkage], problem: SynthesisProblem, improv
             "with --improve"
         )
     if found.usable:
-        short = f"it {listed(found.shortcomings)}" if found.shortcomings else None
-        return Outcome("R330", message, "; or ".join(options) or None, short)
+        notes = [f"it {listed(found.shortcomings)}"] if found.shortcomings else []
+        if (note := _exact_note(found, task, problem.motion_size)) is not None:
+            notes.append(note)
+        return Outcome("R330", message, "; or ".join(options) or None, "; ".join(notes) or None)
     options.append(hints([found], problem))
     return Outcome("R331", message, "; or ".join(options), f"it {in_short(found, task, size)}")
