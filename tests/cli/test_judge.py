@@ -65,17 +65,14 @@ def test_the_verdict_is_the_exit_code(run):
     assert "result[R331]: the linkage does not work within the requirements" in out
     assert "the transmission angle falls to 39.6° between the poses" in " ".join(out.split())
     assert "± " not in out.partition("L1 in full")[2].partition("\n\n")[0]
-    code, out, _err = run("judge", LID, *TWISTED, "--improve", "--json")
-    assert code == 1
-    given, *near = validated(out)["linkages"]
-    assert not given["usable"]
-    assert near
-    assert all(each["usable"] and not each["given"] for each in near)
 
 
 def test_how_far_pivots_move_is_told(run):
-    _code, out, _err = run("judge", LID, *TWISTED, "--improve", "--json")
+    code, out, _err = run("judge", LID, *TWISTED, "--improve", "--json")
     given, *near = validated(out)["linkages"]
+    assert (code, given["usable"], given["given"]) == (1, False, True)
+    assert near
+    assert all(each["usable"] and not each["given"] for each in near)
     task = burmester.read_task(LID)
     before = {each["id"]: each for each in given["dyads"]}
     for linkage in near:
@@ -101,7 +98,7 @@ def test_how_far_pivots_move_is_told(run):
         assert nearest[0] < 1e-3  # the closed pose is exact
         x, y = np.array([each["fixed_pivot"] for each in linkage["dyads"]]).T
         assert ((x > 5 - 1e-6) & (x < 150 + 1e-6) & (y > -100 - 1e-6) & (y < -10 + 1e-6)).all()
-    _code, out, _err = run("judge", LID, *TWISTED, "--improve")
+    out = run("judge", LID, *TWISTED, "--improve")[1]
     assert near[0]["moved"]["message"] in " ".join(out.split())
 
 
@@ -119,7 +116,8 @@ def test_a_judgement_is_read_exported_and_judged_again(run, tmp_path, improve):
     assert run("judge", LID, "--linkage", file, "-o", again)[0] == 0
     one, other = (json.loads(each.read_text())["linkages"][0] for each in (file, again))
     assert other["combined_error"] == pytest.approx(one["combined_error"], rel=1e-6)
-    assert run("report", file, "-o", tmp_path / "lid.html")[0] == 0
+    if not improve:  # the page of the task in the file
+        assert run("report", file, "-o", tmp_path / "lid.html")[0] == 0
 
 
 def test_a_judgement_that_was_changed_is_refused(run, free, tmp_path):
@@ -246,7 +244,7 @@ def test_no_typed_dyad_breaks_the_command(run, tmp_path):
     few.write_text(HEAD + "0,0,0\n30,-20,40\n50,-60,90\n")
     far = tmp_path / "far.csv"
     far.write_text(HEAD + "".join(f"{1e7 + x},{x * x},{40 * x}\n" for x in range(7)))
-    for k in range(250):
+    for k in range(150):
         task = (LID, few, far)[k % 3]
         arguments = ["--dyad", typed(rng), "--dyad", typed(rng)]
         if k % 4 == 0:
@@ -263,5 +261,5 @@ def test_no_typed_dyad_breaks_the_command(run, tmp_path):
             file.write_text(out)
             read_result(file)  # which judges it again
             assert run("judge", task, *arguments)[0] == code
-    assert ends.count(1) > 60
-    assert ends.count(2) > 30
+    assert ends.count(1) > 35
+    assert ends.count(2) > 20

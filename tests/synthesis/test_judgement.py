@@ -273,7 +273,7 @@ def test_an_exact_pose_that_is_missed_is_told():
 
 
 @pytest.mark.parametrize("count", [2, 3, 4])
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", [0])
 def test_better_linkages_for_few_poses_work_where_the_witness_drives_them(seed, count):
     rng = np.random.default_rng([seed, count])
     poses = task_of("lid-hinge").poses
