@@ -15,6 +15,8 @@ from burmester.io.cases import names
 from burmester.synthesis.given_linkage import OpenLink
 from burmester.synthesis.judgement import judge_linkage
 from burmester.tasks.options import SynthesisOptions
+from burmester.tasks.pose_tolerances import PoseTolerances
+from burmester.tasks.surroundings import KeepOut, Surroundings
 from tests.oracles import witness
 from tests.oracles.saved_linkages import PAPER
 
@@ -293,3 +295,20 @@ def test_better_linkages_for_few_poses_work_where_the_witness_drives_them(seed, 
         own = each.error.combined(judged.length_per_radian)
         assert (nearest <= own + 1e-6).all()
         assert own.max() <= 0.1 * judged.problem.motion_size * 1.5
+
+
+def test_tolerances_and_surroundings_of_the_task_are_checked():
+    poses = task_of("lid-hinge").poses
+    wide = PoseTolerances(np.full((8, 2), 0.02), np.full(8, np.radians(0.05)))
+    tight = PoseTolerances(np.full((8, 2), 0.001), np.full(8, np.radians(0.001)))
+    for tolerances, code in ((wide, "R330"), (tight, "R331")):
+        judged = judge_linkage(Task(poses, tolerances=tolerances), LID)
+        assert judged.outcome.code == code
+    nearest = witness.misses(judged.linkages[0].linkage, poses, 24.0)
+    assert nearest.max() > 0.001
+    # A box around the middle of the coupler at the closed pose, where M lies on F.
+    middle = np.array([66.5, -32])
+    wall = KeepOut(box(middle - 1, middle + 1), "wall")
+    judged = judge_linkage(Task(poses, surroundings=Surroundings((wall,))), LID)
+    assert judged.outcome.code == "R331"
+    assert "touches 'wall'" in judged.outcome.why
