@@ -7,6 +7,7 @@ on under these conditions (`search`), so that the answer is not only what fails,
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 from math import inf
@@ -58,6 +59,8 @@ FIRST_STEPS, FURTHER_STEPS = 8, 52
 MIN_REFINED, REFINED_COST_RATIO = 4, 100.0
 # Refine on at most so many poses, evenly thinned.
 MAX_POSES_REFINED = 1000
+# Least transmission angles, degrees, that are asked for one after the other within tolerances.
+TRANSMISSIONS = (30.0, 40.0, 50.0, 60.0)
 MAX_SEARCHED = 5  # number of linkages kept from the search for defect-free linkages
 
 
@@ -254,9 +257,14 @@ def _with_search(
         further = further or FurtherPairs.of(pairs, evaluation)
         starts = further.beside(start, pairs, found, evaluation)
         best = closest_usable(found)
-        more = _searched(starts, evaluation, inf if best is None else best.combined_error)
+        most = inf
+        if best is not None and problem.task.tolerances is None:
+            most = best.combined_error
+        more = _searched(starts, evaluation, most)
         found = ranked(found + more, problem)
     closest = closest_usable(found)
+    if closest is not None and problem.task.tolerances is not None:
+        return _better_inside(evaluation, found)
     if closest is None or not found[0].shortcomings:
         return found
     most = farthest_recommended(closest, problem)
@@ -265,6 +273,20 @@ def _with_search(
     if most == inf or not unique:
         step("looking for linkages of better proportions")
         found = ranked([*found, *sound_linkages(found, evaluation, most)], problem)
+    return found
+
+
+def _better_inside(evaluation: Evaluation, found: list[FoundLinkage]) -> list[FoundLinkage]:
+    """The linkages, and better ones within the tolerances: they transmit ever better."""
+    step("looking for better linkages within the tolerances")
+    for degrees in TRANSMISSIONS:
+        best = found[0].driven.least_over_range if found[0].usable else 0.0
+        if not found[0].shortcomings and degrees <= math.degrees(best):
+            continue
+        more = sound_linkages(found, evaluation, inf, degrees)
+        if not more:
+            break
+        found = ranked([*found, *more], evaluation.problem)
     return found
 
 

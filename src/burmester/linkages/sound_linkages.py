@@ -25,15 +25,27 @@ STEPS = 40  # number of steps of these refinements
 
 
 def sound_linkages(
-    found: Sequence[FoundLinkage], evaluation: Evaluation, most: float
+    found: Sequence[FoundLinkage],
+    evaluation: Evaluation,
+    most: float,
+    transmission_deg: float = 0.0,
 ) -> list[FoundLinkage]:
-    """Usable linkages that meet the standard, with a combined error of `most` or less."""
+    """Usable linkages that meet the standard, with a combined error of `most` or less.
+
+    transmission_deg: the least transmission angle over the range, where more than the standard's
+    is looked for; then from the first linkages found, not from the closest.
+    """
     asked = evaluation.task.requirements
-    target = replace(
-        evaluation.target, requirements=Standard.of(evaluation.task).requirements(asked)
-    )
+    required = Standard.of(evaluation.task).requirements(asked)
+    if transmission_deg:
+        required = replace(
+            required, transmission_deg=max(required.transmission_deg, transmission_deg)
+        )
+    target = replace(evaluation.target, requirements=required)
     near = [each for each in found if np.isfinite(each.combined_error)]
-    near = sorted(near, key=lambda each: each.combined_error)[:MOST_CLOSEST]
+    if not transmission_deg:
+        near = sorted(near, key=lambda each: each.combined_error)
+    near = near[:MOST_CLOSEST]
     sides = driving_sides(asked)
     every, lead = np.repeat(np.arange(len(near)), len(sides)), np.tile(sides, len(near))
     batch = LinkageBatch.of([each.linkage for each in near]).to_canonical(target.frames)
