@@ -130,3 +130,13 @@ def test_a_bound_on_the_error_holds_beside_the_tolerances():
     again = synthesize(Task(task.poses, tolerances=task.tolerances, requirements=asked))
     for found in again.usable:
         assert found.error.worst <= within * (1 + 1e-9)
+
+
+def test_quality_decides_among_linkages_inside():
+    _, synthesis = solved("five, wide")
+    best = synthesis.usable[0]
+    closest = min(synthesis.usable, key=lambda each: each.combined_error)
+    assert closest is not best
+    angles = [each.driven.least_over_range for each in synthesis.usable if not each.shortcomings]
+    assert best.driven.least_over_range > max(angles) - np.radians(0.5) - 1e-9
+    assert best.driven.least_over_range > closest.driven.least_over_range + np.radians(5)

@@ -59,8 +59,8 @@ FIRST_STEPS, FURTHER_STEPS = 8, 52
 MIN_REFINED, REFINED_COST_RATIO = 4, 100.0
 # Refine on at most so many poses, evenly thinned.
 MAX_POSES_REFINED = 1000
-# Least transmission angles, degrees, that are asked for one after the other within tolerances.
-TRANSMISSIONS = (30.0, 40.0, 50.0, 60.0)
+# Degrees by which a greater least transmission angle is asked for within tolerances, and how often.
+RISE, MAX_RISES = 8.0, 6
 MAX_SEARCHED = 5  # number of linkages kept from the search for defect-free linkages
 
 
@@ -243,6 +243,8 @@ def _with_search(
     such as work.  Where none near enough is sound, the closest ones are made sound.
     """
     problem = evaluation.problem
+    if problem.task.tolerances is not None:
+        return _inside_tolerances(start, pairs, evaluation, found)
     nearest = min(found, key=lambda each: each.combined_error, default=None)
     further = None
     if nearest is None or (nearest.usable and nearest.combined_error > digits_leave_open(problem)):
@@ -257,14 +259,9 @@ def _with_search(
         further = further or FurtherPairs.of(pairs, evaluation)
         starts = further.beside(start, pairs, found, evaluation)
         best = closest_usable(found)
-        most = inf
-        if best is not None and problem.task.tolerances is None:
-            most = best.combined_error
-        more = _searched(starts, evaluation, most)
+        more = _searched(starts, evaluation, inf if best is None else best.combined_error)
         found = ranked(found + more, problem)
     closest = closest_usable(found)
-    if closest is not None and problem.task.tolerances is not None:
-        return _better_inside(evaluation, found)
     if closest is None or not found[0].shortcomings:
         return found
     most = farthest_recommended(closest, problem)
@@ -276,17 +273,22 @@ def _with_search(
     return found
 
 
-def _better_inside(evaluation: Evaluation, found: list[FoundLinkage]) -> list[FoundLinkage]:
-    """The linkages, and better ones within the tolerances: they transmit ever better."""
+def _inside_tolerances(
+    start: LinkageBatch, pairs: list[Pair], evaluation: Evaluation, found: list[FoundLinkage]
+) -> list[FoundLinkage]:
+    """The linkages, others from further pairs inside the tolerances, and ever better ones."""
+    step("looking for linkages that stay inside the tolerances")
+    starts = FurtherPairs.of(pairs, evaluation).beside(start, pairs, found, evaluation)
+    found = ranked([*found, *_searched(starts, evaluation, inf)], evaluation.problem)
+    if not any(each.usable for each in found):
+        return found
     step("looking for better linkages within the tolerances")
-    for degrees in TRANSMISSIONS:
-        best = found[0].driven.least_over_range if found[0].usable else 0.0
-        if not found[0].shortcomings and degrees <= math.degrees(best):
-            continue
-        more = sound_linkages(found, evaluation, inf, degrees)
-        if not more:
-            break
+    for _ in range(MAX_RISES):
+        best = math.degrees(found[0].driven.least_over_range)
+        more = sound_linkages(found, evaluation, inf, best + RISE)
         found = ranked([*found, *more], evaluation.problem)
+        if not math.degrees(found[0].driven.least_over_range) > best + RISE / 2:
+            break
     return found
 
 

@@ -21,6 +21,7 @@ from burmester.linkages.standard import Standard
 __all__ = ["sound_linkages"]
 
 MOST_CLOSEST = 12  # number of linkages that are refined again
+STEEPEST = 85.0  # degrees; no more is asked of a transmission angle
 STEPS = 40  # number of steps of these refinements
 
 
@@ -32,15 +33,15 @@ def sound_linkages(
 ) -> list[FoundLinkage]:
     """Usable linkages that meet the standard, with a combined error of `most` or less.
 
-    transmission_deg: the least transmission angle over the range, where more than the standard's
-    is looked for; then from the first linkages found, not from the closest.
+    transmission_deg: the least transmission angle over the range that is looked for in place of
+        the standard's; then from the first linkages found, not from the closest, and whatever
+        else they lack.
     """
     asked = evaluation.task.requirements
     required = Standard.of(evaluation.task).requirements(asked)
     if transmission_deg:
-        required = replace(
-            required, transmission_deg=max(required.transmission_deg, transmission_deg)
-        )
+        least = max(asked.transmission_deg, min(transmission_deg, STEEPEST))
+        required = replace(required, transmission_deg=least)
     target = replace(evaluation.target, requirements=required)
     near = [each for each in found if np.isfinite(each.combined_error)]
     if not transmission_deg:
@@ -61,5 +62,7 @@ def sound_linkages(
     return [
         each
         for each in evaluation.evaluate(candidates)
-        if each.usable and not each.shortcomings and each.combined_error <= most
+        if each.usable
+        and (transmission_deg or not each.shortcomings)
+        and each.combined_error <= most
     ]

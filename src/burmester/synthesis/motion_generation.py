@@ -26,10 +26,17 @@ from burmester.progress import step
 from burmester.synthesis.dyad_search import DyadSearch, search_dyads
 from burmester.synthesis.family_outcome import family_summary, none_within_limits
 from burmester.synthesis.method import with_method
-from burmester.synthesis.outcome import dyad_advice, family, linkage_advice, summary
+from burmester.synthesis.outcome import (
+    dyad_advice,
+    family,
+    linkage_advice,
+    summary,
+    undetermined,
+)
 from burmester.synthesis.result import Outcome, Synthesis
+from burmester.synthesis.within_digits import tolerances_of_digits, with_linkages_within_digits
 from burmester.tasks.feasibility import require_feasible
-from burmester.tasks.motion_kinds import FewPoses, MotionKind, Rest
+from burmester.tasks.motion_kinds import FewPoses, MotionKind, Rest, Undetermined
 from burmester.tasks.motion_task import Task
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
@@ -64,6 +71,8 @@ def synthesize(
     if problem.is_special:
         parallel = isinstance(_kind(problem), CircularTranslation)
         chosen = _of_family(problem.merged(), known) if open_ and parallel else None
+        if isinstance(_kind(problem), Undetermined):
+            chosen = _within_digits(problem, known)
         return chosen or _special_motion(problem, known)
     if open_ and min(problem.missing_conditions) < 0:
         return _dyad_family(problem, known)
@@ -77,6 +86,9 @@ def synthesize(
     linkages = _linkages(problem, pairs)
     step("comparing each pose with the others")
     outcome = summary(problem, search, linkages)
+    if outcome.code == "R305":
+        linkages = with_linkages_within_digits(problem, pairs, linkages)
+        outcome = summary(problem, search, linkages)
     warnings = (
         *task.notes,
         *_odd_pose(problem, search),
@@ -131,6 +143,22 @@ def _of_family(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthes
     more = [] if found.given_up else linkage_advice(problem.given, linkages, outcome.code)
     warnings = (*findings, *advice, *more)
     return Synthesis(problem, outcome, dyads, linkages, warnings, family=found)
+
+
+def _within_digits(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthesis | None:
+    """Poses that determine no dyads: the best linkages that pass within their digits, if any."""
+    few = max(problem.missing_conditions) > 0
+    if few or tolerances_of_digits(problem.given) is None or problem.options.method != "auto":
+        return None
+    problem = with_method(problem.merged())
+    search = search_dyads(problem)
+    pairs, _ = search.pairs(problem.length)
+    linkages = with_linkages_within_digits(problem, pairs, ())
+    if not linkages:
+        return None
+    outcome = undetermined(problem, search, linkages)
+    warnings = (*findings, *linkage_advice(problem.given, linkages, outcome.code))
+    return Synthesis(problem, outcome, search.dyads, linkages, warnings, search.fits)
 
 
 def _numbered(linkage: Linkage, number: int, task: Task) -> Pair:

@@ -24,7 +24,7 @@ from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.repeated_poses import rotation_range
 from burmester.wording import count, figure, listed
 
-__all__ = ["dyad_advice", "family", "linkage_advice", "summary"]
+__all__ = ["dyad_advice", "family", "linkage_advice", "summary", "undetermined"]
 
 BETTER = 1.2  # ratio of two least transmission angles; from it on the better linkage is named
 LITTLE = math.radians(30)  # rotation of the body below which the outcome says "only"
@@ -273,6 +273,16 @@ def _outside_tolerances(
 
 def _has_exact_parts(task: Task) -> bool:
     return task.tolerances is not None and bool(task.tolerances.exact.any())
+
+
+def undetermined(
+    problem: SynthesisProblem, search: DyadSearch, linkages: Sequence[FoundLinkage]
+) -> Outcome:
+    """What came of poses that determine no dyads, and of linkages that pass within their digits."""
+    usable = [each for each in linkages if each.usable]
+    message = f"{count(len(usable), 'four-bar')} within what the digits of the poses allow, from "
+    message += f"{_dyads(problem, search)[0]} and links of low error"
+    return _undetermined(problem, usable, message)
 
 
 def _undetermined(
