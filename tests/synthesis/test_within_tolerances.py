@@ -11,7 +11,7 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.tasks.requirements import Requirements
 from tests.oracles import witness
-from tests.oracles.tolerance_boxes import least_shares
+from tests.oracles.tolerance_boxes import least_shares, share
 
 INF = np.inf
 DYADS = RR([0, 0], [10, 20], 30.0), RR([70, 5], [45, 25], 50.0)
@@ -74,14 +74,21 @@ def test_what_is_said_of_the_tolerances_is_what_a_driven_linkage_does(name):
     size = float(np.ptp(task.poses.translation, axis=0).max())
     rounding = 1e-7 * size
     bounds = np.maximum(tolerances.bounds, [rounding, rounding, 1e-7])
-    slack = np.where(tolerances.exact.any(axis=1), 0.5, 1e-4)  # of the rounding, of a tolerance
     assert synthesis.linkages
     for found in synthesis.linkages:
         least = least_shares(found.linkage, rows, bounds, tolerances.axes, SIZE)
         said = found.within_tolerance.max(axis=1)
         outside = any(each.kind == "assembly" for each in found.defects)
-        # What is said is a place on the linkage, so it is never below the least.
-        assert (said >= least * (1 - 1e-4) - slack).all(), found.id
+        # What is said is said of a place on the linkage.
+        places = found.error.places
+        for dyad in (found.linkage.first, found.linkage.second):
+            assert np.abs(dyad.residual(places)).max() < 1e-7 * SIZE, found.id
+        for k, row in enumerate(rows):
+            if tolerances.exact[k].any():  # measured by rounding
+                continue
+            where = complex(*places.translation[k])
+            used = share(where, places.angle[k], row, bounds[k], tolerances.axes[k])
+            assert said[k] == pytest.approx(used, rel=1e-6, abs=1e-9), found.id
         assert outside == bool((said > 1 + 1e-8).any()), found.id
         if not outside:
             assert (least <= 1 + 1e-6).all(), found.id
