@@ -7,7 +7,8 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.families.open_task import Conditions, OpenTask, Trials
+from burmester.families.conditions import Conditions
+from burmester.families.open_task import OpenTask, Trials
 from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import GRASHOF_SUMS, Linkage

@@ -7,7 +7,6 @@ of quality, far from each other.  A search: that none better exists is not prove
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Final, NamedTuple, final
@@ -20,24 +19,16 @@ from burmester.families.assumptions import Assumptions, Bound
 from burmester.families.dyad_samples import drawn_dyads
 from burmester.families.evolution import improved
 from burmester.families.front import far_apart, front
-from burmester.families.open_task import Conditions, DyadFreedom, OpenTask, Trials
+from burmester.families.open_task import OpenTask, Trials
 from burmester.families.pairing import promising_pairs
-from burmester.families.pivot_freedom import PivotFreedom
 from burmester.fourbar.dyad import RP, RR
-from burmester.fourbar.linkage import TYPE_OF_SIGNS
 from burmester.fourbar.linkage_batch import DYAD_KINDS, LinkageBatch
-from burmester.geometry.regions import Polygon
 from burmester.linkages.quality import best_first
-from burmester.linkages.standard import Standard
 from burmester.linkages.target import Target
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import concatenate, take, where
-from burmester.tasks.limits import Limits
-from burmester.tasks.motion_task import Task
 from burmester.tasks.options import Preference
 from burmester.tasks.problem import SynthesisProblem
-from burmester.tasks.requirements import TYPES
-from burmester.tasks.surroundings import KeepOut, Surroundings
 
 __all__ = ["RULES", "Family", "best_of_family"]
 
@@ -71,8 +62,6 @@ PINNED: Final = frozenset({RR})  # the kinds of a linkage with pins alone
 SHOWN_APART: Final = 0.3  # motion sizes; least distance of those
 MOST_COMPARED: Final = 2000  # number of linkages that are compared with each other, about
 VARIANTS: Final = 12  # number of draws of poses within their tolerances
-FREE_ANGLE: Final = math.pi / 6  # radians; how far from its nominal value a free angle is sought
-FREE_LENGTH: Final = 0.5  # motion sizes; the same for a free coordinate
 
 
 @final
@@ -85,7 +74,7 @@ class Family:
     works: whether they meet all conditions; else they are the nearest to doing so.
     bounds: what was assumed.
     given_up: whether bounds that were only assumed had to be given up.
-    dyads, pairs: how many were drawn, and looked at; working: how many linkages were met that work.
+    dyads, pairs: how many were drawn, and looked at.
     """
 
     batch: LinkageBatch
@@ -96,17 +85,15 @@ class Family:
     given_up: bool
     dyads: int
     pairs: int
-    working: int
 
 
 class _Pool(NamedTuple):
-    """Linkages that were judged, of how many dyads and pairs, and how many of all work."""
+    """Linkages that were judged, and of how many dyads and pairs."""
 
     trials: Trials
     value: Assessment
     dyads: int
     pairs: int
-    working: int = 0
 
 
 def best_of_family(problem: SynthesisProblem, target: Target) -> Family | None:
@@ -116,7 +103,7 @@ def best_of_family(problem: SynthesisProblem, target: Target) -> Family | None:
     """
     first: Family | None = None
     for assumed, given_up in Assumptions.attempts(problem):
-        task = _open_task(problem, target, assumed)
+        task = OpenTask.of(problem, target, assumed)
         found = _searched(task, assumed)
         if found is not None and found.works:
             return replace(found, given_up=given_up)
@@ -158,7 +145,6 @@ def _searched(task: OpenTask, assumed: Assumptions) -> Family | None:
         False,
         sum(pool.dyads for pool in pools),
         sum(pool.pairs for pool in pools),
-        sum(pool.working for pool in pools),
     )
 
 
@@ -231,8 +217,7 @@ def _improved(pool: _Pool, task: OpenTask, generations: int, rng: np.random.Gene
     worth = concatenate([take(pool.value, good), value])
     best = np.argsort(-worth.transmission, kind="stable")[: MOST_COMPARED // 4]
     some = np.union1d(best, np.arange(0, len(every), max(1, len(every) // MOST_COMPARED)))
-    found = pool._replace(trials=take(every, some), value=take(worth, some), working=len(every))
-    return _better_driven(found, task)
+    return _better_driven(pool._replace(trials=take(every, some), value=take(worth, some)), task)
 
 
 def _better_driven(pool: _Pool, task: OpenTask) -> _Pool:
@@ -304,88 +289,3 @@ def _driver_first(trials: Trials, task: OpenTask, *, always: bool = False) -> Li
     rows = np.arange(len(trials))[:, None]
     order = np.stack([trials.driver, 1 - trials.driver], axis=1)
     return LinkageBatch(trials.batch.kinds[rows, order], trials.batch.dimensions[rows, order])
-
-
-def _open_task(problem: SynthesisProblem, target: Target, assumed: Assumptions) -> OpenTask:
-    """The poses and limits of a problem, in the frames of its target."""
-    task, frames, unit = problem.task, target.frames, float(target.frames.length)
-    sides = []
-    for limits in task.limits or (Limits(),):
-        pivots = (
-            PivotFreedom.of(limits.fixed_pivot, assumed.fixed, frames.fixed_origin, unit),
-            PivotFreedom.of(limits.moving_pivot, assumed.moving, frames.moving_origin, unit),
-        )
-        kinds = tuple(k for k, kind in enumerate(DYAD_KINDS) if kind.__name__ in limits.allowed)
-        least, most = limits.length
-        sides.append(DyadFreedom(*pivots, (least / unit, most / unit), kinds))
-    half_widths, axes = _tolerances(task, target, assumed.size / unit)
-    both = sides[0], sides[-1]
-    bounds = _conditions(problem, both, target, assumed)
-    return OpenTask(target.poses, target.length, frames, both, half_widths, axes, bounds)
-
-
-def _tolerances(task: Task, target: Target, size: float) -> tuple[FloatArray, FloatArray]:
-    """Half widths (N, 3) of the tolerances of a task, and directions (N, 3, 3) of their axes."""
-    count = target.poses.shape[0]
-    axes = np.broadcast_to(np.eye(3), (count, 3, 3)).copy()
-    if (given := task.tolerances) is None:
-        return np.zeros((count, 3)), axes
-    unit = float(target.frames.length)
-    half = given.bounds * [1 / unit, 1 / unit, target.length]
-    free = [FREE_LENGTH * size, FREE_LENGTH * size, FREE_ANGLE * target.length]
-    axes[:, :2, :2] = given.directions(task.poses).swapaxes(-1, -2)
-    return np.where(np.isinf(half), free, half), axes
-
-
-def _conditions(
-    problem: SynthesisProblem,
-    sides: tuple[DyadFreedom, DyadFreedom],
-    target: Target,
-    assumed: Assumptions,
-) -> Conditions:
-    """What linkages must be, in the frames of an open task."""
-    task, frames, unit = problem.task, target.frames, float(target.frames.length)
-    asked = task.requirements
-    footprint = asked.footprint
-    if footprint is not None:
-        footprint = _in_frame(footprint, frames.fixed_origin, unit)
-    types = np.zeros(2**3, dtype=bool)
-    for signs, name in TYPE_OF_SIGNS.items():
-        types[sum(2**k for k, sign in enumerate(signs) if sign > 0)] = asked.allows(name)
-    classes = {kind.__name__: kind for kind in DYAD_KINDS}
-    pairs = (pair for name, pair in TYPES.items() if asked.allows(name))
-    kinds = frozenset(frozenset(classes[kind] for kind in pair) for pair in pairs)
-    if all(0 in side.kinds for side in sides) and asked.types is None:
-        kinds = frozenset(pair for pair in kinds if RR in pair)  # two sliders only if asked for
-    return Conditions(
-        transmission=assumed.transmission,
-        shortest=assumed.shortest / unit,
-        longest=assumed.longest / unit,
-        ratio=assumed.ratio,
-        span=assumed.size / unit,
-        types=types,
-        kinds=kinds,
-        drivers={"first": (0,), "second": (1,)}.get(asked.driver, (0, 1)),
-        crank=asked.driver == "crank",
-        any_order=asked.any_order,
-        change_point=Standard.of(task).change_point,
-        footprint=footprint,
-        prefer=problem.options.prefer,
-        around=None if task.surroundings is None else _moved_around(task.surroundings, target),
-        body=None if task.body is None else _in_frame(task.body, frames.moving_origin, unit),
-    )
-
-
-def _moved_around(around: Surroundings, target: Target) -> Surroundings:
-    """The surroundings in the frames of an open task."""
-    frames, unit = target.frames, float(target.frames.length)
-    regions = (
-        KeepOut(_in_frame(each.polygon, frames.fixed_origin, unit), each.name)
-        for each in around.keep_out
-    )
-    width, margin = around.link_width / unit, around.margin / unit
-    return Surroundings(tuple(regions), width, margin, around.body_in_plane)
-
-
-def _in_frame(polygon: Polygon, origin: FloatArray, unit: float) -> Polygon:
-    return Polygon((polygon.vertices - origin) / unit)

@@ -2,25 +2,31 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
-from typing import final
+from typing import Final, Self, final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.families.assumptions import Assumptions
+from burmester.families.conditions import Conditions
 from burmester.families.pivot_freedom import PivotFreedom
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.foot_points import places_of, rows_of
 from burmester.fourbar.linkage_batch import DIMENSIONS, DYAD_KINDS, LinkageBatch
 from burmester.geometry.displacement import Displacement
-from burmester.geometry.regions import Polygon
+from burmester.linkages.target import Target
 from burmester.numerics.arrays import FloatArray
-from burmester.tasks.options import Preference
-from burmester.tasks.surroundings import Surroundings
+from burmester.tasks.limits import Limits
+from burmester.tasks.motion_task import Task
+from burmester.tasks.problem import SynthesisProblem
 
-__all__ = ["Conditions", "DyadFreedom", "OpenTask", "Trials"]
+__all__ = ["DyadFreedom", "OpenTask", "Trials"]
 
 RADIUS_FREEDOM = 9.0  # squared; how much rather a link's length changes than its pivots move
+FREE_ANGLE: Final = math.pi / 6  # radians; how far from its nominal value a free angle is sought
+FREE_LENGTH: Final = 0.5  # motion sizes; the same for a free coordinate
 
 
 @final
@@ -67,37 +73,6 @@ class Trials:
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class Conditions:
-    """What linkages of an open task must be; lengths in its frames.
-
-    transmission: the least transmission angle over the range, radians.
-    shortest, longest: of the links; ratio: of the longest of four to the shortest.
-    span: of the motion, by which the extent is measured.
-    prefer: by which figure the recommended linkage is chosen.
-    types: (8,), whether 4R linkages are allowed, by the signs of their Grashof sums, in binary.
-    kinds: the pairs of kinds of dyads that are allowed; drivers: the sides that may drive.
-    around: what body, its outline, and links must stay clear of.
-    """
-
-    transmission: float
-    shortest: float
-    longest: float
-    ratio: float
-    span: float
-    types: NDArray[np.bool_]
-    kinds: frozenset[frozenset[type]]
-    drivers: tuple[int, ...]
-    crank: bool
-    any_order: bool
-    change_point: bool
-    footprint: Polygon | None
-    prefer: Preference
-    around: Surroundings | None = None
-    body: Polygon | None = None
-
-
-@final
-@dataclass(frozen=True, slots=True, eq=False)
 class OpenTask:
     """Poses (N,) in error frames, and what the dyads on both sides may be.
 
@@ -113,6 +88,30 @@ class OpenTask:
     half_widths: FloatArray
     axes: FloatArray
     conditions: Conditions
+
+    @classmethod
+    def of(cls, problem: SynthesisProblem, target: Target, assumed: Assumptions) -> Self:
+        """The poses and limits of a problem, in the frames of its target."""
+        task, frames, unit = problem.task, target.frames, float(target.frames.length)
+        sides = []
+        for limits in task.limits or (Limits(),):
+            pivots = (
+                PivotFreedom.of(limits.fixed_pivot, assumed.fixed, frames.fixed_origin, unit),
+                PivotFreedom.of(limits.moving_pivot, assumed.moving, frames.moving_origin, unit),
+            )
+            kinds = tuple(k for k, kind in enumerate(DYAD_KINDS) if kind.__name__ in limits.allowed)
+            least, most = limits.length
+            sides.append(DyadFreedom(*pivots, (least / unit, most / unit), kinds))
+        both = sides[0], sides[-1]
+        pins = all(0 in side.kinds for side in both)
+        return cls(
+            target.poses,
+            target.length,
+            frames,
+            both,
+            *_tolerances(task, target, assumed.size / unit),
+            Conditions.of(problem, target, assumed, pins=pins),
+        )
 
     @property
     def is_exact(self) -> bool:
@@ -132,3 +131,16 @@ class OpenTask:
     def places(self, offsets: FloatArray) -> Displacement:
         """The same as places (k, N)."""
         return places_of(self.rows(offsets), self.length)
+
+
+def _tolerances(task: Task, target: Target, size: float) -> tuple[FloatArray, FloatArray]:
+    """Half widths (N, 3) of the tolerances of a task, and directions (N, 3, 3) of their axes."""
+    count = target.poses.shape[0]
+    axes = np.broadcast_to(np.eye(3), (count, 3, 3)).copy()
+    if (given := task.tolerances) is None:
+        return np.zeros((count, 3)), axes
+    unit = float(target.frames.length)
+    half = given.bounds * [1 / unit, 1 / unit, target.length]
+    free = [FREE_LENGTH * size, FREE_LENGTH * size, FREE_ANGLE * target.length]
+    axes[:, :2, :2] = given.directions(task.poses).swapaxes(-1, -2)
+    return np.where(np.isinf(half), free, half), axes
