@@ -1328,7 +1328,7 @@ def said(case, done, code=None):
     assert done.err == ""
     out = re.sub(r"(?m) +$", "", done.out)  # tables are filled with blanks
     if code in TOLD:  # by what was found, without a code
-        counted = re.search(r"(?m)^\d+ four-bars? (?:.*\n)+?(?=\n|\Z)", out)
+        counted = re.search(r"(?m)^\d+ (?:four-bar|pose)s? (?:.*\n)+?(?=\n|\Z)", out)
         return f"{out[: out.index('L1 in full')]}{counted[0]}"
     found = re.search(rf"(?m)^(warning|result)\[{code}\]: .*\n(?:  .*\n|L\d+ .*\n)*", out)
     return found[0] if found else ""

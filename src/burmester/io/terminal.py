@@ -19,7 +19,8 @@ from burmester.synthesis.result import JUDGED, Synthesis
 
 __all__ = ["show_synthesis"]
 
-NARROW = 64  # columns; in a narrower terminal both sides of a dyad are in one column
+# Columns; in a narrower terminal both sides of a dyad are in one column, or its length as well.
+NARROW, SLIM = 64, 48
 PLAIN = ("R300", "R305", "R307", "R308")  # outcomes that are told without their code
 
 
@@ -140,21 +141,24 @@ def _dyads(synthesis: Synthesis, width: int) -> Table:
     table = new_table(sentences.dyads_title(synthesis), gap=1 if width >= 80 else 0)
     table.add_column("", no_wrap=True)
     table.add_column("kind", no_wrap=True)
-    narrow = width < NARROW
+    narrow, slim = width < NARROW, width < SLIM
     if narrow:
-        table.add_column("in F, then M")
+        table.add_column("in F, M, length" if slim else "in F, then M")
     else:
         table.add_column("on the ground (F)")
         table.add_column("on the body (M)")
-    table.add_column("length", justify="right", no_wrap=True)
+    if not slim:
+        table.add_column("length", justify="right", no_wrap=True)
     table.add_column("rms miss", justify="right", no_wrap=True)
     if width >= 80:
         table.add_column("worst", justify="right", no_wrap=True)
     for found in synthesis.dyads:
         ground, body, length = sides(found.dyad, fitted_decimals(synthesis, found.dyad))
         errors = dyad_error(synthesis, found.rms_error), dyad_error(synthesis, found.max_error)
-        where = (f"{ground}\n{body}",) if narrow else (ground, body)
-        row = found.id, type(found.dyad).__name__, *where, length, *errors
+        where: tuple[str, ...] = (ground, body, length)
+        if narrow:
+            where = ("\n".join(where),) if slim else (f"{ground}\n{body}", length)
+        row = found.id, type(found.dyad).__name__, *where, *errors
         table.add_row(*row[: len(table.columns)])
     return table
 
