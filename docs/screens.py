@@ -1,4 +1,7 @@
-"""Make docs/report.png and docs/image-space.png: the page of the example, and the paper's Fig. 4.
+"""Make the pictures of pages and of image space in docs.
+
+report.png is the page of the example, few-poses.png that of a template with three poses, and
+image-space.png the paper's Fig. 4.
 
 Needs a browser, Playwright and Matplotlib, as the tests do.  Run it from the project's root:
 
@@ -45,7 +48,12 @@ def figure():
 
 
 def main():
-    for name, drawn in {"report.png": screen(), "image-space.png": figure()}.items():
+    pictures = {
+        "report.png": screen(),
+        "few-poses.png": screen("src/burmester/templates/chest-lid.toml"),
+        "image-space.png": figure(),
+    }
+    for name, drawn in pictures.items():
         picture = Image.open(BytesIO(drawn)).convert("RGB").quantize(COLOURS)
         picture.save(Path("docs", name), optimize=True)
 
