@@ -73,7 +73,7 @@ def test_what_the_schema_refuses_the_model_refuses(trees):
 
 def test_a_sample_of_the_campaign(trees, tmp_path):
     verdicts = Counter()
-    for seed in range(200):
+    for seed in range(400):
         rng = random.Random(seed)
         verdicts[judged(with_faults(rng, rng.choice(trees)), tmp_path, rng.choice(QUICK))] += 1
     assert verdicts["E150"] > 60

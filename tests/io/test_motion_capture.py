@@ -404,10 +404,10 @@ def test_rows_of_every_format(tmp_path: Path, suffix: str) -> None:
     task = read_task(path, every=3, first="2", last="11", drop=["8"])
     assert task.poses.translation[:, 0].tolist() == [2, 5, 11]
     assert task.names == ("2", "5", "11")
-    with pytest.raises(InputError, match="2 poses") as caught:
-        read_task(path, every=7)
+    with pytest.raises(InputError, match="1 pose:") as caught:
+        read_task(path, every=12)
     assert caught.value.code == "E120"
-    assert "10 of 12" in str(caught.value.why)
+    assert "11 of 12" in str(caught.value.why)
     assert "--every" in str(caught.value.help)
 
 
@@ -475,6 +475,8 @@ def test_a_recorded_four_bar_is_found_again_and_driven_through_its_motion(read: 
         off = np.hypot(*(run.path[:, :2] - point).T) + 50 * np.abs(turn)
         assert off.min() < 1.5
     # and it is the linkage that was planted, as far as 20 poses with this noise say
+    # (the closest one: within the noise others may transmit better, and come first)
+    linkage = min(result.usable, key=lambda each: each.error.rms).saved().linkage
     pivots = np.array([linkage.first.fixed_pivot, linkage.second.fixed_pivot])
     assert np.abs(pivots - GROUND).max() < 12
     lengths = [float(linkage.first.radius), float(linkage.second.radius)]

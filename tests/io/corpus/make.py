@@ -346,11 +346,11 @@ def faults() -> None:
     bad("columns-json.json", "[]", "E108", "", {"columns": "x,y,angle_deg"})
     bad("drop-none-such.csv", CSV, "E122", "", {"drop": ["5"]})
     KEY["drop-none-such.csv"]["where"] = "--drop:1:1"
-    bad("drop-too-many.csv", CSV, "E120", "", {"drop": ["1,2"]})
+    bad("drop-too-many.csv", CSV, "E120", "", {"drop": ["1,2,3"]})
     bad("mark.csv", "x,y,angle_deg,exact\n1,2,3,maybe\n", "E104", ":2:7")
     bad("weight-nan.csv", "x,y,angle_deg,weight\n1,2,3,nan\n", "E103", ":2:7")
     bad("weight-zero.csv", "x,y,angle_deg,weight\n" + "1,2,3,0\n" * 3, "E122")
-    bad("two-poses.csv", head + "1,2,3\n4,5,6\n", "E120")
+    bad("one-pose.csv", head + "1,2,3\n", "E120")
 
 
 def shapes() -> None:
