@@ -33,8 +33,10 @@ from burmester.numerics.bundles import take
 __all__ = ["AIMS", "Assessment", "assessed", "costs"]
 
 FRAMES: Final = 17  # number of places along the range at which pivots are held against a footprint
-# Numbers of places along the range at which nothing must touch: the second one where none does.
-CLEARANCE_FRAMES: Final = (21, 81)
+# Numbers of places along the range at which contact with the surroundings is looked for in a
+# search, and among what is chosen from: there at more places where it is clear at fewer.
+CLEARANCE_FRAMES: Final = (9,)
+MORE_FRAMES: Final = (21, 81)
 # Motion sizes; how much more clearance is asked at these, for what comes nearer between them.
 CLEARANCE_SLACK: Final = 1e-3
 NEARLY: Final = 0.5  # violation; clearances of linkages that violate more are not looked at
@@ -64,8 +66,12 @@ class Assessment(NamedTuple):
         return np.asarray(self.violation == 0)
 
 
-def assessed(trials: Trials, task: OpenTask) -> Assessment:
-    """The assessment of linkages (k,) that pass through the places at their offsets."""
+def assessed(trials: Trials, task: OpenTask, *, thorough: bool = False) -> Assessment:
+    """The assessment of linkages (k,) that pass through the places at their offsets.
+
+    thorough: whether contact with the surroundings is looked for at more places.
+    """
+    frames = MORE_FRAMES if thorough else CLEARANCE_FRAMES
     count = len(trials)
     out = Assessment(np.zeros(count), *(np.full(count, np.nan) for _ in range(3)))
     every = np.arange(count)[:, None]
@@ -74,7 +80,7 @@ def assessed(trials: Trials, task: OpenTask) -> Assessment:
     led = LinkageBatch(batch.kinds[every, order], batch.dimensions[every, order])
     places = task.places(trials.offsets)
     for index, linkage in led.alike():
-        part = _of_alike(linkage, places[index], task.conditions)
+        part = _of_alike(linkage, places[index], task.conditions, frames)
         for whole, values in zip(out, part, strict=True):
             whole[index] = values
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
@@ -83,8 +89,13 @@ def assessed(trials: Trials, task: OpenTask) -> Assessment:
     return out
 
 
-def _of_alike(linkage: Linkage, places: Displacement, conditions: Conditions) -> Assessment:
-    """Linkages (k,) of one pair of kinds, driven by their first dyads, at places (k, N)."""
+def _of_alike(
+    linkage: Linkage, places: Displacement, conditions: Conditions, frames: tuple[int, ...]
+) -> Assessment:
+    """Linkages (k,) of one pair of kinds, driven by their first dyads, at places (k, N).
+
+    frames: numbers of places at which contact with the surroundings is looked for.
+    """
     with np.errstate(invalid="ignore", divide="ignore"):
         view = DrivenView.of(linkage, places)
         every = np.ones(places.shape, dtype=bool)
@@ -97,11 +108,11 @@ def _of_alike(linkage: Linkage, places: Displacement, conditions: Conditions) ->
         size = extent(traversal.circuits, ends, ranged.input_range) / conditions.span
         violation = violation + _of_proportions(linkage, places, conditions)
         if conditions.footprint is not None:
-            frames = _frames(traversal.circuits, ends)
-            violation = violation + _outside(linkage, frames, conditions.footprint)
+            along = _frames(traversal.circuits, ends)
+            violation = violation + _outside(linkage, along, conditions.footprint)
         if conditions.around is not None:
             violation = violation + _too_close(
-                linkage, traversal.circuits, ends, violation, conditions
+                linkage, traversal.circuits, ends, violation, conditions, counts=frames
             )
         if conditions.crank:
             turns = traversal.circuits.closed & (traversal.circuits.branches == 1)
@@ -157,6 +168,8 @@ def _too_close(
     ends: FloatArray,
     violation: FloatArray,
     conditions: Conditions,
+    *,
+    counts: tuple[int, ...],
 ) -> FloatArray:
     """Violations (k,) of what must not be touched, of linkages that meet all else or nearly so."""
     # Shapely is imported for tasks with surroundings only.
@@ -166,7 +179,7 @@ def _too_close(
     out = np.zeros(len(violation))
     some = np.flatnonzero(violation < NEARLY)
     around, slack = conditions.around, CLEARANCE_SLACK * conditions.span
-    for count in CLEARANCE_FRAMES:
+    for count in counts:
         if around is None or not len(some):
             break
         share = np.linspace(0.0, 1.0, count)

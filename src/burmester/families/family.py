@@ -215,17 +215,25 @@ def _improved(pool: _Pool, task: OpenTask, generations: int, rng: np.random.Gene
     if not len(every):
         return pool
     worth = concatenate([take(pool.value, good), value])
-    best = np.argsort(-worth.transmission, kind="stable")[: MOST_COMPARED // 4]
-    some = np.union1d(best, np.arange(0, len(every), max(1, len(every) // MOST_COMPARED)))
+    most = MOST_COMPARED if task.conditions.around is None else MOST_COMPARED // 4
+    best = np.argsort(-worth.transmission, kind="stable")[: most // 4]
+    some = np.union1d(best, np.arange(0, len(every), max(1, len(every) // most)))
     return _better_driven(pool._replace(trials=take(every, some), value=take(worth, some)), task)
 
 
 def _better_driven(pool: _Pool, task: OpenTask) -> _Pool:
-    """The same linkages, driven by the other dyad where that transmits better and is allowed."""
+    """The same linkages, driven by the other dyad where that transmits better and is allowed.
+
+    All of them are held against the surroundings thoroughly.
+    """
+    own = pool.value
+    if task.conditions.around is not None:
+        own = assessed(pool.trials, task, thorough=True)
+    pool = pool._replace(value=own)
     if len(task.conditions.drivers) == 1:
         return pool
     other = replace(pool.trials, driver=1 - pool.trials.driver)
-    value = assessed(other, task)
+    value = assessed(other, task, thorough=True)
     better = value.good & (value.transmission > pool.value.transmission)
     return pool._replace(
         trials=replace(pool.trials, driver=np.where(better, other.driver, pool.trials.driver)),
