@@ -7,7 +7,7 @@ from typing import Any
 import click
 
 from burmester.cli.options import JUDGEMENT, Sectioned, run_judgement, with_options
-from burmester.cli.output import EXIT_FOUND, EXIT_NOTHING, console, print_json
+from burmester.cli.output import EXIT_FOUND, EXIT_NOTHING, hand_over
 
 __all__ = ["judge"]
 
@@ -45,24 +45,12 @@ def judge(
     It is told what `burmester synthesize` tells of its own linkages.  Exit code 0: the linkage
     works; 1: it does not; 2: the input cannot be used.
     """
-    from burmester.cli.progress_line import working
     from burmester.io import files
-    from burmester.io.result import json_line, synthesis_data
-    from burmester.printable import printable
 
     if output is not None:
         for source in (poses, linkage):
             if source is not None:
                 files.require_writable(output, force=force, source=source)
     synthesis = run_judgement(poses, linkage=linkage, **given)
-    if output is not None:
-        with working("writing the result"):
-            files.write(output, json_line(synthesis_data(synthesis)), force=force)
-        click.echo(f"wrote {printable(output)}", err=True)
-    if as_json:
-        print_json(synthesis_data(synthesis))
-    else:
-        from burmester.io.terminal import show_synthesis
-
-        show_synthesis(synthesis, console())
+    hand_over(synthesis, output, force=force, as_json=as_json)
     return EXIT_FOUND if synthesis.linkages[0].usable else EXIT_NOTHING

@@ -11,7 +11,17 @@ import click
 if TYPE_CHECKING:
     from rich.console import Console
 
-__all__ = ["EXIT_FOUND", "EXIT_INTERRUPT", "EXIT_NOTHING", "console", "print_json", "show_list"]
+    from burmester.synthesis.result import Synthesis
+
+__all__ = [
+    "EXIT_FOUND",
+    "EXIT_INTERRUPT",
+    "EXIT_NOTHING",
+    "console",
+    "hand_over",
+    "print_json",
+    "show_list",
+]
 
 EXIT_FOUND, EXIT_NOTHING, EXIT_INTERRUPT = 0, 1, 130  # errors bring their own: 2 and 3
 
@@ -28,6 +38,30 @@ def print_json(data: dict[str, Any]) -> None:
     from burmester.io.result import json_line
 
     click.echo(json_line(data, sys.stdout.encoding or "utf-8"), nl=False)
+
+
+def hand_over(
+    synthesis: Synthesis, output: str | None, *, force: bool, as_json: bool, **shown: bool
+) -> None:
+    """A synthesis to the file `output`, if there is one, and to standard output.
+
+    shown: as in `show_synthesis`.
+    """
+    from burmester.cli.progress_line import working
+    from burmester.io import files
+    from burmester.io.result import json_line, synthesis_data
+    from burmester.printable import printable
+
+    if output is not None:
+        with working("writing the result"):
+            files.write(output, json_line(synthesis_data(synthesis)), force=force)
+        click.echo(f"wrote {printable(output)}", err=True)
+    if as_json:
+        print_json(synthesis_data(synthesis))
+    else:
+        from burmester.io.terminal import show_synthesis
+
+        show_synthesis(synthesis, console(), **shown)
 
 
 def show_list(rows: list[tuple[str, str]]) -> None:

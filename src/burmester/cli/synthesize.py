@@ -16,7 +16,7 @@ from burmester.cli.options import (
     run_synthesis,
     with_options,
 )
-from burmester.cli.output import EXIT_FOUND, EXIT_NOTHING, console, print_json
+from burmester.cli.output import EXIT_FOUND, EXIT_NOTHING, hand_over
 
 __all__ = ["synthesize"]
 
@@ -61,8 +61,6 @@ def synthesize(
     from burmester.cli.family_map import require_map_file, write_map
     from burmester.cli.progress_line import working
     from burmester.io import files
-    from burmester.io.result import json_line, synthesis_data
-    from burmester.printable import printable
 
     if output is not None:
         files.require_writable(output, force=force, source=poses)
@@ -73,16 +71,8 @@ def synthesize(
     if family_map is not None:
         with working("drawing the map"):
             click.echo(write_map(synthesis, family_map, force=force), err=True)
-    if output is not None:
-        with working("writing the result"):
-            files.write(output, json_line(synthesis_data(synthesis)), force=force)
-        click.echo(f"wrote {printable(output)}", err=True)
-    if as_json:
-        print_json(synthesis_data(synthesis))
-    else:
-        from burmester.io.terminal import show_synthesis
-
-        show_synthesis(synthesis, console(), everything=everything, dyads=dyads)
+    shown = {"everything": everything, "dyads": dyads}
+    hand_over(synthesis, output, force=force, as_json=as_json, **shown)
     good = synthesis.determined if require_determined else bool(synthesis.usable)
     if synthesis.usable and not good:
         reason = "the poses determine the pivots of no usable linkage, and --require-determined is"
