@@ -3,7 +3,8 @@
 `python -m benchmarks.stopped --count 120 --seed 1` runs every export and the other commands that
 write in turn.  A stopped command leaves no file that is not whole and no temporary one, says
 nothing about itself that only its authors understand, and exits with the code of the signal; one
-that was faster exits as usual.
+that was faster exits as usual.  How long it takes from the signal to the end of the process is
+told, by command.
 """
 
 import argparse
@@ -31,12 +32,17 @@ INTERNAL = re.compile(r"Traceback|Exception ignored|E900|KeyboardInterrupt|\.bur
 
 
 class Stopped(NamedTuple):
-    """What came of one command: what is wrong with it, and whether the signal was in time."""
+    """What came of one command: what is wrong with it, and whether the signal was in time.
+
+    at, ended: seconds from the start to the signal, and from the signal to the end.
+    """
 
     command: str
     faults: tuple[str, ...]
     in_time: bool
     said: str
+    at: float
+    ended: float
 
 
 def commands(result):

@@ -58,6 +58,7 @@ if TYPE_CHECKING:
     from burmester.geometry.regions import box as box
     from burmester.io.reading.poses import read_task as read_task
     from burmester.linkages.found_linkage import FoundLinkage as FoundLinkage
+    from burmester.progress import Progress as Progress
     from burmester.synthesis.result import Synthesis as Synthesis
     from burmester.tasks.limits import Limits as Limits
     from burmester.tasks.motion_task import Task as Task
@@ -86,6 +87,7 @@ _ROOMS = {
     "Point": "geometry.regions",
     "Polygon": "geometry.regions",
     "PoseError": "fourbar.pose_error",
+    "Progress": "progress",
     "Requirements": "tasks.requirements",
     "Result": "api.result",
     "ResultLinkage": "api.linkage",

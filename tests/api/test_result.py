@@ -69,6 +69,8 @@ def test_rows_radians_a_displacement_and_a_task_are_one_motion(five):
         ({"angle_unit": "deg", "certify": "yes"}, "E134", "'yes'"),
         ({"angle_unit": "deg", "rounding_step": -0.5}, "E134", "-0.5"),
         ({"angle_unit": "deg", "rounding_step": True}, "E134", "True"),
+        ({"angle_unit": "deg", "time_limit": "2"}, "E134", "'2'"),
+        ({"angle_unit": "deg", "progress": "line"}, "E134", "'line'"),
         ({"angle_unit": "deg", "manufacturing_tolerance": np.nan}, "E134", "nan"),
         ({"angle_unit": "deg", "length_per_radian": np.inf}, "E134", "inf"),
         ({"angle_unit": "deg", "length_per_radian": "80"}, "E134", "'80'"),

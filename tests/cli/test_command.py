@@ -395,7 +395,7 @@ def test_help_tells_every_option_in_80_columns():
     options = (
         "--fixed-pivot --moving-pivot --length --kinds --exact --min-transmission --type --driver "
         "--footprint --link-ratio --within --any-order --method --norm --pose-sigma "
-        "--angle-weight --certify --raw --tolerance --round --stock --all --dyads "
+        "--angle-weight --certify --raw --time-limit --tolerance --round --stock --all --dyads "
         "--require-determined --angle-unit --columns --points --plane --drop --every --from --to "
         "--json --output --force --help"
     )

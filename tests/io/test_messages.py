@@ -1169,6 +1169,7 @@ CASES: dict[str, Case] = {
     "pivots at no one distance": Case(
         "W219", f"{J} {FIRST} --dyad 1.14,0.39:1.31,4.58", Args(f"{J} {FIRST} {SECOND}"), GOOD, 1
     ),
+    "no time": Case("W221", f"{S} --time-limit 0.001", Args(f"{S} --time-limit 10"), ALL, exit=0),
     "markers on two bodies": Case(
         "W214",
         f"{S} --points M1,M2 --every 5",

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from burmester.api.python_words import in_python_words
 from burmester.api.result import Result
-from burmester.api.synthesize import task_of
+from burmester.api.synthesize import require_callable, task_of
 from burmester.errors import InputError
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.fourbar.linkage import Linkage
@@ -18,6 +18,8 @@ from burmester.geometry.displacement import Displacement
 from burmester.io.linkage_file import read_linkage
 from burmester.io.saved import SavedLinkage
 from burmester.linkages.found_linkage import FoundLinkage
+from burmester.progress import Listener
+from burmester.progress import shown as told
 from burmester.synthesis.given_linkage import GivenDyad, OpenLink
 from burmester.synthesis.judgement import judge_linkage
 from burmester.tasks.motion_task import AngleUnit, Task
@@ -43,6 +45,8 @@ def judge(
     norm: Norm = "rms",
     length_per_radian: float | None = None,
     manufacturing_tolerance: float | None = None,
+    time_limit: float | None = None,
+    progress: Listener | None = None,
 ) -> Result:
     """One linkage that exists, judged as `synthesize` judges its own.
 
@@ -58,7 +62,7 @@ def judge(
         Whether the nearest better linkages are looked for, too.
     id : str, optional
         The linkage of a file that holds a result, such as "L2"; its first one if not given.
-    angle_unit, length_unit, norm, length_per_radian, manufacturing_tolerance
+    angle_unit, length_unit, norm, length_per_radian, manufacturing_tolerance, time_limit, progress
         As in `synthesize`.
 
     Returns
@@ -86,9 +90,11 @@ def judge(
         norm=norm,
         length_per_radian=length_per_radian,
         manufacturing_tolerance=manufacturing_tolerance,
+        time_limit=time_limit,
     )
+    require_callable(progress)
     task = task_of(poses, angle_unit, length_unit)
-    with in_python_words():
+    with in_python_words(), told(progress):
         given = _linkage(linkage, id, task.length_unit)
         return Result.of(judge_linkage(task, given, options, improve=improve))
 

@@ -9,11 +9,13 @@ from numpy.typing import ArrayLike
 from burmester.api.result import Result
 from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
+from burmester.progress import Listener, shown
 from burmester.synthesis import motion_generation
 from burmester.tasks.motion_task import AngleUnit, Task
 from burmester.tasks.options import Method, Norm, Preference, SynthesisOptions
+from burmester.values import shown as shortly
 
-__all__ = ["synthesize", "task_of"]
+__all__ = ["require_callable", "synthesize", "task_of"]
 
 
 def synthesize(
@@ -30,6 +32,8 @@ def synthesize(
     rounding_step: float | None = None,
     stock_lengths: Sequence[float] = (),
     prefer: Preference = "transmission",
+    time_limit: float | None = None,
+    progress: Listener | None = None,
 ) -> Result:
     """Every four-bar that guides a body through or near poses, judged and ranked.
 
@@ -63,6 +67,12 @@ def synthesize(
         The link lengths that are available.
     prefer : {"transmission", "size", "accuracy"}
         What the recommended linkage of two to four poses is best at.
+    time_limit : float, optional
+        Seconds after which nothing more is looked for or refined.  Where that ends something, a
+        warning W221 says what.  What every answer needs may take longer.
+    progress : callable, optional
+        Called with a `Progress` where something begins and at every step of it; what it raises
+        ends the computation, and comes through.
 
     Returns
     -------
@@ -98,9 +108,22 @@ def synthesize(
         rounding_step=rounding_step,
         stock_lengths=stock_lengths,
         prefer=prefer,
+        time_limit=time_limit,
     )
+    require_callable(progress)
     task = task_of(poses, angle_unit, length_unit)
-    return Result.of(motion_generation.synthesize(task, options))
+    with shown(progress):
+        return Result.of(motion_generation.synthesize(task, options))
+
+
+def require_callable(progress: object) -> None:
+    """Refuse what cannot be called with a `Progress`; raises E134."""
+    if progress is not None and not callable(progress):
+        raise InputError(
+            "E134",
+            f"progress is {shortly(progress)}, nothing that can be called",
+            help="give a function of one argument, such as progress=print, or leave it out",
+        )
 
 
 def task_of(

@@ -276,6 +276,12 @@ MEASURE: tuple[Decorator, ...] = (
     ),
 )
 
+TIME_LIMIT: Decorator = _method(
+    "--time-limit",
+    metavar="SECONDS",
+    help="Look no further after so many seconds: the answer is the best until then, and a warning "
+    "says what was not finished.  What every answer needs may take longer.",
+)
 METHOD: tuple[Decorator, ...] = (
     _method(
         "--method",
@@ -301,6 +307,7 @@ METHOD: tuple[Decorator, ...] = (
         help="Fit the numbers as given, as the paper does: frames and unit are not normalised, and "
         "the result depends on them.",
     ),
+    TIME_LIMIT,
 )
 
 MANUFACTURING: tuple[Decorator, ...] = (
@@ -331,7 +338,7 @@ JUDGEMENT = (
     LINKAGE,
     POSES,
     tuple(each for each in SPECIFICATION if each is not _length),
-    MEASURE,
+    (*MEASURE, TIME_LIMIT),
     MANUFACTURING[:1],
 )
 
@@ -399,6 +406,7 @@ def run_synthesis(poses: str, **given: Any) -> Synthesis:
         normalise=not given["raw"],
         certify=given["certify"],
         prefer=given["prefer"],
+        time_limit=_time_limit(given),
         **further,
     )
     with working("reading the poses"):
@@ -421,7 +429,7 @@ def run_judgement(
 
     require_one_source(poses, linkage, dyad, id)
     lengths, limits = lengths_and_limits(given.pop("length"), typed=bool(dyad))
-    options = SynthesisOptions(norm=given["norm"], **_lengths(given))
+    options = SynthesisOptions(norm=given["norm"], time_limit=_time_limit(given), **_lengths(given))
     with working("reading the poses"):
         task = read_poses(poses, length=limits, **given)
         if linkage is None:
@@ -429,6 +437,14 @@ def run_judgement(
         else:
             one = read_linkage(linkage, id, task.length_unit)
         return judge_linkage(task, one, options, improve=given["improve"])
+
+
+def _time_limit(given: dict[str, Any]) -> float | None:
+    """The seconds of --time-limit; None where it is not given."""
+    from burmester.io.reading import requirements_text as text
+
+    seconds = given["time_limit"]
+    return None if seconds is None else text.positive_seconds("--time-limit", seconds)
 
 
 def _lengths(given: dict[str, Any]) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""One line on the terminal that says what takes so long, and goes when it is done.
+"""One line on the terminal that says what takes so long and how far it is, and goes at the end.
 
 It stands on standard error, only where that is a terminal, and comes after half a second.
 """
@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TextIO
 
-from burmester.progress import shown
+from burmester.progress import Progress, shown
 
 __all__ = ["working"]
 
@@ -43,12 +43,12 @@ class _Line:
     """What is being done since when, and the thread that shows it."""
 
     def __init__(self, text: str, stream: TextIO) -> None:
-        self.text, self.stream = text, stream
+        self.doing, self.stream = Progress(text), stream
         self.done = threading.Event()
         self.thread = threading.Thread(target=self._run, daemon=True)
 
-    def say(self, text: str) -> None:
-        self.text = text
+    def say(self, doing: Progress) -> None:
+        self.doing = doing
 
     def _run(self) -> None:
         begun, line = time.monotonic(), ""
@@ -67,7 +67,7 @@ class _Line:
         """The text on one line of the terminal, whose last column stays free."""
         clock = f" ... {seconds:.0f} s" if seconds >= 1 else " ..."
         room = self._columns() - 1
-        return self.text[: max(0, room - len(clock))] + clock[: max(0, room)]
+        return str(self.doing)[: max(0, room - len(clock))] + clock[: max(0, room)]
 
     def _columns(self) -> int:
         try:

@@ -50,6 +50,7 @@ from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.nearest_places import on_circuits
 from burmester.numerics.arrays import ROUNDING, FloatArray
 from burmester.numerics.bundles import concatenate
+from burmester.progress import time_for
 from burmester.tasks.motion_class import MotionClass, classify_motion
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of, pose_labels
@@ -171,6 +172,10 @@ class OddPose:
         return f"check {words}; or {drop}"
 
 
+def _has_time() -> bool:
+    return time_for("comparing each pose with the others", whole=True)
+
+
 def odd_pose(
     task: Task,
     motion: MotionClass | None = None,
@@ -229,7 +234,7 @@ def odd_pose(
         )
     motion = classify_motion(task) if motion is None else motion
     fit = motion.determined or (motion.distinct >= MIN_POSES and _is_general(task, motion))
-    if not (fit and MIN_POSES <= motion.distinct <= MAX_POSES):
+    if not (fit and MIN_POSES <= motion.distinct <= MAX_POSES and _has_time()):
         return None
     weights = (
         None if task.weights is None else np.bincount(motion.group, task.weights).astype(float)

@@ -22,6 +22,7 @@ from burmester.families.projection import projected
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import concatenate, take
+from burmester.progress import goes_on
 
 __all__ = ["improved"]
 
@@ -57,9 +58,9 @@ def improved(
     weights = np.log(PARENTS + 0.5) - np.log(np.arange(1, PARENTS + 1))
     weights /= weights.sum()
     kept = [(trials, value)]
-    for _ in range(generations):
+    for number in range(1, generations + 1):
         alive = np.flatnonzero(step > LEAST_STEP)
-        if not len(alive):
+        if not len(alive) or not goes_on(number, generations, "generation"):
             break
         root = np.linalg.cholesky(covariance[alive] + 1e-12 * np.eye(size))
         draws = rng.normal(size=(len(alive), CHILDREN, size)) @ root.swapaxes(-1, -2)

@@ -27,6 +27,7 @@ from burmester.linkages.quality import best_first
 from burmester.linkages.target import Target
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import concatenate, take, where
+from burmester.progress import time_for
 from burmester.tasks.options import Preference
 from burmester.tasks.problem import SynthesisProblem
 
@@ -103,6 +104,8 @@ def best_of_family(problem: SynthesisProblem, target: Target) -> Family | None:
     """
     first: Family | None = None
     for assumed, given_up in Assumptions.attempts(problem):
+        if first is not None and not time_for("looking again under looser assumptions"):
+            break
         task = OpenTask.of(problem, target, assumed)
         found = _searched(task, assumed)
         if found is not None and found.works:
@@ -121,7 +124,11 @@ def _searched(task: OpenTask, assumed: Assumptions) -> Family | None:
         (SLIDERS, kinds - {PINNED}, SLIDER_GENERATIONS),
     ):
         able = all(set(side.kinds) & set(counts) for side in task.sides)
-        pool = _drawn(task, pairs, counts, rng) if pairs and able else None
+        if not (pairs and able):
+            continue
+        if any(pool.value.good.any() for pool in pools) and not time_for("looking at sliders"):
+            break
+        pool = _drawn(task, pairs, counts, rng)
         if pool is not None:
             many = generations if pools or counts is PINS else MOST_GENERATIONS  # sliders alone
             pools.append(_improved(pool, task, many, rng))
@@ -202,6 +209,8 @@ def _improved(pool: _Pool, task: OpenTask, generations: int, rng: np.random.Gene
         if not pool.value.good.any():
             break  # all aims are the same: to meet the conditions
     index = np.array(starts, dtype=np.intp)
+    if not time_for("improving linkages of the family"):
+        generations = 0
     trials, value = improved(
         take(pool.trials, index),
         take(pool.value, index),

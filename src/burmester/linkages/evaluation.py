@@ -41,8 +41,10 @@ from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import concatenate, take
 from burmester.numerics.differences import DifferenceQuotients
 from burmester.numerics.weights import weights_or_ones
+from burmester.progress import goes_on, step
 from burmester.tasks.motion_task import Task
 from burmester.tasks.problem import SynthesisProblem
+from burmester.wording import count
 
 __all__ = ["Candidates", "Evaluation", "at_given_poses"]
 
@@ -161,10 +163,17 @@ class Evaluation:
         return out, batch, candidates.rows
 
     def rounded(self, found: list[FoundLinkage]) -> list[FoundLinkage]:
-        """The first MAX_ROUNDED linkages with rounded dimensions, evaluated and ranked again."""
+        """The first MAX_ROUNDED linkages with rounded dimensions, evaluated and ranked again.
+
+        Fewer of them where the time is over, but one at least.
+        """
         out: list[FoundLinkage] = []
         frames, options = self.target.frames, self.problem.options
-        for each in found[:MAX_ROUNDED]:
+        some = found[:MAX_ROUNDED]
+        step(f"rounding the dimensions of {count(len(some), 'linkage')}", whole=False)
+        for number, each in enumerate(some, start=1):
+            if out and not goes_on(number, len(some), "linkage", has_steps=True):
+                break
             batch = LinkageBatch.of([each.linkage]).to_canonical(frames)
             rows = self.target.rows_at(each.error.places)[None]
             driver = np.array([int(each.preferred_driver == "second")])
@@ -193,6 +202,7 @@ class Evaluation:
         index = [k for k, each in enumerate(found) if np.isfinite(each.error.worst)]
         if tolerance is None or not index:
             return found
+        step(f"building {count(len(index), 'linkage')} within the tolerance", whole=False)
         target, unit, out = self.target, float(self.target.frames.length), list(found)
         batch = LinkageBatch.of([found[k].linkage for k in index]).to_canonical(target.frames)
         places = target.places_of(np.stack([target.rows_at(found[k].error.places) for k in index]))

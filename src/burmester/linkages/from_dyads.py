@@ -45,7 +45,7 @@ from burmester.linkages.tolerance_boxes import ToleranceBoxes
 from burmester.linkages.tolerance_search import into_boxes
 from burmester.linkages.trade import trades
 from burmester.numerics.arrays import ROUNDING, FloatArray
-from burmester.progress import step
+from burmester.progress import goes_on, step, time_for
 from burmester.tasks.problem import SynthesisProblem
 from burmester.wording import count
 
@@ -84,22 +84,23 @@ def linkages_from_dyads(
     start = evaluation.stacked(pairs)
     found: list[FoundLinkage] = []
     if pairs:
-        step(f"{'refining' if refine else 'judging'} {count(len(pairs), 'linkage')}")
-        found = evaluation.evaluate(_of_pairs(start, pairs, evaluation.target, refine))
+        number = count(len(pairs), "linkage")
+        now = refine and time_for(f"refining {number}")
+        if not now:
+            step(f"judging {number}")
+        found = evaluation.evaluate(_of_pairs(start, pairs, evaluation.target, now))
     if refine and (found or not pairs):
         found = _with_search(start, pairs, evaluation, found)
         if found and found[0].usable:
-            if states_tolerance(problem.task):
-                step("looking for the best within the tolerance")
+            if not states_tolerance(problem.task):
+                better = trades(found[0], evaluation)
+            elif time_for("looking for the best within the tolerance"):
                 better = best_within(found, evaluation)
             else:
-                better = trades(found[0], evaluation)
+                better = []
             found = ranked([*found, *better], problem)
     if options.rounds:
-        step(f"rounding the dimensions of {count(len(found), 'linkage')}")
         found = evaluation.rounded(found)
-    if options.manufacturing_tolerance is not None:
-        step(f"building {count(len(found), 'linkage')} within the tolerance")
     found = evaluation.with_spreads(found)
     return tuple(
         replace(each, id=f"L{rank}", rank=rank) for rank, each in enumerate(found, start=1)
@@ -248,14 +249,13 @@ def _with_search(
     nearest = min(found, key=lambda each: each.combined_error, default=None)
     further = None
     if nearest is None or (nearest.usable and nearest.combined_error > digits_leave_open(problem)):
-        step("looking for closer linkages")
-        further = FurtherPairs.of(pairs, evaluation)
-        found = ranked([*found, *closer_linkages(further, evaluation, found)], problem)
+        if time_for("looking for closer linkages"):
+            further = FurtherPairs.of(pairs, evaluation)
+            found = ranked([*found, *closer_linkages(further, evaluation, found)], problem)
         nearest = min(found, key=lambda each: each.combined_error, default=None)
     if nearest is None:
         return found
-    if not nearest.usable:
-        step("looking for linkages that work")
+    if not nearest.usable and time_for("looking for linkages that work"):
         further = further or FurtherPairs.of(pairs, evaluation)
         starts = further.beside(start, pairs, found, evaluation)
         best = closest_usable(found)
@@ -267,8 +267,7 @@ def _with_search(
     most = farthest_recommended(closest, problem)
     # Poses that determine a linkage within their digits leave no other one but the pairs.
     unique = closest.determined and closest.combined_error <= digits_leave_open(problem)
-    if most == inf or not unique:
-        step("looking for linkages of better proportions")
+    if (most == inf or not unique) and time_for("looking for linkages of better proportions"):
         found = ranked([*found, *sound_linkages(found, evaluation, most)], problem)
     return found
 
@@ -277,13 +276,17 @@ def _inside_tolerances(
     start: LinkageBatch, pairs: list[Pair], evaluation: Evaluation, found: list[FoundLinkage]
 ) -> list[FoundLinkage]:
     """The linkages, others from further pairs inside the tolerances, and ever better ones."""
-    step("looking for linkages that stay inside the tolerances")
+    if not time_for("looking for linkages that stay inside the tolerances"):
+        return found
     starts = FurtherPairs.of(pairs, evaluation).beside(start, pairs, found, evaluation)
     found = ranked([*found, *_searched(starts, evaluation, inf)], evaluation.problem)
     if not any(each.usable for each in found):
         return found
-    step("looking for better linkages within the tolerances")
-    for _ in range(MAX_RISES):
+    if not time_for("looking for better linkages within the tolerances"):
+        return found
+    for number in range(1, MAX_RISES + 1):
+        if not goes_on(number, MAX_RISES, "round", has_steps=True):
+            break
         best = math.degrees(found[0].driven.least_over_range)
         more = sound_linkages(found, evaluation, inf, best + RISE)
         found = ranked([*found, *more], evaluation.problem)

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import product
 from typing import NamedTuple, final
 
 import numpy as np
@@ -31,6 +32,7 @@ from burmester.linkages.refinement import Refined
 from burmester.linkages.standard import Standard
 from burmester.linkages.target import Target
 from burmester.numerics.arrays import FloatArray, wrapped_angle
+from burmester.progress import goes_on, time_for
 
 __all__ = ["Move", "greatest_move", "moves", "nearby_linkages"]
 
@@ -124,19 +126,21 @@ def nearby_linkages(given: FoundLinkage, evaluation: Evaluation) -> list[FoundLi
     if np.isfinite(given.error.angle).all():
         rows = target.rows_at(given.error.places[evaluation.problem.pose_numbers])[None]
         kept = AllConstraints(target.kept) if target.kept else None
-        for steps in STEPS:  # as near as the poses alone ask for
-            refined = target.refine(
-                batch, rows, constraints=kept, steps=steps, constrained_steps=steps
-            )
-            found += _judged(given, refined, evaluation)
-        for each in _targets(given, evaluation):
-            sides = np.array(driving_sides(each.requirements))
-            every = np.zeros(len(sides), dtype=int)
-            for steps in STEPS:
+        searches = list(product([None, *_targets(given, evaluation)], STEPS))
+        for number, (each, steps) in enumerate(searches, start=1):
+            if not goes_on(number, len(searches), "search", has_steps=True):
+                break
+            if each is None:  # as near as the poses alone ask for
+                refined = target.refine(
+                    batch, rows, constraints=kept, steps=steps, constrained_steps=steps
+                )
+            else:
+                sides = np.array(driving_sides(each.requirements))
+                every = np.zeros(len(sides), dtype=int)
                 refined = refined_on_branch(batch[every], rows[every], each, sides, steps=steps)
-                found += _judged(given, refined, evaluation)
+            found += _judged(given, refined, evaluation)
     better = _better(given, found, evaluation)
-    if not better and not given.usable:
+    if not (better or given.usable) and time_for("looking for linkages that work"):
         searched = defect_free_linkages(batch, target, np.array([[0, 1]]))
         if searched is not None:
             better = _better(given, _judged(given, searched.refined, evaluation), evaluation)

@@ -39,6 +39,7 @@ from burmester.linkages.built_linkages import (
 from burmester.linkages.uncertainty import line_middle
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import concatenate, take
+from burmester.progress import goes_on
 
 __all__ = ["Spread", "sensitivity", "sensitivity_bound", "spread"]
 
@@ -122,6 +123,7 @@ def spread(
     """The position errors of linkages (k,) built within a tolerance.
 
     poses: (N,); places: (k, N), the nominal linkages' nearest to them.
+    Where the time is over, numbers to first order stay so, unchecked.
     """
     first = _first_order(batch, poses, places, length, tolerance)
     off = np.random.default_rng(seed).uniform(-1, 1, size=(DRAWS, 2 * DIMENSIONS))
@@ -138,6 +140,8 @@ def spread(
         np.zeros(len(batch)),
     )
     for k in range(len(batch)):
+        if not goes_on(k + 1, len(batch), "linkage"):
+            break
         at = np.sort(np.argsort(first.worst[k])[::-1][:MAX_POSES_BUILT])
         here = places[[k]][:, at]
         built = BuiltLinkages.of(batch[[k]], poses[at], here, length, tolerance)

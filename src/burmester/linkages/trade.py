@@ -18,6 +18,7 @@ from burmester.linkages.evaluation import Candidates, Evaluation
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.linkages.ranking import digits_leave_open, is_trade
 from burmester.linkages.target import Target
+from burmester.progress import time_for
 
 __all__ = ["trades"]
 
@@ -33,6 +34,8 @@ def trades(best: FoundLinkage, evaluation: Evaluation) -> list[FoundLinkage]:
     if not math.isfinite(best.combined_error) or (
         best.combined_error <= digits_leave_open(problem)
     ):
+        return []
+    if not time_for("trading position against angle"):
         return []
     out = []
     for ratio in LENGTH_RATIOS:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import Bundle, copied, put, row_count, take
+from burmester.progress import goes_on
 
 __all__ = ["Advance", "iterate", "shortened"]
 
@@ -26,13 +27,14 @@ def iterate(
     """Advance the rows of a bundle at the given indices together, each until its own end.
 
     Returns the points of all rows (k,), and the step (k,) with which each ended, counted from 1;
-    0 for a row that did not end or was not among the given ones.
+    0 for a row that did not end or was not among the given ones.  Rows do not end where the time
+    is over (`progress.limited`).
     """
     points = copied(start)
     ended_at = np.zeros(row_count(points), dtype=np.intp)
     here = take(points, rows)
     for step in range(1, max_steps + 1):
-        if not len(rows):
+        if not len(rows) or not goes_on(step, max_steps):
             break
         here, ended = advance(rows, here)
         if ended.any():

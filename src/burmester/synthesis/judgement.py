@@ -17,10 +17,11 @@ from burmester.linkages.explanation import hints, in_short
 from burmester.linkages.found_linkage import FoundLinkage, Pair
 from burmester.linkages.from_dyads import places_to_judge, target_of
 from burmester.linkages.nearby_linkages import greatest_move, nearby_linkages
-from burmester.progress import step
+from burmester.progress import limited, step, time_for
 from burmester.synthesis.given_linkage import GivenDyad, dyads_at_poses, require_linkage
 from burmester.synthesis.outcome import linkage_advice
 from burmester.synthesis.result import Outcome, Synthesis
+from burmester.synthesis.time_limit import with_time_limit
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of, poses_in_words
 from burmester.tasks.options import SynthesisOptions
@@ -51,6 +52,13 @@ def judge_linkage(
     Raises InputError E112 (numbers too large), E154 (two dyads that make no linkage) and E155
     (lengths that can be assembled nowhere).
     """
+    with limited(options.time_limit) as watch:
+        return with_time_limit(_judgement(task, linkage, options, improve), watch)
+
+
+def _judgement(
+    task: Task, linkage: Linkage | Sequence[GivenDyad], options: SynthesisOptions, improve: bool
+) -> Synthesis:
     dyads: Sequence[GivenDyad] = (
         (linkage.first, linkage.second) if isinstance(linkage, Linkage) else linkage
     )
@@ -65,8 +73,7 @@ def judge_linkage(
     step("judging the linkage")
     found = replace(_judged(given, evaluation), id="L1", rank=1)
     every = [found]
-    if improve:
-        step("looking for better linkages near it")
+    if improve and time_for("looking for better linkages near it"):
         near = nearby_linkages(found, evaluation) or _of_family(found, evaluation)
         every += [
             replace(each, id=f"L{rank}", rank=rank) for rank, each in enumerate(near, start=2)
@@ -129,6 +136,8 @@ def _of_family(given: FoundLinkage, evaluation: Evaluation) -> list[FoundLinkage
     """
     problem = evaluation.problem
     if given.usable or problem.is_special or not _is_open(problem):
+        return []
+    if not time_for("looking at the linkages of the family"):
         return []
     family = best_of_family(problem, evaluation.target)
     if family is None or not family.works:

@@ -22,7 +22,7 @@ from burmester.fourbar.linkage import Linkage
 from burmester.linkages.evaluation import Candidates, Evaluation, at_given_poses
 from burmester.linkages.found_linkage import FoundLinkage, Pair
 from burmester.linkages.from_dyads import linkages_from_dyads, target_of
-from burmester.progress import step
+from burmester.progress import limited, step, time_for
 from burmester.synthesis.dyad_search import DyadSearch, search_dyads
 from burmester.synthesis.family_outcome import family_summary, none_within_limits
 from burmester.synthesis.method import with_method
@@ -34,6 +34,7 @@ from burmester.synthesis.outcome import (
     undetermined,
 )
 from burmester.synthesis.result import Outcome, Synthesis
+from burmester.synthesis.time_limit import with_time_limit
 from burmester.synthesis.within_digits import tolerances_of_digits, with_linkages_within_digits
 from burmester.tasks.feasibility import require_feasible
 from burmester.tasks.motion_kinds import FewPoses, MotionKind, Rest, Undetermined
@@ -56,10 +57,16 @@ def synthesize(
 
     Linkages are refined as a whole, but those of the pencil are the paper's.  Fewer than five
     conditions have infinitely many dyads: see `three_poses` and `burmester_curve` for them all.
+    Where a time limit ends something, a warning W221 says what.
     Raises InputError E121 (the method does not take that number of poses), E123 (it does not take
     limits, exact poses, the norm or a certificate), E126 (more poses than there is memory for),
     E130 (proofs lack their library), and E132 (limits that no link can meet).
     """
+    with limited(options.time_limit) as watch:
+        return with_time_limit(_synthesis(task, options), watch)
+
+
+def _synthesis(task: Task, options: SynthesisOptions) -> Synthesis:
     _require_few(task)
     both = task.limits * (2 if len(task.limits) == 1 else 1)
     require_feasible(task.poses, both, task.exact)
@@ -84,7 +91,6 @@ def synthesize(
     search = search_dyads(problem)
     pairs, twice = search.pairs(problem.length)
     linkages = _linkages(problem, pairs)
-    step("comparing each pose with the others")
     outcome = summary(problem, search, linkages)
     if outcome.code == "R305":
         linkages = with_linkages_within_digits(problem, pairs, linkages)
@@ -97,7 +103,8 @@ def synthesize(
         *map(_found_twice, twice),
         *linkage_advice(task, linkages, outcome.code),
     )
-    proved = _certificate(problem, search) if options.certify else None
+    proves = options.certify and time_for("proving what was found", whole=True)
+    proved = _certificate(problem, search) if proves else None
     return Synthesis(problem, outcome, search.dyads, linkages, warnings, search.fits, proved)
 
 
@@ -232,7 +239,6 @@ def _found_twice(pair: Pair) -> Advice:
 
 def _certificate(problem: SynthesisProblem, search: DyadSearch) -> Certificate:
     """What is proved of the dyads."""
-    step("proving what was found")
     task, fit = problem.task, search.fits[0]
     dyads: list[Dyad] = [each.dyad for each in search.dyads]
     if isinstance(fit, FivePoseDyads):

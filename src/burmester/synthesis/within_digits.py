@@ -13,7 +13,7 @@ from burmester.linkages.evaluation import at_given_poses
 from burmester.linkages.found_linkage import FoundLinkage, Pair
 from burmester.linkages.from_dyads import linkages_from_dyads
 from burmester.linkages.ranking import ranked
-from burmester.progress import step
+from burmester.progress import time_for
 from burmester.tasks.motion_task import Task
 from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.tasks.problem import SynthesisProblem
@@ -40,7 +40,8 @@ def with_linkages_within_digits(
     tolerances = tolerances_of_digits(problem.task)
     if tolerances is None or not problem.options.refines or problem.options.rounds:
         return tuple(known)
-    step("looking for the best linkages within the digits")
+    if not time_for("looking for the best linkages within the digits"):
+        return tuple(known)
     loose = replace(problem, task=replace(problem.task, tolerances=tolerances))
     found = [
         replace(each, within_tolerance=None)

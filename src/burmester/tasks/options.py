@@ -54,12 +54,15 @@ class SynthesisOptions:
         Lengths and pivots are rounded to multiples of this length, in the task's unit.
     stock_lengths
         The link lengths that are available, in the task's unit; the nearest ones are used.
+    time_limit
+        Seconds after which nothing more is looked for or refined; what must be done is.  None for
+        no limit.
 
     Raises
     ------
     InputError
-        E134, where a word is unknown or a length is not a number above zero; E112, where a length
-        is too large to compute with.
+        E134, where a word is unknown, or a length or the time limit is not a number above zero;
+        E112, where a length is too large to compute with.
     """
 
     method: Method = "auto"
@@ -71,6 +74,7 @@ class SynthesisOptions:
     rounding_step: float | None = None
     stock_lengths: Sequence[float] = ()
     prefer: Preference = "transmission"
+    time_limit: float | None = None
 
     def __post_init__(self) -> None:
         _require_word("method", self.method, get_args(Method))
@@ -91,6 +95,8 @@ class SynthesisOptions:
             stock = (stock,)
         lengths = tuple(_length("stock_lengths", value) for value in stock)
         object.__setattr__(self, "stock_lengths", lengths)
+        if self.time_limit is not None:
+            object.__setattr__(self, "time_limit", _seconds("time_limit", self.time_limit))
 
     @property
     def refines(self) -> bool:
@@ -112,10 +118,25 @@ def _require_word(name: str, value: object, known: tuple[str, ...]) -> None:
         )
 
 
+def _is_above_zero(value: object) -> bool:
+    real = isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool)
+    return real and math.isfinite(value) and value > 0  # type: ignore[arg-type, operator]
+
+
+def _seconds(name: str, value: object) -> float:
+    """A time above zero, or E134."""
+    if not _is_above_zero(value):
+        raise InputError(
+            "E134",
+            f"{name} is {value!r}, not a number of seconds above zero",
+            help="give seconds above zero, such as 2.0, or leave it out",
+        )
+    return float(value)  # type: ignore[arg-type]
+
+
 def _length(name: str, value: object) -> float:
     """A length above zero, or E134."""
-    real = isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool)
-    if not (real and math.isfinite(value) and value > 0):  # type: ignore[arg-type, operator]
+    if not _is_above_zero(value):
         raise InputError(
             "E134",
             f"{name} is {value!r}, not a length above zero",

@@ -26,6 +26,7 @@ __all__ = [
     "pose_sigma",
     "pose_tolerance",
     "positive_length",
+    "positive_seconds",
     "requirements_from_options",
 ]
 
@@ -74,6 +75,16 @@ def requirements_from_options(
 def positive_length(option: str, text: str) -> float:
     """The one length that an option takes; raises E134 where it is not above zero."""
     (value,) = lengths(option, [text], one=True)
+    return value
+
+
+def positive_seconds(option: str, text: str) -> float:
+    """The seconds that an option takes; raises E134 where they are not above zero."""
+    source = Source(option, text)
+    if (value := number_from_text(source, text, 0, "E134")) <= 0:
+        help = f"give seconds above zero, such as 2, or leave {option} out"
+        message = f"{shown(text.strip())} is not above zero"
+        raise option_fault(source, message, help, at=0, width=len(text), code="E134")
     return value
 
 
