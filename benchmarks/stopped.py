@@ -11,6 +11,7 @@ import argparse
 import random
 import re
 import signal
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -20,14 +21,17 @@ from pathlib import Path
 from typing import NamedTuple
 
 from burmester.export import FORMATS
+from burmester.io import templates
 
 _NAMES = ("SIGINT", "SIGTERM", "SIGHUP")
 CODES = {
     getattr(signal, name): 128 + getattr(signal, name) for name in _NAMES if hasattr(signal, name)
 }
 # As the script of an installed package starts it.
+HARD = {"limits": "lid-hinge", "family": "derailleur", "surroundings": "robot-intake"}
 START = "from burmester.__main__ import main; main()"
 EARLY = "<frozen site>"  # Python itself was not there yet, and has its own words
+LATE_S = 0.2  # seconds; an end that takes longer is told
 INTERNAL = re.compile(r"Traceback|Exception ignored|E900|KeyboardInterrupt|\.burmester-")
 
 
@@ -45,7 +49,7 @@ class Stopped(NamedTuple):
     ended: float
 
 
-def commands(result):
+def commands(result, folder="."):
     """The commands that write, each with the name of its file."""
     found = {
         name: (["export", str(result), "--to", name], f"x{form.suffix}")
@@ -53,6 +57,14 @@ def commands(result):
     }
     found["synthesize"] = (["synthesize", "case:motiongen-shoulder"], "x.json")
     found["report"] = (["report", "case:motiongen-shoulder"], "x.html")
+    for what, template in HARD.items():
+        file = Path(folder) / f"{template}.toml"
+        file.write_text(templates.text(template))
+        found[what] = (["synthesize", str(file)], "x.json")
+    found["tolerance"] = (
+        ["synthesize", "case:ge2012-approximate", "--tolerance", "0.05", "--round", "0.1"],
+        "x.json",
+    )
     return found
 
 
@@ -72,14 +84,16 @@ def stopped(name, arguments, wrote, number, *, seconds, again=None):
     )
     time.sleep(seconds)
     in_time = process.poll() is None
+    sent = time.monotonic()
     if in_time:
         process.send_signal(number)
         if again is not None:
             time.sleep(again)
             process.send_signal(number)
     out, err = process.communicate(timeout=120)
+    ended = time.monotonic() - sent
     if EARLY in err:
-        return Stopped(name, (), False, err)
+        return Stopped(name, (), False, err, seconds, ended)
     faults = []
     code = process.returncode
     # Before the first line of Python runs, and after the last, the system's own way is taken.
@@ -97,11 +111,16 @@ def stopped(name, arguments, wrote, number, *, seconds, again=None):
     if wrote.exists() and not wrote.stat().st_size:
         faults.append("an empty file")
     wrote.unlink(missing_ok=True)
-    return Stopped(name, tuple(faults), in_time and code == CODES[number], err)
+    in_time = in_time and code == CODES[number]
+    return Stopped(name, tuple(faults), in_time, err, seconds, ended)
 
 
-def campaign(count, seed, names=None, *, longest=1.0):
-    """As many stopped commands; `longest`: of the usual time, the latest moment of the signal."""
+def campaign(count, seed, names=None, *, longest=1.0, once=False):
+    """As many stopped commands.
+
+    longest: of the usual time, the latest moment of the signal; once: always SIGINT, and no second
+    signal, as a single Ctrl-C is.
+    """
     dice = random.Random(seed)
     with tempfile.TemporaryDirectory() as place:
         folder = Path(place)
@@ -109,7 +128,7 @@ def campaign(count, seed, names=None, *, longest=1.0):
         run(
             ["synthesize", "case:ge2012-exact", "-o", str(result)], stdout=subprocess.DEVNULL
         ).wait()
-        known = commands(result)
+        known = commands(result, folder)
         usual = {}
         for k in range(count):
             name = (names or list(known))[k % len(names or known)]
@@ -119,27 +138,36 @@ def campaign(count, seed, names=None, *, longest=1.0):
                 run([*arguments, "-o", str(folder / file)], stdout=subprocess.DEVNULL).wait()
                 usual[name] = time.monotonic() - begun
                 (folder / file).unlink()
-            number = dice.choice(list(CODES))
+            number = signal.SIGINT if once else dice.choice(list(CODES))
             seconds = dice.uniform(0.02, longest * usual[name])
-            again = dice.choice((None, dice.uniform(0, 0.05)))
+            again = None if once else dice.choice((None, dice.uniform(0, 0.05)))
             yield stopped(name, arguments, folder / file, number, seconds=seconds, again=again)
 
 
 def main():
-    """Print a line a fault, and the counts."""
+    """Print a line a fault, the counts, and how long the ends took."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--count", type=int, default=120)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--only", action="append")
+    parser.add_argument("--once", action="store_true", help="a single Ctrl-C each")
     given = parser.parse_args()
-    counts = Counter()
-    for each in campaign(given.count, given.seed, given.only):
+    counts, ended = Counter(), {}
+    for each in campaign(given.count, given.seed, given.only, once=given.once):
         counts["commands"] += 1
         counts["stopped"] += each.in_time
         for fault in each.faults:
             counts[fault] += 1
             print(f"{each.command}: {fault}\n{each.said}", flush=True)
+        if each.in_time:
+            ended.setdefault(each.command, []).append((each.ended, each.at))
+            if each.ended > LATE_S:
+                print(f"{each.command}: {each.ended:.2f} s after {each.at:.2f} s", flush=True)
     print(dict(counts))
+    print("\n| command | stopped | median | worst |\n|---|--:|--:|--:|")
+    for name, ends in sorted(ended.items(), key=lambda pair: max(pair[1])):
+        median, worst = statistics.median(end for end, _ in ends), max(ends)[0]
+        print(f"| {name} | {len(ends)} | {1e3 * median:.0f} ms | {1e3 * worst:.0f} ms |")
 
 
 if __name__ == "__main__":

@@ -14,12 +14,10 @@ def main() -> None:
             run()
     except BaseException as error:
         # Whoever stops it while it loads need not be told.
-        code = signals.exit_code()
-        if code is None:
+        code = error.code if isinstance(error, SystemExit) else signals.exit_code()
+        if not isinstance(code, int):
             raise
-        raise SystemExit(code) from None if not isinstance(error, SystemExit) else error
-    finally:
-        signals.ignored()
+        signals.end(code)
 
 
 if __name__ == "__main__":

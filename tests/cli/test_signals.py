@@ -190,7 +190,8 @@ def test_exports_that_are_stopped_leave_nothing():
 
 
 def test_the_campaign_knows_every_format_and_a_leftover(folder):
-    assert commands("result.json").keys() == {*FORMATS, "synthesize", "report"}
+    more = {"synthesize", "report", "limits", "family", "surroundings", "tolerance"}
+    assert commands("result.json").keys() == {*FORMATS, *more}
     process = run(["--version"], stdout=subprocess.DEVNULL)
     assert process.wait() == 0
     assert INTERNAL.search("No such file: .burmester-0123-x.svg")

@@ -159,7 +159,8 @@ def write_gif(
             kept.append(picture)
             times.append(round(1000 * seconds))
     # One palette, so that nothing flickers, and paper stays white.
-    some = np.concatenate([kept[0], kept[len(kept) // 2], kept[-1]])
+    # Every other pixel tells the colours in a quarter of the time, in which nothing can stop it.
+    some = np.concatenate([kept[k][::2, ::2] for k in (0, len(kept) // 2, -1)])
     palette = Image.fromarray(some).quantize(PALETTE_SIZE - 1, kmeans=2)
     colours = [*(palette.getpalette() or [])[: 3 * (PALETTE_SIZE - 1)], 255, 255, 255]
     frames = []
