@@ -8,6 +8,8 @@ told, by command.
 """
 
 import argparse
+import math
+import os
 import random
 import re
 import signal
@@ -30,7 +32,8 @@ CODES = {
 # As the script of an installed package starts it.
 HARD = {"limits": "lid-hinge", "family": "derailleur", "surroundings": "robot-intake"}
 START = "from burmester.__main__ import main; main()"
-EARLY = "<frozen site>"  # Python itself was not there yet, and has its own words
+# Python itself was not there yet, or was loading what handles signals, and has its own words.
+EARLY = re.compile(r"<frozen site>|signals\.py\", line \d+, in <module>")
 LATE_S = 0.2  # seconds; an end that takes longer is told
 INTERNAL = re.compile(r"Traceback|Exception ignored|E900|KeyboardInterrupt|\.burmester-")
 
@@ -38,7 +41,8 @@ INTERNAL = re.compile(r"Traceback|Exception ignored|E900|KeyboardInterrupt|\.bur
 class Stopped(NamedTuple):
     """What came of one command: what is wrong with it, and whether the signal was in time.
 
-    at, ended: seconds from the start to the signal, and from the signal to the end.
+    at, ended: seconds from the start to the signal, and from the signal to the end; cpu: seconds of
+    the processor in the latter, which other work on the machine does not change.
     """
 
     command: str
@@ -47,6 +51,7 @@ class Stopped(NamedTuple):
     said: str
     at: float
     ended: float
+    cpu: float
 
 
 def commands(result, folder="."):
@@ -75,6 +80,8 @@ def run(arguments, **streams):
 
 def stopped(name, arguments, wrote, number, *, seconds, again=None):
     """Send a signal after some seconds, and after `again` more seconds a second one."""
+    import resource  # noqa: PLC0415  only systems as POSIX has them
+
     folder = wrote.parent
     process = run(
         [*arguments, "-o", str(wrote)],
@@ -84,16 +91,18 @@ def stopped(name, arguments, wrote, number, *, seconds, again=None):
     )
     time.sleep(seconds)
     in_time = process.poll() is None
-    sent = time.monotonic()
+    sent, spent = time.monotonic(), cpu_seconds(process.pid)
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
     if in_time:
         process.send_signal(number)
         if again is not None:
             time.sleep(again)
             process.send_signal(number)
     out, err = process.communicate(timeout=120)
-    ended = time.monotonic() - sent
-    if EARLY in err:
-        return Stopped(name, (), False, err, seconds, ended)
+    ended, after = time.monotonic() - sent, resource.getrusage(resource.RUSAGE_CHILDREN)
+    cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime - spent
+    if EARLY.search(err):
+        return Stopped(name, (), False, err, seconds, ended, cpu)
     faults = []
     code = process.returncode
     # Before the first line of Python runs, and after the last, the system's own way is taken.
@@ -112,7 +121,16 @@ def stopped(name, arguments, wrote, number, *, seconds, again=None):
         faults.append("an empty file")
     wrote.unlink(missing_ok=True)
     in_time = in_time and code == CODES[number]
-    return Stopped(name, tuple(faults), in_time, err, seconds, ended)
+    return Stopped(name, tuple(faults), in_time, err, seconds, ended, cpu)
+
+
+def cpu_seconds(pid):
+    """Seconds of the processor that a running process has had; nan where nobody tells."""
+    try:
+        fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+    except OSError:
+        return math.nan
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
 def campaign(count, seed, names=None, *, longest=1.0, once=False):
@@ -160,14 +178,19 @@ def main():
             counts[fault] += 1
             print(f"{each.command}: {fault}\n{each.said}", flush=True)
         if each.in_time:
-            ended.setdefault(each.command, []).append((each.ended, each.at))
+            ended.setdefault(each.command, []).append((each.ended, each.cpu))
             if each.ended > LATE_S:
                 print(f"{each.command}: {each.ended:.2f} s after {each.at:.2f} s", flush=True)
     print(dict(counts))
-    print("\n| command | stopped | median | worst |\n|---|--:|--:|--:|")
+    print("\n| command | stopped | median | worst | CPU, median | worst |")
+    print("|---|--:|--:|--:|--:|--:|")
     for name, ends in sorted(ended.items(), key=lambda pair: max(pair[1])):
-        median, worst = statistics.median(end for end, _ in ends), max(ends)[0]
-        print(f"| {name} | {len(ends)} | {1e3 * median:.0f} ms | {1e3 * worst:.0f} ms |")
+        figures = [
+            f"{1e3 * of(each):.0f} ms"
+            for each in zip(*ends, strict=True)
+            for of in (statistics.median, max)
+        ]
+        print(f"| {name} | {len(ends)} | {' | '.join(figures)} |")
 
 
 if __name__ == "__main__":
