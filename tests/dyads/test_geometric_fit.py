@@ -9,10 +9,10 @@ from burmester.dyads.geometric_fit import (
     FitProblem,
     circle_distances,
     circle_terms,
-    least_squares,
-    least_worst,
     line_distances,
 )
+from burmester.dyads.least_powers import least_squares
+from burmester.dyads.least_worst import least_worst
 from burmester.dyads.local_minima import best_dyads
 from burmester.geometry.displacement import Displacement
 from tests.oracles.limits_problems import circle_distance, line_distance
@@ -36,14 +36,17 @@ def test_derivatives_are_those_of_the_distances_written_out(kind):
     for _ in range(10):
         rows, z = random_rows(rng), rng.normal(size=size)
         distances = make(Displacement.from_poses(rows))
-        here = distances(z)
-        assert np.allclose(here.distance, distance(z, rows)[0], rtol=0, atol=1e-13)
+        here, pull = distances.of(z[None]), rng.normal(size=(1, len(rows)))
+        assert np.allclose(here.distance[0], distance(z, rows)[0], rtol=0, atol=1e-13)
+        assert np.allclose(distances.only(z[None]), here.distance, rtol=0, atol=1e-15)
+        curvature = here.curvature(pull)[0]
         for i, step in enumerate(h * np.eye(size)):
             slope = (distance(z + step, rows)[0] - distance(z - step, rows)[0]) / (2 * h)
-            assert np.allclose(here.jacobian[:, i], slope, rtol=0, atol=1e-7)
-            bend = (distances(z + step).jacobian - distances(z - step).jacobian) / (2 * h)
-            assert np.allclose(here.second[:, i], bend, rtol=1e-5, atol=1e-6)
-        assert (here.second == np.swapaxes(here.second, 1, 2)).all()
+            assert np.allclose(here.jacobian[0, :, i], slope, rtol=0, atol=1e-7)
+            there, back = (distances.of(to[None]).jacobian[0] for to in (z + step, z - step))
+            bend = pull[0] @ (there - back) / (2 * h)
+            assert np.allclose(curvature[i], bend, rtol=1e-5, atol=1e-5)
+        assert (curvature == curvature.T).all()
 
 
 def test_many_circles_at_once_are_each_alone():
@@ -52,9 +55,9 @@ def test_many_circles_at_once_are_each_alone():
     z = rng.normal(size=(3, 2, 5))
     miss, slope, *_ = circle_terms(poses)(z)
     for i, j in np.ndindex(3, 2):
-        one = circle_distances(poses)(z[i, j])
-        assert np.allclose(miss[i, j], one.distance, rtol=0, atol=1e-14)
-        assert np.allclose(slope[i, j], one.jacobian, rtol=0, atol=1e-14)
+        one = circle_distances(poses).of(z[i, j][None])
+        assert np.allclose(miss[i, j], one.distance[0], rtol=0, atol=1e-14)
+        assert np.allclose(slope[i, j], one.jacobian[0], rtol=0, atol=1e-14)
 
 
 def started(seed, exact_count, *, basis_size=5, weighted=True):
@@ -71,14 +74,18 @@ def started(seed, exact_count, *, basis_size=5, weighted=True):
     return rows, z, basis, share / share.sum(), exact
 
 
+def fitted(fit, rows, weighting, z, basis):
+    """A fit of one dyad along a basis; weighting: weights and exact poses."""
+    problem = FitProblem(circle_distances(Displacement.from_poses(rows)), *weighting)
+    return fit(problem, z[None], (basis @ basis.T)[None])
+
+
 @pytest.mark.parametrize("seed", range(10))
 @pytest.mark.parametrize("basis_size", [5, 3])
 def test_least_squares_is_scipys(seed, basis_size):
     rows, z, basis, share, exact = started(seed, 0, basis_size=basis_size)
-    found = least_squares(
-        FitProblem(circle_distances(Displacement.from_poses(rows)), basis, share, exact), z
-    )
-    assert found.settled
+    found = fitted(least_squares, rows, (share, exact), z, basis)
+    assert found.settled.all()
     root = np.sqrt(share)
     other = scipy_least_squares(
         lambda y: root * circle_distance(z + basis @ y, rows)[0],
@@ -88,10 +95,11 @@ def test_least_squares_is_scipys(seed, basis_size):
         ftol=1e-15,
         gtol=1e-15,
     )
-    ours = share @ circle_distance(found.z, rows)[0] ** 2
+    (end,) = found.z
+    ours = share @ circle_distance(end, rows)[0] ** 2
     assert ours == pytest.approx(2 * other.cost, rel=1e-9)
-    assert np.allclose(found.z, z + basis @ other.x, rtol=1e-5, atol=1e-5)
-    off = found.z - z
+    assert np.allclose(end, z + basis @ other.x, rtol=1e-5, atol=1e-5)
+    off = end - z
     assert np.abs(off - basis @ (basis.T @ off)).max() < 1e-12
 
 
@@ -123,17 +131,16 @@ def by_slsqp(rows, directions, share, exact, start):
 @pytest.mark.parametrize("exact_count", [1, 2, 3, 4])
 def test_exact_poses_are_met_and_their_pulls_balance_the_others(seed, exact_count):
     rows, z, basis, share, exact = started(seed, exact_count)
-    found = least_squares(
-        FitProblem(circle_distances(Displacement.from_poses(rows)), basis, share, exact), z
-    )
-    miss, slope = circle_distance(found.z, rows)
-    assert np.abs(miss[exact]).max() < 1e-11 * (1 + np.abs(found.z).max())
-    assert np.allclose(found.by_distance[~exact], (share * miss)[~exact], rtol=1e-9, atol=1e-15)
-    if not found.settled or np.abs(found.z).max() > 50:
+    found = fitted(least_squares, rows, (share, exact), z, basis)
+    (end,), (pull,) = found.z, found.by_distance
+    miss, slope = circle_distance(end, rows)
+    assert np.abs(miss[exact]).max() < 1e-11 * (1 + np.abs(end).max())
+    assert np.allclose(pull[~exact], (share * miss)[~exact], rtol=1e-9, atol=1e-15)
+    if not found.settled.all() or np.abs(end).max() > 50:
         return  # on its way to a slider
-    assert np.abs(found.by_distance @ slope).max() < 1e-9
+    assert np.abs(pull @ slope).max() < 1e-9
     ours = np.where(exact, 0, share) @ miss**2
-    near = by_slsqp(rows, (z, basis), share, exact, basis.T @ (found.z - z))
+    near = by_slsqp(rows, (z, basis), share, exact, basis.T @ (end - z))
     assert ours <= near * (1 + 1e-6) + 1e-13
 
 
@@ -179,22 +186,40 @@ def minimax(rows, z, share, exact):
 @pytest.mark.parametrize("exact_count", [0, 1, 2])
 def test_least_worst_is_that_of_linear_programs(seed, exact_count):
     rows, z, _, share, exact = started(seed, exact_count, weighted=seed % 2 == 0)
-    distances = circle_distances(Displacement.from_poses(rows))
-    problem = FitProblem(distances, np.eye(5), share, exact)
-    start = least_squares(problem, z)
-    assert start.settled
-    found = least_worst(problem, start.z)
-    assert np.abs(circle_distance(found.z, rows)[0][exact]).max(initial=0) < 1e-11
-    ours = worst(found.z, rows, share, exact)
+    first = fitted(least_squares, rows, (share, exact), z, np.eye(5))
+    assert first.settled.all()
+    (start,) = first.z
+    found = fitted(least_worst, rows, (share, exact), start, np.eye(5))
+    (end,), (pull,) = found.z, found.by_distance
+    assert np.abs(circle_distance(end, rows)[0][exact]).max(initial=0) < 1e-11
+    ours = worst(end, rows, share, exact)
     # From the same start to the same place, and no way down from ours.
-    _, theirs = minimax(rows, start.z, share, exact)
-    _, further = minimax(rows, found.z, share, exact)
+    _, theirs = minimax(rows, start, share, exact)
+    _, further = minimax(rows, end, share, exact)
     assert ours == pytest.approx(theirs, rel=1e-6)
     assert ours <= further * (1 + 1e-6)
-    assert ours <= worst(start.z, rows, share, exact) * (1 + 1e-9)
-    slope = circle_distance(found.z, rows)[1]
-    if found.settled:
-        assert np.abs(found.by_distance @ slope).max() < 1e-6 * np.abs(found.by_distance).max()
+    assert ours <= worst(start, rows, share, exact) * (1 + 1e-9)
+    slope = circle_distance(end, rows)[1]
+    if found.settled.all():
+        assert np.abs(pull @ slope).max() < 1e-6 * np.abs(pull).max()
+
+
+@pytest.mark.parametrize("fit", [least_squares, least_worst])
+@pytest.mark.parametrize("exact_count", [0, 2])
+def test_each_of_many_dyads_goes_its_own_way(fit, exact_count):
+    """Starts of different quality, each along directions of its own, at once and one by one."""
+    rows, z, _, share, exact = started(3, exact_count)
+    rng = np.random.default_rng(11)
+    starts = z + 0.05 * rng.normal(size=(6, 5))
+    bases = [np.linalg.qr(rng.normal(size=(5, 5)))[0][:, : 3 + k % 3] for k in range(6)]
+    problem = FitProblem(circle_distances(Displacement.from_poses(rows)), share, exact)
+    along = np.stack([basis @ basis.T for basis in bases])
+    together = fit(problem, starts, along)
+    for k in range(6):
+        alone = fit(problem, starts[k : k + 1], along[k : k + 1])
+        assert alone.settled[0] == together.settled[k]
+        if alone.settled[0]:
+            assert np.abs(alone.z[0] - together.z[k]).max() < 1e-9
 
 
 @pytest.mark.parametrize("seed", range(10))

@@ -5,8 +5,10 @@ import pytest
 from scipy.optimize import minimize
 
 from burmester import synthesize
-from burmester.dyads.face_descent import Block, LengthRange, descend
-from burmester.dyads.geometric_fit import FitProblem, circle_distances, least_squares
+from burmester.dyads.face_descent import descend
+from burmester.dyads.geometric_fit import FitProblem, circle_distances
+from burmester.dyads.least_powers import least_squares_step
+from burmester.dyads.limited_block import Block, LengthRange
 from burmester.dyads.minima_within_limits import limited_dyads
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import PR, RP, RR
@@ -142,30 +144,29 @@ def test_a_way_down_goes_around_a_notch_or_along_it(seed, scale):
     limits = Limits(Polygon(at + CORNER @ turned.T))
     problem = Problem(rows, None, np.zeros(9, bool), limits, pieces, ANYWHERE)
     distances, share = circle_distances(problem.poses), problem.share
-    fitted = FitProblem(distances, np.eye(5), share, problem.exact)
-
-    def step(z, basis):
-        return least_squares(fitted._replace(basis=basis), z, max_steps=1)
-
+    fitted = FitProblem(distances, share, problem.exact)
+    begin = np.array([[1.0, 1.0], [1.9, 0.2], [0.2, 1.9], [2.0, 0.5], [1.0, 0.3]])
+    starts = np.array([[*(at + turned @ p), *dyad.moving_pivot, dyad.radius] for p in begin])
+    found, settled = descend(
+        starts, distances, lambda at, along: least_squares_step(fitted, at, along), blocks
+    )
+    assert settled.all()
     ends = []
-    for start in ([1.0, 1.0], [1.9, 0.2], [0.2, 1.9], [2.0, 0.5], [1.0, 0.3]):
-        z = np.array([*(at + turned @ start), *dyad.moving_pivot, float(dyad.radius)])
-        end = descend(z, distances, step, blocks)
-        assert end is not None
-        assert outside(end.z[:2], pieces) < 1e-8
+    for z, end in zip(starts, found, strict=True):
+        assert outside(end[:2], pieces) < 1e-8
         begun = share @ circle_distance(z, rows)[0] ** 2
-        ends.append(share @ circle_distance(end.z, rows)[0] ** 2)
+        ends.append(share @ circle_distance(end, rows)[0] ** 2)
         assert ends[-1] <= begun
         # SciPy, from there and within each part of the L, finds nothing lower nearby.
         for map_, bounds in maps(problem, RR):
             origin, basis = map_
-            y = np.linalg.lstsq(basis, end.z - origin, rcond=None)[0]
+            y = np.linalg.lstsq(basis, end - origin, rcond=None)[0]
             low, high = np.array(bounds).T
             if np.abs(np.clip(y, low, high) - y).max() > 1e-6:
                 continue
             y = np.clip(y, low, high)
             fit = local(circle_distance, problem, rows, y, (map_, bounds))
-            near = fit is not None and np.abs(fit[1] - end.z).max() < 0.1 * scale
+            near = fit is not None and np.abs(fit[1] - end).max() < 0.1 * scale
             assert not near or fit[0] >= ends[-1] * (1 - 1e-5) - 1e-14
     assert min(ends) > 0
 

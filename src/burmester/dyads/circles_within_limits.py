@@ -6,11 +6,12 @@ from itertools import product
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from burmester.dyads.critical_points import residual_rows
-from burmester.dyads.face_descent import Block, LengthRange
 from burmester.dyads.face_search import Descents, FaceSearch
 from burmester.dyads.geometric_fit import circle_distances
+from burmester.dyads.limited_block import Block, LengthRange
 from burmester.dyads.parameter_homotopy import (
     Condition,
     Parameters,
@@ -18,11 +19,12 @@ from burmester.dyads.parameter_homotopy import (
     StationaryPoints,
     circle_shape,
 )
-from burmester.dyads.plain_circle_descent import circle_ends
 from burmester.fourbar.dyad import RR
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Face
 from burmester.numerics.arrays import FloatArray
+from burmester.numerics.bundles import concatenate
+from burmester.numerics.linear_algebra import matvec
 from burmester.tasks.limits import Limits
 
 __all__ = ["circles_within_limits"]
@@ -45,43 +47,87 @@ class _Faces(NamedTuple):
         i, j, k = (face.basis.shape[1] for face in self)
         return i, j, k
 
+
+class _FaceArrays(NamedTuple):
+    """The faces of many pairs, M in number, that are free in as many dimensions each.
+
+    origin: (M, 5), of both pivots and the length; fixed: (M, 2, i), moving: (M, 2, j), bases;
+    free_length: (M,), whether the length is free.
+    """
+
+    origin: FloatArray
+    fixed: FloatArray
+    moving: FloatArray
+    free_length: NDArray[np.bool_]
+
+    @classmethod
+    def of(cls, members: list[_Faces]) -> _FaceArrays:
+        """Those of a list."""
+        origin = np.array([np.concatenate([face.origin for face in faces]) for faces in members])
+        fixed, moving = (np.stack([faces[k].basis for faces in members]) for k in (0, 1))
+        free = np.array([faces.length.basis.shape[1] == 1 for faces in members])
+        return cls(origin, fixed, moving, free)
+
     @property
-    def basis(self) -> FloatArray:
-        """The directions (5, d) in which a circle may move along its faces."""
-        i, j, k = self.free
-        out = np.zeros((5, i + j + k))
-        out[:2, :i], out[2:4, i : i + j], out[4:, i + j :] = (face.basis for face in self)
+    def along(self) -> FloatArray:
+        """The projectors (M, 5, 5) on the directions in which circles may move along them."""
+        out = np.zeros((len(self.origin), 5, 5))
+        out[:, :2, :2] = self.fixed @ np.swapaxes(self.fixed, -1, -2)
+        out[:, 2:4, 2:4] = self.moving @ np.swapaxes(self.moving, -1, -2)
+        out[:, 4, 4] = self.free_length
         return out
 
-    def circles(self, points: FloatArray, poses: Displacement, share: FloatArray) -> FloatArray:
-        """The circles z (k, 5) of points (k, i + j) of both pivots' faces, of the best length."""
-        i, _, free_length = self.free
-        z = np.zeros((len(points), 5))
-        z[:, :2] = self.fixed.origin + points[:, :i] @ self.fixed.basis.T
-        z[:, 2:4] = self.moving.origin + points[:, i:] @ self.moving.basis.T
-        centred = RR(z[:, :2], z[:, 2:4], z[:, 4])
+    def circles(
+        self, points: FloatArray, at: NDArray[np.intp], poses: Displacement, search: FaceSearch
+    ) -> FloatArray:
+        """The circles z (k, 5) of points (k, i + j) of the pairs at (k,), of the best length."""
+        z, share = self.origin[at].copy(), search.exact_or_share
+        i = self.fixed.shape[-1]
+        z[:, :2] += matvec(self.fixed[at], points[:, :i])
+        z[:, 2:4] += matvec(self.moving[at], points[:, i:])
+        centred = RR(z[:, :2], z[:, 2:4], np.zeros(len(z)))
         best = centred[:, None].residual(poses) @ share / share.sum()
-        z[:, 4] = best if free_length else self.length.origin
+        z[:, 4] = np.where(self.free_length[at], best, z[:, 4])
         return z
 
-    def far_points(self, poses: Displacement, share: FloatArray) -> FloatArray:
-        """Points (*, i + j) of long links that nearly follow the best lines.
+    def far_points(
+        self, poses: Displacement, share: FloatArray
+    ) -> tuple[FloatArray, NDArray[np.intp]]:
+        """Points (k, i + j) of long links that nearly follow the best lines, and whose (k,).
 
         Where a pivot is free along one line, it is far off on either side of it.
         """
-        points, root = [], np.sqrt(share)
-        ways = (self.fixed, self.moving, poses), (self.moving, self.fixed, poses.inverse())
-        for far, near, motion in ways:
-            if far.basis.shape[1] != 1:
+        every, root = np.arange(len(self.origin)), np.sqrt(share)
+        c, m = self.origin[:, :2], self.origin[:, 2:4]
+        ways = (self.fixed, self.moving, m, poses), (self.moving, self.fixed, c, poses.inverse())
+        points = [np.empty((0, self.fixed.shape[-1] + self.moving.shape[-1]))]
+        for k, (far, near, at, motion) in enumerate(ways):
+            if far.shape[-1] != 1:
                 continue
-            normal = far.basis[:, 0]
-            columns = [motion.rotate(along) @ normal for along in near.basis.T]
-            rows = np.stack([*columns, np.ones(poses.shape)], axis=-1)
-            across = motion.act(near.origin) @ normal
-            best = np.linalg.lstsq(root[:, None] * rows, -root * across)[0][:-1]
+            normal = far  # (M, 2, 1), by which all is multiplied across the line
+            columns = motion[None, :, None].rotate(np.swapaxes(near, -1, -2)[:, None])
+            across = motion.act(at[:, None]) @ normal
+            ones = np.ones((*across.shape[:2], 1))
+            rows = np.concatenate([(columns @ normal[:, None])[..., 0], ones], axis=-1)
+            inverse = np.linalg.pinv(root[:, None] * rows)
+            best = -matvec(inverse, root * across[..., 0])[:, :-1]
             for away in (-START_LENGTH, START_LENGTH):
-                points.append([away, *best] if far is self.fixed else [*best, away])
-        return np.array(points).reshape(len(points), sum(self.free[:2]))
+                parts = [np.full((len(every), 1), away), best]
+                points.append(np.concatenate(parts if k == 0 else parts[::-1], axis=-1))
+        return np.concatenate(points), np.tile(every, len(points) - 1)
+
+
+class _Starts(NamedTuple):
+    """Circles z (k, 5) from which ways lead down, and in which directions.
+
+    along: (k, 5, 5), the projectors on the directions of their faces; minimum: (k,), which are
+    minima of the squared residual there; far: (k,), which are long links along a line.
+    """
+
+    z: FloatArray
+    along: FloatArray
+    minimum: NDArray[np.bool_]
+    far: NDArray[np.bool_]
 
 
 def circles_within_limits(seen: Displacement, limits: Limits, search: FaceSearch) -> FloatArray:
@@ -92,8 +138,9 @@ def circles_within_limits(seen: Displacement, limits: Limits, search: FaceSearch
         Block(slice(2, 4), limits.moving_pivot),
         Block(slice(4, 5), LengthRange(*limits.length)),
     )
-    descents = Descents(search, circle_distances(seen), blocks)
+    descents = Descents(search, circle_distances(seen), blocks, np.empty((0, 5)))
     systems: dict[str, tuple[Shape, list[tuple[_Faces, Parameters]]]] = {}
+    corners: list[_Faces] = []
     for combination in product(*(block.faces() for block in blocks)):
         faces = _Faces(*combination)
         i, j, free_length = faces.free
@@ -103,7 +150,7 @@ def circles_within_limits(seen: Displacement, limits: Limits, search: FaceSearch
         if i + j < len(conditions) + (kind == "hard"):
             continue
         if i + j == 0:
-            descents.follow(faces.circles(np.empty((1, 0)), seen, search.exact_or_share))
+            corners.append(faces)
             continue
         at, features = _circle_map(faces.fixed, faces.moving)
         linear = features.T @ base
@@ -112,44 +159,54 @@ def circles_within_limits(seen: Displacement, limits: Limits, search: FaceSearch
         system = Parameters(features.T @ gram @ features, conditions @ features, linear, square)
         shape = circle_shape(i, j, len(conditions), kind)
         systems.setdefault(shape.name, (shape, []))[1].append((faces, system))
+    settled: list[FloatArray] = [np.empty((0, 5))]
+    starts: list[_Starts] = []
+    if corners:
+        settled.append(_settled(corners, [np.empty((1, 0))] * len(corners), seen, search))
     for shape, members in systems.values():
         points = search.solve(shape, [system for _, system in members])
-        _go_down([faces for faces, _ in members], points, shape, seen, descents)
-    return np.array(descents.in_order()).reshape(-1, 5)
+        pairs = [faces for faces, _ in members]
+        if shape.is_settled:  # by the exact poses: there are no other dyads
+            settled.append(_settled(pairs, [p.points[p.minimum] for p in points], seen, search))
+        else:
+            starts.append(_starts(pairs, points, seen, search))
+    lowest, far = np.concatenate(settled), np.empty((0, 5))
+    if starts:
+        every = concatenate(starts)
+        ends = descents.free_minima(every.z, every.along)
+        descents.look(ends[np.isfinite(ends).all(axis=1)])
+        lowest = np.concatenate([lowest, every.z[every.minimum & ~descents.knows(ends)]])
+        if search.exact.any():  # long links come to rest slowly where exact poses weigh most
+            far = every.z[every.far]
+    descents.follow(lowest, far)
+    return descents.in_order()
 
 
-def _go_down(
-    members: list[_Faces],
-    points: list[StationaryPoints],
-    shape: Shape,
-    seen: Displacement,
-    descents: Descents,
-) -> None:
-    """Find the minima of the true distance to which stationary points of one shape lead."""
-    search = descents.search
-    minima: list[FloatArray] = []
-    others: list[FloatArray] = []
-    far: list[FloatArray] = []
-    along, along_others = [], []
-    for faces, of_face in zip(members, points, strict=True):
-        long = faces.far_points(seen, search.leaning)
-        low, high = of_face.points[of_face.minimum], of_face.points[~of_face.minimum]
-        more = np.concatenate([high, of_face.complex_parts, np.zeros((1, high.shape[1])), long])
-        for circles, each in ((minima, low), (others, more), (far, long)):
-            circles.append(faces.circles(each, seen, search.exact_or_share))
-        along += [faces.basis] * len(low)
-        along_others += [faces.basis] * len(more)
-    lowest = np.concatenate(minima)
-    if shape.is_settled:  # by the exact poses: there are no other dyads
-        descents.follow(lowest)
-        return
-    starts, basis = np.concatenate([lowest, *others]), np.stack(along + along_others)
-    ends, _ = circle_ends(starts, seen, search.leaning, basis)
-    descents.look(ends[np.isfinite(ends).all(axis=1)], may_leave=False)
-    own = ends[: len(lowest)]
-    descents.follow(z for z, end in zip(lowest, own, strict=True) if not descents.knows(end))
-    if search.exact.any():  # long links come to rest slowly where exact poses weigh most
-        descents.look(np.concatenate(far))
+def _starts(
+    members: list[_Faces], points: list[StationaryPoints], seen: Displacement, search: FaceSearch
+) -> _Starts:
+    """From all stationary points on faces of one shape, complex ones too, and long links."""
+    faces = _FaceArrays.of(members)
+    far, far_at = faces.far_points(seen, search.leaning)
+    every = [of_face.points for of_face in points]
+    beside = [of_face.complex_parts for of_face in points]
+    counts = [len(each) for each in (*every, *beside)]
+    numbers = np.tile(np.arange(len(members)), 2)
+    at = np.concatenate([np.repeat(numbers, counts), np.arange(len(members)), far_at])
+    middle = np.zeros((len(members), far.shape[1]))
+    minimum, is_far = np.zeros((2, len(at)), dtype=bool)
+    minima = np.concatenate([of_face.minimum for of_face in points])
+    minimum[: len(minima)], is_far[len(at) - len(far) :] = minima, True
+    z = faces.circles(np.concatenate([*every, *beside, middle, far]), at, seen, search)
+    return _Starts(z, faces.along[at], minimum, is_far)
+
+
+def _settled(
+    members: list[_Faces], points: list[FloatArray], seen: Displacement, search: FaceSearch
+) -> FloatArray:
+    """The circles (k, 5) of points on faces of one shape."""
+    at = np.repeat(np.arange(len(members)), [len(each) for each in points])
+    return _FaceArrays.of(members).circles(np.concatenate(points), at, seen, search)
 
 
 def _circle_map(fixed: Face, moving: Face) -> tuple[FloatArray, FloatArray]:

@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.dyads.face_descent import Block, descend, inside
-from burmester.dyads.geometric_fit import (
-    DistanceFunction,
-    FitProblem,
-    GeometricFit,
-    least_squares,
-    least_worst,
-)
+from burmester.dyads.face_descent import descend, inside
+from burmester.dyads.geometric_fit import DistanceFunction, FitProblem, GeometricFit, Point
+from burmester.dyads.least_powers import free_minima, least_squares_step
+from burmester.dyads.least_worst import least_worst
+from burmester.dyads.limited_block import Block
 from burmester.dyads.parameter_homotopy import (
     Parameters,
     Shape,
@@ -24,6 +21,7 @@ from burmester.dyads.parameter_homotopy import (
     stationary_points,
 )
 from burmester.numerics.arrays import FloatArray
+from burmester.numerics.unique_rows import unique_rows
 from burmester.tasks.options import Norm
 
 __all__ = ["Descents", "FaceSearch"]
@@ -31,11 +29,14 @@ __all__ = ["Descents", "FaceSearch"]
 SAME_DYAD = 1e-7  # relative; dyads whose coordinates differ by less are one
 NEAR_DYAD = 1e-6  # relative; from a dyad so near to a known one no way down is looked for
 EXACT_TOLERANCE = 1e-9  # relative; an exact pose missed by less is met
+MAX_FREE_STEPS = 30  # of Newton's method to a minimum were there no limits
+MAX_STIFF_STEPS = 60  # the same where exact poses weigh much
 EXACT_WEIGHT = 1e4  # of an exact pose, where all weights are 1, on the way to its neighbourhood
 NEARLY_EXACT = 0.01  # relative; an exact pose missed by more there has no dyad nearby
 SLIDER_LENGTH = (
     1e3  # characteristic lengths; a longer link that still grows is on its way to a line
 )
+SAME_SLIDER = 2 / SLIDER_LENGTH  # lengths; longer links whose distances differ by less are one
 
 
 @final
@@ -94,73 +95,108 @@ class FaceSearch:
 class Descents:
     """The ways down from starts to the dyads of one kind.
 
-    distances: of that kind; blocks: its limits; dyads: what was found so far.
+    distances: of that kind; blocks: its limits; dyads: (k, n), what was found so far.
     """
 
     search: FaceSearch
     distances: DistanceFunction
     blocks: Sequence[Block]
-    dyads: list[FloatArray] = field(default_factory=list)
+    dyads: FloatArray
 
-    def follow(self, starts: Iterable[FloatArray]) -> None:
-        """Go down from starts inside the limits; a way that is given up is counted."""
-        for z in starts:
-            self.search.unsettled += not self._followed(z)
+    def free_minima(self, starts: FloatArray, along: FloatArray) -> FloatArray:
+        """The minima (k, n) of the distance to which starts (k, n) lead, were there no limits.
 
-    def look(self, starts: Iterable[FloatArray], *, may_leave: bool = True) -> None:
-        """Go down from starts that only may lead to dyads: of these no way is counted.
-
-        may_leave: whether a way may leave the edges on which it begins.
+        along: (k, n, n), projectors on the directions of the starts' faces.  Exact poses weigh
+        much.  Not a number where a start leads to none.
         """
-        for z in starts:
-            if self._nearly_exact(z):
-                self._followed(z, may_leave=may_leave)
+        none, distances, steps = np.zeros_like(self.search.exact), self.distances, MAX_FREE_STEPS
+        if self.search.exact.any():  # which alone would say how long a link is
+            distances, steps = distances._replace(level=None), MAX_STIFF_STEPS
+        problem = FitProblem(distances, self.search.leaning, none)
+        return free_minima(problem, starts, along, steps)
 
-    def knows(self, z: FloatArray, tolerance: float = NEAR_DYAD) -> bool:
-        """Whether a dyad z was found, up to a share of its size."""
-        gap = tolerance * (1 + np.abs(z).max())
-        return any(np.abs(z - other).max() <= gap for other in self.dyads)
+    def follow(self, starts: FloatArray, others: FloatArray) -> None:
+        """Go down from starts (k, n) within limits; ways that are given up are counted.
 
-    def in_order(self) -> list[FloatArray]:
-        """The dyads found, by rising sum of squared distances."""
-        return sorted(self.dyads, key=lambda z: float((self.distances(z).distance ** 2).sum()))
+        others: (*, n), that only may lead to dyads; of these no way is counted.
+        """
+        starts = starts[inside(starts, self.blocks) & ~self.knows(starts)]
+        near = self._near_exact(others)
+        ended = self._followed(np.concatenate([starts, others[near]]))[: len(starts)]
+        self.search.unsettled += int((~ended & ~self.knows(starts)).sum())
 
-    def _gap(self, z: FloatArray) -> float:
-        """The greatest distance at an exact pose."""
-        return float(np.abs(self.distances(z).distance[self.search.exact]).max(initial=0))
+    def look(self, starts: FloatArray) -> None:
+        """Go down from starts that only may lead to dyads, on the faces on which they lie."""
+        self._followed(starts[self._near_exact(starts)], may_leave=False)
 
-    def _nearly_exact(self, z: FloatArray) -> bool:
-        """Whether a dyad z nearly meets the exact poses."""
-        return self._gap(z) < NEARLY_EXACT * float(1 + np.abs(z).max())
+    def knows(self, z: FloatArray) -> NDArray[np.bool_]:
+        """Whether dyads z (k, n) were found, up to a share of their size."""
+        apart = np.abs(z[:, None] - self.dyads).max(axis=-1)
+        return np.asarray((apart <= NEAR_DYAD * _size(z)[:, None]).any(axis=1))
 
-    def _followed(self, z: FloatArray, *, may_leave: bool = True) -> bool:
-        """Add the minimum of the norm to which a dyad z leads, if it is within limits and new.
+    def in_order(self) -> FloatArray:
+        """The dyads found (k, n), by rising sum of squared distances."""
+        distance = self.distances.only(self.dyads)
+        order = np.argsort((distance**2).sum(axis=-1), kind="stable")
+        kept: list[int] = []
+        for k in order:
+            long = [j for j in kept if min(_size(self.dyads[[j, k]])) > SLIDER_LENGTH]
+            # Where one of them came to rest is chance, on the way to one slider.
+            if not any(np.abs(distance[j] - distance[k]).max() < SAME_SLIDER for j in long):
+                kept.append(k)
+        return self.dyads[kept]
+
+    def _near_exact(self, z: FloatArray) -> NDArray[np.bool_]:
+        """Whether dyads z (k, n) lie within limits and nearly meet the exact poses."""
+        near = self._gap(z) < NEARLY_EXACT * _size(z)
+        return np.asarray(near & inside(z, self.blocks))
+
+    def _gap(self, z: FloatArray) -> FloatArray:
+        """The greatest distances (k,) at exact poses."""
+        return np.asarray(
+            np.abs(self.distances.of(z).distance[:, self.search.exact]).max(axis=-1, initial=0)
+        )
+
+    def _followed(self, z: FloatArray, *, may_leave: bool = True) -> NDArray[np.bool_]:
+        """Add the minima of the norm to which dyads z (k, n) within limits lead, if they are new.
 
         Returns False where the way down was given up.
         """
         exact = self.search.exact
-        problem = FitProblem(self.distances, np.eye(len(z)), self.search.share, exact)
+        problem = FitProblem(self.distances, self.search.share, exact)
 
-        def newton_step(z: FloatArray, basis: FloatArray) -> GeometricFit:
-            return least_squares(problem._replace(basis=basis), z, max_steps=1)
+        def step(at: Point, along: FloatArray) -> GeometricFit:
+            return least_squares_step(problem, at, along)
 
-        def minimax(z: FloatArray, basis: FloatArray) -> GeometricFit:
-            best = least_worst(problem._replace(basis=basis), z)
-            if not best.settled and np.abs(best.z).max() > SLIDER_LENGTH:
-                return best._replace(z=np.full_like(z, np.nan))  # on its way to a slider
-            return best._replace(settled=True)
+        def minimax(at: Point, along: FloatArray) -> GeometricFit:
+            best = least_worst(problem, at.z, along)
+            # The others are on their way to a slider.
+            near = best.settled | ~(np.abs(best.z).max(axis=-1) > SLIDER_LENGTH)
+            z = np.where(near[:, None], best.z, np.nan)
+            return GeometricFit(best.at._replace(z=z), best.by_distance, np.ones_like(near))
 
-        if not inside(z, self.blocks) or self.knows(z):
-            return True
-        best = descend(z, self.distances, newton_step, self.blocks, may_leave=may_leave)
-        if best.settled and self.search.norm == "worst" and not exact.all():
-            best = descend(best.z, self.distances, minimax, self.blocks)
-        size = 1 + np.abs(best.z).max()
-        if not best.settled and not size < SLIDER_LENGTH:
-            return True  # on its way to a slider
+        z, settled = descend(z, self.distances, step, self.blocks, may_leave=may_leave)
+        first, each = _distinct(np.column_stack([z, settled]))
+        z, settled = z[first], settled[first]
+        if self.search.norm == "worst" and not exact.all():
+            rows = np.flatnonzero(settled)
+            z[rows], settled[rows] = descend(z[rows], self.distances, minimax, self.blocks)
+        found = settled & (self._gap(z) <= EXACT_TOLERANCE * _size(z))
+        self.dyads = unique_rows(np.concatenate([self.dyads, z[found]]), SAME_DYAD, "maximum")
         # On an edge or at a corner there may be too little freedom to meet the exact poses.
-        if not best.settled or self._gap(best.z) > EXACT_TOLERANCE * size:
-            return False
-        if not self.knows(best.z, SAME_DYAD):
-            self.dyads.append(best.z)
-        return True
+        return np.asarray(found | (~settled & ~(_size(z) < SLIDER_LENGTH)))[each]
+
+
+def _size(z: FloatArray) -> FloatArray:
+    """The scales (k,) of dyads z (k, n)."""
+    return np.asarray(1 + np.abs(z).max(axis=-1))
+
+
+def _distinct(z: FloatArray) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Most of the different rows z (k, n): where they come first, and which of these each is.
+
+    Two of them that are the same up to rounding may both remain.
+    """
+    rounded = np.round(z / (SAME_DYAD * _size(z)[:, None]))
+    _, first, each = np.unique(rounded, axis=0, return_index=True, return_inverse=True)
+    return first, each.ravel()

@@ -17,9 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.dyads.circles_within_limits import circles_within_limits
-from burmester.dyads.face_descent import Block
 from burmester.dyads.face_search import Descents, FaceSearch
 from burmester.dyads.geometric_fit import line_distances
+from burmester.dyads.limited_block import Block
 from burmester.dyads.parameter_homotopy import Parameters, line_shape
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import PR, RP, RR
@@ -107,7 +107,8 @@ def _lines(
     )
     base, gram, conditions = search.centre(rows)
     block = Block(slice(2, 4), region)
-    descents = Descents(search, line_distances(seen), (block,))
+    descents = Descents(search, line_distances(seen), (block,), np.empty((0, 4)))
+    starts = [np.empty((0, 4))]
     for face in block.faces():
         j = face.basis.shape[1]
         if 1 + j < len(conditions):
@@ -118,10 +119,11 @@ def _lines(
         gram_of_face = features.T @ gram @ features
         system = Parameters(gram_of_face, conditions @ features, zero, np.ones(()))
         (found,) = search.solve(shape, [system])
-        for x in found.points[found.minimum]:
-            n, pivot = x[:2], face.origin + face.basis @ x[2:]
-            offset = base @ _LINE.features(np.concatenate([n, pivot]))
-            descents.follow([np.array([np.arctan2(n[1], n[0]), offset, *pivot])])
+        x = found.points[found.minimum]
+        n, pivot = x[:, :2], face.origin + x[:, 2:] @ face.basis.T
+        offset = _LINE.features(np.concatenate([n, pivot], axis=-1)) @ base
+        starts.append(np.column_stack([np.arctan2(n[:, 1], n[:, 0]), offset, pivot]))
+    descents.follow(np.concatenate(starts), starts[0])
     return [_with_upper_normal(z) for z in descents.in_order()]
 
 

@@ -1,0 +1,194 @@
+"""The coordinates of a dyad that one region limits, and the region's faces among many dyads."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burmester.geometry.regions import PLANE, Face, Polygon, Region
+from burmester.numerics.arrays import FloatArray
+from burmester.numerics.linear_algebra import matvec
+
+__all__ = ["Block", "LengthRange"]
+
+BOUNDARY_ROUNDING = 1e-9  # lengths, or a share of greater ones: a point so far outside is inside
+ON_FACE_ROUNDINGS = 10  # times the rounding; a point nearer to a face than this lies on it
+ACROSS_ROUNDINGS = 100  # times the distance from a face, to look whether a step across leads out
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class LengthRange:
+    """A link's length from least to most: a region of one dimension."""
+
+    least: float
+    most: float
+
+    def faces(self) -> list[Face]:
+        """Between the bounds, and at each."""
+        between = Face(np.zeros(1), np.eye(1), np.empty((0, 1)))
+        if self.least == self.most:
+            return [Face(np.array([self.least]), np.empty((1, 0)), np.empty((0, 1)))]
+        ends = ((self.least, 1.0), (self.most, -1.0))
+        return [between] + [
+            Face(np.array([at]), np.empty((1, 0)), np.array([[inward]]))
+            for at, inward in ends
+            if 0 < at < np.inf
+        ]
+
+    def distance(self, points: FloatArray) -> FloatArray:
+        """How far lengths (*, 1) lie outside it, (*,)."""
+        return np.maximum(np.maximum(self.least - points, points - self.most), 0.0)[..., 0]
+
+
+class _Faces(NamedTuple):
+    """The faces of a region as arrays, the smallest first.
+
+    origin: (F, d); projector: (F, d, d), on their directions; across: (F, d, d), on the others;
+    inward: (F, w, d), zeros where a face has fewer; dimension, ways: (F,), numbers of directions.
+    """
+
+    origin: FloatArray
+    projector: FloatArray
+    across: FloatArray
+    inward: FloatArray
+    dimension: NDArray[np.intp]
+    ways: NDArray[np.intp]
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Block:
+    """The coordinates of dyads z (k, n) that one region limits; no region where they are free."""
+
+    at: slice
+    region: Region | LengthRange | None
+
+    def faces(self) -> list[Face]:
+        """Its faces, each with the origin of its line as near to zero as can be."""
+        if self.region is None:
+            return [PLANE]
+        return [
+            face._replace(origin=face.origin - face.basis @ (face.basis.T @ face.origin))
+            for face in self.region.faces()
+        ]
+
+    @cached_property
+    def _faces(self) -> _Faces:
+        faces = sorted(self.faces(), key=lambda face: face.basis.shape[1])
+        origin = np.stack([face.origin for face in faces])
+        projector = np.stack([face.basis @ face.basis.T for face in faces])
+        ways = np.array([len(face.inward) for face in faces])
+        inward = np.zeros((len(faces), max(1, int(ways.max())), origin.shape[1]))
+        for row, face in zip(inward, faces, strict=True):
+            row[: len(face.inward)] = face.inward
+        dimension = np.array([face.basis.shape[1] for face in faces])
+        across = np.eye(origin.shape[1]) - projector
+        return _Faces(origin, projector, across, inward, dimension, ways)
+
+    def outside(self, z: FloatArray) -> NDArray[np.bool_]:
+        """Whether dyads z (*, n) lie outside by more than rounding."""
+        return self._lie_outside(z[..., self.at])
+
+    def lying_on(self, z: FloatArray) -> NDArray[np.intp]:
+        """The smallest faces (k,) on which dyads inside the region lie.
+
+        The line of an edge may go on through a polygon that is not convex, or meet another edge.
+        There a step across it does not lead out, and a dyad is not on that edge.
+        """
+        faces, at = self._faces, z[:, self.at]
+        on, near = self._near(at), ON_FACE_ROUNDINGS * _rounding(at)
+        if isinstance(self.region, Polygon):
+            rows, edges = np.nonzero(on & (faces.dimension == 1))
+            step = ACROSS_ROUNDINGS * near[rows, None] * faces.inward[edges, 0]
+            on[rows, edges] = self.region.distance(at[rows] - step) > near[rows]
+        return np.asarray(on.argmax(axis=1))
+
+    def along(self, on: NDArray[np.intp]) -> FloatArray:
+        """The projectors (k, d, d) on the directions of faces."""
+        return self._faces.projector[on]
+
+    def projected(self, z: FloatArray, on: NDArray[np.intp]) -> FloatArray:
+        """Dyads moved to the nearest points of faces (k,)."""
+        origin, moved = self._faces.origin[on], z.copy()
+        moved[:, self.at] = origin + matvec(self._faces.projector[on], z[:, self.at] - origin)
+        return moved
+
+    def share_inside(self, z: FloatArray, to: FloatArray) -> FloatArray:
+        """The shares (k,) of the ways from dyads to others on which they stay in the region."""
+        share, leaves = np.ones(len(z)), self.outside(to)
+        # Of a way between two places in a convex region, all is inside.
+        straight = not isinstance(self.region, Polygon) or self.region.is_convex
+        rows = np.flatnonzero(leaves) if straight else np.arange(len(z))
+        if self.region is None or not len(rows):
+            return share
+        begin, way = z[rows, self.at], (to - z)[rows, self.at]
+        normal, offset = self._walls
+        with np.errstate(divide="ignore", invalid="ignore"):
+            meets = (offset - begin @ normal.T) / (way @ normal.T)
+        # Between two places where it meets the line of an edge, all of it is inside or outside.
+        meets = np.where((meets > 0) & (meets < 1), meets, 1.0)
+        ends = np.zeros((len(rows), 1)), np.sort(meets, axis=1), np.ones((len(rows), 1))
+        places = np.concatenate(ends, axis=1)
+        middle = (places[:, :-1] + places[:, 1:]) / 2
+        outside = self._lie_outside(begin[:, None] + middle[..., None] * way[:, None])
+        first = np.where(outside, places[:, :-1], 1.0).min(axis=1)
+        last = np.where(places < 1, places, 0.0).max(axis=1)
+        share[rows] = np.where(leaves[rows], np.minimum(first, last), first)
+        return share
+
+    def steepest_inward(
+        self, jacobian: FloatArray, by_distance: FloatArray, on: NDArray[np.intp]
+    ) -> tuple[FloatArray, FloatArray]:
+        """The directions (k, d) of steepest descent among those from faces into their region.
+
+        jacobian: (k, N, n), by_distance: (k, N), of the objective.
+        Returns how steep they are (k,), the objective's derivative as a share of its terms, and
+        the directions.
+        """
+        inward = self._faces.inward[on]
+        along = jacobian[..., self.at] @ np.swapaxes(inward, -1, -2)
+        terms = (np.abs(by_distance)[:, None] @ np.abs(along))[:, 0]
+        steepness = (by_distance[:, None] @ along)[:, 0] / np.maximum(terms, 1e-300)
+        best = steepness.argmin(axis=1)
+        rows = np.arange(len(on))
+        return np.minimum(steepness[rows, best], 0.0), inward[rows, best]
+
+    def wider(self, z: FloatArray, on: NDArray[np.intp], direction: FloatArray) -> NDArray[np.intp]:
+        """The smallest faces (k,) that hold those on which dyads lie, and directions (k, d)."""
+        faces = self._faces
+        off = np.abs(np.einsum("fij,kj->kfi", faces.across, direction)).max(axis=-1)
+        larger = faces.dimension > faces.dimension[on, None]
+        wider = larger & self._near(z[:, self.at]) & (off < BOUNDARY_ROUNDING)
+        return np.asarray(wider.argmax(axis=1))
+
+    @cached_property
+    def _walls(self) -> tuple[FloatArray, FloatArray]:
+        """Where the region ends: normals (w, d) and offsets (w,) of lines or points."""
+        if isinstance(self.region, LengthRange):
+            bounds = np.array([self.region.least, self.region.most])
+            return np.ones((2, 1)), bounds
+        walls = self._faces.ways == 1
+        normal = self._faces.inward[walls, 0]
+        return normal, (normal * self._faces.origin[walls]).sum(axis=1)
+
+    def _near(self, at: FloatArray) -> NDArray[np.bool_]:
+        """Which faces (k, F) points (k, d) lie on, up to rounding, were these endless."""
+        faces = self._faces
+        off = np.einsum("fij,kfj->kfi", faces.across, at[:, None] - faces.origin)
+        return np.asarray(np.abs(off).max(axis=-1) < ON_FACE_ROUNDINGS * _rounding(at)[:, None])
+
+    def _lie_outside(self, points: FloatArray) -> NDArray[np.bool_]:
+        """Whether points (*, d) lie outside by more than rounding."""
+        if self.region is None:
+            return np.zeros(points.shape[:-1], dtype=bool)
+        return np.asarray(self.region.distance(points) > _rounding(points))
+
+
+def _rounding(points: FloatArray) -> FloatArray:
+    """How far (*,) points (*, d) may lie outside a region by rounding alone: far ones farther."""
+    return np.asarray(BOUNDARY_ROUNDING * np.maximum(1.0, np.abs(points).max(axis=-1)))
