@@ -13,16 +13,11 @@ from itertools import pairwise
 
 import numpy as np
 
-from burmester.dyads.parameter_homotopy import (
-    SAME_POINT,
-    Parameters,
-    circle_shape,
-    equations,
-    follow,
-    line_shape,
-)
+from burmester.dyads.bilinear_fit import Parameters, circle_shape, equations, line_shape
+from burmester.dyads.parameter_homotopy import ARRIVED, follow
 from burmester.numerics.unique_rows import unique_rows
 
+SAME_POINT = 1e-6  # relative; solutions nearer than this are one
 QUIET = 10  # loops without a new solution
 
 
@@ -72,7 +67,7 @@ def all_solutions(shape, seed):
             ends, state = follow(
                 shape, ends, Parameters(*(v[None] for v in a)), Parameters(*(v[None] for v in b))
             )
-            ends = ends[state == 1]
+            ends = ends[state == ARRIVED]
         before = len(found)
         found = unique_rows(np.concatenate([found, ends]), SAME_POINT, "maximum")
         if line:

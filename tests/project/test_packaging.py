@@ -20,6 +20,7 @@ DATA = (
     "burmester/templates/gripper.toml",
     "burmester/io/synthesis.schema.json",
     "burmester/io/messages.md",
+    "burmester/dyads/elimination_templates.npz",
     "burmester/dyads/start_points.npz",
     "burmester/web/assets/page.html",
     "burmester/web/assets/widget.mjs",

@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from itertools import product
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.dyads.bilinear_fit import Condition, Parameters, Shape, circle_shape
 from burmester.dyads.critical_points import residual_rows
 from burmester.dyads.face_search import Descents, FaceSearch
 from burmester.dyads.geometric_fit import circle_distances
 from burmester.dyads.limited_block import Block, LengthRange
-from burmester.dyads.parameter_homotopy import (
-    Condition,
-    Parameters,
-    Shape,
-    StationaryPoints,
-    circle_shape,
-)
+from burmester.dyads.stationary_points import StationaryPoints
 from burmester.fourbar.dyad import RR
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Face
@@ -139,37 +135,41 @@ def circles_within_limits(seen: Displacement, limits: Limits, search: FaceSearch
         Block(slice(4, 5), LengthRange(*limits.length)),
     )
     descents = Descents(search, circle_distances(seen), blocks, np.empty((0, 5)))
-    systems: dict[str, tuple[Shape, list[tuple[_Faces, Parameters]]]] = {}
+    systems: dict[Shape, list[tuple[list[_Faces], Parameters]]] = {}
     corners: list[_Faces] = []
-    for combination in product(*(block.faces() for block in blocks)):
-        faces = _Faces(*combination)
-        i, j, free_length = faces.free
-        kind: Condition = "none"
-        if not free_length:
-            kind = "hard" if search.exact.any() else "soft"
-        if i + j < len(conditions) + (kind == "hard"):
-            continue
-        if i + j == 0:
-            corners.append(faces)
-            continue
-        at, features = _circle_map(faces.fixed, faces.moving)
-        linear = features.T @ base
-        linear[0] += at @ at
-        square = np.asarray(faces.length.origin[0] ** 2)
-        system = Parameters(features.T @ gram @ features, conditions @ features, linear, square)
-        shape = circle_shape(i, j, len(conditions), kind)
-        systems.setdefault(shape.name, (shape, []))[1].append((faces, system))
+    regions = (_by_dimension(block.faces()) for block in blocks[:2])
+    for (i, fixed), (j, moving) in product(*regions):
+        pairs = list(product(fixed, moving))
+        at, features = _circle_maps(pairs)
+        back = np.swapaxes(features, 1, 2)
+        gram_of_faces, rows, linear = back @ gram @ features, conditions @ features, back @ base
+        linear[:, 0] += (at * at).sum(axis=1)
+        for length in blocks[2].faces():
+            members = [_Faces(*pair, length) for pair in pairs]
+            kind: Condition = "none"
+            if not members[0].free[2]:
+                kind = "hard" if search.exact.any() else "soft"
+            if i + j < len(conditions) + (kind == "hard"):
+                continue
+            if i + j == 0:
+                corners += members
+                continue
+            square = np.full(len(pairs), length.origin[0] ** 2)
+            shape = circle_shape(i, j, len(conditions), kind)
+            system = Parameters(gram_of_faces, rows, linear, square)
+            systems.setdefault(shape, []).append((members, system))
     settled: list[FloatArray] = [np.empty((0, 5))]
     starts: list[_Starts] = []
     if corners:
         settled.append(_settled(corners, [np.empty((1, 0))] * len(corners), seen, search))
-    for shape, members in systems.values():
-        points = search.solve(shape, [system for _, system in members])
-        pairs = [faces for faces, _ in members]
+    for shape, groups in systems.items():
+        points = search.solve(shape, concatenate([system for _, system in groups]))
+        every_face = [faces for members, _ in groups for faces in members]
         if shape.is_settled:  # by the exact poses: there are no other dyads
-            settled.append(_settled(pairs, [p.points[p.minimum] for p in points], seen, search))
+            minima = [each.points[each.minimum] for each in points]
+            settled.append(_settled(every_face, minima, seen, search))
         else:
-            starts.append(_starts(pairs, points, seen, search))
+            starts.append(_starts(every_face, points, seen, search))
     lowest, far = np.concatenate(settled), np.empty((0, 5))
     if starts:
         every = concatenate(starts)
@@ -180,6 +180,14 @@ def circles_within_limits(seen: Displacement, limits: Limits, search: FaceSearch
             far = every.z[every.far]
     descents.follow(lowest, far)
     return descents.in_order()
+
+
+def _by_dimension(faces: Iterable[Face]) -> list[tuple[int, list[Face]]]:
+    """Faces of the same dimension together."""
+    groups: dict[int, list[Face]] = {}
+    for face in faces:
+        groups.setdefault(face.basis.shape[1], []).append(face)
+    return list(groups.items())
 
 
 def _starts(
@@ -209,20 +217,23 @@ def _settled(
     return _FaceArrays.of(members).circles(np.concatenate(points), at, seen, search)
 
 
-def _circle_map(fixed: Face, moving: Face) -> tuple[FloatArray, FloatArray]:
-    """How the features of a pair of faces make those of the whole plane.
+def _circle_maps(pairs: list[tuple[Face, Face]]) -> tuple[FloatArray, FloatArray]:
+    """How the features of pairs (P,) of faces make those of the whole plane; same dimensions each.
 
-    Returns the origin (c, m) of the faces (4,), and the matrix (7, f) from their features to the
-    seven of two free pivots.
+    Returns the origins (c, m) of the faces (P, 4), and the matrices (P, 7, f) from their features
+    to the seven of two free pivots.
     """
-    i, j = fixed.basis.shape[1], moving.basis.shape[1]
-    at = np.concatenate([fixed.origin, moving.origin])
-    steps = np.zeros((i + j, 4))
-    steps[:i, :2], steps[i:, 2:] = fixed.basis.T, moving.basis.T
+    fixed = np.stack([face.basis.T for face, _ in pairs])
+    moving = np.stack([face.basis.T for _, face in pairs])
+    i, j = fixed.shape[1], moving.shape[1]
+    at = np.array([[*one.origin, *other.origin] for one, other in pairs])
     if i == j == 2:
-        return at, np.eye(7)
-    zero, one = _CIRCLE.features(at), _CIRCLE.features(at + steps)
-    columns = [zero, *(one - zero)]
+        return at, np.broadcast_to(np.eye(7), (len(pairs), 7, 7))
+    steps = np.zeros((len(pairs), i + j, 4))
+    steps[:, :i, :2], steps[:, i:, 2:] = fixed, moving
+    zero, one = _CIRCLE.features(at)[:, None], _CIRCLE.features(at[:, None] + steps)
+    columns = [zero, one - zero]
     for u, v in product(range(i), range(i, i + j)):
-        columns.append(_CIRCLE.features(at + steps[u] + steps[v]) - one[u] - one[v] + zero)
-    return at, np.stack(columns, axis=-1)
+        both = _CIRCLE.features(at + steps[:, u] + steps[:, v])
+        columns.append((both - one[:, u] - one[:, v] + zero[:, 0])[:, None])
+    return at, np.swapaxes(np.concatenate(columns, axis=1), 1, 2)

@@ -16,7 +16,6 @@ removes the rounding.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
 from typing import Any, NamedTuple, final
 
 import numpy as np
@@ -31,7 +30,7 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.numerics.bundles import where
 from burmester.numerics.iteration import iterate
-from burmester.numerics.linear_algebra import matvec, solve_or_shortest
+from burmester.numerics.linear_algebra import matvec, one_thread, solve_or_shortest
 from burmester.numerics.unique_rows import unique_rows
 from burmester.numerics.weights import shares, weights_or_ones
 
@@ -135,8 +134,7 @@ def critical_dyads(poses: Displacement, weights: FloatArray | None = None) -> Cr
     far = np.asarray(POINTS_OF_SLIDER * _exact_sliders(poses, frames, seen, weights))
     health, real = np.zeros(lead), np.zeros((*lead, COUNT), dtype=bool)
     minimum = np.zeros((*lead, COUNT), dtype=bool)
-    # Matrices this small are slower with several BLAS threads, much so on a busy machine.
-    with _blas().limit(limits=1, user_api="blas"):
+    with one_thread():
         results = {task: _all_points(triangle[task], int(far[task])) for task in np.ndindex(lead)}
     for task, result in results.items():
         n = len(result.points)
@@ -152,14 +150,6 @@ def critical_dyads(poses: Displacement, weights: FloatArray | None = None) -> Cr
     radius = np.sqrt(_mean(distance**2, weights))
     dyads = frames.circle_from_canonical(RR(x[..., :2], x[..., 2:], radius))
     return CriticalDyads(frames, points, found, far, charts, health, real, minimum, dyads, residual)
-
-
-@cache
-def _blas() -> Any:
-    """The hold on NumPy's BLAS; looked for once, when first needed."""
-    from threadpoolctl import ThreadpoolController  # noqa: PLC0415
-
-    return ThreadpoolController()
 
 
 def _mean(values: FloatArray, weights: FloatArray | None) -> FloatArray:

@@ -9,17 +9,13 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.dyads.bilinear_fit import Parameters, Shape
 from burmester.dyads.face_descent import descend, inside
 from burmester.dyads.geometric_fit import DistanceFunction, FitProblem, GeometricFit, Point
 from burmester.dyads.least_powers import free_minima, least_squares_step
 from burmester.dyads.least_worst import least_worst
 from burmester.dyads.limited_block import Block
-from burmester.dyads.parameter_homotopy import (
-    Parameters,
-    Shape,
-    StationaryPoints,
-    stationary_points,
-)
+from burmester.dyads.stationary_points import StationaryPoints, stationary_points
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.unique_rows import unique_rows
 from burmester.tasks.options import Norm
@@ -37,6 +33,7 @@ SLIDER_LENGTH = (
     1e3  # characteristic lengths; a longer link that still grows is on its way to a line
 )
 SAME_SLIDER = 2 / SLIDER_LENGTH  # lengths; longer links whose distances differ by less are one
+LINE_LENGTH = 1e9  # characteristic lengths; a longer link is a line to the last digits
 
 
 @final
@@ -69,14 +66,12 @@ class FaceSearch:
         size = np.linalg.norm(conditions, axis=1, keepdims=True)
         return base, loose.T @ loose, conditions / np.where(size > 0, size, 1.0)
 
-    def solve(self, shape: Shape, parameters: list[Parameters]) -> list[StationaryPoints]:
-        """The stationary points of systems of one shape."""
-        stacked = Parameters(*(np.stack(part) for part in zip(*parameters, strict=True)))
-        every = stationary_points(shape, stacked)
-        for one in every:
-            self.systems += 1
-            self.found += one.finite
-            self.lost += one.lost
+    def solve(self, shape: Shape, systems: Parameters) -> list[StationaryPoints]:
+        """The stationary points of systems (T,) of one shape."""
+        every = stationary_points(shape, systems)
+        self.systems += len(every)
+        self.found += sum(one.finite for one in every)
+        self.lost += sum(one.lost for one in every)
         return every
 
     @property
@@ -181,10 +176,12 @@ class Descents:
         if self.search.norm == "worst" and not exact.all():
             rows = np.flatnonzero(settled)
             z[rows], settled[rows] = descend(z[rows], self.distances, minimax, self.blocks)
-        found = settled & (self._gap(z) <= EXACT_TOLERANCE * _size(z))
+        size = _size(z)
+        slider = ~(size < np.where(settled, LINE_LENGTH, SLIDER_LENGTH))  # or on its way to one
+        found = settled & ~slider & (self._gap(z) <= EXACT_TOLERANCE * size)
         self.dyads = unique_rows(np.concatenate([self.dyads, z[found]]), SAME_DYAD, "maximum")
         # On an edge or at a corner there may be too little freedom to meet the exact poses.
-        return np.asarray(found | (~settled & ~(_size(z) < SLIDER_LENGTH)))[each]
+        return np.asarray(found | slider)[each]
 
 
 def _size(z: FloatArray) -> FloatArray:

@@ -2,7 +2,7 @@
 
 A dyad that is best within limits lies on some face of them: the fixed pivot inside its region, on
 an edge or at a corner, the moving pivot likewise, the link's length free or at a bound.  On each of
-these faces all stationary points of the squared residual are found (`parameter_homotopy`).  All of
+these faces all stationary points of the squared residual are found (`stationary_points`).  All of
 them, complex ones by their real parts, and long links along the best lines are followed to minima
 of the true distance on the face, the minima among them down to minima within the limits.  Those are
 kept that lie within the limits and from which no direction into them leads down.
@@ -16,11 +16,11 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.dyads.bilinear_fit import Parameters, Shape, line_shape
 from burmester.dyads.circles_within_limits import circles_within_limits
 from burmester.dyads.face_search import Descents, FaceSearch
 from burmester.dyads.geometric_fit import line_distances
 from burmester.dyads.limited_block import Block
-from burmester.dyads.parameter_homotopy import Parameters, line_shape
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.geometry.displacement import Displacement
@@ -109,20 +109,23 @@ def _lines(
     block = Block(slice(2, 4), region)
     descents = Descents(search, line_distances(seen), (block,), np.empty((0, 4)))
     starts = [np.empty((0, 4))]
+    systems: dict[Shape, list[tuple[Face, Parameters]]] = {}
     for face in block.faces():
         j = face.basis.shape[1]
         if 1 + j < len(conditions):
             continue
         features = _line_map(face)
-        shape = line_shape(j, len(conditions))
-        zero = np.zeros(features.shape[1])
-        gram_of_face = features.T @ gram @ features
+        gram_of_face, zero = features.T @ gram @ features, np.zeros(features.shape[1])
         system = Parameters(gram_of_face, conditions @ features, zero, np.ones(()))
-        (found,) = search.solve(shape, [system])
-        x = found.points[found.minimum]
-        n, pivot = x[:, :2], face.origin + x[:, 2:] @ face.basis.T
-        offset = _LINE.features(np.concatenate([n, pivot], axis=-1)) @ base
-        starts.append(np.column_stack([np.arctan2(n[:, 1], n[:, 0]), offset, pivot]))
+        systems.setdefault(line_shape(j, len(conditions)), []).append((face, system))
+    for shape, members in systems.items():
+        parts = zip(*(system for _, system in members), strict=True)
+        every = search.solve(shape, Parameters(*(np.stack(part) for part in parts)))
+        for (face, _), found in zip(members, every, strict=True):
+            x = found.points[found.minimum]
+            n, pivot = x[:, :2], face.origin + x[:, 2:] @ face.basis.T
+            offset = _LINE.features(np.concatenate([n, pivot], axis=-1)) @ base
+            starts.append(np.column_stack([np.arctan2(n[:, 1], n[:, 0]), offset, pivot]))
     descents.follow(np.concatenate(starts), starts[0])
     return [_with_upper_normal(z) for z in descents.in_order()]
 

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+from contextlib import AbstractContextManager
+from functools import cache
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["matvec", "solve", "solve_or_shortest", "unit_vectors"]
+__all__ = ["matvec", "one_thread", "solve", "solve_or_shortest", "unit_vectors"]
 
 
 def matvec(matrix: NDArray[Any], vector: NDArray[Any]) -> NDArray[Any]:
@@ -31,3 +33,20 @@ def solve_or_shortest(matrix: NDArray[Any], right: NDArray[Any]) -> NDArray[Any]
 def unit_vectors(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
     """Vectors (*, n) divided by their lengths."""
     return np.asarray(vectors / np.linalg.norm(vectors, axis=-1, keepdims=True))
+
+
+def one_thread() -> AbstractContextManager[object]:
+    """A time in which BLAS keeps to one thread.
+
+    On matrices of some hundred columns several threads mostly wait for each other, much so on a
+    busy machine.
+    """
+    return cast(AbstractContextManager[object], _blas().limit(limits=1, user_api="blas"))
+
+
+@cache
+def _blas() -> Any:
+    """The hold on NumPy's BLAS; looked for once, when first needed."""
+    from threadpoolctl import ThreadpoolController  # noqa: PLC0415
+
+    return ThreadpoolController()
