@@ -253,6 +253,29 @@ def test_what_is_found_does_not_depend_on_the_others_beside_it():
     assert not alone.met[0]
 
 
+def test_a_selection_gives_up_what_is_farther_or_the_same_and_changes_nothing_else():
+    linkage, rows, wanted = a_task((RR, RR), 0)
+    far, own = [], []
+    for seed in (1, 2):  # of other tasks, from the places nearest to these poses
+        other, _, _ = a_task((RR, RR), seed)
+        far.append(other)
+        own.append(rows)
+    batch, places = (
+        LinkageBatch.of([*far, linkage, linkage]),
+        as_places(np.array([*own, rows, rows])),
+    )
+    exact = np.arange(len(wanted)) == 0
+    how = {"exact": exact, "constrained_steps": STEPS}
+    every = refine(batch, places, as_places(wanted), 1.0, **how)
+    some = refine(batch, places, as_places(wanted), 1.0, selection=((3, 1),), **how)
+    assert some.met.sum() == 1
+    best = int(np.flatnonzero(some.met)[0])
+    assert best == np.where(every.met, every.cost, np.inf).argmin()
+    assert np.isclose(some.cost[best], every.cost[best], rtol=1e-9)
+    both = refine(batch[[2, 3]], places[2:], as_places(wanted), 1.0, selection=((3, 2),), **how)
+    assert both.met.tolist() == [True, False]
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_the_greatest_distance_is_levelled(seed):
     linkage, rows, wanted = a_task((RR, RR), seed)

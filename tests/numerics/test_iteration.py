@@ -242,3 +242,26 @@ def test_soft_programs_are_solved_as_scipy_solves_them():
         assert np.abs(pull).max() < 1e-9
         assert (multipliers[k] <= high[k]).all()
         assert (multipliers[k] >= low[k]).all()
+
+
+def test_soft_programs_are_solved_from_others_like_them_and_with_dependent_constraints():
+    """The conditions that hold at the least value, of programs each constraint given twice."""
+    rng = np.random.default_rng(11)
+    n, m, count = 6, 5, 40
+    root = rng.normal(size=(count, n, n))
+    hessian = root @ np.swapaxes(root, -1, -2) + 0.1 * np.eye(n)
+    gradient, value = rng.normal(size=(count, n)), rng.normal(size=(count, m))
+    jacobian, high = rng.normal(size=(count, m, n)), np.full((count, m), 3.0)
+    value, jacobian = np.tile(value, (1, 2)), np.tile(jacobian, (1, 2, 1))
+    high = np.tile(high, (1, 2))
+    low = np.where(np.arange(2 * m) % m < 2, -high, 0.0)
+    program = SoftProgram(hessian, gradient, value, jacobian, low, high)
+    first, others = program.solved()
+    for start in (None, low, others, others + 0.3 * rng.normal(size=high.shape)):
+        step, multipliers = program.solved(start)
+        assert np.abs(step - first).max() < 1e-6
+        pull = matvec(hessian, step) + gradient + matvec(np.swapaxes(jacobian, -1, -2), multipliers)
+        assert np.abs(pull).max() < 1e-8
+        off = value + matvec(jacobian, step)
+        assert (off[multipliers < high - 1e-9] < 1e-6).all()
+        assert (off[multipliers > low + 1e-9] > -1e-6).all()

@@ -6,8 +6,9 @@ sum of squares plus penalties of all violations (Fletcher, Practical methods of 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple, final
+from typing import NamedTuple, TypeAlias, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,13 +23,14 @@ from burmester.linkages.residuals import (
     power_ratio,
     secant,
 )
+from burmester.linkages.starts import distinct
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import put, take, where
 from burmester.numerics.least_squares import Attempt, damped_descent
 from burmester.numerics.linear_algebra import matvec
 from burmester.numerics.quadratic_program import SoftProgram
 
-__all__ = ["refine_constrained"]
+__all__ = ["Selection", "refine_constrained"]
 
 # Relative, of the Hessian's scaled diagonal: first value, floor, and the value that ends a descent.
 START_DAMPING, MIN_DAMPING, MAX_DAMPING = 1e-4, 1e-14, 1e8
@@ -42,7 +44,16 @@ MULTIPLIER_FACTOR = 3.0
 # Floor on the column norms used to scale the damping, relative to the largest one.
 MIN_COLUMN_NORM = 1e-3
 FEASIBLE = 1e-9  # lengths; a constraint violated by less is met
+# A step that promises to take less than this share off the cost ends a descent, unless the damping
+# holds it back.
+SETTLED_SHARE, SETTLED_DAMPING = 1e-11, 1.0
+# A descent ends that has not gained this share of the cost in so many steps, taken or refused.
+CREEPING_STEPS, CREEPING_SHARE = 8, 1e-4
 ACTIVE_MULTIPLIER = 1e-6  # relative to the penalty; a constraint with a smaller one is inactive
+
+
+Selection: TypeAlias = Sequence[tuple[int, int]]
+"""Numbers of steps, and after each of them the number of the best linkages that go on."""
 
 
 class _Point(NamedTuple):
@@ -74,9 +85,15 @@ class _ScaledProgram(NamedTuple):
     program: SoftProgram
     size: FloatArray
 
-    def solved(self) -> tuple[FloatArray, FloatArray]:
-        """The steps (k, n) of the unknowns, and the multipliers (k, m) of the constraints."""
-        step, multipliers = self.program.solved()
+    def promise(self, step: FloatArray) -> FloatArray:
+        """How much (k,) steps (k, n) of the unknowns decrease what is quadratic."""
+        hessian, gradient = self.program.hessian, self.program.gradient
+        step = step * self.size
+        return np.asarray(-((gradient + matvec(hessian, step) / 2) * step).sum(axis=1))
+
+    def solved(self, start: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """The steps (k, n) of the unknowns, and the multipliers (k, m), from others (k, m)."""
+        step, multipliers = self.program.solved(start)
         return step / self.size, multipliers
 
     def corrected(self, index: NDArray[np.intp], value: FloatArray) -> _ScaledProgram:
@@ -93,6 +110,8 @@ class _Descent:
     What decreases is half the sum of squares plus `penalty` times the constraints' violation.
     hessian_estimate: (k, n, n), of the residuals' curvature; good_steps: (k,), taken in a row;
     multipliers: (k, m), of the last step taken.
+    tried: (k,), number of steps tried; places: (k, N, 3), where they are; merit: (k,), there, and
+    `marked`: (k,), some steps ago; given_up: (k,), by the selection.
     """
 
     problem: Problem
@@ -103,9 +122,17 @@ class _Descent:
     hessian_estimate: FloatArray
     good_steps: NDArray[np.intp]
     multipliers: FloatArray
+    selection: Selection
+    tried: NDArray[np.intp]
+    places: FloatArray
+    merit: FloatArray
+    marked: FloatArray
+    given_up: NDArray[np.bool_]
 
     @classmethod
-    def of(cls, problem: Problem, z: FloatArray, rows: FloatArray, power: float) -> _Descent:
+    def of(
+        cls, problem: Problem, z: FloatArray, rows: FloatArray, power: float, selection: Selection
+    ) -> _Descent:
         count, every = len(z), np.arange(len(z))
         start = _Point.at(problem, every, problem.state_ahead(every, z.copy(), rows), power)
         one = every[:1]
@@ -120,6 +147,12 @@ class _Descent:
             np.zeros((count, unknowns, unknowns)),
             np.zeros(count, dtype=np.intp),
             np.zeros(start.constraints.residual.shape),
+            selection,
+            np.zeros(count, dtype=np.intp),
+            start.state.rows.copy(),
+            np.full(count, np.nan),
+            np.full(count, np.inf),
+            np.zeros(count, dtype=bool),
         )
 
     def violation(self, value: FloatArray) -> FloatArray:
@@ -140,7 +173,7 @@ class _Descent:
         scaled = jacobian / size[:, None]
         return _ScaledProgram(SoftProgram(hessian, gradient, value, scaled, low, high), size)
 
-    def tried(
+    def moved(
         self, rows: NDArray[np.intp], here: _Point, step: FloatArray
     ) -> tuple[FloatArray, _Point, FloatArray]:
         """The steps (r, n), no longer than places may go, where they lead, and what it costs."""
@@ -162,13 +195,13 @@ class _Descent:
         free_unknowns, penalty = self.problem.free_unknowns(rows), self.penalty[rows]
         value, jacobian = here.constraints
         program = self.program(rows, here, damping)
-        step, multipliers = program.solved()
+        step, multipliers = program.solved(self.multipliers[rows])
         step = np.where(free_unknowns, step, 0.0)  # but for rounding it is so
         before = self.violation(value)
         cost = (here.model.residual**2).sum(axis=1) / 2 + penalty * before
         ahead = self.violation(value + matvec(jacobian, step))
-        model = ((here.model.residual + matvec(here.model.jacobian, step)) ** 2).sum(axis=1) / 2
-        step, there, after = self.tried(rows, here, step)
+        promise = program.promise(step) + penalty * (before - ahead)
+        step, there, after = self.moved(rows, here, step)
         enough = cost * (1 + COST_ROUNDING)
         with np.errstate(invalid="ignore"):
             missed = self.violation(there.constraints.residual) > CONVERGED_STEP
@@ -176,16 +209,15 @@ class _Descent:
         if len(again):  # the same step for constraints with the curvature met on the way
             some = take(here, again)
             off = there.constraints.residual[again] - matvec(jacobian[again], step[again])
-            second, own = program.corrected(again, off).solved()
+            second, own = program.corrected(again, off).solved(multipliers[again])
             second = np.where(free_unknowns[again], second, 0.0)
-            second, other, later = self.tried(rows[again], some, second)
+            second, other, later = self.moved(rows[again], some, second)
             won = later <= enough[again]
             at = again[won]
             step[at], multipliers[at], after[at] = second[won], own[won], later[won]
             put(there, at, take(other, won))
         better = after <= enough
         with np.errstate(all="ignore"):
-            promise = cost - model - penalty * ahead
             gain = (cost - after) / np.maximum(promise, np.finfo(float).tiny)
         factor = np.select([~better, gain > 0.75, gain > 0.25], [10.0, 0.1, 0.5], 3.0)
         damping = np.maximum(damping * factor, MIN_DAMPING)
@@ -205,7 +237,30 @@ class _Descent:
         )
         small = np.abs(step).max(axis=-1) < CONVERGED_STEP * (1 + np.abs(here.state.z).max(axis=-1))
         idle = better & (cost - after < COST_ROUNDING * cost)
-        return Attempt(there, better, damping, (small | idle | (damping > MAX_DAMPING)) & ~stuck)
+        settled = (promise < SETTLED_SHARE * cost) & (damping < SETTLED_DAMPING)
+        self.tried[rows] += 1
+        self.merit[rows] = np.where(better, after, cost)
+        self.places[rows] = np.where(better[:, None, None], there.state.rows, here.state.rows)
+        ended = (small | idle | settled | (damping > MAX_DAMPING)) & ~stuck
+        ended |= self._creeping(rows, miss) | self._not_selected(rows)
+        return Attempt(there, better, damping, ended)
+
+    def _creeping(self, rows: NDArray[np.intp], miss: FloatArray) -> NDArray[np.bool_]:
+        """Which (r,) have gained next to nothing in the last `CREEPING_STEPS`."""
+        now = self.tried[rows] % CREEPING_STEPS == 0
+        merit = self.merit[rows]
+        gained = self.marked[rows] - merit
+        self.marked[rows[now]] = merit[now]
+        return np.asarray(now & (miss < FEASIBLE) & (np.abs(gained) < CREEPING_SHARE * merit))
+
+    def _not_selected(self, rows: NDArray[np.intp]) -> NDArray[np.bool_]:
+        """Which (r,) do not go on; linkages that lead to the same places are one."""
+        for steps, most in self.selection:
+            if len(rows) and self.tried[rows[0]] == steps:
+                best = distinct(self.places, 2 * self.merit, most)
+                self.given_up[:] = True
+                self.given_up[best] = False
+        return self.given_up[rows]
 
     def _learn(
         self,
@@ -228,35 +283,49 @@ class _Descent:
 
 
 def refine_constrained(
-    problem: Problem, z: FloatArray, rows: FloatArray, power: float, steps: int
+    problem: Problem,
+    z: FloatArray,
+    rows: FloatArray,
+    power: float,
+    steps: int,
+    *,
+    selection: Selection = (),
 ) -> tuple[FloatArray, FloatArray, NDArray[np.bool_], NDArray[np.bool_]]:
     """Linkages refined under constraints: z, rows, whether they converged, whether all hold.
 
     A step that bends away from the conditions is taken again (Fletcher's second-order correction).
+    What a selection gives up comes back as it came, and does not hold.
     """
-    way = _Descent.of(problem, z, rows, power)
-    every, sound = np.arange(len(z)), np.flatnonzero(way.start.sound)
+    way = _Descent.of(problem, z, rows, power, selection)
     ends, done = damped_descent(
-        way.attempt, way.start, sound, damping=10 * START_DAMPING, max_steps=steps
+        way.attempt,
+        way.start,
+        np.flatnonzero(way.start.sound),
+        damping=10 * START_DAMPING,
+        max_steps=steps,
     )
-    active = way.equal | (np.abs(way.multipliers) > ACTIVE_MULTIPLIER * way.penalty[:, None])
-    state, met = _made_feasible(problem, ends.state, active, way.equal)
+    which = np.flatnonzero(~way.given_up)
+    before, state = take(way.start.state, which), take(ends.state, which)
+    active = np.abs(way.multipliers[which]) > ACTIVE_MULTIPLIER * way.penalty[which, None]
+    state, met = _made_feasible(problem, which, state, active | way.equal, way.equal)
     if (
         problem.places_are_free and problem.metric is None
     ):  # the nearest places, where they do as well
-        near = problem.state(every, state.z, state.rows)
-        also = problem.state_ahead(every, state.z, near.rows)
-        value, _, _ = all_constraints(problem, every, also)
+        near = problem.state(which, state.z, state.rows)
+        also = problem.state_ahead(which, state.z, near.rows)
+        value, _, _ = all_constraints(problem, which, also)
         good = np.array(met & (_greatest_violation(value, way.equal) < FEASIBLE), dtype=np.bool_)
         state = where(good, also, state)
     # What kept all constraints from the start is not given up for less.
-    before = way.start.state
-    kept = _greatest_violation(way.start.constraints.residual, way.equal) < FEASIBLE
+    kept = _greatest_violation(way.start.constraints.residual[which], way.equal) < FEASIBLE
     with np.errstate(invalid="ignore"):
         worse = _cost(problem, before) < _cost(problem, state)
-    back = np.array(way.start.sound & kept & (~met | worse), dtype=np.bool_)
+    back = np.array(way.start.sound[which] & kept & (~met | worse), dtype=np.bool_)
     state = where(back, before, state)
-    return state.z, state.rows, done & ~back, met | back
+    z, rows, all_met = z.copy(), way.start.state.rows.copy(), ~way.given_up
+    z[which], rows[which], all_met[which] = state.z, state.rows, met | back
+    done[which] &= ~back
+    return z, rows, done & ~way.given_up, all_met
 
 
 def _cost(problem: Problem, state: State) -> FloatArray:
@@ -283,12 +352,15 @@ def _hessian(jacobian: FloatArray, estimate: FloatArray) -> tuple[FloatArray, Fl
 
 
 def _made_feasible(
-    problem: Problem, state: State, active: NDArray[np.bool_], equal: NDArray[np.bool_]
+    problem: Problem,
+    which: NDArray[np.intp],
+    state: State,
+    active: NDArray[np.bool_],
+    equal: NDArray[np.bool_],
 ) -> tuple[State, NDArray[np.bool_]]:
     """States moved to meet the active constraints to rounding, by Newton's shortest steps."""
-    every = np.arange(len(state.z))
-    value, jacobian, _ = all_constraints(problem, every, state)
-    free_unknowns = problem.free_unknowns(every)
+    value, jacobian, _ = all_constraints(problem, which, state)
+    free_unknowns = problem.free_unknowns(which)
     for _ in range(6):
         active = active | (value > 0)
         gap = np.where(active, value, 0.0)
@@ -297,11 +369,11 @@ def _made_feasible(
         rows = np.where(active[..., None], jacobian, 0.0)
         with np.errstate(invalid="ignore"):
             sound = np.isfinite(rows).all(axis=(1, 2)) & np.isfinite(gap).all(axis=1)
-        step = np.zeros((len(every), jacobian.shape[-1]))
+        step = np.zeros((len(which), jacobian.shape[-1]))
         step[sound] = -matvec(np.linalg.pinv(rows[sound], rcond=1e-10), gap[sound])
         step = np.where((np.abs(step).max(axis=-1) < 0.1)[:, None] & free_unknowns, step, 0.0)
         start = state.rows + matvec(state.place_jacobian, step[:, None])
-        new = problem.state_ahead(every, state.z + step[:, :SIZE], start)
+        new = problem.state_ahead(which, state.z + step[:, :SIZE], start)
         state = where(np.asarray(np.isfinite(new.rows).all(axis=(1, 2))), new, state)
-        value, jacobian, _ = all_constraints(problem, every, state)
+        value, jacobian, _ = all_constraints(problem, which, state)
     return state, np.asarray(_greatest_violation(value, equal) < FEASIBLE)

@@ -30,7 +30,7 @@ from burmester.linkages.constraints import (
     type_excess,
 )
 from burmester.linkages.refinement import Refined
-from burmester.linkages.starts import distinct, first_order_miss, projected, varied
+from burmester.linkages.starts import first_order_miss, projected, varied
 from burmester.linkages.target import Target
 from burmester.numerics.arrays import FloatArray, wrapped_angle
 from burmester.numerics.bundles import concatenate, take
@@ -45,13 +45,13 @@ __all__ = [
 ]
 
 MAX_STARTS = 144  # number of starts at most
-# Number of refinement steps, and of the best starts that the next stage keeps.
-STAGES = (12, 32), (40, 12), (120, None)
+# Numbers of refinement steps, and after each the number of the best starts that go on.
+SELECTION = (12, 32), (30, 16), (50, 8)
+STEPS = 120  # number of refinement steps at most
 WRONG_BRANCH_SCORE = 0.1  # squared lengths; start score: penalty per pose on the wrong branch
 # Squared lengths; two weightings of branch violation and backtracking in the score; half of the
 # starts come from each.
 VIOLATION_WEIGHTS = 0.1, 1.0
-INFEASIBLE_SCORE = 10.0  # squared lengths; start score: penalty for violated constraints
 PAIRS_ON_CIRCUITS = 64  # number of first pairs of which each circuit gives starts
 USES_OF_A_DYAD = 8  # number of starts from the poses, of each weighting, that one dyad is in
 
@@ -78,26 +78,28 @@ def defect_free_linkages(
     """The best linkages under all constraints, from pairs (k,) of dyads; None if there are none.
 
     dyads: (k, 2), the numbers of the dyads in the pairs, for variety.  All starts get some steps,
-    the best of them more (`STAGES`).
+    the best of them more (`SELECTION`).
     """
     starts = _best_starts(batch, target, dyads)
     if not len(starts.pair):
         return None
-    for steps, best in STAGES:
+    found = target.refine(
+        starts.batch,
+        starts.rows,
+        constraints=_all_constraints(starts, target),
+        constrained_steps=STEPS,
+        selection=SELECTION,
+    )
+    index = np.flatnonzero(found.met)
+    if target.worst and len(index):
+        starts = take(starts, index)._replace(batch=found.batch[index], rows=found.rows[index])
         found = target.refine(
             starts.batch,
             starts.rows,
             constraints=_all_constraints(starts, target),
-            worst=target.worst and best is None,
-            constrained_steps=steps,
+            worst=True,
+            constrained_steps=STEPS,
         )
-        if best is None:
-            break
-        score = np.where(found.met, 0.0, INFEASIBLE_SCORE) + 2 * found.cost
-        order = distinct(found.rows, score, best)
-        if not len(order):  # all were lost
-            return None
-        starts = take(starts, order)._replace(batch=found.batch[order], rows=found.rows[order])
     return SearchResult(found, starts.pair)
 
 

@@ -24,6 +24,7 @@ from burmester.linkages.constrained_refinement import (
     MIN_DAMPING,
     START_DAMPING,
     STEPS_BEFORE_CURVATURE,
+    Selection,
     refine_constrained,
 )
 from burmester.linkages.constraints import Constraints
@@ -82,6 +83,7 @@ def refine(
     worst: bool = False,
     steps: int = MAX_STEPS,
     constrained_steps: int = MAX_CONSTRAINED_STEPS,
+    selection: Selection = (),
 ) -> Refined:
     """Linkages (k,) refined to a local minimum of the error at poses (N,).
 
@@ -114,6 +116,9 @@ def refine(
         of the distances, and so to about half a percent.
     steps, constrained_steps : int
         The numbers of steps at most, without and with constraints.
+    selection : sequence of (int, int), optional
+        Numbers of steps with constraints, and after each the number of the best linkages that go
+        on; the others are not `met`.
     """
     count, number = len(batch), poses.shape[0]
     exact = np.zeros(number, dtype=bool) if exact is None else exact
@@ -132,7 +137,7 @@ def refine(
     for power in POWERS if worst else POWERS[:1]:
         if keeping:
             z, rows, done, met = refine_constrained(
-                problem, state.z, rows, power, constrained_steps
+                problem, state.z, rows, power, constrained_steps, selection=selection
             )
             state = state._replace(z=z)
         else:
