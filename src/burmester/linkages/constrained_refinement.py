@@ -110,8 +110,9 @@ class _Descent:
     What decreases is half the sum of squares plus `penalty` times the constraints' violation.
     hessian_estimate: (k, n, n), of the residuals' curvature; good_steps: (k,), taken in a row;
     multipliers: (k, m), of the last step taken.
-    tried: (k,), number of steps tried; places: (k, N, 3), where they are; merit: (k,), there, and
-    `marked`: (k,), some steps ago; given_up: (k,), by the selection.
+    tried: (k,), number of steps tried; places: (k, N, 3), where they are; merit: (k,), what is left
+    there, and `marked`: (k,), some steps ago; score: (k,), by which the selection chooses: with a
+    penalty no lower than the first one; given_up: (k,), by the selection.
     """
 
     problem: Problem
@@ -126,6 +127,7 @@ class _Descent:
     tried: NDArray[np.intp]
     places: FloatArray
     merit: FloatArray
+    score: FloatArray
     marked: FloatArray
     given_up: NDArray[np.bool_]
 
@@ -150,6 +152,7 @@ class _Descent:
             selection,
             np.zeros(count, dtype=np.intp),
             start.state.rows.copy(),
+            np.full(count, np.nan),
             np.full(count, np.nan),
             np.full(count, np.inf),
             np.zeros(count, dtype=bool),
@@ -240,6 +243,7 @@ class _Descent:
         settled = (promise < SETTLED_SHARE * cost) & (damping < SETTLED_DAMPING)
         self.tried[rows] += 1
         self.merit[rows] = np.where(better, after, cost)
+        self.score[rows] = self.merit[rows] + np.maximum(START_PENALTY - penalty, 0.0) * miss
         self.places[rows] = np.where(better[:, None, None], there.state.rows, here.state.rows)
         ended = (small | idle | settled | (damping > MAX_DAMPING)) & ~stuck
         ended |= self._creeping(rows, miss) | self._not_selected(rows)
@@ -257,7 +261,7 @@ class _Descent:
         """Which (r,) do not go on; linkages that lead to the same places are one."""
         for steps, most in self.selection:
             if len(rows) and self.tried[rows[0]] == steps:
-                best = distinct(self.places, 2 * self.merit, most)
+                best = distinct(self.places, 2 * self.score, most)
                 self.given_up[:] = True
                 self.given_up[best] = False
         return self.given_up[rows]
