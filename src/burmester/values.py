@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from decimal import Decimal
 from numbers import Real
@@ -181,7 +182,8 @@ def _fits(given: tuple[int, ...], shape: Shape) -> bool:
 def _is_masked(value: object) -> bool:
     if isinstance(value, list | tuple):
         return any(map(_is_masked, value))
-    return isinstance(value, np.ma.MaskedArray)
+    # Whoever has a masked array has loaded `numpy.ma`, which takes as long as half of NumPy.
+    return "numpy.ma" in sys.modules and isinstance(value, np.ma.MaskedArray)
 
 
 def _first_of_each_type(given: NDArray[np.generic]) -> list[object]:

@@ -533,10 +533,14 @@ def test_help_imports_next_to_nothing(arguments):
     assert not loaded & {"numpy", "rich", "pydantic", "scipy"}
 
 
-def test_the_main_job_does_without_what_it_does_not_need(poses):
-    loaded = imported("synthesize", poses)
+@pytest.mark.parametrize("source", ["a file", "case:ge2012-exact"])
+def test_the_main_job_does_without_what_it_does_not_need(poses, source):
+    loaded = imported("synthesize", poses if source == "a file" else source)
     assert {"numpy", "rich"} <= loaded
-    assert not loaded & {"scipy", "pydantic", "matplotlib"}
+    assert not loaded & {"scipy", "pydantic", "matplotlib", "jsonschema", "shapely", "flint"}
+    assert not loaded & {"numpy.ma", "tomllib", "importlib.metadata", "importlib.resources"}
+    assert "burmester.linkages" in loaded
+    assert not loaded & {f"burmester.{room}" for room in ("families", "certificates", "plot")}
 
 
 def test_exported_names_are_those_that_a_type_checker_sees():

@@ -22,8 +22,12 @@ from hypothesis import strategies as st
 
 from burmester.errors import InputError
 from burmester.io import cases
+from burmester.io.reading.pose_table import Source
 from burmester.io.reading.poses import read_task
 from burmester.io.reading.tables import csv_poses
+from burmester.io.reading.trees.locations import Document
+from burmester.io.reading.trees.plain_poses import plain_poses
+from burmester.io.reading.trees.pose_model import validated
 from burmester.tasks.motion_task import Task
 
 Read = Callable[..., Task]
@@ -883,6 +887,63 @@ trees = st.recursive(
 def test_any_json_gives_a_task_or_an_input_error(read: Read, tree: Any) -> None:
     task_or_input_error(read, json.dumps(tree).encode(), ".json")
     task_or_input_error(read, json.dumps({"poses": [tree] * 3}).encode(), ".json")
+
+
+plain_values = (
+    st.decimals(allow_nan=True, allow_infinity=True)
+    | st.integers(-9, 9)
+    | st.sampled_from([True, False, None, "2", "", " a ", "\x00", "b\ud800", [], {}])
+)
+plain_trees = st.fixed_dictionaries(
+    {
+        "poses": st.lists(
+            st.lists(plain_values, min_size=2, max_size=4)
+            | st.dictionaries(
+                st.sampled_from(["x", "y", "angle", "angle_deg", "weight", "name", "exact", "p"]),
+                plain_values,
+            )
+            | st.fixed_dictionaries(
+                {"x": st.decimals(), "y": st.integers(), "angle_rad": st.decimals()},
+                optional={"weight": plain_values, "name": plain_values, "exact": plain_values},
+            ),
+            max_size=3,
+        )
+    },
+    optional={
+        "angle_unit": st.sampled_from(["deg", "rad", "grad", None]),
+        "length_unit": st.sampled_from(["mm", " mm ", "µm", None, True]),
+        "pose_sigma": st.none() | st.just({"position": Decimal(1), "angle_deg": Decimal(1)}),
+    },
+)
+
+
+@given(tree=plain_trees)
+@settings(max_examples=500, deadline=None)
+def test_plain_poses_are_read_as_the_model_of_all_poses_reads_them(tree: Any) -> None:
+    plain = plain_poses(tree)
+    if plain is None:
+        return
+    document = Document(Source("poses.json", "{}"), "JSON")
+    whole, poses = validated(document, tree, "", tracked=False)
+    for name, value in plain[0]._asdict().items():
+        assert value == getattr(whole, name), name
+    assert len(plain[1]) == len(poses)
+    for one, other in zip(plain[1], poses, strict=True):
+        for name, value in one._asdict().items():
+            assert value == getattr(other, name), name
+
+
+def test_what_is_plain_is_told() -> None:
+    one, two = Decimal("1.50"), Decimal(2)
+    listed = plain_poses({"poses": [[one, 2, two]], "angle_unit": "deg", "length_unit": " mm "})
+    assert listed is not None
+    assert (listed[0].angle_unit, listed[0].length_unit) == ("deg", "mm")
+    assert (listed[1][0].x, listed[1][0].y, listed[1][0].angle) == (one, two, two)
+    keyed = plain_poses({"poses": [{"x": 1, "y": 2, "angle_rad": one, "name": " a "}]})
+    assert keyed is not None
+    assert (keyed[1][0].angle_rad, keyed[1][0].angle, keyed[1][0].name) == (one, None, "a")
+    for odd in ({"poses": [[1, 2]]}, {"poses": [[1, 2, True]]}, {"poses": [{"p": [1, 2]}]}, [], {}):
+        assert plain_poses(odd) is None
 
 
 def test_csv_does_not_import_pydantic(tmp_path: Path) -> None:

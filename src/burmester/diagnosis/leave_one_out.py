@@ -25,7 +25,7 @@ from burmester.fourbar.dyad import PP, Dyad
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray
+from burmester.numerics.arrays import FloatArray, median
 from burmester.numerics.bundles import concatenate, take
 
 __all__ = ["MAX_POSES_ALL_LEFT_OUT", "LeaveOneOut", "pencil_pairs"]
@@ -191,9 +191,7 @@ def _suspects(
 
     From fits in which distant poses count less and less.
     """
-    away = np.linalg.norm(
-        normalized.rows[:, :2] - np.median(normalized.rows[:, :2], axis=0), axis=-1
-    )
+    away = np.linalg.norm(normalized.rows[:, :2] - median(normalized.rows[:, :2], 0), axis=-1)
     farthest = int(away.argmax())
     linkages = concatenate([pairs, _best_pairs(normalized, farthest)])
     some = np.arange(len(normalized.rows))[:: max(1, len(normalized.rows) // SAMPLE_SIZE)]
@@ -202,7 +200,7 @@ def _suspects(
     for _ in range(REWEIGHTING_ROUNDS):
         linkages, _ = fit_linkages(linkages, rows, share, SCREENING_STEPS)
         off = _distances(linkages, rows)
-        middle = np.median(off, axis=-1, keepdims=True)
+        middle = median(off, -1)
         share = (
             weights / (1 + (off / (REWEIGHTING_SCALE * middle + np.finfo(float).tiny)) ** 2) ** 2
         )

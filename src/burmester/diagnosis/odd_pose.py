@@ -48,7 +48,7 @@ from burmester.fourbar.foot_points import rows_of
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.nearest_places import on_circuits
-from burmester.numerics.arrays import ROUNDING, FloatArray
+from burmester.numerics.arrays import ROUNDING, FloatArray, median
 from burmester.numerics.bundles import concatenate
 from burmester.progress import time_for
 from burmester.tasks.motion_class import MotionClass, classify_motion
@@ -382,7 +382,7 @@ def _misses(
 def _is_general(task: Task, motion: MotionClass) -> bool:
     """Whether a motion is a general one but for the one pose that is farthest off."""
     poses = task.poses[motion.first]
-    middle = np.median(poses.translation, axis=0)
+    middle = median(poses.translation, 0)[0]
     far = int(((poses.translation - middle) ** 2).sum(axis=-1).argmax())
     others = poses[np.arange(poses.shape[0]) != far]
     return classify_motion(Task(others, resolution=task.resolution)).determined

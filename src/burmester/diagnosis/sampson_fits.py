@@ -19,7 +19,7 @@ from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.refinement import refine
 from burmester.linkages.residuals import SIZE
-from burmester.numerics.arrays import FloatArray
+from burmester.numerics.arrays import FloatArray, median
 from burmester.numerics.bundles import take
 from burmester.numerics.least_squares import Attempt, damped_descent
 from burmester.numerics.linear_algebra import matvec, solve
@@ -69,7 +69,7 @@ class NormalizedPoses(NamedTuple):
     def of(cls, poses: Displacement, weights: FloatArray | None) -> NormalizedPoses:
         """Poses (N,) of a task; the one farthest from their middle has no part in the extent."""
         share = weights_of_mean_one(weights, poses.shape)
-        middle = np.median(poses.translation, axis=0)
+        middle = median(poses.translation, 0)[0]
         away = np.sort(((poses.translation - middle) ** 2).sum(axis=-1))[:-1]
         length = np.sqrt(UNIFORM_EXTENT_SQUARED * away.mean())
         frames = CanonicalFrames(middle, np.zeros(2), length if length > 0 else np.ones(()))

@@ -34,7 +34,7 @@ from burmester.diagnosis.sampson_fits import (
 )
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray
+from burmester.numerics.arrays import FloatArray, median
 from burmester.numerics.bundles import concatenate
 
 __all__ = ["UnitError", "coincidence_chance", "combined_chance", "pose_apart", "unit_error"]
@@ -175,7 +175,7 @@ def _error_of(
 
 def pose_apart(normalized: NormalizedPoses) -> int | None:
     """The pose that lies apart from all others, and among them in another unit, if one does."""
-    off = normalized.rows[:, :2] - np.median(normalized.rows[:, :2], axis=0)
+    off = normalized.rows[:, :2] - median(normalized.rows[:, :2], 0)
     pose = int((off * off).sum(axis=-1).argmax())
     extents = _extents(normalized, pose)
     among = (extents[1:] < AMONG_EXTENTS).any()

@@ -326,7 +326,7 @@ def locate(circuits: Circuits, places: Displacement) -> Location:
     found = [np.full(places.shape, fill) for fill in (-1, 0, np.nan, np.nan, np.nan)]
     with np.errstate(invalid="ignore", divide="ignore"):
         w, closing = own.closure_at(places)
-        for range_type in set(np.unique(circuits.range_type)) - {RangeType.NONE}:
+        for range_type in set(circuits.range_type.tolist()) - {RangeType.NONE}:
             here = circuits.range_type[number] == range_type
             for result, value in zip(
                 found, _located(circuits[number[here]], w[here], closing[here]), strict=True

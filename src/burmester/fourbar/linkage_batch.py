@@ -90,7 +90,7 @@ class LinkageBatch:
     def alike(self) -> Iterator[tuple[NDArray[np.intp], Linkage]]:
         """For each pair of kinds the indices (n,) and the linkages (n,)."""
         number = self.kinds[:, 0] * len(DYAD_KINDS) + self.kinds[:, 1]
-        for pair in np.unique(number):
+        for pair in sorted(set(number.tolist())):
             index = np.flatnonzero(number == pair)
             yield index, Linkage(*(self._dyads(side, index) for side in (0, 1)))
 

@@ -8,9 +8,8 @@ from __future__ import annotations
 
 import json
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from burmester.certificates.certificate import Certificate
 from burmester.describe.moved_pivots import moved_pivots
 from burmester.dyads.critical_points import COUNT, CriticalDyads
 from burmester.dyads.five_poses import FivePoseDyads
@@ -18,7 +17,6 @@ from burmester.dyads.local_minima import BestDyads
 from burmester.dyads.pencil import Pencil
 from burmester.dyads.selection import Fit
 from burmester.errors import Advice, BurmesterError
-from burmester.families.family import RULES, Family
 from burmester.geometry.regions import Line, Point, Polygon, Segment
 from burmester.io.linkage_data import (
     degrees_of,
@@ -37,6 +35,10 @@ from burmester.tasks.motion_class import MotionClass
 from burmester.tasks.motion_task import Task
 from burmester.tasks.options import Preference
 from burmester.tasks.pose_tolerances import COMPONENTS, PoseTolerances
+
+if TYPE_CHECKING:  # few results hold either
+    from burmester.certificates.certificate import Certificate
+    from burmester.families.family import Family
 
 __all__ = [
     "failure",
@@ -223,6 +225,8 @@ def _search(fit: Fit) -> dict[str, Any]:
 
 def _family(family: Family, prefer: Preference) -> dict[str, Any]:
     """How linkages were chosen where the poses leave infinitely many."""
+    from burmester.families.family import RULES
+
     return {
         "rule": RULES[prefer],
         "assumed": [{"message": each.message, "option": each.option} for each in family.bounds],

@@ -6,17 +6,16 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import combinations
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from burmester.certificates.certificate import Certificate, certify, certify_five
 from burmester.diagnosis.checks import diagnose, disagreement
 from burmester.dyads.critical_points import CriticalDyads
 from burmester.dyads.five_poses import FivePoseDyads
 from burmester.dyads.local_minima import BestDyads, best_dyads
 from burmester.dyads.selection import FoundDyad, found_dyads
 from burmester.errors import Advice, InputError
-from burmester.families.family import best_of_family
 from burmester.fourbar.dyad import Dyad
 from burmester.fourbar.linkage import Linkage
 from burmester.linkages.evaluation import Candidates, Evaluation, at_given_poses
@@ -24,7 +23,6 @@ from burmester.linkages.found_linkage import FoundLinkage, Pair
 from burmester.linkages.from_dyads import linkages_from_dyads, target_of
 from burmester.progress import limited, step, time_for
 from burmester.synthesis.dyad_search import DyadSearch, search_dyads
-from burmester.synthesis.family_outcome import family_summary, none_within_limits
 from burmester.synthesis.method import with_method
 from burmester.synthesis.outcome import (
     dyad_advice,
@@ -42,6 +40,9 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.special_motions import CircularTranslation
+
+if TYPE_CHECKING:  # loaded where a task asks for it
+    from burmester.certificates.certificate import Certificate
 
 __all__ = ["synthesize"]
 
@@ -84,8 +85,7 @@ def _synthesis(task: Task, options: SynthesisOptions) -> Synthesis:
     if open_ and min(problem.missing_conditions) < 0:
         return _dyad_family(problem, known)
     if open_:
-        found = _of_family(problem, known)
-        return found or Synthesis(problem, none_within_limits(problem), warnings=tuple(known))
+        return _of_family(problem, known) or _no_family(problem, known)
     problem = with_method(problem)
     step("looking for dyads")
     search = search_dyads(problem)
@@ -127,6 +127,9 @@ def _kind(problem: SynthesisProblem) -> MotionKind | None:
 
 def _of_family(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthesis | None:
     """Too few conditions leave infinitely many linkages: the best of them; None if none meets."""
+    from burmester.families.family import best_of_family  # noqa: PLC0415  few tasks need it
+    from burmester.synthesis.family_outcome import family_summary  # noqa: PLC0415  the same
+
     task, target = problem.task, target_of(problem)
     step("looking at the linkages of the family")
     found = best_of_family(problem, target)
@@ -150,6 +153,13 @@ def _of_family(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthes
     more = [] if found.given_up else linkage_advice(problem.given, linkages, outcome.code)
     warnings = (*findings, *advice, *more)
     return Synthesis(problem, outcome, dyads, linkages, warnings, family=found)
+
+
+def _no_family(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthesis:
+    """Too few conditions, and no linkage that meets them within the limits."""
+    from burmester.synthesis.family_outcome import none_within_limits  # noqa: PLC0415  seldom
+
+    return Synthesis(problem, none_within_limits(problem), warnings=tuple(findings))
 
 
 def _within_digits(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthesis | None:
@@ -239,6 +249,8 @@ def _found_twice(pair: Pair) -> Advice:
 
 def _certificate(problem: SynthesisProblem, search: DyadSearch) -> Certificate:
     """What is proved of the dyads."""
+    from burmester.certificates.certificate import certify, certify_five  # noqa: PLC0415  on demand
+
     task, fit = problem.task, search.fits[0]
     dyads: list[Dyad] = [each.dyad for each in search.dyads]
     if isinstance(fit, FivePoseDyads):

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import final
+from typing import TYPE_CHECKING, final
 
-from burmester.certificates.certificate import Certificate
 from burmester.dyads.selection import Fit, FoundDyad
 from burmester.errors import Advice
-from burmester.families.family import Family
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.tasks.motion_class import MotionClass
 from burmester.tasks.motion_task import Task
 from burmester.tasks.options import Method, SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
+
+if TYPE_CHECKING:  # few tasks have either, and their rooms take long to load
+    from burmester.certificates.certificate import Certificate
+    from burmester.families.family import Family
 
 __all__ = ["JUDGED", "Outcome", "Synthesis"]
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import math
 from collections.abc import Iterable, Iterator, Mapping, Set
 from dataclasses import dataclass
@@ -319,8 +318,10 @@ def _normalized(name: str) -> str:
 
 def _unknown(what: str, name: object, known: tuple[str, ...]) -> InputError:
     """E134 for a name that is none of the known ones, with the likeliest of them."""
+    from difflib import get_close_matches  # noqa: PLC0415  for an error only
+
     plain = {_normalized(each): each for each in known}
-    near = difflib.get_close_matches(_normalized(str(name)), plain, n=1)
+    near = get_close_matches(_normalized(str(name)), plain, n=1)
     guess = f"did you mean {plain[near[0]]}? " if near else ""
     help = f"{guess}choose among {', '.join(known)}"
     return InputError("E134", f"there is no {what} {shown(name)}", help=help)

@@ -3,7 +3,7 @@
 Tables: `file_content` (bytes and text), `csv_poses` (with `csv_header`, `csv_cells`), `columns`
 (by `column_words`), `pose_table` (numbers as printed), `written_numbers`, `wrong_numbers`,
 `workbook`, `tracked_points`, `parquet`.
-JSON and TOML: `documents`, `pose_tree`, `pose_model`, `locations` (of values in the text),
+JSON and TOML: `documents`, `pose_tree`, `plain_poses`, `pose_model`, `locations` (in the text),
 `syntax_faults` (with `syntax_checks`, `parser_stop`).  Limits and requirements: `specification` and
 `stated_requirements`, as text (`limits_text`, `requirements_text`) and in files (`limits_tree`,
 `requirements_tree`).

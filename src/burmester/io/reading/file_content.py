@@ -15,6 +15,8 @@ __all__ = [
     "ARCHIVE_HELP",
     "MAX_LINES",
     "decode_text",
+    "is_archive",
+    "is_parquet",
     "read_source",
     "require_moderate",
     "too_large",
@@ -77,6 +79,16 @@ def too_large(why: str) -> InputError:
     """E101 for a file that is not read to its end."""
     help = "take one pose in ten, say: so many hardly tell more"
     return InputError("E101", "the file is too large", why=why, help=help)
+
+
+def is_parquet(data: bytes) -> bool:
+    """Whether a file begins as Parquet does."""
+    return data.startswith(b"PAR1")
+
+
+def is_archive(data: bytes) -> bool:
+    """Whether a file begins as an archive does; a workbook is one."""
+    return data.startswith(b"PK\x03\x04")
 
 
 def decode_text(data: bytes) -> tuple[str, tuple[Advice, ...]]:

@@ -31,18 +31,20 @@ import os
 import re
 from collections.abc import Callable, Sequence
 from pathlib import PurePath
-from typing import Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
-from burmester.io.reading.file_content import decode_text, read_source, require_moderate
-from burmester.io.reading.markers.marker_choice import chosen_markers
-from burmester.io.reading.markers.marker_header import read_marker_header
-from burmester.io.reading.markers.marker_poses import recorded_poses
-from burmester.io.reading.markers.marker_recording import MarkerRecording
+from burmester.io.reading.file_content import (
+    decode_text,
+    is_archive,
+    is_parquet,
+    read_source,
+    require_moderate,
+)
 from burmester.io.reading.markers.tracked_points import TrackedRows, tracked_poses
 from burmester.io.reading.outline_options import OutlineOptions
 from burmester.io.reading.pose_table import UNITS, PoseTable, Source, extent, resolution_by_digits
@@ -54,19 +56,16 @@ from burmester.io.reading.stated_tolerances import (
     combined_tolerances,
     with_nominal_values,
 )
-from burmester.io.reading.tables.cad_rows import is_cad_text, read_cad_rows
-from burmester.io.reading.tables.csv_poses import read_csv
-from burmester.io.reading.tables.parquet import is_parquet, read_parquet
-from burmester.io.reading.tables.workbook import is_archive, read_sheet
-from burmester.io.reading.trees.documents import read_json, read_toml
 from burmester.numerics.arrays import FloatArray
 from burmester.printable import blanked, printable
 from burmester.tasks.motion_task import Task
 
+if TYPE_CHECKING:  # a reader is loaded with the first file that needs it
+    from burmester.io.reading.markers.marker_recording import MarkerRecording
+
 __all__ = ["read_task"]
 
-_READERS: dict[str, Callable[..., PoseTable]] = dict.fromkeys((".csv", ".tsv", ".txt"), read_csv)
-_READERS |= {".json": read_json, ".toml": read_toml}
+_FORMATS = {".csv": "CSV", ".tsv": "CSV", ".txt": "CSV", ".json": "JSON", ".toml": "TOML"}
 
 
 def read_task(
@@ -208,32 +207,48 @@ def _table(
         raise InputError("E108", message, where=label, help="leave one of the two out")
     suffix = PurePath(label).suffix.lower()
     if is_parquet(data) or (suffix == ".parquet" and data):
+        from burmester.io.reading.tables.parquet import read_parquet
+
         _require_no_sheet(sheet)
         read: Callable[[], PoseTable] = functools.partial(read_parquet, label, data)
     else:
         if is_archive(data):
+            from burmester.io.reading.tables.workbook import read_sheet
+
             source = read_sheet(label, data, sheet)
         else:
             _require_no_sheet(sheet)
             source = Source(label, *decode_text(data))
         del data  # a million poses are many bytes
-        by_content: Callable[..., PoseTable]
-        by_content = read_json if source.text.lstrip().startswith(("{", "[")) else read_csv
-        reader = read_csv if source.sheet else _READERS.get(suffix, by_content)
-        require_moderate(source.text, tree=reader is not read_csv)
-        if reader is read_csv:
-            if columns is None and (header := read_marker_header(source)) is not None:
-                return _Recording(*chosen_markers(header, points))
-            _require_no_points(label, points)
-            if columns is None and is_cad_text(source.text):
-                return read_cad_rows(source)
-            return read_csv(source, columns)
-        read = functools.partial(reader, source)
+        by_content = "JSON" if source.text.lstrip().startswith(("{", "[")) else "CSV"
+        language = "CSV" if source.sheet else _FORMATS.get(suffix, by_content)
+        require_moderate(source.text, tree=language != "CSV")
+        if language == "CSV":
+            return _rows(source, columns, points)
+        from burmester.io.reading.trees.documents import read_json, read_toml
+
+        read = functools.partial(read_json if language == "JSON" else read_toml, source)
     if columns is not None:
         message = "--columns is for CSV files and sheets; this file names its columns itself"
         raise InputError("E108", message, help="leave --columns out")
     _require_no_points(label, points)
     return read()
+
+
+def _rows(source: Source, columns: str | None, points: str | None) -> PoseTable | _Recording:
+    """The table in CSV or in a sheet: poses, markers, or rows pasted from CAD."""
+    from burmester.io.reading.markers.marker_header import read_marker_header
+    from burmester.io.reading.tables.cad_rows import is_cad_text, read_cad_rows
+    from burmester.io.reading.tables.csv_poses import read_csv
+
+    if columns is None and (header := read_marker_header(source)) is not None:
+        from burmester.io.reading.markers.marker_choice import chosen_markers
+
+        return _Recording(*chosen_markers(header, points))
+    _require_no_points(source.label, points)
+    if columns is None and is_cad_text(source.text):
+        return read_cad_rows(source)
+    return read_csv(source, columns)
 
 
 def _require_no_points(label: str, points: str | None) -> None:
@@ -263,6 +278,8 @@ def _selected(
 ) -> _SelectedRows:
     """The rows that are asked for, of poses or of a recording."""
     if isinstance(table, _Recording):
+        from burmester.io.reading.markers.marker_poses import recorded_poses
+
         recording, labels = table.markers, table.markers.labels
         wanted = selection.kept(labels)
         usable = selection.in_range(labels) & ~row_marks("--drop", selection.drop, labels)

@@ -23,13 +23,9 @@ from burmester.io.reading.tables.tolerance_cells import WORD_ROLES, read_words, 
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.pose_tolerances import COMPONENTS
 
-__all__ = ["is_parquet", "read_parquet"]
+__all__ = ["read_parquet"]
 
 _Where: TypeAlias = Callable[[int | None, int | None], str]  # the location of a column and a row
-
-
-def is_parquet(data: bytes) -> bool:
-    return data.startswith(b"PAR1")
 
 
 def read_parquet(label: str, data: bytes) -> PoseTable:

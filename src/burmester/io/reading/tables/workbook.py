@@ -28,7 +28,7 @@ from burmester.io.reading.pose_table import (
 )
 from burmester.wording import listed, shortened
 
-__all__ = ["is_archive", "read_sheet"]
+__all__ = ["read_sheet"]
 
 MAX_TAGS = 1_500_000  # tags of XML; 100,000 poses have 900,000, and take 12 s and 250 MB
 MAX_BYTES = 200_000_000  # bytes of XML, unpacked
@@ -42,10 +42,6 @@ _PARTS = re.compile(  # those that hold cells: no pictures, charts, links, queri
     re.IGNORECASE,
 )
 _CSV = "save the sheet as CSV and read that"
-
-
-def is_archive(data: bytes) -> bool:
-    return data.startswith(b"PK\x03\x04")
 
 
 def read_sheet(label: str, data: bytes, sheet: str | None) -> Source:

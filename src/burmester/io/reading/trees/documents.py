@@ -9,7 +9,6 @@ from __future__ import annotations
 import functools
 import json
 import re
-import tomllib
 from collections.abc import Callable
 from decimal import Decimal, InvalidOperation
 from typing import Any
@@ -56,6 +55,8 @@ def read_json(source: Source) -> PoseTable:
 
 def read_toml(source: Source) -> PoseTable:
     """`poses = [[x, y, angle], ...]` or tables `[[poses]]`; raises E103 to E110."""
+    import tomllib
+
     document = Document(source, "TOML")
     _require_short_keys(source)
     tree = _tree(document, functools.partial(tomllib.loads, parse_float=_exact))

@@ -6,10 +6,8 @@ checks, because it is known to be valid.  Nothing recurses: a file may hold a th
 
 from __future__ import annotations
 
-import difflib
 import json
 import re
-import tomllib
 from collections.abc import Iterable, Iterator
 from typing import Literal, NamedTuple, TypeAlias
 
@@ -111,7 +109,9 @@ def dotted(path: Path) -> str:
 
 def close_match(word: str, known: Iterable[str]) -> str | None:
     """The one of the known words that is nearly the same, if one is."""
-    found = difflib.get_close_matches(word.lower(), list(known), 1, 0.75)
+    from difflib import get_close_matches
+
+    found = get_close_matches(word.lower(), list(known), 1, 0.75)
     return found[0] if found else None
 
 
@@ -233,6 +233,8 @@ def _word(raw: str) -> str:
     try:
         return str(json.loads(raw))
     except ValueError:  # an escape that only TOML has
+        import tomllib
+
         return str(tomllib.loads(f"{raw} = 0").popitem()[0])
 
 

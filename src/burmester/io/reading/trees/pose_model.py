@@ -20,13 +20,11 @@ from burmester.errors import InputError
 from burmester.io.reading.pose_table import NUMERIC, POINTS
 from burmester.io.reading.trees.limits_tree import Number
 from burmester.io.reading.trees.locations import Document, close_match
+from burmester.io.reading.trees.plain_poses import POINT_KEYS, XY_ANGLE_KEYS
 from burmester.io.reading.trees.tolerance_model import ToleranceModel, tolerance_fault
 from burmester.tasks.pose_tolerances import COMPONENTS, Component
 
-__all__ = ["POINT_KEYS", "XY_ANGLE_KEYS", "pose_fault", "validated"]
-
-POINT_KEYS = {"p": ("px", "py"), "q": ("qx", "qy")}
-XY_ANGLE_KEYS = frozenset({"x", "y", "angle", "angle_deg", "angle_rad"})
+__all__ = ["pose_fault", "validated"]
 
 _COMMON_KEYS = ("weight", "exact", "name", "tolerance", "free")
 _SLICE = 1000  # poses checked at a time: all that is wrong in them is collected

@@ -1,13 +1,13 @@
 """Poses in the tree of a JSON or TOML file, and the keys beside them.
 
 At the top of a task other keys may stand (title, author, notes ...) and are not looked at, unless
-they are known ones misspelt or belong elsewhere.  Imported on first use, as pydantic is slow to
-import.
+they are known ones misspelt or belong elsewhere.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from decimal import Decimal
 from typing import Any
 
@@ -20,7 +20,7 @@ from burmester.io.reading.stated_requirements import REQUIREMENT_KEYS
 from burmester.io.reading.stated_surroundings import StatedSurroundings
 from burmester.io.reading.stated_tolerances import TOLERANCE_ROLES, DefaultTolerance
 from burmester.io.reading.trees.locations import Document, close_match
-from burmester.io.reading.trees.pose_model import POINT_KEYS, XY_ANGLE_KEYS, pose_fault, validated
+from burmester.io.reading.trees.plain_poses import POINT_KEYS, XY_ANGLE_KEYS, plain_poses
 from burmester.tasks.pose_tolerances import COMPONENTS
 
 __all__ = ["read_tree"]
@@ -56,7 +56,7 @@ def read_tree(tree: Any, document: Document, example: str) -> PoseTable:
         tree, document = tree["task"], document._replace(root=("task",))
     specification = _specification(tree, document) if isinstance(tree, dict) else Specification()
     tracked = _tracked(document, tree)
-    whole, poses = validated(document, tree, example, tracked)
+    whole, poses = plain_poses(tree) or _validated(document, tree, example, tracked)
     unit: str | None = None
     if tracked:
         columns, where = _points(document, poses), ""
@@ -78,6 +78,8 @@ def read_tree(tree: Any, document: Document, example: str) -> PoseTable:
         if columns[numeric[j]][i] == "nan":  # it is free
             continue
         number = columns[numeric[j]][i]
+        from burmester.io.reading.trees.pose_model import pose_fault
+
         fault = {"type": "finite_number", "loc": ("poses", int(i), numeric[j]), "input": number}
         raise pose_fault(document, tree, example, tracked, fault)
 
@@ -115,12 +117,21 @@ def read_tree(tree: Any, document: Document, example: str) -> PoseTable:
     )
 
 
+def _validated(
+    document: Document, tree: Any, example: str, tracked: bool
+) -> tuple[Any, Sequence[Any]]:
+    """What stands beside the poses, and the poses, whatever they state; raises E103 to E110."""
+    from burmester.io.reading.trees.pose_model import validated
+
+    return validated(document, tree, example, tracked)
+
+
 def _written(number: Decimal | None) -> str:
     """A number as text; nan for a component that is free and has none."""
     return "nan" if number is None else str(number)
 
 
-def _tolerances(document: Document, poses: list[Any], unit: str | None) -> dict[str, list[str]]:
+def _tolerances(document: Document, poses: Sequence[Any], unit: str | None) -> dict[str, list[str]]:
     """The columns of what the poses state of their tolerances; none where no pose does."""
     if all(pose.tolerance is None and pose.free is None for pose in poses):
         return {}
@@ -220,7 +231,7 @@ def _two_forms(document: Document, message: str, pose: int, key: str | None = No
     return InputError("E108", message, where=where, why=why, help="give all poses in one way")
 
 
-def _points(document: Document, poses: list[Any]) -> dict[str, list[str]]:
+def _points(document: Document, poses: Sequence[Any]) -> dict[str, list[str]]:
     """The columns px, py, qx and qy; raises E105 and E108 where a point is not given once."""
     columns: dict[str, list[str]] = {role: [] for role in POINTS}
     for i, pose in enumerate(poses):
@@ -246,7 +257,7 @@ def _points(document: Document, poses: list[Any]) -> dict[str, list[str]]:
     return columns
 
 
-def _where_unit(document: Document, whole: Any, poses: list[Any]) -> str:
+def _where_unit(document: Document, whole: Any, poses: Sequence[Any]) -> str:
     """Where the angles' unit is stated, or should be."""
     if whole.angle_unit:
         return document.where("angle_unit")
@@ -257,7 +268,7 @@ def _where_unit(document: Document, whole: Any, poses: list[Any]) -> str:
 
 
 def _angles(
-    document: Document, whole: Any, poses: list[Any]
+    document: Document, whole: Any, poses: Sequence[Any]
 ) -> tuple[list[Decimal | None], str | None]:
     """The angles and their unit, if every pose has one angle and all are in one unit.
 
