@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from burmester.families.conditions import Conditions
 from burmester.families.open_task import OpenTask, Trials
-from burmester.fourbar.circuits import Circuits
+from burmester.fourbar.circuit_batch import AnyCircuits
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import GRASHOF_SUMS, Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
@@ -100,7 +100,7 @@ def _of_alike(
         view = DrivenView.of(linkage, places)
         every = np.ones(places.shape, dtype=bool)
         tolerance = OrderTolerance(np.zeros(len(every)), 0.0)
-        traversal = traversal_of(linkage, view, every, tolerance, conditions.any_order)
+        traversal = traversal_of(view, every, tolerance, conditions.any_order)
         ranged = pose_range(traversal, view)
         traversal, ranged = other_way_round(traversal, ranged, view, conditions.any_order)
         violation, transmission = _along_poses(traversal, ranged, view, conditions)
@@ -142,7 +142,7 @@ def _ends(along: FloatArray) -> FloatArray:
     return np.stack([np.fmin.reduce(along, axis=1), np.fmax.reduce(along, axis=1)], axis=-1)
 
 
-def _frames(circuits: Circuits, ends: FloatArray) -> Displacement:
+def _frames(circuits: AnyCircuits, ends: FloatArray) -> Displacement:
     """Places (k, FRAMES) of the coupler along a range of parameters (k, 2)."""
     share = np.linspace(0.0, 1.0, FRAMES)
     return circuits.couplers(ends[:, :1] + (ends[:, 1:] - ends[:, :1]) * share)
@@ -164,7 +164,7 @@ def _outside(linkage: Linkage, frames: Displacement, footprint: Polygon) -> Floa
 
 def _too_close(
     linkage: Linkage,
-    circuits: Circuits,
+    circuits: AnyCircuits,
     ends: FloatArray,
     violation: FloatArray,
     conditions: Conditions,

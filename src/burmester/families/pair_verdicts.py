@@ -181,7 +181,7 @@ def _judged(first: Ground, second: RR, task: Task, bounds: PairBounds) -> PairVe
     for driver in (0, 1):
         side = Linkage(sides[driver].first[one], sides[driver].second[one])
         view = _rows(views[driver], one)
-        traversal = traversal_of(side, view, on, exact, any_order)
+        traversal = traversal_of(view, on, exact, any_order)
         traversal, ranged = other_way_round(traversal, pose_range(traversal, view), view, any_order)
         verdict = _motion_class(traversal, ranged)
         works = np.flatnonzero(verdict == PairClass.WORKS)

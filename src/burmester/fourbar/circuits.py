@@ -32,8 +32,9 @@ from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.loop_closure import NO_PLACE, DrivenLoop, displacement_of, with_trailing_axes
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
+from burmester.numerics.bundles import put
 
-__all__ = ["Circuits", "Location", "circuit_of", "locate"]
+__all__ = ["Circuits", "Location", "circuit_of"]
 
 PLACES_PER_BLOCK = 8192  # places computed at once; their arrays fit the processor's cache
 # Step of the parameter (radians or a length) away from a change point, where a place is undefined.
@@ -90,6 +91,21 @@ class Circuits:
     def shape(self) -> tuple[int, ...]:
         """The leading axes."""
         return self.range_type.shape
+
+    @property
+    def groups(self) -> tuple[tuple[slice, Circuits], ...]:
+        """All of them, as the one group of `CircuitBatch.groups`."""
+        return ((slice(None), self),)
+
+    def exchanged(self) -> Circuits:
+        """The circuits (*, 2) of the same linkages (*,) as given, driven by their second dyads."""
+        loop = self.loop if len(self.shape) < 2 else self.loop[..., 0]
+        return Circuits.of(Linkage(loop.second, loop.first), as_given=True)
+
+    @property
+    def turns(self) -> NDArray[np.bool_]:
+        """Whether the input is an angle, (*,)."""
+        return np.full(self.shape, self.loop.turns)
 
     @property
     def exists(self) -> NDArray[np.bool_]:
@@ -234,6 +250,20 @@ class Circuits:
         swung = middle + np.angle(w * np.exp(-1j * middle))
         return np.asarray(loop.centre + np.where(range_type == RangeType.WHOLE, parameter, swung))
 
+    def locate(self, places: Displacement) -> Location:
+        """As `circuit_of`, for coupler places (*, ...) and the circuits (*, 2) of `of`."""
+        first = self[..., 0]
+        own = with_trailing_axes(first.loop, len(places.shape))
+        number = np.broadcast_to(np.arange(first.range_type.size).reshape(own.shape), places.shape)
+        circuits, found = first.flattened(), Location.none(places.shape)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            w, closing = own.closure_at(places)
+            for range_type in set(circuits.range_type.tolist()) - {RangeType.NONE}:
+                here = circuits.range_type[number] == range_type
+                values = _located(circuits[number[here]], w[here], closing[here])
+                put(found, here, Location(*values))
+        return found
+
     def curve(self, point: FloatArray, parameter: FloatArray) -> FloatArray:
         """Coupler curves (*, n, 2) of points (2,) or (*, 2) of M, at parameters (n,) or (*, n)."""
         if (self.near_change_point & self.exists).any():
@@ -304,6 +334,12 @@ class Location(NamedTuple):
     circuit_margin: FloatArray
     branch_margin: FloatArray
 
+    @classmethod
+    def none(cls, shape: tuple[int, ...]) -> Self:
+        """On no circuit."""
+        margins = (np.full(shape, np.nan) for _ in range(3))
+        return cls(np.full(shape, -1, np.int8), np.zeros(shape, np.int8), *margins)
+
 
 def circuit_of(linkage: Linkage, places: Displacement, as_given: bool = False) -> Location:
     """The circuit of coupler places (*, ...), and their branch where the first dyad drives.
@@ -314,26 +350,7 @@ def circuit_of(linkage: Linkage, places: Displacement, as_given: bool = False) -
     its error.  as_given: see `Circuits.of`; at a change point itself two circuits or branches
     meet, and rounding chooses one.  Raises InputError E401 as `Circuits.of` does.
     """
-    return locate(Circuits.of(linkage, as_given), places)
-
-
-def locate(circuits: Circuits, places: Displacement) -> Location:
-    """As `circuit_of`, for the circuits (*, 2) that `Circuits.of` returned."""
-    first = circuits[..., 0]
-    own = with_trailing_axes(first.loop, len(places.shape))
-    number = np.broadcast_to(np.arange(first.range_type.size).reshape(own.shape), places.shape)
-    circuits = first.flattened()
-    found = [np.full(places.shape, fill) for fill in (-1, 0, np.nan, np.nan, np.nan)]
-    with np.errstate(invalid="ignore", divide="ignore"):
-        w, closing = own.closure_at(places)
-        for range_type in set(circuits.range_type.tolist()) - {RangeType.NONE}:
-            here = circuits.range_type[number] == range_type
-            for result, value in zip(
-                found, _located(circuits[number[here]], w[here], closing[here]), strict=True
-            ):
-                result[here] = value
-    circuit, branch, *rest = found
-    return Location(circuit.astype(np.int8), branch.astype(np.int8), *rest)
+    return Circuits.of(linkage, as_given).locate(places)
 
 
 def _located(

@@ -15,6 +15,7 @@ from typing import final
 
 import numpy as np
 
+from burmester.fourbar.circuit_batch import CircuitBatch
 from burmester.fourbar.defect_messages import (
     Defect,
     DefectKind,
@@ -27,6 +28,7 @@ from burmester.fourbar.defect_messages import (
     undetermined_defect,
 )
 from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.pose_order import REPEATED_POSE_STEP, BoolArray, OrderTolerance
 from burmester.fourbar.traversal import (
     DEAD_POINT_ANGLE,
@@ -39,6 +41,7 @@ from burmester.fourbar.traversal import (
 )
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
+from burmester.numerics.bundles import concatenate
 
 __all__ = [
     "Defect",
@@ -99,7 +102,7 @@ class Verdict:
 
 
 def judge(
-    linkage: Linkage,
+    linkage: Linkage | LinkageBatch,
     places: Displacement,
     *,
     missed: FloatArray,
@@ -109,7 +112,7 @@ def judge(
     any_order: bool = False,
     order_slack: FloatArray | None = None,
 ) -> list[Verdict]:
-    """The verdicts on linkages (k,) of one pair of kinds, RR, PR or RP, for either driver.
+    """The verdicts on linkages (k,), for either driver: a batch, or of one pair of kinds.
 
     places: (k, N), the coupler's places nearest to the poses, in their order; nan where there is
         none: such poses are left out of the other verdicts.
@@ -133,18 +136,21 @@ def judge(
     half way between them each would be missed by no more than that.  A step back of less than
     CERTAIN_STEP_BACK is an order defect that is not certain.
     """
-    sides = (linkage, Linkage(linkage.second, linkage.first))
-    views = [DrivenView.of(side, places) for side in sides]
-    change = views[0].circuits.near_change_point[:, 0]
+    count = len(places.angle)
+    if not count:
+        return []
+    rows = np.tile(np.arange(count), 2)
+    view = DrivenView.along(_both_driven(linkage, count), places[rows])
+    change = view.circuits.near_change_point[:count, 0]
     assembled = np.isfinite(places.angle) & np.isfinite(places.translation).all(axis=-1)
-    one, other = (view.location.circuit for view in views)
+    one, other = np.split(view.location.circuit, 2)
     labels = np.where(one < 0, other, one)
-    least = np.fmin(views[0].transmission, views[1].transmission)
+    least = np.fmin(*np.split(view.transmission, 2))
     weak = change[:, None] & (least < DEAD_POINT_ANGLE)
     clear = assembled & (labels >= 0) & ~weak
-    count = np.stack([(clear & (labels == number)).sum(axis=1) for number in (0, 1)])
+    met = [(clear & (labels == number)).sum(axis=1) for number in (0, 1)]
     first_met = np.take_along_axis(labels, first_where(clear, assembled)[:, None], axis=1)[:, 0]
-    main = np.where(count[0] == count[1], first_met, count[1] > count[0])
+    main = np.where(met[0] == met[1], first_met, met[1] > met[0])
     on = assembled & ((labels == main[:, None]) | weak)
 
     pose_names = PoseNames(names)
@@ -152,7 +158,7 @@ def judge(
     far = ~(missed <= reach) | ~assembled
     for k in np.flatnonzero(far.any(axis=1)):
         common[k] += assembly_defects(far[k], assembled[k], missed[k], pose_names)
-    for k in np.flatnonzero((count > 0).all(axis=0)):
+    for k in np.flatnonzero((met[0] > 0) & (met[1] > 0)):
         common[k].append(
             circuit_defect(
                 clear[k],
@@ -168,14 +174,22 @@ def judge(
         distance = order_slack
     elif length is not None:
         distance = 2 * np.where(assembled, np.minimum(missed, reach), 0.0).max(axis=1)
-    tolerance = OrderTolerance(distance, length or 0.0)
-    first, second = (
-        _driven(traversal_of(side, view, on, tolerance, any_order), view, on, any_order, pose_names)
-        for side, view in zip(sides, views, strict=True)
-    )
+    tolerance = OrderTolerance(distance[rows], length or 0.0)
+    traversal = traversal_of(view, on[rows], tolerance, any_order)
+    driven = _driven(traversal, view, on[rows], any_order, pose_names)
     return [
-        Verdict(tuple(defects), a, b) for defects, a, b in zip(common, first, second, strict=True)
+        Verdict(tuple(defects), a, b)
+        for defects, a, b in zip(common, driven[:count], driven[count:], strict=True)
     ]
+
+
+def _both_driven(linkage: Linkage | LinkageBatch, count: int) -> CircuitBatch:
+    """The circuits (2 k, 2) of linkages (k,) driven by their first dyads, then by their second."""
+    if isinstance(linkage, LinkageBatch):
+        return CircuitBatch.of(concatenate([linkage, linkage.exchanged()]))
+    rows = np.arange(count)
+    other = Linkage(linkage.second, linkage.first)
+    return CircuitBatch.of_groups([(rows, linkage), (count + rows, other)], 2 * count)
 
 
 def _driven(
@@ -185,7 +199,7 @@ def _driven(
     any_order: bool,
     names: PoseNames,
 ) -> list[Driven]:
-    """The motions of linkages (k,) with one driver; on: the poses (k, N) that are judged."""
+    """The motions of linkages (k,), each with one driver; on: the poses (k, N) that are judged."""
     traversal, ranged = other_way_round(traversal, pose_range(traversal, view), view, any_order)
     on_circuit, circuits, order = traversal.on_circuit, traversal.circuits, traversal.order
     parameter = np.where(on_circuit, order.along, np.nan)

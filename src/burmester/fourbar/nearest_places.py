@@ -14,7 +14,7 @@ from typing import Final, NamedTuple, Self, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.fourbar.circuits import Circuits, circuit_of, locate
+from burmester.fourbar.circuit_batch import AnyCircuits, CircuitBatch
 from burmester.fourbar.foot_points import foot_points, places_of, rows_of, wrapped
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
@@ -64,23 +64,12 @@ def on_circuits(batch: LinkageBatch, poses: Displacement, length: float) -> Disp
     out = np.full((count, 2, number, 3), np.nan)
     target = rows_of(poses, length)
     effort = THOROUGH if number <= MAX_POSES_THOROUGH else QUICK
-    searches = [
-        _CircuitSearch.of(index, batch[index], Circuits.of(linkage, as_given=True), length, effort)
-        for index, linkage in batch.alike()
-    ]
+    if not count:
+        return places_of(out, length)
+    search = _CircuitSearch.of(batch, length, effort)
     for at in range(0, number, POSES_PER_BLOCK):
-        block = target[at : at + POSES_PER_BLOCK]
-        starts = [each.starts(block) for each in searches]
-        rows = np.concatenate([each.index[each.row] for each in searches])
-        start = np.concatenate([start for start, _ in starts])
-        # Newton's method runs on linkages of all kinds at once.
-        wanted = np.broadcast_to(block[:, None], start.shape)
-        ends = _newton_ends(batch[rows], start, wanted, length)
-        done = 0
-        for each, (start, sample) in zip(searches, starts, strict=True):
-            own = ends[done : done + len(start)]
-            out[each.index, :, at : at + POSES_PER_BLOCK] = each.nearest(start, sample, own, block)
-            done += len(start)
+        block = slice(at, at + POSES_PER_BLOCK)
+        out[:, :, block] = search.nearest(target[block])
     return places_of(out, length)
 
 
@@ -94,16 +83,13 @@ def on_own_circuits(
     A given place stays where it is on no circuit, and where it is on the linkage and nearer.
     """
     both = rows_of(on_circuits(batch, poses, length), length)
-    target, nearer = rows_of(poses, length), rows.copy()
-    every = np.arange(poses.shape[0])
-    for index, linkage in batch.alike():
-        places = Displacement(rows[index, ..., :2], rows[index, ..., 2] / length)
-        circuit = circuit_of(linkage, places, as_given=True).circuit
-        mixed = (circuit != circuit[:, :1]).any(axis=1)
-        side = np.where(mixed[:, None], _nearest_of(both[index], target, 1), np.maximum(circuit, 0))
-        own = both[index[:, None], side, every]
-        nearer[index] = np.where((circuit >= 0)[..., None], own, rows[index])
+    target = rows_of(poses, length)
+    linkage, pose = np.indices(rows.shape[:2])
     places = places_of(rows, length)
+    circuit = CircuitBatch.of(batch).locate(places).circuit
+    mixed = (circuit != circuit[:, :1]).any(axis=1)
+    side = np.where(mixed[:, None], _nearest_of(both, target, 1), np.maximum(circuit, 0))
+    nearer = np.where((circuit >= 0)[..., None], both[linkage, side, pose], rows)
     off = np.abs(batch.jacobians(places).residual).max(axis=1) > ON_LINKAGE
     least = _squares(rows, target) * (1 + EQUALLY_NEAR)
     better = off | (_squares(nearer, target) <= least)
@@ -121,9 +107,8 @@ def nearest(places: Displacement, poses: Displacement, length: float) -> Displac
 @final
 @dataclass(frozen=True, slots=True, eq=False)
 class _CircuitSearch:
-    """The circuits (k, 2) of linkages (k,) of one pair of kinds, with samples of the existing ones.
+    """The circuits (k, 2) of linkages (k,), with samples of the existing ones.
 
-    index: (k,), the linkages' numbers in the whole batch.
     row, side: (n,), linkage and circuit of each existing circuit.
     share: (n, s), where on its circuit each sample is, a fraction; gap: (n, s), the distance to the
         farther of its neighbours in these fractions.
@@ -131,9 +116,8 @@ class _CircuitSearch:
     minima: the number of local minima that are followed.
     """
 
-    index: NDArray[np.intp]
     batch: LinkageBatch
-    circuits: Circuits
+    circuits: CircuitBatch
     length: float
     minima: int
     row: NDArray[np.intp]
@@ -144,15 +128,9 @@ class _CircuitSearch:
     spacing: FloatArray
 
     @classmethod
-    def of(
-        cls,
-        index: NDArray[np.intp],
-        batch: LinkageBatch,
-        circuits: Circuits,
-        length: float,
-        effort: SearchEffort,
-    ) -> Self:
+    def of(cls, batch: LinkageBatch, length: float, effort: SearchEffort) -> Self:
         """The search on the circuits (k, 2) of linkages (k,), sampled."""
+        circuits = CircuitBatch.of(batch)
         row, side = np.nonzero(circuits.exists)
         share, samples = sampled(circuits[row, side], length, effort.samples)
         after = _distance_to_next(samples, length)
@@ -160,22 +138,17 @@ class _CircuitSearch:
         gap[:, -1:] += 1
         gap = np.maximum(gap, np.roll(gap, 1, axis=-1))
         spacing = np.maximum(after, np.roll(after, 1, axis=-1))
-        return cls(
-            index, batch, circuits, length, effort.minima, row, side, share, gap, samples, spacing
-        )
+        return cls(batch, circuits, length, effort.minima, row, side, share, gap, samples, spacing)
 
-    def starts(self, target: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
-        """Starts (n, N, *, 3) towards target (N, 3), and the numbers (n, N, *) of their samples."""
-        return _local_minima(self.samples, target, self.length, self.minima)
-
-    def nearest(
-        self, start: FloatArray, sample: NDArray[np.intp], ends: FloatArray, target: FloatArray
-    ) -> FloatArray:
-        """The places (k, 2, N, 3) nearest to target (N, 3), from the ends of Newton's method."""
+    def nearest(self, target: FloatArray) -> FloatArray:
+        """The places (k, 2, N, 3) nearest to target (N, 3)."""
         out = np.full((len(self.batch), 2, len(target), 3), np.nan)
         if not len(self.row):
             return out
+        # The numbers (n, N, *) of the samples from which Newton's method starts, and their places.
+        start, sample = _local_minima(self.samples, target, self.length, self.minima)
         wanted = np.broadcast_to(target[:, None], start.shape)
+        ends = _newton_ends(self.batch[self.row], start, wanted, self.length)
         # Newton's method may leap to the other circuit, or past the minimum.
         astray = ~(_squares(ends, wanted) <= _squares(start, wanted) + SAME_SQUARE)
         astray |= self._on_other_circuit(self.row, self.side, ends)
@@ -200,7 +173,7 @@ class _CircuitSearch:
         two = np.flatnonzero(np.asarray(self.circuits.exists.all(axis=-1))[row])
         if len(two):
             places = Displacement(ends[two, ..., :2], ends[two, ..., 2] / self.length)
-            at = locate(self.circuits[row[two]], places)
+            at = self.circuits[row[two]].locate(places)
             own = side[two].reshape(-1, *[1] * (ends.ndim - 2))
             # Where circuits meet, a place is on both.
             apart = np.greater(at.circuit_margin, MEETING_MARGIN)
@@ -230,7 +203,7 @@ class _CircuitSearch:
         return np.where(worse[..., None], near, ends)
 
 
-def sampled(circuits: Circuits, length: float, count: int) -> tuple[FloatArray, FloatArray]:
+def sampled(circuits: AnyCircuits, length: float, count: int) -> tuple[FloatArray, FloatArray]:
     """Fractions (n, s) of circuits (n,) and samples (n, s, 3) there, more where they are wide."""
     share = np.tile((np.arange(count) + 0.5) / count, (len(circuits.exists), 1))
     samples = places_at(circuits, share, length)
@@ -242,16 +215,17 @@ def sampled(circuits: Circuits, length: float, count: int) -> tuple[FloatArray, 
     return share, samples
 
 
-def places_at(circuits: Circuits, share: FloatArray, length: float) -> FloatArray:
+def places_at(circuits: AnyCircuits, share: FloatArray, length: float) -> FloatArray:
     """Places (*, s, 3) at fractions (s,) or (*, s) of circuits (*,)."""
-    closed = circuits.closed[..., None]
-    around = 2 * np.pi * (share % 1)
-    if circuits.loop.turns:
-        open_ = np.pi * np.clip(share, 0, 1)
-    else:
+    closed, slides = circuits.closed[..., None], ~circuits.turns[..., None]
+    parameter = 2 * np.pi * (share % 1)
+    if not closed.all():
+        parameter = np.where(closed, parameter, np.pi * np.clip(share, 0, 1))
+    if (endless := slides & ~closed).any():
         inside = np.clip(share, ENDLESS_MARGIN, 1 - ENDLESS_MARGIN)
-        open_ = MEDIAN_PARAMETER * np.tan(np.pi * (inside - 0.5))
-    return rows_of(circuits.couplers(np.where(closed, around, open_)), length)
+        slid = MEDIAN_PARAMETER * np.tan(np.pi * (inside - 0.5))
+        parameter = np.where(endless, slid, parameter)
+    return rows_of(circuits.couplers(parameter), length)
 
 
 def _distance_to_next(samples: FloatArray, length: float) -> FloatArray:
@@ -271,7 +245,7 @@ def _relative_gaps(samples: FloatArray, length: float) -> FloatArray:
 
 
 def _refined(
-    circuits: Circuits, share: FloatArray, samples: FloatArray, gaps: FloatArray, length: float
+    circuits: AnyCircuits, share: FloatArray, samples: FloatArray, gaps: FloatArray, length: float
 ) -> tuple[FloatArray, FloatArray]:
     """Fractions (n, s) and samples (n, s, 3) with more samples in the middle of the widest gaps.
 

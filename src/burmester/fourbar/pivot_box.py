@@ -13,9 +13,9 @@ from typing import Final
 
 import numpy as np
 
-from burmester.fourbar.circuits import Circuits, locate
+from burmester.fourbar.circuit_batch import AnyCircuits
+from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.dyad import PR, RP, RR
-from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.pose_order import FULL_TURN, BoolArray
 from burmester.fourbar.traversal import quarters_inside
 from burmester.geometry.displacement import Displacement
@@ -28,13 +28,13 @@ ROUNDING_STEP: Final = 1e-9  # radians; a step back round a circuit that is less
 SAMPLES: Final = 361  # number of places at which a linkage at a change point is looked at
 
 
-def extent(circuits: Circuits, parameters: FloatArray, inputs: FloatArray) -> FloatArray:
+def extent(circuits: AnyCircuits, parameters: FloatArray, inputs: FloatArray) -> FloatArray:
     """The diagonal (k,) of `pivot_box`, a length."""
     box = pivot_box(circuits, parameters, inputs)
     return np.asarray(np.linalg.norm(box[:, 1] - box[:, 0], axis=-1))
 
 
-def pivot_box(circuits: Circuits, parameters: FloatArray, inputs: FloatArray) -> FloatArray:
+def pivot_box(circuits: AnyCircuits, parameters: FloatArray, inputs: FloatArray) -> FloatArray:
     """The least and the greatest coordinates (k, 2, 2), in F, of all pivots over a range.
 
     circuits: (k,), of linkages that their first dyads drive, as given (see `Circuits.of`).
@@ -44,15 +44,30 @@ def pivot_box(circuits: Circuits, parameters: FloatArray, inputs: FloatArray) ->
     An RP has no moving pivot: the point of its line that is in use is its fixed pivot.
     nan where there is no circuit.
     """
+    other, whole = _other_inputs(circuits, parameters)
+    box = np.full((len(inputs), 2, 2), np.nan)
+    for index, some in circuits.groups:
+        box[index] = _box(some, parameters[index], inputs[index], other[index], whole[index])
+    known = np.isfinite(inputs).all(axis=1)
+    return np.where(known.reshape(-1, 1, 1), box, np.nan)
+
+
+def _box(
+    circuits: Circuits,
+    parameters: FloatArray,
+    inputs: FloatArray,
+    other: FloatArray,
+    whole: BoolArray,
+) -> FloatArray:
+    """The box of linkages of one pair of kinds; other, whole: as `_other_inputs` returns them."""
     first, second = circuits.loop.first, circuits.loop.second
     assert isinstance(second, RR | PR | RP)
     points = [dyad.fixed_pivot[:, None] for dyad in (first, second) if isinstance(dyad, RR | RP)]
     if not isinstance(first, RP):
         points.append(_path(first, inputs))
     if not isinstance(second, RP):
-        other, whole = _other_inputs(circuits, parameters)
         path = _path(second, other)
-        path[~np.asarray(whole)] = np.nan
+        path[~whole] = np.nan
         points.append(path)
         lost = np.flatnonzero(~whole & np.isfinite(parameters).all(axis=1))
         if len(lost):
@@ -61,9 +76,7 @@ def pivot_box(circuits: Circuits, parameters: FloatArray, inputs: FloatArray) ->
             at = np.linspace(parameters[lost, 0], parameters[lost, 1], SAMPLES, axis=-1)
             points[-1][lost] = some.couplers(at).act(second.moving_pivot[lost, None])
     every = np.concatenate(points, axis=1)
-    box = np.stack([end.reduce(every, axis=1) for end in (np.fmin, np.fmax)], axis=1)
-    known = np.isfinite(inputs).all(axis=1)
-    return np.where(known.reshape(-1, 1, 1), box, np.nan)
+    return np.stack([end.reduce(every, axis=1) for end in (np.fmin, np.fmax)], axis=1)
 
 
 def _path(dyad: RR | PR, inputs: FloatArray) -> FloatArray:
@@ -79,18 +92,17 @@ def _path(dyad: RR | PR, inputs: FloatArray) -> FloatArray:
     return np.asarray(dyad.fixed_pivot[:, None] + dyad.radius[:, None, None] * way)
 
 
-def _other_inputs(circuits: Circuits, parameters: FloatArray) -> tuple[FloatArray, BoolArray]:
+def _other_inputs(circuits: AnyCircuits, parameters: FloatArray) -> tuple[FloatArray, BoolArray]:
     """The least and the greatest input (k, 2) of the second dyads over a range, and which are sure.
 
     As a driver, the second dyad has a parameter of its own along the same circuit.  The middle of
     the range tells in which sense it runs.
     """
-    loop = circuits.loop
-    own = Circuits.of(Linkage(loop.second, loop.first), as_given=True)
+    own = circuits.exchanged()
     low, high = parameters[:, 0], parameters[:, 1]
     with np.errstate(invalid="ignore", divide="ignore"):
         places = circuits.couplers(np.stack([low, (low + high) / 2, high], axis=-1))
-        location = locate(own, places)
+        location = own.locate(places)
         number, start = location.circuit, location.parameter
         sure = (number >= 0).all(axis=1) & (number == number[:, :1]).all(axis=1)
         sure &= np.isfinite(start).all(axis=1) & ~circuits.near_change_point

@@ -16,7 +16,8 @@ from typing import Final, NamedTuple, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.fourbar.circuits import Circuits, Location, locate
+from burmester.fourbar.circuit_batch import AnyCircuits
+from burmester.fourbar.circuits import Circuits, Location
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.instantaneous import transmission_angle
 from burmester.fourbar.linkage import Linkage
@@ -60,19 +61,23 @@ MAX_QUARTER_TURNS: Final = 5  # number of multiples of a quarter turn inside one
 
 
 class DrivenView(NamedTuple):
-    """Coupler places (k, N) in terms of one driver: its circuits, and the transmission angles."""
+    """Coupler places (k, N) in terms of the drivers: circuits (k, 2), and transmission angles."""
 
     places: Displacement
-    circuits: Circuits
+    circuits: AnyCircuits
     location: Location
     transmission: FloatArray
 
     @classmethod
     def of(cls, linkage: Linkage, places: Displacement) -> Self:
-        """The view of places (k, N) of linkages (k,) that their first dyads drive."""
-        circuits = Circuits.of(linkage, as_given=True)
-        location = locate(circuits, places)
-        transmission = transmission_angle(linkage, places)
+        """The view of places (k, N) of linkages (k,) of one pair of kinds, by their first dyads."""
+        return cls.along(Circuits.of(linkage, as_given=True), places)
+
+    @classmethod
+    def along(cls, circuits: AnyCircuits, places: Displacement) -> Self:
+        """The view of places (k, N) of the linkages with circuits (k, 2), as given."""
+        location = circuits.locate(places)
+        transmission = _transmission(circuits[:, 0], places)
         # At a change point the coupler may move while the input cannot: it is not driven there.
         change = np.flatnonzero(
             circuits.near_change_point[:, 0] & (location.circuit >= 0).any(axis=1)
@@ -89,7 +94,7 @@ class DrivenView(NamedTuple):
 
 
 def _off_circuit(
-    circuits: Circuits, number: NDArray[np.int8], parameter: FloatArray, places: Displacement
+    circuits: AnyCircuits, number: NDArray[np.int8], parameter: FloatArray, places: Displacement
 ) -> BoolArray:
     """Which places (k, N) are not where the circuits (k, 2) are at their parameters."""
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -121,7 +126,7 @@ class Traversal(NamedTuple):
     branch_key: NDArray[np.int8]
     crosses_branches: BoolArray
     circuit: NDArray[np.int8]
-    circuits: Circuits
+    circuits: AnyCircuits
     all_round: BoolArray
     order: PoseOrder
     step_unit: FloatArray
@@ -146,13 +151,9 @@ class PoseRange(NamedTuple):
 
 
 def traversal_of(
-    linkage: Linkage,
-    view: DrivenView,
-    on: BoolArray,
-    tolerance: OrderTolerance,
-    any_order: bool,
+    view: DrivenView, on: BoolArray, tolerance: OrderTolerance, any_order: bool
 ) -> Traversal:
-    """The traversal of linkages (k,), with one driver.
+    """The traversal of linkages (k,), each with one driver.
 
     on: (k, N), the poses that are judged.
     """
@@ -174,7 +175,7 @@ def traversal_of(
     middle = QUARTER_TURN + np.pi * (own % 2)
     one_branch = circuits.closed & ~all_round
     s = np.where(one_branch[:, None], middle + wrapped_angle(s - middle), s)
-    unit = _step_unit(linkage, circuits, view.places, on_circuit, s)
+    unit = _step_unit(circuits, view.places, on_circuit, s)
     doubtful = np.zeros(len(s), dtype=bool)
     if any_order:
         none = np.zeros(len(s))
@@ -201,7 +202,7 @@ def pose_range(traversal: Traversal, view: DrivenView) -> PoseRange:
     with np.errstate(invalid="ignore", divide="ignore"):
         between = circuits.couplers(quarters)
         # nan occurs only where all links fold into one line.
-        passed = np.nan_to_num(_transmission(view, between))
+        passed = np.nan_to_num(_transmission(circuits, between))
     every = np.where(counts, np.concatenate([view.transmission, passed], axis=1), np.inf)
     least = np.where(on_circuit.any(axis=1), every.min(axis=1), np.nan)
     # A pose beside a dead point is named before the dead point.
@@ -251,9 +252,13 @@ def _merged(use: BoolArray, one: np.ndarray, other: np.ndarray) -> np.ndarray:
     return np.where(use.reshape(-1, *[1] * (one.ndim - 1)), one, other)
 
 
-def _transmission(view: DrivenView, places: Displacement) -> FloatArray:
-    loop = view.circuits.loop[:, 0]
-    return transmission_angle(Linkage(loop.first, loop.second), places)
+def _transmission(circuits: AnyCircuits, places: Displacement) -> FloatArray:
+    """The transmission angles (k, *) of linkages with circuits (k,) at places (k, *)."""
+    out = np.empty(places.shape)
+    for index, each in circuits.groups:
+        linkage = Linkage(each.loop.first, each.loop.second)
+        out[index] = transmission_angle(linkage, places[index])
+    return out
 
 
 def first_where(better: BoolArray, good: BoolArray) -> NDArray[np.intp]:
@@ -262,13 +267,22 @@ def first_where(better: BoolArray, good: BoolArray) -> NDArray[np.intp]:
 
 
 def _step_unit(
-    linkage: Linkage, circuits: Circuits, places: Displacement, on_circuit: BoolArray, s: FloatArray
+    circuits: AnyCircuits, places: Displacement, on_circuit: BoolArray, s: FloatArray
 ) -> FloatArray:
     """The unit (k,) of steps along intervals: 1, or a length of the linkage for lengths."""
-    one = np.ones(len(on_circuit))
-    if circuits.loop.turns or circuits.closed.all():
-        return one
-    first, second = with_trailing_axes(linkage.first, 2), with_trailing_axes(linkage.second, 2)
+    out = np.ones(len(on_circuit))
+    for index, each in circuits.groups:
+        if not (each.loop.turns or each.closed.all()):
+            out[index] = _slid_length(each, places[index], on_circuit[index], s[index])
+    return out
+
+
+def _slid_length(
+    circuits: Circuits, places: Displacement, on_circuit: BoolArray, s: FloatArray
+) -> FloatArray:
+    """The unit (k,) of steps of drivers that slide."""
+    loop = circuits.loop
+    first, second = with_trailing_axes(loop.first, 2), with_trailing_axes(loop.second, 2)
     assert isinstance(first, PR)
     pin = complex_of(places.act(first.moving_pivot))
     if isinstance(second, RR | PR):
@@ -280,10 +294,10 @@ def _step_unit(
     return np.where(circuits.closed | ~on_circuit.any(axis=1), 1.0, arm + np.ptp(s, axis=1))
 
 
-def quarters_inside(along: FloatArray, circuits: Circuits) -> tuple[FloatArray, BoolArray]:
+def quarters_inside(along: FloatArray, circuits: AnyCircuits) -> tuple[FloatArray, BoolArray]:
     """The parameters (k, 5) inside the range where f turns back, and which of them exist."""
     low, high = along.min(axis=1, keepdims=True), along.max(axis=1, keepdims=True)
     at = QUARTER_TURN * (np.floor(low / QUARTER_TURN) + np.arange(1, 1 + MAX_QUARTER_TURNS))
-    angle = circuits.closed[:, None] | circuits.loop.turns
+    angle = (circuits.closed | circuits.turns)[:, None]
     inside = np.where(angle, at < high, (low < 0) & (high > 0))
     return np.where(inside, np.where(angle, at, 0.0), low), inside

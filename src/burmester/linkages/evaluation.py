@@ -250,23 +250,22 @@ class Evaluation:
         numbers = self.problem.pose_numbers
         given = self.task.names or ("",) * len(numbers)
         names = [name or str(number + 1) for name, number in zip(given, numbers, strict=True)]
-        out: list[Verdict | None] = [None] * len(own)
-        for index, linkage in own.alike():
-            verdicts = judge(
-                linkage,
-                places[index],
-                missed=missed[index],
-                reach=reach,
-                length=length,
-                names=names,
-                any_order=asked.any_order,
-                order_slack=None if slack is None else slack[index],
-            )
-            for k, verdict in zip(index, verdicts, strict=True):
-                if shares is not None:
-                    verdict = in_words_of_tolerances(verdict, shares[k], names)  # noqa: PLW2901
-                out[k] = _with_numbers(verdict, numbers)
-        return [verdict for verdict in out if verdict is not None]
+        verdicts = judge(
+            own,
+            places,
+            missed=missed,
+            reach=reach,
+            length=length,
+            names=names,
+            any_order=asked.any_order,
+            order_slack=slack,
+        )
+        if shares is not None:
+            verdicts = [
+                in_words_of_tolerances(verdict, share, names)
+                for verdict, share in zip(verdicts, shares, strict=True)
+            ]
+        return [_with_numbers(verdict, numbers) for verdict in verdicts]
 
     def driver(
         self, linkage: Linkage, verdict: Verdict, settled: Side | None = None

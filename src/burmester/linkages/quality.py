@@ -17,9 +17,10 @@ from typing import Self, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.fourbar.circuits import Circuits
+from burmester.fourbar.circuit_batch import CircuitBatch
 from burmester.fourbar.defects import Driven
 from burmester.fourbar.instantaneous import mechanical_advantage
+from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.pivot_box import extent
 from burmester.fourbar.reserve import reserve
@@ -87,8 +88,6 @@ class Quality:
         places: (k, N), the linkages' nearest to the poses; driven: their motions there.
         sensitivity: (k,), the greatest of `tolerances.sensitivity_bound`; size: of the motion.
         """
-        none = (np.full((len(batch), *shape), np.nan) for shape in ((), (2,), (2,)))
-        reach, advantage, room = none
         inputs = np.array([each.input_range for each in driven]).reshape(-1, 2)
         number = np.array([each.circuit for each in driven])
         parameters = np.array(
@@ -97,12 +96,14 @@ class Quality:
                 for each in driven
             ]
         ).reshape(-1, 2)
-        for index, linkage in batch.alike():
-            circuits = Circuits.of(linkage, as_given=True)
-            circuits = circuits[np.arange(len(index)), np.maximum(number[index], 0)]
-            reach[index] = extent(circuits, parameters[index], inputs[index]) / size
-            room[index] = reserve(circuits, inputs[index])
-            advantage[index] = mechanical_advantage(linkage, places[index][:, [0, -1]])
+        circuits = CircuitBatch.of(batch)[np.arange(len(batch)), np.maximum(number, 0)]
+        reach = extent(circuits, parameters, inputs) / size
+        advantage, room = np.empty((2, len(batch), 2))
+        ends = places[:, [0, -1]]
+        for index, some in circuits.groups:
+            room[index] = reserve(some, inputs[index])
+            linkage = Linkage(some.loop.first, some.loop.second)
+            advantage[index] = mechanical_advantage(linkage, ends[index])
         transmission = np.array([each.least_over_range for each in driven])
         turn = np.ptp(inputs, axis=1)
         return cls(transmission, reach, sensitivity, turn, advantage, room)
