@@ -477,7 +477,7 @@ def test_dragged_at_random_it_never_flips(pair):
             # It goes to where it is asked to, or stops at a limit.
             reached = driven(one.first, rows[k])
             off = reached - drive[k]
-            if circuits.loop.turns:
+            if circuits.turns.all():
                 off = (off + np.pi) % (2 * np.pi) - np.pi
             stopped = np.minimum(
                 *(
@@ -516,7 +516,7 @@ def test_velocity_against_differences(pair):
     step = gap(rows_of(two[1]), rows_of(two[0]))
     x = [np.stack([driven(linkage.first[k], r) for k, r in enumerate(rows_of(p))]) for p in two]
     speed = x[1] - x[0]
-    if circuits.loop.turns:
+    if circuits.turns.all():
         speed = (speed + np.pi) % (2 * np.pi) - np.pi
     wanted = step / speed[..., None]
     size = np.linalg.norm(wanted, axis=-1, keepdims=True)

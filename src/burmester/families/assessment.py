@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from burmester.families.conditions import Conditions
 from burmester.families.open_task import OpenTask, Trials
-from burmester.fourbar.circuit_batch import AnyCircuits
+from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import GRASHOF_SUMS, Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
@@ -142,7 +142,7 @@ def _ends(along: FloatArray) -> FloatArray:
     return np.stack([np.fmin.reduce(along, axis=1), np.fmax.reduce(along, axis=1)], axis=-1)
 
 
-def _frames(circuits: AnyCircuits, ends: FloatArray) -> Displacement:
+def _frames(circuits: Circuits, ends: FloatArray) -> Displacement:
     """Places (k, FRAMES) of the coupler along a range of parameters (k, 2)."""
     share = np.linspace(0.0, 1.0, FRAMES)
     return circuits.couplers(ends[:, :1] + (ends[:, 1:] - ends[:, :1]) * share)
@@ -164,7 +164,7 @@ def _outside(linkage: Linkage, frames: Displacement, footprint: Polygon) -> Floa
 
 def _too_close(
     linkage: Linkage,
-    circuits: AnyCircuits,
+    circuits: Circuits,
     ends: FloatArray,
     violation: FloatArray,
     conditions: Conditions,

@@ -7,14 +7,12 @@ where the circuit passes a dead point, and nothing jumps there.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from enum import IntEnum
 from typing import NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.fourbar.dyad import PP, PR, RP, RR
 from burmester.fourbar.loop_closure import DrivenLoop
 from burmester.numerics.arrays import ComplexArray, FloatArray
 
@@ -22,6 +20,7 @@ __all__ = [
     "CHANGE_POINT",
     "ONE_SIDED",
     "Parameter",
+    "RangeKind",
     "RangeType",
     "clamped_at_change_points",
     "input_and_root",
@@ -51,7 +50,15 @@ class RangeType(IntEnum):
     HALF = 6  # half a turn, psi of the sign `sign`; the coupler comes from and goes to infinity
 
 
+SIGNS = np.array([1.0, -1.0])  # of the two circuits
 ONE_SIDED = (RangeType.BETWEEN, RangeType.BEYOND, RangeType.HALF)  # psi keeps its sign
+
+
+class RangeKind(NamedTuple):
+    """What circuits have in common whose places follow one formula."""
+
+    turns: bool
+    range_type: RangeType
 
 
 class Parameter(NamedTuple):
@@ -72,6 +79,10 @@ class Parameter(NamedTuple):
         up, down = 2 * half_sin * half_sin, 2 * half_cos * half_cos
         return cls(s, 2 * half_sin * half_cos, np.where(up < down, 1 - up, down - 1), up, down)
 
+    def rows(self, index: NDArray[np.intp]) -> Parameter:
+        """Some rows of it."""
+        return Parameter(*(part[index] for part in self))
+
 
 def near_change_point(loop: DrivenLoop) -> NDArray[np.bool_]:
     """Whether linkages (*,) are within 1e-9 of a change point."""
@@ -83,28 +94,16 @@ def clamped_at_change_points(loop: DrivenLoop) -> DrivenLoop:
 
     So each of these circuits has at least one place.
     """
+    if not near_change_point(loop).any():
+        return loop
     high, low = loop.high, loop.low
-    high = high._replace(down=_clamped(loop, high.down, high.scale))
-    return replace(loop, high=high, low=low._replace(up=_clamped(loop, low.up, low.scale)))
+    return loop.clamped(_clamped(loop, high.down, high.scale), _clamped(loop, low.up, low.scale))
 
 
 def _clamped(loop: DrivenLoop, room: FloatArray, scale: FloatArray) -> FloatArray:
     """A scaled distance (*,) from a bound to an end of the range: 0 where rounding made it < 0."""
-    small = (-room <= BOUND_ROUNDING * scale) if loop.turns else True
+    small = (-room <= BOUND_ROUNDING * scale) | ~loop.turns
     return np.where(near_change_point(loop) & (room < 0) & small, 0.0, room)
-
-
-def _undetermined(loop: DrivenLoop) -> NDArray[np.bool_]:
-    """Whether linkages (*,) have no determined circuits even as given; see `Circuits.of`."""
-    first, second, change = loop.first, loop.second, near_change_point(loop)
-    if isinstance(first, RP):
-        return change if isinstance(second, RP) else np.zeros_like(change)
-    a_point = first.radius == 0 if isinstance(first, RR) else np.zeros_like(change)
-    if not isinstance(second, RP | PP):
-        a_point = a_point | (second.moving_pivot == first.moving_pivot).all(axis=-1)
-    if isinstance(first, PR) and isinstance(second, PR):
-        a_point = a_point | (loop.high.scale > 0)
-    return np.asarray(change & a_point)
 
 
 def range_types(loop: DrivenLoop, as_given: bool = False) -> tuple[NDArray[np.int8], FloatArray]:
@@ -113,41 +112,33 @@ def range_types(loop: DrivenLoop, as_given: bool = False) -> tuple[NDArray[np.in
     as_given: linkages at change points have circuits, too; the loops are then those of
     `clamped_at_change_points`.
     """
-    high, low = loop.high, loop.low
+    high, low, turns = loop.high, loop.low, loop.turns
+    change = near_change_point(loop)
     if as_given:
-        none = ~((high.down >= 0) & (low.up >= 0)) | _undetermined(loop)
+        none = ~((high.down >= 0) & (low.up >= 0)) | (change & loop.is_point)
     else:
-        none = near_change_point(loop) | ~((high.down > 0) & (low.up > 0))
+        none = change | ~((high.down > 0) & (low.up > 0))
     # A sliding input has no greatest f other than the dead point itself.
-    ends_above = high.up > 0 if loop.turns else high.scale > 0
+    ends_above = np.where(turns, high.up, high.scale) > 0
     ends_below = low.down > 0
-    range_type = np.select(
-        [none, ends_above & ends_below, ends_above, ends_below],
-        [
-            RangeType.NONE,
-            RangeType.BETWEEN,
-            RangeType.BELOW,
-            RangeType.ABOVE if loop.turns else RangeType.BEYOND,
-        ],
-        RangeType.HALF
-        if isinstance(loop.first, RP) and isinstance(loop.second, PR)
-        else RangeType.WHOLE,
-    )
+    whole = np.where(loop.on_slot_and_rail, RangeType.HALF, RangeType.WHOLE)
+    below = np.where(ends_below, np.where(turns, RangeType.ABOVE, RangeType.BEYOND), whole)
+    above = np.where(ends_below, RangeType.BETWEEN, RangeType.BELOW)
+    range_type = np.where(none, RangeType.NONE, np.where(ends_above, above, below))
     alone = (range_type == RangeType.BELOW) | (range_type == RangeType.ABOVE)
-    if loop.closures == 1:
-        alone = alone | (range_type == RangeType.WHOLE)
-    both = np.stack([range_type, np.where(alone, RangeType.NONE, range_type)], axis=-1).astype(
-        np.int8
-    )
-    return both, np.broadcast_to(np.array([1.0, -1.0]), both.shape)
+    alone |= (range_type == RangeType.WHOLE) & (loop.closures == 1)
+    both = np.empty((*range_type.shape, 2), dtype=np.int8)
+    both[..., 0] = range_type
+    both[..., 1] = np.where(alone, RangeType.NONE, range_type)
+    return both, np.broadcast_to(SIGNS, both.shape)
 
 
 def input_and_root(
-    loop: DrivenLoop, range_type: RangeType, sign: FloatArray, at: Parameter
+    loop: DrivenLoop, kind: RangeKind, sign: FloatArray, at: Parameter
 ) -> tuple[FloatArray | ComplexArray, FloatArray]:
-    """e^(i psi) (psi of sliding inputs) and q at parameters of circuits (*,) of one range type."""
-    return (_rotary_input_and_root if loop.turns else _sliding_input_and_root)(
-        loop, range_type, sign, at
+    """e^(i psi) (psi of sliding inputs) and q at parameters of circuits (*,) of one kind."""
+    return (_rotary_input_and_root if kind.turns else _sliding_input_and_root)(
+        loop, kind.range_type, sign, at
     )
 
 
@@ -197,22 +188,16 @@ def _sliding_input_and_root(
     return -np.sqrt(size) * at.cos, q
 
 
-def parameter_of(
-    loop: DrivenLoop,
-    range_type: RangeType,
-    sign: FloatArray,
-    w: FloatArray | ComplexArray,
-    q: FloatArray,
-) -> FloatArray:
-    """The parameter (*,) at e^(i psi) (or psi) and q, of one range type; see `input_and_root`."""
-    high, low = loop.high, loop.low
+def parameter_of(loop: DrivenLoop, kind: RangeKind, w: ComplexArray, q: FloatArray) -> FloatArray:
+    """The parameter (*,) at e^(i psi) (or psi) and q, of one kind; see `input_and_root`."""
+    high, low, (turns, range_type) = loop.high, loop.low, kind
     if range_type == RangeType.HALF:
         return np.abs(np.angle(w))
     if range_type == RangeType.BEYOND:
         return q / np.sqrt(high.down * low.scale)
     if range_type == RangeType.WHOLE:
-        return np.angle(w) % (2 * np.pi) if loop.turns else w.real
-    down, up = (1 + w.real, 1 - w.real) if loop.turns else (w.real**2, w.real)
+        return np.angle(w) % (2 * np.pi) if turns else w.real
+    down, up = (1 + w.real, 1 - w.real) if turns else (w.real**2, w.real)
     if range_type == RangeType.BETWEEN:
         least, greatest = low.down / low.scale, high.down / high.scale
         half = (greatest - least) / 2
@@ -223,7 +208,7 @@ def parameter_of(
     else:
         size = high.down / high.scale
         sine = q / np.sqrt(high.down * np.maximum(low.scale * down - low.down, 0))
-        cosine = w.imag / np.sqrt(size * up) if loop.turns else -w.real / np.sqrt(size)
+        cosine = w.imag / np.sqrt(size * up) if turns else -w.real / np.sqrt(size)
     if range_type != RangeType.BETWEEN and (change := near_change_point(loop)).any():
         # Half way between dead points rounding may hide the root, or the circuit may be a point.
         cosine = np.where(change & np.isnan(cosine), 0.0, cosine)

@@ -10,9 +10,9 @@ are all exact; nothing is sampled.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Self, TypeAlias, final
+from typing import Any, NamedTuple, Self, TypeAlias, cast, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from burmester.fourbar.circuit_parameter import (
     ONE_SIDED,
     Parameter,
+    RangeKind,
     RangeType,
     clamped_at_change_points,
     input_and_root,
@@ -29,7 +30,14 @@ from burmester.fourbar.circuit_parameter import (
 )
 from burmester.fourbar.dyad import RP
 from burmester.fourbar.linkage import Linkage
-from burmester.fourbar.loop_closure import NO_PLACE, DrivenLoop, displacement_of, with_trailing_axes
+from burmester.fourbar.linkage_batch import LinkageBatch
+from burmester.fourbar.loop_closure import (
+    KINDS,
+    NO_PLACE,
+    DrivenLoop,
+    displacement_of,
+    with_trailing_axes,
+)
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
 from burmester.numerics.bundles import put
@@ -59,11 +67,11 @@ class Circuits:
     sign: FloatArray
 
     @classmethod
-    def of(cls, linkage: Linkage, as_given: bool = False) -> Self:
-        """The circuits (*, 2) of linkages (*,), existing ones first.
+    def of(cls, linkage: Linkage | LinkageBatch, as_given: bool = False) -> Self:
+        """The circuits (*, 2) of a batch, or of linkages (*,) of one pair of kinds.
 
-        Within 1e-9 of a change point, and where a link is that short, both are NONE and
-        `near_change_point` holds.  The numbering depends on which dyad is first.
+        The existing ones are first.  Within 1e-9 of a change point, and where a link is that short,
+        both are NONE and `near_change_point` holds.  The numbering depends on which dyad is first.
 
         as_given: the numbers of such a linkage are taken as exact, with the signs that rounding
         left in them: the linkage passes the change point or turns back there.  Even so there is
@@ -73,10 +81,20 @@ class Circuits:
 
         Raises InputError E401 where the first dyad cannot drive.
         """
-        loop = DrivenLoop.of(linkage)
+        return cls._of(DrivenLoop.of(linkage), as_given)
+
+    @classmethod
+    def _of(cls, loop: DrivenLoop, as_given: bool) -> Self:
         if as_given:
             loop = clamped_at_change_points(loop)
         return cls(loop[..., None][..., [0, 0]], *range_types(loop, as_given))
+
+    @classmethod
+    def joined(cls, several: Sequence[Circuits]) -> Circuits:
+        """Circuits (k, ...) of several linkages in one row."""
+        loop = DrivenLoop.joined([each.loop for each in several])
+        range_type = np.concatenate([each.range_type for each in several])
+        return cls(loop, range_type, np.concatenate([each.sign for each in several]))
 
     def __getitem__(self, index: Any) -> Circuits:
         """Pick along the leading axes (indices, slices, masks, new axes)."""
@@ -92,20 +110,14 @@ class Circuits:
         """The leading axes."""
         return self.range_type.shape
 
-    @property
-    def groups(self) -> tuple[tuple[slice, Circuits], ...]:
-        """All of them, as the one group of `CircuitBatch.groups`."""
-        return ((slice(None), self),)
-
     def exchanged(self) -> Circuits:
         """The circuits (*, 2) of the same linkages (*,) as given, driven by their second dyads."""
-        loop = self.loop if len(self.shape) < 2 else self.loop[..., 0]
-        return Circuits.of(Linkage(loop.second, loop.first), as_given=True)
+        return Circuits._of(self.loop.exchanged(), as_given=True)
 
     @property
     def turns(self) -> NDArray[np.bool_]:
         """Whether the input is an angle, (*,)."""
-        return np.full(self.shape, self.loop.turns)
+        return self.loop.turns
 
     @property
     def exists(self) -> NDArray[np.bool_]:
@@ -127,7 +139,7 @@ class Circuits:
     def closed(self) -> NDArray[np.bool_]:
         """Whether the circuit returns to its start, (*,)."""
         loop = (self.range_type >= RangeType.BELOW) & (self.range_type <= RangeType.BETWEEN)
-        return np.asarray(loop | ((self.range_type == RangeType.WHOLE) & self.loop.turns))
+        return np.asarray(loop | ((self.range_type == RangeType.WHOLE) & self.turns))
 
     @property
     def input_range(self) -> FloatArray:
@@ -136,16 +148,17 @@ class Circuits:
         Dead points where it has two branches; one whole turn, or infinite, otherwise.
         """
         psi = np.full((2, *self.shape), np.nan)
-        ends = self._turning_ends() if self.loop.turns else self._sliding_ends()
-        for range_type, (least, greatest) in ends.items():
-            psi = np.where(self.range_type == range_type, np.stack([least, greatest]), psi)
+        for turns, ends in ((True, self._turning_ends()), (False, self._sliding_ends())):
+            for range_type, (least, greatest) in ends.items():
+                here = (self.range_type == range_type) & (self.turns == turns)
+                psi = np.where(here, np.stack([least, greatest]), psi)
         mirrored = np.isin(self.range_type, ONE_SIDED) & (self.sign < 0)
         psi = np.where(mirrored, -psi[::-1], psi)
         return np.moveaxis(self.loop.centre + psi, 0, -1)
 
     def _turning_ends(self) -> _Ends:
         """Psi (*,) at both ends of each type of range, psi > 0 on one side, of turning inputs."""
-        with np.errstate(invalid="ignore"):
+        with np.errstate(invalid="ignore", divide="ignore"):
             at_high, at_low = (
                 2 * np.arctan2(np.sqrt(bound.up), np.sqrt(bound.down))
                 for bound in (self.loop.high, self.loop.low)
@@ -187,11 +200,42 @@ class Circuits:
 
     def _places(self, parameter: FloatArray) -> tuple[ComplexArray, ComplexArray]:
         """Places d and e^(i angle), (m, n), of all circuits in one row; see `couplers`."""
-        d = np.full((self.range_type.size, np.shape(parameter)[-1]), NO_PLACE)
-        turn = d.copy()
-        for loop, rows, span, (w, q) in self._blocks(parameter):
-            d[rows, span], turn[rows, span] = loop.place(w, q)
+        parameter = np.asarray(parameter, dtype=np.float64)
+        count, shared = parameter.shape[-1], parameter.ndim == 1
+        flat = self.flattened()
+        size = flat.range_type.size
+        if not shared:
+            parameter = np.broadcast_to(parameter, (*self.shape, count)).reshape(-1, count)
+        d, turn = np.empty((2, size, count), dtype=complex)
+        width = max(1, min(count, PLACES_PER_BLOCK))
+        height = max(1, PLACES_PER_BLOCK // width)
+        for start in range(0, count, width):
+            span = slice(start, start + width)
+            for begin in range(0, size, height):
+                rows = slice(begin, begin + height)
+                at = parameter[None, span] if shared else parameter[rows, span]
+                some = flat if height >= size else flat[rows]
+                d[rows, span], turn[rows, span] = some._block(at)
         return d, turn
+
+    def _block(self, parameter: FloatArray) -> tuple[ComplexArray, ComplexArray]:
+        """Places d and e^(i angle), (m, n), of circuits (m,) at parameters (m, n) or (1, n)."""
+        shape, at = (len(self.range_type), parameter.shape[-1]), Parameter.of(parameter)
+        w, q = np.full(shape, NO_PLACE), np.full(shape, np.nan)
+        for kind, rows in self._kinds():
+            loop, sign = self.loop[rows][:, None], self.sign[rows, None]
+            own = at if len(parameter) < shape[0] else at.rows(rows)
+            w[rows], q[rows] = input_and_root(loop, kind, sign, own)
+        return cast(tuple[ComplexArray, ComplexArray], self.loop[:, None].place(w, q))
+
+    def _kinds(self) -> Iterator[tuple[RangeKind, NDArray[np.intp]]]:
+        """The kinds of circuits (m,) that exist, and which circuits are of each."""
+        code = 2 * self.range_type + self.turns
+        for each in set(code.tolist()):
+            range_type, turns = divmod(each, 2)
+            if range_type != RangeType.NONE:
+                kind = RangeKind(bool(turns), RangeType(range_type))
+                yield kind, np.flatnonzero(code == each)
 
     def _restore(
         self, change: NDArray[np.bool_], parameter: FloatArray, d: ComplexArray, turn: ComplexArray
@@ -211,11 +255,11 @@ class Circuits:
             beside = some._places(parameter + CHANGE_POINT_NUDGE)
             for whole, value in zip((d, turn), beside, strict=True):
                 whole[rows] = np.where(lost, value, whole[rows])
-        if not isinstance(some.loop.first, RP):
-            hand = complex_of(some.loop.first.moving_pivot)[:, None]
-            unit = turn[rows] / np.abs(turn[rows])
-            d[rows] += hand * (turn[rows] - unit)
-            turn[rows] = unit
+        pinned = (some.loop.kinds[0] != KINDS.index(RP))[:, None]
+        unit = turn[rows] / np.abs(turn[rows])
+        hand = some.loop.terms.hand[:, None]
+        d[rows] = np.where(pinned, d[rows] + hand * (turn[rows] - unit), d[rows])
+        turn[rows] = np.where(pinned, unit, turn[rows])
 
     def at_inputs(self, inputs: FloatArray, branch: int = 0) -> Displacement:
         """Coupler places (*, n) at inputs (*, n) of the first dyad, on one branch.
@@ -224,10 +268,10 @@ class Circuits:
         nan where there is no circuit.
         """
         low, high = (self.input_range[..., None, end] for end in (0, 1))
-        if self.loop.turns:
-            with np.errstate(invalid="ignore"):
-                middle = (low + high) / 2
-                inputs = middle + (inputs - middle + np.pi) % (2 * np.pi) - np.pi
+        with np.errstate(invalid="ignore"):
+            middle = (low + high) / 2
+            turned = middle + (inputs - middle + np.pi) % (2 * np.pi) - np.pi
+            inputs = np.where(self.turns[..., None], turned, inputs)
         both = self.loop.closed_at(np.clip(inputs, low, high))
         second = np.where(
             self.branches == 2, branch == 1, (self.sign < 0) & (self.loop.closures == 2)
@@ -242,64 +286,36 @@ class Circuits:
         loop = with_trailing_axes(self.loop, np.ndim(parameter))
         with np.errstate(invalid="ignore", divide="ignore"):
             w = loop.closure_at(places)[0]
-        if not loop.turns:
-            return np.asarray(loop.centre + w.real)
-        range_type = self.range_type[..., None]
-        # Unless the range is whole, psi stays within half a turn of its middle.
-        middle = np.where(range_type == RangeType.BELOW, np.pi, 0.0)
-        swung = middle + np.angle(w * np.exp(-1j * middle))
-        return np.asarray(loop.centre + np.where(range_type == RangeType.WHOLE, parameter, swung))
+            range_type = self.range_type[..., None]
+            # Unless the range is whole, psi stays within half a turn of its middle.
+            below = range_type == RangeType.BELOW
+            swung = np.angle(np.where(below, -w, w)) + np.where(below, np.pi, 0.0)
+        turned = np.where(range_type == RangeType.WHOLE, parameter, swung)
+        return np.asarray(loop.centre + np.where(loop.turns, turned, w.real))
 
     def locate(self, places: Displacement) -> Location:
         """As `circuit_of`, for coupler places (*, ...) and the circuits (*, 2) of `of`."""
         first = self[..., 0]
-        own = with_trailing_axes(first.loop, len(places.shape))
-        number = np.broadcast_to(np.arange(first.range_type.size).reshape(own.shape), places.shape)
-        circuits, found = first.flattened(), Location.none(places.shape)
         with np.errstate(invalid="ignore", divide="ignore"):
-            w, closing = own.closure_at(places)
-            for range_type in set(circuits.range_type.tolist()) - {RangeType.NONE}:
-                here = circuits.range_type[number] == range_type
-                values = _located(circuits[number[here]], w[here], closing[here])
-                put(found, here, Location(*values))
-        return found
+            w, closing = with_trailing_axes(first.loop, len(places.shape)).closure_at(places)
+            first = first.flattened()
+            count = len(first.range_type)
+            w, closing = w.reshape(count, -1), closing.reshape(count, -1)
+            found = Location.none(w.shape)
+            for kind, rows in first._kinds():
+                put(found, rows, _located(first.loop[rows][:, None], kind, w[rows], closing[rows]))
+        return found.reshaped(places.shape)
 
     def curve(self, point: FloatArray, parameter: FloatArray) -> FloatArray:
         """Coupler curves (*, n, 2) of points (2,) or (*, 2) of M, at parameters (n,) or (*, n)."""
         if (self.near_change_point & self.exists).any():
             return self.couplers(parameter).act(np.asarray(point, dtype=np.float64)[..., None, :])
-        x = np.full((self.range_type.size, np.shape(parameter)[-1]), NO_PLACE)
-        point = np.asarray(point, dtype=np.float64)
-        points = np.broadcast_to(complex_of(point), self.shape).reshape(-1, 1)
-        for loop, rows, span, (w, q) in self._blocks(parameter):
-            d, turn = loop.place(w, q)
-            x[rows, span] = d + points[rows] * turn
+        points = np.broadcast_to(
+            complex_of(np.asarray(point, dtype=np.float64)), self.shape
+        ).reshape(-1, 1)
+        d, turn = self._places(parameter)
+        x = d + points * turn
         return x.view(np.float64).reshape(*self.shape, x.shape[-1], 2)
-
-    def _blocks(self, parameter: FloatArray) -> Iterator[_Block]:
-        """Loops (k, 1) of circuits of one range type, their rows and columns, w and q (k, n)."""
-        parameter = np.asarray(parameter, dtype=np.float64)
-        count, shared = parameter.shape[-1], parameter.ndim == 1
-        flat = self.flattened()
-        if not shared:
-            parameter = np.broadcast_to(parameter, (*self.shape, count)).reshape(-1, count)
-        width = max(1, min(count, PLACES_PER_BLOCK))
-        rows_per_block = max(1, PLACES_PER_BLOCK // width)
-        for start in range(0, count, width):
-            span = slice(start, start + width)
-            common = Parameter.of(parameter[None, span]) if shared else None
-            for range_type in RangeType:
-                all_rows = np.flatnonzero(flat.range_type == range_type)
-                for begin in range(0, len(all_rows) if range_type else 0, rows_per_block):
-                    rows = all_rows[begin : begin + rows_per_block]
-                    at = common or Parameter.of(parameter[rows, span])
-                    some = flat[rows][:, None]
-                    yield (
-                        some.loop,
-                        rows,
-                        span,
-                        input_and_root(some.loop, range_type, some.sign, at),
-                    )
 
 
 def _chosen(both: Displacement, which: NDArray[np.bool_]) -> Displacement:
@@ -310,9 +326,6 @@ def _chosen(both: Displacement, which: NDArray[np.bool_]) -> Displacement:
 
 
 _Ends: TypeAlias = dict[RangeType, tuple[FloatArray, FloatArray]]
-_Block: TypeAlias = tuple[
-    DrivenLoop, NDArray[np.intp], slice, tuple[FloatArray | ComplexArray, FloatArray]
-]
 
 
 class Location(NamedTuple):
@@ -340,6 +353,13 @@ class Location(NamedTuple):
         margins = (np.full(shape, np.nan) for _ in range(3))
         return cls(np.full(shape, -1, np.int8), np.zeros(shape, np.int8), *margins)
 
+    def reshaped(self, shape: tuple[int, ...]) -> Location:
+        """The same of other axes."""
+        circuit, branch, *rest = self
+        return Location(
+            circuit.reshape(shape), branch.reshape(shape), *(r.reshape(shape) for r in rest)
+        )
+
 
 def circuit_of(linkage: Linkage, places: Displacement, as_given: bool = False) -> Location:
     """The circuit of coupler places (*, ...), and their branch where the first dyad drives.
@@ -353,25 +373,25 @@ def circuit_of(linkage: Linkage, places: Displacement, as_given: bool = False) -
     return Circuits.of(linkage, as_given).locate(places)
 
 
-def _located(
-    circuits: Circuits, w: FloatArray | ComplexArray, closing: ComplexArray
-) -> tuple[Any, ...]:
-    """The fields of `Location` of places (n,) on circuits (n,) of one range type or their twins."""
-    loop, range_type = circuits.loop, circuits.range_type[0]
+def _located(loop: DrivenLoop, kind: RangeKind, w: ComplexArray, closing: ComplexArray) -> Location:
+    """The locations of places (m, n) on circuits (m, 1) of one kind or their twins."""
+    turns, range_type = kind
     q, always = closing.imag, np.ones(closing.shape)
     size = np.abs(closing)
     sine = np.where(size == 0, 0.0, q / size)
     if range_type in ONE_SIDED:
-        side = w.imag if loop.turns else w / np.hypot(w, np.sqrt(loop.low.down / loop.low.scale))
+        side = (
+            w.imag if turns else w.real / np.hypot(w.real, np.sqrt(loop.low.down / loop.low.scale))
+        )
+    elif range_type == RangeType.WHOLE:
+        side = np.where(loop.closures == 2, sine, always)
     else:
-        side = sine if range_type == RangeType.WHOLE and loop.closures == 2 else always
-    sign = np.where(side < 0, -1.0, 1.0)
-    parameter = parameter_of(loop, range_type, sign, w, q)
-    two = circuits.branches == 2
-    return (
-        sign < 0,
-        two & (q < 0),
-        parameter,
+        side = always
+    two = range_type not in (RangeType.WHOLE, RangeType.HALF)
+    return Location(
+        (side < 0).astype(np.int8),
+        (q < 0).astype(np.int8) if two else np.zeros(q.shape, np.int8),
+        parameter_of(loop, kind, w, q),
         np.minimum(np.abs(side), loop.margin),
-        np.where(two, np.abs(sine), 1.0),
+        np.abs(sine) if two else always,
     )

@@ -15,7 +15,7 @@ from typing import final
 
 import numpy as np
 
-from burmester.fourbar.circuit_batch import CircuitBatch
+from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.defect_messages import (
     Defect,
     DefectKind,
@@ -140,7 +140,7 @@ def judge(
     if not count:
         return []
     rows = np.tile(np.arange(count), 2)
-    view = DrivenView.along(_both_driven(linkage, count), places[rows])
+    view = DrivenView.along(_both_driven(linkage), places[rows])
     change = view.circuits.near_change_point[:count, 0]
     assembled = np.isfinite(places.angle) & np.isfinite(places.translation).all(axis=-1)
     one, other = np.split(view.location.circuit, 2)
@@ -183,13 +183,12 @@ def judge(
     ]
 
 
-def _both_driven(linkage: Linkage | LinkageBatch, count: int) -> CircuitBatch:
+def _both_driven(linkage: Linkage | LinkageBatch) -> Circuits:
     """The circuits (2 k, 2) of linkages (k,) driven by their first dyads, then by their second."""
     if isinstance(linkage, LinkageBatch):
-        return CircuitBatch.of(concatenate([linkage, linkage.exchanged()]))
-    rows = np.arange(count)
-    other = Linkage(linkage.second, linkage.first)
-    return CircuitBatch.of_groups([(rows, linkage), (count + rows, other)], 2 * count)
+        return Circuits.of(concatenate([linkage, linkage.exchanged()]), as_given=True)
+    sides = (linkage, Linkage(linkage.second, linkage.first))
+    return Circuits.joined([Circuits.of(side, as_given=True) for side in sides])
 
 
 def _driven(

@@ -14,7 +14,7 @@ from typing import Final, NamedTuple, Self, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.fourbar.circuit_batch import AnyCircuits, CircuitBatch
+from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.foot_points import foot_points, places_of, rows_of, wrapped
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
@@ -86,7 +86,7 @@ def on_own_circuits(
     target = rows_of(poses, length)
     linkage, pose = np.indices(rows.shape[:2])
     places = places_of(rows, length)
-    circuit = CircuitBatch.of(batch).locate(places).circuit
+    circuit = Circuits.of(batch, as_given=True).locate(places).circuit
     mixed = (circuit != circuit[:, :1]).any(axis=1)
     side = np.where(mixed[:, None], _nearest_of(both, target, 1), np.maximum(circuit, 0))
     nearer = np.where((circuit >= 0)[..., None], both[linkage, side, pose], rows)
@@ -117,7 +117,7 @@ class _CircuitSearch:
     """
 
     batch: LinkageBatch
-    circuits: CircuitBatch
+    circuits: Circuits
     length: float
     minima: int
     row: NDArray[np.intp]
@@ -130,7 +130,7 @@ class _CircuitSearch:
     @classmethod
     def of(cls, batch: LinkageBatch, length: float, effort: SearchEffort) -> Self:
         """The search on the circuits (k, 2) of linkages (k,), sampled."""
-        circuits = CircuitBatch.of(batch)
+        circuits = Circuits.of(batch, as_given=True)
         row, side = np.nonzero(circuits.exists)
         share, samples = sampled(circuits[row, side], length, effort.samples)
         after = _distance_to_next(samples, length)
@@ -203,7 +203,7 @@ class _CircuitSearch:
         return np.where(worse[..., None], near, ends)
 
 
-def sampled(circuits: AnyCircuits, length: float, count: int) -> tuple[FloatArray, FloatArray]:
+def sampled(circuits: Circuits, length: float, count: int) -> tuple[FloatArray, FloatArray]:
     """Fractions (n, s) of circuits (n,) and samples (n, s, 3) there, more where they are wide."""
     share = np.tile((np.arange(count) + 0.5) / count, (len(circuits.exists), 1))
     samples = places_at(circuits, share, length)
@@ -215,7 +215,7 @@ def sampled(circuits: AnyCircuits, length: float, count: int) -> tuple[FloatArra
     return share, samples
 
 
-def places_at(circuits: AnyCircuits, share: FloatArray, length: float) -> FloatArray:
+def places_at(circuits: Circuits, share: FloatArray, length: float) -> FloatArray:
     """Places (*, s, 3) at fractions (s,) or (*, s) of circuits (*,)."""
     closed, slides = circuits.closed[..., None], ~circuits.turns[..., None]
     parameter = 2 * np.pi * (share % 1)
@@ -245,7 +245,7 @@ def _relative_gaps(samples: FloatArray, length: float) -> FloatArray:
 
 
 def _refined(
-    circuits: AnyCircuits, share: FloatArray, samples: FloatArray, gaps: FloatArray, length: float
+    circuits: Circuits, share: FloatArray, samples: FloatArray, gaps: FloatArray, length: float
 ) -> tuple[FloatArray, FloatArray]:
     """Fractions (n, s) and samples (n, s, 3) with more samples in the middle of the widest gaps.
 

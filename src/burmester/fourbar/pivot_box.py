@@ -12,10 +12,11 @@ from __future__ import annotations
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
-from burmester.fourbar.circuit_batch import AnyCircuits
 from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.dyad import PR, RP, RR
+from burmester.fourbar.loop_closure import KINDS
 from burmester.fourbar.pose_order import FULL_TURN, BoolArray
 from burmester.fourbar.traversal import quarters_inside
 from burmester.geometry.displacement import Displacement
@@ -23,18 +24,19 @@ from burmester.numerics.arrays import FloatArray
 
 __all__ = ["extent", "pivot_box"]
 
+CRANK, RAIL, SLOT = map(KINDS.index, (RR, PR, RP))
 QUARTER_TURN: Final = np.pi / 2  # radians
 ROUNDING_STEP: Final = 1e-9  # radians; a step back round a circuit that is less is rounding
 SAMPLES: Final = 361  # number of places at which a linkage at a change point is looked at
 
 
-def extent(circuits: AnyCircuits, parameters: FloatArray, inputs: FloatArray) -> FloatArray:
+def extent(circuits: Circuits, parameters: FloatArray, inputs: FloatArray) -> FloatArray:
     """The diagonal (k,) of `pivot_box`, a length."""
     box = pivot_box(circuits, parameters, inputs)
     return np.asarray(np.linalg.norm(box[:, 1] - box[:, 0], axis=-1))
 
 
-def pivot_box(circuits: AnyCircuits, parameters: FloatArray, inputs: FloatArray) -> FloatArray:
+def pivot_box(circuits: Circuits, parameters: FloatArray, inputs: FloatArray) -> FloatArray:
     """The least and the greatest coordinates (k, 2, 2), in F, of all pivots over a range.
 
     circuits: (k,), of linkages that their first dyads drive, as given (see `Circuits.of`).
@@ -44,55 +46,53 @@ def pivot_box(circuits: AnyCircuits, parameters: FloatArray, inputs: FloatArray)
     An RP has no moving pivot: the point of its line that is in use is its fixed pivot.
     nan where there is no circuit.
     """
+    loop = circuits.loop
     other, whole = _other_inputs(circuits, parameters)
-    box = np.full((len(inputs), 2, 2), np.nan)
-    for index, some in circuits.groups:
-        box[index] = _box(some, parameters[index], inputs[index], other[index], whole[index])
+    (one, two), (first, second) = loop.kinds, loop.dimensions
+    paths = _paths(two, second, other)
+    paths[~whole] = np.nan
+    points = [_fixed(one, first), _fixed(two, second), _paths(one, first, inputs), paths]
+    lost = np.flatnonzero(~whole & np.isfinite(parameters).all(axis=1) & (two != SLOT))
+    if len(lost):
+        some = circuits[lost]
+        at = np.linspace(parameters[lost, 0], parameters[lost, 1], SAMPLES, axis=-1)
+        path = np.full((len(whole), SAMPLES, 2), np.nan)
+        path[lost] = some.couplers(at).act(second[2:4, lost].T[:, None])
+        points.append(path)
+    every = np.concatenate(points, axis=1)
+    box = np.stack([end.reduce(every, axis=1) for end in (np.fmin, np.fmax)], axis=1)
     known = np.isfinite(inputs).all(axis=1)
     return np.where(known.reshape(-1, 1, 1), box, np.nan)
 
 
-def _box(
-    circuits: Circuits,
-    parameters: FloatArray,
-    inputs: FloatArray,
-    other: FloatArray,
-    whole: BoolArray,
-) -> FloatArray:
-    """The box of linkages of one pair of kinds; other, whole: as `_other_inputs` returns them."""
-    first, second = circuits.loop.first, circuits.loop.second
-    assert isinstance(second, RR | PR | RP)
-    points = [dyad.fixed_pivot[:, None] for dyad in (first, second) if isinstance(dyad, RR | RP)]
-    if not isinstance(first, RP):
-        points.append(_path(first, inputs))
-    if not isinstance(second, RP):
-        path = _path(second, other)
-        path[~whole] = np.nan
-        points.append(path)
-        lost = np.flatnonzero(~whole & np.isfinite(parameters).all(axis=1))
-        if len(lost):
-            points.append(np.full((len(whole), SAMPLES, 2), np.nan))
-            some = circuits[lost]
-            at = np.linspace(parameters[lost, 0], parameters[lost, 1], SAMPLES, axis=-1)
-            points[-1][lost] = some.couplers(at).act(second.moving_pivot[lost, None])
-    every = np.concatenate(points, axis=1)
-    return np.stack([end.reduce(every, axis=1) for end in (np.fmin, np.fmax)], axis=1)
+def _fixed(kind: NDArray[np.int8], z: FloatArray) -> FloatArray:
+    """The fixed pivots (k, 1, 2) of dyads, as in `_paths`; nan where there is none."""
+    return np.where((kind == RAIL)[:, None, None], np.nan, z[:2].T[:, None])
 
 
-def _path(dyad: RR | PR, inputs: FloatArray) -> FloatArray:
-    """Points (k, *, 2) of moving pivots: the ends of their paths, and where an arc is extreme."""
-    if isinstance(dyad, PR):
-        angle, offset = dyad.normal_angle[:, None], dyad.offset[:, None]
-        n1, n2 = np.cos(angle), np.sin(angle)
-        return np.stack([offset * n1 - inputs * n2, offset * n2 + inputs * n1], axis=-1)
-    low, high = inputs[:, :1], inputs[:, 1:]
-    at = QUARTER_TURN * (np.floor(low / QUARTER_TURN) + np.arange(1, 5))
-    angle = np.concatenate([inputs, np.where(at < high, at, low)], axis=1)
-    way = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-    return np.asarray(dyad.fixed_pivot[:, None] + dyad.radius[:, None, None] * way)
+def _paths(kind: NDArray[np.int8], z: FloatArray, inputs: FloatArray) -> FloatArray:
+    """Points (k, 6, 2) of moving pivots: the ends of their paths, and where an arc is extreme.
+
+    kind: (k,), z: (5, k), of the dyads; inputs: (k, 2), the ends of their own input.  nan where
+    there are fewer points: of an RP there is none.
+    """
+    out = np.full((len(kind), 6, 2), np.nan)
+    crank, rail = np.flatnonzero(kind == CRANK), np.flatnonzero(kind == RAIL)
+    if len(crank):
+        low, high = inputs[crank, :1], inputs[crank, 1:]
+        at = QUARTER_TURN * (np.floor(low / QUARTER_TURN) + np.arange(1, 5))
+        angle = np.concatenate([low, high, np.where(at < high, at, low)], axis=1)
+        x, y, _, _, radius = z[:, crank, None]
+        out[crank, :, 0] = x + radius * np.cos(angle)
+        out[crank, :, 1] = y + radius * np.sin(angle)
+    if len(rail):
+        normal, offset = np.exp(1j * z[0, rail, None]), z[1, rail, None]
+        point = (offset + 1j * inputs[rail]) * normal
+        out[rail, :2, 0], out[rail, :2, 1] = point.real, point.imag
+    return out
 
 
-def _other_inputs(circuits: AnyCircuits, parameters: FloatArray) -> tuple[FloatArray, BoolArray]:
+def _other_inputs(circuits: Circuits, parameters: FloatArray) -> tuple[FloatArray, BoolArray]:
     """The least and the greatest input (k, 2) of the second dyads over a range, and which are sure.
 
     As a driver, the second dyad has a parameter of its own along the same circuit.  The middle of

@@ -38,10 +38,10 @@ def reserve(circuits: Circuits, inputs: FloatArray) -> FloatArray:
     out = np.stack([inputs[:, 0] - low, high - inputs[:, 1]], axis=-1)
     for stop in _crossings(circuits):
         beyond = np.stack([inputs[:, 0] - stop, stop - inputs[:, 1]], axis=-1)
-        if circuits.loop.turns:
-            beyond = np.mod(beyond + AT_STOP, FULL_TURN) - AT_STOP
-        else:
-            beyond = np.where(beyond < -AT_STOP * np.ptp(inputs, axis=1)[:, None], np.inf, beyond)
+        turned = np.mod(beyond + AT_STOP, FULL_TURN) - AT_STOP
+        behind = beyond < -AT_STOP * np.ptp(inputs, axis=1)[:, None]
+        slid = np.where(behind, np.inf, beyond)
+        beyond = np.where(circuits.turns[:, None], turned, slid)
         out = np.fmin(out, np.where(np.isnan(beyond), np.inf, beyond))
     return np.where(np.isnan(low)[:, None], np.nan, np.maximum(out, 0.0))
 
@@ -49,11 +49,11 @@ def reserve(circuits: Circuits, inputs: FloatArray) -> FloatArray:
 def _crossings(circuits: Circuits) -> list[FloatArray]:
     """Inputs (k,) at which linkages at a change point have all links in line; nan for others."""
     loop, change = circuits.loop, circuits.near_change_point & circuits.exists
+    if not change.any():
+        return []
     below = change & (np.abs(loop.low.down) <= CHANGE_POINT_BOUND * loop.low.scale)
-    if not loop.turns:
-        return [np.where(below & (loop.low.scale > 0), loop.centre, np.nan)]
-    above = change & (np.abs(loop.high.up) <= CHANGE_POINT_BOUND * loop.high.scale)
+    above = change & (np.abs(loop.high.up) <= CHANGE_POINT_BOUND * loop.high.scale) & loop.turns
     return [
         np.where(above & (loop.high.scale > 0), loop.centre, np.nan),
-        np.where(below & (loop.low.scale > 0), loop.centre + np.pi, np.nan),
+        np.where(below & (loop.low.scale > 0), loop.centre + np.pi * loop.turns, np.nan),
     ]

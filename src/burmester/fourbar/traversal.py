@@ -16,12 +16,9 @@ from typing import Final, NamedTuple, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.fourbar.circuit_batch import AnyCircuits
 from burmester.fourbar.circuits import Circuits, Location
-from burmester.fourbar.dyad import PR, RP, RR
-from burmester.fourbar.instantaneous import transmission_angle
 from burmester.fourbar.linkage import Linkage
-from burmester.fourbar.loop_closure import with_trailing_axes
+from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.pose_order import (
     CERTAIN_STEP_BACK,
     FULL_TURN,
@@ -64,20 +61,20 @@ class DrivenView(NamedTuple):
     """Coupler places (k, N) in terms of the drivers: circuits (k, 2), and transmission angles."""
 
     places: Displacement
-    circuits: AnyCircuits
+    circuits: Circuits
     location: Location
     transmission: FloatArray
 
     @classmethod
-    def of(cls, linkage: Linkage, places: Displacement) -> Self:
-        """The view of places (k, N) of linkages (k,) of one pair of kinds, by their first dyads."""
+    def of(cls, linkage: Linkage | LinkageBatch, places: Displacement) -> Self:
+        """The view of places (k, N) of linkages (k,), of one pair of kinds or a batch."""
         return cls.along(Circuits.of(linkage, as_given=True), places)
 
     @classmethod
-    def along(cls, circuits: AnyCircuits, places: Displacement) -> Self:
+    def along(cls, circuits: Circuits, places: Displacement) -> Self:
         """The view of places (k, N) of the linkages with circuits (k, 2), as given."""
         location = circuits.locate(places)
-        transmission = _transmission(circuits[:, 0], places)
+        transmission = circuits.loop[:, :1].transmission(places)
         # At a change point the coupler may move while the input cannot: it is not driven there.
         change = np.flatnonzero(
             circuits.near_change_point[:, 0] & (location.circuit >= 0).any(axis=1)
@@ -94,7 +91,7 @@ class DrivenView(NamedTuple):
 
 
 def _off_circuit(
-    circuits: AnyCircuits, number: NDArray[np.int8], parameter: FloatArray, places: Displacement
+    circuits: Circuits, number: NDArray[np.int8], parameter: FloatArray, places: Displacement
 ) -> BoolArray:
     """Which places (k, N) are not where the circuits (k, 2) are at their parameters."""
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -126,7 +123,7 @@ class Traversal(NamedTuple):
     branch_key: NDArray[np.int8]
     crosses_branches: BoolArray
     circuit: NDArray[np.int8]
-    circuits: AnyCircuits
+    circuits: Circuits
     all_round: BoolArray
     order: PoseOrder
     step_unit: FloatArray
@@ -202,7 +199,7 @@ def pose_range(traversal: Traversal, view: DrivenView) -> PoseRange:
     with np.errstate(invalid="ignore", divide="ignore"):
         between = circuits.couplers(quarters)
         # nan occurs only where all links fold into one line.
-        passed = np.nan_to_num(_transmission(circuits, between))
+        passed = np.nan_to_num(circuits.loop[:, None].transmission(between))
     every = np.where(counts, np.concatenate([view.transmission, passed], axis=1), np.inf)
     least = np.where(on_circuit.any(axis=1), every.min(axis=1), np.nan)
     # A pose beside a dead point is named before the dead point.
@@ -252,49 +249,23 @@ def _merged(use: BoolArray, one: np.ndarray, other: np.ndarray) -> np.ndarray:
     return np.where(use.reshape(-1, *[1] * (one.ndim - 1)), one, other)
 
 
-def _transmission(circuits: AnyCircuits, places: Displacement) -> FloatArray:
-    """The transmission angles (k, *) of linkages with circuits (k,) at places (k, *)."""
-    out = np.empty(places.shape)
-    for index, each in circuits.groups:
-        linkage = Linkage(each.loop.first, each.loop.second)
-        out[index] = transmission_angle(linkage, places[index])
-    return out
-
-
 def first_where(better: BoolArray, good: BoolArray) -> NDArray[np.intp]:
     """The first index (k,) in rows (k, N) where `better` holds, or if nowhere where `good` does."""
     return np.asarray(np.where(better.any(axis=1), better.argmax(axis=1), good.argmax(axis=1)))
 
 
 def _step_unit(
-    circuits: AnyCircuits, places: Displacement, on_circuit: BoolArray, s: FloatArray
-) -> FloatArray:
-    """The unit (k,) of steps along intervals: 1, or a length of the linkage for lengths."""
-    out = np.ones(len(on_circuit))
-    for index, each in circuits.groups:
-        if not (each.loop.turns or each.closed.all()):
-            out[index] = _slid_length(each, places[index], on_circuit[index], s[index])
-    return out
-
-
-def _slid_length(
     circuits: Circuits, places: Displacement, on_circuit: BoolArray, s: FloatArray
 ) -> FloatArray:
-    """The unit (k,) of steps of drivers that slide."""
-    loop = circuits.loop
-    first, second = with_trailing_axes(loop.first, 2), with_trailing_axes(loop.second, 2)
-    assert isinstance(first, PR)
-    pin = complex_of(places.act(first.moving_pivot))
-    if isinstance(second, RR | PR):
-        other = complex_of(places.act(second.moving_pivot))
-    else:
-        assert isinstance(second, RP)
-        other = complex_of(second.fixed_pivot)
-    arm = np.where(on_circuit, np.abs(pin - other), 0.0).max(axis=1)
-    return np.where(circuits.closed | ~on_circuit.any(axis=1), 1.0, arm + np.ptp(s, axis=1))
+    """The unit (k,) of steps along intervals: 1, or a length of the linkage for lengths."""
+    slides = ~(circuits.turns | circuits.closed) & on_circuit.any(axis=1)
+    if not slides.any():
+        return np.ones(len(s))
+    arm = np.where(on_circuit, circuits.loop[:, None].arm(places), 0.0).max(axis=1)
+    return np.where(slides, arm + np.ptp(s, axis=1), 1.0)
 
 
-def quarters_inside(along: FloatArray, circuits: AnyCircuits) -> tuple[FloatArray, BoolArray]:
+def quarters_inside(along: FloatArray, circuits: Circuits) -> tuple[FloatArray, BoolArray]:
     """The parameters (k, 5) inside the range where f turns back, and which of them exist."""
     low, high = along.min(axis=1, keepdims=True), along.max(axis=1, keepdims=True)
     at = QUARTER_TURN * (np.floor(low / QUARTER_TURN) + np.arange(1, 1 + MAX_QUARTER_TURNS))

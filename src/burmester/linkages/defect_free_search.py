@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.fourbar.circuits import Circuits, circuit_of
+from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.foot_points import rows_of
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.nearest_places import on_circuits
@@ -232,15 +232,11 @@ def middle_input(batch: LinkageBatch, places: Displacement, side: int) -> FloatA
 
     nan where there are none, and for sliding inputs.
     """
-    out = np.full(len(batch), np.nan)
-    for index, linkage in (batch.exchanged() if side else batch).alike():
-        circuits = Circuits.of(linkage, as_given=True)
-        own = circuit_of(linkage, places[index], as_given=True).circuit
-        if not circuits.loop.turns:
-            continue
-        middle = np.where(circuits.branches == 2, circuits.input_range.mean(axis=-1), np.nan)
-        out[index] = np.where(own < 0, np.nan, middle[np.arange(len(index)), np.maximum(own, 0)])
-    return out
+    circuits = Circuits.of(batch.exchanged() if side else batch, as_given=True)
+    own = circuits.locate(places).circuit
+    between = (circuits.branches == 2) & circuits.turns
+    middle = np.where(between, circuits.input_range.mean(axis=-1), np.nan)
+    return np.where(own < 0, np.nan, middle[np.arange(len(batch)), np.maximum(own, 0)])
 
 
 def _all_constraints(

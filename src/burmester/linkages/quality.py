@@ -17,10 +17,9 @@ from typing import Self, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.fourbar.circuit_batch import CircuitBatch
+from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.defects import Driven
 from burmester.fourbar.instantaneous import mechanical_advantage
-from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.pivot_box import extent
 from burmester.fourbar.reserve import reserve
@@ -96,13 +95,10 @@ class Quality:
                 for each in driven
             ]
         ).reshape(-1, 2)
-        circuits = CircuitBatch.of(batch)[np.arange(len(batch)), np.maximum(number, 0)]
-        reach = extent(circuits, parameters, inputs) / size
-        advantage, room = np.empty((2, len(batch), 2))
-        ends = places[:, [0, -1]]
-        for index, some in circuits.groups:
-            room[index] = reserve(some, inputs[index])
-            linkage = Linkage(some.loop.first, some.loop.second)
+        circuits = Circuits.of(batch, as_given=True)[np.arange(len(batch)), np.maximum(number, 0)]
+        reach, room = extent(circuits, parameters, inputs) / size, reserve(circuits, inputs)
+        advantage, ends = np.empty((len(batch), 2)), places[:, [0, -1]]
+        for index, linkage in batch.alike():
             advantage[index] = mechanical_advantage(linkage, ends[index])
         transmission = np.array([each.least_over_range for each in driven])
         turn = np.ptp(inputs, axis=1)
