@@ -56,11 +56,17 @@ class LeaveOneOut(NamedTuple):
 
     @classmethod
     def fit_all(
-        cls, normalized: NormalizedPoses, dyads: Sequence[Dyad], poses: Displacement
+        cls,
+        normalized: NormalizedPoses,
+        dyads: Sequence[Dyad],
+        poses: Displacement,
+        *,
+        enough: float = 0.0,
     ) -> tuple[LinkageBatch, Fits]:
         """The best dyads of all poses in pairs, and the fits from them.
 
         dyads: the best of the poses (N,) in their own frames, if they are known.
+        enough: a cost that is low enough; pairs are taken as they are where one has it already.
         """
         given = len(dyads) > 2
         pairs = (
@@ -69,9 +75,12 @@ class LeaveOneOut(NamedTuple):
             else _best_pairs(normalized, -1)
         )
         none = np.full(len(pairs), -1)
-        return pairs, fit_in_two_steps(
-            pairs, none, normalized.rows, normalized.weights_without(none)
-        )
+        share = normalized.weights_without(none)
+        residual, _ = sampson_residuals(pairs, normalized.rows, share)
+        cost = (residual * residual).sum(axis=-1)
+        if (cost <= enough).any():
+            return pairs, Fits(pairs, cost, none)
+        return pairs, fit_in_two_steps(pairs, none, normalized.rows, share)
 
     @classmethod
     def from_shared_starts(

@@ -244,8 +244,9 @@ def odd_pose(
     length, count = float(normalized.frames.length), len(normalized.rows)
     position, angle = (each / math.sqrt(3) for each in task.resolution)
     digit_error = max(position / length, angle, ROUNDING)
-    pairs, whole = LeaveOneOut.fit_all(normalized, dyads, poses)
-    if whole.cost.min() <= (MAX_EXPLAINED_ERROR * digit_error) ** 2 * (2 * count - 10):
+    explained = (MAX_EXPLAINED_ERROR * digit_error) ** 2 * (2 * count - 10)
+    pairs, whole = LeaveOneOut.fit_all(normalized, dyads, poses, enough=explained)
+    if whole.cost.min() <= explained:
         return None
     fits = LeaveOneOut.from_shared_starts(normalized, pairs, whole)
     floor = floor_by_ratio(count, position / length, angle)

@@ -26,9 +26,9 @@ class _Dimensions:
     __slots__ = ()
 
     def __post_init__(self) -> None:
-        for field in fields(self):  # type: ignore[arg-type]
-            value = np.asarray(getattr(self, field.name), dtype=np.float64)
-            object.__setattr__(self, field.name, value)
+        for name in self.__match_args__:  # type: ignore[attr-defined]
+            value = np.asarray(getattr(self, name), dtype=np.float64)
+            object.__setattr__(self, name, value)
 
     def __getitem__(self, index: Any) -> Self:
         """Pick along the leading axes (indices, slices, masks, new axes)."""

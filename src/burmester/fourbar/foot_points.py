@@ -32,6 +32,7 @@ SLOW_RESIDUAL: Final = 1e-9  # lengths; an end of slow steps with less counts as
 MIN_CURVATURE: Final = 0.2  # floor on the curvature of half the squared distance along the circuit
 # Squared sine between the dyads' forces.  Forces with a smaller one count as having this one.
 PARALLEL_FORCES: Final = 1e-20
+TINY: Final = float(np.finfo(np.float64).tiny)  # keeps what is above zero from dividing by zero
 
 
 class ConstraintNormals(NamedTuple):
@@ -66,7 +67,7 @@ def constraint_normals(residual: FloatArray, force: FloatArray, length: float) -
     force = np.moveaxis(force, 1, -2) / np.array([1.0, 1.0, length])
     one, two = force[..., 0, :], force[..., 1, :]
     a, b, c = (np.einsum("...i,...i->...", *pair) for pair in ((one, one), (one, two), (two, two)))
-    det = np.maximum(a * c - b * b, PARALLEL_FORCES * a * c) + np.finfo(float).tiny
+    det = np.maximum(a * c - b * b, PARALLEL_FORCES * a * c) + TINY
     return ConstraintNormals(np.moveaxis(residual, 1, -1), force, np.stack([a, b, c], axis=-1), det)
 
 
@@ -105,15 +106,18 @@ def foot_points(
     run = np.flatnonzero(np.isfinite(ends).all(axis=-1))
     converged = np.zeros(len(ends), dtype=bool)
     every = batch.forms()
+    forms, here, wanted = take(every, linkage[run]), ends[run, None], target[run, None]
     for _ in range(max_steps):
-        forms = take(every, linkage[run])
-        step, size = newton_step(forms, ends[run, None], target[run, None], length)
-        ends[run] += step[:, 0]
-        moving = size[:, 0] > CONVERGED_STEP * (1 + np.abs(ends[run]).max(axis=-1))
-        converged[run[~moving]] = True
-        run = run[moving]
+        step, size = newton_step(forms, here, wanted, length)
+        here = here + step
+        moving = size[:, 0] > CONVERGED_STEP * (1 + np.abs(here[:, 0]).max(axis=-1))
+        if not moving.all():
+            ends[run[~moving]], converged[run[~moving]] = here[~moving, 0], True
+            run, forms = run[moving], take(forms, moving)
+            here, wanted = here[moving], wanted[moving]
         if not len(run):
             break
+    ends[run] = here[:, 0]
     if len(run):  # slow ones count where they are on the linkage
         d, turn = complex_of(ends[run, None]), np.exp(1j * ends[run, None, 2] / length)
         residual, _, _ = take(every, linkage[run]).at(d[:, None], turn[:, None])
@@ -141,7 +145,7 @@ def newton_step(
     c = force2.real**2 + force2.imag**2 + moment2**2
     mixed = force1.conj() * force2
     b = mixed.real + moment1 * moment2
-    det = np.maximum(a * c - b * b, PARALLEL_FORCES * a * c) + np.finfo(float).tiny
+    det = np.maximum(a * c - b * b, PARALLEL_FORCES * a * c) + TINY
     # The target's distance as a combination of both forces, and the manifolds' curvature under it.
     product1 = (force1.conj() * to_d).real + moment1 * to_a
     product2 = (force2.conj() * to_d).real + moment2 * to_a

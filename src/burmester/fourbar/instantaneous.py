@@ -13,11 +13,11 @@ from typing import NamedTuple
 import numpy as np
 
 from burmester.errors import InputError
-from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
+from burmester.fourbar.dyad import PP, RP, RR, Dyad
 from burmester.fourbar.linkage import Linkage
-from burmester.fourbar.loop_closure import with_trailing_axes
+from burmester.fourbar.loop_closure import DrivenLoop, with_trailing_axes
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
+from burmester.numerics.arrays import FloatArray, complex_of
 
 __all__ = [
     "Centrodes",
@@ -133,35 +133,6 @@ def transmission_angle(linkage: Linkage, places: Displacement) -> FloatArray:
     slot and the line from the driving pin to the fixed pivot.  An RP after an RP passes a pure
     couple on: pi/2.  nan for PP.
     """
-    ndim = len(places.shape)
-    first, second = (
-        with_trailing_axes(linkage.first, ndim),
-        with_trailing_axes(linkage.second, ndim),
-    )
-    turn = np.exp(1j * places.angle)
-    if isinstance(first, PP) or isinstance(second, PP):
+    if isinstance(linkage.first, PP) or isinstance(linkage.second, PP):
         return np.full(places.shape, np.nan)
-    if isinstance(first, RP):
-        if isinstance(second, RP):
-            return np.full(places.shape, np.pi / 2)
-        force = turn * np.exp(1j * first.normal_angle)
-        lever = _lever(second, places)
-    elif isinstance(second, RP):
-        force = turn * np.exp(1j * second.normal_angle)
-        lever = _pin(first, places) - complex_of(second.fixed_pivot)
-    else:
-        force, lever = _pin(second, places) - _pin(first, places), _lever(second, places)
-    product = force.conj() * lever
-    return np.asarray(np.arctan2(np.abs(product.imag), np.abs(product.real)))
-
-
-def _pin(dyad: RR | PR, places: Displacement) -> ComplexArray:
-    """The moving pivot, seen in F."""
-    return complex_of(places.act(dyad.moving_pivot))
-
-
-def _lever(dyad: RR | PR, places: Displacement) -> ComplexArray:
-    """From the fixed to the moving pivot, or the normal of a line."""
-    if isinstance(dyad, RR):
-        return _pin(dyad, places) - complex_of(dyad.fixed_pivot)
-    return np.asarray(np.exp(1j * dyad.normal_angle))
+    return with_trailing_axes(DrivenLoop.of(linkage), len(places.shape)).transmission(places)

@@ -114,7 +114,11 @@ class DrivenLoop:
                 shape = np.broadcast_shapes(shape_of(first), shape_of(second))
                 # Rows of one linkage, too: NumPy rounds arrays and single numbers differently.
                 some = shape or (1,)
-                loop = cls._of_pair(broadcast_to(first, some), broadcast_to(second, some))
+                first, second = broadcast_to(first, some), broadcast_to(second, some)
+                loop = cls._of_pair(first, second)
+                for dimensions, dyad in zip(loop.dimensions, (first, second), strict=True):
+                    for row, part in enumerate(_dimensions(dyad)):
+                        dimensions[row] = part
                 return loop if shape else loop[0]
             count = len(linkage)
             flags = np.empty((FLAGS, count), dtype=np.int8)
@@ -124,11 +128,12 @@ class DrivenLoop:
                 own = cls._of_pair(each.first, each.second)
                 flags[:, index], numbers[:, index] = own.flags, own.numbers
                 rows[:, index] = own.rows
+            numbers[8:] = linkage.dimensions.reshape(count, -1).T
             return cls(flags, numbers, rows)
 
     @classmethod
     def _of_pair(cls, first: Dyad, second: Dyad) -> Self:
-        """The loops of dyads (*,) of one pair of kinds."""
+        """The loops of dyads (*,) of one pair of kinds, without their dimensions."""
         if isinstance(first, PP) or (isinstance(first, RP) and isinstance(second, PP)):
             raise InputError(
                 "E401",
@@ -147,8 +152,6 @@ class DrivenLoop:
         numbers[0], numbers[7] = closing.centre, margin
         numbers[1], numbers[2], numbers[3] = closing.high
         numbers[4], numbers[5], numbers[6] = closing.low
-        _fill(numbers[8 : 8 + DIMENSIONS], first)
-        _fill(numbers[8 + DIMENSIONS :], second)
         rows = np.empty((len(terms), *margin.shape), dtype=complex)
         for row, term in enumerate(terms):
             rows[row] = term
@@ -427,22 +430,18 @@ def _is_point(first: Dyad, second: Dyad, closing: Closing) -> NDArray[np.bool_]:
     return np.asarray(out)
 
 
-def _fill(dimensions: FloatArray, dyad: Dyad) -> None:
-    """Write the dimensions (5, *) of a dyad."""
-    parts: tuple[FloatArray, ...]
+def _dimensions(dyad: Dyad) -> list[FloatArray]:
+    """The dimensions (*,) of a dyad, as many as it has, in the order of `LinkageBatch`."""
     if isinstance(dyad, RR):
-        parts = (dyad.fixed_pivot, dyad.moving_pivot, dyad.radius[..., None])
-    elif isinstance(dyad, PR):
-        parts = (dyad.normal_angle[..., None], dyad.offset[..., None], dyad.moving_pivot)
-    elif isinstance(dyad, RP):
-        parts = (dyad.fixed_pivot, dyad.normal_angle[..., None], dyad.offset[..., None])
-    else:
-        parts = (dyad.angle[..., None],)
-    row = 0
-    for part in parts:
-        width = part.shape[-1]
-        dimensions[row : row + width] = np.moveaxis(part, -1, 0)
-        row += width
+        fixed, moving = dyad.fixed_pivot, dyad.moving_pivot
+        return [fixed[..., 0], fixed[..., 1], moving[..., 0], moving[..., 1], dyad.radius]
+    if isinstance(dyad, PR):
+        moving = dyad.moving_pivot
+        return [dyad.normal_angle, dyad.offset, moving[..., 0], moving[..., 1]]
+    if isinstance(dyad, RP):
+        fixed = dyad.fixed_pivot
+        return [fixed[..., 0], fixed[..., 1], dyad.normal_angle, dyad.offset]
+    return [dyad.angle]
 
 
 def _without_rounding(

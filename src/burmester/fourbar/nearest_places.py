@@ -148,15 +148,18 @@ class _CircuitSearch:
         # The numbers (n, N, *) of the samples from which Newton's method starts, and their places.
         start, sample = _local_minima(self.samples, target, self.length, self.minima)
         wanted = np.broadcast_to(target[:, None], start.shape)
+        away = np.sqrt(_squares(start, wanted))
+        # No place beside a sample is nearer than this.
+        spacing = self.spacing[np.arange(len(sample))[:, None, None], sample]
+        bound = away - SPACING_SAFETY * spacing
+        hopeless = bound > np.fmin.reduce(away, axis=-1, keepdims=True)
+        start[hopeless] = bound[hopeless] = np.nan
         ends = _newton_ends(self.batch[self.row], start, wanted, self.length)
         # Newton's method may leap to the other circuit, or past the minimum.
         astray = ~(_squares(ends, wanted) <= _squares(start, wanted) + SAME_SQUARE)
         astray |= self._on_other_circuit(self.row, self.side, ends)
         ends[astray] = np.nan
         sound = np.where(astray, np.inf, np.sqrt(_squares(ends, wanted)))
-        # No place beside a sample is nearer than this.
-        spacing = self.spacing[np.arange(len(sample))[:, None, None], sample]
-        bound = np.sqrt(_squares(start, wanted)) - SPACING_SAFETY * spacing
         astray &= bound <= sound.min(axis=-1, keepdims=True)
         if astray.any():
             which = np.nonzero(astray)
@@ -288,12 +291,17 @@ def _local_minima(
     With angles within half a turn of the target's, and the numbers (n, N, count) of the samples.
     nan where there are fewer.
     """
-    gap = wrapped(samples[:, None] - target[:, None], length)
-    away = np.nan_to_num((gap * gap).sum(axis=-1), nan=np.inf)
-    minimum = (away <= np.roll(away, 1, axis=-1)) & (away <= np.roll(away, -1, axis=-1))
-    minimum[..., [0, -1]] = True  # an open circuit ends there
+    x, y, swung = np.moveaxis(samples[:, None], -1, 0)
+    gap = swung - target[:, None, 2]
+    gap -= 2 * np.pi * length * np.round(gap / (2 * np.pi * length))
+    away = (x - target[:, None, 0]) ** 2 + (y - target[:, None, 1]) ** 2 + gap * gap
+    away[np.isnan(away)] = np.inf
+    minimum = np.ones(away.shape, dtype=bool)  # an open circuit ends at its first and last sample
+    falls = away[..., 1:] <= away[..., :-1]
+    minimum[..., 1:-1] = falls[..., :-1] & (away[..., 1:-1] <= away[..., 2:])
     depth = np.where(minimum, away, np.inf)
     best = np.argpartition(depth, count - 1, axis=-1)[..., :count]
-    start = target[:, None] + np.take_along_axis(gap, best[..., None], axis=2)
+    chosen = samples[np.arange(len(samples))[:, None, None], best]
+    start = target[:, None] + wrapped(chosen - target[:, None], length)
     none = np.isinf(np.take_along_axis(depth, best, axis=-1))
     return np.where(none[..., None], np.nan, start), best

@@ -5,8 +5,9 @@ A bundle is an array, a list (one item a row), None, or a tuple, NamedTuple or d
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import fields, is_dataclass
+from functools import cache
 from typing import Any, TypeVar, cast
 
 import numpy as np
@@ -79,13 +80,26 @@ def _for_each_array(function: Callable[..., Any], *bundles: Bundle) -> Bundle:
     elif first is None:
         made = None
     elif isinstance(first, tuple):
-        columns = zip(*cast(Any, bundles), strict=True)
-        parts = [_for_each_array(function, *column) for column in columns]
+        parts = _each(function, zip(*cast(Any, bundles), strict=True))
         made = tuple(parts) if type(first) is tuple else type(first)(*parts)
-    elif is_dataclass(first):
-        names = [field.name for field in fields(first)]
-        parts = [_for_each_array(function, *(getattr(b, n) for b in bundles)) for n in names]
-        made = type(bundles[0])(*parts)
+    elif names := _fields(cast(Any, type(first))):
+        made = type(first)(*_each(function, ([getattr(b, n) for b in bundles] for n in names)))
     else:
         made = function(*bundles)
     return cast(Bundle, made)
+
+
+def _each(function: Callable[..., Any], columns: Iterable[Sequence[Any]]) -> list[Any]:
+    """What the function makes of each column of parts of bundles."""
+    return [
+        function(*column)
+        if isinstance(column[0], np.ndarray)
+        else _for_each_array(function, *column)
+        for column in columns
+    ]
+
+
+@cache
+def _fields(kind: type) -> tuple[str, ...]:
+    """The names of the fields of a dataclass; none of any other type."""
+    return tuple(field.name for field in fields(kind)) if is_dataclass(kind) else ()
