@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 from rich import box
+from rich.cells import cell_len
 from rich.console import Console, Group
 from rich.table import Table
 from rich.text import Text
@@ -66,7 +67,6 @@ def usable_table(synthesis: Synthesis, console: Console) -> Table:
     decimals = [decimals_of(synthesis, found).lengths for found in usable]
     pins = [places for places, found in zip(decimals, usable, strict=True) if found.linkage.links]
     most = max(pins, default=0)
-    unlimited = console.options.update(max_width=10 * console.width)
     cuts = [most - cut for cut in range(min(MOST_CUT, most) + 1)]
     trials = [(most, 1, True), *((places, 0, dyads) for dyads in (True, False) for places in cuts)]
     for places, gap, dyads in trials if pins else ():
@@ -74,13 +74,21 @@ def usable_table(synthesis: Synthesis, console: Console) -> Table:
         table = _usable(synthesis, usable, shown, gap, dyads=dyads)
         if places < most:
             table.title = f"{table.title}; links to {count(places, 'decimal')}"
-        if console.measure(table, options=unlimited).maximum <= console.width:
+        if _width(table) <= console.width:
             return table
     for gap, dyads in ((1, True), (0, True), (0, False)):
         table = _usable(synthesis, usable, None, gap, dyads=dyads)
-        if console.measure(table, options=unlimited).maximum <= console.width:
+        if _width(table) <= console.width:
             return table
     return _usable(synthesis, usable, None, 0, dyads=False, quality=False)
+
+
+def _width(table: Table) -> int:
+    """The columns that a table of `new_table` takes if no cell is wrapped, as Rich measures it."""
+    cells = ([str(column.header), *map(str, column.cells)] for column in table.columns)
+    wide = sum(max(cell_len(line) for cell in each for line in cell.split("\n")) for each in cells)
+    between = table.padding[1] + 1
+    return wide + between * (len(table.columns) - 1)
 
 
 def _usable(
