@@ -26,6 +26,7 @@ from burmester.fourbar.instantaneous import (
     velocity,
 )
 from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.loop_closure import DrivenLoop
 from burmester.geometry.displacement import Displacement
 from tests.oracles.random_dyads import (
@@ -204,6 +205,44 @@ def test_curve_is_that_of_the_places(pair):
     wanted = d + t * (points @ [1, 1j])[:, None]
     found = circuits.curve(points, s) @ [1, 1j]
     assert (np.abs(found - wanted) < 1e-12 * (1 + np.abs(wanted))).all()
+
+
+def test_a_batch_of_all_kinds_is_the_same_as_one_by_one():
+    rng = np.random.default_rng(8)
+    linkages = [
+        Linkage(*(random_dyad(kind, rng) for kind in pair)) for pair in PAIRS for _ in range(6)
+    ]
+    batch = LinkageBatch.of([linkages[k] for k in rng.permutation(len(linkages))])
+    every = Circuits.of(batch, as_given=True)
+    s = rng.uniform(0.2, 3, (len(batch), 2, 7))
+    couplers, inputs = every.couplers(s), every.input_range
+    poses = Displacement.from_poses(rng.normal(size=(len(batch), 5, 3)))
+    found, other = every.locate(poses), every[:, 0].exchanged().locate(poses)
+    angle = every.loop[:, :1].transmission(poses)
+    told = set()
+    for k in range(len(batch)):
+        one = batch.linkage(k)
+        own = Circuits.of(one, as_given=True)
+        told |= set(own.range_type.tolist())
+        assert np.array_equal(own.range_type, every.range_type[k])
+        there = own.couplers(s[k])
+        assert np.allclose(there.translation, couplers.translation[k], 1e-9, 1e-9, equal_nan=True)
+        assert np.allclose(own.input_range, inputs[k], 1e-9, 1e-9, equal_nan=True)
+        turned = Linkage(one.second, one.first)
+        for linkage, location in ((one, found), (turned, other)):
+            here = circuit_of(linkage, poses[k], as_given=True)
+            assert np.array_equal(here.circuit, location.circuit[k])
+            assert np.array_equal(here.branch, location.branch[k])
+            assert np.allclose(here.parameter, location.parameter[k], 1e-9, 1e-9, equal_nan=True)
+        assert np.allclose(transmission_angle(one, poses[k]), angle[k], atol=1e-12)
+    assert len(told) == 7
+
+
+def test_no_linkages_have_no_circuits():
+    none = Circuits.of(LinkageBatch.of([]), as_given=True)
+    assert none.input_range.shape == (0, 2, 2)
+    assert none[:, 0].exchanged().couplers(np.zeros((0, 2, 3))).shape == (0, 2, 3)
+    assert none.locate(Displacement(np.zeros((0, 4, 2)), np.zeros((0, 4)))).circuit.shape == (0, 4)
 
 
 def test_long_curves_and_many_linkages_are_the_same_as_one_by_one():

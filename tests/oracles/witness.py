@@ -128,7 +128,8 @@ def _driven(first, second, poses, length):
                 continue
             at = int(np.nanargmin(distance))
             bounds = sweep[max(at - 1, 0)], sweep[min(at + 1, len(sweep) - 1)]
-            fine = minimize_scalar(along, bounds=bounds, method="bounded")
+            sharp = {"xatol": 1e-10}
+            fine = minimize_scalar(along, bounds=bounds, method="bounded", options=sharp)
             best = min(best, distance[at], fine.fun)
         result.append(best)
     return np.array(result)

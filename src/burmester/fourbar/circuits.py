@@ -10,6 +10,7 @@ are all exact; nothing is sampled.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple, Self, TypeAlias, cast, final
@@ -111,7 +112,7 @@ class Circuits:
         return self.range_type.shape
 
     def exchanged(self) -> Circuits:
-        """The circuits (*, 2) of the same linkages (*,) as given, driven by their second dyads."""
+        """The circuits (*, 2) of the linkages of circuits (*,), as given, by their second dyads."""
         return Circuits._of(self.loop.exchanged(), as_given=True)
 
     @property
@@ -298,10 +299,9 @@ class Circuits:
         first = self[..., 0]
         with np.errstate(invalid="ignore", divide="ignore"):
             w, closing = with_trailing_axes(first.loop, len(places.shape)).closure_at(places)
-            first = first.flattened()
-            count = len(first.range_type)
-            w, closing = w.reshape(count, -1), closing.reshape(count, -1)
-            found = Location.none(w.shape)
+            flat = (first.range_type.size, math.prod(places.shape[first.range_type.ndim :]))
+            first, w, closing = first.flattened(), w.reshape(flat), closing.reshape(flat)
+            found = Location.none(flat)
             for kind, rows in first._kinds():
                 put(found, rows, _located(first.loop[rows][:, None], kind, w[rows], closing[rows]))
         return found.reshaped(places.shape)

@@ -128,7 +128,7 @@ class DrivenLoop:
                 own = cls._of_pair(each.first, each.second)
                 flags[:, index], numbers[:, index] = own.flags, own.numbers
                 rows[:, index] = own.rows
-            numbers[8:] = linkage.dimensions.reshape(count, -1).T
+            numbers[8:] = linkage.dimensions.reshape(count, 2 * DIMENSIONS).T
             return cls(flags, numbers, rows)
 
     @classmethod
@@ -254,7 +254,7 @@ class DrivenLoop:
         return DrivenLoop(
             loop.flags.reshape(FLAGS, *self.shape),
             loop.numbers.reshape(NUMBERS, *self.shape),
-            loop.rows.reshape(-1, *self.shape),
+            loop.rows.reshape(len(Terms._fields), *self.shape),
         )
 
     def closed_at(self, inputs: FloatArray) -> Displacement:

@@ -235,7 +235,8 @@ def middle_input(batch: LinkageBatch, places: Displacement, side: int) -> FloatA
     circuits = Circuits.of(batch.exchanged() if side else batch, as_given=True)
     own = circuits.locate(places).circuit
     between = (circuits.branches == 2) & circuits.turns
-    middle = np.where(between, circuits.input_range.mean(axis=-1), np.nan)
+    with np.errstate(invalid="ignore"):  # slides without end, from -inf to inf
+        middle = np.where(between, circuits.input_range.mean(axis=-1), np.nan)
     return np.where(own < 0, np.nan, middle[np.arange(len(batch)), np.maximum(own, 0)])
 
 
