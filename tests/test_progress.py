@@ -1,6 +1,7 @@
 """A time limit ends searching, never the truth of what is told; a callback hears how far it is."""
 
 import json
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -99,7 +100,8 @@ def test_less_time_never_makes_the_closest_linkage_closer(clock):
         result = solved("ten poses", time_limit=looks)
         errors.append(min(each.combined_error for each in result))
     assert not unfinished(result)
-    assert errors == sorted(errors, reverse=True)
+    rounding = 1 + 1e-9  # of nearest places, which depends on where they are looked for from
+    assert all(after <= before * rounding for before, after in pairwise(errors))
     assert errors[0] > errors[-1]
     assert errors[-1] == min(each.combined_error for each in solved("ten poses"))
 
