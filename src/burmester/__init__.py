@@ -42,6 +42,9 @@ if TYPE_CHECKING:
     from burmester.dyads.three_poses import dyad_with_moving_pivot as dyad_with_moving_pivot
     from burmester.errors import BurmesterError as BurmesterError
     from burmester.errors import InputError as InputError
+    from burmester.following.follow import follow as follow
+    from burmester.following.followed import Change as Change
+    from burmester.following.followed import Followed as Followed
     from burmester.fourbar.dyad import PP as PP
     from burmester.fourbar.dyad import PR as PR
     from burmester.fourbar.dyad import RP as RP
@@ -77,8 +80,10 @@ _ROOMS = {
     "RP": "fourbar.dyad",
     "RR": "fourbar.dyad",
     "BurmesterError": "errors",
+    "Change": "following.followed",
     "Diagnosis": "diagnosis.checks",
     "Displacement": "geometry.displacement",
+    "Followed": "following.followed",
     "InputError": "errors",
     "KeepOut": "tasks.surroundings",
     "Limits": "tasks.limits",
@@ -97,6 +102,7 @@ _ROOMS = {
     "best_dyads": "dyads.local_minima",
     "box": "geometry.regions",
     "diagnose": "diagnosis.checks",
+    "follow": "following.follow",
     "judge": "api.judge",
     "read_result": "api.result",
     "read_task": "io.reading.poses",
@@ -131,8 +137,10 @@ __all__ = [
     "RP",
     "RR",
     "BurmesterError",
+    "Change",
     "Diagnosis",
     "Displacement",
+    "Followed",
     "InputError",
     "KeepOut",
     "Limits",
@@ -151,6 +159,7 @@ __all__ = [
     "best_dyads",
     "box",
     "diagnose",
+    "follow",
     "judge",
     "read_result",
     "read_task",

@@ -510,6 +510,11 @@ CASES: dict[str, Case] = {
         lambda: api("values.real_numbers")([[0, 0], [3, 1]], (None, 3), "poses"),
         Call(lambda: api("values.real_numbers")([[0, 0, 0], [3, 1, 40]], (None, 3), "poses")),
     ),
+    "followed to fewer poses": Case(
+        "E157",
+        lambda: api("following.follow.follow")(synthesize(poses(5)), burmester.Task(poses(4))),
+        Call(lambda: synthesize(burmester.Task(poses(4)))),
+    ),
     "no python-flint": Case("E130", f"{S} --certify", Args(f"{S} --certify"), GOOD),
     # --- limits
     "region unknown": Case(

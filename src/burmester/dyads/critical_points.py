@@ -34,7 +34,7 @@ from burmester.numerics.linear_algebra import matvec, one_thread, solve_or_short
 from burmester.numerics.unique_rows import unique_rows
 from burmester.numerics.weights import shares, weights_or_ones
 
-__all__ = ["COUNT", "CriticalDyads", "critical_dyads", "residual_rows"]
+__all__ = ["COUNT", "CriticalDyads", "continued_points", "critical_dyads", "residual_rows"]
 
 COUNT = 25  # finite critical points of generic poses (a Groebner basis over a finite field)
 MAX_NEWTON_STEPS = 40  # more than 5 are taken only towards points that lie close together
@@ -47,6 +47,8 @@ RESIDUAL_ROUNDING = 1e-28  # of its terms, squared; a smaller sum of squares is 
 SETTLED_STEP = 1e-8  # relative; shorter steps are rounding once they no longer shrink
 LAST_STEP = 1e-13  # relative; a step as short as this is the last one in any case
 SAME_POINT = 1e-6  # relative; critical points nearer than this are one
+CONTINUING_STEPS = 6  # of Newton's method from the critical points of poses nearby
+CONTINUED_SHARE = 0.4  # of the way to its nearest neighbour; a point that moves farther is lost
 
 
 @final
@@ -333,3 +335,40 @@ def _beside_neighbours(points: ComplexArray) -> ComplexArray:
     apart = np.linalg.norm(points[:, None] - points, axis=-1) + np.diag([np.inf] * len(points))
     other = points[apart.argmin(axis=1)]
     return np.concatenate([(points + other) / 2, 2 * points - other])
+
+
+def continued_points(
+    points: ComplexArray, poses: Displacement, weights: FloatArray | None = None
+) -> ComplexArray | None:
+    """The critical points (k, 4) of poses (N,) from those of poses that differ a little.
+
+    By Newton's method, real and complex ones alike, all in one frame.  None where one does not come
+    to rest nearer to itself than to the others, so that two may have met, or has become real: then
+    `critical_dyads` says what there is.
+    """
+    triangle = _triangle(poses, weights)
+    unit = _balancing_length(triangle)
+    scaled = triangle * [1.0, *[unit] * 4, unit**2, unit**2]
+    scaled = scaled / np.linalg.norm(scaled)
+    start = x = points / unit
+    for _ in range(CONTINUING_STEPS):
+        gradient, hessian = _derivatives(x, scaled)
+        step = solve_or_shortest(hessian, gradient)
+        x = x - step
+        if (np.abs(step).max(axis=1) < SETTLED_STEP * (1 + np.abs(x).max(axis=1))).all():
+            break
+    else:
+        return None
+    gap = start[:, None] - start
+    apart = np.sqrt((gap.real**2 + gap.imag**2).sum(axis=-1))
+    np.fill_diagonal(apart, np.inf)
+    moved = np.linalg.norm(x - start, axis=1)
+    was, is_ = ((each.imag != 0).any(axis=1) for each in (start, x))
+    real = np.linalg.norm(x.imag, axis=1) < REAL_TOLERANCE * (1 + np.linalg.norm(x, axis=1))
+    if (
+        (moved > CONTINUED_SHARE * apart.min(axis=1)).any()
+        or (real & was).any()
+        or (is_ & ~was).any()
+    ):
+        return None
+    return np.asarray(x * unit)

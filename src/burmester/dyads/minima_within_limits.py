@@ -32,7 +32,7 @@ from burmester.tasks.limits import Limits
 from burmester.tasks.options import Norm
 from burmester.tasks.thin_regions import without_thin_regions
 
-__all__ = ["LimitedDyads", "limited_dyads"]
+__all__ = ["LimitedDyads", "limited_dyads", "limits_in"]
 
 _LINE = line_shape(2, 0)
 
@@ -77,7 +77,7 @@ def limited_dyads(
     limits = limits or Limits()
     frames, seen = frames_of(poses, weights, (limits,))
     held = np.zeros(poses.shape, dtype=bool) if exact is None else exact
-    limits = _limits_in(frames, without_thin_regions(limits, frames, int(held.sum())))
+    limits = limits_in(frames, without_thin_regions(limits, frames, int(held.sum())))
     search = FaceSearch(shares(weights, poses.shape), held, norm)
     kinds = limits.allowed
     rr = circles_within_limits(seen, limits, search) if "RR" in kinds else np.empty((0, 5))
@@ -152,7 +152,7 @@ def _line_map(face: Face) -> FloatArray:
     return np.stack(at + more, axis=-1)
 
 
-def _limits_in(frames: CanonicalFrames, limits: Limits) -> Limits:
+def limits_in(frames: CanonicalFrames, limits: Limits) -> Limits:
     """Limits as canonical frames see them."""
 
     def moved(region: Region | None, origin: FloatArray) -> Any:

@@ -102,6 +102,19 @@ class Problem:
         """The linkages at the indices with dimensions z."""
         return LinkageBatch(self.kinds[which], z.reshape(-1, 2, DIMENSIONS))
 
+    def part(self, index: NDArray[np.intp]) -> Problem:
+        """The problem of the linkages at the indices, without their constraints."""
+        return Problem(
+            self.kinds[index],
+            self.wanted,
+            self.length,
+            self.share,
+            self.exact,
+            None,
+            self.free[index],
+            self.metric,
+        )
+
     def state(self, which: NDArray[np.intp], z: FloatArray, rows: FloatArray) -> State:
         """The linkages z (k, 10) with their places nearest to the poses, by steps from rows."""
         with np.errstate(invalid="ignore", divide="ignore", over="ignore"):

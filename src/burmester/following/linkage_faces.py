@@ -1,0 +1,137 @@
+"""The faces of limits on which the dyads of linkages lie, for many linkages at once."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burmester.dyads.limited_block import Block, LengthRange
+from burmester.dyads.minima_within_limits import limits_in
+from burmester.following.face_table import FaceTable, Held, face_numbers, held, nearest_face
+from burmester.fourbar.canonical_frames import CanonicalFrames
+from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
+from burmester.numerics.arrays import FloatArray
+from burmester.tasks.limits import Limits
+
+__all__ = ["brought_inside", "faces_met", "linkage_face_numbers", "linkages_held", "outside_limits"]
+
+OUTSIDE = 1e-9  # lengths; a pivot that is farther outside its region has left it
+KEPT_TABLES = 16  # limits whose faces are remembered
+
+
+def linkages_held(
+    numbers: NDArray[np.intp], limits: Sequence[Limits], frames: CanonicalFrames
+) -> Held | None:
+    """The faces of these numbers (k, 2, 3) as conditions on dimensions (k, 10), in frames.
+
+    limits: of a task, in its own frames.  None without limits.
+    """
+    if not limits:
+        return None
+    shift = np.array([*frames.fixed_origin, *frames.moving_origin, 0.0])
+    sides = []
+    for side in (0, 1):
+        own = held(_own_tables(_of_side(limits, side)), numbers[:, side])
+        sides.append(own._replace(at=(own.at - own.rows @ shift) / frames.length))
+    one, two = sides
+    return Held(
+        _blocks(one.rows, two.rows),
+        np.concatenate([one.at, two.at], axis=1),
+        np.concatenate([one.active, two.active], axis=1),
+        _blocks(one.inward, two.inward),
+    )
+
+
+def _blocks(one: FloatArray, two: FloatArray) -> FloatArray:
+    """Rows (k, m, 5) on the first and (k, n, 5) on the second dyad, as (k, m + n, 10)."""
+    out = np.zeros((len(one), one.shape[1] + two.shape[1], 2 * DIMENSIONS))
+    out[:, : one.shape[1], :DIMENSIONS], out[:, one.shape[1] :, DIMENSIONS:] = one, two
+    return out
+
+
+def _of_side(limits: Sequence[Limits], side: int) -> Limits:
+    return limits[min(side, len(limits) - 1)]
+
+
+def _tables(limits: Limits) -> tuple[FaceTable, ...]:
+    """The faces of limits in the dimensions of a dyad."""
+    blocks = (
+        Block(slice(0, 2), limits.fixed_pivot),
+        Block(slice(2, 4), limits.moving_pivot),
+        Block(slice(4, 5), LengthRange(*limits.length)),
+    )
+    return tuple(FaceTable.of(block, DIMENSIONS) for block in blocks)
+
+
+_own_tables = lru_cache(KEPT_TABLES)(_tables)
+
+
+def _of_kind(tables: Sequence[FaceTable], kind: int) -> tuple[NDArray[np.bool_], list[FaceTable]]:
+    """Which of fixed pivot, moving pivot and length a kind of dyad has, and their faces."""
+    has = np.array([kind != 1, kind != 2, kind == 0])
+    return has, [table for table, mine in zip(tables, has, strict=True) if mine]
+
+
+def linkage_face_numbers(
+    batch: LinkageBatch, limits: Sequence[Limits], frames: CanonicalFrames
+) -> NDArray[np.intp]:
+    """The faces (k, 2, 3) on which linkages (k,) lie; -1 of what a slider does not have."""
+    numbers = np.full((len(batch), 2, 3), -1, dtype=np.intp)
+    inside = brought_inside(batch, limits, frames)
+    for side in (0, 1) if limits else ():
+        tables = _tables(limits_in(frames, _of_side(limits, side)))
+        for k in range(len(batch)):
+            has, mine = _of_kind(tables, int(batch.kinds[k, side]))
+            numbers[k, side, has] = face_numbers(inside.dimensions[k, side][None], mine)[0]
+    return numbers
+
+
+def faces_met(
+    batch: LinkageBatch,
+    numbers: NDArray[np.intp],
+    limits: Sequence[Limits],
+    frames: CanonicalFrames,
+) -> NDArray[np.intp]:
+    """The faces (k, 2, 3) on which linkages (k,) were, or the nearest of what they are outside."""
+    numbers = numbers.copy()
+    for side in (0, 1) if limits else ():
+        tables = _tables(limits_in(frames, _of_side(limits, side)))
+        for k in range(len(batch)):
+            z = batch.dimensions[k, side]
+            for at in np.flatnonzero(_of_kind(tables, int(batch.kinds[k, side]))[0]):
+                if tables[at].block.outside(z):
+                    numbers[k, side, at] = nearest_face(z, tables[at])[0]
+    return numbers
+
+
+def brought_inside(
+    batch: LinkageBatch, limits: Sequence[Limits], frames: CanonicalFrames
+) -> LinkageBatch:
+    """Linkages (k,) with what lies outside its limits moved to the nearest face."""
+    dimensions = batch.dimensions.copy()
+    for side in (0, 1) if limits else ():
+        tables = _tables(limits_in(frames, _of_side(limits, side)))
+        for k in range(len(batch)):
+            for table in _of_kind(tables, int(batch.kinds[k, side]))[1]:
+                if table.block.outside(dimensions[k, side]):
+                    dimensions[k, side] = nearest_face(dimensions[k, side], table)[1]
+    return LinkageBatch(batch.kinds, dimensions)
+
+
+def outside_limits(
+    batch: LinkageBatch, limits: Sequence[Limits], frames: CanonicalFrames
+) -> NDArray[np.bool_]:
+    """Which linkages (k,) have left their limits."""
+    own, out = batch.from_canonical(frames), np.zeros(len(batch), dtype=bool)
+    least = OUTSIDE * float(frames.length)
+    for side in (0, 1) if limits else ():
+        each, z, kind = _of_side(limits, side), own.dimensions[:, side], own.kinds[:, side]
+        for region, at, other in ((each.fixed_pivot, 0, 1), (each.moving_pivot, 2, 2)):
+            if region is not None:
+                out |= (kind != other) & (region.distance(z[:, at : at + 2]) > least)
+        beyond = (z[:, 4] < each.length[0] - least) | (z[:, 4] > each.length[1] + least)
+        out |= (kind == 0) & beyond
+    return out

@@ -1,0 +1,393 @@
+"""The linkages of a task, continued to a task that differs a little.
+
+A linkage that is its pair of dyads goes with them.  One that was refined stays the least error of
+its neighbourhood, by Newton's method along the faces of the limits on which it lies.  Every other
+one (from a search, a trade or a family, and within tolerances) moves with the poses: by the least
+change of its dimensions that keeps its errors; whether it is the best under its conditions then is
+not asked.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from enum import IntEnum
+from typing import NamedTuple, Self, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burmester.dyads.selection import FoundDyad
+from burmester.following.linkage_faces import (
+    brought_inside,
+    faces_met,
+    linkage_face_numbers,
+    linkages_held,
+    outside_limits,
+)
+from burmester.following.linkage_steps import (
+    Least,
+    curvatures,
+    gains,
+    least_errors,
+    moved_with_places,
+)
+from burmester.fourbar.foot_points import rows_of
+from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
+from burmester.geometry.displacement import Displacement
+from burmester.linkages.constraints import AllConstraints
+from burmester.linkages.evaluation import sizable
+from burmester.linkages.found_linkage import FoundLinkage, Pair
+from burmester.linkages.residuals import SIZE, Problem
+from burmester.linkages.target import Target
+from burmester.numerics.arrays import FloatArray
+from burmester.numerics.bundles import concatenate, take
+from burmester.numerics.weights import weights_of_mean_one
+from burmester.tasks.limits import Limits
+
+__all__ = ["LinkageStrands", "NewLinkages", "Way"]
+
+LEAST_GAIN = 1e-6  # share of the squared error; where a step gains more, a linkage is no minimum
+SAME_DIMENSIONS = 1e-9  # relative; a linkage that differs by less is its pair of dyads
+RESTLESS_STEP = 1e-3  # relative; a linkage whose last step is as long has lost its minimum
+FACES_MET = 4  # that linkages come to on their way with the poses, at most
+REFINING_STEPS = 20  # where a linkage comes to a face of the limits, or leaves one
+
+
+class Way(IntEnum):
+    """How a linkage goes on: with its dyads, as a least error, or with the poses."""
+
+    DYADS, LEAST, MOVED = 0, 1, 2
+
+
+class NewLinkages(NamedTuple):
+    """Linkages continued to a new task.
+
+    strands: of those that go on; batch, rows: in the frames of the target, with their places.
+    vanished: the ids of those whose dyads vanished, or became one; doubts: in sentences.
+    """
+
+    strands: LinkageStrands
+    batch: LinkageBatch
+    rows: FloatArray
+    vanished: list[str]
+    doubts: list[str]
+
+    def with_pairs(self, pairs: Sequence[Pair], target: Target, last: int) -> NewLinkages:
+        """The same and linkages of pairs of dyads, as they are; last: the greatest number in use.
+
+        Their places are looked for from nothing.
+        """
+        if not pairs:
+            return self
+        own = LinkageBatch.of([Linkage(one.dyad, two.dyad) for one, two in pairs])
+        batch, count = own.to_canonical(target.frames), len(pairs)
+        rows, strands = target.places(batch), self.strands
+        numbers = range(last + 1, last + 1 + count)
+        places = target.frames.from_canonical(target.places_of(rows))
+        new = LinkageStrands(
+            tuple(f"L{number}" for number in numbers),
+            tuple(numbers),
+            tuple((one.id, two.id) for one, two in pairs),
+            (True,) * count,
+            np.zeros(count, dtype=bool),
+            own,
+            places,
+            np.full(count, Way.DYADS, dtype=np.int8),
+            np.zeros((count, SIZE, SIZE)),
+            np.full((count, 2, 3), -1, dtype=np.intp),
+        )
+        return self._replace(
+            strands=strands.joined(new),
+            batch=concatenate([self.batch, batch]),
+            rows=np.concatenate([self.rows, rows]),
+        )
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class LinkageStrands:
+    """What of linkages (k,) goes on from task to task.
+
+    ids, ranks, pairs, determined, from_search: as in the synthesis; pairs are the ids of the dyads.
+    own: the linkages in the task's frames; places: (k, N), theirs nearest to the poses.
+    way: (k,); curvature: (k, 10, 10), of the residuals, as far as it is known.
+    numbers: (k, 2, 3), the faces of the limits on which fixed pivot, moving pivot and length of
+    both dyads lie.
+    """
+
+    ids: tuple[str, ...]
+    ranks: tuple[int, ...]
+    pairs: tuple[tuple[str, str], ...]
+    determined: tuple[bool, ...]
+    from_search: NDArray[np.bool_]
+    own: LinkageBatch
+    places: Displacement
+    way: NDArray[np.int8]
+    curvature: FloatArray
+    numbers: NDArray[np.intp]
+
+    @classmethod
+    def of(
+        cls,
+        found: Sequence[FoundLinkage],
+        dyads: Sequence[FoundDyad],
+        limits: Sequence[Limits],
+        at: Sequence[int],
+        target: Target,
+    ) -> Self:
+        """The strands of linkages of a synthesis; at: the poses (N,) of the target among theirs.
+
+        dyads: those that go on by themselves.
+        """
+        count, number = len(found), len(at)
+        places = Displacement(
+            np.array([each.error.places.translation[at] for each in found]).reshape(-1, number, 2),
+            np.array([each.error.places.angle[at] for each in found]).reshape(-1, number),
+        )
+        own = LinkageBatch.of([each.linkage for each in found])
+        batch = own.to_canonical(target.frames)
+        strands = cls(
+            tuple(each.id for each in found),
+            tuple(each.rank for each in found),
+            tuple((each.dyads[0].id, each.dyads[1].id) for each in found),
+            tuple(each.determined for each in found),
+            np.array([each.from_search for each in found], dtype=bool),
+            own,
+            places,
+            np.full(count, Way.MOVED, dtype=np.int8),
+            np.zeros((count, SIZE, SIZE)),
+            linkage_face_numbers(batch, limits, target.frames),
+        )
+        if not count or not dyads:
+            return strands
+        known = {each.id: each for each in dyads}
+        way = strands.way.copy()
+        rows, curvature = target.rows_at(places), strands.curvature
+        if target.boxes is None:
+            kept = linkages_held(strands.numbers, limits, target.frames)
+            problem, z = _problem(batch, target), batch.dimensions.reshape(count, SIZE)
+            with np.errstate(all="ignore"):
+                state = problem.state(np.arange(count), z, rows)
+                curvature = curvatures(problem, state)
+                gain = np.nan_to_num(gains(problem, state, curvature, kept), nan=np.inf)
+            way[gain < LEAST_GAIN] = Way.LEAST
+        way[np.array([_is_pair(each, known) for each in found])] = Way.DYADS
+        return replace(strands, way=way, curvature=curvature)
+
+    def __len__(self) -> int:
+        return len(self.ids)
+
+    def joined(self, other: LinkageStrands) -> LinkageStrands:
+        """These strands and others."""
+        names = "ids", "ranks", "pairs", "determined"
+        arrays = "from_search", "own", "places", "way", "curvature", "numbers"
+        return LinkageStrands(
+            *(getattr(self, name) + getattr(other, name) for name in names),
+            *(concatenate([getattr(self, name), getattr(other, name)]) for name in arrays),
+        )
+
+    def at(self, index: NDArray[np.intp]) -> LinkageStrands:
+        """Some of the strands."""
+        return LinkageStrands(
+            tuple(self.ids[k] for k in index),
+            tuple(self.ranks[k] for k in index),
+            tuple(self.pairs[k] for k in index),
+            tuple(self.determined[k] for k in index),
+            self.from_search[index],
+            self.own[index],
+            self.places[index],
+            self.way[index],
+            self.curvature[index],
+            self.numbers[index],
+        )
+
+    def continued(
+        self,
+        target: Target,
+        limits: Sequence[Limits],
+        before: Displacement,
+        dyads: Mapping[str, FoundDyad],
+    ) -> NewLinkages:
+        """The linkages of a new task.
+
+        target, limits: its own; before: (N,), the poses that the places belong to; dyads: the new
+        ones by their ids.
+        """
+        gone = [
+            way == Way.DYADS and not all(each in dyads for each in pair)
+            for way, pair in zip(self.way, self.pairs, strict=True)
+        ]
+        vanished = [id for id, lost in zip(self.ids, gone, strict=True) if lost]
+        strands = self.at(np.flatnonzero(~np.array(gone, dtype=bool))) if vanished else self
+        if not len(strands):
+            none = np.empty((0, target.poses.shape[0], 3))
+            return NewLinkages(strands, strands.own, none, vanished, [])
+        frames = target.frames
+        own = _with_dyads(strands, dyads)
+        rows = target.rows_at(strands.places) + rows_of(target.poses, target.length)
+        rows = rows - target.rows_at(before)
+        stretch = _Stretch(target, limits, strands.way, strands.curvature)
+        start = stretch.start(own.to_canonical(frames), rows, strands.numbers)
+        there, curvature, last = stretch.with_least_errors(start)
+        lost = np.flatnonzero(~np.isfinite(there.rows).all(axis=(1, 2)))
+        if len(lost):  # nowhere near, or no longer where they were
+            there.rows[lost] = target.places(there.batch[lost])
+        with_dyads = (strands.way == Way.DYADS)[:, None, None]
+        moved = there.batch.from_canonical(frames).dimensions
+        strands = replace(
+            strands,
+            own=LinkageBatch(own.kinds, np.where(with_dyads, own.dimensions, moved)),
+            places=frames.from_canonical(target.places_of(there.rows)),
+            curvature=curvature,
+            numbers=there.numbers,
+        )
+        if not (sound := sizable(there.batch)).all():
+            vanished += [strands.ids[k] for k in np.flatnonzero(~sound)]
+            kept, last = np.flatnonzero(sound), last[sound]
+            there, strands = take(there, kept), strands.at(kept)
+        lost = np.flatnonzero(last > RESTLESS_STEP)
+        if len(lost):
+            way = strands.way.copy()
+            way[lost] = Way.MOVED
+            strands = replace(strands, way=way)
+        doubts = [f"{strands.ids[k]} has lost its minimum, and moves with the poses" for k in lost]
+        return NewLinkages(strands, there.batch, there.rows, vanished, doubts)
+
+
+class _Here(NamedTuple):
+    """Linkages (k,) with places (k, N, 3) and faces (k, 2, 3)."""
+
+    batch: LinkageBatch
+    rows: FloatArray
+    numbers: NDArray[np.intp]
+
+
+class _Stretch(NamedTuple):
+    """The stretch from one task to the next, of linkages (k,) in the frames of the target."""
+
+    target: Target
+    limits: Sequence[Limits]
+    way: NDArray[np.int8]
+    curvature: FloatArray
+
+    def start(self, batch: LinkageBatch, rows: FloatArray, numbers: NDArray[np.intp]) -> _Here:
+        """The linkages, those that move with the poses where they go.
+
+        rows: their places, moved as the poses are.
+        """
+        frames, dimensions = self.target.frames, batch.dimensions.copy()
+        index, numbers = np.flatnonzero(self.way == Way.MOVED), numbers.copy()
+        left, faces = index, np.full_like(numbers, -1)
+        for _ in range(FACES_MET):
+            if not len(left):
+                break
+            kept = linkages_held(faces[left], self.limits, frames)
+            some, places = batch[left], self.target.places_of(rows[left])
+            there = moved_with_places(some, places, kept)
+            dimensions[left] = there.dimensions
+            out = np.flatnonzero(outside_limits(there, self.limits, frames))
+            left = left[out]  # once more, along the faces to which they came
+            faces[left] = faces_met(there[out], faces[left], self.limits, frames)
+        numbers[index] = faces[index]
+        if len(left):
+            last = LinkageBatch(batch.kinds[left], dimensions[left])
+            dimensions[left] = brought_inside(last, self.limits, frames).dimensions
+        return self._at_places(_Here(LinkageBatch(batch.kinds, dimensions), rows, numbers))
+
+    def _at_places(self, here: _Here) -> _Here:
+        """The same at their places nearest to the poses."""
+        every = np.arange(len(here.batch))
+        z = here.batch.dimensions.reshape(len(every), SIZE)
+        with np.errstate(all="ignore"):
+            rows = _problem(here.batch, self.target).state(every, z, here.rows).rows
+        return here._replace(rows=rows)
+
+    def with_least_errors(self, here: _Here) -> tuple[_Here, FloatArray, FloatArray]:
+        """The linkages, each least error where it is now; curvature, and the last steps (k,)."""
+        count, curvature = len(here.batch), self.curvature.copy()
+        last, index = np.zeros(count), np.flatnonzero(self.way == Way.LEAST)
+        if not len(index):
+            return here, curvature, last
+        found = self._least(here, index)
+        curvature[index], last[index] = found.curvature, found.last
+        dimensions, rows = here.batch.dimensions.copy(), here.rows.copy()
+        dimensions[index] = found.state.z.reshape(-1, 2, DIMENSIONS)
+        rows[index] = found.state.rows
+        there = _Here(LinkageBatch(here.batch.kinds, dimensions), rows, here.numbers)
+        if not self.limits:
+            return there, curvature, last
+        left = outside_limits(there.batch[index], self.limits, self.target.frames)
+        events = index[found.let_go | left]
+        if len(events):
+            there = self._along_other_faces(there, events)
+        return there, curvature, last
+
+    def _least(self, here: _Here, index: NDArray[np.intp]) -> Least:
+        """Newton's steps of the linkages at the indices."""
+        problem, z = _problem(here.batch[index], self.target), here.batch.dimensions[index]
+        kept = linkages_held(here.numbers[index], self.limits, self.target.frames)
+        every = np.arange(len(index))
+        with np.errstate(all="ignore"):
+            state = problem.state(every, z.reshape(-1, SIZE), here.rows[index])
+            return least_errors(problem, state, self.curvature[index], kept)
+
+    def _along_other_faces(self, here: _Here, index: NDArray[np.intp]) -> _Here:
+        """Linkages refined under their limits, and the faces on which they lie then."""
+        frames = self.target.frames
+        start = brought_inside(here.batch[index], self.limits, frames)
+        refined = self.target.refine(
+            start,
+            here.rows[index],
+            constraints=AllConstraints(self.target.kept),
+            constrained_steps=REFINING_STEPS,
+        )
+        good = np.isfinite(refined.rows).all(axis=(1, 2))
+        index, batch, rows = index[good], refined.batch[good], refined.rows[good]
+        dimensions, numbers, every = (
+            here.batch.dimensions.copy(),
+            here.numbers.copy(),
+            here.rows.copy(),
+        )
+        dimensions[index], every[index] = batch.dimensions, rows
+        numbers[index] = linkage_face_numbers(batch, self.limits, frames)
+        return _Here(LinkageBatch(here.batch.kinds, dimensions), every, numbers)
+
+
+def _is_pair(found: FoundLinkage, known: Mapping[str, FoundDyad]) -> bool:
+    """Whether a linkage has the dimensions of its two dyads."""
+    pair = [known.get(each.id) for each in found.dyads]
+    one, two = pair
+    if one is None or two is None:
+        return False
+    kinds = [type(each.dyad) for each in (one, two)]
+    if kinds != [type(found.linkage.first), type(found.linkage.second)]:
+        return False
+    a, b = (LinkageBatch.of([each]) for each in (found.linkage, Linkage(one.dyad, two.dyad)))
+    size = 1 + np.abs(a.dimensions).max(axis=-1)
+    return bool((np.abs(a.dimensions - b.dimensions).max(axis=-1) < SAME_DIMENSIONS * size).all())
+
+
+def _with_dyads(strands: LinkageStrands, dyads: Mapping[str, FoundDyad]) -> LinkageBatch:
+    """The linkages in the task's frames, those that go with their dyads as these are now."""
+    index = np.flatnonzero(strands.way == Way.DYADS)
+    if not len(index):
+        return strands.own
+    pairs = [strands.pairs[k] for k in index]
+    new = LinkageBatch.of([Linkage(dyads[one].dyad, dyads[two].dyad) for one, two in pairs])
+    own = LinkageBatch(strands.own.kinds.copy(), strands.own.dimensions.copy())
+    own.kinds[index], own.dimensions[index] = new.kinds, new.dimensions
+    return own
+
+
+def _problem(batch: LinkageBatch, target: Target) -> Problem:
+    """What linkages (k,) are refined for."""
+    number = target.poses.shape[0]
+    exact = np.zeros(number, dtype=bool) if target.exact is None else target.exact
+    share = np.where(exact, 0.0, np.sqrt(weights_of_mean_one(target.weights, (number,))))
+    slots = np.ones((len(batch), 2, DIMENSIONS), dtype=bool)
+    slots[..., -1] = batch.kinds == 0
+    wanted = rows_of(target.poses, target.length)
+    free = slots.reshape(len(batch), SIZE)
+    return Problem(batch.kinds, wanted, target.length, share, exact, None, free)
