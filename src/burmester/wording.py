@@ -45,6 +45,8 @@ def in_runs(names: Sequence[str], most: int, last: str = "and") -> str:
         before = runs[-1][-1] if runs else ""
         if _is_number(name) and _is_number(before) and int(name) == int(before) + 1:
             runs[-1].append(name)
+        elif len(runs) > most:  # what follows is among the others
+            break
         else:
             runs.append([name])
     parts: list[list[str]] = []
@@ -52,7 +54,7 @@ def in_runs(names: Sequence[str], most: int, last: str = "and") -> str:
         parts += [run] if len(run) >= LEAST_RUN else [[name] for name in run]
     texts = [f"{part[0]}-{part[-1]}" if len(part) > 1 else part[0] for part in parts]
     if len(parts) > most:
-        rest = sum(map(len, parts[most - 1 :]))
+        rest = len(names) - sum(map(len, parts[: most - 1]))
         texts = [*texts[: most - 1], f"{rest} others"]
     return listed(texts, last)
 

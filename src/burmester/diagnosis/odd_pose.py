@@ -20,7 +20,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple, final
 
 import numpy as np
@@ -44,11 +44,11 @@ from burmester.diagnosis.sampson_fits import NormalizedPoses, refine_best
 from burmester.diagnosis.unit_errors import UnitError, pose_apart, unit_error
 from burmester.errors import InputError
 from burmester.fourbar.dyad import Dyad
-from burmester.fourbar.foot_points import rows_of
+from burmester.fourbar.foot_points import newton_step, rows_of
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.nearest_places import on_circuits
-from burmester.numerics.arrays import ROUNDING, FloatArray, median
+from burmester.numerics.arrays import ROUNDING, FloatArray, even_numbers, median
 from burmester.numerics.bundles import concatenate
 from burmester.progress import time_for
 from burmester.tasks.motion_class import MotionClass, classify_motion
@@ -60,7 +60,9 @@ from burmester.wording import figure, listed
 __all__ = ["OddPose", "odd_pose"]
 
 MIN_POSES = 7  # distinct ones; fewer leave no residual to spare without one pose
-MAX_POSES = 1000  # distinct ones; more take too long
+# Of more distinct poses so many are looked at, evenly chosen, and the MANY_SUSPECTS farthest off
+# their motion.
+MAX_POSES, MANY_SUSPECTS = 200, 8
 FALSE_ALARM_CHANCE = 5e-3  # up to which a pose is named
 OTHER_POSE_CHANCE = 0.05  # above it another pose may be the odd one as well, and is named, too
 MAX_SCREENING_CHANCE = 0.1  # by the first fits; above it better fits hardly turn up an odd pose
@@ -187,7 +189,8 @@ def odd_pose(
 
     It is the pose that leaves the least error without it, or that agrees with the others in
     another unit.  Nothing is said of poses that a linkage meets as well as they are known
-    (`Task.resolution`), of special motions, and of fewer than 7 or more than 1000 distinct poses.
+    (`Task.resolution`), of special motions, and of fewer than 7 distinct poses.  Of more than 200
+    some are looked at, evenly chosen, with those that lie farthest off the motion of these.
     Weights count as inverse variances.  Limits, marks for exact poses and requirements have no
     part: the question is whether poses agree with any linkage.  Repeats count once, and the first
     of them is named.
@@ -234,8 +237,16 @@ def odd_pose(
         )
     motion = classify_motion(task) if motion is None else motion
     fit = motion.determined or (motion.distinct >= MIN_POSES and _is_general(task, motion))
-    if not (fit and MIN_POSES <= motion.distinct <= MAX_POSES and _has_time()):
+    if not (fit and motion.distinct >= MIN_POSES and _has_time()):
         return None
+    look = _among_many if motion.distinct > MAX_POSES else _among_all
+    return look(task, motion, dyads, false_alarm_chance)
+
+
+def _among_all(
+    task: Task, motion: MotionClass, dyads: Sequence[Dyad], false_alarm_chance: float
+) -> OddPose | None:
+    """`odd_pose`, each of the distinct poses left out."""
     weights = (
         None if task.weights is None else np.bincount(motion.group, task.weights).astype(float)
     )
@@ -266,6 +277,41 @@ def odd_pose(
     if odd is None or false_alarm_chance >= 1 or odd.extents is not None:
         return odd
     return odd if odd.chance <= false_alarm_chance else None
+
+
+def _among_many(
+    task: Task, motion: MotionClass, dyads: Sequence[Dyad], false_alarm_chance: float
+) -> OddPose | None:
+    """`odd_pose` of some of many poses: an even sample, and those farthest off its motion."""
+    count, weights = motion.distinct, None
+    if task.weights is not None:
+        weights = np.bincount(motion.group, task.weights).astype(float)
+    poses, some = task.poses[motion.first], even_numbers(count, MAX_POSES)
+    normalized = NormalizedPoses.of(poses, weights)
+    sample = normalized._replace(
+        poses=normalized.poses[some], rows=normalized.rows[some], weights=normalized.weights[some]
+    )
+    _, fits = LeaveOneOut.fit_all(sample, dyads, poses[some])
+    forms, rows = fits.of(-1).linkages[:1].forms(), normalized.rows[None]
+    with np.errstate(all="ignore"):  # to first order; where a pose is beyond all linkages nan
+        away, _ = newton_step(forms, rows, rows, 1.0)
+        size = normalized.weights * (away[0] ** 2).sum(axis=-1)
+    likeliest = np.argsort(-np.nan_to_num(size, nan=np.inf), kind="stable")[:MANY_SUSPECTS]
+    index = np.sort(motion.first[np.union1d(some, likeliest)])
+    part = Task(
+        task.poses[index],
+        None if task.weights is None else task.weights[index],
+        None if task.names is None else tuple(task.names[k] for k in index.tolist()),
+        task.length_unit,
+        task.resolution,
+    )
+    # Chances are those of the sample: of all poses some is odd by chance as much more often.
+    own = false_alarm_chance * len(index) / count if false_alarm_chance < 1 else 1.0
+    odd = odd_pose(part, false_alarm_chance=own)
+    if odd is None:
+        return None
+    others = tuple(int(index[k]) for k in odd.others)
+    return replace(odd, task=task, pose=int(index[odd.pose]), others=others)
 
 
 class Suspects(NamedTuple):

@@ -97,6 +97,8 @@ class PoseNames(NamedTuple):
             sense = run[1] - run[0] if len(run) > 1 else pose - run[0] if run else 0
             if abs(sense) == 1 and pose == run[-1] + sense:
                 run.append(pose)
+            elif len(runs) > MAX_NAMES:  # what follows is not told
+                break
             else:
                 runs.append([pose])
         told = []

@@ -7,7 +7,15 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["ROUNDING", "ComplexArray", "FloatArray", "complex_of", "median", "wrapped_angle"]
+__all__ = [
+    "ROUNDING",
+    "ComplexArray",
+    "FloatArray",
+    "complex_of",
+    "even_numbers",
+    "median",
+    "wrapped_angle",
+]
 
 FloatArray = NDArray[np.float64]
 ComplexArray: TypeAlias = NDArray[np.complex128]
@@ -33,3 +41,10 @@ def median(values: FloatArray, axis: int) -> FloatArray:
 def wrapped_angle(angle: FloatArray) -> FloatArray:
     """Angles (*,) within half a turn, [-pi, pi]."""
     return np.asarray(angle - 2 * np.pi * np.round(angle / (2 * np.pi)))
+
+
+def even_numbers(count: int, most: int) -> NDArray[np.intp]:
+    """At most `most` of the numbers below `count`, evenly chosen; the first and the last stay."""
+    if count <= most:
+        return np.arange(count)
+    return np.linspace(0, count - 1, most).round().astype(np.intp)
