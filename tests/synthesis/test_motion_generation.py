@@ -470,11 +470,3 @@ def test_a_search_on_fewer_poses_that_finds_none(monkeypatch):
     assert found.outcome.code == "R301"
     assert len(found.dyads) == 5
     assert not found.usable
-
-
-def test_poses_too_many_for_the_memory_are_refused_at_once():
-    with pytest.raises(InputError) as caught:
-        synthesize(Task(in_one_task(1_000_000)))
-    assert caught.value.code == "E126"
-    assert caught.value.why == "they may need 75 GB of memory, and 10000 are the most"
-    assert caught.value.help.startswith("take one pose in 100, with --every 100:")

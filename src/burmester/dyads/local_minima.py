@@ -20,6 +20,7 @@ from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.numerics.weights import shares, weights_or_ones
 from burmester.tasks.limits import Limits
 from burmester.tasks.options import Norm
+from burmester.tasks.pose_sample import PoseSample
 
 __all__ = ["BestDyads", "best_dyads"]
 
@@ -27,6 +28,8 @@ __all__ = ["BestDyads", "best_dyads"]
 CONJUGATE_PICK = np.sqrt([2.0, 3.0, 5.0, 7.0])
 START_LENGTH = 20.0  # characteristic lengths; the links that start along a line
 ROUGH_DISTANCE = 0.1  # characteristic lengths, rms; from it on for the best start, more are made
+# Of more poses a sample of about so many is followed to minima, and all from these on.
+MAX_POSES_FOLLOWED = 500
 LITTLE_TURN = 400.0  # inverse mean squared turn; from it on more starts are made
 
 
@@ -129,11 +132,19 @@ def best_dyads(
         origin = np.concatenate([critical.frames.fixed_origin, critical.frames.moving_origin])
         more = (pivots_of_fits(poses, weights) - origin) / critical.frames.length
         pivots = np.concatenate([pivots, more])
-    if _is_rough(pivots, seen, weights, share):
+    some, weight = seen, weights
+    if many := seen.shape[0] > MAX_POSES_FOLLOWED:
+        sample = PoseSample.of(poses, weights, MAX_POSES_FOLLOWED)
+        some, weight = seen[sample.index], sample.cells
+    if _is_rough(pivots, some, weight, shares(weight, some.shape)):
         pivots = np.concatenate([pivots, _beside(points)])
-    starts = [_circles_about(pivots, seen, weights)]
-    starts += [_circles_along(line, seen, weights) for line in lines]
-    found = circle_minima(np.concatenate(starts), seen, share, narrow=hard)
+    starts = [_circles_about(pivots, some, weight)]
+    starts += [_circles_along(line, some, weight) for line in lines]
+    found = circle_minima(np.concatenate(starts), some, shares(weight, some.shape), narrow=hard)
+    if many:
+        found = circle_minima(found.z, seen, share, narrow=hard)._replace(
+            unfinished=found.unfinished
+        )
     circles = RR(found.z[:, :2], found.z[:, 2:4], found.z[:, 4])
     # Ways down that were given up where they were better already than the second dyad.
     second = np.append(found.cost, [np.inf, np.inf])[1]

@@ -93,7 +93,9 @@ def foot_points(
     start: FloatArray,
     target: FloatArray,
     length: float,
+    *,
     max_steps: int = MAX_NEWTON_STEPS,
+    converged_step: float = CONVERGED_STEP,
 ) -> FloatArray:
     """The places (k, n, 3) of linkages (k,) nearest to target (n, 3), from starts (k, n, 3).
 
@@ -110,7 +112,7 @@ def foot_points(
     for _ in range(max_steps):
         step, size = newton_step(forms, here, wanted, length)
         here = here + step
-        moving = size[:, 0] > CONVERGED_STEP * (1 + np.abs(here[:, 0]).max(axis=-1))
+        moving = size[:, 0] > converged_step * (1 + np.abs(here[:, 0]).max(axis=-1))
         if not moving.all():
             ends[run[~moving]], converged[run[~moving]] = here[~moving, 0], True
             run, forms = run[moving], take(forms, moving)

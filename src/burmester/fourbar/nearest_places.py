@@ -24,16 +24,26 @@ __all__ = ["nearest", "on_circuits", "on_own_circuits", "places_at", "sampled"]
 
 
 class SearchEffort(NamedTuple):
-    """The number of samples of each circuit, and of local minima followed for each pose."""
+    """The number of samples of each circuit, and of local minima followed for each pose.
+
+    converged_step: relative; a smaller one of Newton's steps is the last.  It squares errors, so
+    the root of rounding will do where there are many places.
+    """
 
     samples: int
     minima: int
+    converged_step: float
 
 
-THOROUGH: Final = SearchEffort(samples=128, minima=3)  # up to MAX_POSES_THOROUGH poses
-QUICK: Final = SearchEffort(samples=48, minima=1)  # for more poses
+# Up to MAX_POSES_THOROUGH poses, and for more poses.
+THOROUGH: Final = SearchEffort(samples=128, minima=3, converged_step=1e-12)
+QUICK: Final = SearchEffort(samples=256, minima=1, converged_step=1e-8)
 MAX_POSES_THOROUGH: Final = 1000  # number of poses
-POSES_PER_BLOCK: Final = 256  # number of poses searched for at once; bounds the memory
+# Number of places searched for at once, of all linkages, and the least number of poses at once;
+# bounds the memory.
+PLACES_PER_BLOCK: Final = 20_000
+POSES_PER_BLOCK: Final = 256
+FAR_AWAY: Final = 1e9  # lengths; where samples count as being that do not exist
 # Samples are added where they are far apart: at most REFINEMENTS times, in the GAPS_PER_REFINEMENT
 # widest gaps, as long as some gap is wider than WIDE_GAP (lengths, relative to 1 + the distance
 # from the origin).
@@ -53,8 +63,12 @@ EQUALLY_NEAR: Final = 1e-9  # relative; squared distances that differ by less ar
 MEETING_MARGIN: Final = 1e-9  # circuits meet where `Location.circuit_margin` is no larger
 
 
-def on_circuits(batch: LinkageBatch, poses: Displacement, length: float) -> Displacement:
+def on_circuits(
+    batch: LinkageBatch, poses: Displacement, length: float, only: int | None = None
+) -> Displacement:
     """The nearest places (k, 2, N) to poses (N,) on both circuits of linkages (k,).
+
+    only: the number of the one circuit that is looked at; nan on the other.
 
     In frames where lengths are about 1 (`pose_error.error_frames`).  nan where the circuit does not
     exist.  Newton's method starts from the nearest of some hundred samples of the circuit; that no
@@ -66,9 +80,12 @@ def on_circuits(batch: LinkageBatch, poses: Displacement, length: float) -> Disp
     effort = THOROUGH if number <= MAX_POSES_THOROUGH else QUICK
     if not count:
         return places_of(out, length)
-    search = _CircuitSearch.of(batch, length, effort)
-    for at in range(0, number, POSES_PER_BLOCK):
-        block = slice(at, at + POSES_PER_BLOCK)
+    search = _CircuitSearch.of(batch, length, effort, only)
+    at_once = POSES_PER_BLOCK
+    if effort is QUICK:
+        at_once = max(POSES_PER_BLOCK, PLACES_PER_BLOCK // (2 * count))
+    for at in range(0, number, at_once):
+        block = slice(at, at + at_once)
         out[:, :, block] = search.nearest(target[block])
     return places_of(out, length)
 
@@ -113,13 +130,12 @@ class _CircuitSearch:
     share: (n, s), where on its circuit each sample is, a fraction; gap: (n, s), the distance to the
         farther of its neighbours in these fractions.
     samples: (n, s, 3), their places; spacing: (n, s), the distance to the farther neighbour.
-    minima: the number of local minima that are followed.
     """
 
     batch: LinkageBatch
     circuits: Circuits
     length: float
-    minima: int
+    effort: SearchEffort
     row: NDArray[np.intp]
     side: NDArray[np.intp]
     share: FloatArray
@@ -128,17 +144,18 @@ class _CircuitSearch:
     spacing: FloatArray
 
     @classmethod
-    def of(cls, batch: LinkageBatch, length: float, effort: SearchEffort) -> Self:
+    def of(cls, batch: LinkageBatch, length: float, effort: SearchEffort, only: int | None) -> Self:
         """The search on the circuits (k, 2) of linkages (k,), sampled."""
         circuits = Circuits.of(batch, as_given=True)
-        row, side = np.nonzero(circuits.exists)
+        wanted = np.isin((0, 1), (0, 1) if only is None else only)
+        row, side = np.nonzero(circuits.exists & wanted)
         share, samples = sampled(circuits[row, side], length, effort.samples)
         after = _distance_to_next(samples, length)
         gap = np.roll(share, -1, axis=-1) - share
         gap[:, -1:] += 1
         gap = np.maximum(gap, np.roll(gap, 1, axis=-1))
         spacing = np.maximum(after, np.roll(after, 1, axis=-1))
-        return cls(batch, circuits, length, effort.minima, row, side, share, gap, samples, spacing)
+        return cls(batch, circuits, length, effort, row, side, share, gap, samples, spacing)
 
     def nearest(self, target: FloatArray) -> FloatArray:
         """The places (k, 2, N, 3) nearest to target (N, 3)."""
@@ -146,7 +163,10 @@ class _CircuitSearch:
         if not len(self.row):
             return out
         # The numbers (n, N, *) of the samples from which Newton's method starts, and their places.
-        start, sample = _local_minima(self.samples, target, self.length, self.minima)
+        if self.effort.minima == 1:
+            start, sample = _nearest_samples(self.samples, target, self.length)
+        else:
+            start, sample = _local_minima(self.samples, target, self.length, self.effort.minima)
         wanted = np.broadcast_to(target[:, None], start.shape)
         away = np.sqrt(_squares(start, wanted))
         # No place beside a sample is nearer than this.
@@ -154,7 +174,9 @@ class _CircuitSearch:
         bound = away - SPACING_SAFETY * spacing
         hopeless = bound > np.fmin.reduce(away, axis=-1, keepdims=True)
         start[hopeless] = bound[hopeless] = np.nan
-        ends = _newton_ends(self.batch[self.row], start, wanted, self.length)
+        ends = _newton_ends(
+            self.batch[self.row], start, wanted, self.length, self.effort.converged_step
+        )
         # Newton's method may leap to the other circuit, or past the minimum.
         astray = ~(_squares(ends, wanted) <= _squares(start, wanted) + SAME_SQUARE)
         astray |= self._on_other_circuit(self.row, self.side, ends)
@@ -265,11 +287,22 @@ def _refined(
 
 
 def _newton_ends(
-    batch: LinkageBatch, start: FloatArray, target: FloatArray, length: float
+    batch: LinkageBatch,
+    start: FloatArray,
+    target: FloatArray,
+    length: float,
+    converged_step: float = THOROUGH.converged_step,
 ) -> FloatArray:
     """The ends (n, *, 3) of a few of Newton's steps on linkages (n,) from start towards target."""
     flat = (len(batch), math.prod(start.shape[1:-1]), 3)
-    ends = foot_points(batch, start.reshape(flat), target.reshape(flat), length, MAX_STEPS)
+    ends = foot_points(
+        batch,
+        start.reshape(flat),
+        target.reshape(flat),
+        length,
+        max_steps=MAX_STEPS,
+        converged_step=converged_step,
+    )
     return ends.reshape(start.shape)
 
 
@@ -305,3 +338,25 @@ def _local_minima(
     start = target[:, None] + wrapped(chosen - target[:, None], length)
     none = np.isinf(np.take_along_axis(depth, best, axis=-1))
     return np.where(none[..., None], np.nan, start), best
+
+
+def _nearest_samples(
+    samples: FloatArray, target: FloatArray, length: float
+) -> tuple[FloatArray, NDArray[np.intp]]:
+    """Of samples (n, s, 3) the one nearest to each target (N, 3): (n, N, 1, 3), as `_local_minima`.
+
+    Near is meant in the plane and on the circle of orientations, where one product compares all.
+    """
+    flat = _on_the_circle(np.nan_to_num(samples, nan=FAR_AWAY), length)
+    away = (flat * flat).sum(axis=-1)[:, None] / 2
+    away = away - _on_the_circle(target, length) @ np.swapaxes(flat, -1, -2)
+    best = away.argmin(axis=-1)
+    gap = np.take_along_axis(samples, best[..., None], axis=1) - target
+    return (target + wrapped(gap, length))[:, :, None], best[..., None]
+
+
+def _on_the_circle(rows: FloatArray, length: float) -> FloatArray:
+    """Rows (*, 3) as points (*, 4): the angle as a point of a circle of that radius."""
+    angle = rows[..., 2] / length
+    turn = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    return np.concatenate([rows[..., :2], length * turn], axis=-1)

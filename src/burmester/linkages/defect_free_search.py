@@ -8,6 +8,7 @@ proved.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -37,13 +38,18 @@ from burmester.numerics.bundles import concatenate, take
 from burmester.tasks.requirements import Requirements
 
 __all__ = [
+    "FEW_POSES",
     "SearchResult",
     "defect_free_linkages",
     "driving_sides",
     "middle_input",
+    "on_more_poses",
     "refined_on_branch",
 ]
 
+# The search is made on at most so many poses, evenly thinned, and its last steps on so many; other
+# linkages are refined under constraints on the latter.
+FEW_POSES, MORE_POSES, MORE_STEPS = 14, 60, 20
 MAX_STARTS = 144  # number of starts at most
 # Numbers of refinement steps, and after each the number of the best starts that go on.
 SELECTION = (12, 32), (30, 16), (50, 8)
@@ -57,10 +63,11 @@ USES_OF_A_DYAD = 8  # number of starts from the poses, of each weighting, that o
 
 
 class SearchResult(NamedTuple):
-    """Linkages (k,) refined under constraints, and the index (k,) of the pair of each."""
+    """Linkages (k,) refined under constraints, the indices (k,) of their pairs, and drivers."""
 
     refined: Refined
     pair: NDArray[np.intp]
+    driver: NDArray[np.intp]
 
 
 class _Starts(NamedTuple):
@@ -100,7 +107,7 @@ def defect_free_linkages(
             worst=True,
             constrained_steps=STEPS,
         )
-    return SearchResult(found, starts.pair)
+    return SearchResult(found, starts.pair, starts.branch.driver)
 
 
 def refined_on_branch(
@@ -115,8 +122,47 @@ def refined_on_branch(
     """Linkages (k,) refined under all constraints, on the branches of their places (k, N, 3).
 
     driver: (k,), the side that drives; transmission: (k,), a least angle for each, where more is
-    asked of it than the target does.
+    asked of it than the target does.  Of many poses some are refined on, evenly thinned.
     """
+    more, index = target.thinned(MORE_POSES), target.thin_numbers(MORE_POSES)
+    refined = _on_branch(
+        batch, rows[:, index], more, driver, steps=steps, transmission=transmission
+    )
+    if more is target:
+        return refined
+    every = target.places(refined.batch)
+    met = refined.met & np.isfinite(every).all(axis=(1, 2))
+    return replace(refined, rows=every, cost=target.cost(every) / 2, met=met)
+
+
+def on_more_poses(
+    batch: LinkageBatch, driver: NDArray[np.intp], target: Target
+) -> tuple[LinkageBatch, FloatArray]:
+    """Linkages (k,) refined on few poses, refined on more under the same constraints.
+
+    With their places (k, N, 3) at all poses of the target.  What does not keep to the constraints
+    then stays as it was.
+    """
+    more = target.thinned(MORE_POSES)
+    rows = more.places(batch)
+    sound = np.flatnonzero(np.isfinite(rows).all(axis=(1, 2)))
+    refined = _on_branch(batch[sound], rows[sound], more, driver[sound], steps=MORE_STEPS)
+    dimensions, met = batch.dimensions.copy(), np.flatnonzero(refined.met)
+    dimensions[sound[met]], rows[sound[met]] = refined.batch.dimensions[met], refined.rows[met]
+    batch = LinkageBatch(batch.kinds, dimensions)
+    return batch, rows if more is target else target.places(batch)
+
+
+def _on_branch(
+    batch: LinkageBatch,
+    rows: FloatArray,
+    target: Target,
+    driver: NDArray[np.intp],
+    *,
+    steps: int,
+    transmission: FloatArray | None = None,
+) -> Refined:
+    """`refined_on_branch` on all poses of the target."""
     sine = signed_transmission_sine(batch, rows, target.length, driver)
     middle = _middle_inputs(batch, target.places_of(rows[:, 0]), driver)
     branch = DrivenBranch(driver, np.where(np.nansum(sine, axis=1) < 0, -1.0, 1.0), middle)

@@ -37,12 +37,13 @@ from burmester.linkages.uncertainty import (
     pose_sigma,
     uncertainties,
 )
-from burmester.numerics.arrays import FloatArray
+from burmester.numerics.arrays import FloatArray, even_numbers
 from burmester.numerics.bundles import concatenate, take
 from burmester.numerics.differences import DifferenceQuotients
 from burmester.numerics.weights import weights_or_ones
 from burmester.progress import goes_on, step
 from burmester.tasks.motion_task import Task
+from burmester.tasks.pose_sample import PoseSample
 from burmester.tasks.problem import SynthesisProblem
 from burmester.wording import count
 
@@ -56,6 +57,10 @@ FIXED, MOVING = slice(0, 2), slice(2, 4)  # the pivots' coordinates in an RR dya
 DRIVEN_FROM_THE_OTHER_SIDE = {"crank-rocker": "rocker-crank", "rocker-crank": "crank-rocker"}
 SIDES: tuple[Side, Side] = ("first", "second")
 SHARE_ROUNDING = 1e-9  # relative; a tolerance that is exceeded by less is kept
+# Sensitivity and uncertainty are computed at so many places at most, evenly chosen: a sum over an
+# even part of a motion is that part of the sum over all.
+MAX_PLACES_OF_QUALITY = 2000
+PLACES_AT_ONCE = 200_000  # number of places judged at once; bounds the memory
 MAX_ROUNDED = 5  # round at most this many linkages
 
 
@@ -88,6 +93,10 @@ class Evaluation:
         """The task, with every pose once."""
         return self.problem.task
 
+    def sampled(self, sample: PoseSample) -> Evaluation:
+        """The same by a sample of the poses."""
+        return Evaluation(self.problem.sampled(sample), self.target.sampled(sample))
+
     def stacked(self, pairs: Sequence[Pair]) -> LinkageBatch:
         """Pairs of dyads, in the frames of the target."""
         linkages = [Linkage(first.dyad, second.dyad) for first, second in pairs]
@@ -95,8 +104,12 @@ class Evaluation:
 
     def evaluate(self, candidates: Candidates) -> list[FoundLinkage]:
         """The linkages with errors, verdicts, drivers and uncertainties, ranked."""
-        found, batch, rows = self._judged(candidates)
-        return ranked(self._with_uncertainty(found, batch, rows), self.problem)
+        found: list[FoundLinkage] = []
+        at_once = max(1, PLACES_AT_ONCE // self.target.poses.shape[0])
+        for at in range(0, len(candidates.batch), at_once):
+            some = take(candidates, np.arange(at, min(at + at_once, len(candidates.batch))))
+            found += self._with_uncertainty(*self._judged(some))
+        return ranked(found, self.problem)
 
     def members(self, candidates: Candidates, *, quality: bool = True) -> list[FoundLinkage]:
         """The same for linkages of a family, in their order: no pose determines their pivots.
@@ -307,8 +320,10 @@ class Evaluation:
         batch, target = LinkageBatch.of(linkages), self.target
         here = target.places_of(target.rows_at(places))
         there = batch.to_canonical(target.frames)
+        some = even_numbers(places.shape[1], MAX_PLACES_OF_QUALITY)
+        here = here[:, some]
         # Within tolerances a place need not be the nearest to its pose: errors count about it.
-        poses = target.poses if target.boxes is None else here
+        poses = target.poses[some] if target.boxes is None else here
         bound = sensitivity_bound(there, poses, here, target.length).max(axis=-1)
         every = Quality.of(batch, places, driven, bound, size=self.problem.motion_size)
         return [take(every, k) for k in range(len(linkages))]
@@ -339,14 +354,17 @@ class Evaluation:
             weights = weights_or_ones(weights, self.task.exact.shape)
             weights = np.where(self.task.exact, EXACT_WEIGHT, weights)
         active = _active_limits(self.target, batch[sound], rows[sound])
+        count, most = places.shape[1], MAX_PLACES_OF_QUALITY
+        some = even_numbers(count, count if self.task.exact is not None else most)
         spreads = covariance(
             batch[sound],
-            places,
+            places[:, some],
             self.target.length,
             (position / unit, angle),
-            weights=weights,
+            weights=None if weights is None else weights[some],
             fixed=active,
         )
+        spreads = spreads * len(some) / count
         size = self.problem.motion_size
         regions = uncertainties(spreads, batch[sound], places, unit, size)
         links = links_covariance(batch[sound], spreads) * unit**2

@@ -22,12 +22,16 @@ from burmester.fourbar.linkage_batch import DYAD_KINDS, LinkageBatch
 from burmester.fourbar.nearest_places import nearest, on_circuits, on_own_circuits
 from burmester.fourbar.pose_error import error_frames
 from burmester.linkages.best_within import best_within
+from burmester.linkages.by_all_poses import judged_at_all, refined_by_all
 from burmester.linkages.constraints import AllConstraints, Constraints, DyadLimitsConstraint
-from burmester.linkages.defect_free_search import defect_free_linkages
+from burmester.linkages.defect_free_search import (
+    FEW_POSES,
+    defect_free_linkages,
+    on_more_poses,
+)
 from burmester.linkages.evaluation import Candidates, Evaluation
 from burmester.linkages.found_linkage import FoundLinkage, Pair
 from burmester.linkages.further_pairs import (
-    MAX_POSES_SEARCHED,
     FurtherPairs,
     PairsToSearch,
     closer_linkages,
@@ -46,10 +50,17 @@ from burmester.linkages.tolerance_search import into_boxes
 from burmester.linkages.trade import trades
 from burmester.numerics.arrays import ROUNDING, FloatArray
 from burmester.progress import goes_on, step, time_for
+from burmester.tasks.pose_sample import PoseSample
 from burmester.tasks.problem import SynthesisProblem
 from burmester.wording import count
 
-__all__ = ["linkages_from_dyads", "places_to_judge", "target_of"]
+__all__ = [
+    "MAX_POSES_REFINED",
+    "linkages_from_dyads",
+    "places_to_judge",
+    "sample_refined",
+    "target_of",
+]
 
 # Stay on one circuit if its worst error is at most this many times the unrestricted one.
 ONE_CIRCUIT_RATIO = 2.0
@@ -57,10 +68,11 @@ ONE_CIRCUIT_RATIO = 2.0
 FIRST_STEPS, FURTHER_STEPS = 8, 52
 # Refine fully the best MIN_REFINED and all within REFINED_COST_RATIO times the lowest cost.
 MIN_REFINED, REFINED_COST_RATIO = 4, 100.0
-# Refine on at most so many poses, evenly thinned.
-MAX_POSES_REFINED = 1000
+# Of more poses a sample of about so many is refined on, and a last few steps are made by all.
+MAX_POSES_REFINED = 200
 # Degrees by which a greater least transmission angle is asked for within tolerances, and how often.
 RISE, MAX_RISES = 8.0, 6
+MAX_CONTINUED = 8  # number of linkages of the search by few poses that are refined on more of them
 MAX_SEARCHED = 5  # number of linkages kept from the search for defect-free linkages
 
 
@@ -80,7 +92,9 @@ def linkages_from_dyads(
     if len(problem.task.limits) < 2:  # pairs of the same kinds are computed together
         kind = {each.id: DYAD_KINDS.index(type(each.dyad)) for pair in pairs for each in pair}
         pairs = [(b, a) if kind[b.id] < kind[a.id] else (a, b) for a, b in pairs]
-    evaluation = Evaluation(problem, target_of(problem))
+    whole = Evaluation(problem, target_of(problem))
+    sample = sample_refined(problem) if refine else None
+    evaluation = whole if sample is None else whole.sampled(sample)
     start = evaluation.stacked(pairs)
     found: list[FoundLinkage] = []
     if pairs:
@@ -99,12 +113,22 @@ def linkages_from_dyads(
             else:
                 better = []
             found = ranked([*found, *better], problem)
+    if evaluation is not whole:
+        step(f"judging {count(len(found), 'linkage')} at all poses")
+        found = judged_at_all(found, whole)
     if options.rounds:
-        found = evaluation.rounded(found)
-    found = evaluation.with_spreads(found)
+        found = whole.rounded(found)
+    found = whole.with_spreads(found)
     return tuple(
         replace(each, id=f"L{rank}", rank=rank) for rank, each in enumerate(found, start=1)
     )
+
+
+def sample_refined(problem: SynthesisProblem) -> PoseSample | None:
+    """The poses by which the linkages of a problem are refined; None where they are all."""
+    if not problem.options.refines or problem.task.poses.shape[0] <= MAX_POSES_REFINED:
+        return None
+    return PoseSample.of_task(problem.task, MAX_POSES_REFINED)
 
 
 def target_of(problem: SynthesisProblem) -> Target:
@@ -151,9 +175,8 @@ def _of_pairs(start: LinkageBatch, pairs: list[Pair], target: Target, refine: bo
     if refine:
         candidates = _refined(candidates, target)
         # Refinement may leave places in local minima that are not the nearest.
-        if len(candidates.rows[0]) <= MAX_POSES_REFINED:
-            rows = on_own_circuits(candidates.batch, candidates.rows, target.poses, target.length)
-            candidates = candidates._replace(rows=rows)
+        rows = on_own_circuits(candidates.batch, candidates.rows, target.poses, target.length)
+        candidates = refined_by_all(candidates._replace(rows=rows), target)
     # Linkages that did not change keep all their digits.
     own = LinkageBatch.of([Linkage(a.dyad, b.dyad) for a, b in candidates.pairs]).dimensions
     changed = candidates.batch.dimensions != start.dimensions[index]
@@ -211,9 +234,6 @@ def _refined(candidates: Candidates, target: Target) -> Candidates:
     some = np.flatnonzero(cost > ROUNDING**2 * candidates.rows.shape[1])
     if not len(some):
         return candidates
-    if (thin := target.thinned(MAX_POSES_REFINED)) is not target:
-        batch = _refined(candidates._replace(rows=thin.places(candidates.batch)), thin).batch
-        return candidates._replace(batch=batch, rows=target.places(batch))
     kept = AllConstraints(target.kept) if target.kept else None
     dimensions, rows = candidates.batch.dimensions.copy(), candidates.rows.copy()
     plain = not target.worst and kept is None and target.exact is None
@@ -297,16 +317,19 @@ def _inside_tolerances(
 
 def _searched(starts: PairsToSearch, evaluation: Evaluation, most: float) -> list[FoundLinkage]:
     """Usable linkages of the search whose combined error is below `most`."""
-    target = evaluation.target.thinned(MAX_POSES_SEARCHED)
+    whole = evaluation.target
+    target = whole.thinned(FEW_POSES)
     found = defect_free_linkages(starts.batch, target, starts.parts)
     if found is None:
         return []
     index = np.flatnonzero(found.refined.met)
     if not len(index):
         return []
+    if target is not whole:
+        index = index[np.argsort(found.refined.cost[index], kind="stable")][:MAX_CONTINUED]
     batch, rows = found.refined.batch[index], found.refined.rows[index]
-    if target is not evaluation.target:
-        rows = evaluation.target.places(batch)
+    if target is not whole:
+        batch, rows = on_more_poses(batch, found.driver[index], whole)
     origins = [starts.origin(k) for k in found.pair[index].tolist()]
     evaluated = evaluation.evaluate(
         Candidates(batch, rows, origins, np.ones(len(index), dtype=bool))

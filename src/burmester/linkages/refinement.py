@@ -84,6 +84,7 @@ def refine(
     steps: int = MAX_STEPS,
     constrained_steps: int = MAX_CONSTRAINED_STEPS,
     selection: Selection = (),
+    damping: float = START_DAMPING,
 ) -> Refined:
     """Linkages (k,) refined to a local minimum of the error at poses (N,).
 
@@ -119,6 +120,8 @@ def refine(
     selection : sequence of (int, int), optional
         Numbers of steps with constraints, and after each the number of the best linkages that go
         on; the others are not `met`.
+    damping : float
+        The first one without constraints; less for linkages that are nearly at a minimum.
     """
     count, number = len(batch), poses.shape[0]
     exact = np.zeros(number, dtype=bool) if exact is None else exact
@@ -141,7 +144,7 @@ def refine(
             )
             state = state._replace(z=z)
         else:
-            state, done = _descend(problem, state, power, steps)
+            state, done = _descend(problem, state, power, steps, damping)
             rows = state.rows
     size = share * np.sqrt((problem.counted(rows - problem.wanted) ** 2).sum(axis=-1))
     cost = size.max(axis=-1) if worst else (size * size).sum(axis=-1) / 2
@@ -157,7 +160,7 @@ class _Point(NamedTuple):
 
 
 def _descend(
-    problem: Problem, state: State, power: float, steps: int
+    problem: Problem, state: State, power: float, steps: int, damping: float
 ) -> tuple[State, NDArray[np.bool_]]:
     """Levenberg and Marquardt's method without conditions."""
     count = len(state.z)
@@ -202,7 +205,7 @@ def _descend(
         return Attempt(there, better, damping, small | idle | (damping > MAX_DAMPING))
 
     rows = np.flatnonzero(np.isfinite(state.rows).all(axis=(1, 2)))
-    ends, done = damped_descent(attempt, start, rows, damping=START_DAMPING, max_steps=steps)
+    ends, done = damped_descent(attempt, start, rows, damping=damping, max_steps=steps)
     return ends.state, done
 
 

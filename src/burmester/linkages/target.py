@@ -19,9 +19,10 @@ from burmester.linkages.constraints import (
 )
 from burmester.linkages.refinement import Refined, refine
 from burmester.linkages.tolerance_boxes import ToleranceBoxes
-from burmester.numerics.arrays import FloatArray
+from burmester.numerics.arrays import FloatArray, even_numbers
 from burmester.numerics.linear_algebra import matvec
 from burmester.numerics.weights import shares
+from burmester.tasks.pose_sample import PoseSample
 from burmester.tasks.requirements import Requirements
 
 __all__ = ["Target"]
@@ -35,6 +36,8 @@ class Target:
     kept: the limits of the dyads, as constraints, and the boxes.
     weights, exact, worst: as in `refine`.
     boxes: where the task has tolerances; then errors count in their metric.
+    whole, index: where these are a sample of more poses, the target of them all, and which of
+        them these are.
     """
 
     poses: Displacement
@@ -46,6 +49,8 @@ class Target:
     exact: NDArray[np.bool_] | None = None
     worst: bool = False
     boxes: ToleranceBoxes | None = None
+    whole: Target | None = None
+    index: NDArray[np.intp] | None = None
 
     @property
     def relaxed(self) -> Target:
@@ -71,19 +76,27 @@ class Target:
 
     def thinned(self, most: int) -> Target:
         """The target with at most `most` poses, evenly chosen; all exact poses stay."""
-        count = self.poses.shape[0]
-        if count <= most:
+        if self.poses.shape[0] <= most:
             return self
-        index = np.linspace(0, count - 1, most).round().astype(np.intp)
-        if self.exact is not None:
-            index = np.union1d(index, np.flatnonzero(self.exact))
+        index = self.thin_numbers(most)
+        return self._at(index, None if self.weights is None else self.weights[index])
+
+    def thin_numbers(self, most: int) -> NDArray[np.intp]:
+        """The numbers of the poses that `thinned` chooses."""
+        index = even_numbers(self.poses.shape[0], most)
+        return index if self.exact is None else np.union1d(index, np.flatnonzero(self.exact))
+
+    def sampled(self, sample: PoseSample) -> Target:
+        """The target by a sample of its poses, which keeps the whole one."""
+        weights: FloatArray | None = sample.cells
+        if self.worst:  # of single poses
+            weights = None if self.weights is None else self.weights[sample.index]
+        return replace(self._at(sample.index, weights), whole=self, index=sample.index)
+
+    def _at(self, index: NDArray[np.intp], weights: FloatArray | None) -> Target:
         thin = self if self.boxes is None else self._with_boxes(self.boxes.at(index))
-        return replace(
-            thin,
-            poses=self.poses[index],
-            weights=None if self.weights is None else self.weights[index],
-            exact=None if self.exact is None else self.exact[index],
-        )
+        exact = None if self.exact is None else self.exact[index]
+        return replace(thin, poses=self.poses[index], weights=weights, exact=exact)
 
     def places(self, batch: LinkageBatch, *, on_both: bool = False) -> FloatArray:
         """Rows (k, N, 3) of the places nearest to the poses, on the circuit with the least cost.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import combinations
@@ -15,7 +14,7 @@ from burmester.dyads.critical_points import CriticalDyads
 from burmester.dyads.five_poses import FivePoseDyads
 from burmester.dyads.local_minima import BestDyads, best_dyads
 from burmester.dyads.selection import FoundDyad, found_dyads
-from burmester.errors import Advice, InputError
+from burmester.errors import Advice
 from burmester.fourbar.dyad import Dyad
 from burmester.fourbar.linkage import Linkage
 from burmester.linkages.evaluation import Candidates, Evaluation, at_given_poses
@@ -28,6 +27,7 @@ from burmester.synthesis.outcome import (
     dyad_advice,
     family,
     linkage_advice,
+    sample_advice,
     summary,
     undetermined,
 )
@@ -46,9 +46,6 @@ if TYPE_CHECKING:  # loaded where a task asks for it
 
 __all__ = ["synthesize"]
 
-MAX_POSES = 10_000  # of a task, so that no method takes more than a gigabyte of memory
-POSE_BYTES = 75_000  # of memory for a pose at most, as measured with limits for both pivots
-
 
 def synthesize(
     task: Task,
@@ -60,15 +57,14 @@ def synthesize(
     conditions have infinitely many dyads: see `three_poses` and `burmester_curve` for them all.
     Where a time limit ends something, a warning W221 says what.
     Raises InputError E121 (the method does not take that number of poses), E123 (it does not take
-    limits, exact poses, the norm or a certificate), E126 (more poses than there is memory for),
-    E130 (proofs lack their library), and E132 (limits that no link can meet).
+    limits, exact poses, the norm or a certificate), E130 (proofs lack their library), and E132
+    (limits that no link can meet).
     """
     with limited(options.time_limit) as watch:
         return with_time_limit(_synthesis(task, options), watch)
 
 
 def _synthesis(task: Task, options: SynthesisOptions) -> Synthesis:
-    _require_few(task)
     both = task.limits * (2 if len(task.limits) == 1 else 1)
     require_feasible(task.poses, both, task.exact)
     step(f"looking at {task.poses.shape[0]} poses")
@@ -102,23 +98,11 @@ def _synthesis(task: Task, options: SynthesisOptions) -> Synthesis:
         *dyad_advice(problem, search),
         *map(_found_twice, twice),
         *linkage_advice(task, linkages, outcome.code),
+        *sample_advice(problem, linkages),
     )
     proves = options.certify and time_for("proving what was found", whole=True)
     proved = _certificate(problem, search) if proves else None
     return Synthesis(problem, outcome, search.dyads, linkages, warnings, search.fits, proved)
-
-
-def _require_few(task: Task) -> None:
-    """Refuse more poses than there is memory for, before anything is computed; raises E126."""
-    if (count := task.poses.shape[0]) > MAX_POSES:
-        each = math.ceil(count / MAX_POSES)
-        raise InputError(
-            "E126",
-            f"{count} poses are too many",
-            why=f"they may need {count * POSE_BYTES / 1e9:.2g} GB of memory, "
-            f"and {MAX_POSES} are the most",
-            help=f"take one pose in {each}, with --every {each}: so many hardly tell more",
-        )
 
 
 def _kind(problem: SynthesisProblem) -> MotionKind | None:
@@ -174,7 +158,11 @@ def _within_digits(problem: SynthesisProblem, findings: Sequence[Advice]) -> Syn
     if not linkages:
         return None
     outcome = undetermined(problem, search, linkages)
-    warnings = (*findings, *linkage_advice(problem.given, linkages, outcome.code))
+    warnings = (
+        *findings,
+        *linkage_advice(problem.given, linkages, outcome.code),
+        *sample_advice(problem, linkages),
+    )
     return Synthesis(problem, outcome, search.dyads, linkages, warnings, search.fits)
 
 

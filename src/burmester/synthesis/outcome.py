@@ -15,6 +15,7 @@ from burmester.errors import Advice
 from burmester.fourbar.dyad import RR
 from burmester.linkages.explanation import by_nearness, hints, in_short, nearness
 from burmester.linkages.found_linkage import FoundLinkage
+from burmester.linkages.from_dyads import MAX_POSES_REFINED, sample_refined
 from burmester.linkages.standard import LEAST_TRANSMISSION
 from burmester.synthesis.dyad_search import DyadSearch, exact_dyads
 from burmester.synthesis.result import Outcome
@@ -24,7 +25,14 @@ from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.repeated_poses import rotation_range
 from burmester.wording import count, figure, listed
 
-__all__ = ["dyad_advice", "family", "linkage_advice", "summary", "undetermined"]
+__all__ = [
+    "dyad_advice",
+    "family",
+    "linkage_advice",
+    "sample_advice",
+    "summary",
+    "undetermined",
+]
 
 BETTER = 1.2  # ratio of two least transmission angles; from it on the better linkage is named
 LITTLE = math.radians(30)  # rotation of the body below which the outcome says "only"
@@ -317,6 +325,25 @@ def _pivot_freedom(found: FoundLinkage, task: Task) -> str:
                     f"±{length_of(widest, task)} {way}, the others with it ({extent})"
                 )
     return f"its lines may be moved by about ±{length_of(widest, task)} ({extent})"
+
+
+def sample_advice(problem: SynthesisProblem, found: Sequence[FoundLinkage]) -> list[Advice]:
+    """W220: the linkages were looked for on a sample of many poses."""
+    sample = sample_refined(problem)
+    if sample is None or not found:
+        return []
+    some, of_all = len(sample.index), sample.of_all
+    message = f"linkages were looked for on {some} of the {of_all} poses, and judged at all"
+    each = math.ceil(of_all / MAX_POSES_REFINED)
+    return [
+        Advice(
+            "W220",
+            message,
+            f"take one pose in {each}, with --every {each}, and all of them are taken alike",
+            "a linkage has nine dimensions, and more poses hardly change them; where nothing "
+            "limits the closest ones, their last steps count all poses",
+        )
+    ]
 
 
 def linkage_advice(task: Task, linkages: Sequence[FoundLinkage], code: str) -> list[Advice]:

@@ -175,17 +175,16 @@ class PoseTolerances:
         group: (N,), which of the distinct poses each pose is.  Of boxes along different axes the
         one taken is inside all of them.
         """
-        bounds, axes = [], list[ToleranceAxes]()
-        for number in range(int(group.max()) + 1):
-            same = np.flatnonzero(group == number)
-            tightest = self.bounds[same].min(axis=0)
-            words = {self.axes[k] for k in same.tolist()}
-            if len(words) > 1:
-                tightest[:2] = tightest[:2].min() / math.sqrt(2)
-            bounds.append(tightest)
-            axes.append("body" if words == {"body"} else "fixed")
-        tight = np.array(bounds)
-        return PoseTolerances(tight[:, :2], tight[:, 2], tuple(axes))
+        bounds = np.full((int(group.max()) + 1, 3), np.inf)
+        np.minimum.at(bounds, group, self.bounds)
+        body = np.array([each == "body" for each in self.axes])
+        some, every = np.zeros(len(bounds), dtype=bool), np.ones(len(bounds), dtype=bool)
+        np.logical_or.at(some, group, body)
+        np.logical_and.at(every, group, body)
+        mixed = some & ~every
+        bounds[mixed, :2] = bounds[mixed, :2].min(axis=1, keepdims=True) / math.sqrt(2)
+        axes: list[ToleranceAxes] = ["body" if each else "fixed" for each in every.tolist()]
+        return PoseTolerances(bounds[:, :2], bounds[:, 2], tuple(axes))
 
 
 def nominal_values(

@@ -13,6 +13,7 @@ from burmester.tasks.motion_kinds import FewPoses, Rest, Undetermined
 from burmester.tasks.motion_task import CONDITIONS, Task, characteristic_length
 from burmester.tasks.notation import span
 from burmester.tasks.options import SynthesisOptions
+from burmester.tasks.pose_sample import PoseSample
 from burmester.tasks.thin_regions import with_limits_to_search
 
 __all__ = ["SynthesisProblem"]
@@ -28,6 +29,8 @@ class SynthesisProblem:
         region thinner than rounding is its segment or point.
     motion: the class of its motion; None for one pose.
     length: its characteristic length, in its unit.
+    length_per_radian: what a radian of angle error counts as, in the same unit.
+    sample: where `task` holds only some poses: which of those that it held before.
     """
 
     given: Task
@@ -35,18 +38,16 @@ class SynthesisProblem:
     motion: MotionClass | None
     length: float
     options: SynthesisOptions
+    length_per_radian: float
+    sample: PoseSample | None = None
 
     @classmethod
     def of(cls, task: Task, motion: MotionClass | None, options: SynthesisOptions) -> Self:
         """A task of a known class of motion, and how it is to be solved."""
         wide = with_limits_to_search(task)
-        problem = cls(task, wide, motion, characteristic_length(task), options)
+        radian = options.length_per_radian or default_length_per_radian(task)
+        problem = cls(task, wide, motion, characteristic_length(task), options, radian)
         return problem if problem.is_special else problem.merged()
-
-    @property
-    def length_per_radian(self) -> float:
-        """What a radian of angle error counts as, in the task's unit."""
-        return self.options.length_per_radian or default_length_per_radian(self.given)
 
     @property
     def motion_size(self) -> float:
@@ -78,9 +79,16 @@ class SynthesisProblem:
     @property
     def pose_numbers(self) -> list[int]:
         """The numbers (from 0) that the poses of `task` have in the task as given."""
-        if self.motion is None or self.task.poses.shape == self.given.poses.shape:
-            return list(range(self.task.poses.shape[0]))
-        return [int(number) for number in self.motion.first]
+        numbers = np.arange(self.given.poses.shape[0])
+        if self.motion is not None and self.is_merged:
+            numbers = self.motion.first
+        return [int(n) for n in (numbers if self.sample is None else numbers[self.sample.index])]
+
+    @property
+    def is_merged(self) -> bool:
+        """Whether `task`, before a sample was taken of it, holds repeated poses once."""
+        count = self.task.poses.shape[0] if self.sample is None else self.sample.of_all
+        return count != self.given.poses.shape[0]
 
     def merged(self) -> Self:
         """The same problem, its task with every repeated pose once."""
@@ -100,3 +108,21 @@ class SynthesisProblem:
             tolerances=None if tolerances is None else tolerances.merged(motion.group),
         )
         return replace(self, task=once)
+
+    def sampled(self, sample: PoseSample) -> Self:
+        """The same problem by a sample of the poses of its task, each with the weight of its cell.
+
+        The worst error is that of single poses: for it they keep their own weights.
+        """
+        index, task = sample.index, self.task
+        weights = None if task.weights is None else task.weights[index]
+        tolerances = task.tolerances
+        some = replace(
+            task,
+            poses=task.poses[index],
+            weights=weights if self.options.norm == "worst" else sample.cells,
+            names=None if task.names is None else tuple(task.names[i] for i in index.tolist()),
+            exact=None if task.exact is None else task.exact[index],
+            tolerances=None if tolerances is None else tolerances.at(index),
+        )
+        return replace(self, task=some, sample=sample)

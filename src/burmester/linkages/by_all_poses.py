@@ -1,0 +1,109 @@
+"""Linkages that were refined on a sample of many poses: the last steps by all, and the verdicts.
+
+A sample of the poses leads to the same minimum but for its errors, so few steps of all poses are
+left.  They start at the places nearest to the sample, which lie close along the whole motion.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from burmester.fourbar.circuits import circuit_of
+from burmester.fourbar.foot_points import rows_of
+from burmester.fourbar.linkage_batch import LinkageBatch
+from burmester.fourbar.nearest_places import nearest, on_circuits
+from burmester.linkages.constraints import AllConstraints
+from burmester.linkages.evaluation import Candidates, Evaluation
+from burmester.linkages.found_linkage import FoundLinkage
+from burmester.linkages.ranking import ranked
+from burmester.linkages.target import Target
+from burmester.numerics.arrays import FloatArray
+
+__all__ = ["judged_at_all", "refined_by_all"]
+
+# Steps by all poses: so many places are computed for a linkage, in at least and at most so many
+# steps; their first damping.
+PLACES, STEPS, DAMPING = 200_000, (3, 40), 1e-9
+MOST, COST_RATIO = 4, 4.0  # the nearest so many linkages get them, and all within that cost ratio
+POSES_PER_BLOCK = 20_000  # number of poses whose nearest samples are looked for at once
+
+
+def refined_by_all(candidates: Candidates, target: Target) -> Candidates:
+    """The near ones of linkages, refined on a sample, refined by all poses; their places there.
+
+    Not where places have to be inside tolerances, nor for the least worst error: there more poses
+    are joined to the sample instead.
+    """
+    whole, index = target.whole, target.index
+    if whole is None or index is None or whole.worst or whole.boxes is not None:
+        return candidates
+    cost = np.nan_to_num(target.cost(candidates.rows), nan=np.inf)
+    near = np.sort(cost)[: min(MOST, len(cost))]
+    some = np.flatnonzero(np.isfinite(cost) & (cost <= max(COST_RATIO * near[0], near[-1])))
+    kept = AllConstraints(whole.kept) if whole.kept else None
+    steps = int(np.clip(PLACES // whole.poses.shape[0], *STEPS))
+    dimensions, rows = candidates.batch.dimensions.copy(), candidates.rows.copy()
+    for k in some.tolist():  # one by one: that bounds the memory
+        refined = whole.refine(
+            candidates.batch[[k]],
+            places_along(candidates.rows[k], whole)[None],
+            constraints=kept,
+            steps=steps,
+            constrained_steps=steps,
+            damping=DAMPING,
+        )
+        if refined.met[0]:
+            dimensions[k], rows[k] = refined.batch.dimensions[0], refined.rows[0, index]
+    return candidates._replace(batch=LinkageBatch(candidates.batch.kinds, dimensions), rows=rows)
+
+
+def places_along(rows: FloatArray, whole: Target) -> FloatArray:
+    """For each of all poses (N,) the nearest of the places (n, 3) of a linkage: (N, 3).
+
+    Angles within half a turn of the poses'.  Near is meant in the plane and on the circle of
+    orientations, where one product compares all with all.
+    """
+    wanted, length = rows_of(whole.poses, whole.length), whole.length
+
+    def flat(at: FloatArray) -> FloatArray:
+        turn = length * np.exp(1j * at[:, 2] / length)
+        return np.column_stack([at[:, :2], turn.real, turn.imag])
+
+    places = flat(rows)
+    half = (places * places).sum(axis=1) / 2
+    out = np.empty_like(wanted)
+    for at in range(0, len(wanted), POSES_PER_BLOCK):
+        block = slice(at, at + POSES_PER_BLOCK)
+        out[block] = rows[(half - flat(wanted[block]) @ places.T).argmin(axis=1)]
+    turn = 2 * np.pi * length
+    out[:, 2] += turn * np.round((wanted[:, 2] - out[:, 2]) / turn)
+    return out
+
+
+def judged_at_all(found: Sequence[FoundLinkage], evaluation: Evaluation) -> list[FoundLinkage]:
+    """Linkages of a sample, evaluated at all poses, on the circuits of their places, and ranked."""
+    out: list[FoundLinkage] = []
+    for each in found:
+        own = LinkageBatch.of([each.linkage])
+        batch = own.to_canonical(evaluation.target.frames)
+        rows = _places(batch, each, evaluation.target)[None]
+        searched = np.array([each.from_search])
+        out += evaluation.evaluate(Candidates(batch, rows, [each.dyads], searched, own))
+    return ranked(out, evaluation.problem)
+
+
+def _places(batch: LinkageBatch, found: FoundLinkage, target: Target) -> FloatArray:
+    """The places (N, 3) of a linkage nearest to all poses, on the circuit of its places so far.
+
+    Where these are on both, on the nearer one at each pose.
+    """
+    if target.boxes is not None:
+        return np.asarray(target.places(batch)[0])
+    at = circuit_of(found.linkage, found.error.places, as_given=True).circuit
+    sides = np.unique(at[at >= 0]).tolist()
+    only = sides[0] if len(sides) == 1 else None
+    both = on_circuits(batch, target.poses, target.length, only)
+    one = nearest(both, target.poses, target.length) if only is None else both[:, only]
+    return rows_of(one[0], target.length)
