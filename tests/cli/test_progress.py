@@ -110,6 +110,7 @@ def test_the_steps_of_a_synthesis_in_plain_words():
         "looking at 10 poses",
         "looking for dyads",
         "refining 10 linkages",
+        "judging 10 linkages",
         "comparing each pose with the others",
     ]
     assert len(result.dyads) == 5

@@ -100,9 +100,9 @@ def linkages_from_dyads(
     if pairs:
         number = count(len(pairs), "linkage")
         now = refine and time_for(f"refining {number}")
-        if not now:
-            step(f"judging {number}")
-        found = evaluation.evaluate(_of_pairs(start, pairs, evaluation.target, now))
+        candidates = _of_pairs(start, pairs, evaluation.target, now)
+        step(f"judging {number}")
+        found = evaluation.evaluate(candidates)
     if refine and (found or not pairs):
         found = _with_search(start, pairs, evaluation, found)
         if found and found[0].usable:
