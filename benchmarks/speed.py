@@ -225,7 +225,10 @@ class Measured(NamedTuple):
 
 
 def by_turns(row, pythons, most_rounds, budget):
-    """Each side measured by turns; as many rounds as the budget in seconds allows, 3 at least."""
+    """Each side measured by turns; as many rounds as the budget in seconds allows.
+
+    Three at least, but one where that alone is more than the budget.
+    """
     pythons = pythons[-1:] if row.alone else pythons
     seconds, last, rounds = [[] for _ in pythons], [None] * len(pythons), 0
     begun = time.perf_counter()
@@ -236,7 +239,8 @@ def by_turns(row, pythons, most_rounds, budget):
                 seconds[side].append(statistics.median(each["seconds"] for each in last[side]))
         rounds += 1
         spent = time.perf_counter() - begun
-        if rounds >= LEAST_ROUNDS and spent + spent / rounds > budget:
+        least = 1 if spent / rounds > budget else LEAST_ROUNDS
+        if rounds >= least and spent + spent / rounds > budget:
             break
     every = zip(seconds, last, strict=True)
     return [Measured(statistics.median(s) if s else math.nan, one, rounds) for s, one in every]
@@ -310,8 +314,10 @@ def main():
                 continue
             sides = by_turns(row, pythons, given.rounds, given.budget)
             cells = [side.error or side.seconds for side in sides]
-            fewer = "" if sides[0].rounds == given.rounds else f"; {sides[0].rounds} rounds"
-            print(line(row.name, row.goal, cells, notes(row, sides) + fewer), flush=True)
+            beside = notes(row, sides)
+            if sides[0].rounds < given.rounds:
+                beside += f"; {sides[0].rounds} {'rounds' if sides[0].rounds > 1 else 'round'}"
+            print(line(row.name, row.goal, cells, beside), flush=True)
             if row.group:
                 groups.setdefault(row.group, []).append([side.seconds for side in sides])
     for name, every in groups.items():
