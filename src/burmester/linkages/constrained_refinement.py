@@ -49,6 +49,9 @@ FEASIBLE = 1e-9  # lengths; a constraint violated by less is met
 SETTLED_SHARE, SETTLED_DAMPING = 1e-11, 1.0
 # A descent ends that has not gained this share of the cost in so many steps, taken or refused.
 CREEPING_STEPS, CREEPING_SHARE = 8, 1e-4
+# After its last choice a selection lets no descent go on that would be behind the best one after so
+# many times what it gained in those steps.
+HOPE = 32.0
 ACTIVE_MULTIPLIER = 1e-6  # relative to the penalty; a constraint with a smaller one is inactive
 
 
@@ -109,7 +112,7 @@ class _Descent:
 
     What decreases is half the sum of squares plus `penalty` times the constraints' violation.
     hessian_estimate: (k, n, n), of the residuals' curvature; good_steps: (k,), taken in a row;
-    multipliers: (k, m), of the last step taken.
+    refused: (k,), the last step; multipliers: (k, m), of the last step taken.
     tried: (k,), number of steps tried; places: (k, N, 3), where they are; merit: (k,), what is left
     there, and `marked`: (k,), some steps ago; score: (k,), by which the selection chooses: with a
     penalty no lower than the first one; given_up: (k,), by the selection.
@@ -122,6 +125,7 @@ class _Descent:
     penalty: FloatArray
     hessian_estimate: FloatArray
     good_steps: NDArray[np.intp]
+    refused: NDArray[np.bool_]
     multipliers: FloatArray
     selection: Selection
     tried: NDArray[np.intp]
@@ -148,6 +152,7 @@ class _Descent:
             np.full(count, START_PENALTY),
             np.zeros((count, unknowns, unknowns)),
             np.zeros(count, dtype=np.intp),
+            np.zeros(count, dtype=bool),
             np.zeros(start.constraints.residual.shape),
             selection,
             np.zeros(count, dtype=np.intp),
@@ -222,7 +227,9 @@ class _Descent:
         better = after <= enough
         with np.errstate(all="ignore"):
             gain = (cost - after) / np.maximum(promise, np.finfo(float).tiny)
-        factor = np.select([~better, gain > 0.75, gain > 0.25], [10.0, 0.1, 0.5], 3.0)
+        fall = np.where(self.refused[rows], 0.5, 0.1)  # not at once to what was refused before
+        factor = np.select([~better, gain > 0.75, gain > 0.25], [10.0, fall, 0.5], 3.0)
+        self.refused[rows] = ~better
         damping = np.maximum(damping * factor, MIN_DAMPING)
         good_steps = self.good_steps[rows]
         refused = np.where(good_steps >= STEPS_BEFORE_CURVATURE, 0, good_steps)
@@ -234,13 +241,13 @@ class _Descent:
         stuck = (miss > FEASIBLE) & (ahead > before / 2) & (penalty < MAX_PENALTY)
         least = np.maximum(MULTIPLIER_FACTOR * np.abs(multipliers).max(axis=1, initial=0), FEASIBLE)
         self.penalty[rows] = np.select(
-            [stuck, miss <= FEASIBLE],
+            [stuck, (miss <= FEASIBLE) | (ahead <= FEASIBLE)],
             [PENALTY_GROWTH * penalty, np.minimum(penalty, least)],
             penalty,
         )
         small = np.abs(step).max(axis=-1) < CONVERGED_STEP * (1 + np.abs(here.state.z).max(axis=-1))
         idle = better & (cost - after < COST_ROUNDING * cost)
-        settled = (promise < SETTLED_SHARE * cost) & (damping < SETTLED_DAMPING)
+        settled = (np.abs(promise) < SETTLED_SHARE * cost) & (damping < SETTLED_DAMPING)
         self.tried[rows] += 1
         self.merit[rows] = np.where(better, after, cost)
         self.score[rows] = self.merit[rows] + np.maximum(START_PENALTY - penalty, 0.0) * miss
@@ -250,12 +257,16 @@ class _Descent:
         return Attempt(there, better, damping, ended)
 
     def _creeping(self, rows: NDArray[np.intp], miss: FloatArray) -> NDArray[np.bool_]:
-        """Which (r,) have gained next to nothing in the last `CREEPING_STEPS`."""
+        """Which (r,) have gained too little in the last `CREEPING_STEPS` to go on."""
         now = self.tried[rows] % CREEPING_STEPS == 0
         merit = self.merit[rows]
-        gained = self.marked[rows] - merit
+        gained = np.abs(self.marked[rows] - merit)
         self.marked[rows[now]] = merit[now]
-        return np.asarray(now & (miss < FEASIBLE) & (np.abs(gained) < CREEPING_SHARE * merit))
+        creeping = (miss < FEASIBLE) & (gained < CREEPING_SHARE * merit)
+        if self.selection and (now & (self.tried[rows] > self.selection[-1][0])).any():
+            best = np.nanmin(self.score[~self.given_up], initial=np.inf)
+            creeping |= merit - HOPE * gained > best
+        return np.asarray(now & creeping)
 
     def _not_selected(self, rows: NDArray[np.intp]) -> NDArray[np.bool_]:
         """Which (r,) do not go on; linkages that lead to the same places are one."""

@@ -27,9 +27,9 @@ __all__ = ["SoftProgram"]
 
 MAX_STEPS = 8  # of the projected Newton method; a program that needs more is solved nearly
 SHARES_DOWNHILL = np.array([1.0, 0.3, 0.1])  # of the gradient that are tried beside Newton's step
-SETTLED = 1e-10  # of the greatest terms of w; a free constraint that is off by less is met
+SETTLED = 1e-11  # of the terms of w; a free constraint that is off by less is met
 HEIGHT_ROUNDING = 1e-13  # relative; a smaller decrease ends the steps
-ROUNDING = 1e-12  # added to A's diagonal in units of it, so that dependent constraints are solved
+ROUNDING = 1e-12  # added to A's diagonal in units of it, for steps with dependent constraints
 
 
 class SoftProgram(NamedTuple):
@@ -73,7 +73,7 @@ def _multipliers(
     diagonal = np.einsum("kii->ki", matrix)
     least = ROUNDING * diagonal.max(axis=1, keepdims=True) + np.finfo(float).tiny
     size, eye = np.sqrt(np.maximum(diagonal, least)), np.eye(b.shape[1])
-    matrix = matrix / (size[:, :, None] * size[:, None]) + ROUNDING * eye
+    matrix = matrix / (size[:, :, None] * size[:, None])
     y, low, high, b = y * size, low * size, high * size, b / size
     run = np.arange(len(y))
     for _ in range(MAX_STEPS):
@@ -81,7 +81,7 @@ def _multipliers(
         off = c - matvec(a, here)  # w, and the way downhill
         free = ~(((here <= least) & (off < 0)) | ((here >= most) & (off > 0)))
         downhill = np.where(free, off, 0.0)
-        terms = np.abs(c).max(axis=1) + np.abs(here).max(axis=1)
+        terms = np.abs(np.where(free, c, here)).max(axis=1)
         going = np.abs(downhill).max(axis=1) > SETTLED * terms
         if not going.all():
             run = run[going]
@@ -117,5 +117,5 @@ def _newton_step(
     matrix: FloatArray, downhill: FloatArray, free: NDArray[np.bool_], eye: FloatArray
 ) -> FloatArray:
     """Newton's step (k, m) of the free multipliers; the others keep still."""
-    own = np.where(free[:, :, None] & free[:, None], matrix, eye)
+    own = np.where(free[:, :, None] & free[:, None], matrix + ROUNDING * eye, eye)
     return solve(own, np.where(free, downhill, 0.0))
