@@ -7,9 +7,12 @@ import numpy as np
 from burmester import Displacement, read_task
 from burmester.linkages.from_dyads import linkages_from_dyads
 from burmester.linkages.target import Target
+from burmester.progress import shown
 from burmester.synthesis.dyad_search import search_dyads
 from burmester.synthesis.method import with_method
+from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.motion_class import classify_motion
+from burmester.tasks.motion_task import Task
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
 
@@ -49,3 +52,16 @@ def test_a_refinement_that_comes_out_worse_is_not_taken(monkeypatch):
     assert kept.keys() == plain.keys()
     assert all(kept[own] <= plain[own] for own in plain)
     assert kept[frozenset(("D1", "D2"))] == plain[frozenset(("D1", "D2"))]
+
+
+def test_a_linkage_that_works_is_as_close_as_another_within_rounding():
+    """All pairs of dyads of five poses meet them, and rounding alone says which is the closest."""
+    poses, heard = read_task("case:motiongen-shoulder").poses, []
+    with shown(heard.append):
+        for k in range(6):
+            turned = Displacement.from_poses([0.3 * k, -k, k]) @ poses
+            found = synthesize(Task(turned)).linkages
+            assert sum(each.usable for each in found) == 3
+            assert not any(each.from_search for each in found)
+    assert heard
+    assert not any("linkages that work" in str(each) for each in heard)

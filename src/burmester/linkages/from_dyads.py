@@ -266,13 +266,13 @@ def _with_search(
     problem = evaluation.problem
     if problem.task.tolerances is not None:
         return _inside_tolerances(start, pairs, evaluation, found)
-    nearest = min(found, key=lambda each: each.combined_error, default=None)
+    nearest = _nearest(found, problem)
     further = None
     if nearest is None or (nearest.usable and nearest.combined_error > digits_leave_open(problem)):
         if time_for("looking for closer linkages"):
             further = FurtherPairs.of(pairs, evaluation)
             found = ranked([*found, *closer_linkages(further, evaluation, found)], problem)
-        nearest = min(found, key=lambda each: each.combined_error, default=None)
+        nearest = _nearest(found, problem)
     if nearest is None:
         return found
     if not nearest.usable and time_for("looking for linkages that work"):
@@ -290,6 +290,16 @@ def _with_search(
     if (most == inf or not unique) and time_for("looking for linkages of better proportions"):
         found = ranked([*found, *sound_linkages(found, evaluation, most)], problem)
     return found
+
+
+def _nearest(found: Sequence[FoundLinkage], problem: SynthesisProblem) -> FoundLinkage | None:
+    """The closest linkage, and of those that are as close within rounding one that works."""
+    rounding = ROUNDING * problem.length_per_radian
+    return min(
+        found,
+        key=lambda each: (max(each.combined_error, rounding), not each.usable),
+        default=None,
+    )
 
 
 def _inside_tolerances(
