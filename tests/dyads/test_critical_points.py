@@ -8,6 +8,7 @@ from scipy.optimize import least_squares
 
 from burmester.dyads.critical_points import critical_dyads
 from burmester.dyads.five_poses import dyads_of_five
+from burmester.dyads.macaulay import CHARTS, eigen_points
 from burmester.errors import InputError
 from burmester.fourbar.dyad import PR, RP
 from burmester.geometry.displacement import Displacement
@@ -223,3 +224,14 @@ def test_too_few_poses():
     with pytest.raises(InputError) as caught:
         critical_dyads(Displacement.from_poses(np.zeros((4, 3))))
     assert caught.value.code == "E121"
+
+
+def test_the_rows_of_the_macaulay_matrix_are_independent():
+    """Whichever G: the rows that were left out depend on the others, and no other does."""
+    rng = np.random.default_rng(12)
+    for _ in range(10):
+        root = rng.normal(size=(7, 7))
+        for chart in range(CHARTS):
+            zeros, health = eigen_points(root @ root.T, chart)
+            assert health > 1e-5
+            assert zeros.shape == (25, 4)
