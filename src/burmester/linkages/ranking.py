@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import fields
 
 import numpy as np
 
@@ -116,21 +115,23 @@ def ranked(found: Sequence[FoundLinkage], problem: SynthesisProblem) -> list[Fou
         if stated and each.usable:
             return False, not good, float(place[id(each)]), 0.0
         error = max(each.combined_error, floor)
-        error = float(np.round(np.log(error) / ALIKE)) if math.isfinite(error) else math.inf
-        least = float(np.nan_to_num(each.driven.least_over_range))
-        return not each.usable, not good, error, -round(least, 6)
+        error = float(round(math.log(error) / ALIKE)) if math.isfinite(error) else math.inf
+        least = each.driven.least_over_range
+        return not each.usable, not good, error, 0.0 if math.isnan(least) else -round(least, 6)
 
+    size = max(span(problem.task), problem.length)
     kept: list[FoundLinkage] = []
     failed = set()
     for each in sorted(found, key=order):  # stable: the order of the dyads stays
         pair = frozenset(dyad.id for dyad in each.dyads)
-        if any(_same(each, other, problem) for other in kept):
+        if any(_same(each, other, problem, size) for other in kept):
             continue
         if each.usable or pair not in failed:
             kept.append(each)
         if not each.usable:
             failed.add(pair)
-    group = [each for each in kept if order(each)[:2] == order(kept[0])[:2]]
+    best = order(kept[0])[:2] if kept else None
+    group = [each for each in kept if order(each)[:2] == best]
     first = next(
         (each for each in group if not any(_beats(one, each, floor) for one in group)), None
     )
@@ -152,13 +153,12 @@ def _turned(found: FoundLinkage) -> float:
     return float(np.nan_to_num(found.error.angle, nan=np.inf).max())
 
 
-def _same(one: FoundLinkage, other: FoundLinkage, problem: SynthesisProblem) -> bool:
+def _same(one: FoundLinkage, other: FoundLinkage, problem: SynthesisProblem, size: float) -> bool:
     """Whether two linkages are one, in either order of their dyads.
 
     They are where they differ by less than SAME_SHARE of the tolerance of a pose, and where both
-    work, or both do not, by less than the poses determine of the first.
+    work, or both do not, by less than the poses determine of the first.  size: of the motion.
     """
-    size = max(span(problem.task), problem.length)
     within = problem.task.requirements.within
     least = SAME_SHARE * (DEFAULT_TOLERANCE * size if within is None else within)
     regions = other.uncertainty if one.usable == other.usable else None
@@ -184,19 +184,24 @@ def _alike(a: Dyad, b: Dyad, region: DyadUncertainty | None, least: float, size:
         return False
     if isinstance(a, RR):
         least = max(least, ROUNDING * float(a.radius))
-    open_ = dict.fromkeys((field.name for field in fields(a)), 0.0)
-    if region is not None:
-        if region.fixed is not None:
-            open_["fixed_pivot"] = region.fixed.half_width
-        if region.moving is not None:
-            open_["moving_pivot"] = region.moving.half_width
-        if region.line is not None:
-            open_ |= {"normal_angle": size * region.line.angle, "offset": region.line.offset}
-        open_["radius"] = region.length or 0.0
 
     def near(name: str) -> bool:
         gap = float(np.abs(getattr(a, name) - getattr(b, name)).max())
         gap *= size if name.endswith("angle") else 1.0
-        return gap <= max(least, min(open_[name], SAME_SPAN * size))
+        return gap <= least or gap <= min(_left_open(name, region, size), SAME_SPAN * size)
 
-    return all(near(field.name) for field in fields(a))
+    return all(map(near, a.__match_args__))
+
+
+def _left_open(name: str, region: DyadUncertainty | None, size: float) -> float:
+    """How far the poses leave a dimension open, as a length."""
+    if region is None:
+        return 0.0
+    if name == "radius":
+        return region.length or 0.0
+    if name.endswith("pivot"):
+        point = region.fixed if name == "fixed_pivot" else region.moving
+        return 0.0 if point is None else point.half_width
+    if region.line is None:
+        return 0.0
+    return size * region.line.angle if name == "normal_angle" else region.line.offset
