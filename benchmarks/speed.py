@@ -38,6 +38,7 @@ OLDER = ("lid-hinge", "tailgate", "gripper", "folding-table", "prosthetic-knee",
 CORNERS = 16  # of both polygons
 LEAST_ROUNDS = 3
 HARD_TASKS, FEW_TASKS = 20, 5  # number of hard tasks, and of each number of few poses
+MOST_S = 600.0  # seconds; a process that takes longer is stopped
 MOST_BEFORE = 10_000  # poses; more were refused before
 
 
@@ -200,14 +201,18 @@ def process_of(row, python):
             command, env=environment(python), stdout=subprocess.DEVNULL, check=True, cwd="/"
         )
         return [{"seconds": time.perf_counter() - begun}]
-    done = subprocess.run(
-        [python, str(WORKER), *row.tasks],
-        env=environment(python),
-        stdout=subprocess.PIPE,
-        text=True,
-        check=True,
-        cwd="/",
-    )
+    try:
+        done = subprocess.run(
+            [python, str(WORKER), *row.tasks],
+            env=environment(python),
+            stdout=subprocess.PIPE,
+            text=True,
+            check=True,
+            cwd="/",
+            timeout=MOST_S,
+        )
+    except subprocess.TimeoutExpired:
+        return [{"error": f"not in {MOST_S:.0f} s"}]
     return [json.loads(line) for line in done.stdout.splitlines()]
 
 
@@ -255,9 +260,12 @@ def shown(seconds):
 
 def notes(row, sides):
     """What stands beside the times: what came back, how much memory, how much worse or better."""
-    after, out = sides[-1].last, []
     if row.cold:
         return "by the clock"
+    if sides[-1].error is not None:
+        return ""
+    sides = [side for side in sides if side.error is None]
+    after, out = sides[-1].last, []
     if len(after) > 1:
         usable = [sum(each["usable"] > 0 for each in side.last) for side in sides]
         out.append(f"{' and '.join(map(str, dict.fromkeys(usable)))} of {len(after)} have one")
@@ -271,9 +279,9 @@ def notes(row, sides):
                 if math.isfinite(a["least"]) and a["least"] > 0
             ]
             out.append(f"squares at worst {max(ratios):.3g} times, at best {min(ratios):.3g}")
-    elif "error" not in after[0]:
-        kept = {(s.last[0]["usable"], s.last[0]["linkages"]) for s in sides if s.error is None}
-        out.append(" / ".join(f"{usable} of {count} usable" for usable, count in sorted(kept)))
+    else:
+        kept = dict.fromkeys((side.last[0]["usable"], side.last[0]["linkages"]) for side in sides)
+        out.append(", then ".join(f"{usable} of {count} usable" for usable, count in kept))
         if row.alone:
             out.append(f"peak {after[0]['peak_MB']:.0f} MB")
     return ", ".join(out)

@@ -76,6 +76,9 @@ def test_hard_tasks_tell_what_got_worse():
     told = notes(row, [before, after])
     assert "2 and 3 of 3 have one" in told
     assert "squares at worst 1.21 times, at best 0.25" in told
+    late = Measured(math.nan, [{"error": "not in 600 s"}], 1)
+    assert notes(row, [late, after]) == "3 of 3 have one, slowest 1 s"
+    assert notes(row, [before, late]) == ""
 
 
 def test_recorded_calls_are_stacked_by_shape(monkeypatch):
