@@ -19,8 +19,9 @@ from itertools import product
 import numpy as np
 from tests.oracles.bilinear_systems import SHAPES, of_poses, one
 
-from burmester.dyads.elimination import in_units
+from burmester.dyads.elimination import in_chart
 from burmester.dyads.elimination_template import (
+    Chart,
     isotropic,
     lagrangian,
     matrix_terms,
@@ -54,7 +55,8 @@ class Search:
         conjugate = [*isotropic(shape).conjugate, *range(self.n, self.size)]
         self.conjugate = lambda e: tuple(e[k] for k in conjugate)
         p = one(of_poses(shape, np.random.default_rng(1)))
-        values = in_units(shape, p)[1][0]
+        f, still = isotropic(shape).features, (np.eye(self.n), np.zeros(self.n))
+        values = in_chart(shape, p, Chart(*[None] * 5, *still, f, f))[1][0]
         self.values = np.concatenate([values.real, values.imag])
         ends, state = tracked_points(shape, p)
         self.finite = len(unique_rows(ends[state == ARRIVED], 1e-6, "maximum"))

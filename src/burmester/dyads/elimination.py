@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.dyads.bilinear_fit import Parameters, Shape
-from burmester.dyads.elimination_template import chart, isotropic, template
+from burmester.dyads.elimination_template import Chart, chart, isotropic, template
 from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.numerics.bundles import take
 
-__all__ = ["eigen_points", "in_units"]
+__all__ = ["eigen_points", "in_chart"]
 
 BALANCE = 0.4  # target ratio of linear to bilinear terms; the result is not sensitive to it
 ENTRIES_AT_ONCE = 2_000_000  # of matrices; bounds the memory
@@ -39,7 +39,7 @@ def _eigen_points(
     shape: Shape, p: Parameters, number: int
 ) -> tuple[ComplexArray, NDArray[np.bool_]]:
     t, c = template(shape), chart(shape, number)
-    unit, values = in_units(shape, p)
+    unit, values = in_chart(shape, p, c)
     terms = np.concatenate([values.real, values.imag], axis=-1)[:, t.source] * t.factor
     matrix = np.zeros((len(terms), t.columns, t.columns))
     matrix.reshape(len(terms), -1)[:, t.place] = np.add.reduceat(terms, t.start, axis=1)
@@ -52,7 +52,8 @@ def _eigen_points(
     values, vectors = np.linalg.eig(np.linalg.solve(c.first @ basis, c.second @ basis))
     at = (t.monomials @ basis) @ vectors
     z = np.stack([_ratio(at[:, low], at[:, high]) for low, high in t.times], axis=-1)
-    return (z @ isotropic(shape).unknowns.T) * unit[:, None], values.imag < 0
+    x = (z @ isotropic(shape).unknowns.T) @ c.turn.T + c.shift
+    return x * unit[:, None], values.imag < 0
 
 
 def _ratio(low: ComplexArray, high: ComplexArray) -> ComplexArray:
@@ -61,36 +62,35 @@ def _ratio(low: ComplexArray, high: ComplexArray) -> ComplexArray:
     return np.asarray((low.conj() * high).sum(axis=1) / size)
 
 
-def in_units(shape: Shape, p: Parameters) -> tuple[FloatArray, ComplexArray]:
-    """Units (T, n) of the unknowns, and the parameters (T, m) of the Lagrangian in these.
+def in_chart(shape: Shape, p: Parameters, c: Chart) -> tuple[FloatArray, ComplexArray]:
+    """Units (T, n), and the parameters (T, m) of the Lagrangian in these and in a chart.
 
-    In them the pivots weigh as much as their products do; where the body turns little they are
-    long, as the pivots are then far away.
+    The units are such that the pivots weigh as much as their products do; where the body turns
+    little they are long, as the pivots are then far away.
     """
     circle = bool(shape.constant.any())
     pivots = np.full(shape.unknowns, True) if circle else shape.squares == 0  # not the normal
-    degree = np.maximum(
-        np.abs(shape.linear) @ pivots, np.abs(shape.second).max(axis=2, initial=0) @ pivots
-    )
+    bilinear, alone = shape.second.any(axis=(1, 2)), shape.linear @ np.ones(shape.unknowns) > 0
+    degree = (1 if circle else 0) * alone + (2 if circle else 1) * bilinear
     unit = np.ones(len(p.square))
-    if shape.second.any():
+    if bilinear.any():
         squares = np.diagonal(p.gram, axis1=1, axis2=2) + (p.rows**2).sum(axis=1)
-        highest = degree.max()
-        alone = squares[:, degree == highest - 1].sum(axis=1)
-        products = squares[:, degree == highest].sum(axis=1)
-        fit = (alone > 0) & (products > 0)
-        unit[fit] = BALANCE * np.sqrt(alone[fit] / products[fit])
+        linear, products = (squares[:, of].sum(axis=1) for of in (alone, bilinear))
+        fit = (linear > 0) & (products > 0)
+        unit[fit] = BALANCE * np.sqrt(linear[fit] / products[fit])
     by = unit[:, None] ** degree
     gram, rows = p.gram * by[:, :, None] * by[:, None], p.rows * by[:, None]
     size, lengths = np.linalg.norm(gram, axis=(1, 2)), np.linalg.norm(rows, axis=-1)
     size[size == 0], lengths[lengths == 0] = 1.0, 1.0
     square = unit**2 if circle else np.ones(len(unit))
-    features = isotropic(shape).features
-    gram = features.T @ (gram / size[:, None, None]) @ features
+    # The squares of x = turn y + shift are those of y, and linear terms.
+    linear = (p.linear * by / square[:, None]) @ c.features
+    linear = linear + 2 * (shape.squares * c.shift) @ c.turn @ shape.linear.T @ c.isotropic
+    rest = p.square / square - (shape.squares * c.shift**2).sum()
     parts = [
-        gram.reshape(len(unit), -1),
-        (rows / lengths[..., None] @ features).reshape(len(unit), -1),
-        (p.linear * by / square[:, None]) @ features,
-        np.stack([p.square / square, np.ones(len(unit)), size / square**2], axis=-1),
+        (c.features.T @ (gram / size[:, None, None]) @ c.features).reshape(len(unit), -1),
+        (rows / lengths[..., None] @ c.features).reshape(len(unit), -1),
+        linear,
+        np.stack([rest, np.ones(len(unit)), size / square**2], axis=-1),
     ]
     return np.where(pivots, unit[:, None], 1.0), np.concatenate(parts, axis=-1)

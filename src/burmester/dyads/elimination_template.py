@@ -35,6 +35,7 @@ __all__ = [
 ]
 
 CHARTS = 4  # choices of random forms, of which another is tried where solutions are lost
+SHIFT = 0.5  # of the origin, in units; so that no coefficient vanishes by symmetry
 NOISE = 1e-15  # added to the entries, relative, so that no matrix is exactly singular
 TINY = 1e-12  # coefficients of polynomials below this are rounding
 
@@ -69,13 +70,22 @@ class Template(NamedTuple):
 
 
 class Chart(NamedTuple):
-    """Random choices: rows that complete the matrix, their right side, two forms, and noise."""
+    """Random choices: rows that complete the matrix, their right side, two forms, and noise.
+
+    turn (n, n), shift (n,): coordinates y, with x = turn y + shift in units of a system, in which
+    nothing is special.  features: (f, f), those at x by monomials of the isotropic ones of y;
+    isotropic: those at y.
+    """
 
     border: FloatArray
     right: FloatArray
     first: FloatArray
     second: FloatArray
     noise: FloatArray
+    turn: FloatArray
+    shift: FloatArray
+    features: ComplexArray
+    isotropic: ComplexArray
 
 
 class Isotropic(NamedTuple):
@@ -141,6 +151,13 @@ def chart(shape: Shape, number: int) -> Chart:
         np.tensordot([constant, *(linear @ t.by_unknowns)], t.monomials[t.multiplied], axes=1)
         for constant, *linear in rng.normal(size=(2, 1 + shape.unknowns))
     )
+    turn, shift = np.eye(shape.unknowns), SHIFT * rng.normal(size=shape.unknowns)
+    for k in shape.planes:
+        turn[k : k + 2, k : k + 2] = np.linalg.qr(rng.normal(size=(2, 2)))[0]
+    if not shape.constant.any():  # normals keep their length
+        shift[:2] = 0.0
+    y = rng.normal(size=(4 * len(shape.constant), shape.unknowns))
+    moved = np.linalg.lstsq(shape.features(y), shape.features(y @ turn.T + shift))[0]
     some = np.linalg.qr(rng.normal(size=(2 * len(first), t.solutions)))[0].T
     right = np.zeros((t.columns, t.solutions))
     right[t.rows :] = np.linalg.qr(rng.normal(size=(missing, t.solutions)))[0]
@@ -150,6 +167,10 @@ def chart(shape: Shape, number: int) -> Chart:
         some @ np.concatenate([first.real, first.imag]),
         some @ np.concatenate([second.real, second.imag]),
         NOISE * rng.normal(size=(t.rows, t.columns)),
+        turn,
+        shift,
+        moved.T @ isotropic(shape).features,
+        isotropic(shape).features,
     )
 
 
