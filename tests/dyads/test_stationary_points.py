@@ -43,25 +43,38 @@ def no_paths(monkeypatch):
     monkeypatch.setattr(module, "tracked_points", refused)
 
 
+def require_the_points_of_paths(shape, p, found):
+    """Paths share the equations with the eigenproblem, and nothing else."""
+    ends = tracked(shape, p)
+    assert found.finite == len(ends)
+    real = (np.abs(ends.imag) < 1e-7 * (1 + np.abs(ends).max(axis=1))[:, None]).all(axis=1)
+    assert len(found.points) == real.sum()
+    for points, among in (
+        (found.points, ends[real].real),
+        (found.complex_parts, ends[~real].real),
+    ):
+        twins = with_twins(shape, among)[:, : shape.unknowns]
+        gap = np.abs(points[:, None] - twins).max(axis=-1).min(axis=1, initial=np.inf)
+        assert (gap < 1e-6 * (1 + np.abs(points).max(axis=1, initial=0))).all()
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("shape", SHAPES, ids=lambda shape: shape.name)
 def test_the_points_are_those_that_paths_find(shape):
-    """Paths share the equations with the eigenproblem, and nothing else."""
-    rng, n = np.random.default_rng(7), shape.unknowns
+    rng = np.random.default_rng(7)
     systems = [of_poses(shape, rng) for _ in range(2)]
     for p, found in zip(systems, stationary_points(shape, stacked(systems)), strict=True):
-        ends = tracked(shape, p)
-        assert found.finite == len(ends)
-        assert finite_count(shape) in (0, len(ends))
-        real = (np.abs(ends.imag) < 1e-7 * (1 + np.abs(ends).max(axis=1))[:, None]).all(axis=1)
-        assert len(found.points) == real.sum()
-        for points, among in (
-            (found.points, ends[real].real),
-            (found.complex_parts, ends[~real].real),
-        ):
-            twins = with_twins(shape, among)[:, :n]
-            gap = np.abs(points[:, None] - twins).max(axis=-1).min(axis=1, initial=np.inf)
-            assert (gap < 1e-6 * (1 + np.abs(points).max(axis=1, initial=0))).all()
+        require_the_points_of_paths(shape, p, found)
+        assert finite_count(shape) in (0, found.finite)
+
+
+@pytest.mark.parametrize("shape", [circle_shape(1, 1, 0, "soft"), circle_shape(2, 1, 0, "none")])
+@pytest.mark.parametrize("turn", [1.0, 0.1])
+def test_so_they_are_for_poses_in_a_mirror_and_for_little_turn(shape, turn):
+    t = np.linspace(-1, 1, 9)
+    rows = np.column_stack([t - t**3 / 3, t**2 / 2, turn * t])
+    p = of_poses(shape, np.random.default_rng(8), rows=rows)
+    require_the_points_of_paths(shape, p, stationary_points(shape, one(p))[0])
 
 
 @pytest.mark.parametrize("shape", [*filter(finite_count, SHAPES)], ids=lambda shape: shape.name)
