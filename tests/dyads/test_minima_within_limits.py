@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import shapely
 from scipy.optimize import minimize
 
 from burmester import synthesize
@@ -32,6 +33,7 @@ from tests.oracles.limits_problems import (
     random_problem,
     random_problem_of,
     random_region,
+    random_rows,
     solved,
     verdict,
 )
@@ -111,6 +113,38 @@ def test_no_small_way_within_the_limits_leads_down_from_a_dyad_found(seed, sorts
         for to in moved:
             to[4] += problem.share @ circle_distance(to, problem.rows)[0]
             assert problem.share @ circle_distance(to, problem.rows)[0] ** 2 > here * (1 - 1e-8)
+
+
+def star(rng, corners, size):
+    """A polygon whose corners point in and out, and whether points (k, 2) lie in it."""
+    angle = 2 * np.pi * (np.arange(corners) + rng.uniform(0, 0.9, corners)) / corners
+    far = size * rng.uniform(0.15, 1, corners)
+    at = rng.normal(scale=0.7 * size, size=2)
+    vertices = at + (far * np.exp(1j * angle)).view(float).reshape(-1, 2)
+    drawn = shapely.Polygon(vertices).buffer(1e-12 * size)
+    return Polygon(vertices), lambda points: shapely.contains_xy(drawn, points)
+
+
+@pytest.mark.parametrize("seed", [1, 3])
+def test_an_edge_ends_where_its_line_goes_on_through_the_polygon(seed):
+    """Many small ways from each dyad, kept where Shapely finds both ends in the polygon."""
+    rng = np.random.default_rng([14, seed])
+    checked = 0
+    while checked < 6:
+        rows, size = random_rows(rng, 7, [0.05])
+        polygon, holds = star(rng, 6, size)
+        problem = Problem(rows, None, np.zeros(7, bool), Limits(polygon), ANYWHERE, ANYWHERE)
+        found = solved(problem)
+        for z in ours(problem, found, RR):
+            if z[4] > LONG * size:
+                continue
+            checked += 1
+            here = problem.share @ circle_distance(z, rows)[0] ** 2
+            for length in (1e-4, 1e-3):
+                for to in z + length * size * rng.normal(size=(300, 5)):
+                    to[4] += problem.share @ circle_distance(to, rows)[0]
+                    lower = problem.share @ circle_distance(to, rows)[0] ** 2 < here * (1 - 1e-8)
+                    assert not (lower and holds(to[None, :2])[0])
 
 
 def test_every_way_down_in_polygons_that_are_not_convex_comes_to_an_end():

@@ -91,9 +91,9 @@ def descend(
         settled = fit.settled & ~stopped & ~lost
         eager = old.eager & ~(share <= 0)
         rows = np.flatnonzero(settled | (eager & ~stopped & ~lost))
-        from_faces = on[rows]
-        leaves = _leave(take(fit, rows), free_ways[rows], from_faces, blocks)
-        on[rows], left = from_faces, rows[leaves]
+        faces = on[rows]
+        left = rows[_leave(take(fit, rows), free_ways[rows], faces, blocks)]
+        on[rows] = faces
         eager[left] = may_leave
         settled[left] = False
         ended = settled | lost
@@ -116,8 +116,13 @@ def _leave(
     """Take dyads from which a way inwards leads down to wider faces, written to `on`.
 
     Where a dyad is not at the minimum of its face, the way has to be steeper than all along it.
-    Returns which leave (k,).
+    Also those that have gone past the end of an edge.  Returns which leave (k,).
     """
+    past = np.zeros(len(on), dtype=bool)
+    for k, block in enumerate(blocks):
+        now = block.past_edges(fit.z, on[:, k])
+        past |= now != on[:, k]
+        on[:, k] = now
     slopes = (fit.by_distance[:, None] @ fit.at.here.jacobian)[:, 0]
     steepest = np.linalg.norm(matvec(along, slopes), axis=-1)
     ways = [
@@ -130,8 +135,8 @@ def _leave(
     for k, (block, (_, way)) in enumerate(zip(blocks, ways, strict=True)):
         slope = (slopes[:, block.at] * way).sum(axis=-1)
         leaves[:, k] = np.where(fit.settled, alone[:, k], slope < -steepest)
-        leaves[:, k] &= steepness[:, k] < -STEEPNESS_ROUNDING
+        leaves[:, k] &= ~past & (steepness[:, k] < -STEEPNESS_ROUNDING)
         rows = np.flatnonzero(leaves[:, k])
         if len(rows):
             on[rows, k] = block.wider(fit.z[rows], on[rows, k], way[rows])
-    return np.asarray(leaves.any(axis=-1))
+    return np.asarray(past | leaves.any(axis=-1))

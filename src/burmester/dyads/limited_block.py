@@ -17,7 +17,6 @@ __all__ = ["Block", "LengthRange"]
 
 BOUNDARY_ROUNDING = 1e-9  # lengths, or a share of greater ones: a point so far outside is inside
 ON_FACE_ROUNDINGS = 10  # times the rounding; a point nearer to a face than this lies on it
-ACROSS_ROUNDINGS = 100  # times the distance from a face, to look whether a step across leads out
 
 
 @final
@@ -50,6 +49,7 @@ class _Faces(NamedTuple):
 
     origin: (F, d); projector: (F, d, d), on their directions; across: (F, d, d), on the others;
     inward: (F, w, d), zeros where a face has fewer; dimension, ways: (F,), numbers of directions.
+    edges: the numbers (E,) of a polygon's edges, begin, end: (E, d), their ends.
     """
 
     origin: FloatArray
@@ -58,6 +58,9 @@ class _Faces(NamedTuple):
     inward: FloatArray
     dimension: NDArray[np.intp]
     ways: NDArray[np.intp]
+    edges: NDArray[np.intp]
+    begin: FloatArray
+    end: FloatArray
 
 
 @final
@@ -88,25 +91,29 @@ class Block:
             row[: len(face.inward)] = face.inward
         dimension = np.array([face.basis.shape[1] for face in faces])
         across = np.eye(origin.shape[1]) - projector
-        return _Faces(origin, projector, across, inward, dimension, ways)
+        edges, begin = np.empty(0, dtype=np.intp), np.empty((0, origin.shape[1]))
+        if isinstance(self.region, Polygon):  # sorted by dimension its edges keep their order
+            edges, begin = np.flatnonzero(dimension == 1), self.region.vertices
+        end = np.roll(begin, -1, axis=0)
+        return _Faces(origin, projector, across, inward, dimension, ways, edges, begin, end)
 
     def outside(self, z: FloatArray) -> NDArray[np.bool_]:
         """Whether dyads z (*, n) lie outside by more than rounding."""
         return self._lie_outside(z[..., self.at])
 
     def lying_on(self, z: FloatArray) -> NDArray[np.intp]:
-        """The smallest faces (k,) on which dyads inside the region lie.
+        """The smallest faces (k,) on which dyads inside the region lie."""
+        return np.asarray(self._near(z[:, self.at]).argmax(axis=1))
 
-        The line of an edge may go on through a polygon that is not convex, or meet another edge.
-        There a step across it does not lead out, and a dyad is not on that edge.
+    def past_edges(self, z: FloatArray, on: NDArray[np.intp]) -> NDArray[np.intp]:
+        """The faces (k,), or wider ones where dyads have gone along an edge's line past its end.
+
+        At a corner that points into the region the line goes on inside.
         """
-        faces, at = self._faces, z[:, self.at]
-        on, near = self._near(at), ON_FACE_ROUNDINGS * _rounding(at)
-        if isinstance(self.region, Polygon):
-            rows, edges = np.nonzero(on & (faces.dimension == 1))
-            step = ACROSS_ROUNDINGS * near[rows, None] * faces.inward[edges, 0]
-            on[rows, edges] = self.region.distance(at[rows] - step) > near[rows]
-        return np.asarray(on.argmax(axis=1))
+        if not isinstance(self.region, Polygon) or self.region.is_convex:
+            return on
+        now, dimension = self.lying_on(z), self._faces.dimension
+        return np.where(dimension[now] > dimension[on], now, on)
 
     def along(self, on: NDArray[np.intp]) -> FloatArray:
         """The projectors (k, d, d) on the directions of faces."""
@@ -177,10 +184,16 @@ class Block:
         return normal, (normal * self._faces.origin[walls]).sum(axis=1)
 
     def _near(self, at: FloatArray) -> NDArray[np.bool_]:
-        """Which faces (k, F) points (k, d) lie on, up to rounding, were these endless."""
-        faces = self._faces
+        """Which faces (k, F) points (k, d) lie on, up to rounding.
+
+        An edge has ends: its line may go on through a polygon that is not convex.
+        """
+        faces, near = self._faces, ON_FACE_ROUNDINGS * _rounding(at)[:, None]
         off = np.einsum("fij,kfj->kfi", faces.across, at[:, None] - faces.origin)
-        return np.asarray(np.abs(off).max(axis=-1) < ON_FACE_ROUNDINGS * _rounding(at)[:, None])
+        on = np.abs(off).max(axis=-1) < near
+        along = ((at[:, None] - faces.begin) * (faces.end - at[:, None])).sum(axis=-1)
+        on[:, faces.edges] &= along > -near * np.linalg.norm(faces.end - faces.begin, axis=-1)
+        return np.asarray(on)
 
     def _lie_outside(self, points: FloatArray) -> NDArray[np.bool_]:
         """Whether points (*, d) lie outside by more than rounding."""
