@@ -117,13 +117,12 @@ class _Starts(NamedTuple):
     """Circles z (k, 5) from which ways lead down, and in which directions.
 
     along: (k, 5, 5), the projectors on the directions of their faces; minimum: (k,), which are
-    minima of the squared residual there; far: (k,), which are long links along a line.
+    minima of the squared residual there.
     """
 
     z: FloatArray
     along: FloatArray
     minimum: NDArray[np.bool_]
-    far: NDArray[np.bool_]
 
 
 def circles_within_limits(seen: Displacement, limits: Limits, search: FaceSearch) -> FloatArray:
@@ -164,21 +163,18 @@ def circles_within_limits(seen: Displacement, limits: Limits, search: FaceSearch
         settled.append(_settled(corners, [np.empty((1, 0))] * len(corners), seen, search))
     for shape, groups in systems.items():
         points = search.solve(shape, concatenate([system for _, system in groups]))
-        every_face = [faces for members, _ in groups for faces in members]
+        faces_of_shape = [faces for members, _ in groups for faces in members]
         if shape.is_settled:  # by the exact poses: there are no other dyads
             minima = [each.points[each.minimum] for each in points]
-            settled.append(_settled(every_face, minima, seen, search))
+            settled.append(_settled(faces_of_shape, minima, seen, search))
         else:
-            starts.append(_starts(every_face, points, seen, search))
-    lowest, far = np.concatenate(settled), np.empty((0, 5))
+            starts.append(_starts(faces_of_shape, points, seen, search))
     if starts:
         every = concatenate(starts)
         ends = descents.free_minima(every.z, every.along)
         descents.look(ends[np.isfinite(ends).all(axis=1)])
-        lowest = np.concatenate([lowest, every.z[every.minimum & ~descents.knows(ends)]])
-        if search.exact.any():  # long links come to rest slowly where exact poses weigh most
-            far = every.z[every.far]
-    descents.follow(lowest, far)
+        settled.append(every.z[every.minimum & ~descents.knows(ends)])
+    descents.follow(np.concatenate(settled))
     return descents.in_order()
 
 
@@ -202,11 +198,10 @@ def _starts(
     numbers = np.tile(np.arange(len(members)), 2)
     at = np.concatenate([np.repeat(numbers, counts), np.arange(len(members)), far_at])
     middle = np.zeros((len(members), far.shape[1]))
-    minimum, is_far = np.zeros((2, len(at)), dtype=bool)
-    minima = np.concatenate([of_face.minimum for of_face in points])
-    minimum[: len(minima)], is_far[len(at) - len(far) :] = minima, True
+    lowest = np.concatenate([of_face.minimum for of_face in points])
+    minimum = np.concatenate([lowest, np.zeros(len(at) - len(lowest), dtype=bool)])
     z = faces.circles(np.concatenate([*every, *beside, middle, far]), at, seen, search)
-    return _Starts(z, faces.along[at], minimum, is_far)
+    return _Starts(z, faces.along[at], minimum)
 
 
 def _settled(

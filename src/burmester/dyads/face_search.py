@@ -25,10 +25,7 @@ __all__ = ["Descents", "FaceSearch"]
 SAME_DYAD = 1e-7  # relative; dyads whose coordinates differ by less are one
 NEAR_DYAD = 1e-6  # relative; from a dyad so near to a known one no way down is looked for
 EXACT_TOLERANCE = 1e-9  # relative; an exact pose missed by less is met
-MAX_FREE_STEPS = 30  # of Newton's method to a minimum were there no limits
-MAX_STIFF_STEPS = 60  # the same where exact poses weigh much
-EXACT_WEIGHT = 1e4  # of an exact pose, where all weights are 1, on the way to its neighbourhood
-NEARLY_EXACT = 0.01  # relative; an exact pose missed by more there has no dyad nearby
+EXACT_WEIGHT = 1e4  # of an exact pose where all weights are 1, for the line that a link begins at
 SLIDER_LENGTH = (
     1e3  # characteristic lengths; a longer link that still grows is on its way to a line
 )
@@ -76,7 +73,7 @@ class FaceSearch:
 
     @property
     def leaning(self) -> FloatArray:
-        """The weights (N,) of squared distances whose minima lie near those with exact poses."""
+        """The weights (N,) of squared distances from a line that nearly meets the exact poses."""
         return np.where(self.exact, EXACT_WEIGHT, self.share)
 
     @property
@@ -101,28 +98,21 @@ class Descents:
     def free_minima(self, starts: FloatArray, along: FloatArray) -> FloatArray:
         """The minima (k, n) of the distance to which starts (k, n) lead, were there no limits.
 
-        along: (k, n, n), projectors on the directions of the starts' faces.  Exact poses weigh
-        much.  Not a number where a start leads to none.
+        along: (k, n, n), projectors on the directions of the starts' faces.
+        Not a number where a start leads to none.
         """
-        none, distances, steps = np.zeros_like(self.search.exact), self.distances, MAX_FREE_STEPS
-        if self.search.exact.any():  # which alone would say how long a link is
-            distances, steps = distances._replace(level=None), MAX_STIFF_STEPS
-        problem = FitProblem(distances, self.search.leaning, none)
-        return free_minima(problem, starts, along, steps)
+        problem = FitProblem(self.distances, self.search.share, self.search.exact)
+        return free_minima(problem, starts, along)
 
-    def follow(self, starts: FloatArray, others: FloatArray) -> None:
-        """Go down from starts (k, n) within limits; ways that are given up are counted.
-
-        others: (*, n), that only may lead to dyads; of these no way is counted.
-        """
+    def follow(self, starts: FloatArray) -> None:
+        """Go down from starts (k, n) within limits; ways that are given up are counted."""
         starts = starts[inside(starts, self.blocks) & ~self.knows(starts)]
-        near = self._near_exact(others)
-        ended = self._followed(np.concatenate([starts, others[near]]))[: len(starts)]
+        ended = self._followed(starts)
         self.search.unsettled += int((~ended & ~self.knows(starts)).sum())
 
     def look(self, starts: FloatArray) -> None:
         """Go down from starts that only may lead to dyads, on the faces on which they lie."""
-        self._followed(starts[self._near_exact(starts)], may_leave=False)
+        self._followed(starts[inside(starts, self.blocks)], may_leave=False)
 
     def knows(self, z: FloatArray) -> NDArray[np.bool_]:
         """Whether dyads z (k, n) were found, up to a share of their size."""
@@ -140,11 +130,6 @@ class Descents:
             if not any(np.abs(distance[j] - distance[k]).max() < SAME_SLIDER for j in long):
                 kept.append(k)
         return self.dyads[kept]
-
-    def _near_exact(self, z: FloatArray) -> NDArray[np.bool_]:
-        """Whether dyads z (k, n) lie within limits and nearly meet the exact poses."""
-        near = self._gap(z) < NEARLY_EXACT * _size(z)
-        return np.asarray(near & inside(z, self.blocks))
 
     def _gap(self, z: FloatArray) -> FloatArray:
         """The greatest distances (k,) at exact poses."""

@@ -60,13 +60,12 @@ class Point(NamedTuple):
 class DistanceFunction(NamedTuple):
     """Distances as a function of dyads z (k, n), with their derivatives or without.
 
-    level: the coordinate of z that is taken off every distance, the radius or the offset, and
-        that follows the others; None if it is to be like them.
+    level: the coordinate of z that is taken off every distance: the radius, or the offset.
     """
 
     of: Callable[[FloatArray], Distances]
     only: Callable[[FloatArray], FloatArray]
-    level: int | None
+    level: int
 
     def at(self, z: FloatArray) -> Point:
         """Dyads z (k, n) with their distances."""

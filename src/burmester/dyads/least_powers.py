@@ -33,6 +33,7 @@ __all__ = [
 
 MIN_SCALE = 1e-100  # lengths; distances below this are not magnified by higher powers
 MAX_NEWTON_STEPS = 40  # of a sum of powers
+MAX_FREE_STEPS = 30  # to a free minimum
 MAX_RESTORING_STEPS = 8  # of Newton's method back to the exact poses
 SETTLED_STEP = 1e-13  # relative; a shorter step is rounding, and ends an iteration
 NEAR_STEP = 1e-9  # relative; a shorter step is the last one to a free minimum
@@ -70,9 +71,7 @@ def least_squares_step(problem: FitProblem, at: Point, along: FloatArray) -> Geo
     return _fit(problem, there, along, 2, failed | _rests(at.z, there, SETTLED_STEP))
 
 
-def free_minima(
-    problem: FitProblem, z: FloatArray, along: FloatArray, max_steps: int
-) -> FloatArray:
+def free_minima(problem: FitProblem, z: FloatArray, along: FloatArray) -> FloatArray:
     """The local minima (k, n) of the weighted sum of squares near dyads z, with fewer digits.
 
     Not a number where a dyad does not come to rest where the sum is convex, or grows so far that
@@ -85,8 +84,9 @@ def free_minima(
         too_far = np.abs(there).max(axis=-1) > MAX_SIZE
         return _Way(there, settled), settled | failed | too_far
 
+    z = _restored(problem, z, along, problem.distances.only(z))
     start = _Way(z, np.zeros(len(z), dtype=bool))
-    ends, _ = iterate(advance, start, np.arange(len(z)), max_steps)
+    ends, _ = iterate(advance, start, np.arange(len(z)), MAX_FREE_STEPS)
     return np.where(ends.settled[:, None], ends.z, np.nan)
 
 
@@ -226,7 +226,7 @@ def _moved(
     Returns them, and their distances (k, N).
     """
     distance, level, held = problem.distances.only(z), problem.distances.level, problem.exact
-    if level is not None and (power == 2 or held.any()):
+    if power == 2 or held.any():
         weights = held if held.any() else problem.weights
         free = along[:, level, level] > 1 - RANK_TOLERANCE
         raised = np.where(free, distance @ weights / weights.sum(), 0.0)

@@ -126,7 +126,7 @@ def _lines(
             n, pivot = x[:, :2], face.origin + x[:, 2:] @ face.basis.T
             offset = _LINE.features(np.concatenate([n, pivot], axis=-1)) @ base
             starts.append(np.column_stack([np.arctan2(n[:, 1], n[:, 0]), offset, pivot]))
-    descents.follow(np.concatenate(starts), starts[0])
+    descents.follow(np.concatenate(starts))
     return [_with_upper_normal(z) for z in descents.in_order()]
 
 
