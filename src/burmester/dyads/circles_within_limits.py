@@ -81,8 +81,12 @@ class _FaceArrays(NamedTuple):
         i = self.fixed.shape[-1]
         z[:, :2] += matvec(self.fixed[at], points[:, :i])
         z[:, 2:4] += matvec(self.moving[at], points[:, i:])
-        centred = RR(z[:, :2], z[:, 2:4], np.zeros(len(z)))
-        best = centred[:, None].residual(poses) @ share / share.sum()
+
+        def best_length(pivots: FloatArray) -> FloatArray:
+            centred = RR(pivots[:, :2], pivots[:, 2:], np.zeros(len(pivots)))
+            return np.asarray(centred[:, None].residual(poses) @ share / share.sum())
+
+        best = search.in_batches(best_length, z[:, :4])
         z[:, 4] = np.where(self.free_length[at], best, z[:, 4])
         return z
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import final
 
 import numpy as np
@@ -17,6 +18,7 @@ from burmester.dyads.least_worst import least_worst
 from burmester.dyads.limited_block import Block
 from burmester.dyads.stationary_points import StationaryPoints, stationary_points
 from burmester.numerics.arrays import FloatArray
+from burmester.numerics.bundles import Bundle, concatenate
 from burmester.numerics.unique_rows import unique_rows
 from burmester.tasks.options import Norm
 
@@ -29,6 +31,7 @@ EXACT_WEIGHT = 1e4  # of an exact pose where all weights are 1, for the line tha
 SLIDER_LENGTH = (
     1e3  # characteristic lengths; a longer link that still grows is on its way to a line
 )
+NUMBERS_AT_ONCE = 1_000_000  # dyads times poses, of which all derivatives are held at once
 SAME_SLIDER = 2 / SLIDER_LENGTH  # lengths; longer links whose distances differ by less are one
 LINE_LENGTH = 1e9  # characteristic lengths; a longer link is a line to the last digits
 
@@ -71,6 +74,12 @@ class FaceSearch:
         self.lost += sum(one.lost for one in every)
         return every
 
+    def in_batches(self, function: Callable[..., Bundle], *rows: FloatArray) -> Bundle:
+        """What a function makes of rows (k, ...), of so many at once as fit into memory."""
+        size = max(1, NUMBERS_AT_ONCE // len(self.share))
+        begins = range(0, max(1, len(rows[0])), size)
+        return concatenate([function(*(each[k : k + size] for each in rows)) for k in begins])
+
     @property
     def leaning(self) -> FloatArray:
         """The weights (N,) of squared distances from a line that nearly meets the exact poses."""
@@ -102,7 +111,7 @@ class Descents:
         Not a number where a start leads to none.
         """
         problem = FitProblem(self.distances, self.search.share, self.search.exact)
-        return free_minima(problem, starts, along)
+        return self.search.in_batches(partial(free_minima, problem), starts, along)
 
     def follow(self, starts: FloatArray) -> None:
         """Go down from starts (k, n) within limits; ways that are given up are counted."""
@@ -134,7 +143,7 @@ class Descents:
     def _gap(self, z: FloatArray) -> FloatArray:
         """The greatest distances (k,) at exact poses."""
         return np.asarray(
-            np.abs(self.distances.of(z).distance[:, self.search.exact]).max(axis=-1, initial=0)
+            np.abs(self.distances.only(z)[:, self.search.exact]).max(axis=-1, initial=0)
         )
 
     def _followed(self, z: FloatArray, *, may_leave: bool = True) -> NDArray[np.bool_]:
@@ -155,7 +164,8 @@ class Descents:
             z = np.where(near[:, None], best.z, np.nan)
             return GeometricFit(best.at._replace(z=z), best.by_distance, np.ones_like(near))
 
-        z, settled = descend(z, self.distances, step, self.blocks, may_leave=may_leave)
+        down = partial(descend, distances=self.distances, minimise=step, blocks=self.blocks)
+        z, settled = self.search.in_batches(partial(down, may_leave=may_leave), z)
         first, each = _distinct(np.column_stack([z, settled]))
         z, settled = z[first], settled[first]
         if self.search.norm == "worst" and not exact.all():

@@ -147,7 +147,8 @@ def _newton_step(
     by_distance = _with_multipliers(problem, here, along, weighted * here.distance)
     free = along
     if problem.exact.any():
-        free = along - _row_space(here.jacobian[:, problem.exact] @ along)
+        held = here.jacobian[:, problem.exact] @ along
+        free = along - pseudo_inverse(held) @ held
     jacobian, weights = here.jacobian @ free, (power - 1) * weighted[..., None]
     gradient = (by_distance[:, None] @ jacobian)[:, 0]
     gauss_newton = np.swapaxes(weights * jacobian, -1, -2) @ jacobian
@@ -282,15 +283,14 @@ def _with_multipliers(
     return gradient + multipliers
 
 
-def pseudo_inverse(matrix: FloatArray) -> FloatArray:
-    """The pseudo-inverses of matrices (k, m, n); of one that is not finite, no numbers."""
+def pseudo_inverse(matrix: FloatArray, tolerance: float = RANK_TOLERANCE) -> FloatArray:
+    """The pseudo-inverses of matrices (k, m, n); of one that is not finite, no numbers.
+
+    tolerance: share of the greatest singular value, below which one is zero.
+    """
+    if 1 in matrix.shape[1:]:
+        square = (matrix**2).sum(axis=(-2, -1), keepdims=True)
+        return np.asarray(np.swapaxes(matrix, -1, -2) / np.where(square > 0, square, np.inf))
     sound = np.asarray(np.isfinite(matrix).all(axis=(-2, -1)))[:, None, None]
-    return np.where(sound, np.linalg.pinv(np.where(sound, matrix, 0.0)), np.nan)
-
-
-def _row_space(rows: FloatArray) -> FloatArray:
-    """The projectors (k, n, n) on what rows (k, m, n) span."""
-    _, values, v = np.linalg.svd(rows, full_matrices=False)
-    greatest = np.maximum(values.max(axis=-1, keepdims=True, initial=0), DIVISOR_FLOOR)
-    v = v * (values > RANK_TOLERANCE * greatest)[..., None]
-    return np.asarray(np.swapaxes(v, -1, -2) @ v)
+    inverse = np.linalg.pinv(np.where(sound, matrix, 0.0), rcond=tolerance)
+    return np.where(sound, inverse, np.nan)

@@ -21,6 +21,7 @@ from burmester.numerics.linear_algebra import matvec
 
 __all__ = ["least_worst"]
 
+SINGULAR = 1e-15  # share of the greatest singular value, below which one is zero
 MAX_MINIMAX_STEPS = 20  # of Newton's method once the worst poses are known
 FIRST_MINIMAX_POWER = 32  # of the distances, from which on the worst poses are looked for
 MAX_POWER = 4096  # of the distances; no higher sums are minimised
@@ -112,7 +113,7 @@ def _minimax(problem: FitProblem, near: GeometricFit, along: FloatArray) -> Geom
         whole[:, :size, :size] = old.along @ curvature @ old.along
         whole[:, : size + 1, size + 1 :], whole[:, size + 1 :, : size + 1] = transposed, matrix
         residual = np.concatenate([right + matvec(transposed, old.multipliers), gap], axis=-1)
-        step = -matvec(pseudo_inverse(whole), residual)
+        step = -matvec(pseudo_inverse(whole, SINGULAR), residual)
         z = old.at.z + matvec(old.along, step[:, :size])
         failed = ~(np.abs(step[:, :size]).max(axis=-1) <= MAX_MINIMAX_STEP)
         at = problem.distances.at(np.where(failed[:, None], old.at.z, z))
@@ -156,5 +157,5 @@ def _start(problem: FitProblem, near: GeometricFit, along: FloatArray) -> _Balan
     none = np.zeros((count, worst.shape[1] + int(exact.sum())))
     start = _Balance(near.at, level, worst, sign, none, along, np.zeros(count, dtype=bool))
     _, matrix = start.conditions(exact)
-    balance = pseudo_inverse(np.swapaxes(matrix, -1, -2))
+    balance = pseudo_inverse(np.swapaxes(matrix, -1, -2), SINGULAR)
     return start._replace(multipliers=-balance[..., -1])
