@@ -80,26 +80,29 @@ def _sines(one: FloatArray, two: FloatArray) -> FloatArray:
 def _vectors(dyads: Sequence[Dyad], frames: CanonicalFrames) -> FloatArray:
     """The manifolds of dyads, as unit vectors (k, 8) that rotations turn only."""
     out = np.zeros((len(dyads), 8))
+    links = [k for k, dyad in enumerate(dyads) if isinstance(dyad, RR)]
     for k, dyad in enumerate(dyads):
-        p = _in_frames(dyad, frames).coefficients() / INVARIANT
-        out[k] = p / np.linalg.norm(p)
-    return out
+        if not isinstance(dyad, RR):
+            out[k] = _slider_in(frames, dyad).coefficients()
+    if links:
+        some = [dyad for dyad in dyads if isinstance(dyad, RR)]
+        unit = frames.length
+        fixed = np.array([each.fixed_pivot for each in some]) - frames.fixed_origin
+        moving = np.array([each.moving_pivot for each in some]) - frames.moving_origin
+        radius = np.array([each.radius for each in some])
+        out[links] = RR(fixed / unit, moving / unit, radius / unit).coefficients()
+    out /= INVARIANT
+    return np.asarray(out / np.linalg.norm(out, axis=-1, keepdims=True))
 
 
-def _in_frames(dyad: Dyad, frames: CanonicalFrames) -> Dyad:
+def _slider_in(frames: CanonicalFrames, dyad: Dyad) -> Dyad:
+    """A slider as canonical frames see it; a PP dyad is the same in all."""
     unit, fixed, moving = frames.length, frames.fixed_origin, frames.moving_origin
-    if isinstance(dyad, RR):
-        return RR(
-            (dyad.fixed_pivot - fixed) / unit,
-            (dyad.moving_pivot - moving) / unit,
-            dyad.radius / unit,
-        )
+    if not isinstance(dyad, PR | RP):
+        return dyad
+    n = np.array([np.cos(dyad.normal_angle), np.sin(dyad.normal_angle)])
     if isinstance(dyad, PR):
-        n = np.array([np.cos(dyad.normal_angle), np.sin(dyad.normal_angle)])
         offset = (dyad.offset - n @ fixed) / unit
         return PR(dyad.normal_angle, offset, (dyad.moving_pivot - moving) / unit)
-    if isinstance(dyad, RP):
-        n = np.array([np.cos(dyad.normal_angle), np.sin(dyad.normal_angle)])
-        offset = (dyad.offset - n @ moving) / unit
-        return RP((dyad.fixed_pivot - fixed) / unit, dyad.normal_angle, offset)
-    return dyad
+    offset = (dyad.offset - n @ moving) / unit
+    return RP((dyad.fixed_pivot - fixed) / unit, dyad.normal_angle, offset)

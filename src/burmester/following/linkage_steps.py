@@ -19,7 +19,7 @@ from burmester.numerics.linear_algebra import matvec, solve_or_shortest
 __all__ = ["Least", "curvatures", "gains", "least_errors", "moved_with_places"]
 
 STEPS = 3  # of Newton's method from the linkages before
-SETTLED_STEP = 1e-9  # relative; a shorter step ends the steps
+SETTLED_STEP = 1e-6  # relative; after a shorter step the error is less than its square
 LONG_STEP = 0.02  # relative; after a longer one the curvature is another
 STRIDE = 1e-6  # lengths; of difference quotients
 DAMPING = 1e-12  # of the scaled Hessian's greatest eigenvalue
@@ -38,10 +38,11 @@ def moved_with_places(batch: LinkageBatch, places: Displacement, kept: Held | No
 
     Newton's shortest step in the dimensions of each dyad, along the faces that it keeps.
     """
-    z, flat = batch.dimensions, FLAT if places.shape[1] <= DIMENSIONS else FLAT_OF_MANY
+    z, few = batch.dimensions, places.shape[1] <= DIMENSIONS
+    flat = FLAT if few else FLAT_OF_MANY
     if kept is not None:
         z = z - _onto(kept, z.reshape(len(z), SIZE)).reshape(z.shape)
-    for _ in range(MOVING_STEPS):
+    for _ in range(MOVING_STEPS if few else 1):  # more places cannot all be met
         residual, _, by_dimension = LinkageBatch(batch.kinds, z).jacobians(places)
         jacobian = by_dimension
         if kept is not None:

@@ -294,15 +294,14 @@ class _Stretch(NamedTuple):
         if len(left):
             last = LinkageBatch(batch.kinds[left], dimensions[left])
             dimensions[left] = brought_inside(last, self.limits, frames).dimensions
-        return self._at_places(_Here(LinkageBatch(batch.kinds, dimensions), rows, numbers))
-
-    def _at_places(self, here: _Here) -> _Here:
-        """The same at their places nearest to the poses."""
-        every = np.arange(len(here.batch))
-        z = here.batch.dimensions.reshape(len(every), SIZE)
-        with np.errstate(all="ignore"):
-            rows = _problem(here.batch, self.target).state(every, z, here.rows).rows
-        return here._replace(rows=rows)
+        there, rows = LinkageBatch(batch.kinds, dimensions), rows.copy()
+        others = np.flatnonzero(self.way != Way.LEAST)  # these come to their places by themselves
+        if len(others):
+            some, every = there[others], np.arange(len(others))
+            z = some.dimensions.reshape(-1, SIZE)
+            with np.errstate(all="ignore"):
+                rows[others] = _problem(some, self.target).state(every, z, rows[others]).rows
+        return _Here(there, rows, numbers)
 
     def with_least_errors(self, here: _Here) -> tuple[_Here, FloatArray, FloatArray]:
         """The linkages, each least error where it is now; curvature, and the last steps (k,)."""
