@@ -7,9 +7,9 @@ Each drag moves one pose of a task (or a corner of its limits, or a weight) alon
 up to a tenth of the span of the poses in 200 steps, its angle by up to 6 degrees, and `follow`
 goes along.  Then the whole road looks for all dyads of the last task (`search_dyads`).  A drag is
 confirmed where every dyad followed is one of these within 1e-8 of the span; it is complete where
-these are all there are.  An exception counts as told where the follow was uncertain during the
-drag.  Of the linkages at the end it is counted whether their verdict is the one that is found with
-places looked for anew, and whether those that are followed as minima are some.
+these are all there are.  An exception counts as told where the follow was uncertain of a dyad
+during the drag.  Of the linkages at the end it is counted whether their verdict is one of those at
+places that are looked for anew, and whether those that are followed as minima are some.
 
 Times are CPU times of one step, on one thread; the first step of a drag is counted like the others.
 """
@@ -32,7 +32,7 @@ from burmester.geometry.regions import box
 from burmester.io import templates
 from burmester.io.reading.poses import read_task
 from burmester.linkages.evaluation import Candidates, Evaluation
-from burmester.linkages.from_dyads import target_of
+from burmester.linkages.from_dyads import places_to_judge, target_of
 from burmester.synthesis.dyad_search import search_dyads
 from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.motion_task import Task
@@ -153,17 +153,32 @@ def missing(some, others, size):
     return out
 
 
+def verdict(found):
+    """Whether a linkage works, and the kinds of its defects."""
+    return found.usable, {defect.kind for defect in found.defects}
+
+
 def verdicts(followed):
-    """The linkages again, judged at places that are looked for anew: their kinds of defects."""
+    """The verdicts on each linkage at the places where a linkage that exists is judged."""
     problem, strands = followed.problem, followed.linkage_strands
     target = target_of(problem)
     batch = strands.own.to_canonical(target.frames)
     known = {each.id: each for found in followed.linkages for each in found.dyads}
-    pairs = [(known[one], known[two]) for one, two in strands.pairs]
-    found = Evaluation(problem, target).members(
-        Candidates(batch, target.places(batch), pairs, strands.from_search, strands.own)
-    )
-    return [(each.usable, {defect.kind for defect in each.defects}) for each in found]
+    out = []
+    for k, (one, two) in enumerate(strands.pairs):
+        rows = np.stack(places_to_judge(batch[[k]], target))
+        index = np.full(len(rows), k)
+        found = Evaluation(problem, target).members(
+            Candidates(
+                batch[index],
+                rows,
+                [(known[one], known[two])] * len(rows),
+                strands.from_search[index],
+                strands.own[index],
+            )
+        )
+        out.append([verdict(each) for each in found])
+    return out
 
 
 def dragged(sort, number, seed, record):
@@ -198,8 +213,7 @@ def dragged(sort, number, seed, record):
     again = verdicts(here)
     record.linkages += len(again)
     record.same_verdict += sum(
-        one.usable == usable and {each.kind for each in one.defects} == kinds
-        for one, (usable, kinds) in zip(here.linkages, again, strict=True)
+        verdict(one) in every for one, every in zip(here.linkages, again, strict=True)
     )
     strands, target = here.linkage_strands, target_of(here.problem)
     least = np.flatnonzero(strands.way == Way.LEAST)

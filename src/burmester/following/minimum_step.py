@@ -22,9 +22,9 @@ __all__ = ["MovedMinima", "moved_minima", "saddle_system"]
 MAX_STEPS = 8  # of Newton's method; more than 4 are taken only where something is wrong
 SETTLED_STEP = 1e-10  # relative; the error after so short a step is rounding
 PREDICTED_SHARE = 0.5  # of the first step; a correction that is longer contradicts it
-ROUNDING_STEP = 1e-7  # relative; so short a correction contradicts nothing
+SHORT_CORRECTION = 0.02  # relative; so short a correction contradicts nothing
 FLAT = 1e-13  # share of the greatest eigenvalue; what is less curved is as good as flat
-INWARD_ROUNDING = 1e-9  # of the terms of a derivative; what leads down less does not
+INWARD_ROUNDING = 1e-7  # of the terms of a derivative; what leads down less does not
 
 
 class MovedMinima(NamedTuple):
@@ -105,7 +105,9 @@ def moved_minima(
     with np.errstate(invalid="ignore"):
         settled = length <= SETTLED_STEP * size
         off = np.abs(z - start - first).max(axis=1)
-        near = off <= np.maximum(PREDICTED_SHARE * np.abs(first).max(axis=1), ROUNDING_STEP * size)
+        near = off <= np.maximum(
+            PREDICTED_SHARE * np.abs(first).max(axis=1), SHORT_CORRECTION * size
+        )
     # A minimum along the faces: as many negative eigenvalues as equations, and none that is flat.
     settled &= np.isfinite(z).all(axis=1)
     values = np.linalg.eigvalsh(np.where(settled[:, None, None], matrix, np.eye(matrix.shape[-1])))
