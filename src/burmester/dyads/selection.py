@@ -75,7 +75,7 @@ def found_dyads(fit: Fit, task: Task) -> tuple[list[FoundDyad], int]:
     length, unit = characteristic_length(task), float(fit.frames.length)
     seen = fit.frames.to_canonical(task.poses)
     limited = isinstance(fit, BestDyads) and isinstance(fit.search, LimitedDyads)
-    near = 0.0 if limited else _nearly_straight(fit, task, length)
+    near = 0.0 if limited else None  # it takes a fit of its own, and is seldom asked for
     found: list[Candidate] = []
 
     def add(dyad: Dyad, rms: float, worst: float) -> None:
@@ -103,6 +103,7 @@ def found_dyads(fit: Fit, task: Task) -> tuple[list[FoundDyad], int]:
             rounding = np.finfo(float).eps * float(circle.radius)  # of a distance so great
             allowed, miss = max(share * rms, known, rounding), unit * nearest.rms_error
             fits = miss <= allowed or not np.isfinite(allowed)
+            near = _nearly_straight(fit, task, length) if near is None else near
             sensible = swung > SENSIBLE_SWING and rms <= max(miss, known)
             # A long link that gains next to nothing is no other dyad than its slider.
             same = isinstance(fit, BestDyads) and share == 2 and miss <= SLIDER_AS_WELL * rms

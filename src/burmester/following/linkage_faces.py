@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from functools import lru_cache
 
@@ -31,11 +32,12 @@ def linkages_held(
     """
     if not limits:
         return None
+    scale = _scale(frames)
     shift = np.array([*frames.fixed_origin, *frames.moving_origin, 0.0])
     sides = []
     for side in (0, 1):
-        own = held(_own_tables(_of_side(limits, side)), numbers[:, side])
-        sides.append(own._replace(at=(own.at - own.rows @ shift) / frames.length))
+        own = held(_tables(_of_side(limits, side), scale), numbers[:, side])
+        sides.append(own._replace(at=(own.at * 2.0**scale - own.rows @ shift) / frames.length))
     one, two = sides
     return Held(
         _blocks(one.rows, two.rows),
@@ -56,17 +58,26 @@ def _of_side(limits: Sequence[Limits], side: int) -> Limits:
     return limits[min(side, len(limits) - 1)]
 
 
-def _tables(limits: Limits) -> tuple[FaceTable, ...]:
-    """The faces of limits in the dimensions of a dyad."""
+def _scale(frames: CanonicalFrames) -> int:
+    """The power of two that is nearest to the unit of frames: it seldom changes."""
+    return round(math.log2(float(frames.length)))
+
+
+def _scaled(scale: int) -> CanonicalFrames:
+    """The task's own frames with another unit."""
+    return CanonicalFrames(np.zeros(2), np.zeros(2), np.asarray(2.0**scale))
+
+
+@lru_cache(KEPT_TABLES)
+def _tables(limits: Limits, scale: int) -> tuple[FaceTable, ...]:
+    """The faces of limits in the dimensions of a dyad, in units of a power of two."""
+    own = limits_in(_scaled(scale), limits)
     blocks = (
-        Block(slice(0, 2), limits.fixed_pivot),
-        Block(slice(2, 4), limits.moving_pivot),
-        Block(slice(4, 5), LengthRange(*limits.length)),
+        Block(slice(0, 2), own.fixed_pivot),
+        Block(slice(2, 4), own.moving_pivot),
+        Block(slice(4, 5), LengthRange(*own.length)),
     )
     return tuple(FaceTable.of(block, DIMENSIONS) for block in blocks)
-
-
-_own_tables = lru_cache(KEPT_TABLES)(_tables)
 
 
 def _of_kind(tables: Sequence[FaceTable], kind: int) -> tuple[NDArray[np.bool_], list[FaceTable]]:
@@ -79,13 +90,14 @@ def linkage_face_numbers(
     batch: LinkageBatch, limits: Sequence[Limits], frames: CanonicalFrames
 ) -> NDArray[np.intp]:
     """The faces (k, 2, 3) on which linkages (k,) lie; -1 of what a slider does not have."""
-    numbers = np.full((len(batch), 2, 3), -1, dtype=np.intp)
+    numbers, scale = np.full((len(batch), 2, 3), -1, dtype=np.intp), _scale(frames)
     inside = brought_inside(batch, limits, frames)
+    own = inside.from_canonical(frames).to_canonical(_scaled(scale))
     for side in (0, 1) if limits else ():
-        tables = _tables(limits_in(frames, _of_side(limits, side)))
+        tables = _tables(_of_side(limits, side), scale)
         for k in range(len(batch)):
             has, mine = _of_kind(tables, int(batch.kinds[k, side]))
-            numbers[k, side, has] = face_numbers(inside.dimensions[k, side][None], mine)[0]
+            numbers[k, side, has] = face_numbers(own.dimensions[k, side][None], mine)[0]
     return numbers
 
 
@@ -94,31 +106,29 @@ def faces_met(
     numbers: NDArray[np.intp],
     limits: Sequence[Limits],
     frames: CanonicalFrames,
-) -> NDArray[np.intp]:
-    """The faces (k, 2, 3) on which linkages (k,) were, or the nearest of what they are outside."""
-    numbers = numbers.copy()
+) -> tuple[LinkageBatch, NDArray[np.intp]]:
+    """Linkages (k,) with what lies outside its limits moved to the nearest face.
+
+    With the faces (k, 2, 3) on which they were before, or came to.
+    """
+    numbers, scale = numbers.copy(), _scale(frames)
+    own = batch.from_canonical(frames).to_canonical(_scaled(scale))
     for side in (0, 1) if limits else ():
-        tables = _tables(limits_in(frames, _of_side(limits, side)))
+        tables = _tables(_of_side(limits, side), scale)
         for k in range(len(batch)):
-            z = batch.dimensions[k, side]
             for at in np.flatnonzero(_of_kind(tables, int(batch.kinds[k, side]))[0]):
+                z = own.dimensions[k, side]
                 if tables[at].block.outside(z):
-                    numbers[k, side, at] = nearest_face(z, tables[at])[0]
-    return numbers
+                    numbers[k, side, at], own.dimensions[k, side] = nearest_face(z, tables[at])
+    return own.from_canonical(_scaled(scale)).to_canonical(frames), numbers
 
 
 def brought_inside(
     batch: LinkageBatch, limits: Sequence[Limits], frames: CanonicalFrames
 ) -> LinkageBatch:
     """Linkages (k,) with what lies outside its limits moved to the nearest face."""
-    dimensions = batch.dimensions.copy()
-    for side in (0, 1) if limits else ():
-        tables = _tables(limits_in(frames, _of_side(limits, side)))
-        for k in range(len(batch)):
-            for table in _of_kind(tables, int(batch.kinds[k, side]))[1]:
-                if table.block.outside(dimensions[k, side]):
-                    dimensions[k, side] = nearest_face(dimensions[k, side], table)[1]
-    return LinkageBatch(batch.kinds, dimensions)
+    none = np.full((len(batch), 2, 3), -1, dtype=np.intp)
+    return faces_met(batch, none, limits, frames)[0]
 
 
 def outside_limits(

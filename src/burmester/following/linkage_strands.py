@@ -279,21 +279,20 @@ class _Stretch(NamedTuple):
         """
         frames, dimensions = self.target.frames, batch.dimensions.copy()
         index, numbers = np.flatnonzero(self.way == Way.MOVED), numbers.copy()
-        left, faces = index, np.full_like(numbers, -1)
+        if self.target.poses.shape[0] <= DIMENSIONS:  # all are met: no face is kept for nothing
+            numbers[index] = -1
+        left = index
         for _ in range(FACES_MET):
             if not len(left):
                 break
-            kept = linkages_held(faces[left], self.limits, frames)
+            kept = linkages_held(numbers[left], self.limits, frames)
             some, places = batch[left], self.target.places_of(rows[left])
             there = moved_with_places(some, places, kept)
+            out = outside_limits(there, self.limits, frames)
+            if out.any():  # once more, along the faces to which they came
+                there, numbers[left] = faces_met(there, numbers[left], self.limits, frames)
             dimensions[left] = there.dimensions
-            out = np.flatnonzero(outside_limits(there, self.limits, frames))
-            left = left[out]  # once more, along the faces to which they came
-            faces[left] = faces_met(there[out], faces[left], self.limits, frames)
-        numbers[index] = faces[index]
-        if len(left):
-            last = LinkageBatch(batch.kinds[left], dimensions[left])
-            dimensions[left] = brought_inside(last, self.limits, frames).dimensions
+            left = left[out]
         there, rows = LinkageBatch(batch.kinds, dimensions), rows.copy()
         others = np.flatnonzero(self.way != Way.LEAST)  # these come to their places by themselves
         if len(others):
