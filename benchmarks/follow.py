@@ -9,7 +9,9 @@ goes along.  Then the whole road looks for all dyads of the last task (`search_d
 confirmed where every dyad followed is one of these within 1e-8 of the span; it is complete where
 these are all there are.  An exception counts as told where the follow was uncertain of a dyad
 during the drag.  Of the linkages at the end it is counted whether their verdict is one of those at
-places that are looked for anew, and whether those that are followed as minima are some.
+places that are looked for anew, and whether those that are followed as minima are some.  Where a
+linkage stays on its branch though a place beyond the dead point is nearer, it works when followed,
+and not when it is judged from nothing: a search, too, keeps to the branch.
 
 Times are CPU times of one step, on one thread; the first step of a drag is counted like the others.
 """

@@ -4,6 +4,7 @@ Every drag moves one pose, or a limit, along a line in many steps.
 """
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -103,6 +104,13 @@ def test_dyads_stay_minima_and_keep_their_ids(ten_dragged):
         found = least_squares(distances, z + 1e-4, args=(task,), xtol=1e-15, gtol=1e-15)
         assert (distances(z, task) ** 2).sum() <= 2 * found.cost * (1 + 1e-9), id
         assert np.abs(found.x - z).max() < 1e-5 * max(1, np.abs(z).max()), id
+
+
+def test_dyads_are_seldom_found_anew(ten_dragged):
+    """Only where two critical points may have met: else the fit goes on in its frames."""
+    _, every = ten_dragged
+    fits = [step.dyad_strands.fits[0].search for step in every]
+    assert sum(one is two for one, two in pairwise(fits)) >= len(fits) - 8
 
 
 def test_the_whole_road_confirms_the_dyads(ten_dragged):
