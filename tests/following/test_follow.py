@@ -107,10 +107,10 @@ def test_dyads_stay_minima_and_keep_their_ids(ten_dragged):
 
 
 def test_dyads_are_seldom_found_anew(ten_dragged):
-    """Only where two critical points may have met: else the fit goes on in its frames."""
+    """Only near a saddle, where this drag begins and ends: else the fit goes on in its frames."""
     _, every = ten_dragged
     fits = [step.dyad_strands.fits[0].search for step in every]
-    assert sum(one is two for one, two in pairwise(fits)) >= len(fits) - 8
+    assert sum(one is two for one, two in pairwise(fits)) >= len(fits) // 2
 
 
 def test_the_whole_road_confirms_the_dyads(ten_dragged):

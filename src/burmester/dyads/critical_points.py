@@ -48,7 +48,8 @@ SETTLED_STEP = 1e-8  # relative; shorter steps are rounding once they no longer 
 LAST_STEP = 1e-13  # relative; a step as short as this is the last one in any case
 SAME_POINT = 1e-6  # relative; critical points nearer than this are one
 CONTINUING_STEPS = 6  # of Newton's method from the critical points of poses nearby
-CONTINUED_SHARE = 0.4  # of the way to its nearest neighbour; a point that moves farther is lost
+CONTINUED_SHARE = 0.4  # of the way to its nearest neighbour; a point that moves farther is lost,
+PREDICTED_SHARE = 0.3  # if it moves so much of its way otherwise than the first step says
 
 
 @final
@@ -351,24 +352,29 @@ def continued_points(
     scaled = triangle * [1.0, *[unit] * 4, unit**2, unit**2]
     scaled = scaled / np.linalg.norm(scaled)
     start = x = points / unit
+    first = None
     for _ in range(CONTINUING_STEPS):
         gradient, hessian = _derivatives(x, scaled)
         step = solve_or_shortest(hessian, gradient)
         x = x - step
+        first = x if first is None else first
         if (np.abs(step).max(axis=1) < SETTLED_STEP * (1 + np.abs(x).max(axis=1))).all():
             break
     else:
         return None
-    gap = start[:, None] - start
-    apart = np.sqrt((gap.real**2 + gap.imag**2).sum(axis=-1))
-    np.fill_diagonal(apart, np.inf)
-    moved = np.linalg.norm(x - start, axis=1)
+    moved, off = np.linalg.norm(x - start, axis=1), np.linalg.norm(x - first, axis=1)
+    astray = (moved > CONTINUED_SHARE * _to_nearest(start)) & (off > PREDICTED_SHARE * moved)
+    met = _to_nearest(x) < SAME_POINT * (1 + np.linalg.norm(x, axis=1))
     was, is_ = ((each.imag != 0).any(axis=1) for each in (start, x))
     real = np.linalg.norm(x.imag, axis=1) < REAL_TOLERANCE * (1 + np.linalg.norm(x, axis=1))
-    if (
-        (moved > CONTINUED_SHARE * apart.min(axis=1)).any()
-        or (real & was).any()
-        or (is_ & ~was).any()
-    ):
+    if (astray | met | (real & was) | (is_ & ~was)).any():
         return None
     return np.asarray(x * unit)
+
+
+def _to_nearest(points: ComplexArray) -> FloatArray:
+    """How far (k,) points (k, 4) are from the nearest other one."""
+    gap = points[:, None] - points
+    apart = np.sqrt((gap.real**2 + gap.imag**2).sum(axis=-1))
+    np.fill_diagonal(apart, np.inf)
+    return np.asarray(apart.min(axis=1, initial=np.inf))

@@ -17,7 +17,7 @@ from typing import NamedTuple, Self, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.dyads.critical_points import CriticalDyads, continued_points
+from burmester.dyads.critical_points import CriticalDyads, continued_points, critical_dyads
 from burmester.dyads.face_descent import descend, inside
 from burmester.dyads.geometric_fit import (
     DistanceFunction,
@@ -43,6 +43,7 @@ from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.numerics.weights import shares
 from burmester.synthesis.dyad_search import search_dyads
 from burmester.tasks.limits import Limits
+from burmester.tasks.motion_task import Task
 from burmester.tasks.problem import SynthesisProblem
 
 __all__ = ["DyadStrands", "NewDyads"]
@@ -58,12 +59,12 @@ class DyadStrands:
     """What of the dyads goes on from task to task.
 
     fits: as `Synthesis` has them; empty where dyads are chosen from a family.
-    points: the critical points (k, 4) of the squared residual, in the frames of the fit.
+    watched: the critical points of the squared residual, where there are no limits.
     limited: the minima within limits, a list for each of the task's limits.
     """
 
     fits: tuple[Fit, ...]
-    points: ComplexArray | None = None
+    watched: _Watched | None = None
     limited: tuple[tuple[_Limited, ...], ...] = ()
 
     @classmethod
@@ -71,7 +72,7 @@ class DyadStrands:
         """The strands of a synthesis."""
         first = next(iter(fits), None)
         if isinstance(first, BestDyads) and isinstance(first.search, CriticalDyads):
-            return cls(tuple(fits), first.search.points[: int(first.search.found)])
+            return cls(tuple(fits), _Watched.of(first.search))
         if isinstance(first, BestDyads):
             limits = problem.task.limits or (ANYWHERE,)
             return cls(
@@ -93,18 +94,18 @@ class DyadStrands:
         """The dyads of a problem, and how they go on."""
         if not self.fits:
             return NewDyads(self, [], [], [])
-        if self.points is not None:
-            return self._minima(problem, self.points)
+        if self.watched is not None:
+            return self._minima(problem, self.watched)
         if self.limited:
             return self._within_limits(problem)
         return _found_anew(problem)
 
-    def _minima(self, problem: SynthesisProblem, points: ComplexArray) -> NewDyads:
+    def _minima(self, problem: SynthesisProblem, watched: _Watched) -> NewDyads:
         """The minima without limits; all found anew where one is lost, or may appear."""
         task, fit = problem.task, self.fits[0]
         assert isinstance(fit, BestDyads)
         seen = fit.frames.to_canonical(task.poses)
-        there = continued_points(points, seen, task.weights)
+        there = watched.continued(task)
         if there is None:
             return _found_anew(problem)
         z = np.concatenate(
@@ -118,7 +119,7 @@ class DyadStrands:
         new = _with_errors(fit, moved.z, sliders, seen)
         found, _ = found_dyads(new, task)
         moves = list(zip(_listed(fit), _listed(new), strict=True))
-        return NewDyads(replace(self, fits=(new,), points=there), found, [], moves)
+        return NewDyads(replace(self, fits=(new,), watched=there), found, [], moves)
 
     def _within_limits(self, problem: SynthesisProblem) -> NewDyads:
         """The minima within limits, and what is doubtful of them."""
@@ -148,6 +149,31 @@ class DyadStrands:
             found += [replace(one, limits=number if len(limits) > 1 else 0) for one in listed]
         there = replace(self, fits=tuple(fits), limited=tuple(limited))
         return NewDyads(there, found, doubts, moves)
+
+
+class _Watched(NamedTuple):
+    """Critical points (k, 4) in frames, and how many of them are real, and minima."""
+
+    frames: CanonicalFrames
+    points: ComplexArray
+    real: int
+    minima: int
+
+    @classmethod
+    def of(cls, critical: CriticalDyads) -> _Watched:
+        """Those of one task."""
+        points = critical.points[: int(critical.found)]
+        return cls(critical.frames, points, int(critical.real.sum()), int(critical.minimum.sum()))
+
+    def continued(self, task: Task) -> _Watched | None:
+        """Those of another task; None where others of them are real, or minima."""
+        seen = self.frames.to_canonical(task.poses)
+        points = continued_points(self.points, seen, task.weights)
+        if points is not None:
+            return self._replace(points=points)
+        anew = _Watched.of(critical_dyads(task.poses, task.weights))
+        same = (len(anew.points), *anew[2:]) == (len(self.points), *self[2:])
+        return anew if same else None
 
 
 class NewDyads(NamedTuple):
