@@ -2,7 +2,7 @@
 
 `python -m benchmarks.bounded` makes each input, runs the command on it, and prints a row of the
 table in README.md; `--only NAME` takes one.  The bounds that refuse what is larger stand in
-`io/reading/file_content`, `synthesis/motion_generation` and `export/films/film`.
+`io/reading/file_content` and `export/films/film`.
 """
 
 import argparse
