@@ -5,6 +5,7 @@ import pytest
 
 from burmester import Linkage, PoseError, Task, synthesize
 from burmester.diagnosis.odd_pose import odd_pose
+from burmester.linkages import from_dyads
 from tests.oracles.measured import CRANK, ROCKER, measured
 
 NOISE = 0.003
@@ -73,3 +74,18 @@ def test_the_odd_one_of_many_is_named():
     assert odd_pose(Task.from_rows(rows.tolist(), angle_unit="deg")) is None
     rows[123, 0] += 0.3
     assert odd_pose(Task.from_rows(rows.tolist(), angle_unit="deg")).pose == 123
+
+
+def test_the_worst_poses_join_the_sample(monkeypatch):
+    """The least worst error of all poses is found by a sample; that of the sample is no bound."""
+    task = Task.from_rows(measured(120, seed=2).tolist(), angle_unit="deg")
+
+    def least(most, exchanges):
+        monkeypatch.setattr(from_dyads, "MAX_POSES_REFINED", most)
+        monkeypatch.setattr(from_dyads, "MAX_EXCHANGES", exchanges)
+        found = synthesize(task, norm="worst").linkages
+        return min(each.combined_error for each in found)
+
+    by_all = least(120, 0)
+    assert least(30, 5) < 1.002 * by_all
+    assert least(30, 0) > 1.1 * by_all

@@ -141,6 +141,7 @@ def _prices(synthesis: Synthesis, best: FoundLinkage) -> Iterator[str]:
     closest = closest_usable(synthesis.linkages)
     assert closest is not None
     stated, sounder = states_tolerance(task), closest.shortcomings and not best.shortcomings
+    told: set[str | None] = set()
     if (stated or sounder) and _nearer(closest, best, size):
         near = explanation.nearness(closest, task, size)
         least = notation.least_angle(closest.driven.least_over_range)
@@ -148,6 +149,7 @@ def _prices(synthesis: Synthesis, best: FoundLinkage) -> Iterator[str]:
         if closest.shortcomings:
             what = f"but {' and '.join(closest.shortcomings)}"
         yield f"Closest that works: {closest.id}, which {near}, {what}."
+        told.add(closest.id)
     if stated or best.combined_error <= digits_leave_open(synthesis.problem):
         return
     others = [each for each in synthesis.usable if is_trade(each, best)]
@@ -158,6 +160,9 @@ def _prices(synthesis: Synthesis, best: FoundLinkage) -> Iterator[str]:
         gains = [each for each in others if error(each) <= TRADE_GAIN * error(best)]
         if gains:
             other = min(gains, key=lambda each: each.combined_error)
+            if other.id in told:
+                continue
+            told.add(other.id)
             short = f", but {' and '.join(other.shortcomings)}" if other.shortcomings else ""
             near = explanation.nearness(other, task, size)
             yield f"{text[0].upper()}{text[1:]}: {other.id}, which {near}{short}."

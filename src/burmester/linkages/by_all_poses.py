@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from burmester.fourbar.circuits import circuit_of
 from burmester.fourbar.foot_points import rows_of
@@ -20,21 +21,25 @@ from burmester.linkages.found_linkage import FoundLinkage
 from burmester.linkages.ranking import ranked
 from burmester.linkages.target import Target
 from burmester.numerics.arrays import FloatArray
+from burmester.tasks.pose_sample import PoseSample
 
-__all__ = ["judged_at_all", "refined_by_all"]
+__all__ = ["judged_at_all", "refined_by_all", "worst_left_out"]
 
 # Steps by all poses: so many places are computed for a linkage, in at least and at most so many
 # steps; their first damping.
 PLACES, STEPS, DAMPING = 200_000, (3, 40), 1e-9
 MOST, COST_RATIO = 4, 4.0  # the nearest so many linkages get them, and all within that cost ratio
+# Least worst errors: poses join the sample that are missed by more than those in it times this
+# ratio, so many of each linkage at once.
+WORSE_RATIO, JOINED = 1.001, 8
 POSES_PER_BLOCK = 20_000  # number of poses whose nearest samples are looked for at once
 
 
 def refined_by_all(candidates: Candidates, target: Target) -> Candidates:
     """The near ones of linkages, refined on a sample, refined by all poses; their places there.
 
-    Not where places have to be inside tolerances, nor for the least worst error: there more poses
-    are joined to the sample instead.
+    Not where places have to be inside tolerances, nor for the least worst error: there the poses
+    that are missed by most join the sample (`worst_left_out`).
     """
     whole, index = target.whole, target.index
     if whole is None or index is None or whole.worst or whole.boxes is not None:
@@ -57,6 +62,23 @@ def refined_by_all(candidates: Candidates, target: Target) -> Candidates:
         if refined.met[0]:
             dimensions[k], rows[k] = refined.batch.dimensions[0], refined.rows[0, index]
     return candidates._replace(batch=LinkageBatch(candidates.batch.kinds, dimensions), rows=rows)
+
+
+def worst_left_out(
+    found: Sequence[FoundLinkage], target: Target, sample: PoseSample
+) -> NDArray[np.intp]:
+    """The poses outside a sample that linkages judged at all miss by more than those in it.
+
+    Those of the first linkage and of the nearest one, the farthest missed of each.
+    """
+    out: list[NDArray[np.intp]] = [np.empty(0, dtype=np.intp)]
+    nearest = min(found, key=lambda each: each.combined_error, default=None)
+    for each in {id(one): one for one in (*found[:1], nearest) if one is not None}.values():
+        gap = target.rows_at(each.error.places) - rows_of(target.poses, target.length)
+        away = np.linalg.norm(gap, axis=-1)
+        beyond = np.flatnonzero(away > WORSE_RATIO * away[sample.index].max())
+        out.append(beyond[np.argsort(-away[beyond])][:JOINED])
+    return np.unique(np.concatenate(out))
 
 
 def places_along(rows: FloatArray, whole: Target) -> FloatArray:

@@ -22,7 +22,7 @@ from burmester.fourbar.linkage_batch import DYAD_KINDS, LinkageBatch
 from burmester.fourbar.nearest_places import nearest, on_circuits, on_own_circuits
 from burmester.fourbar.pose_error import error_frames
 from burmester.linkages.best_within import best_within
-from burmester.linkages.by_all_poses import judged_at_all, refined_by_all
+from burmester.linkages.by_all_poses import judged_at_all, refined_by_all, worst_left_out
 from burmester.linkages.constraints import AllConstraints, Constraints, DyadLimitsConstraint
 from burmester.linkages.defect_free_search import (
     FEW_POSES,
@@ -70,6 +70,8 @@ FIRST_STEPS, FURTHER_STEPS = 8, 52
 MIN_REFINED, REFINED_COST_RATIO = 4, 100.0
 # Of more poses a sample of about so many is refined on, and a last few steps are made by all.
 MAX_POSES_REFINED = 200
+# For the least worst error the worst poses join it, and all is done again, at most so many times.
+MAX_EXCHANGES = 5
 # Degrees by which a greater least transmission angle is asked for within tolerances, and how often.
 RISE, MAX_RISES = 8.0, 6
 MAX_CONTINUED = 8  # number of linkages of the search by few poses that are refined on more of them
@@ -94,7 +96,29 @@ def linkages_from_dyads(
         pairs = [(b, a) if kind[b.id] < kind[a.id] else (a, b) for a, b in pairs]
     whole = Evaluation(problem, target_of(problem))
     sample = sample_refined(problem) if refine else None
-    evaluation = whole if sample is None else whole.sampled(sample)
+    found = _by_sample(pairs, whole, sample, refine)
+    for number in range(1, MAX_EXCHANGES + 1):
+        if sample is None or not whole.target.worst:
+            break
+        more = worst_left_out(found, whole.target, sample)
+        text = f"refining linkages for the poses that they miss by most, round {number}"
+        if not len(more) or not time_for(text):
+            break
+        sample = sample.joined(more, problem.task.weights)
+        found = _by_sample(pairs, whole, sample, refine)
+    if options.rounds:
+        found = whole.rounded(found)
+    found = whole.with_spreads(found)
+    return tuple(
+        replace(each, id=f"L{rank}", rank=rank) for rank, each in enumerate(found, start=1)
+    )
+
+
+def _by_sample(
+    pairs: list[Pair], whole: Evaluation, sample: PoseSample | None, refine: bool
+) -> list[FoundLinkage]:
+    """The linkages of pairs, looked for by a sample of the poses if given, judged by all."""
+    problem, evaluation = whole.problem, whole if sample is None else whole.sampled(sample)
     start = evaluation.stacked(pairs)
     found: list[FoundLinkage] = []
     if pairs:
@@ -116,12 +140,7 @@ def linkages_from_dyads(
     if evaluation is not whole:
         step(f"judging {count(len(found), 'linkage')} at all poses")
         found = judged_at_all(found, whole)
-    if options.rounds:
-        found = whole.rounded(found)
-    found = whole.with_spreads(found)
-    return tuple(
-        replace(each, id=f"L{rank}", rank=rank) for rank, each in enumerate(found, start=1)
-    )
+    return found
 
 
 def sample_refined(problem: SynthesisProblem) -> PoseSample | None:

@@ -333,7 +333,8 @@ def sample_advice(problem: SynthesisProblem, found: Sequence[FoundLinkage]) -> l
     if sample is None or not found:
         return []
     some, of_all = len(sample.index), sample.of_all
-    message = f"linkages were looked for on {some} of the {of_all} poses, and judged at all"
+    worst = " and those that they miss by most" if problem.options.norm == "worst" else ""
+    message = f"linkages were looked for on {some} of the {of_all} poses{worst}, and judged at all"
     each = math.ceil(of_all / MAX_POSES_REFINED)
     return [
         Advice(

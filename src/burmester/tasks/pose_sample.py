@@ -51,9 +51,16 @@ class PoseSample:
         index = np.searchsorted(share, np.linspace(0.0, 1.0, most)).clip(0, count - 1)
         if required is not None:
             index = np.union1d(index, np.flatnonzero(required))
-        index = np.unique(index).astype(np.intp)
+        return cls._at(np.unique(index).astype(np.intp), weights, count)
+
+    @classmethod
+    def _at(cls, index: NDArray[np.intp], weights: FloatArray | None, count: int) -> Self:
         starts = np.concatenate([[0], (index[:-1] + index[1:] + 1) // 2])
         return cls(index, np.add.reduceat(weights_or_ones(weights, (count,)), starts), count)
+
+    def joined(self, more: NDArray[np.intp], weights: FloatArray | None) -> Self:
+        """The sample with more of all poses, whose weights are (N,)."""
+        return self._at(np.union1d(self.index, more), weights, self.of_all)
 
     @classmethod
     def of_task(cls, task: Task, most: int) -> Self:
