@@ -106,7 +106,8 @@ class DyadStrands:
         assert isinstance(fit, BestDyads)
         seen = fit.frames.to_canonical(task.poses)
         there = watched.continued(task)
-        if there is None:
+        # Fewer circles than minima of the squared residual: one more may come to exist unseen.
+        if there is None or len(fit.circles.radius) < there.minima:
             return _found_anew(problem)
         z = np.concatenate(
             [fit.circles.fixed_pivot, fit.circles.moving_pivot, fit.circles.radius[:, None]],

@@ -57,7 +57,9 @@ class Followed:
         Why these answers may not be those of the whole road, one sentence each; empty where
         nothing speaks against them.
     complete : bool
-        Whether a dyad that appears is seen: without limits and exact poses, and of five poses.
+        Whether a dyad that appears is looked for: without limits and exact poses, and of five
+        poses.  Of six poses and more it is seen where it comes from a new critical point of the
+        squared residual; nearly all do.
     dyad_strands, linkage_strands
         What goes on from task to task.
     last_numbers : (int, int)
