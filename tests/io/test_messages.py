@@ -662,6 +662,12 @@ CASES: dict[str, Case] = {
         Edit("poses.csv", "5,3,5,3\n", ""),
         {"poses.csv": POINTS.replace("5,3,5,8", "5,3,5,3")},
     ),
+    "too many poses": Case(
+        "E126",
+        S,
+        Args(f"{S} --every 2"),
+        {"poses.csv": lambda: "x,y,angle_deg\n" + 20_001 * ROWS},
+    ),
     "too many lines": Case(
         "E101",
         S,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import combinations
@@ -14,7 +15,7 @@ from burmester.dyads.critical_points import CriticalDyads
 from burmester.dyads.five_poses import FivePoseDyads
 from burmester.dyads.local_minima import BestDyads, best_dyads
 from burmester.dyads.selection import FoundDyad, found_dyads
-from burmester.errors import Advice
+from burmester.errors import Advice, InputError
 from burmester.fourbar.dyad import Dyad
 from burmester.fourbar.linkage import Linkage
 from burmester.linkages.evaluation import Candidates, Evaluation, at_given_poses
@@ -46,6 +47,8 @@ if TYPE_CHECKING:  # loaded where a task asks for it
 
 __all__ = ["synthesize"]
 
+MAX_POSES = 200_000  # of a task, so that no method takes more than a gigabyte of memory
+
 
 def synthesize(
     task: Task,
@@ -57,11 +60,24 @@ def synthesize(
     conditions have infinitely many dyads: see `three_poses` and `burmester_curve` for them all.
     Where a time limit ends something, a warning W221 says what.
     Raises InputError E121 (the method does not take that number of poses), E123 (it does not take
-    limits, exact poses, the norm or a certificate), E130 (proofs lack their library), and E132
-    (limits that no link can meet).
+    limits, exact poses, the norm or a certificate), E126 (more poses than there is memory for),
+    E130 (proofs lack their library), and E132 (limits that no link can meet).
     """
+    _require_few(task)
     with limited(options.time_limit) as watch:
         return with_time_limit(_synthesis(task, options), watch)
+
+
+def _require_few(task: Task) -> None:
+    """Refuse more poses than there is memory for, before anything is computed; raises E126."""
+    if (count := task.poses.shape[0]) > MAX_POSES:
+        each = math.ceil(count / MAX_POSES)
+        raise InputError(
+            "E126",
+            f"{count} poses are too many",
+            why=f"they would need more than a gigabyte of memory, and {MAX_POSES} are the most",
+            help=f"take one pose in {each}, with --every {each}: so many hardly tell more",
+        )
 
 
 def _synthesis(task: Task, options: SynthesisOptions) -> Synthesis:
