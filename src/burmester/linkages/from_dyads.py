@@ -348,7 +348,7 @@ def _searched(starts: PairsToSearch, evaluation: Evaluation, most: float) -> lis
     """Usable linkages of the search whose combined error is below `most`."""
     whole = evaluation.target
     target = whole.thinned(FEW_POSES)
-    found = defect_free_linkages(starts.batch, target, starts.parts)
+    found = defect_free_linkages(starts.batch, target.relaxed, starts.parts)
     if found is None:
         return []
     index = np.flatnonzero(found.refined.met)
@@ -357,7 +357,7 @@ def _searched(starts: PairsToSearch, evaluation: Evaluation, most: float) -> lis
     if target is not whole:
         index = index[np.argsort(found.refined.cost[index], kind="stable")][:MAX_CONTINUED]
     batch, rows = found.refined.batch[index], found.refined.rows[index]
-    if target is not whole:
+    if target is not whole or target.boxes is not None:
         batch, rows = on_more_poses(batch, found.driver[index], whole)
     origins = [starts.origin(k) for k in found.pair[index].tolist()]
     evaluated = evaluation.evaluate(
