@@ -1,4 +1,4 @@
-"""Recorded crank-rockers: how near the recommended linkage comes to the motion behind the noise.
+"""Recorded crank-rockers: how near the closest linkage that works comes to the motion behind the noise.
 
     python -m benchmarks.recordings --count 40 --seed 1
 
@@ -73,13 +73,15 @@ def campaign(count, seed, folder):
         path.write_text(FORMATS[case % len(FORMATS)](names, places))
         points = ("M1,M2", "M1,M2,M3")[case // len(FORMATS) % 2]
         task = read_task(path, points=points, every=10)
-        best = synthesize(task).best
-        if best is None:
+        usable = synthesize(task).usable
+        if not usable:
             yield "none usable", np.nan
             continue
-        met = best.error.places
+        # Within the noise others may transmit better, and come first.
+        closest = min(usable, key=lambda each: each.error.rms)
+        met = closest.error.places
         rows = np.column_stack([met.translation, np.unwrap(met.angle)])
-        run = driven_either_way(best.saved().linkage, rows)
+        run = driven_either_way(closest.saved().linkage, rows)
         yield "driven" if run.meets else "stalled", farthest(run.path, true[:191, :2, :2])
 
 

@@ -12,6 +12,7 @@ from tests.oracles.witness import places
 
 SWEEP = 4001  # places of a crank
 ALONG = 8001  # of a slider, more of them near its middle
+CLOSE = 1e-6  # radians or lengths to either side of a minimum, looked through once more
 NEAREST = 6  # samples around which the least share is looked for
 
 
@@ -67,5 +68,12 @@ def _least(dyads, sweep, side, found, box):
             continue
         ends = sweep[max(at - 1, 0)], sweep[min(at + 1, len(sweep) - 1)]
         found = minimize_scalar(along, bounds=ends, method="bounded", options={"xatol": 1e-12})
-        best = min(best, float(found.fun))
+        # It stops at the root of rounding, relative to where it is: once more, from there.
+        near = minimize_scalar(
+            lambda away, middle=found.x: along(middle + away),
+            bounds=(-CLOSE, CLOSE),
+            method="bounded",
+            options={"xatol": 1e-15},
+        )
+        best = min(best, float(found.fun), float(near.fun))
     return best

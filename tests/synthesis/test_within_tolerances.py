@@ -91,7 +91,7 @@ def test_what_is_said_of_the_tolerances_is_what_a_driven_linkage_does(name):
             assert said[k] == pytest.approx(used, rel=1e-6, abs=1e-9), found.id
         assert outside == bool((said > 1 + 1e-8).any()), found.id
         if not outside:
-            assert (least <= 1 + 5e-6).all(), found.id  # places are on dyads within 1e-7 SIZE
+            assert (least <= 1 + 1e-6).all(), found.id
         elif all(each.kind == "assembly" for each in found.defects):
             assert (least > 1 - 1e-6).any(), found.id
         assert (found.within_tolerance[tolerances.free] == 0).all()
