@@ -1,4 +1,4 @@
-"""Recorded crank-rockers: how near the closest linkage that works comes to the motion behind the noise.
+"""Recorded crank-rockers: how near a linkage comes to the motion behind the noise.
 
     python -m benchmarks.recordings --count 40 --seed 1
 

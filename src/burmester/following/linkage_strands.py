@@ -50,6 +50,7 @@ __all__ = ["LinkageStrands", "NewLinkages", "Way"]
 
 LEAST_GAIN = 1e-6  # share of the squared error; where a step gains more, a linkage is no minimum
 SAME_DIMENSIONS = 1e-9  # relative; a linkage that differs by less is its pair of dyads
+PASSED = 1e-10  # lengths; dyads that miss a pose by less pass it
 RESTLESS_STEP = 1e-3  # relative; a linkage whose last step is as long has lost its minimum
 FACES_MET = 4  # that linkages come to on their way with the poses, at most
 REFINING_STEPS = 20  # where a linkage comes to a face of the limits, or leaves one
@@ -226,10 +227,11 @@ class LinkageStrands:
             return NewLinkages(strands, strands.own, none, vanished, [])
         frames = target.frames
         own = _with_dyads(strands, dyads)
-        rows = target.rows_at(strands.places) + rows_of(target.poses, target.length)
-        rows = rows - target.rows_at(before)
+        wanted, batch = rows_of(target.poses, target.length), own.to_canonical(frames)
+        rows = target.rows_at(strands.places) + wanted - target.rows_at(before)
+        rows = np.where(_passed(batch, target.poses)[..., None], wanted, rows)
         stretch = _Stretch(target, limits, strands.way, strands.curvature)
-        start = stretch.start(own.to_canonical(frames), rows, strands.numbers)
+        start = stretch.start(batch, rows, strands.numbers)
         there, curvature, last = stretch.with_least_errors(start)
         lost = np.flatnonzero(~np.isfinite(there.rows).all(axis=(1, 2)))
         if len(lost):  # nowhere near, or no longer where they were
@@ -377,6 +379,13 @@ def _with_dyads(strands: LinkageStrands, dyads: Mapping[str, FoundDyad]) -> Link
     own = LinkageBatch(strands.own.kinds.copy(), strands.own.dimensions.copy())
     own.kinds[index], own.dimensions[index] = new.kinds, new.dimensions
     return own
+
+
+def _passed(batch: LinkageBatch, poses: Displacement) -> NDArray[np.bool_]:
+    """Which poses (N,) linkages (k,) pass: of a pose at a dead point no other place is near."""
+    every = np.broadcast_to(np.arange(poses.shape[0]), (len(batch), poses.shape[0]))
+    away = np.abs(batch.jacobians(poses[every]).residual).max(axis=1)
+    return np.asarray(away < PASSED)
 
 
 def _problem(batch: LinkageBatch, target: Target) -> Problem:

@@ -10,7 +10,9 @@ multipliers that are not held by a bound; its steps are bent at the bounds (Bert
 Newton methods for optimization problems with simple constraints, SIAM J. Control Optim. 20, 1982)
 and go as far as is best, or down the gradient where that is better (Moré and Toraldo, On the
 solution of large quadratic programming problems with bound constraints, SIAM J. Optim. 1, 1991).
-Started from the multipliers of a program like it, one or two steps are enough.
+Started from the multipliers of a program like it, one or two steps are enough.  Where they are not,
+as with many more constraints than unknowns, a primal-dual interior-point method goes near the
+solution, which tells the multipliers that are held, and Newton's method goes on from there.
 """
 
 from __future__ import annotations
@@ -26,9 +28,11 @@ from burmester.numerics.linear_algebra import matvec, solve
 __all__ = ["SoftProgram"]
 
 STEPS_FROM_START = 2  # of the projected Newton method from multipliers that may be far off
-STEPS_FROM_INSIDE = 4  # of it from where the interior-point method led
-INTERIOR_STEPS = 25  # of the interior-point method; it takes about ten
+STEPS_FROM_INSIDE = 2  # of it from where the interior-point method led
+SIDES = np.array([1.0, -1.0])[:, None]  # of the upper bound, and of the lower one
+INTERIOR_STEPS = 25  # of the interior-point method at most; it takes about twelve
 INSIDE = 0.995  # share of the way to the nearest bound
+NEAR_BOUND = 1e-9  # of the way between the bounds; a multiplier that is nearer is held
 SETTLED_GAP = 1e-9  # of the height; a smaller gap between what is reached and possible is none
 SHARES_DOWNHILL = np.array([1.0, 0.3, 0.1])  # of the gradient that are tried beside Newton's step
 SETTLED = 1e-11  # of the terms of w; a free constraint that is off by less is met
@@ -95,6 +99,11 @@ class _BoxProgram(NamedTuple):
     low: FloatArray
     high: FloatArray
 
+    def off(self, y: FloatArray, which: NDArray[np.intp]) -> FloatArray:
+        """w (r, m) of some programs at y (r, m): the way downhill."""
+        root = self.root[which]
+        return self.b[which] - matvec(root, (y[:, None] @ root)[:, 0])
+
     def descended(self, y: FloatArray, steps: int) -> tuple[FloatArray, NDArray[np.bool_]]:
         """The y (k, m) after steps of the projected Newton method, and which of them settled.
 
@@ -135,74 +144,81 @@ class _BoxProgram(NamedTuple):
             rise = ((ways @ own) ** 2).sum(axis=-1) / 2 - matvec(ways, downhill)
             best = rise.argmin(axis=1)
             better = -rise[every[:, 0], best] > HEIGHT_ROUNDING * np.abs(before)
-            settled[run[~better]] = True
             y[at[better], index[better]] = tried[every[:, 0], best][better]
             run = run[better]
         return y, settled
 
     def interior(self) -> FloatArray:
-        """The y (k, m) by the primal-dual interior-point method, those near a bound put on it.
+        """The y (k, m) by the interior-point method, those near a bound put on it.
 
-        From the middle, where w = b - A y is the difference of the prices (k, m) of both bounds; it
-        stays so, since prices and multipliers take steps of the same share.
+        From the middle; w = b - A y is the difference of the prices of both bounds, but for
+        rounding.
         """
-        y = (self.low + self.high) / 2
-        off = self.b - matvec(self.root, (y[:, None] @ self.root)[:, 0])
-        slack = np.abs(off).mean(axis=1, keepdims=True) + np.finfo(float).tiny
-        above, below = np.maximum(off, 0.0) + slack, np.maximum(-off, 0.0) + slack
-        run = np.arange(len(y))
+        y, bounds = (self.low + self.high) / 2, np.stack([self.high, self.low], axis=1)
+        off = self.off(y, np.arange(len(y)))
+        slack = np.abs(off).mean(axis=1)[:, None, None] + np.finfo(float).tiny
+        price = np.maximum(SIDES * off[:, None], 0.0) + slack
+        least = np.finfo(float).eps * (bounds[:, :1] - bounds[:, 1:])
+        run, count = np.arange(len(y)), 2 * y.shape[1]
         for _ in range(INTERIOR_STEPS):
-            root, low, high = self.root[run], self.low[run], self.high[run]
-            here, over, under = y[run], above[run], below[run]
-            rounding = np.finfo(float).eps * (high - low)
-            up, down = np.maximum(high - here, rounding), np.maximum(here - low, rounding)
-            weight = 1 / (over / up + under / down + ROUNDING)
-            matrix = np.swapaxes(root, -1, -2) @ (weight[..., None] * root)
-            matrix = matrix + np.eye(root.shape[-1])
-
-            def newton(right: FloatArray) -> FloatArray:
-                right = weight * right
-                inner = solve(matrix, (right[:, None] @ root)[:, 0])
-                return right - weight * matvec(root, inner)
-
-            step = newton(over - under)
-            gaps = np.concatenate([over * up, under * down], axis=1).mean(axis=1, keepdims=True)
-            price_up, price_down = (step / up - 1) * over, (-step / down - 1) * under
-            share = _inside(up, down, over, under, step, price_up, price_down)
-            after = (over + share * price_up) * (up - share * step)
-            after = after + (under + share * price_down) * (down + share * step)
-            aim = gaps * np.clip(after.mean(axis=1, keepdims=True) / 2 / gaps, 0, 1) ** 3
-            rest_up, rest_down = aim + step * price_up, aim - step * price_down
-            step = newton(over - under - rest_up / up + rest_down / down)
-            price_up = rest_up / up + (step / up - 1) * over
-            price_down = rest_down / down + (-step / down - 1) * under
-            share = INSIDE * _inside(up, down, over, under, step, price_up, price_down)
-            y[run] += share * step
-            above[run] += share * price_up
-            below[run] += share * price_down
-            scale = np.abs(self.b[run] * y[run]).sum(axis=1) + np.finfo(float).tiny
-            run = run[2 * self.b.shape[1] * gaps[:, 0] > SETTLED_GAP * scale]
+            gap = np.maximum(SIDES * (bounds[run] - y[run, None]), least[run])
+            here = _InteriorPoint(self.root[run], self.off(y[run], run), gap, price[run])
+            rest = (gap * here.price).sum(axis=(1, 2), keepdims=True) / count
+            # Mehrotra's step: aimed as far ahead as the plain one leads, and bent as that bends.
+            system = here.system()
+            step, narrowed, cheaper = here.step(system, np.zeros_like(gap))
+            share = here.share(narrowed, cheaper)
+            ahead = (gap + share * narrowed) * (here.price + share * cheaper)
+            aim = rest * np.clip(ahead.sum(axis=(1, 2), keepdims=True) / count / rest, 0, 1) ** 3
+            step, narrowed, cheaper = here.step(system, aim - narrowed * cheaper)
+            share = INSIDE * here.share(narrowed, cheaper)
+            y[run] += share[:, 0] * step
+            price[run] += share * cheaper
+            height = np.abs(self.b[run] * y[run]).sum(axis=1) + np.finfo(float).tiny
+            run = run[count * rest[:, 0, 0] > SETTLED_GAP * height]
             if not len(run):
                 break
-        y = np.where(below > y - self.low, self.low, y)
-        return np.where(above > self.high - y, self.high, y)
+        near = NEAR_BOUND * (self.high - self.low)
+        y = np.where(y - self.low < near, self.low, y)
+        return np.where(self.high - y < near, self.high, y)
 
 
-def _inside(
-    up: FloatArray,
-    down: FloatArray,
-    over: FloatArray,
-    under: FloatArray,
-    step: FloatArray,
-    price_up: FloatArray,
-    price_down: FloatArray,
-) -> FloatArray:
-    """The greatest share (k, 1), at most 1, of steps that lets no slack and price be negative."""
-    parts = np.concatenate([up, down, over, under], axis=1)
-    falls = np.concatenate([step, -step, -price_up, -price_down], axis=1)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        shares = np.where(falls > 0, parts / falls, 1.0)
-    return np.asarray(np.minimum(shares.min(axis=1, keepdims=True), 1.0))
+class _InteriorPoint(NamedTuple):
+    """Multipliers between their bounds: gaps to the upper and the lower one, and prices (k, 2, m).
+
+    off: (k, m), w.  A gap times its price is 0 at the solution, and the same for all on the way to it (Mehrotra, On
+    the implementation of a primal-dual interior point method, SIAM J. Optim. 2, 1992).
+    """
+
+    root: FloatArray
+    off: FloatArray
+    gap: FloatArray
+    price: FloatArray
+
+    def system(self) -> tuple[FloatArray, FloatArray]:
+        """What Newton's steps are solved by: weights (k, m), and a matrix (k, n, n)."""
+        weight = 1 / ((self.price / self.gap).sum(axis=1) + ROUNDING)
+        matrix = np.swapaxes(self.root, -1, -2) @ (weight[..., None] * self.root)
+        return weight, matrix + np.eye(self.root.shape[-1])
+
+    def step(
+        self, system: tuple[FloatArray, FloatArray], aim: FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Newton's step to where gaps times prices are `aim` (k, 2, m).
+
+        Of the multipliers (k, m), of the gaps and of the prices (k, 2, m).
+        """
+        weight, matrix = system
+        right = weight * (self.off - (SIDES * aim / self.gap).sum(axis=1))
+        inner = solve(matrix, (right[:, None] @ self.root)[:, 0])
+        step = right - weight * matvec(self.root, inner)
+        narrowed = -SIDES * step[:, None]
+        return step, narrowed, (aim - self.price * narrowed) / self.gap - self.price
+
+    def share(self, narrowed: FloatArray, cheaper: FloatArray) -> FloatArray:
+        """The greatest share (k, 1, 1) of a step, at most 1, that leaves all of them above 0."""
+        fall = np.maximum(-narrowed / self.gap, -cheaper / self.price).max(axis=(1, 2))
+        return np.asarray(1 / np.maximum(fall, 1.0))[:, None, None]
 
 
 def _newton_step(root: FloatArray, downhill: FloatArray, free: NDArray[np.bool_]) -> FloatArray:
