@@ -54,7 +54,7 @@ def test_no_step_costs_less(n, m, more):
     assert ((program.low <= multipliers) & (multipliers <= program.high)).all()
     reached, least = cost(program, step), bound(program, multipliers)
     still = cost(program, np.zeros_like(step))
-    assert reached - least == pytest.approx(0, abs=1e-6 * max(1.0, still.max()))
+    assert reached - least == pytest.approx(0, abs=1e-4 * max(1.0, still.max()))
 
 
 def test_the_multipliers_of_a_program_like_it_are_a_start():

@@ -100,9 +100,9 @@ class _BoxProgram(NamedTuple):
     high: FloatArray
 
     def off(self, y: FloatArray, which: NDArray[np.intp]) -> FloatArray:
-        """w (r, m) of some programs at y (r, m): the way downhill."""
+        """The way downhill (r, m) of some programs at y (r, m): w."""
         root = self.root[which]
-        return self.b[which] - matvec(root, (y[:, None] @ root)[:, 0])
+        return np.asarray(self.b[which] - matvec(root, (y[:, None] @ root)[:, 0]))
 
     def descended(self, y: FloatArray, steps: int) -> tuple[FloatArray, NDArray[np.bool_]]:
         """The y (k, m) after steps of the projected Newton method, and which of them settled.
@@ -186,8 +186,9 @@ class _BoxProgram(NamedTuple):
 class _InteriorPoint(NamedTuple):
     """Multipliers between their bounds: gaps to the upper and the lower one, and prices (k, 2, m).
 
-    off: (k, m), w.  A gap times its price is 0 at the solution, and the same for all on the way to it (Mehrotra, On
-    the implementation of a primal-dual interior point method, SIAM J. Optim. 2, 1992).
+    off: (k, m), w.  A gap times its price is 0 at the solution, and the same for all on the way to
+    it (Mehrotra, On the implementation of a primal-dual interior point method, SIAM J. Optim. 2,
+    1992).
     """
 
     root: FloatArray
