@@ -1,8 +1,8 @@
 """The places of an assembled linkage nearest to the poses, on each of its circuits.
 
 Near means a small |position difference|² + (length x angle difference)².  For each pose, samples of
-the circuit give starts, and Newton's method (`foot_points`) leads from the nearest of them to the
-nearest places.
+the circuit give starts, and Newton's method (`foot_points`) leads from the nearest of them, and
+from the one beside it, to the nearest places.
 """
 
 from __future__ import annotations
@@ -319,10 +319,10 @@ def _nearest_of(rows: FloatArray, target: FloatArray, axis: int) -> NDArray[np.i
 def _local_minima(
     samples: FloatArray, target: FloatArray, length: float, count: int
 ) -> tuple[FloatArray, NDArray[np.intp]]:
-    """Of samples (n, s, 3) the `count` local minima nearest to target (N, 3): (n, N, count, 3).
+    """Of samples (n, s, 3) the `count` local minima nearest to target (N, 3): (n, N, count + 1, 3).
 
-    With angles within half a turn of the target's, and the numbers (n, N, count) of the samples.
-    nan where there are fewer.
+    The last one is the sample beside the nearest.  With angles within half a turn of the target's,
+    and the numbers (n, N, count + 1) of the samples.  nan where there are fewer.
     """
     x, y, swung = np.moveaxis(samples[:, None], -1, 0)
     gap = swung - target[:, None, 2]
@@ -334,10 +334,24 @@ def _local_minima(
     minimum[..., 1:-1] = falls[..., :-1] & (away[..., 1:-1] <= away[..., 2:])
     depth = np.where(minimum, away, np.inf)
     best = np.argpartition(depth, count - 1, axis=-1)[..., :count]
+    beside = _beside_nearest(away)
+    far = [np.take_along_axis(depth, best, axis=-1), np.take_along_axis(away, beside, axis=-1)]
+    best = np.concatenate([best, beside], axis=-1)
     chosen = samples[np.arange(len(samples))[:, None, None], best]
     start = target[:, None] + wrapped(chosen - target[:, None], length)
-    none = np.isinf(np.take_along_axis(depth, best, axis=-1))
+    none = np.isinf(np.concatenate(far, axis=-1))
     return np.where(none[..., None], np.nan, start), best
+
+
+def _beside_nearest(away: FloatArray) -> NDArray[np.intp]:
+    """The number (*, 1) of the sample beside the nearest one, on the side where samples are nearer.
+
+    away: (*, s).  Two minima may be closer together than the samples are.
+    """
+    beside = away.argmin(axis=-1)[..., None] + np.array([-1, 1])
+    beside %= away.shape[-1]
+    nearer = np.take_along_axis(away, beside, axis=-1).argmin(axis=-1)
+    return np.asarray(np.take_along_axis(beside, nearer[..., None], axis=-1))
 
 
 def _nearest_samples(
