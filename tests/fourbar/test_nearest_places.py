@@ -83,6 +83,15 @@ def test_nearest_places_on_each_circuit_against_a_sweep(pair):
         compare(*random_task(pair, rng), None)
 
 
+def test_of_two_minima_closer_together_than_samples_the_nearer_is_found():
+    dyads = (
+        RR([75.44495158, -43.82086339], [48.46236124, -34.60616374], 28.51264406),
+        RR([5.0, -100.0], [35.49958244, -12.3133723], 92.83948086),
+    )
+    poses = np.array([[73.93, -78.07, np.radians(100)]])
+    compare(dyads, poses, 187.99290766763872, None)
+
+
 @pytest.mark.parametrize("second", [RR, PR, RP])
 def test_poses_that_are_met_are_met(second):
     rng = np.random.default_rng(5)
