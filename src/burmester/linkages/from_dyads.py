@@ -75,7 +75,7 @@ MAX_EXCHANGES = 5
 # Degrees by which a greater least transmission angle is asked for within tolerances, and how often.
 RISE, MAX_RISES = 8.0, 6
 MAX_CONTINUED = 8  # number of linkages of the search by few poses that are refined on more of them
-MAX_SEARCHED = 5  # number of linkages kept from the search for defect-free linkages
+MAX_SEARCHED = 5  # number of linkages kept of each search
 
 
 def linkages_from_dyads(
@@ -337,8 +337,8 @@ def _inside_tolerances(
         if not goes_on(number, MAX_RISES, "round", has_steps=True):
             break
         best = math.degrees(found[0].driven.least_over_range)
-        more = sound_linkages(found, evaluation, inf, best + RISE)
-        found = ranked([*found, *more], evaluation.problem)
+        more = ranked(sound_linkages(found, evaluation, inf, best + RISE), evaluation.problem)
+        found = ranked([*found, *more[:MAX_SEARCHED]], evaluation.problem)
         if not math.degrees(found[0].driven.least_over_range) > best + RISE / 2:
             break
     return found
