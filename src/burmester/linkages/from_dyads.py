@@ -75,7 +75,8 @@ MAX_EXCHANGES = 5
 # Degrees by which a greater least transmission angle is asked for within tolerances, and how often.
 RISE, MAX_RISES = 8.0, 6
 MAX_CONTINUED = 8  # number of linkages of the search by few poses that are refined on more of them
-MAX_SEARCHED = 5  # number of linkages kept of each search
+MAX_SEARCHED = 5  # number of linkages kept from the search for defect-free linkages
+KEPT_OF_RISE = 2  # number of linkages kept of each rise; the others are like them
 
 
 def linkages_from_dyads(
@@ -338,7 +339,7 @@ def _inside_tolerances(
             break
         best = math.degrees(found[0].driven.least_over_range)
         more = ranked(sound_linkages(found, evaluation, inf, best + RISE), evaluation.problem)
-        found = ranked([*found, *more[:MAX_SEARCHED]], evaluation.problem)
+        found = ranked([*found, *more[:KEPT_OF_RISE]], evaluation.problem)
         if not math.degrees(found[0].driven.least_over_range) > best + RISE / 2:
             break
     return found
