@@ -47,8 +47,9 @@ FEASIBLE = 1e-9  # lengths; a constraint violated by less is met
 # A step that promises to take less than this share off the cost ends a descent, unless the damping
 # holds it back.
 SETTLED_SHARE, SETTLED_DAMPING = 1e-11, 1.0
-# A descent ends that has not gained this share of the cost in so many steps, taken or refused.
-CREEPING_STEPS, CREEPING_SHARE = 8, 1e-4
+# A descent ends that has not gained this share of the cost in so many steps, taken or refused, and
+# violates constraints by less (lengths): it creeps along a curved one, on and off it.
+CREEPING_STEPS, CREEPING_SHARE, CREEPING_MISS = 8, 1e-4, 1e-6
 # After its last choice a selection lets no descent go on that would be behind the best one after so
 # many times what it gained in those steps.
 HOPE = 32.0
@@ -262,7 +263,7 @@ class _Descent:
         merit = self.merit[rows]
         gained = np.abs(self.marked[rows] - merit)
         self.marked[rows[now]] = merit[now]
-        creeping = (miss < FEASIBLE) & (gained < CREEPING_SHARE * merit)
+        creeping = (miss < CREEPING_MISS) & (gained < CREEPING_SHARE * merit)
         if self.selection and (now & (self.tried[rows] > self.selection[-1][0])).any():
             best = np.nanmin(self.score[~self.given_up], initial=np.inf)
             creeping |= merit - HOPE * gained > best
