@@ -39,6 +39,7 @@ CORNERS = 16  # of both polygons
 LEAST_ROUNDS = 3
 HARD_TASKS, FEW_TASKS = 20, 5  # number of hard tasks, and of each number of few poses
 MOST_S = 600.0  # seconds; a process that takes longer is stopped
+ROUNDING = 1e-12  # of a combined error; what is nearer meets the poses
 MOST_BEFORE = 10_000  # poses; more were refused before
 
 
@@ -274,9 +275,9 @@ def notes(row, sides):
         if len(sides) > 1 and row.nearer:
             both = zip(sides[0].last, after, strict=True)
             ratios = [
-                (b["least"] / a["least"]) ** 2
+                (max(b["least"], ROUNDING) / max(a["least"], ROUNDING)) ** 2
                 for a, b in both
-                if math.isfinite(a["least"]) and a["least"] > 0
+                if math.isfinite(a["least"])
             ]
             out.append(f"squares at worst {max(ratios):.3g} times, at best {min(ratios):.3g}")
     else:
