@@ -8,7 +8,7 @@ proved.
 
 from __future__ import annotations
 
-from dataclasses import replace
+from math import inf, nan
 from typing import NamedTuple
 
 import numpy as np
@@ -47,9 +47,10 @@ __all__ = [
     "refined_on_branch",
 ]
 
-# The search is made on at most so many poses, evenly thinned, and its last steps on so many; other
-# linkages are refined under constraints on the latter.
+# Linkages are refined under constraints on at most so many poses, evenly thinned, and by their last
+# steps on so many.
 FEW_POSES, MORE_POSES, MORE_STEPS = 14, 60, 20
+MOST_CONTINUED = 12  # number of linkages whose last steps are on more poses
 MAX_STARTS = 144  # number of starts at most
 # Numbers of refinement steps, and after each the number of the best starts that go on.
 SELECTION = (12, 32), (30, 16), (50, 8)
@@ -122,17 +123,23 @@ def refined_on_branch(
     """Linkages (k,) refined under all constraints, on the branches of their places (k, N, 3).
 
     driver: (k,), the side that drives; transmission: (k,), a least angle for each, where more is
-    asked of it than the target does.  Of many poses some are refined on, evenly thinned.
+    asked of it than the target does.  Of many poses few are refined on, evenly thinned, and what
+    is best then on more of them; the others do not meet the constraints.
     """
-    more, index = target.thinned(MORE_POSES), target.thin_numbers(MORE_POSES)
-    refined = _on_branch(
-        batch, rows[:, index], more, driver, steps=steps, transmission=transmission
-    )
-    if more is target:
+    few, index = target.thinned(FEW_POSES), target.thin_numbers(FEW_POSES)
+    refined = _on_branch(batch, rows[:, index], few, driver, steps=steps, transmission=transmission)
+    if few is target:
         return refined
-    every = target.places(refined.batch)
-    met = refined.met & np.isfinite(every).all(axis=(1, 2))
-    return replace(refined, rows=every, cost=target.cost(every) / 2, met=met)
+    going = np.flatnonzero(refined.met)
+    going = going[np.argsort(refined.cost[going], kind="stable")][:MOST_CONTINUED]
+    asked = None if transmission is None else transmission[going]
+    some, rows, met = _continued(refined.batch[going], driver[going], target, asked)
+    dimensions = refined.batch.dimensions.copy()
+    every = np.full((len(batch), *rows.shape[1:]), nan)
+    dimensions[going], every[going] = some.dimensions, rows
+    cost, all_met = np.full(len(batch), inf), np.zeros(len(batch), dtype=bool)
+    cost[going], all_met[going] = target.cost(rows) / 2, met & np.isfinite(rows).all(axis=(1, 2))
+    return Refined(LinkageBatch(batch.kinds, dimensions), every, cost, refined.settled, all_met)
 
 
 def on_more_poses(
@@ -143,14 +150,28 @@ def on_more_poses(
     With their places (k, N, 3) at all poses of the target.  What does not keep to the constraints
     then stays as it was.
     """
+    batch, rows, _ = _continued(batch, driver, target, None)
+    return batch, rows
+
+
+def _continued(
+    batch: LinkageBatch, driver: NDArray[np.intp], target: Target, transmission: FloatArray | None
+) -> tuple[LinkageBatch, FloatArray, NDArray[np.bool_]]:
+    """`on_more_poses`, and which linkages (k,) keep to the constraints there."""
     more = target.thinned(MORE_POSES)
     rows = more.places(batch)
     sound = np.flatnonzero(np.isfinite(rows).all(axis=(1, 2)))
-    refined = _on_branch(batch[sound], rows[sound], more, driver[sound], steps=MORE_STEPS)
-    dimensions, met = batch.dimensions.copy(), np.flatnonzero(refined.met)
-    dimensions[sound[met]], rows[sound[met]] = refined.batch.dimensions[met], refined.rows[met]
-    batch = LinkageBatch(batch.kinds, dimensions)
-    return batch, rows if more is target else target.places(batch)
+    met = np.zeros(len(batch), dtype=bool)
+    if len(sound):
+        asked = None if transmission is None else transmission[sound]
+        refined = _on_branch(
+            batch[sound], rows[sound], more, driver[sound], steps=MORE_STEPS, transmission=asked
+        )
+        dimensions, met[sound] = batch.dimensions.copy(), refined.met
+        dimensions[met] = refined.batch.dimensions[refined.met]
+        rows[met] = refined.rows[refined.met]
+        batch = LinkageBatch(batch.kinds, dimensions)
+    return batch, rows if more is target else target.places(batch), met
 
 
 def _on_branch(
