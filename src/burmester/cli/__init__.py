@@ -23,6 +23,7 @@ from burmester.cli.new import new
 from burmester.cli.output import EXIT_FOUND, EXIT_INTERRUPT, EXIT_NOTHING, console, print_json
 from burmester.cli.report import report
 from burmester.cli.reproduce import reproduce
+from burmester.cli.studio import studio
 from burmester.cli.synthesize import synthesize
 from burmester.errors import BurmesterError, InputError
 
@@ -41,7 +42,7 @@ def burmester(context: click.Context) -> None:
         click.echo(context.get_help())
 
 
-for command in (new, check, synthesize, judge, report, export, explain, cases, reproduce):
+for command in (new, check, synthesize, judge, report, export, studio, explain, cases, reproduce):
     burmester.add_command(command)
 
 

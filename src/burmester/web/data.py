@@ -31,7 +31,7 @@ from burmester.web.family_map import family_map
 from burmester.web.image_space import chart_of, space_of
 from burmester.web.pivot_map import pivot_map
 
-__all__ = ["report_data"]
+__all__ = ["report_data", "scene_of"]
 
 SCHEMA = "burmester.report/1"
 FRAMES = 24_000  # frames of all linkages together
@@ -43,7 +43,7 @@ WAYS = 3  # ways of a linkage, when frames are shared out; most have no more
 def report_data(synthesis: Synthesis) -> dict[str, Any]:
     """The whole report as an object ready for JSON."""
     task, outcome = synthesis.task, synthesis.outcome
-    scene = _scene(synthesis)
+    scene = scene_of(synthesis)
     chart = chart_of(task.poses, synthesis.length or scene)
     count = max(1, len(synthesis.linkages))
     frames = int(np.clip(FRAMES // (WAYS * count), LEAST_FRAMES, MOST_FRAMES))
@@ -78,7 +78,7 @@ def report_data(synthesis: Synthesis) -> dict[str, Any]:
     }
 
 
-def _scene(synthesis: Synthesis) -> float:
+def scene_of(synthesis: Synthesis) -> float:
     """The size of the drawing, in the task's unit: that of the motion."""
     size = max(notation.span(synthesis.task), synthesis.length)
     return size if size > 0 and math.isfinite(size) else 1.0
@@ -168,7 +168,7 @@ def _freedom(synthesis: Synthesis, found: FoundLinkage) -> str | None:
     if not found.usable or found.determined:
         return None
     widest = max((each.half_width for each in found.uncertainty or ()), default=math.inf)
-    if not widest <= FAR * _scene(synthesis):
+    if not widest <= FAR * scene_of(synthesis):
         return "pivots left open by the poses"
     return f"pivots may be moved by ±{notation.length_of(widest, synthesis.task)}"
 

@@ -35,7 +35,9 @@ from burmester.io.reading.pose_table import shown
 from burmester.printable import printable
 from burmester.wording import count, figure, listed
 
-__all__ = ["OutlineFile", "folder_of", "outline_named", "read_outline"]
+__all__ = ["FROM_PAGE", "OutlineFile", "folder_of", "outline_named", "read_outline"]
+
+FROM_PAGE: Final = "<page>/"  # in front of the name of a task that a page sent
 
 MAX_BYTES: Final = 8_000_000  # of a drawing: some 60,000 lines, ten seconds
 MAX_NAMED: Final = 8  # outlines or parts that a message lists
@@ -69,7 +71,15 @@ def outline_named(text: str) -> OutlineFile:
 
 
 def folder_of(label: str) -> str:
-    """The folder of a task file, in which it names drawings; that of the command for others."""
+    """The folder of a task file, in which it names drawings; that of the command for others.
+
+    Raises E170 for a task that a page sent: it has no folder, and no file is opened for it.
+    """
+    if label.startswith(FROM_PAGE):
+        raise unreadable(
+            "what a page sends names no files of this machine",
+            "write the corners of the outline, or open the drawing itself on the page",
+        )
     return "" if label == "<stdin>" or label.startswith("case:") else os.path.dirname(label)
 
 

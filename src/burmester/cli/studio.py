@@ -1,0 +1,85 @@
+"""`burmester studio`: the page on which a linkage is designed by hand and eye."""
+
+from __future__ import annotations
+
+import sys
+
+import click
+
+from burmester.cli.output import EXIT_FOUND
+from burmester.errors import InputError
+
+__all__ = ["studio"]
+
+LIBRARIES = ("starlette", "uvicorn", "websockets")
+MOST_BYTES = 50_000_000  # of standard input
+
+
+@click.command()
+@click.argument("task", required=False)
+@click.option("--no-browser", is_flag=True, help="Only print the address; open no browser.")
+@click.option(
+    "--port",
+    type=click.IntRange(0, 65535),
+    default=0,
+    metavar="N",
+    help="Port of the page; 0, the default, takes any that is free.",
+)
+@click.option(
+    "--host",
+    default="127.0.0.1",
+    show_default=True,
+    metavar="ADDRESS",
+    help="Address to listen at; any but this machine's own takes the next option as well.",
+)
+@click.option(
+    "--i-know-that-others-can-connect",
+    "exposed",
+    is_flag=True,
+    help="Let other machines reach the page; without encryption, and with the token as only lock.",
+)
+@click.option(
+    "--time-limit",
+    type=click.FloatRange(min=0.1),
+    default=10.0,
+    show_default=True,
+    metavar="SECONDS",
+    help="Time after which a search is stopped.",
+)
+def studio(
+    task: str | None, *, no_browser: bool, port: int, host: str, exposed: bool, time_limit: float
+) -> int:
+    """Open a page on which linkages follow as poses are dragged.
+
+    TASK is a file as for `burmester synthesize`; by default the page opens on a lid.  The first
+    line printed is the address of the page.  Ctrl-C ends the studio.
+    """
+    from importlib.util import find_spec
+
+    if missing := [each for each in LIBRARIES if find_spec(each) is None]:
+        raise InputError(
+            "E130",
+            f"the studio needs {missing[0]}, which is not installed",
+            help='pip install "burmester[studio]"',
+        )
+    from burmester.studio.access import is_loopback
+    from burmester.studio.serve import Opening, serve
+
+    if not is_loopback(host) and not exposed:
+        raise InputError(
+            "E100",
+            f"at {host} other machines could connect to the studio",
+            why="whoever gets hold of the address, which holds a token, could read and change the "
+            "task; nothing on the way is encrypted",
+            help="leave --host out, or add --i-know-that-others-can-connect",
+        )
+    data = sys.stdin.buffer.read(MOST_BYTES) if task == "-" and sys.stdin is not None else b""
+    serve(
+        Opening(task, data),
+        host=host,
+        port=port,
+        limit_s=time_limit,
+        browser=not no_browser,
+        say=click.echo,
+    )
+    return EXIT_FOUND

@@ -1,0 +1,204 @@
+"""Who may ask, and what: the studio answers the person at this machine and nobody else.
+
+A page of another site that this person visits can make the browser ask any address: so every
+request has to name a host that is ours, an origin that is ours where it names one, and to bring the
+cookie that the token of the opened address was exchanged for.  The cookie's name holds the port,
+as cookies do not tell ports apart.
+"""
+
+from __future__ import annotations
+
+import ipaddress
+import secrets
+from collections.abc import Iterable
+from typing import Any, Final, TypeAlias
+
+from burmester.studio.parcel import as_json
+
+__all__ = ["MOST_BYTES", "Access", "is_loopback", "refusal"]
+
+Headers: TypeAlias = list[tuple[bytes, bytes]]
+
+MOST_BYTES: Final = 2_000_000  # of what the page sends at once
+OPEN: Final = ("/", "/studio.mjs", "/studio.css", "/widget.css", "/session")  # without the cookie
+
+_HEADERS: Final = (
+    (b"content-security-policy", b"default-src 'self'; frame-ancestors 'none'; base-uri 'none'; "
+     b"form-action 'none'; object-src 'none'"),
+    (b"x-content-type-options", b"nosniff"),
+    (b"x-frame-options", b"DENY"),
+    (b"referrer-policy", b"no-referrer"),
+    (b"cross-origin-opener-policy", b"same-origin"),
+    (b"cross-origin-resource-policy", b"same-origin"),
+    (b"cache-control", b"no-store"),
+)  # fmt: skip
+
+
+class _Refused(Exception):
+    """A request that is not let in: status, and why."""
+
+    def __init__(self, status: int, why: str) -> None:
+        super().__init__(why)
+        self.status, self.why = status, why
+
+
+class _TooLarge(Exception):
+    """A body beyond `MOST_BYTES`."""
+
+
+class Access:
+    """The application behind its door.
+
+    token: what the opened address holds, for who has no cookie yet.
+    """
+
+    def __init__(self, *, port: int, host: str = "127.0.0.1") -> None:
+        self._application: Any = None
+        self._port, self._host = port, host.lower()
+        self._everywhere = not is_loopback(host)
+        self.token = secrets.token_urlsafe(32)
+        self._secret = secrets.token_urlsafe(32)
+        self._cookie = f"burmester-{port}"
+
+    def within(self, application: Any) -> None:
+        """Put the application behind the door."""
+        self._application = application
+
+    def exchanged(self, token: object) -> str | None:
+        """The cookie for a token; None where it is not the one."""
+        if not isinstance(token, str) or not _same(token, self.token):
+            return None
+        return f"{self._cookie}={self._secret}; HttpOnly; SameSite=Strict; Path=/"
+
+    async def __call__(self, scope: Any, receive: Any, send: Any) -> None:
+        """Let a request in, or refuse it."""
+        if scope["type"] not in ("http", "websocket"):
+            return
+        started = False
+
+        async def sent(message: Any) -> None:
+            nonlocal started
+            if message["type"].endswith("response.start"):
+                started = True
+                message = {**message, "headers": [*message["headers"], *_HEADERS]}
+            await send(message)
+
+        try:
+            self._require_allowed(scope)
+            within = receive if scope["type"] == "websocket" else _limited(receive)
+            await self._application(scope, within, sent)
+        except _Refused as error:
+            await _refuse(scope, sent, error.status, error.why)
+        except _TooLarge:
+            if not started:
+                await _refuse(scope, sent, 413, f"more than {MOST_BYTES / 1e6:.0f} MB at once")
+
+    def _require_allowed(self, scope: Any) -> None:
+        headers: Headers = scope["headers"]
+        hosts = _values(headers, b"host")
+        if len(hosts) != 1 or not self._is_ours(hosts[0]):
+            raise _Refused(403, "this host is not served here")
+        for origin in _values(headers, b"origin"):
+            if origin.lower() != f"http://{hosts[0].lower()}":
+                raise _Refused(403, "another site may not ask here")
+        path = scope["path"]
+        shell = scope["type"] == "http" and path in OPEN
+        sites = _values(headers, b"sec-fetch-site")
+        if not shell and any(each not in ("same-origin", "none") for each in sites):
+            raise _Refused(403, "another site may not ask here")
+        if not shell and not self._is_known(headers):
+            raise _Refused(401, "open the address that the command printed")
+        if scope["type"] == "http" and scope["method"] not in ("GET", "HEAD"):
+            _require_json(headers)
+
+    def _is_ours(self, host: str) -> bool:
+        name, _, port = host.lower().rpartition(":")
+        if port != str(self._port):
+            return False
+        if name in ("127.0.0.1", "localhost", "[::1]"):
+            return True
+        if not self._everywhere:
+            return False
+        # Under a name of its own anybody could lead here (DNS rebinding); not so under an address.
+        return name == self._host or _is_address(name)
+
+    def _is_known(self, headers: Headers) -> bool:
+        for line in _values(headers, b"cookie"):
+            for part in line.split(";"):
+                name, _, value = part.strip().partition("=")
+                if name == self._cookie and _same(value, self._secret):
+                    return True
+        return False
+
+
+def is_loopback(host: str) -> bool:
+    """Whether only this machine can reach a host."""
+    try:
+        return ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        return host.lower() == "localhost"
+
+
+def refusal(status: int, why: str, help: str | None = None) -> bytes:
+    """Why something is refused, as messages are told."""
+    message = {"code": str(status), "message": why, "where": None, "why": None, "help": help}
+    return as_json({"messages": [message]})
+
+
+def _require_json(headers: Headers) -> None:
+    if _values(headers, b"content-encoding"):
+        raise _Refused(415, "what is packed is not read")
+    kinds = _values(headers, b"content-type")
+    if len(kinds) != 1 or kinds[0].partition(";")[0].strip().lower() != "application/json":
+        raise _Refused(415, "only JSON is read")
+    for length in _values(headers, b"content-length"):
+        if not length.isdecimal() or int(length) > MOST_BYTES:
+            raise _Refused(413, f"more than {MOST_BYTES / 1e6:.0f} MB at once")
+
+
+def _limited(receive: Any) -> Any:
+    """The body of a request, as far as it may go."""
+    size = 0
+
+    async def received() -> Any:
+        nonlocal size
+        message = await receive()
+        size += len(message.get("body", b""))
+        if size > MOST_BYTES:
+            raise _TooLarge
+        return message
+
+    return received
+
+
+async def _refuse(scope: Any, send: Any, status: int, why: str) -> None:
+    kind = "http.response"
+    if scope["type"] == "websocket":
+        if "websocket.http.response" not in scope.get("extensions", {}):
+            await send({"type": "websocket.close", "code": 1008})
+            return
+        kind = "websocket.http.response"
+    body = refusal(status, why)
+    headers = [
+        (b"content-type", b"application/json"),
+        (b"content-length", str(len(body)).encode()),
+        (b"connection", b"close"),  # what may still come is not waited for
+    ]
+    await send({"type": f"{kind}.start", "status": status, "headers": headers})
+    await send({"type": f"{kind}.body", "body": body})
+
+
+def _values(headers: Iterable[tuple[bytes, bytes]], name: bytes) -> list[str]:
+    return [value.decode("latin-1") for key, value in headers if key.lower() == name]
+
+
+def _same(one: str, other: str) -> bool:
+    return secrets.compare_digest(one.encode(errors="replace"), other.encode())
+
+
+def _is_address(name: str) -> bool:
+    try:
+        ipaddress.ip_address(name.removeprefix("[").removesuffix("]"))
+    except ValueError:
+        return False
+    return True

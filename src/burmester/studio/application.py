@@ -1,0 +1,111 @@
+"""What is answered over HTTP: the page and its parts, and what is done with a task at rest."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Awaitable, Callable
+from importlib import resources
+from typing import Any
+
+from starlette.applications import Starlette
+from starlette.requests import Request
+from starlette.responses import Response
+from starlette.routing import Route, WebSocketRoute
+from starlette.websockets import WebSocket
+
+from burmester.studio.access import refusal
+from burmester.studio.house import House
+from burmester.studio.parcel import as_json
+from burmester.studio.session import Session
+from burmester.studio.workers import WorkerEnded
+
+__all__ = ["application"]
+
+_STATIC = {
+    "/": ("studio.html", "text/html; charset=utf-8"),
+    "/studio.mjs": ("studio.mjs", "text/javascript; charset=utf-8"),
+    "/studio.css": ("studio.css", "text/css; charset=utf-8"),
+    "/widget.css": ("widget.css", "text/css; charset=utf-8"),
+}
+
+
+def application(house: House, exchanged: Callable[[object], str | None]) -> Starlette:
+    """The application; exchanged: the cookie for a token, None for a wrong one."""
+
+    async def session(request: Request) -> Response:
+        given = await _given(request)
+        cookie = exchanged(given.get("token")) if given is not None else None
+        if cookie is None:
+            return _refused(401, "this token is not the one that the command printed")
+        return Response(status_code=204, headers={"set-cookie": cookie})
+
+    async def start(request: Request) -> Response:
+        return Response(as_json(house.start), media_type="application/json")
+
+    async def template(request: Request) -> Response:
+        body = as_json({"name": request.path_params["name"]})
+        return await _of_desk(house, {"do": "template"}, body)
+
+    async def live(socket: WebSocket) -> None:
+        await Session(socket, house).run()
+
+    routes = [Route(path, _static(*what)) for path, what in _STATIC.items()]
+    routes += [
+        Route("/session", session, methods=["POST"]),
+        Route("/start", start),
+        Route("/template/{name}", template),
+        *(Route(f"/{do}", _desk(house, do), methods=["POST"]) for do in ("read", "check")),
+    ]
+    handlers: dict[Any, Any] = {404: _missing, 405: _missing, Exception: _failed}
+    return Starlette(routes=[*routes, WebSocketRoute("/live", live)], exception_handlers=handlers)
+
+
+def _static(name: str, kind: str) -> Callable[[Request], Awaitable[Response]]:
+    async def sent(request: Request) -> Response:
+        file = resources.files("burmester.web") / "assets" / name
+        return Response(file.read_bytes(), headers={"content-type": kind})
+
+    return sent
+
+
+def _desk(house: House, do: str) -> Callable[[Request], Awaitable[Response]]:
+    async def done(request: Request) -> Response:
+        if await _given(request) is None:
+            return _refused(400, "this is no object in JSON")
+        return await _of_desk(house, {"do": do}, await request.body())
+
+    return done
+
+
+async def _of_desk(house: House, head: dict[str, Any], body: bytes) -> Response:
+    try:
+        answer, data = await house.desk(head, body)
+    except TimeoutError:
+        return _refused(422, "that took too long", "try it with the command")
+    except WorkerEnded:
+        return _refused(422, "the computation ended before its time", "try it once more")
+    status = 200
+    if answer["kind"] == "failed":
+        status = 500 if json.loads(data)["messages"][0]["code"] == "E900" else 422
+    return Response(data, status, media_type="application/json")
+
+
+async def _given(request: Request) -> dict[str, Any] | None:
+    """The object in the body of a request; None where it is none."""
+    try:
+        given = json.loads(await request.body())
+    except (ValueError, RecursionError):
+        return None
+    return given if isinstance(given, dict) else None
+
+
+def _refused(status: int, why: str, help: str | None = None) -> Response:
+    return Response(refusal(status, why, help), status, media_type="application/json")
+
+
+async def _missing(request: Request, error: Any) -> Response:
+    return _refused(error.status_code, "there is nothing here")
+
+
+async def _failed(request: Request, error: Exception) -> Response:
+    return _refused(500, f"burmester itself failed: {type(error).__name__}", "please report this")

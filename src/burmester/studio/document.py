@@ -1,0 +1,228 @@
+"""A task as the page holds it: an object with the keys of a task file, always in one form.
+
+Angles are in degrees and poses are tables; outlines are corners, never the name of a drawing: the
+page names no files of this machine.  What comes from the page is read by the readers of task files.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from typing import Any
+
+import numpy as np
+
+from burmester.errors import InputError
+from burmester.geometry.regions import Line, Point, Polygon, Region, Segment, box
+from burmester.io.linkage_data import degrees_of
+from burmester.io.reading.outlines.outline_file import FROM_PAGE
+from burmester.io.reading.poses import read_task
+from burmester.io.reading.requirements_text import positive_length
+from burmester.io.reading.stated_requirements import requirements_data
+from burmester.io.result import tolerances_data
+from burmester.tasks.limits import KINDS, Limits
+from burmester.tasks.motion_task import Task
+from burmester.tasks.options import SynthesisOptions
+
+__all__ = ["MOST_POSES", "document_of", "options_of", "plain", "read_file", "task_file", "task_of"]
+
+MOST_POSES = 100_000  # of a document
+NAME = "task.json"  # what a document is called where a message says its place
+
+_WORDS = {"method": "method", "norm": "norm", "prefer": "prefer"}
+_LENGTHS = {"angle-weight": "length_per_radian", "tolerance": "manufacturing_tolerance"}
+
+
+def task_of(document: object) -> Task:
+    """The task in a document; raises what reading a task file raises."""
+    _require_moderate(document)
+    try:
+        return read_file(NAME, json.dumps(document).encode("ascii"))
+    except InputError:
+        # Once more in short lines: a message shows the line it is about.
+        return read_file(NAME, json.dumps(document, indent=1).encode("ascii"))
+
+
+def read_file(name: str, data: bytes, **options: Any) -> Task:
+    """The task in a file that a page sent; its name says what kind of file it is."""
+    try:
+        return read_task(f"{FROM_PAGE}{name}", data=data, **options)
+    except InputError as error:
+        error.where = error.where and error.where.replace(FROM_PAGE, "")
+        raise
+
+
+def _require_moderate(document: object) -> None:
+    poses = document.get("poses") if isinstance(document, dict) else None
+    if isinstance(poses, list) and len(poses) > MOST_POSES:
+        raise InputError(
+            "E126",
+            f"{len(poses)} poses are too many for a page",
+            why=f"{MOST_POSES} are the most",
+            help="use `burmester synthesize` with the file, or take fewer poses",
+        )
+
+
+def options_of(options: object, time_limit: float | None = None) -> SynthesisOptions:
+    """How a task is to be solved: options of `burmester synthesize`, by their long names.
+
+    Raises E100 for an option that the studio does not know, E134 for a value that cannot be.
+    """
+    given = {} if options is None else options
+    if not isinstance(given, dict):
+        raise InputError("E100", "the options are no object", help='give {"method": "auto"}')
+    found: dict[str, Any] = {}
+    for name, value in given.items():
+        if name in _WORDS:
+            found[_WORDS[name]] = value
+        elif name in _LENGTHS:
+            if value is not None:
+                found[_LENGTHS[name]] = positive_length(f"--{name}", str(value))
+        else:
+            known = ", ".join((*_WORDS, *_LENGTHS))
+            raise InputError(
+                "E100", f"there is no option {str(name)[:40]!r}", help=f"the studio has {known}"
+            )
+    return SynthesisOptions(**found, time_limit=time_limit)
+
+
+def document_of(task: Task) -> dict[str, Any]:
+    """A task as a document: read again it is the same task."""
+    document: dict[str, Any] = {"angle_unit": "deg", "poses": _poses(task)}
+    if task.length_unit is not None:
+        document = {"length_unit": task.length_unit, **document}
+    if task.body is not None:
+        document["body"] = plain(task.body.vertices.tolist())
+    if task.surroundings is not None:
+        around = task.surroundings
+        document["keep_out"] = [
+            ({"name": each.name} if each.name else {}) | _shape(each.polygon)
+            for each in around.keep_out
+        ]
+        document["surroundings"] = plain(
+            {
+                "link_width": around.link_width,
+                "margin": around.margin,
+                "body_in_plane": around.body_in_plane,
+            }
+        )
+    if task.limits:
+        document["limits"] = [_limits(each) for each in task.limits]
+    if task.requirements.has_any:
+        asked = requirements_data(task.requirements)
+        if task.requirements.footprint is not None:
+            asked["footprint"] = _shape(task.requirements.footprint)
+        document["requirements"] = plain(asked)
+    return _with_digits(document, task)
+
+
+def _poses(task: Task) -> list[dict[str, Any]]:
+    stated = [] if task.tolerances is None else tolerances_data(task.tolerances)
+    poses = []
+    for number, (x, y) in enumerate(task.poses.translation.tolist()):
+        angle = degrees_of(float(task.poses.angle[number]))
+        pose: dict[str, Any] = {"x": plain(x), "y": plain(y), "angle": plain(angle)}
+        if task.names is not None and task.names[number]:
+            pose["name"] = task.names[number]
+        if task.weights is not None and task.weights[number] != 1:
+            pose["weight"] = plain(float(task.weights[number]))
+        if task.exact is not None and task.exact[number]:
+            pose["exact"] = True
+        if stated:
+            pose |= plain(stated[number])
+        poses.append(pose)
+    return poses
+
+
+def _limits(limits: Limits) -> dict[str, Any]:
+    data: dict[str, Any] = {}
+    for name in ("fixed_pivot", "moving_pivot"):
+        if (region := getattr(limits, name)) is not None:
+            data[name] = _shape(region)
+    if limits.has_length:
+        least, most = limits.length
+        ends = {"least": least} if least > 0 else {}
+        data["length"] = plain(ends | ({"most": most} if most < math.inf else {}))
+    if len(limits.kinds) < len(KINDS):
+        data["kinds"] = [kind for kind in KINDS if kind in limits.kinds]
+    return data
+
+
+def _shape(region: Region) -> dict[str, Any]:
+    """A region by its shape; a polygon that is what a box makes is a box."""
+    if isinstance(region, Point):
+        return {"point": plain(region.at.tolist())}
+    if isinstance(region, Line | Segment):
+        ends = [region.start.tolist(), region.end.tolist()]
+        return {type(region).__name__.lower(): plain(ends)}
+    corners = region.vertices
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    same = box(low.tolist(), high.tolist())
+    if isinstance(same, Polygon) and np.array_equal(same.vertices, corners):
+        return {"box": plain([low.tolist(), high.tolist()])}
+    return {"polygon": plain(corners.tolist())}
+
+
+def _with_digits(document: dict[str, Any], task: Task) -> dict[str, Any]:
+    """The document with `pose_sigma` where its digits say less, or more, than those of the task.
+
+    12.00 says more than 12, and measured poses may state how exactly they are known.
+    """
+    if task_of(document).resolution == task.resolution:
+        return document
+    position, angle = (known / math.sqrt(3) for known in task.resolution)
+    return {**document, "pose_sigma": {"position": position, "angle_deg": math.degrees(angle)}}
+
+
+def plain(value: Any) -> Any:
+    """Numbers as a person writes them: 12, not 12.0."""
+    if isinstance(value, float) and value.is_integer() and abs(value) < 1e15:
+        return int(value)
+    if isinstance(value, list):
+        return [plain(each) for each in value]
+    if isinstance(value, dict):
+        return {key: plain(each) for key, each in value.items()}
+    return value
+
+
+def task_file(document: dict[str, Any]) -> str:
+    """A document as a task file in TOML, which `burmester` reads as the same task."""
+    task_of(document)  # what is not read is not written
+    tree = plain(document)
+    lines = [f"{key} = {_toml(value)}" for key, value in tree.items() if key not in _TABLES]
+    for key in _TABLES:
+        if key not in tree:
+            continue
+        tables = tree[key] if isinstance(tree[key], list) else [tree[key]]
+        head = f"[[{key}]]" if isinstance(tree[key], list) else f"[{key}]"
+        for table in tables:
+            lines += ["", head, *(f"{_key(name)} = {_toml(each)}" for name, each in table.items())]
+    return "\n".join(lines) + "\n"
+
+
+_TABLES = ("keep_out", "surroundings", "limits", "requirements")
+
+
+def _toml(value: Any) -> str:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, dict):
+        inside = ", ".join(f"{_key(name)} = {_toml(each)}" for name, each in value.items())
+        return f"{{ {inside} }}" if inside else "{}"
+    if isinstance(value, list):
+        texts = [_toml(each) for each in value]
+        if value and isinstance(value[0], dict):
+            return "[\n" + "".join(f"  {text},\n" for text in texts) + "]"
+        return f"[{', '.join(texts)}]"
+    return _quoted(value) if isinstance(value, str) else repr(value)
+
+
+def _key(name: str) -> str:
+    return name if re.fullmatch(r"[A-Za-z0-9_-]+", name) else _quoted(name)
+
+
+def _quoted(text: str) -> str:
+    """A text in quotes: JSON's escapes are TOML's, but for half characters and DEL."""
+    whole = text.encode("utf-16", "surrogatepass").decode("utf-16", "replace")
+    return json.dumps(whole, ensure_ascii=False).replace("\x7f", "\\u007f")

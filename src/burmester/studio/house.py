@@ -1,0 +1,150 @@
+"""What all tabs share: workers, turns, the answers of late, and the task that the studio opens on."""
+
+from __future__ import annotations
+
+import asyncio
+import hashlib
+import json
+import os
+from collections import OrderedDict
+from collections.abc import Callable, Coroutine
+from dataclasses import dataclass
+from typing import Any
+
+from burmester.errors import InputError
+from burmester.studio.parcel import as_json
+from burmester.studio.workers import Parcel, Turns, Worker, WorkerEnded, Workers
+
+__all__ = ["Answer", "House"]
+
+ANSWER_BYTES = 64_000_000  # of all answers that are kept
+DESK_S = 60.0  # for what is asked over HTTP, such as a solid part
+SOFT = 0.8  # of the limit: after it nothing more is looked for, so that there is an answer
+
+
+@dataclass(frozen=True)
+class Answer:
+    """The answer to a task: the result as a file holds it, and what the page draws of it."""
+
+    result: bytes
+    report: bytes
+
+
+class Answers:
+    """Answers by the keys of their tasks; those not asked for longest go first."""
+
+    def __init__(self) -> None:
+        self._kept: OrderedDict[str, Answer] = OrderedDict()
+
+    def get(self, key: str) -> Answer | None:
+        """The answer of a task, if it is kept."""
+        if key in self._kept:
+            self._kept.move_to_end(key)
+        return self._kept.get(key)
+
+    def keep(self, key: str, answer: Answer) -> None:
+        """Keep one more."""
+        self._kept[key] = answer
+        while len(self._kept) > 1 and self._bytes > ANSWER_BYTES:
+            self._kept.popitem(last=False)
+
+    @property
+    def _bytes(self) -> int:
+        return sum(len(each.result) + len(each.report) for each in self._kept.values())
+
+
+class House:
+    """Workers, turns and answers.
+
+    limit_s: seconds after which a whole road is killed.
+    """
+
+    def __init__(self, limit_s: float) -> None:
+        cores = os.cpu_count() or 1
+        self.limit_s = limit_s
+        self.workers = Workers(most=2 * cores + 2)
+        self.turns = Turns(cores)
+        self.answers = Answers()
+        self.start: dict[str, Any] = {}
+        self._opening: tuple[str, asyncio.Task[None]] | None = None
+        self._background: set[asyncio.Task[Any]] = set()
+
+    async def open(self, head: dict[str, Any], data: bytes = b"") -> None:
+        """Read the task that the studio opens on, and begin to solve it; raises InputError."""
+        async with self.workers.lent() as worker:
+            answer, body = await worker.ask({"do": "open", **head}, data)
+        told = json.loads(body)
+        if answer["kind"] == "failed":
+            raise InputError(**told["messages"][0])
+        self.start = told
+        given = {"document": told["document"], "options": told["options"]}
+        key = self.key_of(given)
+        self._opening = key, self.later(self._solve_opening(key, as_json(given)))
+
+    async def _solve_opening(self, key: str, body: bytes) -> None:
+        async with self.workers.lent(anew=True) as worker:
+            try:
+                await self.solve(worker, key, body, lambda text: None)
+            except (TimeoutError, WorkerEnded):
+                return  # the page asks again, and is told
+
+    async def opened(self, key: str) -> None:
+        """Wait for the answer of the opening task, if this is its key."""
+        if self._opening is not None and self._opening[0] == key:
+            await asyncio.shield(self._opening[1])
+
+    async def solve(
+        self, worker: Worker, key: str, body: bytes, said: Callable[[str], None]
+    ) -> Parcel:
+        """Go the whole road in a worker; raises TimeoutError at the limit, and WorkerEnded."""
+        result = b""
+
+        def piece(parcel: Parcel) -> None:
+            nonlocal result
+            if parcel[0]["kind"] == "result":
+                result = parcel[1]
+            else:
+                said(parcel[1].decode())
+
+        worker.key = worker.holder = None
+        head = {"do": "solve", "time_limit": SOFT * self.limit_s}
+        async with asyncio.timeout(self.limit_s):
+            answer = await worker.ask(head, body, piece)
+        if answer[0]["kind"] == "solved":
+            worker.key = key
+            self.answers.keep(key, Answer(result, answer[1]))
+        return answer
+
+    async def desk(self, head: dict[str, Any], body: bytes) -> Parcel:
+        """What is asked over HTTP; raises TimeoutError and WorkerEnded."""
+        async with self.workers.lent() as worker, asyncio.timeout(DESK_S):
+            return await worker.ask(head, body)
+
+    @staticmethod
+    def key_of(given: dict[str, Any]) -> str:
+        """The key of a task: the same for the same numbers, however they are written."""
+        both = [_plain(given.get("document")), _plain(given.get("options"))]
+        return hashlib.sha256(json.dumps(both, sort_keys=True).encode()).hexdigest()
+
+    def later(self, what: Coroutine[Any, Any, Any]) -> asyncio.Task[Any]:
+        """Do something beside all else; what comes too late for a tab is dropped."""
+        task = asyncio.create_task(what)
+        self._background.add(task)
+        task.add_done_callback(self._done)
+        return task
+
+    def _done(self, task: asyncio.Task[Any]) -> None:
+        self._background.discard(task)
+        if not task.cancelled():
+            task.exception()  # seen: a tab that was closed is not told of anything
+
+
+def _plain(value: Any) -> Any:
+    """Numbers that are equal are written alike."""
+    if isinstance(value, float) and value.is_integer():
+        return int(value)
+    if isinstance(value, list):
+        return [_plain(each) for each in value]
+    if isinstance(value, dict):
+        return {key: _plain(each) for key, each in value.items()}
+    return value

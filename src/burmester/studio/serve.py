@@ -1,0 +1,138 @@
+"""The studio as a server: its socket, its address, and its end.
+
+E100 a port or a host that cannot be had        E130 a library is missing
+"""
+
+from __future__ import annotations
+
+import asyncio
+import signal
+import socket
+import webbrowser
+from collections.abc import Callable
+from contextlib import nullcontext, suppress
+from dataclasses import dataclass
+from typing import Any
+
+from burmester import __version__
+from burmester.errors import InputError
+from burmester.io import templates
+from burmester.studio.house import House
+
+__all__ = ["Opening", "serve"]
+
+# The task of a studio that is given none.  The lid hinge and the chest lid are solved equally fast;
+# the hinge has eight poses, and its answers follow a hand in half the time.
+TEMPLATE = "lid-hinge"
+
+
+@dataclass(frozen=True)
+class Opening:
+    """What the studio opens on: a task file, its bytes where it is standard input; or a template."""
+
+    path: str | None = None
+    data: bytes = b""
+
+
+def serve(
+    opening: Opening,
+    *,
+    host: str = "127.0.0.1",
+    port: int = 0,
+    limit_s: float = 10.0,
+    browser: bool = True,
+    say: Callable[[str], None] = print,
+) -> None:
+    """Serve the page until a signal comes; say: gets the address, before anything else."""
+    with _bound(host, port) as bound:
+        asyncio.run(_serve(opening, bound, host, limit_s, browser, say))
+
+
+def _bound(host: str, port: int) -> socket.socket:
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    bound = socket.socket(family)
+    try:
+        with suppress(OSError):
+            bound.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        bound.bind((host, port))
+    except (OSError, OverflowError) as error:
+        bound.close()
+        why = getattr(error, "strerror", None) or str(error)
+        raise InputError(
+            "E100",
+            f"the studio cannot listen at {host}, port {port}",
+            why=why,
+            help="leave --port out, so that a free one is taken",
+        ) from None
+    return bound
+
+
+async def _serve(
+    opening: Opening,
+    bound: socket.socket,
+    host: str,
+    limit_s: float,
+    browser: bool,
+    say: Callable[[str], None],
+) -> None:
+    house = House(limit_s)
+    await house.workers.open()  # they load while this process loads the server
+    try:
+        import uvicorn  # noqa: PLC0415
+
+        from burmester.studio.access import MOST_BYTES, Access  # noqa: PLC0415
+        from burmester.studio.application import application  # noqa: PLC0415
+
+        await house.open({"path": opening.path, "template": TEMPLATE}, opening.data)
+        names = templates.names()
+        house.start |= {
+            "version": __version__,
+            "templates": [{"name": each, "summary": templates.summary(each)} for each in names],
+            "limit_s": limit_s,
+            "saved": None,
+        }
+        port = bound.getsockname()[1]
+        door = Access(port=port, host=host)
+        door.within(application(house, door.exchanged))
+        server = uvicorn.Server(
+            uvicorn.Config(
+                door,
+                http="h11",
+                ws="websockets-sansio",
+                ws_max_size=MOST_BYTES,
+                ws_per_message_deflate=False,
+                lifespan="off",
+                log_config=None,
+                log_level="critical",  # no request is written down
+                access_log=False,
+                server_header=False,
+                timeout_graceful_shutdown=1,
+            )
+        )
+        shown = f"[{host}]" if ":" in host else host
+        shown = {"0.0.0.0": "127.0.0.1", "[::]": "[::1]"}.get(shown, shown)
+        address = f"http://{shown}:{port}/#token={door.token}"
+        say(address)
+        if browser:
+            house.later(asyncio.to_thread(webbrowser.open, address))
+        await _until_stopped(server, bound)
+    finally:
+        await house.workers.close()
+
+
+async def _until_stopped(server: Any, bound: socket.socket) -> None:
+    """Serve until SIGINT or SIGTERM: a second one does not wait for what is under way."""
+
+    def stop(number: int, frame: object) -> None:
+        server.force_exit = server.should_exit
+        server.should_exit = True
+
+    numbers = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")
+               if hasattr(signal, name)]  # fmt: skip
+    before = {number: signal.signal(number, stop) for number in numbers}
+    try:
+        server.capture_signals = nullcontext  # ours are above
+        await server.serve([bound])
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)

@@ -1,0 +1,170 @@
+"""One tab: what its page asks over its websocket, and the answers.
+
+Two things go on at once: what the hand does (follow, place, curve), where only the newest counts,
+and the whole road, which a new one replaces.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import time
+from typing import TYPE_CHECKING, Any
+
+from starlette.websockets import WebSocket, WebSocketDisconnect
+
+from burmester.studio.parcel import as_json
+from burmester.studio.workers import Parcel, Worker, WorkerEnded
+
+if TYPE_CHECKING:
+    from burmester.studio.house import House
+
+__all__ = ["Session"]
+
+PROGRESS_S = 0.1  # between two words of progress
+HAND_S = 5.0  # for one follow; whoever takes longer is stuck
+MOST_N = 2**53
+HAND = ("follow", "place", "curve", "point")
+
+
+class Session:
+    """A websocket, the worker that holds its answers, and what is under way."""
+
+    def __init__(self, socket: WebSocket, house: House) -> None:
+        self._socket, self._house = socket, house
+        self._live: Worker | None = None
+        self._newest: tuple[int, str, str] | None = None
+        self._hand: asyncio.Task[None] | None = None
+        self._solving: asyncio.Task[None] | None = None
+
+    async def run(self) -> None:
+        """Serve the tab until it is closed."""
+        await self._socket.accept()
+        try:
+            while True:
+                message = await self._socket.receive()
+                if message["type"] == "websocket.disconnect":
+                    return
+                await self._take(message.get("text"))
+        except WebSocketDisconnect:
+            return
+        finally:
+            for task in (self._hand, self._solving):
+                if task is not None:
+                    task.cancel()
+            if self._live is not None and self._live.holder is self:
+                self._live.holder = None
+
+    async def _take(self, text: str | None) -> None:
+        """Do what a message asks for; a wrong one is refused with a message of its own."""
+        try:
+            given = json.loads(text) if text is not None else None
+        except (ValueError, RecursionError):
+            given = None
+        n = given.get("n") if isinstance(given, dict) else None
+        if not isinstance(n, int) or isinstance(n, bool) or not 0 <= n < MOST_N:
+            await self._refuse(0, "this is no message of the page")
+            return
+        assert text is not None
+        do = given.get("do")
+        if do in HAND:
+            self._newest = n, do, text
+            if self._hand is None or self._hand.done():
+                self._hand = asyncio.create_task(self._follow_hand())
+        elif do in ("solve", "cancel"):
+            if self._solving is not None and not self._solving.done():
+                self._solving.cancel()
+                if do == "cancel":
+                    await self._tell(n, "cancelled", message="called off")
+            if do == "solve":
+                key = self._house.key_of(given)
+                self._solving = asyncio.create_task(self._solve(n, key, text))
+        else:
+            await self._refuse(n, "this is no message of the page")
+
+    async def _follow_hand(self) -> None:
+        """Answer the newest message of the hand, until there is none."""
+        while self._newest is not None:
+            (n, do, text), self._newest = self._newest, None
+            try:
+                async with asyncio.timeout(HAND_S):
+                    head, body = await self._by_hand(do, text)
+            except (TimeoutError, WorkerEnded):
+                head, body = {"kind": "refused"}, _solve_first("that took too long to follow")
+            if head["kind"] == "frame":
+                await self._socket.send_bytes(body)
+            else:
+                kind = "refused" if head["kind"] == "failed" else head["kind"]
+                await self._send(n, kind, body)
+
+    async def _by_hand(self, do: str, text: str) -> Parcel:
+        if self._live is not None:
+            with self._house.workers.held(self._live, self) as ours:
+                if ours:
+                    return await self._live.ask({"do": do}, text.encode())
+        if do == "follow":
+            return {"kind": "refused"}, _solve_first("there is nothing to follow yet")
+        async with self._house.workers.lent() as worker:
+            return await worker.ask({"do": do}, text.encode())
+
+    async def _solve(self, n: int, key: str, text: str) -> None:
+        """The whole road, when it is this one's turn."""
+        house, start = self._house, time.monotonic()
+        try:
+            await house.opened(key)
+
+            def waits(before: int) -> None:
+                house.later(self._tell(n, "waiting", before=before))
+
+            async with house.turns.turn(waits), house.workers.lent(key=key, anew=True) as worker:
+                if worker.key == key and (known := house.answers.get(key)) is not None:
+                    body = known.report
+                else:
+                    await self._tell(n, "solving", since=time.time())
+                    head, body = await house.solve(worker, key, text.encode(), self._progress(n))
+                    if head["kind"] == "failed":
+                        await self._send(n, "refused", body)
+                        return
+                self._hold(worker)
+            seconds = round(time.monotonic() - start, 3)
+            await self._send(n, "solved", body, key="result", seconds=seconds)
+        except (TimeoutError, WorkerEnded):
+            message = f"stopped after {house.limit_s:g} s, the limit"
+            await self._tell(n, "limit", message=message)
+
+    def _hold(self, worker: Worker) -> None:
+        """Come back to this worker from now on, and leave the last one to others."""
+        if self._live is not None and self._live is not worker and self._live.holder is self:
+            self._live.holder = None
+        self._live, worker.holder = worker, self
+
+    def _progress(self, n: int) -> Any:
+        last = 0.0
+
+        def said(text: str) -> None:
+            nonlocal last
+            if (now := time.monotonic()) - last >= PROGRESS_S:
+                last = now
+                self._house.later(self._tell(n, "progress", text=text))
+
+        return said
+
+    async def _refuse(self, n: int, why: str) -> None:
+        message = {"code": "400", "message": why, "where": None, "why": None, "help": None}
+        await self._send(n, "refused", as_json({"messages": [message]}))
+
+    async def _tell(self, n: int, kind: str, **more: Any) -> None:
+        await self._socket.send_text(as_json({"n": n, "kind": kind, **more}).decode())
+
+    async def _send(
+        self, n: int, kind: str, body: bytes, *, key: str | None = None, **more: Any
+    ) -> None:
+        """An object whose JSON is there already, or under `key` a piece of it."""
+        front = as_json({"n": n, "kind": kind, **more}).decode()[:-1]
+        rest = f',"{key}":{body.decode()}}}' if key else f",{body.decode()[1:]}"
+        await self._socket.send_text(front + rest)
+
+
+def _solve_first(why: str) -> bytes:
+    message = {"code": "E157", "message": why, "where": None, "why": None, "help": None}
+    return as_json({"messages": [message], "solve": True})

@@ -1,0 +1,118 @@
+"""A worker: a process that does the science of the studio, one thing after the other.
+
+It is started by the server (`workers`), reads parcels from its standard input and writes parcels
+to its standard output.  It ends when its input ends, also in the midst of a computation: so no
+worker is left when the server ends, however that happens.
+"""
+
+from __future__ import annotations
+
+import os
+import queue
+import signal
+import sys
+import threading
+import traceback
+import warnings
+from typing import Any, BinaryIO
+
+from burmester.studio.parcel import as_json, packed, read_parcel
+
+__all__ = ["main"]
+
+
+class _Cancelled(Exception):
+    """Somebody wants this computation no more."""
+
+
+class _Inbox:
+    """What the server sent, in its order; `cancelled` is the number of the last call-off."""
+
+    def __init__(self, source: BinaryIO) -> None:
+        self.parcels: queue.SimpleQueue[tuple[dict[str, Any], bytes]] = queue.SimpleQueue()
+        self.cancelled = -1
+        self._source = source
+        threading.Thread(target=self._read, daemon=True).start()
+
+    def _read(self) -> None:
+        while (parcel := read_parcel(self._source)) is not None:
+            if parcel[0]["do"] == "cancel":
+                self.cancelled = parcel[0]["job"]
+            else:
+                self.parcels.put(parcel)
+        os._exit(0)  # the server is gone
+
+
+def main() -> None:
+    """Work until the server has gone."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # a keyboard's is for the server, which ends us
+    warnings.simplefilter("ignore")
+    source = os.fdopen(os.dup(0), "rb")
+    sink = os.fdopen(os.dup(1), "wb", buffering=0)
+    os.dup2(2, 1)  # what anybody prints must not come between the parcels
+    null = os.open(os.devnull, os.O_RDONLY)
+    os.dup2(null, 0)
+    inbox = _Inbox(source)
+
+    from burmester.studio.road import Road  # noqa: PLC0415  the reader looks for the end already
+
+    road = Road()
+    while True:
+        head, body = inbox.parcels.get()
+        _Job(head["job"], inbox, sink).run(road, head, body)
+
+
+class _Job:
+    """One thing to do: its number, and where its answers go."""
+
+    def __init__(self, number: int, inbox: _Inbox, sink: BinaryIO) -> None:
+        self.number = number
+        self._inbox, self._sink = inbox, sink
+
+    def run(self, road: Any, head: dict[str, Any], body: bytes) -> None:
+        """Do it, and say that it is done, whatever comes of it."""
+        try:
+            answer = road.do(head, body, self)
+        except _Cancelled:
+            answer = {"kind": "cancelled"}, b""
+        except Exception as error:
+            answer = {"kind": "failed"}, as_json({"messages": [_fault(error)]})
+        self.send(*answer, last=True)
+
+    def send(self, head: dict[str, Any], body: bytes = b"", *, last: bool = False) -> None:
+        """An answer, or a piece of one; last: the job is done."""
+        data = memoryview(packed({**head, "job": self.number, "last": last}, body))
+        while data:
+            data = data[self._sink.write(data) :]
+
+    def listen(self, said: object) -> None:
+        """Hand on what is said of the progress; ends the computation where it was called off."""
+        if self._inbox.cancelled >= self.number:
+            raise _Cancelled
+        self.send({"kind": "progress"}, str(said).encode(errors="replace"))
+
+
+def _fault(error: Exception) -> dict[str, Any]:
+    """An error as a message; one that is no `BurmesterError` is a fault of burmester itself."""
+    from burmester.errors import BurmesterError  # noqa: PLC0415  seldom
+
+    if isinstance(error, BurmesterError):
+        return {
+            "code": error.code,
+            "message": error.message,
+            "where": error.where,
+            "why": error.why,
+            "help": error.help,
+        }
+    traceback.print_exception(error, file=sys.stderr)
+    return {
+        "code": "E900",
+        "message": f"burmester itself failed: {type(error).__name__}: {error}",
+        "where": None,
+        "why": None,
+        "help": "this is a bug; please report it with the task that led here",
+    }
+
+
+if __name__ == "__main__":
+    main()

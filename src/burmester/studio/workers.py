@@ -1,0 +1,292 @@
+"""Workers as the server sees them: processes that are lent to who has something to be done.
+
+A worker keeps the answers of the last task it solved, so a page comes back to the one that holds
+its own.  Where more are wanted than there may be, the one that was not used for longest is taken.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import os
+import sys
+from collections import deque
+from collections.abc import AsyncIterator, Callable, Iterator
+from contextlib import asynccontextmanager, contextmanager, suppress
+from typing import Any, TypeAlias
+
+from burmester.studio.parcel import LENGTHS, lengths, packed
+
+__all__ = ["Parcel", "Turns", "Worker", "WorkerEnded", "Workers"]
+
+Parcel: TypeAlias = tuple[dict[str, Any], bytes]
+
+GRACE_S = 0.4  # for a computation that was called off to end by itself
+# Matrices are small here: more threads would only wait for each other.
+ENVIRONMENT = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
+
+
+class WorkerEnded(Exception):
+    """A worker that ended before it answered."""
+
+
+class Worker:
+    """A process that does one thing after the other.
+
+    key: of the task whose answers it holds; holder: who comes back to them.
+    """
+
+    def __init__(self, process: asyncio.subprocess.Process) -> None:
+        self._process = process
+        self._job = 0
+        self._done = True
+        self.key: str | None = None
+        self.holder: object = None
+
+    @classmethod
+    async def start(cls) -> Worker:
+        """A new process; it is not waited for until it is ready."""
+        process = await asyncio.create_subprocess_exec(
+            *(sys.executable, "-P", "-m", "burmester.studio.worker"),
+            stdin=asyncio.subprocess.PIPE,
+            stdout=asyncio.subprocess.PIPE,
+            env={**os.environ, **ENVIRONMENT},
+        )
+        return cls(process)
+
+    @property
+    def pid(self) -> int:
+        """The number of the process."""
+        return self._process.pid
+
+    @property
+    def alive(self) -> bool:
+        """Whether the process has not ended."""
+        return self._process.returncode is None
+
+    @property
+    def idle(self) -> bool:
+        """Whether it has answered everything."""
+        return self._done
+
+    async def ask(
+        self, head: dict[str, Any], body: bytes = b"", piece: Callable[[Parcel], Any] | None = None
+    ) -> Parcel:
+        """The last parcel of an answer; those before it go to `piece`.
+
+        Raises WorkerEnded.  Who is cancelled while it waits calls `settle` before it is asked
+        again.
+        """
+        assert self._done
+        self._job, self._done = self._job + 1, False
+        self._write(packed({**head, "job": self._job}, body))
+        return await self._answer(piece)
+
+    async def _answer(self, piece: Callable[[Parcel], Any] | None) -> Parcel:
+        source = self._process.stdout
+        assert source is not None
+        try:
+            while True:
+                front, rest = lengths(await source.readexactly(LENGTHS))
+                head: dict[str, Any] = json.loads(await source.readexactly(front))
+                body = await source.readexactly(rest)
+                if head["last"]:
+                    self._done = True
+                    return head, body
+                if piece is not None:
+                    piece((head, body))
+        except asyncio.IncompleteReadError:
+            raise WorkerEnded from None
+
+    def _write(self, data: bytes) -> None:
+        # Not waited for: a worker takes what it gets even while it computes.
+        with suppress(OSError, RuntimeError):
+            assert self._process.stdin is not None
+            self._process.stdin.write(data)
+
+    async def settle(self) -> None:
+        """Call off what it still does; a worker that goes on all the same is killed."""
+        if self._done:
+            return
+        self._write(packed({"do": "cancel", "job": self._job}))
+        try:
+            async with asyncio.timeout(GRACE_S):
+                await self._answer(None)
+        except (TimeoutError, WorkerEnded):
+            await self.kill()
+
+    async def kill(self) -> None:
+        """End the process at once."""
+        with suppress(ProcessLookupError):
+            self._process.kill()
+        await self._process.wait()
+
+
+class Workers:
+    """At most so many workers, lent one by one; `spare` of them are kept ready."""
+
+    def __init__(self, most: int, spare: int = 2) -> None:
+        self._most, self._spare = most, spare
+        self._idle: list[Worker] = []  # those that rested for longest first
+        self._lent: set[Worker] = set()
+        self._starting = 0
+        self._waiting: deque[asyncio.Future[None]] = deque()
+        self._background: set[asyncio.Task[None]] = set()
+        self._closed = False
+
+    @property
+    def pids(self) -> list[int]:
+        """The numbers of all processes."""
+        return [each.pid for each in (*self._idle, *self._lent)]
+
+    async def open(self) -> None:
+        """Start the spare workers."""
+        for _ in range(min(self._spare, self._most)):
+            await self._start()
+
+    async def close(self) -> None:
+        """End all of them."""
+        self._closed = True
+        for task in self._background:
+            task.cancel()
+        await asyncio.gather(*(each.kill() for each in (*self._idle, *self._lent)))
+
+    @asynccontextmanager
+    async def lent(self, *, key: str | None = None, anew: bool = False) -> AsyncIterator[Worker]:
+        """A worker for this block: one that holds the answers of `key`, if there is one.
+
+        anew: whether its answers will be others, so that nobody's are to be lost.
+        """
+        worker = await self._borrow(key, anew)
+        try:
+            yield worker
+        finally:
+            self._return(worker)
+
+    @contextmanager
+    def held(self, worker: Worker, holder: object) -> Iterator[bool]:
+        """Borrow this very worker, without waiting; whether it still holds the holder's answers."""
+        if worker not in self._idle or worker.holder is not holder or not worker.alive:
+            yield False
+            return
+        self._idle.remove(worker)
+        self._lent.add(worker)
+        try:
+            yield True
+        finally:
+            self._return(worker)
+
+    async def _borrow(self, key: str | None, anew: bool) -> Worker:
+        while True:
+            if (worker := self._choice(key, anew)) is not None:
+                self._idle.remove(worker)
+                self._lent.add(worker)
+                return worker
+            if self._size < self._most:
+                await self._start()
+                continue
+            turn = asyncio.get_running_loop().create_future()
+            self._waiting.append(turn)
+            await turn
+
+    def _choice(self, key: str | None, anew: bool) -> Worker | None:
+        """The idle worker that is to be had; None where another is to be started first."""
+        for each in [each for each in self._idle if not each.alive]:
+            self._idle.remove(each)
+        if key is not None:
+            for each in self._idle:
+                if each.key == key and each.holder is None:
+                    return each
+        free = [each for each in self._idle if each.holder is None]
+        if free:
+            return next((each for each in free if each.key is None), free[0])
+        full = self._size >= self._most
+        # What changes no answers may be asked of anybody.
+        return self._idle[0] if self._idle and (full or not anew) else None
+
+    @property
+    def _size(self) -> int:
+        return len(self._idle) + len(self._lent) + self._starting
+
+    async def _start(self) -> None:
+        self._starting += 1
+        try:
+            worker = await Worker.start()
+        finally:
+            self._starting -= 1
+        self._idle.append(worker)
+        self._wake()
+
+    def _return(self, worker: Worker) -> None:
+        if worker.idle and worker.alive:
+            self._rest(worker)
+        else:
+            self._later(self._settled(worker))
+
+    def _rest(self, worker: Worker) -> None:
+        self._lent.discard(worker)
+        self._idle.append(worker)
+        self._wake()
+
+    async def _settled(self, worker: Worker) -> None:
+        await worker.settle()
+        if worker.alive:
+            worker.key = worker.holder = None
+            self._rest(worker)
+            return
+        self._lent.discard(worker)
+        self._wake()
+        if not self._closed and self._size < self._spare:
+            await self._start()
+
+    def _wake(self) -> None:
+        while self._waiting:
+            turn = self._waiting.popleft()
+            if not turn.done():
+                turn.set_result(None)
+                return
+
+    def _later(self, what: Any) -> None:
+        task = asyncio.ensure_future(what)
+        self._background.add(task)
+        task.add_done_callback(self._background.discard)
+
+
+class Turns:
+    """At most so many at once; the others wait, first come, first served."""
+
+    def __init__(self, at_once: int) -> None:
+        self._free = at_once
+        self._queue: deque[tuple[asyncio.Future[None], Callable[[int], None]]] = deque()
+
+    @asynccontextmanager
+    async def turn(self, told: Callable[[int], None]) -> AsyncIterator[None]:
+        """Wait for a turn; told: how many are still before this one, whenever that changes."""
+        if self._free > 0 and not self._queue:
+            self._free -= 1
+        else:
+            mine: asyncio.Future[None] = asyncio.get_running_loop().create_future()
+            entry = (mine, told)
+            self._queue.append(entry)
+            told(len(self._queue))
+            try:
+                await mine
+            except BaseException:
+                if entry in self._queue:
+                    self._queue.remove(entry)
+                else:
+                    self._next()
+                raise
+        try:
+            yield
+        finally:
+            self._next()
+
+    def _next(self) -> None:
+        if self._queue:
+            mine, _ = self._queue.popleft()
+            mine.set_result(None)
+            for before, (_, told) in enumerate(self._queue, start=1):
+                told(before)
+        else:
+            self._free += 1

@@ -1,0 +1,1 @@
+// scripts/bundle writes the studio here.
