@@ -74,12 +74,5 @@ def studio(
             help="leave --host out, or add --i-know-that-others-can-connect",
         )
     data = sys.stdin.buffer.read(MOST_BYTES) if task == "-" and sys.stdin is not None else b""
-    serve(
-        Opening(task, data),
-        host=host,
-        port=port,
-        limit_s=time_limit,
-        browser=not no_browser,
-        say=click.echo,
-    )
+    serve(Opening(task, data, host, port, time_limit, browser=not no_browser), click.echo)
     return EXIT_FOUND

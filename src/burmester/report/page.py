@@ -7,19 +7,25 @@ import hashlib
 import html
 import json
 from importlib import resources
+from typing import Any
 
 from burmester.synthesis.result import Synthesis
 from burmester.web.data import report_data
 
-__all__ = ["page"]
+__all__ = ["page", "page_of"]
 
 
 def page(synthesis: Synthesis, title: str) -> str:
-    """The report of a synthesis: a whole HTML document, scripts, styles and data within.
+    """The report of a synthesis: a whole HTML document, scripts, styles and data within."""
+    return page_of(report_data(synthesis), title)
+
+
+def page_of(report: dict[str, Any], title: str) -> str:
+    """The same of what `report_data` said.
 
     Its content security policy allows its own script and style, by their hashes, and nothing else.
     """
-    data = {**report_data(synthesis), "title": title}
+    data = {**report, "title": title}
     # The widget's module exports itself to no one here, and is called by its own name.
     script = _text("widget.mjs") + _text("start.mjs")
     style = _text("widget.css") + _text("page.css")

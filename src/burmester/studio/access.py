@@ -34,7 +34,7 @@ _HEADERS: Final = (
 )  # fmt: skip
 
 
-class _Refused(Exception):
+class _RefusedError(Exception):
     """A request that is not let in: status, and why."""
 
     def __init__(self, status: int, why: str) -> None:
@@ -42,7 +42,7 @@ class _Refused(Exception):
         self.status, self.why = status, why
 
 
-class _TooLarge(Exception):
+class _TooLargeError(Exception):
     """A body beyond `MOST_BYTES`."""
 
 
@@ -87,9 +87,9 @@ class Access:
             self._require_allowed(scope)
             within = receive if scope["type"] == "websocket" else _limited(receive)
             await self._application(scope, within, sent)
-        except _Refused as error:
+        except _RefusedError as error:
             await _refuse(scope, sent, error.status, error.why)
-        except _TooLarge:
+        except _TooLargeError:
             if not started:
                 await _refuse(scope, sent, 413, f"more than {MOST_BYTES / 1e6:.0f} MB at once")
 
@@ -97,17 +97,17 @@ class Access:
         headers: Headers = scope["headers"]
         hosts = _values(headers, b"host")
         if len(hosts) != 1 or not self._is_ours(hosts[0]):
-            raise _Refused(403, "this host is not served here")
+            raise _RefusedError(403, "this host is not served here")
         for origin in _values(headers, b"origin"):
             if origin.lower() != f"http://{hosts[0].lower()}":
-                raise _Refused(403, "another site may not ask here")
+                raise _RefusedError(403, "another site may not ask here")
         path = scope["path"]
         shell = scope["type"] == "http" and path in OPEN
         sites = _values(headers, b"sec-fetch-site")
         if not shell and any(each not in ("same-origin", "none") for each in sites):
-            raise _Refused(403, "another site may not ask here")
+            raise _RefusedError(403, "another site may not ask here")
         if not shell and not self._is_known(headers):
-            raise _Refused(401, "open the address that the command printed")
+            raise _RefusedError(401, "open the address that the command printed")
         if scope["type"] == "http" and scope["method"] not in ("GET", "HEAD"):
             _require_json(headers)
 
@@ -147,13 +147,13 @@ def refusal(status: int, why: str, help: str | None = None) -> bytes:
 
 def _require_json(headers: Headers) -> None:
     if _values(headers, b"content-encoding"):
-        raise _Refused(415, "what is packed is not read")
+        raise _RefusedError(415, "what is packed is not read")
     kinds = _values(headers, b"content-type")
     if len(kinds) != 1 or kinds[0].partition(";")[0].strip().lower() != "application/json":
-        raise _Refused(415, "only JSON is read")
+        raise _RefusedError(415, "only JSON is read")
     for length in _values(headers, b"content-length"):
         if not length.isdecimal() or int(length) > MOST_BYTES:
-            raise _Refused(413, f"more than {MOST_BYTES / 1e6:.0f} MB at once")
+            raise _RefusedError(413, f"more than {MOST_BYTES / 1e6:.0f} MB at once")
 
 
 def _limited(receive: Any) -> Any:
@@ -165,7 +165,7 @@ def _limited(receive: Any) -> Any:
         message = await receive()
         size += len(message.get("body", b""))
         if size > MOST_BYTES:
-            raise _TooLarge
+            raise _TooLargeError
         return message
 
     return received

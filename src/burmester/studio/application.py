@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 from collections.abc import Awaitable, Callable
 from importlib import resources
@@ -13,14 +14,19 @@ from starlette.responses import Response
 from starlette.routing import Route, WebSocketRoute
 from starlette.websockets import WebSocket
 
+from burmester.errors import BurmesterError
+from burmester.studio import autosave
 from burmester.studio.access import refusal
+from burmester.studio.commands import commands
 from burmester.studio.house import House
 from burmester.studio.parcel import as_json
 from burmester.studio.session import Session
-from burmester.studio.workers import WorkerEnded
+from burmester.studio.workers import WorkerEndedError
 
 __all__ = ["application"]
 
+OF_TASK = ("read", "outline", "check", "task")
+OF_RESULT = ("export", "result", "report", "improve")
 _STATIC = {
     "/": ("studio.html", "text/html; charset=utf-8"),
     "/studio.mjs": ("studio.mjs", "text/javascript; charset=utf-8"),
@@ -40,11 +46,28 @@ def application(house: House, exchanged: Callable[[object], str | None]) -> Star
         return Response(status_code=204, headers={"set-cookie": cookie})
 
     async def start(request: Request) -> Response:
-        return Response(as_json(house.start), media_type="application/json")
+        saved = await asyncio.to_thread(autosave.last)
+        return Response(as_json({**house.start, "saved": saved}), media_type="application/json")
 
     async def template(request: Request) -> Response:
         body = as_json({"name": request.path_params["name"]})
         return await _of_desk(house, {"do": "template"}, body)
+
+    async def command(request: Request) -> Response:
+        given = await _given(request)
+        if given is None:
+            return _no_object()
+        return Response(as_json({"commands": commands(given)}), media_type="application/json")
+
+    async def save(request: Request) -> Response:
+        given = await _given(request)
+        if given is None or not isinstance(given.get("document"), dict):
+            return _no_object()
+        try:
+            await asyncio.to_thread(autosave.save, given)
+        except (BurmesterError, OSError, ValueError) as error:
+            return _refused(422, f"the task could not be kept: {error.args[0]}")
+        return Response(status_code=204)
 
     async def live(socket: WebSocket) -> None:
         await Session(socket, house).run()
@@ -54,7 +77,10 @@ def application(house: House, exchanged: Callable[[object], str | None]) -> Star
         Route("/session", session, methods=["POST"]),
         Route("/start", start),
         Route("/template/{name}", template),
-        *(Route(f"/{do}", _desk(house, do), methods=["POST"]) for do in ("read", "check")),
+        Route("/command", command, methods=["POST"]),
+        Route("/autosave", save, methods=["PUT"]),
+        *(Route(f"/{do}", _desk(house, do, False), methods=["POST"]) for do in OF_TASK),
+        *(Route(f"/{do}", _desk(house, do, True), methods=["POST"]) for do in OF_RESULT),
     ]
     handlers: dict[Any, Any] = {404: _missing, 405: _missing, Exception: _failed}
     return Starlette(routes=[*routes, WebSocketRoute("/live", live)], exception_handlers=handlers)
@@ -68,22 +94,31 @@ def _static(name: str, kind: str) -> Callable[[Request], Awaitable[Response]]:
     return sent
 
 
-def _desk(house: House, do: str) -> Callable[[Request], Awaitable[Response]]:
+def _desk(house: House, do: str, of_result: bool) -> Callable[[Request], Awaitable[Response]]:
+    """What a worker does; of_result: whether with the answer to the task, if it is known."""
+
     async def done(request: Request) -> Response:
-        if await _given(request) is None:
-            return _refused(400, "this is no object in JSON")
-        return await _of_desk(house, {"do": do}, await request.body())
+        given = await _given(request)
+        if given is None:
+            return _no_object()
+        key = house.key_of(given) if of_result else None
+        return await _of_desk(house, {"do": do}, await request.body(), key)
 
     return done
 
 
-async def _of_desk(house: House, head: dict[str, Any], body: bytes) -> Response:
+async def _of_desk(
+    house: House, head: dict[str, Any], body: bytes, key: str | None = None
+) -> Response:
     try:
-        answer, data = await house.desk(head, body)
+        answer, data = await house.desk(head, body, key)
     except TimeoutError:
         return _refused(422, "that took too long", "try it with the command")
-    except WorkerEnded:
+    except WorkerEndedError:
         return _refused(422, "the computation ended before its time", "try it once more")
+    if answer["kind"] == "file":  # named by us, in letters, digits and hyphens
+        headers = {"content-disposition": f'attachment; filename="{answer["name"]}"'}
+        return Response(data, media_type="application/octet-stream", headers=headers)
     status = 200
     if answer["kind"] == "failed":
         status = 500 if json.loads(data)["messages"][0]["code"] == "E900" else 422
@@ -97,6 +132,10 @@ async def _given(request: Request) -> dict[str, Any] | None:
     except (ValueError, RecursionError):
         return None
     return given if isinstance(given, dict) else None
+
+
+def _no_object() -> Response:
+    return _refused(400, "this is no object in JSON")
 
 
 def _refused(status: int, why: str, help: str | None = None) -> Response:

@@ -1,13 +1,30 @@
-"""What leaves the studio: the formats of `burmester export`."""
+"""What leaves the studio: the files that the command writes, byte by byte."""
 
 from __future__ import annotations
 
+import json
+import tempfile
+from dataclasses import fields
 from importlib.util import find_spec
-from typing import Any
+from pathlib import Path
+from typing import Any, Final
 
-from burmester.export import FORMATS
+from burmester.errors import InputError
+from burmester.export import FORMATS, Options, export, require_format
+from burmester.io.saved import read_result
+from burmester.report.page import page_of
+from burmester.studio.names import plain_name
 
-__all__ = ["formats"]
+__all__ = ["exported", "formats", "report_page"]
+
+_TYPES: Final = {  # of the options of an export, as JSON has them
+    "float | None": (int, float, type(None)),
+    "str | None": (str, type(None)),
+    "float": (int, float),
+    "int": (int,),
+    "str": (str,),
+    "bool": (bool,),
+}
 
 
 def formats() -> list[dict[str, Any]]:
@@ -17,3 +34,44 @@ def formats() -> list[dict[str, Any]]:
         for name, each in FORMATS.items()
         if name != "flat" and all(find_spec(library) for library in each.libraries)
     ]
+
+
+def exported(result: bytes, given: dict[str, Any]) -> tuple[bytes, str]:
+    """A linkage of a result in a format, and the name of the file.
+
+    given: "format", "linkage" (its id; the best one by default), "name" (of the task) and, in
+    "settings", options of `burmester export`.  Raises what `export` raises.
+    """
+    to, linkage = given.get("format"), given.get("linkage")
+    if not isinstance(to, str):
+        raise InputError("E161", "no format is given", help=f"give one of {', '.join(FORMATS)}")
+    if linkage is not None and not isinstance(linkage, str):
+        raise InputError("E151", "the linkage has no name", help="give its id, such as L1")
+    name = require_format("", to)
+    chosen = read_result("-", data=result).choose(linkage)
+    file = f"{plain_name(given.get('name'))}-{chosen.id}{FORMATS[name].suffix}"
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / file
+        export(chosen, name, path, _options(given.get("settings")))
+        return path.read_bytes(), file
+
+
+def _options(given: Any) -> Options:
+    """The options of an export; raises E100 for what is none."""
+    if given is None:
+        return Options()
+    types = {each.name: str(each.type) for each in fields(Options)}
+    for name, value in given.items() if isinstance(given, dict) else [("", given)]:
+        allowed = _TYPES.get(types.get(name, ""), ())
+        if not isinstance(value, allowed) or (isinstance(value, bool) and bool not in allowed):
+            raise InputError(
+                "E100",
+                f"an export has no option {str(name)[:40]!r} of this kind",
+                help=f"the options are {', '.join(types)}",
+            )
+    return Options(**given)
+
+
+def report_page(report: bytes, name: str) -> bytes:
+    """The page of `burmester report`, of what `report_data` said."""
+    return page_of(json.loads(report), f"{name}.toml").encode()

@@ -21,9 +21,9 @@ from typing import Any
 
 import numpy as np
 
+from burmester.following.followed import Followed
 from burmester.fourbar.defects import Driven
 from burmester.io.linkage_data import dyad_data, number
-from burmester.following.followed import Followed
 from burmester.linkages.explanation import reasons
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.web.branches import Branches

@@ -1,4 +1,4 @@
-"""What all tabs share: workers, turns, the answers of late, and the task that the studio opens on."""
+"""What all tabs share: workers, turns, the last answers, and the task that the studio opens on."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from typing import Any
 
 from burmester.errors import InputError
 from burmester.studio.parcel import as_json
-from burmester.studio.workers import Parcel, Turns, Worker, WorkerEnded, Workers
+from burmester.studio.workers import Parcel, Turns, Worker, WorkerEndedError, Workers
 
 __all__ = ["Answer", "House"]
 
@@ -85,7 +85,7 @@ class House:
         async with self.workers.lent(anew=True) as worker:
             try:
                 await self.solve(worker, key, body, lambda text: None)
-            except (TimeoutError, WorkerEnded):
+            except (TimeoutError, WorkerEndedError):
                 return  # the page asks again, and is told
 
     async def opened(self, key: str) -> None:
@@ -96,7 +96,7 @@ class House:
     async def solve(
         self, worker: Worker, key: str, body: bytes, said: Callable[[str], None]
     ) -> Parcel:
-        """Go the whole road in a worker; raises TimeoutError at the limit, and WorkerEnded."""
+        """Go the whole road in a worker; raises TimeoutError at the limit, and WorkerEndedError."""
         result = b""
 
         def piece(parcel: Parcel) -> None:
@@ -115,15 +115,23 @@ class House:
             self.answers.keep(key, Answer(result, answer[1]))
         return answer
 
-    async def desk(self, head: dict[str, Any], body: bytes) -> Parcel:
-        """What is asked over HTTP; raises TimeoutError and WorkerEnded."""
+    async def desk(self, head: dict[str, Any], body: bytes, key: str | None = None) -> Parcel:
+        """What is asked over HTTP; raises TimeoutError and WorkerEndedError.
+
+        key: of the task whose answer is wanted, if one is: it is not found twice.
+        """
+        if key is not None:
+            head = {**head, "time_limit": SOFT * self.limit_s}
+            if (known := self.answers.get(key)) is not None:
+                head["known"] = [len(known.result), len(known.report)]
+                body = known.result + known.report + body
         async with self.workers.lent() as worker, asyncio.timeout(DESK_S):
             return await worker.ask(head, body)
 
     @staticmethod
     def key_of(given: dict[str, Any]) -> str:
         """The key of a task: the same for the same numbers, however they are written."""
-        both = [_plain(given.get("document")), _plain(given.get("options"))]
+        both = [_plain(given.get("document")), _plain(given.get("options") or {})]
         return hashlib.sha256(json.dumps(both, sort_keys=True).encode()).hexdigest()
 
     def later(self, what: Coroutine[Any, Any, Any]) -> asyncio.Task[Any]:

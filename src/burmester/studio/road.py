@@ -11,27 +11,38 @@ import binascii
 import json
 from collections.abc import Callable
 from pathlib import PurePath
-from typing import Any, Protocol, TypeAlias
+from typing import Any, Final, Protocol, TypeAlias
 
 from burmester.errors import BurmesterError, InputError
 from burmester.following.follow import follow
 from burmester.following.followed import Followed
 from burmester.io import templates
-from burmester.io.result import json_line, message_data, synthesis_data
+from burmester.io.reading.outlines.outline_file import OutlineFile, read_outline
 from burmester.io.reading.poses import read_task
+from burmester.io.result import json_line, message_data, synthesis_data
+from burmester.io.saved import read_result
 from burmester.progress import shown
-from burmester.studio.document import document_of, options_of, read_file, task_of
-from burmester.studio.exports import formats
+from burmester.studio.curves import curves
+from burmester.studio.document import document_of, options_of, plain, read_file, task_file, task_of
+from burmester.studio.exports import exported, formats, report_page
 from burmester.studio.frames import followed_frame
+from burmester.studio.identity import matched, standing
+from burmester.studio.names import plain_name
 from burmester.studio.parcel import as_json
+from burmester.studio.placed import placed
+from burmester.synthesis.judgement import judge_linkage
 from burmester.synthesis.motion_generation import synthesize
 from burmester.synthesis.result import Synthesis
+from burmester.tasks.motion_task import Task
 from burmester.web.branches import branches_of
 from burmester.web.data import report_data, scene_of
 
 __all__ = ["Road"]
 
 Answer: TypeAlias = tuple[dict[str, Any], bytes]
+
+FRAMES: Final = (61, 361)  # of a way of a followed linkage: as a rule, and at most
+KNOWN: Final = object()  # the key of what the server kept: result and report of the task
 
 
 class Job(Protocol):
@@ -55,7 +66,11 @@ class Road:
         """Do what a parcel says; the answer is a parcel, too."""
         if head["do"] == "open":
             return self.open(head, body)
-        given = json.loads(body)
+        sizes = head.get("known")
+        start = sum(sizes) if sizes else 0
+        given = json.loads(body[start:])
+        if sizes:
+            given[KNOWN] = body[: sizes[0]], body[sizes[0] : start]
         return _DEEDS[head["do"]](self, head, given, job)
 
     def open(self, head: dict[str, Any], data: bytes) -> Answer:
@@ -88,8 +103,60 @@ class Road:
         options_of(given.get("options"))
         return _json({"messages": []})
 
+    def outline(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
+        """The outline in a drawing that the page sent."""
+        data, name = _content(given)
+        part, unit = given.get("part"), given.get("length_unit")
+        file = OutlineFile(name, part if isinstance(part, str) else None)
+        outline, note = read_outline(file, "", unit if isinstance(unit, str) else None, data)
+        return _json({"outline": plain(outline.vertices.tolist()), "notes": [message_data(note)]})
+
+    def task(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
+        """The task as a file."""
+        options_of(given.get("options"))
+        name = f"{plain_name(given.get('name'))}.toml"
+        return {"kind": "file", "name": name}, task_file(given.get("document")).encode()
+
+    def export(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
+        """A linkage of the result in another format."""
+        data, name = exported(self._result(head, given), given)
+        return {"kind": "file", "name": name}, data
+
+    def result(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
+        """The result as a file."""
+        name = f"{plain_name(given.get('name'))}.json"
+        return {"kind": "file", "name": name}, self._result(head, given)
+
+    def report(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
+        """The page of the result, as a file."""
+        name = plain_name(given.get("name"))
+        known = given.get(KNOWN)
+        data = known[1] if known else as_json(report_data(self._solved(head, given)))
+        return {"kind": "file", "name": f"{name}.html"}, report_page(data, name)
+
+    def _result(self, head: dict[str, Any], given: Any) -> bytes:
+        """The result that the server knows, or the one that is found again."""
+        if known := given.get(KNOWN):
+            return bytes(known[0])
+        return json_line(synthesis_data(self._solved(head, given))).encode()
+
+    @staticmethod
+    def _solved(head: dict[str, Any], given: Any) -> Synthesis:
+        options = options_of(given.get("options"), head.get("time_limit"))
+        return synthesize(task_of(given.get("document")), options)
+
+    def improve(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
+        """One linkage of the result judged by itself, and the nearest better ones."""
+        linkage = given.get("linkage")
+        saved = read_result("-", data=self._result(head, given))
+        chosen = saved.choose(linkage if isinstance(linkage, str) else None)
+        options = options_of(given.get("options"), head.get("time_limit"))
+        task = task_of(given.get("document"))
+        return _json(report_data(judge_linkage(task, chosen.linkage, options, improve=True)))
+
     def solve(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """The whole road: the result as a file holds it first, then what the page draws."""
+        self._synthesis = self._answers = None
         task = task_of(given.get("document"))
         options = options_of(given.get("options"), head.get("time_limit"))
         with shown(job.listen):
@@ -100,34 +167,62 @@ class Road:
 
     def follow(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """The last answers, followed to the task that the page shows now."""
-        if self._answers is None:
-            return _not_followed("there is nothing to follow yet")
         task = task_of(given.get("document"))
-        try:
-            followed = follow(self._answers, task)
-        except InputError as error:
-            if error.code != "E157":
-                raise
-            return _not_followed(f"{error.message}: {error.why}")
+        followed = self._followed(task)
+        if isinstance(followed, str):
+            return _not_followed(followed)
         self._answers = followed
-        wanted = given.get("shown") or []
-        frames = min(max(int(given.get("frames") or 61), 11), 361)
+        wanted = given.get("shown")
+        asked = given.get("frames")
+        frames = min(max(asked, FRAMES[0]), FRAMES[1]) if type(asked) is int else FRAMES[0]
         assert self._synthesis is not None
         scene = scene_of(self._synthesis)
         motion = {
             each.id: branches_of(each, task.poses, scene, frames)
             for each in followed.linkages
-            if each.id in wanted
+            if isinstance(wanted, list) and each.id in wanted
         }
         return {"kind": "frame"}, followed_frame(given["n"], followed, motion)
 
+    def _followed(self, task: Task) -> Followed | str:
+        """The last answers at a task; or why they cannot be followed there."""
+        if self._answers is None:
+            return "there is nothing to follow yet"
+        try:
+            return follow(self._answers, task)
+        except InputError as error:
+            if error.code != "E157":
+                raise
+            return f"{error.message}: {error.why}"
+
+    def stand(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
+        """Where the linkages are at a task, for `match`; it changes nothing."""
+        found = self._followed(task_of(given.get("document")))
+        return _json([] if isinstance(found, str) else standing(found.linkages))
+
+    def match(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
+        """Which linkages of this task are those that stood elsewhere."""
+        if self._synthesis is None:
+            return _json({})
+        return _json(matched(given, self._synthesis))
+
+    def place(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
+        """The dyads of pivots that a hand put somewhere, and what they make."""
+        task, options = task_of(given.get("document")), options_of(given.get("options"))
+        return {"kind": "placed"}, as_json(placed(task, given.get("pivots"), options, FRAMES[0]))
+
+    def curve(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
+        """Burmester's curves of four poses."""
+        found = curves(task_of(given.get("document")), judged=given.get("judged") is not False)
+        return {"kind": "curve"}, as_json(found)
+
 
 _DEEDS: dict[str, Callable[[Road, dict[str, Any], Any, Job], Answer]] = {
-    "template": Road.template,
-    "read": Road.read,
-    "check": Road.check,
-    "solve": Road.solve,
-    "follow": Road.follow,
+    name: getattr(Road, name)
+    for name in (
+        *("template", "read", "outline", "check", "task", "export", "result", "report", "improve"),
+        *("solve", "follow", "stand", "match", "place", "curve"),
+    )
 }
 
 

@@ -6,11 +6,12 @@ E100 a port or a host that cannot be had        E130 a library is missing
 from __future__ import annotations
 
 import asyncio
+import os
 import signal
 import socket
 import webbrowser
 from collections.abc import Callable
-from contextlib import nullcontext, suppress
+from contextlib import nullcontext
 from dataclasses import dataclass
 from typing import Any
 
@@ -28,33 +29,37 @@ TEMPLATE = "lid-hinge"
 
 @dataclass(frozen=True)
 class Opening:
-    """What the studio opens on: a task file, its bytes where it is standard input; or a template."""
+    """How the studio opens.
+
+    path: of a task file; None for a template.  data: its bytes, if it is standard input ("-").
+    limit_s: seconds after which a search is stopped.  browser: whether to open one.
+    """
 
     path: str | None = None
     data: bytes = b""
+    host: str = "127.0.0.1"
+    port: int = 0
+    limit_s: float = 10.0
+    browser: bool = True
 
 
-def serve(
-    opening: Opening,
-    *,
-    host: str = "127.0.0.1",
-    port: int = 0,
-    limit_s: float = 10.0,
-    browser: bool = True,
-    say: Callable[[str], None] = print,
-) -> None:
-    """Serve the page until a signal comes; say: gets the address, before anything else."""
-    with _bound(host, port) as bound:
-        asyncio.run(_serve(opening, bound, host, limit_s, browser, say))
+def serve(opening: Opening, say: Callable[[str], None] = print) -> None:
+    """Serve the page until a signal comes; say: gets the address, before anything else.
+
+    Raises InputError of the task, before anything is opened, and E100 of the socket.
+    """
+    with _bound(opening.host, opening.port) as bound:
+        asyncio.run(_serve(opening, bound, say))
 
 
 def _bound(host: str, port: int) -> socket.socket:
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     bound = socket.socket(family)
     try:
-        with suppress(OSError):
+        if os.name != "nt":  # where it would share the port with anybody
             bound.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         bound.bind((host, port))
+        bound.listen(128)  # who is quick waits, and is not turned away
     except (OSError, OverflowError) as error:
         bound.close()
         why = getattr(error, "strerror", None) or str(error)
@@ -67,14 +72,8 @@ def _bound(host: str, port: int) -> socket.socket:
     return bound
 
 
-async def _serve(
-    opening: Opening,
-    bound: socket.socket,
-    host: str,
-    limit_s: float,
-    browser: bool,
-    say: Callable[[str], None],
-) -> None:
+async def _serve(opening: Opening, bound: socket.socket, say: Callable[[str], None]) -> None:
+    host, limit_s = opening.host, opening.limit_s
     house = House(limit_s)
     await house.workers.open()  # they load while this process loads the server
     try:
@@ -89,7 +88,6 @@ async def _serve(
             "version": __version__,
             "templates": [{"name": each, "summary": templates.summary(each)} for each in names],
             "limit_s": limit_s,
-            "saved": None,
         }
         port = bound.getsockname()[1]
         door = Access(port=port, host=host)
@@ -113,7 +111,7 @@ async def _serve(
         shown = {"0.0.0.0": "127.0.0.1", "[::]": "[::1]"}.get(shown, shown)
         address = f"http://{shown}:{port}/#token={door.token}"
         say(address)
-        if browser:
+        if opening.browser:
             house.later(asyncio.to_thread(webbrowser.open, address))
         await _until_stopped(server, bound)
     finally:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from burmester.studio.parcel import as_json
-from burmester.studio.workers import Parcel, Worker, WorkerEnded
+from burmester.studio.workers import Parcel, Worker, WorkerEndedError
 
 if TYPE_CHECKING:
     from burmester.studio.house import House
@@ -24,7 +24,7 @@ __all__ = ["Session"]
 PROGRESS_S = 0.1  # between two words of progress
 HAND_S = 5.0  # for one follow; whoever takes longer is stuck
 MOST_N = 2**53
-HAND = ("follow", "place", "curve", "point")
+HAND = ("follow", "place", "curve")
 
 
 class Session:
@@ -62,10 +62,10 @@ class Session:
         except (ValueError, RecursionError):
             given = None
         n = given.get("n") if isinstance(given, dict) else None
-        if not isinstance(n, int) or isinstance(n, bool) or not 0 <= n < MOST_N:
+        if text is None or type(n) is not int or not 0 <= n < MOST_N:
             await self._refuse(0, "this is no message of the page")
             return
-        assert text is not None
+        assert isinstance(given, dict)
         do = given.get("do")
         if do in HAND:
             self._newest = n, do, text
@@ -89,7 +89,7 @@ class Session:
             try:
                 async with asyncio.timeout(HAND_S):
                     head, body = await self._by_hand(do, text)
-            except (TimeoutError, WorkerEnded):
+            except (TimeoutError, WorkerEndedError):
                 head, body = {"kind": "refused"}, _solve_first("that took too long to follow")
             if head["kind"] == "frame":
                 await self._socket.send_bytes(body)
@@ -125,12 +125,27 @@ class Session:
                     if head["kind"] == "failed":
                         await self._send(n, "refused", body)
                         return
+                was = await self._matched(worker, text)
                 self._hold(worker)
             seconds = round(time.monotonic() - start, 3)
-            await self._send(n, "solved", body, key="result", seconds=seconds)
-        except (TimeoutError, WorkerEnded):
+            await self._send(n, "solved", body, key="result", seconds=seconds, was=was)
+        except (TimeoutError, WorkerEndedError):
             message = f"stopped after {house.limit_s:g} s, the limit"
             await self._tell(n, "limit", message=message)
+
+    async def _matched(self, worker: Worker, text: str) -> dict[str, str]:
+        """For the new linkages the ids that they have on the page, where they are there already."""
+        if self._live is None or self._live is worker:
+            return {}
+        with self._house.workers.held(self._live, self) as ours:
+            if not ours:
+                return {}
+            head, before = await self._live.ask({"do": "stand"}, text.encode())
+        if head["kind"] == "failed":
+            return {}
+        head, body = await worker.ask({"do": "match"}, before)
+        was: dict[str, str] = {} if head["kind"] == "failed" else json.loads(body)
+        return was
 
     def _hold(self, worker: Worker) -> None:
         """Come back to this worker from now on, and leave the last one to others."""

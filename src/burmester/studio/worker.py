@@ -21,7 +21,7 @@ from burmester.studio.parcel import as_json, packed, read_parcel
 __all__ = ["main"]
 
 
-class _Cancelled(Exception):
+class _CalledOffError(Exception):
     """Somebody wants this computation no more."""
 
 
@@ -73,7 +73,7 @@ class _Job:
         """Do it, and say that it is done, whatever comes of it."""
         try:
             answer = road.do(head, body, self)
-        except _Cancelled:
+        except _CalledOffError:
             answer = {"kind": "cancelled"}, b""
         except Exception as error:
             answer = {"kind": "failed"}, as_json({"messages": [_fault(error)]})
@@ -88,7 +88,7 @@ class _Job:
     def listen(self, said: object) -> None:
         """Hand on what is said of the progress; ends the computation where it was called off."""
         if self._inbox.cancelled >= self.number:
-            raise _Cancelled
+            raise _CalledOffError
         self.send({"kind": "progress"}, str(said).encode(errors="replace"))
 
 

@@ -17,7 +17,7 @@ from typing import Any, TypeAlias
 
 from burmester.studio.parcel import LENGTHS, lengths, packed
 
-__all__ = ["Parcel", "Turns", "Worker", "WorkerEnded", "Workers"]
+__all__ = ["Parcel", "Turns", "Worker", "WorkerEndedError", "Workers"]
 
 Parcel: TypeAlias = tuple[dict[str, Any], bytes]
 
@@ -26,7 +26,7 @@ GRACE_S = 0.4  # for a computation that was called off to end by itself
 ENVIRONMENT = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
 
 
-class WorkerEnded(Exception):
+class WorkerEndedError(Exception):
     """A worker that ended before it answered."""
 
 
@@ -74,7 +74,7 @@ class Worker:
     ) -> Parcel:
         """The last parcel of an answer; those before it go to `piece`.
 
-        Raises WorkerEnded.  Who is cancelled while it waits calls `settle` before it is asked
+        Raises WorkerEndedError.  Who is cancelled while it waits calls `settle` before it is asked
         again.
         """
         assert self._done
@@ -96,7 +96,7 @@ class Worker:
                 if piece is not None:
                     piece((head, body))
         except asyncio.IncompleteReadError:
-            raise WorkerEnded from None
+            raise WorkerEndedError from None
 
     def _write(self, data: bytes) -> None:
         # Not waited for: a worker takes what it gets even while it computes.
@@ -112,7 +112,7 @@ class Worker:
         try:
             async with asyncio.timeout(GRACE_S):
                 await self._answer(None)
-        except (TimeoutError, WorkerEnded):
+        except (TimeoutError, WorkerEndedError):
             await self.kill()
 
     async def kill(self) -> None:

@@ -31,7 +31,7 @@ from burmester.web.family_map import family_map
 from burmester.web.image_space import chart_of, space_of
 from burmester.web.pivot_map import pivot_map
 
-__all__ = ["report_data", "scene_of"]
+__all__ = ["linkage_report", "report_data", "scene_of"]
 
 SCHEMA = "burmester.report/1"
 FRAMES = 24_000  # frames of all linkages together
@@ -76,6 +76,13 @@ def report_data(synthesis: Synthesis) -> dict[str, Any]:
         "asked_transmission_deg": task.requirements.transmission_deg or None,
         "footnotes": sentences.footnotes(synthesis),
     }
+
+
+def linkage_report(synthesis: Synthesis, found: FoundLinkage, frames: int) -> dict[str, Any]:
+    """One linkage as `report_data` has it; frames: along each of its ways."""
+    scene = scene_of(synthesis)
+    chart = chart_of(synthesis.task.poses, synthesis.length or scene)
+    return _linkage(synthesis, found, scene, frames, chart)
 
 
 def scene_of(synthesis: Synthesis) -> float:

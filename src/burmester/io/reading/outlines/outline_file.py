@@ -83,15 +83,17 @@ def folder_of(label: str) -> str:
     return "" if label == "<stdin>" or label.startswith("case:") else os.path.dirname(label)
 
 
-def read_outline(file: OutlineFile, folder: str, length_unit: str | None) -> tuple[Polygon, Advice]:
+def read_outline(
+    file: OutlineFile, folder: str, length_unit: str | None, data: bytes | None = None
+) -> tuple[Polygon, Advice]:
     """The outline in a file, in the unit of the task, and how it was read (W218).
 
-    folder: that a path without a root is in.  Raises E130, E131 and E170 to E174, which name the
-    file but not where it is named.
+    folder: that a path without a root is in; data: what the file holds, where that is known.
+    Raises E130, E131 and E170 to E174, which name the file but not where it is named.
     """
     label = printable(file.path)
     try:
-        drawing = _drawing(file, folder)
+        drawing = _drawing(file, _content(file, folder) if data is None else data)
         curve, size, left_open = _only_curve(drawing, file.part)
         factor = _factor(drawing.unit, length_unit)
         points, shortened = _few_corners(curve.points * factor, FLATNESS * size * factor)
@@ -124,19 +126,29 @@ def read_outline(file: OutlineFile, folder: str, length_unit: str | None) -> tup
     )
 
 
-def _drawing(file: OutlineFile, folder: str) -> Drawing:
-    """The curves in the file."""
+def _require_drawing(file: OutlineFile) -> None:
+    """Refuse a file whose name is that of no drawing."""
     if file.kind not in (".dxf", ".svg"):
         why = f"its name ends in {shown(file.kind)}" if file.kind else "its name has no suffix"
         raise unreadable(why, "give a DXF or an SVG file, named .dxf or .svg")
+
+
+def _content(file: OutlineFile, folder: str) -> bytes:
+    """The bytes of the file."""
+    _require_drawing(file)
     path = file.path if os.path.isabs(file.path) else os.path.join(folder, file.path)
     try:
         with open(path, "rb") as opened:
-            data = opened.read(MAX_BYTES + 1)
+            return opened.read(MAX_BYTES + 1)
     except (OSError, ValueError) as error:  # ValueError: a null character in the path
         why = getattr(error, "strerror", None) or str(error)
         near = "of the task" if folder else "of the command"
         raise unreadable(why, f"check the path, which begins at the folder {near}") from None
+
+
+def _drawing(file: OutlineFile, data: bytes) -> Drawing:
+    """The curves in the file."""
+    _require_drawing(file)
     if len(data) > MAX_BYTES:
         why = f"it has more than {MAX_BYTES / 1e6:.0f} MB"
         raise unreadable(why, "save the outline alone to a file of its own")

@@ -1,0 +1,64 @@
+"""What was on the page last, kept on this machine: it is there again after whatever happens.
+
+A file a tab, in the folder for such things of this system; the oldest beyond a few go.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import sys
+import time
+from contextlib import suppress
+from pathlib import Path
+from typing import Any, Final
+
+from burmester.io.files import write
+from burmester.studio.parcel import as_json
+
+__all__ = ["folder", "last", "save"]
+
+MOST_FILES: Final = 20
+
+
+def folder() -> Path:
+    """Where they are kept."""
+    home = Path.home()
+    if sys.platform == "win32":
+        base = Path(os.environ.get("LOCALAPPDATA") or home / "AppData" / "Local")
+    elif sys.platform == "darwin":
+        base = home / "Library" / "Application Support"
+    else:
+        base = Path(os.environ.get("XDG_STATE_HOME") or home / ".local" / "state")
+    return base / "burmester" / "studio"
+
+
+def save(given: dict[str, Any]) -> None:
+    """Keep a document; raises InputError E141 where there is no place for it."""
+    name = given.get("name")
+    kept = {
+        "name": name if isinstance(name, str) else "task",
+        "when": time.time(),
+        "document": given.get("document"),
+        "options": given.get("options") or {},
+    }
+    place = folder()
+    place.mkdir(mode=0o700, parents=True, exist_ok=True)
+    # Names of tabs and tasks may be anything; a digest of them may not.
+    digest = hashlib.sha256(f"{given.get('tab')}\n{name}".encode(errors="replace")).hexdigest()
+    write(place / f"{digest[:16]}.json", as_json(kept), force=True)
+    files = sorted(place.glob("*.json"), key=lambda each: each.stat().st_mtime, reverse=True)
+    for each in files[MOST_FILES:]:
+        with suppress(OSError):
+            each.unlink()
+
+
+def last() -> dict[str, Any] | None:
+    """What was kept last, if it can be read."""
+    try:
+        newest = max(folder().glob("*.json"), key=lambda each: each.stat().st_mtime)
+        kept = json.loads(newest.read_bytes())
+    except (OSError, ValueError, RecursionError):
+        return None
+    return kept if isinstance(kept, dict) and isinstance(kept.get("document"), dict) else None

@@ -1,0 +1,74 @@
+"""What the page shows, as commands that do the same."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from burmester.studio.names import plain_name
+
+__all__ = ["commands"]
+
+OPTIONS = ("method", "norm", "prefer", "angle-weight", "tolerance")
+
+
+def commands(given: dict[str, Any]) -> list[dict[str, str]]:
+    """The commands for a task, by "name", "options", "linkage", and "dyads" where some are placed.
+
+    They are for a shell, in the folder into which task and result were saved.
+    """
+    name = plain_name(given.get("name"))
+    asked = given.get("options")
+    how = "".join(
+        f" --{key} {asked[key]}"
+        for key in OPTIONS
+        if isinstance(asked, dict) and _is_plain(asked.get(key))
+    )
+    best, chosen = given.get("linkage"), ""
+    if isinstance(best, str) and best[:1] == "L" and best[1:].isdecimal():
+        chosen = f" --linkage {best}"
+    file = f"{name}-{best if chosen else 'linkage'}"
+    rows = [
+        ("look the task over", f"burmester check {name}.toml"),
+        ("find the linkages", f"burmester synthesize {name}.toml{how} -o {name}.json"),
+        ("draw the plates of a linkage", f"burmester export {name}.json{chosen} -o {file}.dxf"),
+        ("write the report", f"burmester report {name}.toml{how}"),
+        ("open the task here again", f"burmester studio {name}.toml"),
+    ]
+    if chosen:
+        again = f"burmester judge {name}.toml --linkage {name}.json --id {best} --improve"
+        rows.insert(2, ("look for better linkages near this one", again))
+    if (dyads := _dyads(given.get("dyads"))) is not None:
+        rows.insert(2, ("judge the linkage of the pivots", f"burmester judge {name}.toml{dyads}"))
+    return [{"title": title, "command": command} for title, command in rows]
+
+
+def _is_plain(value: object) -> bool:
+    number = isinstance(value, int | float) and not isinstance(value, bool)
+    return number or (isinstance(value, str) and value.isascii() and value.isalpha())
+
+
+def _dyads(given: Any) -> str | None:
+    """Two links with their lengths, as options."""
+    links = given if isinstance(given, list) and len(given) == 2 else []
+    words = []
+    for each in links:
+        numbers = _numbers(each)
+        if numbers is None or len(numbers) != 5:
+            return None
+        a, b, c, d, length = numbers
+        words.append(f" --dyad={a},{b}:{c},{d} --length {length}")
+    return "".join(words) if words else None
+
+
+def _numbers(link: Any) -> list[str] | None:
+    if not isinstance(link, dict):
+        return None
+    values = [link.get("radius")]
+    for name in ("moving_pivot", "fixed_pivot"):
+        pivot = link.get(name)
+        values = [*pivot, *values] if isinstance(pivot, list) and len(pivot) == 2 else [None]
+    return [repr(each) for each in values] if all(map(_is_number, values)) else None
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)

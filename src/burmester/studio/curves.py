@@ -1,0 +1,59 @@
+"""Burmester's curves of four poses: every link that meets them, coloured by what works."""
+
+from __future__ import annotations
+
+from typing import Any, Final
+
+import numpy as np
+
+from burmester.dyads.burmester_curve import dyad_curve
+from burmester.families.family_map import curve_map
+from burmester.families.pair_verdicts import CLASS_WORDS
+from burmester.numerics.arrays import FloatArray
+from burmester.tasks.motion_task import Task
+
+__all__ = ["curves"]
+
+SAMPLES: Final = 100  # dyads on all loops together, where they are judged: pairs are their square
+DRAWN: Final = 200  # the same where they are only drawn
+
+
+def curves(task: Task, *, judged: bool) -> dict[str, Any]:
+    """The loops of dyads with their pivots and lengths.
+
+    judged: whether to say of each dyad what it makes with its best partner: the class, a number
+    of `words`, and the least transmission angle there.  Raises E121 and E124 as `dyad_curve`.
+    """
+    if not judged:
+        parts = [
+            {
+                "fixed": _points(each.fixed_pivot),
+                "moving": _points(each.moving_pivot),
+                "length": _points(each.radius),
+            }
+            for each in dyad_curve(task.poses, DRAWN).components
+        ]
+        return {"loops": parts, "words": list(CLASS_WORDS.values())}
+    found = curve_map(task, samples=SAMPLES)
+    classes, angle = found.best_partner()
+    parts = []
+    for number in range(int(found.loop.max()) + 1):
+        own = np.flatnonzero(found.loop == number)
+        dyads = found.second[own]
+        parts.append(
+            {
+                "fixed": _points(dyads.fixed_pivot),
+                "moving": _points(dyads.moving_pivot),
+                "length": _points(dyads.radius),
+                "class": classes[own].tolist(),
+                "transmission_deg": _points(np.degrees(angle[own])),
+            }
+        )
+    return {"loops": parts, "words": list(CLASS_WORDS.values())}
+
+
+def _points(values: FloatArray) -> Any:
+    """Nested lists; null where a number does not exist, as of a dyad that is a slider there."""
+    out = values.astype(object)
+    out[~np.isfinite(values)] = None
+    return out.tolist()
