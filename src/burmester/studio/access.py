@@ -42,10 +42,6 @@ class _RefusedError(Exception):
         self.status, self.why = status, why
 
 
-class _TooLargeError(Exception):
-    """A body beyond `MOST_BYTES`."""
-
-
 class Access:
     """The application behind its door.
 
@@ -74,24 +70,19 @@ class Access:
         """Let a request in, or refuse it."""
         if scope["type"] not in ("http", "websocket"):
             return
-        started = False
 
         async def sent(message: Any) -> None:
-            nonlocal started
             if message["type"].endswith("response.start"):
-                started = True
                 message = {**message, "headers": [*message["headers"], *_HEADERS]}
             await send(message)
 
         try:
             self._require_allowed(scope)
-            within = receive if scope["type"] == "websocket" else _limited(receive)
-            await self._application(scope, within, sent)
+            whole = receive if scope["type"] == "websocket" else await _whole(receive)
         except _RefusedError as error:
             await _refuse(scope, sent, error.status, error.why)
-        except _TooLargeError:
-            if not started:
-                await _refuse(scope, sent, 413, f"more than {MOST_BYTES / 1e6:.0f} MB at once")
+            return
+        await self._application(scope, whole, sent)
 
     def _require_allowed(self, scope: Any) -> None:
         headers: Headers = scope["headers"]
@@ -153,22 +144,28 @@ def _require_json(headers: Headers) -> None:
         raise _RefusedError(415, "only JSON is read")
     for length in _values(headers, b"content-length"):
         if not length.isdecimal() or int(length) > MOST_BYTES:
-            raise _RefusedError(413, f"more than {MOST_BYTES / 1e6:.0f} MB at once")
+            raise _too_large()
 
 
-def _limited(receive: Any) -> Any:
-    """The body of a request, as far as it may go."""
-    size = 0
+async def _whole(receive: Any) -> Any:
+    """The body of a request in one piece, if it is not too large."""
+    body, more = b"", True
+    while more:
+        message = await receive()
+        body += message.get("body", b"")
+        more = message.get("more_body", False)
+        if len(body) > MOST_BYTES:
+            raise _too_large()
+    left = [{"type": "http.request", "body": body}]
 
     async def received() -> Any:
-        nonlocal size
-        message = await receive()
-        size += len(message.get("body", b""))
-        if size > MOST_BYTES:
-            raise _TooLargeError
-        return message
+        return left.pop() if left else await receive()
 
     return received
+
+
+def _too_large() -> _RefusedError:
+    return _RefusedError(413, f"more than {MOST_BYTES / 1e6:.0f} MB at once")
 
 
 async def _refuse(scope: Any, send: Any, status: int, why: str) -> None:

@@ -108,6 +108,7 @@ class House:
 
         worker.key = worker.holder = None
         head = {"do": "solve", "time_limit": SOFT * self.limit_s}
+        await worker.ready()
         async with asyncio.timeout(self.limit_s):
             answer = await worker.ask(head, body, piece)
         if answer[0]["kind"] == "solved":

@@ -57,6 +57,7 @@ def main() -> None:
     from burmester.studio.road import Road  # noqa: PLC0415  the reader looks for the end already
 
     road = Road()
+    _Job(0, inbox, sink).send({"kind": "ready"}, last=True)
     while True:
         head, body = inbox.parcels.get()
         _Job(head["job"], inbox, sink).run(road, head, body)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import asyncio
 import json
 import os
+import signal
 import sys
 from collections import deque
 from collections.abc import AsyncIterator, Callable, Iterator
@@ -38,8 +39,11 @@ class Worker:
 
     def __init__(self, process: asyncio.subprocess.Process) -> None:
         self._process = process
+        self._parcels: asyncio.Queue[Parcel | None] = asyncio.Queue()
+        self._reading = asyncio.create_task(self._read())
         self._job = 0
-        self._done = True
+        self._done = False  # until it says that it is ready
+        self._loaded = False
         self.key: str | None = None
         self.holder: object = None
 
@@ -67,7 +71,13 @@ class Worker:
     @property
     def idle(self) -> bool:
         """Whether it has answered everything."""
-        return self._done
+        return self._done or not self._loaded
+
+    async def ready(self) -> None:
+        """Wait until it has loaded what it needs; raises WorkerEndedError."""
+        if not self._loaded:
+            await self._answer(None)
+            self._loaded = True
 
     async def ask(
         self, head: dict[str, Any], body: bytes = b"", piece: Callable[[Parcel], Any] | None = None
@@ -77,26 +87,34 @@ class Worker:
         Raises WorkerEndedError.  Who is cancelled while it waits calls `settle` before it is asked
         again.
         """
+        await self.ready()
         assert self._done
         self._job, self._done = self._job + 1, False
         self._write(packed({**head, "job": self._job}, body))
         return await self._answer(piece)
 
-    async def _answer(self, piece: Callable[[Parcel], Any] | None) -> Parcel:
+    async def _read(self) -> None:
+        """Take what it sends, parcel by parcel, whoever waits for it or does so no more."""
         source = self._process.stdout
         assert source is not None
         try:
             while True:
                 front, rest = lengths(await source.readexactly(LENGTHS))
                 head: dict[str, Any] = json.loads(await source.readexactly(front))
-                body = await source.readexactly(rest)
-                if head["last"]:
-                    self._done = True
-                    return head, body
-                if piece is not None:
-                    piece((head, body))
+                self._parcels.put_nowait((head, await source.readexactly(rest)))
         except asyncio.IncompleteReadError:
-            raise WorkerEndedError from None
+            self._parcels.put_nowait(None)
+
+    async def _answer(self, piece: Callable[[Parcel], Any] | None) -> Parcel:
+        while True:
+            if (parcel := await self._parcels.get()) is None:
+                self._parcels.put_nowait(None)
+                raise WorkerEndedError
+            if parcel[0]["last"]:
+                self._done = True
+                return parcel
+            if piece is not None:
+                piece(parcel)
 
     def _write(self, data: bytes) -> None:
         # Not waited for: a worker takes what it gets even while it computes.
@@ -106,7 +124,7 @@ class Worker:
 
     async def settle(self) -> None:
         """Call off what it still does; a worker that goes on all the same is killed."""
-        if self._done:
+        if self.idle:
             return
         self._write(packed({"do": "cancel", "job": self._job}))
         try:
@@ -117,9 +135,13 @@ class Worker:
 
     async def kill(self) -> None:
         """End the process at once."""
-        with suppress(ProcessLookupError):
-            self._process.kill()
+        if self.alive:
+            with suppress(ProcessLookupError):
+                # Not by the process itself, which asks for its end first: so does who waits for
+                # it, and one of the two would not find it.
+                os.kill(self.pid, getattr(signal, "SIGKILL", signal.SIGTERM))
         await self._process.wait()
+        await self._reading
 
 
 class Workers:

@@ -1,0 +1,155 @@
+"""A studio in a process of its own, and a visitor who speaks HTTP and websockets to it."""
+
+import json
+import os
+import re
+import signal
+import socket
+import struct
+import subprocess
+import sys
+import time
+from contextlib import contextmanager
+from pathlib import Path
+
+import httpx
+from websockets.sync.client import connect
+
+SECONDS = 30.0  # that anything may take on a busy machine
+
+
+class Visitor:
+    """Who opened the address: HTTP by `http`, which has the cookie, and websockets by `live`."""
+
+    def __init__(self, process, line, home):
+        self.process, self.saved = process, Path(home) / "burmester" / "studio"
+        found = re.fullmatch(r"http://127\.0\.0\.1:(\d+)/#token=([\w-]{40,})\n", line)
+        assert found, line
+        self.port, self.token = int(found[1]), found[2]
+        self.base = f"http://127.0.0.1:{self.port}"
+        self.http = httpx.Client(base_url=self.base, timeout=SECONDS)
+        entered = self.http.post("/session", json={"token": self.token})
+        assert entered.status_code == 204, entered.text
+        # httpx keeps no cookie of an address with a port in its name apart from others.
+        self.cookie = entered.headers["set-cookie"].partition(";")[0]
+        self.http.headers["cookie"] = self.cookie
+
+    @contextmanager
+    def live(self, **headers):
+        """A tab."""
+        headers = {"cookie": self.cookie, **headers}
+        with connect(
+            f"ws://127.0.0.1:{self.port}/live",
+            additional_headers=headers,
+            max_size=None,
+            open_timeout=SECONDS,
+            compression=None,
+        ) as tab:
+            yield Tab(tab)
+
+    def raw(self, *pieces, seconds=SECONDS):
+        """The status and the whole answer to bytes that are sent as they are."""
+        with socket.create_connection(("127.0.0.1", self.port), timeout=seconds) as one:
+            answer = b""
+            try:
+                for piece in pieces:
+                    one.sendall(piece)
+                while part := one.recv(65536):
+                    answer += part
+                    if _is_whole(answer):
+                        break
+            except (BrokenPipeError, ConnectionResetError):
+                pass
+            return int(answer[9:12] or 0), answer
+
+    def memory_mb(self):
+        """What the server process itself holds in memory."""
+        text = Path(f"/proc/{self.process.pid}/status").read_text(encoding="ascii")
+        return int(re.search(r"VmRSS:\s+(\d+) kB", text)[1]) / 1000
+
+    def workers(self):
+        """The numbers of its worker processes."""
+        return children(self.process.pid)
+
+
+class Tab:
+    """A websocket that takes the page's messages and gives the server's."""
+
+    def __init__(self, socket):
+        self.socket, self.n = socket, 0
+
+    def say(self, do, **more):
+        """Send a message; its number."""
+        self.n += 1
+        self.socket.send(json.dumps({"n": self.n, "do": do, **more}))
+        return self.n
+
+    def hear(self, seconds=SECONDS):
+        """The next message: an object, or the header and the numbers of a frame."""
+        message = self.socket.recv(timeout=seconds)
+        return json.loads(message) if isinstance(message, str) else header_of(message)
+
+    def until(self, *kinds, n=None):
+        """The next message of one of some kinds, about the last message sent if not said else."""
+        end = time.monotonic() + SECONDS
+        while time.monotonic() < end:
+            heard = self.hear()
+            if heard["n"] == (n or self.n) and heard["kind"] in kinds:
+                return heard
+        raise AssertionError(f"none of {kinds} within {SECONDS} s")
+
+    def ask(self, do, **more):
+        """The answer to a message."""
+        self.say(do, **more)
+        return self.until("solved", "followed", "placed", "curve", "refused", "limit", "cancelled")
+
+
+def header_of(frame):
+    """The header of a frame, with its numbers under "numbers"."""
+    (length,) = struct.unpack_from("<I", frame)
+    header = json.loads(frame[4 : 4 + length])
+    count = (len(frame) - 4 - length) // 4
+    header["numbers"] = struct.unpack_from(f"<{count}f", frame, 4 + length)
+    return header
+
+
+def _is_whole(answer):
+    head, found, body = answer.partition(b"\r\n\r\n")
+    length = re.search(rb"(?i)content-length: (\d+)", head)
+    return bool(found) and (length is None or len(body) >= int(length[1]))
+
+
+def children(parent):
+    """The numbers of the processes whose parent this is."""
+    out = []
+    for stat in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            fields = stat.read_text(encoding="utf-8", errors="replace").rpartition(")")[2].split()
+        except OSError:
+            continue  # it has ended
+        if int(fields[1]) == parent and fields[0] != "Z":
+            out.append(int(stat.parent.name))
+    return out
+
+
+def started(*arguments, home, **options):
+    """The process of `burmester studio`, which opens no browser."""
+    command = [sys.executable, "-m", "burmester", "studio", "--no-browser", *arguments]
+    environment = {**os.environ, "XDG_STATE_HOME": str(home), "OMP_NUM_THREADS": "1"}
+    return subprocess.Popen(command, stdout=subprocess.PIPE, env=environment, **options)
+
+
+@contextmanager
+def served(*arguments, home, **options):
+    """A visitor of a studio that ends with the block."""
+    process = started(*arguments, home=home, **options)
+    visitor = None
+    try:
+        visitor = Visitor(process, process.stdout.readline().decode(), home)
+        yield visitor
+    finally:
+        if visitor is not None:
+            visitor.http.close()
+        process.send_signal(signal.SIGTERM)
+        process.wait(SECONDS)
+        process.stdout.close()

@@ -1,0 +1,23 @@
+"""One studio for the tests of this room, and the task that it opens on."""
+
+import pytest
+
+pytest.importorskip("starlette", reason="the extra [studio] is not installed")
+pytest.importorskip("uvicorn", reason="the extra [studio] is not installed")
+pytest.importorskip("websockets", reason="the extra [studio] is not installed")
+pytest.importorskip("httpx", reason="httpx is not installed")
+
+from tests.oracles.studio import served
+
+
+@pytest.fixture(scope="package")
+def visitor(tmp_path_factory):
+    """Who opened the address of a studio."""
+    with served(home=tmp_path_factory.mktemp("state")) as one:
+        yield one
+
+
+@pytest.fixture(scope="package")
+def start(visitor):
+    """What the page is told first."""
+    return visitor.http.get("/start").json()
