@@ -37,14 +37,15 @@ def test_ctrl_c_ends_it_and_its_workers(tmp_path):
     """Also in the midst of a search.  The task comes from standard input."""
     pipe = subprocess.PIPE
     process = started("-", home=tmp_path, stdin=pipe, stderr=pipe)
-    process.stdin.write(TASK.encode())
+    process.stdin.write(b"x,y,angle_deg\n0,0,0\n3,1,20\n5,4,50\n4,8,70\n1,9,95\n")
     process.stdin.close()
     visitor = Visitor(process, process.stdout.readline().decode(), tmp_path)
     document = visitor.http.get("/start").json()["document"]
     assert [pose["x"] for pose in document["poses"]] == [0, 3, 5, 4, 1]
     with visitor.live() as tab:
-        tab.say("solve", document={**document, "poses": document["poses"] * 2000}, options={})
-        tab.hear()
+        many = [{"x": k % 997, "y": k * k % 991, "angle": k % 83} for k in range(9000)]
+        tab.say("solve", document={**document, "poses": many}, options={})
+        assert tab.hear()["kind"] == "solving"
         workers = visitor.workers()
         assert workers
         process.send_signal(signal.SIGINT)
@@ -68,7 +69,7 @@ def test_no_token_is_written_down_and_no_science_is_loaded(tmp_path):
     token = visitor.token
     visitor.raw(f"GET /#token={token} HTTP/1.1\r\n\r\n".encode())
     visitor.raw(b"rubbish\r\n\r\n")
-    for path in (f"/?token={token}", f"/{token}", f"/template/{token}"):
+    for path in (f"/?token={token}", f"/{token}", f"/start/{token}"):
         page = visitor.http.get(path, headers={"referer": f"{visitor.base}/#token={token}"})
         assert token not in page.text
     document = visitor.http.get("/start").json()["document"]
