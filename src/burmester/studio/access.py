@@ -20,6 +20,7 @@ __all__ = ["MOST_BYTES", "Access", "is_loopback", "refusal"]
 Headers: TypeAlias = list[tuple[bytes, bytes]]
 
 MOST_BYTES: Final = 2_000_000  # of what the page sends at once
+PASSED_OVER: Final = 16_000_000  # bytes that are heard before they are refused
 OPEN: Final = ("/", "/studio.mjs", "/studio.css", "/widget.css", "/session")  # without the cookie
 
 _HEADERS: Final = (
@@ -143,20 +144,27 @@ def _require_json(headers: Headers) -> None:
     if len(kinds) != 1 or kinds[0].partition(";")[0].strip().lower() != "application/json":
         raise _RefusedError(415, "only JSON is read")
     for length in _values(headers, b"content-length"):
-        if not length.isdecimal() or int(length) > MOST_BYTES:
+        if not length.isdecimal() or int(length) > PASSED_OVER:
             raise _too_large()
 
 
 async def _whole(receive: Any) -> Any:
     """The body of a request in one piece, if it is not too large."""
-    body, more = b"", True
+    parts: list[bytes] = []
+    size, more = 0, True
     while more:
         message = await receive()
-        body += message.get("body", b"")
         more = message.get("more_body", False)
-        if len(body) > MOST_BYTES:
+        size += len(message.get("body", b""))
+        if size > PASSED_OVER:
             raise _too_large()
-    left = [{"type": "http.request", "body": body}]
+        # A little too much is heard to its end, and dropped: who is cut off hears no reason.
+        parts.append(message.get("body", b""))
+        if size > MOST_BYTES:
+            parts.clear()
+    if size > MOST_BYTES:
+        raise _too_large()
+    left = [{"type": "http.request", "body": b"".join(parts)}]
 
     async def received() -> Any:
         return left.pop() if left else await receive()
