@@ -58,7 +58,7 @@ class Visitor:
                     answer += part
                     if _is_whole(answer):
                         break
-            except (BrokenPipeError, ConnectionResetError):
+            except OSError:  # cut off, or not answered
                 pass
             return int(answer[9:12] or 0), answer
 

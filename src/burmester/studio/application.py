@@ -83,7 +83,9 @@ def application(house: House, exchanged: Callable[[object], str | None]) -> Star
         *(Route(f"/{do}", _desk(house, do, True), methods=["POST"]) for do in OF_RESULT),
     ]
     handlers: dict[Any, Any] = {404: _missing, 405: _missing, Exception: _failed}
-    return Starlette(routes=[*routes, WebSocketRoute("/live", live)], exception_handlers=handlers)
+    made = Starlette(routes=[*routes, WebSocketRoute("/live", live)], exception_handlers=handlers)
+    made.router.redirect_slashes = False
+    return made
 
 
 def _static(name: str, kind: str) -> Callable[[Request], Awaitable[Response]]:
