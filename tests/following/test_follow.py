@@ -310,3 +310,25 @@ def test_what_cannot_be_followed_is_refused(options, change, why):
         follow(start, replace(task, **change))
     assert refused.value.code == "E157"
     assert why in refused.value.why
+
+
+def test_linkages_are_judged_where_it_is_asked_for():
+    """The others are continued all the same: judged later they are as if they always had been."""
+    start = synthesize(task_at(TEN, 1, TEN_STEP, 0))
+    partly = wholly = start
+    for number in range(1, 4):
+        task = task_at(TEN, 1, TEN_STEP, number)
+        partly, before = follow(partly, task, judged={"L2"}), partly
+        wholly = follow(wholly, task)
+        old = {each.id: each for each in before.linkages}
+        assert [each.id for each in partly.linkages] == [each.id for each in wholly.linkages]
+        for each in partly.linkages:
+            if each.id == "L2":
+                assert each.error.worst == wholly["L2"].error.worst
+            else:
+                assert each is old[each.id]
+    last = follow(partly, task_at(TEN, 1, TEN_STEP, 4))
+    for one, other in zip(last.linkages, follow(wholly, last.task).linkages, strict=True):
+        assert one.error.worst == pytest.approx(other.error.worst, rel=1e-9)
+        assert one.usable == other.usable
+    assert follow(start, task_at(TEN, 1, TEN_STEP, 1), judged=()).linkages == start.linkages

@@ -9,7 +9,7 @@ import pytest
 from burmester import InputError, read_task
 from burmester.io import cases, templates
 from burmester.io.result import task_data
-from burmester.studio.document import document_of, options_of, task_file, task_of
+from burmester.studio.document import TaskReader, document_of, options_of, task_file, task_of
 
 NAMES = [*(f"{name}.toml" for name in templates.names()), *(f"case:{n}" for n in cases.names())]
 
@@ -115,6 +115,22 @@ def test_a_message_shows_the_line_that_it_is_about():
         task_of({"angle_unit": "deg", "poses": poses})
     assert refused.value.message == "poses[1].x is '1,5', not a number"
     assert '"x": "1,5"' in refused.value.where
+
+
+@pytest.mark.parametrize("name", ["chest-lid.toml", "lid-hinge.toml", "gripper.toml"])
+def test_a_document_of_which_the_poses_move_is_read_as_any_other(name):
+    reader, document = TaskReader(), document_of(given(name))
+    for step in range(3):
+        document["poses"][1]["x"] += 0.1234 * step
+        same(reader.task_of(document), task_of(document))
+    document["requirements"] = {"transmission_deg": 12.5}
+    same(reader.task_of(document), task_of(document))
+    document["poses"][1]["x"] = "a"
+    with pytest.raises(InputError) as quick:
+        reader.task_of(document)
+    with pytest.raises(InputError) as slow:
+        task_of(document)
+    assert str(quick.value) == str(slow.value)
 
 
 def test_options_are_those_of_the_command():

@@ -39,7 +39,7 @@ def followed():
 def frame(followed):
     shown = [each for each in followed.linkages if each.id in ("L1", "L2")]
     motion = {each.id: branches_of(each, followed.task.poses, 20.0, 61) for each in shown}
-    return followed_frame(7, followed, motion)
+    return followed_frame(7, followed, motion)[0]
 
 
 @pytest.fixture(scope="module")
@@ -118,7 +118,7 @@ def test_a_number_that_does_not_exist_is_null(followed):
     places = Displacement(np.stack([lost, lost], axis=-1), lost)
     error = replace(found.error, places=places, position=lost, angle=lost)
     gone = replace(followed, linkages=(replace(found, error=error),))
-    header = header_of(followed_frame(1, gone, {}))
+    header = header_of(followed_frame(1, gone, {})[0])
     (linkage,) = header["linkages"]
     assert linkage["worst"] is None
     assert linkage["worst_deg"] is None
@@ -134,3 +134,20 @@ def test_the_numbers_begin_at_a_multiple_of_four(frame):
     ends = [each["start"] + 6 * each["count"] for each in asked]
     ends += [each["start"] + 5 * each["count"] for each in ways]
     assert max(ends) == len(header["numbers"])
+
+
+def test_a_linkage_that_was_not_judged_is_as_it_was(followed, frame):
+    """Of those that were, what is drawn is new; the others keep what was drawn of them."""
+    _, drawn = followed_frame(1, followed, {})
+    new = replace(followed.linkages[1], combined_error=123.0)
+    later = replace(followed, linkages=(followed.linkages[0], new, *followed.linkages[2:]))
+    header = header_of(followed_frame(2, later, {}, drawn)[0])
+    assert [each["fresh"] for each in header["linkages"]] == [
+        each is new for each in later.linkages
+    ]
+    assert header["linkages"][1]["combined"] == 123.0
+    before = header_of(followed_frame(1, followed, {})[0])
+    first, again = before["linkages"][0], header["linkages"][0]
+    assert first["fresh"]
+    assert {**first, "fresh": None} == {**again, "fresh": None}
+    assert before["numbers"] == header["numbers"]

@@ -59,7 +59,7 @@ def test_a_hand_is_followed_as_the_package_follows(tab, document):
     for step in range(5):
         document["poses"][4]["x"] = round(document["poses"][4]["x"] + 0.1, 4)
         document["poses"][4]["angle"] = round(document["poses"][4]["angle"] - 0.05, 4)
-        heard = tab.ask("follow", document=document, options={}, shown=["L1"], frames=61)
+        heard = tab.ask("follow", document=document, shown=["L1"], frames=61, every=True)
         answers = follow(answers, python_task(document))
         assert heard["kind"] == "followed"
         seen = linkages(heard)
@@ -71,6 +71,24 @@ def test_a_hand_is_followed_as_the_package_follows(tab, document):
         (way,) = [way for way in seen["L1"]["ways"] if way["poses"]]
         assert way["count"] == 61
         assert seen["L2"]["ways"] is None
+
+
+def test_those_that_are_shown_are_judged_at_every_step(tab, document):
+    """The others are judged in turn: after a while all were, and as if they always had been."""
+    tab.ask("solve", document=document, options={})
+    fresh = set()
+    for _ in range(6):
+        document["poses"][4]["x"] = round(document["poses"][4]["x"] + 0.1, 4)
+        seen = linkages(tab.ask("follow", document=document, shown=["L1"]))
+        assert seen["L1"]["fresh"]
+        assert len({id for id, each in seen.items() if each["fresh"]}) < len(seen)
+        fresh |= {id for id, each in seen.items() if each["fresh"]}
+    assert fresh == set(seen)
+    answers = synthesize(python_task(document))
+    best = answers.linkages[0].error.worst
+    every = linkages(tab.ask("follow", document=document, shown=["L1"], every=True))
+    assert all(each["fresh"] for each in every.values())
+    assert min(each["worst"] for each in every.values()) == pytest.approx(best, rel=0.02)
 
 
 def test_ways_pass_where_the_linkage_is(tab, document):

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from itertools import combinations
+
+import numpy as np
 
 from burmester.dyads.selection import FoundDyad
 from burmester.following.changes import dyad_changes, linkage_changes
@@ -16,7 +18,6 @@ from burmester.fourbar.dyad import PP
 from burmester.linkages.evaluation import Candidates, Evaluation, at_given_poses
 from burmester.linkages.found_linkage import FoundLinkage, Pair
 from burmester.linkages.from_dyads import target_of
-from burmester.linkages.target import Target
 from burmester.synthesis.result import Synthesis
 from burmester.tasks.motion_class import classify_motion
 from burmester.tasks.motion_task import Task
@@ -26,7 +27,9 @@ from burmester.values import require_instance
 __all__ = ["follow"]
 
 
-def follow(previous: Synthesis | Followed, task: Task) -> Followed:
+def follow(
+    previous: Synthesis | Followed, task: Task, *, judged: Collection[str] | None = None
+) -> Followed:
     """The answers of a task that differs a little from that of a synthesis, each with its id.
 
     Dyads and linkages are continued from their predecessors: nothing is searched for and nothing
@@ -40,6 +43,10 @@ def follow(previous: Synthesis | Followed, task: Task) -> Followed:
     task : Task
         The new task.  Poses, weights, limits, requirements and tolerances may have other numbers;
         a step should be short, such as a hundredth of the motion.
+    judged : collection of str, optional
+        The ids of the linkages that are judged anew; all if it is not given.  The others are
+        continued, too, but keep the errors and verdicts of the answers before until a follow judges
+        them: that is quicker, for the steps of a hand.
 
     Returns
     -------
@@ -87,7 +94,7 @@ def follow(previous: Synthesis | Followed, task: Task) -> Followed:
     )
     appeared = [each for each in dyads if each.id not in {old.id for old in start.dyads}]
     there = there.with_pairs(_new_pairs(appeared, dyads, problem), target, start.last_numbers[1])
-    linkages = _judged(start, there, known, problem, target)
+    linkages = _judged(start, there, known, judged, Evaluation(problem, target))
     last = (
         max([start.last_numbers[0], *(int(each.id[1:]) for each in dyads)]),
         max([start.last_numbers[1], *(int(each.id[1:]) for each in linkages)]),
@@ -170,15 +177,24 @@ def _judged(
     start: Followed,
     there: NewLinkages,
     dyads: dict[str, FoundDyad],
-    problem: SynthesisProblem,
-    target: Target,
+    only: Collection[str] | None,
+    evaluation: Evaluation,
 ) -> tuple[FoundLinkage, ...]:
-    """The linkages with errors and verdicts, in the order of their ids."""
-    strands = there.strands
+    """The linkages with errors and verdicts, in the order of their ids; only: of these ids anew."""
+    before = {each.id: each for each in start.linkages}
+    index = [
+        k
+        for k, id in enumerate(there.strands.ids)
+        if only is None or id in only or id not in before
+    ]
+    if not index:
+        return tuple(before[id] for id in there.strands.ids)
+    strands = there.strands.at(np.array(index, dtype=np.intp))
     known = {each.id: each for old in start.linkages for each in old.dyads} | dyads
     pairs = [(known[one], known[two]) for one, two in strands.pairs]
-    found = Evaluation(problem, target).members(
-        Candidates(there.batch, there.rows, pairs, strands.from_search, strands.own), quality=False
+    rows = there.rows[index]
+    found = evaluation.members(
+        Candidates(there.batch[index], rows, pairs, strands.from_search, strands.own), quality=False
     )
     named = [
         replace(each, id=id, rank=rank, determined=determined)
@@ -186,4 +202,5 @@ def _judged(
             found, strands.ids, strands.ranks, strands.determined, strict=True
         )
     ]
-    return at_given_poses(named, problem)
+    new = {each.id: each for each in at_given_poses(named, evaluation.problem)}
+    return tuple(new[id] if id in new else before[id] for id in there.strands.ids)

@@ -9,6 +9,8 @@ from __future__ import annotations
 import json
 import math
 import re
+from contextlib import suppress
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -25,11 +27,21 @@ from burmester.tasks.limits import KINDS, Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.options import SynthesisOptions
 
-__all__ = ["MOST_POSES", "document_of", "options_of", "plain", "read_file", "task_file", "task_of"]
+__all__ = [
+    "MOST_POSES",
+    "TaskReader",
+    "document_of",
+    "options_of",
+    "plain",
+    "read_file",
+    "task_file",
+    "task_of",
+]
 
 MOST_POSES = 100_000  # of a document
 NAME = "task.json"  # what a document is called where a message says its place
 
+_OF_POSES = ("poses", "angle_unit", "length_unit", "pose_sigma", "tolerance")
 _WORDS = {"method": "method", "norm": "norm", "prefer": "prefer"}
 _LENGTHS = {"angle-weight": "length_per_radian", "tolerance": "manufacturing_tolerance"}
 
@@ -42,6 +54,34 @@ def task_of(document: object) -> Task:
     except InputError:
         # Once more in short lines: a message shows the line it is about.
         return read_file(NAME, json.dumps(document, indent=1).encode("ascii"))
+
+
+class TaskReader:
+    """Reads documents one after the other, of which mostly the poses are others than before."""
+
+    def __init__(self) -> None:
+        self._beside: tuple[str, Task] | None = None
+
+    def task_of(self, document: Any) -> Task:
+        """The same as `task_of`: what stands beside the poses is read again if it has changed."""
+        if not isinstance(document, dict):
+            return task_of(document)
+        beside = json.dumps({key: each for key, each in document.items() if key != "poses"})
+        if self._beside is not None and self._beside[0] == beside:
+            poses = {key: document[key] for key in _OF_POSES if key in document}
+            known = self._beside[1]
+            with suppress(InputError):  # the whole document says where
+                return replace(
+                    task_of(poses),
+                    body=known.body,
+                    surroundings=known.surroundings,
+                    limits=known.limits,
+                    requirements=known.requirements,
+                    notes=known.notes,
+                )
+        task = task_of(document)
+        self._beside = beside, task
+        return task
 
 
 def read_file(name: str, data: bytes, **options: Any) -> Task:

@@ -16,8 +16,9 @@ from __future__ import annotations
 import json
 import math
 import struct
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -26,9 +27,10 @@ from burmester.fourbar.defects import Driven
 from burmester.io.linkage_data import dyad_data, number
 from burmester.linkages.explanation import reasons
 from burmester.linkages.found_linkage import FoundLinkage
+from burmester.numerics.arrays import FloatArray
 from burmester.web.branches import Branches
 
-__all__ = ["followed_frame", "frame"]
+__all__ = ["Drawn", "followed_frame", "frame"]
 
 WAY = ("x", "y", "angle", "drive", "transmission")
 
@@ -45,7 +47,8 @@ class _Numbers:
         start = self._count
         for piece in pieces:
             # As an array of float, None becomes nan.
-            array = np.asarray(piece, dtype=np.float64).astype("<f4")
+            with np.errstate(over="ignore", invalid="ignore"):
+                array = np.asarray(piece, dtype=np.float64).astype("<f4")
             self._pieces.append(array)
             self._count += array.size
         return start
@@ -61,40 +64,63 @@ def frame(header: dict[str, Any], numbers: bytes) -> bytes:
     return struct.pack("<I", len(text)) + text + numbers
 
 
+class Drawn(NamedTuple):
+    """What a frame says of a linkage: facts for the header, and its places at the poses."""
+
+    found: FoundLinkage
+    facts: dict[str, Any]
+    places: FloatArray
+
+
 def followed_frame(
-    n: int, followed: Followed, motion: dict[str, Branches], uncertain: Sequence[str] = ()
-) -> bytes:
-    """Answers that were followed; motion: the ways of the linkages that are shown, by their ids."""
-    numbers = _Numbers()
-    with np.errstate(over="ignore", invalid="ignore"):
-        linkages = [
-            _linkage(followed, each, motion.get(each.id), numbers) for each in followed.linkages
-        ]
+    n: int,
+    followed: Followed,
+    motion: Mapping[str, Branches],
+    drawn: Mapping[str, Drawn] = MappingProxyType({}),
+) -> tuple[bytes, dict[str, Drawn]]:
+    """Answers that were followed, and what was drawn of them.
+
+    motion: the ways of the linkages that are shown, by their ids.
+    drawn: what the frame before has drawn: linkages that were not judged since are as they were.
+    """
+    numbers, linkages, now = _Numbers(), [], {}
+    for found in followed.linkages:
+        last = drawn.get(found.id)
+        fresh = last is None or last.found is not found
+        one = _drawn(followed, found) if last is None or fresh else last
+        now[found.id] = one
+        ways = motion.get(found.id)
+        linkages.append(
+            {
+                **one.facts,
+                "fresh": fresh,
+                "ways": None if ways is None else [_way(each, numbers) for each in ways.ways],
+                "at": None if ways is None else ways.at,
+                "poses": {"count": len(found.error.position), "start": numbers.add(one.places)},
+            }
+        )
+    changes = [{"id": e.id, "kind": e.kind, "message": e.message} for e in followed.changes]
     header = {
         "n": n,
         "kind": "followed",
         "linkages": linkages,
         "vanished": [
-            {"id": each.id, "message": each.message}
-            for each in followed.changes
-            if each.kind == "vanished" and each.id.startswith("L")
+            {"id": each["id"], "message": each["message"]}
+            for each in changes
+            if each["kind"] == "vanished" and each["id"].startswith("L")
         ],
-        "changes": [
-            {"id": each.id, "kind": each.kind, "message": each.message} for each in followed.changes
-        ],
-        "uncertain": [*uncertain, *followed.uncertain],
+        "changes": changes,
+        "uncertain": list(followed.uncertain),
         "complete": followed.complete,
     }
-    return frame(header, numbers.bytes())
+    return frame(header, numbers.bytes()), now
 
 
-def _linkage(
-    followed: Followed, found: FoundLinkage, motion: Branches | None, numbers: _Numbers
-) -> dict[str, Any]:
-    """What the header says of a linkage; its numbers are added to the others."""
+def _drawn(followed: Followed, found: FoundLinkage) -> Drawn:
+    """What is said of a linkage."""
     error, driven = found.error, found.driven
     places = error.places
-    return {
+    facts = {
         "id": found.id,
         "rank": found.rank,
         "usable": found.usable,
@@ -109,20 +135,16 @@ def _linkage(
         "transmission_deg": _least(driven),
         "dyads": [each.id for each in found.dyads],
         "led": [dyad_data(each, places) for each in found.dyads_driver_first],
-        "ways": None if motion is None else [_way(each, numbers) for each in motion.ways],
-        "at": None if motion is None else motion.at,
-        "poses": {
-            "count": places.shape[0],
-            "start": numbers.add(
-                places.translation[:, 0],
-                places.translation[:, 1],
-                np.degrees(places.angle),
-                error.position,
-                np.degrees(error.angle),
-                np.degrees(driven.transmission),
-            ),
-        },
     }
+    at_poses = np.concatenate(
+        [
+            places.translation.T.ravel(),
+            np.degrees(places.angle),
+            error.position,
+            np.degrees(np.concatenate([error.angle, driven.transmission])),
+        ]
+    )
+    return Drawn(found, facts, at_poses)
 
 
 def _least(driven: Driven) -> float | None:

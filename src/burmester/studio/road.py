@@ -9,7 +9,7 @@ from __future__ import annotations
 import base64
 import binascii
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from pathlib import PurePath
 from typing import Any, Final, Protocol, TypeAlias
 
@@ -23,9 +23,17 @@ from burmester.io.result import json_line, message_data, synthesis_data
 from burmester.io.saved import read_result
 from burmester.progress import shown
 from burmester.studio.curves import curves
-from burmester.studio.document import document_of, options_of, plain, read_file, task_file, task_of
+from burmester.studio.document import (
+    TaskReader,
+    document_of,
+    options_of,
+    plain,
+    read_file,
+    task_file,
+    task_of,
+)
 from burmester.studio.exports import exported, formats, report_page
-from burmester.studio.frames import followed_frame
+from burmester.studio.frames import Drawn, followed_frame
 from burmester.studio.identity import matched, standing
 from burmester.studio.names import plain_name
 from burmester.studio.parcel import as_json
@@ -42,6 +50,7 @@ __all__ = ["Road"]
 Answer: TypeAlias = tuple[dict[str, Any], bytes]
 
 FRAMES: Final = (61, 361)  # of a way of a followed linkage: as a rule, and at most
+IN_TURN: Final = 2  # linkages that are judged at each step beside those that are shown
 KNOWN: Final = object()  # the key of what the server kept: result and report of the task
 
 
@@ -61,6 +70,9 @@ class Road:
     def __init__(self) -> None:
         self._synthesis: Synthesis | None = None
         self._answers: Synthesis | Followed | None = None
+        self._drawn: dict[str, Drawn] = {}
+        self._reader = TaskReader()
+        self._turn = 0
 
     def do(self, head: dict[str, Any], body: bytes, job: Job) -> Answer:
         """Do what a parcel says; the answer is a parcel, too."""
@@ -162,34 +174,49 @@ class Road:
         with shown(job.listen):
             synthesis = synthesize(task, options)
         self._synthesis = self._answers = synthesis
+        self._drawn = {}
         job.send({"kind": "result"}, json_line(synthesis_data(synthesis)).encode())
         return {"kind": "solved"}, as_json(report_data(synthesis))
 
     def follow(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """The last answers, followed to the task that the page shows now."""
-        task = task_of(given.get("document"))
-        followed = self._followed(task)
+        task = self._reader.task_of(given.get("document"))
+        wanted, asked = given.get("shown"), given.get("frames")
+        shown = (
+            {each for each in wanted if isinstance(each, str)} if isinstance(wanted, list) else ()
+        )
+        followed = self._followed(task, None if given.get("every") is True else self._judged(shown))
         if isinstance(followed, str):
             return _not_followed(followed)
         self._answers = followed
-        wanted = given.get("shown")
-        asked = given.get("frames")
         frames = min(max(asked, FRAMES[0]), FRAMES[1]) if type(asked) is int else FRAMES[0]
         assert self._synthesis is not None
         scene = scene_of(self._synthesis)
         motion = {
             each.id: branches_of(each, task.poses, scene, frames)
             for each in followed.linkages
-            if isinstance(wanted, list) and each.id in wanted
+            if each.id in shown
         }
-        return {"kind": "frame"}, followed_frame(given["n"], followed, motion)
+        answer, self._drawn = followed_frame(given["n"], followed, motion, self._drawn)
+        return {"kind": "frame"}, answer
 
-    def _followed(self, task: Task) -> Followed | str:
+    def _judged(self, shown: Collection[str]) -> Collection[str]:
+        """The linkages that are judged at this step of a hand: those shown, and a few in turn.
+
+        To judge all takes a third of the time.
+        """
+        if self._answers is None:
+            return shown
+        ids = [each.id for each in self._answers.linkages if each.id not in shown]
+        self._turn = (self._turn + IN_TURN) % max(1, len(ids))
+        return {*shown, *(ids + ids)[self._turn : self._turn + IN_TURN]}
+
+    def _followed(self, task: Task, judged: Collection[str] | None = None) -> Followed | str:
         """The last answers at a task; or why they cannot be followed there."""
         if self._answers is None:
             return "there is nothing to follow yet"
         try:
-            return follow(self._answers, task)
+            return follow(self._answers, task, judged=judged)
         except InputError as error:
             if error.code != "E157":
                 raise
@@ -224,6 +251,11 @@ _DEEDS: dict[str, Callable[[Road, dict[str, Any], Any, Job], Answer]] = {
         *("solve", "follow", "stand", "match", "place", "curve"),
     )
 }
+
+
+def _ids(given: Any) -> set[str]:
+    """The names in a list that the page sent."""
+    return {each for each in given if isinstance(each, str)} if isinstance(given, list) else set()
 
 
 def _json(data: object) -> Answer:
