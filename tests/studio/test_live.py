@@ -116,9 +116,28 @@ def test_the_newest_of_a_hand_wins(tab, document):
     heard = [tab.hear()]
     while heard[-1]["n"] != last:
         heard.append(tab.hear())
-    assert {each["kind"] for each in heard} == {"followed"}
-    assert [each["n"] for each in heard] == sorted({each["n"] for each in heard})
-    assert len(heard) < 30
+    followed = [each["n"] for each in heard if each["kind"] == "followed"]
+    passed = {each["n"]: each["by"] for each in heard if each["kind"] == "superseded"}
+    assert followed == sorted(followed)
+    assert sorted([*followed, *passed]) == list(range(2, 32))  # each has one answer
+    assert passed
+    assert all(by == n + 1 for n, by in passed.items())
+
+
+def test_a_hand_that_does_two_things_is_answered_in_both(tab, document):
+    tab.ask("solve", document=document, options={})
+    pivot = {"plane": "F", "at": [12, -17]}
+    asked = [
+        tab.say("follow", document=document, shown=[]),
+        tab.say("place", document=document, pivots=[pivot]),
+        tab.say("follow", document=document, shown=[]),
+        tab.say("curve", document={**document, "poses": document["poses"][:4]}, judged=False),
+    ]
+    heard = {each["n"]: each["kind"] for each in (tab.hear() for _ in asked)}
+    assert set(heard) == set(asked)
+    assert heard[asked[1]] == "placed"
+    assert heard[asked[2]] == "followed"
+    assert heard[asked[3]] == "curve"
 
 
 def test_what_cannot_be_followed_says_so(tab, document):

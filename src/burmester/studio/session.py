@@ -1,7 +1,7 @@
 """One tab: what its page asks over its websocket, and the answers.
 
-Two things go on at once: what the hand does (follow, place, curve), where only the newest counts,
-and the whole road, which a new one replaces.
+Two things go on at once: what the hand does (follow, place, curve), where only the newest of each
+counts, and the whole road, which a new one replaces.  Every message has one last answer.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ class Session:
     def __init__(self, socket: WebSocket, house: House) -> None:
         self._socket, self._house = socket, house
         self._live: Worker | None = None
-        self._newest: tuple[int, str, str] | None = None
+        self._newest: dict[str, tuple[int, str]] = {}  # of the hand: the newest of each kind
         self._hand: asyncio.Task[None] | None = None
         self._solving: asyncio.Task[None] | None = None
 
@@ -68,7 +68,9 @@ class Session:
         assert isinstance(given, dict)
         do = given.get("do")
         if do in HAND:
-            self._newest = n, do, text
+            if (older := self._newest.get(do)) is not None:
+                await self._tell(older[0], "superseded", by=n)
+            self._newest[do] = n, text
             if self._hand is None or self._hand.done():
                 self._hand = asyncio.create_task(self._follow_hand())
         elif do in ("solve", "cancel"):
@@ -83,9 +85,10 @@ class Session:
             await self._refuse(n, "this is no message of the page")
 
     async def _follow_hand(self) -> None:
-        """Answer the newest message of the hand, until there is none."""
-        while self._newest is not None:
-            (n, do, text), self._newest = self._newest, None
+        """Answer the newest messages of the hand, until there are none; follow comes first."""
+        while self._newest:
+            do = next(each for each in HAND if each in self._newest)
+            n, text = self._newest.pop(do)
             try:
                 async with asyncio.timeout(HAND_S):
                     head, body = await self._by_hand(do, text)
