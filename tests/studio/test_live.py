@@ -178,6 +178,27 @@ def test_a_card_keeps_its_linkage(tab, document):
             assert min(np.abs(a - b).max(), np.abs(a - b[::-1]).max()) > 0.05
 
 
+def test_a_frame_says_which_answer_it_goes_on_from(tab, document):
+    """A frame on its way while a search ends is of the answer before."""
+    tab.ask("solve", document=document, options={})
+    first = tab.n
+    assert tab.ask("follow", document=document)["from"] == first
+    document["poses"][4]["x"] += 0.01
+    solve = tab.say("solve", document=document, options={})
+    while True:
+        follow = tab.say("follow", document=document)
+        heard, told = {}, None
+        while follow not in heard:
+            each = tab.hear()
+            heard[each["n"]] = each
+        told = heard[follow]["from"]
+        solved = any(each["kind"] == "solved" for each in heard.values())
+        if told == solve:
+            break
+        assert told == first
+        assert not solved or heard[solve]["kind"] == "solved"
+
+
 def test_another_tab_has_answers_of_its_own(visitor, tab, document):
     tab.ask("solve", document=document, options={})
     with visitor.live() as other:

@@ -77,9 +77,12 @@ def followed_frame(
     followed: Followed,
     motion: Mapping[str, Branches],
     drawn: Mapping[str, Drawn] = MappingProxyType({}),
+    *,
+    start: int | None = None,
 ) -> tuple[bytes, dict[str, Drawn]]:
     """Answers that were followed, and what was drawn of them.
 
+    start: the number of the message whose answer they go on from.
     motion: the ways of the linkages that are shown, by their ids.
     drawn: what the frame before has drawn: linkages that were not judged since are as they were.
     """
@@ -103,6 +106,7 @@ def followed_frame(
     header = {
         "n": n,
         "kind": "followed",
+        "from": start,
         "linkages": linkages,
         "vanished": [
             {"id": each["id"], "message": each["message"]}

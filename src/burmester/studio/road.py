@@ -197,7 +197,9 @@ class Road:
             for each in followed.linkages
             if each.id in shown
         }
-        answer, self._drawn = followed_frame(given["n"], followed, motion, self._drawn)
+        answer, self._drawn = followed_frame(
+            given["n"], followed, motion, self._drawn, start=head.get("from")
+        )
         return {"kind": "frame"}, answer
 
     def _judged(self, shown: Collection[str]) -> Collection[str]:

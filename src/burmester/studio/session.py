@@ -33,6 +33,7 @@ class Session:
     def __init__(self, socket: WebSocket, house: House) -> None:
         self._socket, self._house = socket, house
         self._live: Worker | None = None
+        self._from = 0  # the number of the message that its answers are to
         self._newest: dict[str, tuple[int, str]] = {}  # of the hand: the newest of each kind
         self._hand: asyncio.Task[None] | None = None
         self._solving: asyncio.Task[None] | None = None
@@ -104,7 +105,7 @@ class Session:
         if self._live is not None:
             with self._house.workers.held(self._live, self) as ours:
                 if ours:
-                    return await self._live.ask({"do": do}, text.encode())
+                    return await self._live.ask({"do": do, "from": self._from}, text.encode())
         if do == "follow":
             return {"kind": "refused"}, _solve_first("there is nothing to follow yet")
         async with self._house.workers.lent() as worker:
@@ -129,7 +130,7 @@ class Session:
                         await self._send(n, "refused", body)
                         return
                 was = await self._matched(worker, text)
-                self._hold(worker)
+                self._hold(worker, n)
             seconds = round(time.monotonic() - start, 3)
             await self._send(n, "solved", body, key="result", seconds=seconds, was=was)
         except (TimeoutError, WorkerEndedError):
@@ -150,11 +151,11 @@ class Session:
         was: dict[str, str] = {} if head["kind"] == "failed" else json.loads(body)
         return was
 
-    def _hold(self, worker: Worker) -> None:
+    def _hold(self, worker: Worker, n: int) -> None:
         """Come back to this worker from now on, and leave the last one to others."""
         if self._live is not None and self._live is not worker and self._live.holder is self:
             self._live.holder = None
-        self._live, worker.holder = worker, self
+        self._live, self._from, worker.holder = worker, n, self
 
     def _progress(self, n: int) -> Any:
         last = 0.0
