@@ -1,5 +1,6 @@
 """The door: who is not the person at this machine gets nothing (W1 to W7, W14)."""
 
+import asyncio
 import gzip
 import json
 import subprocess
@@ -11,6 +12,7 @@ import httpx
 import pytest
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
+from burmester.studio.access import Access
 from tests.oracles.studio import served
 
 DATA = ("/start", "/template/lid-hinge", "/live")
@@ -230,3 +232,20 @@ def test_other_machines_are_let_in_only_on_purpose(tmp_path):
         # Under an address of its own, but under no name: names can be bound to any machine.
         for host, status in ((f"10.1.2.3:{visitor.port}", 200), (f"evil.com:{visitor.port}", 403)):
             assert request(visitor, "GET", "/start", [f"host: {host}"])[0] == status
+
+
+def test_two_hosts_are_refused_whatever_the_server_lets_through():
+    """W1: uvicorn refuses them by itself; the door does so, too."""
+    door = Access(port=8000)
+    door.within(None)
+    ours = (b"host", b"127.0.0.1:8000")
+    heard = []
+
+    async def send(message):
+        heard.append(message)
+
+    for headers in ([ours, ours], [ours, (b"Host", b"evil.com")], []):
+        scope = {"type": "http", "method": "GET", "path": "/", "headers": headers}
+        asyncio.run(door(scope, None, send))
+        assert heard.pop(0)["status"] == 403
+        heard.clear()
