@@ -119,6 +119,10 @@ def _is_whole(answer):
     return bool(found) and (length is None or len(body) >= int(length[1]))
 
 
+# Found at once: a studio that opens on it has nothing left to do.
+FIVE = "x,y,angle_deg\n0,0,0\n3,1,20\n5,4,50\n4,8,70\n1,9,95\n"
+
+
 def children(parent):
     """The numbers of the processes whose parent this is."""
     out = []

@@ -7,7 +7,7 @@ pytest.importorskip("uvicorn", reason="the extra [studio] is not installed")
 pytest.importorskip("websockets", reason="the extra [studio] is not installed")
 pytest.importorskip("httpx", reason="httpx is not installed")
 
-from tests.oracles.studio import served
+from tests.oracles.studio import FIVE, served
 
 
 @pytest.fixture(scope="package")
@@ -21,3 +21,11 @@ def visitor(tmp_path_factory):
 def start(visitor):
     """What the page is told first."""
     return visitor.http.get("/start").json()
+
+
+@pytest.fixture(scope="package")
+def five(tmp_path_factory):
+    """A file of five poses, whose linkages are found at once."""
+    file = tmp_path_factory.mktemp("five") / "five.csv"
+    file.write_text(FIVE, encoding="ascii")
+    return str(file)

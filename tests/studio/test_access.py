@@ -217,7 +217,7 @@ def test_what_is_too_large_is_refused_at_once(visitor):
     assert visitor.http.get("/start").status_code == 200
 
 
-def test_other_machines_are_let_in_only_on_purpose(tmp_path):
+def test_other_machines_are_let_in_only_on_purpose(five, tmp_path):
     """W14."""
     command = [sys.executable, "-m", "burmester", "studio", "--no-browser", "--host", "0.0.0.0"]
     refused = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
@@ -226,7 +226,7 @@ def test_other_machines_are_let_in_only_on_purpose(tmp_path):
     assert "other machines could connect" in refused.stderr
     assert "--i-know-that-others-can-connect" in refused.stderr
     flags = ("--host", "0.0.0.0", "--i-know-that-others-can-connect")
-    with served(*flags, home=tmp_path) as visitor:
+    with served(five, *flags, home=tmp_path) as visitor:
         assert visitor.http.get("/start").status_code == 200
         assert httpx.get(f"{visitor.base}/start").status_code == 401
         # Under an address of its own, but under no name: names can be bound to any machine.

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.oracles.studio import SECONDS, Visitor, children, served, started
+from tests.oracles.studio import FIVE, SECONDS, Visitor, children, served, started
 
 posix = pytest.mark.skipif(os.name != "posix", reason="signals as POSIX has them")
 TASK = 'angle_unit = "deg"\nposes = [[0, 0, 0], [3, 1, 20], [5, 4, 50], [4, 8, 70], [1, 9, 95]]\n'
@@ -37,7 +37,7 @@ def test_ctrl_c_ends_it_and_its_workers(tmp_path):
     """Also in the midst of a search.  The task comes from standard input."""
     pipe = subprocess.PIPE
     process = started("-", home=tmp_path, stdin=pipe, stderr=pipe)
-    process.stdin.write(b"x,y,angle_deg\n0,0,0\n3,1,20\n5,4,50\n4,8,70\n1,9,95\n")
+    process.stdin.write(FIVE.encode())
     process.stdin.close()
     visitor = Visitor(process, process.stdout.readline().decode(), tmp_path)
     document = visitor.http.get("/start").json()["document"]
@@ -59,12 +59,12 @@ def test_ctrl_c_ends_it_and_its_workers(tmp_path):
 
 
 @posix
-def test_no_token_is_written_down_and_no_science_is_loaded(tmp_path):
+def test_no_token_is_written_down_and_no_science_is_loaded(five, tmp_path):
     """W5: the token is neither on standard error nor in a file, whatever is asked.
 
     And the server's own process has no NumPy when it has answered everything.
     """
-    process = started(home=tmp_path, stderr=subprocess.PIPE)
+    process = started(five, home=tmp_path, stderr=subprocess.PIPE)
     visitor = Visitor(process, process.stdout.readline().decode(), tmp_path)
     token = visitor.token
     visitor.raw(f"GET /#token={token} HTTP/1.1\r\n\r\n".encode())
@@ -91,8 +91,8 @@ def test_no_token_is_written_down_and_no_science_is_loaded(tmp_path):
 
 
 @posix
-def test_workers_end_where_the_server_is_killed(tmp_path):
-    process = started(home=tmp_path)
+def test_workers_end_where_the_server_is_killed(five, tmp_path):
+    process = started(five, home=tmp_path)
     process.stdout.readline()
     workers = children(process.pid)
     assert workers
@@ -103,8 +103,8 @@ def test_workers_end_where_the_server_is_killed(tmp_path):
 
 
 @posix
-def test_a_worker_that_is_killed_is_replaced(tmp_path):
-    with served(home=tmp_path) as visitor, visitor.live() as tab:
+def test_a_worker_that_is_killed_is_replaced(five, tmp_path):
+    with served(five, home=tmp_path) as visitor, visitor.live() as tab:
         document = visitor.http.get("/start").json()["document"]
         assert tab.ask("solve", document=document, options={})["kind"] == "solved"
         for pid in visitor.workers():

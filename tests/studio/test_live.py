@@ -219,7 +219,7 @@ def test_a_tab_that_is_opened_again_has_its_answers_at_once(visitor, document):
     with visitor.live() as tab:
         tab.say("solve", document=document, options={})
         again = tab.hear()
-        assert again["kind"] == "solved"  # not "solving"
+        assert again["kind"] == "solved"  # at once: no "solving" before it
         assert again["result"] == first["result"]
         assert tab.ask("follow", document=document, options={})["kind"] == "followed"
 
@@ -327,9 +327,9 @@ def endless():
 
 
 @pytest.fixture(scope="module")
-def hasty(tmp_path_factory):
+def hasty(five, tmp_path_factory):
     """A studio that kills what takes longer than two seconds."""
-    with served("--time-limit", "2", home=tmp_path_factory.mktemp("hasty")) as visitor:
+    with served(five, "--time-limit", "2", home=tmp_path_factory.mktemp("hasty")) as visitor:
         yield visitor
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+import traceback
 from collections.abc import Awaitable, Callable
 from importlib import resources
 from typing import Any
@@ -149,4 +150,5 @@ async def _missing(request: Request, error: Any) -> Response:
 
 
 async def _failed(request: Request, error: Exception) -> Response:
+    traceback.print_exception(error)
     return _refused(500, f"burmester itself failed: {type(error).__name__}", "please report this")

@@ -48,11 +48,12 @@ def exported(result: bytes, given: dict[str, Any]) -> tuple[bytes, str]:
     if linkage is not None and not isinstance(linkage, str):
         raise InputError("E151", "the linkage has no name", help="give its id, such as L1")
     name = require_format("", to)
+    options = _options(given.get("settings"))
     chosen = read_result("-", data=result).choose(linkage)
     file = f"{plain_name(given.get('name'))}-{chosen.id}{FORMATS[name].suffix}"
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / file
-        export(chosen, name, path, _options(given.get("settings")))
+        export(chosen, name, path, options)
         return path.read_bytes(), file
 
 

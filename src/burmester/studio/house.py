@@ -6,6 +6,7 @@ import asyncio
 import hashlib
 import json
 import os
+import traceback
 from collections import OrderedDict
 from collections.abc import Callable, Coroutine
 from dataclasses import dataclass
@@ -18,6 +19,7 @@ from burmester.studio.workers import Parcel, Turns, Worker, WorkerEndedError, Wo
 __all__ = ["Answer", "House"]
 
 ANSWER_BYTES = 64_000_000  # of all answers that are kept
+SPARE = 2  # workers that are there before they are asked for
 DESK_S = 60.0  # for what is asked over HTTP, such as a solid part
 SOFT = 0.8  # of the limit: after it nothing more is looked for, so that there is an answer
 
@@ -62,7 +64,7 @@ class House:
     def __init__(self, limit_s: float) -> None:
         cores = os.cpu_count() or 1
         self.limit_s = limit_s
-        self.workers = Workers(most=2 * cores + 2)
+        self.workers = Workers(2 * cores + 2, SPARE)
         self.turns = Turns(cores)
         self.answers = Answers()
         self.start: dict[str, Any] = {}
@@ -79,6 +81,7 @@ class House:
         self.start = told
         given = {"document": told["document"], "options": told["options"]}
         key = self.key_of(given)
+        self.later(self.workers.open(SPARE))
         self._opening = key, self.later(self._solve_opening(key, as_json(given)))
 
     async def _solve_opening(self, key: str, body: bytes) -> None:
@@ -88,13 +91,17 @@ class House:
             except (TimeoutError, WorkerEndedError):
                 return  # the page asks again, and is told
 
-    async def opened(self, key: str) -> None:
-        """Wait for the answer of the opening task, if this is its key."""
-        if self._opening is not None and self._opening[0] == key:
+    def is_opening(self, key: str) -> bool:
+        """Whether this is the key of the opening task, and it is still being solved."""
+        return self._opening is not None and self._opening[0] == key and not self._opening[1].done()
+
+    async def opened(self) -> None:
+        """Wait until the opening task is solved."""
+        if self._opening is not None:
             await asyncio.shield(self._opening[1])
 
     async def solve(
-        self, worker: Worker, key: str, body: bytes, said: Callable[[str], None]
+        self, worker: Worker, key: str, body: bytes, said: Callable[[str], object]
     ) -> Parcel:
         """Go the whole road in a worker; raises TimeoutError at the limit, and WorkerEndedError."""
         result = b""
@@ -136,7 +143,7 @@ class House:
         return hashlib.sha256(json.dumps(both, sort_keys=True).encode()).hexdigest()
 
     def later(self, what: Coroutine[Any, Any, Any]) -> asyncio.Task[Any]:
-        """Do something beside all else; what comes too late for a tab is dropped."""
+        """Do something beside all else."""
         task = asyncio.create_task(what)
         self._background.add(task)
         task.add_done_callback(self._done)
@@ -144,8 +151,8 @@ class House:
 
     def _done(self, task: asyncio.Task[Any]) -> None:
         self._background.discard(task)
-        if not task.cancelled():
-            task.exception()  # seen: a tab that was closed is not told of anything
+        if not task.cancelled() and (error := task.exception()) is not None:
+            traceback.print_exception(error)  # a fault of ours, which nobody waits for
 
 
 def _plain(value: Any) -> Any:

@@ -9,6 +9,8 @@ from __future__ import annotations
 import asyncio
 import json
 import time
+from collections.abc import Callable
+from contextlib import AbstractContextManager, suppress
 from typing import TYPE_CHECKING, Any
 
 from starlette.websockets import WebSocket, WebSocketDisconnect
@@ -21,7 +23,6 @@ if TYPE_CHECKING:
 
 __all__ = ["Session"]
 
-PROGRESS_S = 0.1  # between two words of progress
 HAND_S = 5.0  # for one follow; whoever takes longer is stuck
 MOST_N = 2**53
 HAND = ("follow", "place", "curve")
@@ -73,7 +74,7 @@ class Session:
                 await self._tell(older[0], "superseded", by=n)
             self._newest[do] = n, text
             if self._hand is None or self._hand.done():
-                self._hand = asyncio.create_task(self._follow_hand())
+                self._hand = self._house.later(self._follow_hand())
         elif do in ("solve", "cancel"):
             if self._solving is not None and not self._solving.done():
                 self._solving.cancel()
@@ -81,7 +82,7 @@ class Session:
                     await self._tell(n, "cancelled", message="called off")
             if do == "solve":
                 key = self._house.key_of(given)
-                self._solving = asyncio.create_task(self._solve(n, key, text))
+                self._solving = self._house.later(self._solve(n, key, text))
         else:
             await self._refuse(n, "this is no message of the page")
 
@@ -96,7 +97,8 @@ class Session:
             except (TimeoutError, WorkerEndedError):
                 head, body = {"kind": "refused"}, _solve_first("that took too long to follow")
             if head["kind"] == "frame":
-                await self._socket.send_bytes(body)
+                with _if_open():
+                    await self._socket.send_bytes(body)
             else:
                 kind = "refused" if head["kind"] == "failed" else head["kind"]
                 await self._send(n, kind, body)
@@ -115,7 +117,9 @@ class Session:
         """The whole road, when it is this one's turn."""
         house, start = self._house, time.monotonic()
         try:
-            await house.opened(key)
+            if house.is_opening(key):
+                await self._tell(n, "solving", since=time.time())
+                await house.opened()
 
             def waits(before: int) -> None:
                 house.later(self._tell(n, "waiting", before=before))
@@ -133,9 +137,11 @@ class Session:
                 self._hold(worker, n)
             seconds = round(time.monotonic() - start, 3)
             await self._send(n, "solved", body, key="result", seconds=seconds, was=was)
-        except (TimeoutError, WorkerEndedError):
+        except TimeoutError:
             message = f"stopped after {house.limit_s:g} s, the limit"
             await self._tell(n, "limit", message=message)
+        except WorkerEndedError:
+            await self._refuse(n, "the computation ended before its time; try it once more")
 
     async def _matched(self, worker: Worker, text: str) -> dict[str, str]:
         """For the new linkages the ids that they have on the page, where they are there already."""
@@ -157,23 +163,16 @@ class Session:
             self._live.holder = None
         self._live, self._from, worker.holder = worker, n, self
 
-    def _progress(self, n: int) -> Any:
-        last = 0.0
-
-        def said(text: str) -> None:
-            nonlocal last
-            if (now := time.monotonic()) - last >= PROGRESS_S:
-                last = now
-                self._house.later(self._tell(n, "progress", text=text))
-
-        return said
+    def _progress(self, n: int) -> Callable[[str], object]:
+        return lambda text: self._house.later(self._tell(n, "progress", text=text))
 
     async def _refuse(self, n: int, why: str) -> None:
         message = {"code": "400", "message": why, "where": None, "why": None, "help": None}
         await self._send(n, "refused", as_json({"messages": [message]}))
 
     async def _tell(self, n: int, kind: str, **more: Any) -> None:
-        await self._socket.send_text(as_json({"n": n, "kind": kind, **more}).decode())
+        with _if_open():
+            await self._socket.send_text(as_json({"n": n, "kind": kind, **more}).decode())
 
     async def _send(
         self, n: int, kind: str, body: bytes, *, key: str | None = None, **more: Any
@@ -181,7 +180,13 @@ class Session:
         """An object whose JSON is there already, or under `key` a piece of it."""
         front = as_json({"n": n, "kind": kind, **more}).decode()[:-1]
         rest = f',"{key}":{body.decode()}}}' if key else f",{body.decode()[1:]}"
-        await self._socket.send_text(front + rest)
+        with _if_open():
+            await self._socket.send_text(front + rest)
+
+
+def _if_open() -> AbstractContextManager[None]:
+    """Whoever has closed the tab need not be told any more."""
+    return suppress(WebSocketDisconnect, RuntimeError)
 
 
 def _solve_first(why: str) -> bytes:

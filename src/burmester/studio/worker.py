@@ -12,6 +12,7 @@ import queue
 import signal
 import sys
 import threading
+import time
 import traceback
 import warnings
 from typing import Any, BinaryIO
@@ -19,6 +20,8 @@ from typing import Any, BinaryIO
 from burmester.studio.parcel import as_json, packed, read_parcel
 
 __all__ = ["main"]
+
+PROGRESS_S = 0.1  # between two words of progress
 
 
 class _CalledOffError(Exception):
@@ -69,6 +72,7 @@ class _Job:
     def __init__(self, number: int, inbox: _Inbox, sink: BinaryIO) -> None:
         self.number = number
         self._inbox, self._sink = inbox, sink
+        self._told = 0.0
 
     def run(self, road: Any, head: dict[str, Any], body: bytes) -> None:
         """Do it, and say that it is done, whatever comes of it."""
@@ -90,6 +94,9 @@ class _Job:
         """Hand on what is said of the progress; ends the computation where it was called off."""
         if self._inbox.cancelled >= self.number:
             raise _CalledOffError
+        if (now := time.monotonic()) - self._told < PROGRESS_S:
+            return  # every step is said, many a millisecond
+        self._told = now
         self.send({"kind": "progress"}, str(said).encode(errors="replace"))
 
 

@@ -147,7 +147,7 @@ class Worker:
 class Workers:
     """At most so many workers, lent one by one; `spare` of them are kept ready."""
 
-    def __init__(self, most: int, spare: int = 2) -> None:
+    def __init__(self, most: int, spare: int) -> None:
         self._most, self._spare = most, spare
         self._idle: list[Worker] = []  # those that rested for longest first
         self._lent: set[Worker] = set()
@@ -161,9 +161,9 @@ class Workers:
         """The numbers of all processes."""
         return [each.pid for each in (*self._idle, *self._lent)]
 
-    async def open(self) -> None:
-        """Start the spare workers."""
-        for _ in range(min(self._spare, self._most)):
+    async def open(self, number: int) -> None:
+        """Start workers, so that there are so many at least."""
+        while self._size < min(number, self._most):
             await self._start()
 
     async def close(self) -> None:
@@ -258,8 +258,8 @@ class Workers:
             return
         self._lent.discard(worker)
         self._wake()
-        if not self._closed and self._size < self._spare:
-            await self._start()
+        if not self._closed:
+            await self.open(self._spare)
 
     def _wake(self) -> None:
         while self._waiting:
