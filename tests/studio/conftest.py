@@ -2,11 +2,6 @@
 
 import pytest
 
-pytest.importorskip("starlette", reason="the extra [studio] is not installed")
-pytest.importorskip("uvicorn", reason="the extra [studio] is not installed")
-pytest.importorskip("websockets", reason="the extra [studio] is not installed")
-pytest.importorskip("httpx", reason="httpx is not installed")
-
 from tests.oracles.studio import FIVE, served
 
 

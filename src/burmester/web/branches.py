@@ -15,7 +15,7 @@ import numpy as np
 
 from burmester.errors import InputError
 from burmester.fourbar.circuit_parameter import RangeType
-from burmester.fourbar.circuits import Circuits, circuit_of
+from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.instantaneous import transmission_angle
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
@@ -64,7 +64,7 @@ def branches_of(found: FoundLinkage, poses: Displacement, scene: float, frames: 
         circuits = Circuits.of(linkage, as_given=True)
     except InputError:
         return Branches([], none)
-    here = circuit_of(linkage, places, as_given=True)
+    here = circuits.locate(places)
     middle = poses.translation.mean(axis=0)
     ways: list[dict[str, Any]] = []
     at = list(none)
