@@ -1,0 +1,120 @@
+// The server: a session for this page, questions over HTTP, and one websocket that is opened again.
+
+const AGAIN = [250, 500, 1000, 2000, 4000]; // milliseconds before it is tried again
+const UNFINISHED = new Set(["solving", "progress", "waiting"]); // kinds of messages that more follow
+
+/** What the server refused: its messages, and the status. */
+export class Refused extends Error {
+  constructor(status, messages) {
+    super(messages.map((each) => each.message).join(" ") || `the server answered ${status}`);
+    this.status = status;
+    this.messages = messages;
+  }
+}
+
+async function messagesOf(response) {
+  try {
+    return (await response.json()).messages ?? [];
+  } catch {
+    return [];
+  }
+}
+
+/** The one connection of a page; `decode` reads a binary frame. */
+export class Connection {
+  /** @param {(frame: ArrayBuffer) => object} decode */
+  constructor(decode) {
+    this.decode = decode;
+    this.listeners = { message: [], open: [], closed: [] };
+    this.asked = new Map(); // by n: who waits for the answer
+    this.n = 0;
+    this.tries = 0;
+    this.socket = null;
+  }
+
+  on(name, fn) {
+    this.listeners[name].push(fn);
+  }
+
+  emit(name, value) {
+    for (const fn of this.listeners[name]) fn(value);
+  }
+
+  get isOpen() {
+    return this.socket?.readyState === 1;
+  }
+
+  /** Exchange the token in the address for a cookie, and take it out of the address. */
+  async session() {
+    const token = decodeURIComponent(location.hash.slice(1)).replace(/^token=/, "");
+    if (!token) return;
+    await this.post("/session", { token });
+    history.replaceState(null, "", location.pathname);
+  }
+
+  async get(path) {
+    return (await this.request(path, {})).json();
+  }
+
+  /** The answer as a Response: JSON or a file. */
+  post(path, body, method = "POST") {
+    return this.request(path, { method, headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) });
+  }
+
+  /** Raises Refused with the server's messages; a TypeError where there is no server. */
+  async request(path, options) {
+    const response = await fetch(path, { credentials: "same-origin", ...options });
+    if (!response.ok) throw new Refused(response.status, await messagesOf(response));
+    return response;
+  }
+
+  /** Open the websocket, and open it again whenever it ends. */
+  open() {
+    clearTimeout(this.timer);
+    this.socket?.close();
+    const socket = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/live`);
+    socket.binaryType = "arraybuffer";
+    this.socket = socket;
+    socket.onopen = () => {
+      this.tries = 0;
+      this.emit("open");
+    };
+    socket.onmessage = ({ data }) => {
+      if (socket === this.socket) this.take(typeof data === "string" ? JSON.parse(data) : this.decode(data));
+    };
+    socket.onclose = () => {
+      if (socket !== this.socket) return; // another one is open
+      for (const { reject } of this.asked.values()) reject(new Error("the connection ended"));
+      this.asked.clear();
+      this.emit("closed", this.tries);
+      this.timer = setTimeout(() => this.open(), AGAIN[Math.min(this.tries, AGAIN.length - 1)]);
+      this.tries += 1;
+    };
+  }
+
+  take(message) {
+    const waiting = this.asked.get(message.n);
+    if (waiting && !UNFINISHED.has(message.kind)) {
+      this.asked.delete(message.n);
+      waiting.resolve(message);
+    }
+    this.emit("message", message);
+  }
+
+  /** Send a message; returns its number, or null where the connection is closed. */
+  send(message) {
+    if (!this.isOpen) return null;
+    this.n += 1;
+    this.socket.send(JSON.stringify({ n: this.n, ...message }));
+    return this.n;
+  }
+
+  /** Send a message and wait for its last answer. */
+  ask(message) {
+    return new Promise((resolve, reject) => {
+      const n = this.send(message);
+      if (n === null) reject(new Error("the connection is closed"));
+      else this.asked.set(n, { resolve, reject });
+    });
+  }
+}

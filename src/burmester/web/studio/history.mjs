@@ -1,0 +1,50 @@
+// What was before: undo and redo, one entry a gesture.
+
+const MOST = 500; // entries that are kept
+
+/** Values before and after each change.  A value is never changed in place, so an entry costs what it changed. */
+export class History {
+  constructor() {
+    this.past = []; // { value, gesture }: the value before that gesture
+    this.future = [];
+  }
+
+  /** Keep the value that a change is about to replace; edits of one gesture are one entry. */
+  record(value, gesture) {
+    this.future = [];
+    const last = this.past.at(-1);
+    if (gesture !== null && last?.gesture === gesture) return;
+    this.past.push({ value, gesture });
+    if (this.past.length > MOST) this.past.shift();
+  }
+
+  /** The value before the last gesture, or null. */
+  undo(value) {
+    const last = this.past.pop();
+    if (!last) return null;
+    this.future.push(value);
+    return last.value;
+  }
+
+  /** The value that the last undo took away, or null. */
+  redo(value) {
+    const next = this.future.pop();
+    if (next === undefined) return null;
+    this.past.push({ value, gesture: null });
+    return next;
+  }
+
+  /** The value before a gesture that is given up, which leaves no entry; or null. */
+  abandon(gesture) {
+    if (this.past.at(-1)?.gesture !== gesture) return null;
+    return this.past.pop().value;
+  }
+
+  get canUndo() {
+    return this.past.length > 0;
+  }
+
+  get canRedo() {
+    return this.future.length > 0;
+  }
+}

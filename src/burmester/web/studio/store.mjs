@@ -1,0 +1,336 @@
+// What the page knows: the task with its history, the server's answers, and what is chosen.
+//
+// While a gesture lasts, its documents are followed: one request in flight, the newest wins.  When the hand has
+// rested, the whole road runs.  Every part draws from here and listens for what it draws.
+
+import { History } from "./history.mjs";
+
+const REST = 150; // milliseconds without an edit before the whole road runs
+const MOST_SHOWN = 6; // linkages whose motion is asked for while dragging
+const PLACED = "placed"; // chosen: the linkage whose pivots were put down by hand
+
+/** Linkages that keep their ids, where nobody knows better. */
+const sameIds = (before, after) => new Map(before.filter(({ id }) => after.some((each) => each.id === id)).map(({ id }) => [id, id]));
+
+/** Events: document, solved, followed, state, chosen, pinned, placed, improved, selection, messages. */
+export class Store {
+  /** continued(before, after, scene): for each linkage before the id with which it goes on.
+   * @param {{ connection: import("./connection.mjs").Connection, document: object, options?: object, name?: string, continued?: Function }} start */
+  constructor({ connection, document, options = {}, name = "task", continued = sameIds }) {
+    this.connection = connection;
+    this.continued = continued;
+    this.renamed = null; // the map of the last whole answer: old id, new id
+    this.document = document;
+    this.options = options;
+    this.name = name;
+    this.history = new History();
+    this.solved = null;
+    this.solvedFor = null;
+    this.followed = null;
+    this.followedFor = null;
+    this.state = "resting";
+    this.progress = "";
+    this.chosen = null;
+    this.pinned = new Set();
+    this.compared = null;
+    this.placed = null;
+    this.selection = null;
+    this.messages = [];
+    this.listeners = new Map();
+    this.basis = null; // the number of the solve that `solved` answers
+    this.pending = null; // a whole answer to an older document, until a followed frame goes on from it
+    this.flying = null; // the follow in flight: { n, document }
+    this.placing = null; // the place in flight: { n, wanted }
+    this.solving = null; // the solve in flight: { n, document, options }
+    this.improving = null; // the search for better linkages in flight: { n, linkage }
+    this.improved = null; // its last answer
+    connection.on("message", (message) => this.take(message));
+    connection.on("open", () => this.opened());
+    connection.on("closed", () => this.closed());
+  }
+
+  // Events
+
+  /** Call `fn` after any of the events in `names`, which blanks or a list separate. */
+  on(names, fn) {
+    for (const name of [names].flat().join(" ").split(/\s+/)) {
+      if (!this.listeners.has(name)) this.listeners.set(name, []);
+      this.listeners.get(name).push(fn);
+    }
+  }
+
+  emit(...names) {
+    const told = new Set(); // a part that listens for several is told once
+    for (const name of names) {
+      for (const fn of this.listeners.get(name) ?? []) {
+        if (told.has(fn)) continue;
+        told.add(fn);
+        fn(name);
+      }
+    }
+  }
+
+  // The task
+
+  /** Change the document; `gesture` is the same value for all edits that are undone as one. */
+  edit(change, { gesture = null } = {}) {
+    const next = change(this.document);
+    if (next === this.document) return;
+    this.history.record(this.version, gesture);
+    this.document = next;
+    this.changed();
+  }
+
+  /** An option of `burmester synthesize`; undefined takes it away. */
+  option(name, value) {
+    this.history.record(this.version, null);
+    const { [name]: _, ...rest } = this.options;
+    this.options = value === undefined ? rest : { ...rest, [name]: value };
+    this.changed();
+  }
+
+  /** Another name for the task, and for its files. */
+  rename(name) {
+    this.history.record(this.version, null);
+    this.name = name;
+    this.emit("document");
+  }
+
+  /** Another task in place of this one: one entry, too. */
+  replace({ document, options = {}, name = this.name }) {
+    this.history.record(this.version, null);
+    Object.assign(this, { document, options, name, selection: null, placed: null });
+    this.changed();
+    this.emit("selection", "placed");
+  }
+
+  undo() {
+    this.goTo(this.history.undo(this.version));
+  }
+
+  redo() {
+    this.goTo(this.history.redo(this.version));
+  }
+
+  /** Give up a gesture: the task is as it was before it. */
+  abandon(gesture) {
+    this.goTo(this.history.abandon(gesture));
+  }
+
+  get version() {
+    return { document: this.document, options: this.options, name: this.name };
+  }
+
+  goTo(version) {
+    if (!version) return;
+    Object.assign(this, version);
+    this.changed();
+  }
+
+  /** After any change: follow it, and solve when the hand rests. */
+  changed() {
+    this.emit("document");
+    if (this.state !== "offline") this.setState("dragging");
+    this.follow();
+    this.solveAfterRest();
+  }
+
+  // The server
+
+  /** The linkages whose motion is wanted while dragging. */
+  get shown() {
+    return [...new Set([this.chosen, this.compared, ...this.pinned])].filter((id) => id && id !== PLACED).slice(0, MOST_SHOWN);
+  }
+
+  follow() {
+    if (!this.solved || this.flying) return;
+    const { document, options, shown } = this;
+    const n = this.connection.send({ do: "follow", document, options, shown });
+    if (n !== null) this.flying = { n, document };
+  }
+
+  solveAfterRest() {
+    clearTimeout(this.resting);
+    this.resting = setTimeout(() => this.solve(), REST);
+  }
+
+  /** Run the whole road for the task as it is now. */
+  solve() {
+    clearTimeout(this.resting);
+    const { document, options } = this;
+    const n = this.connection.send({ do: "solve", document, options });
+    if (n === null) return;
+    this.solving = { n, document, options };
+    this.setState("solving", "");
+  }
+
+  /** Stop the whole road; what was followed stays. */
+  cancel() {
+    this.connection.send({ do: "cancel" });
+  }
+
+  /** The best dyad with each of these pivots, { plane: "F" | "M", at } one or two; none: no longer. */
+  place(pivots) {
+    this.placeWanted = pivots?.length ? pivots : null;
+    if (!this.placeWanted) {
+      this.placed = null;
+      this.emit("placed");
+    } else if (!this.placing) {
+      this.sendPlace();
+    }
+  }
+
+  sendPlace() {
+    const { document, options, placeWanted: pivots } = this;
+    const n = this.connection.send({ do: "place", document, options, pivots });
+    this.placing = n === null ? null : { n, pivots };
+  }
+
+  take(message) {
+    const { n, kind } = message;
+    if (kind === "followed") this.takeFollowed(message);
+    else if (n === this.flying?.n) this.followRefused(message);
+    else if (n === this.placing?.n) this.takePlaced(message);
+    else if (n === this.improving?.n) this.takeImproved(message);
+    else if (n === this.solving?.n || (kind === "cancelled" && this.solving && n > this.solving.n)) this.takeSolving(message);
+  }
+
+  takeFollowed(frame) {
+    if (frame.n !== this.flying?.n) return;
+    const { document, isOld } = this.flying, from = frame.from ?? (isOld ? null : this.basis);
+    this.flying = null;
+    if (this.pending && from === this.pending.n) this.install(this.pending);
+    if (from === this.basis) {
+      this.followed = frame;
+      this.followedFor = document;
+      this.emit("followed");
+    }
+    if (document !== this.document || ![this.followedFor, this.solvedFor].includes(document)) this.follow();
+  }
+
+  /** What cannot be followed is solved when the hand rests. */
+  followRefused({ kind, messages = [], solve = false }) {
+    const { document } = this.flying;
+    this.flying = null;
+    if (kind === "refused" && !solve) this.say(messages);
+    if (document !== this.document) this.follow();
+  }
+
+  takePlaced(message) {
+    const { pivots } = this.placing;
+    this.placing = null;
+    if (this.placeWanted && message.kind === "placed") {
+      this.placed = { ...message, pivots };
+      this.emit("placed");
+    } else if (message.kind === "refused") {
+      this.say(message.messages);
+    }
+    if (this.placeWanted && this.placeWanted !== pivots) this.sendPlace();
+  }
+
+  /** While a newer task is at hand, what an older search says is not told. */
+  takeSolving(message) {
+    const { document } = this.solving, isNow = document === this.document;
+    if (message.kind === "progress" || message.kind === "waiting") {
+      const before = `waiting for ${message.before} other${message.before === 1 ? "" : "s"}`;
+      if (isNow) this.setState("solving", message.kind === "progress" ? message.text : before);
+      return;
+    }
+    if (message.kind === "solving") return;
+    this.solving = null;
+    if (message.kind === "solved") {
+      const answer = { ...message, document };
+      if (isNow) this.install(answer);
+      else this.pending = answer; // a frame that goes on from it brings it
+    } else if (message.kind === "refused") {
+      this.say(message.messages);
+    } else {
+      const [said] = [message.message].flat();
+      this.say([{ tone: message.kind, ...(typeof said === "string" ? { message: said } : said) }]);
+    }
+    if (isNow) this.setState("resting", "");
+  }
+
+  /** Look for the nearest better linkages around one that is not usable. */
+  improve(linkage) {
+    const { document, options } = this, n = this.connection.send({ do: "improve", document, options, linkage });
+    this.improving = n === null ? null : { n, linkage };
+    this.emit("improved");
+  }
+
+  takeImproved(message) {
+    if (message.kind === "progress" || message.kind === "waiting" || message.kind === "solving") return;
+    this.improving = null;
+    if (message.kind === "improved") this.improved = message;
+    else if (message.messages) this.say(message.messages);
+    this.emit("improved");
+  }
+
+  /** A whole answer becomes what is shown; what was chosen goes on as the same linkage, whatever its id. */
+  install({ n, result, document, seconds, was }) {
+    const before = this.followed?.linkages ?? this.solved?.linkages ?? [];
+    // The server knows what it followed to this very task; of another answer the page looks for itself.
+    this.renamed = was ? new Map(Object.entries(was).map(([now, old]) => [old, now])) : this.continued(before, result.linkages, result.scene);
+    const carried = (id) => (id === PLACED && this.placed?.linkage ? id : this.renamed.get(id) ?? null);
+    Object.assign(this, { solved: result, solvedFor: document, seconds, basis: n, pending: null, followed: null, followedFor: null });
+    if (this.flying) this.flying.isOld = true; // it may go on from the answer before
+    this.chosen = carried(this.chosen) ?? result.linkages[0]?.id ?? null;
+    this.compared = carried(this.compared);
+    this.pinned = new Set([...this.pinned].map(carried).filter(Boolean));
+    this.messages = [];
+    this.emit("solved", "chosen", "pinned", "messages");
+    if (document !== this.document) this.follow();
+  }
+
+  opened() {
+    this.flying = this.solving = this.placing = this.improving = null;
+    this.setState("resting", "");
+    this.basis = null; // the server knows nothing of what was solved before
+    this.solve();
+  }
+
+  closed() {
+    clearTimeout(this.resting);
+    this.flying = this.solving = this.placing = this.improving = null;
+    this.setState("offline", "");
+  }
+
+  setState(state, progress = "") {
+    if (state === this.state && progress === this.progress) return;
+    this.state = state;
+    this.progress = progress;
+    this.emit("state");
+  }
+
+  /** Messages in the readers' form: { code, message, where, help }; an empty list takes them away. */
+  say(messages) {
+    this.messages = messages;
+    this.emit("messages");
+  }
+
+  // What is looked at
+
+  choose(id) {
+    if (id === this.chosen) return;
+    this.chosen = id;
+    this.emit("chosen");
+    if (this.state === "dragging" || this.document !== this.solvedFor) this.follow();
+  }
+
+  pin(id) {
+    if (!this.pinned.delete(id)) this.pinned.add(id);
+    this.emit("pinned");
+  }
+
+  compare(id) {
+    this.compared = id === this.compared ? null : id;
+    this.emit("chosen");
+  }
+
+  /** { kind: "pose" | "limit" | "region" | "body", index }, or null. */
+  select(selection) {
+    if (selection?.kind === this.selection?.kind && selection?.index === this.selection?.index) return;
+    this.selection = selection;
+    this.emit("selection");
+  }
+}
