@@ -1,0 +1,201 @@
+// Poses to take hold of: the origin moves, the tip of the x axis turns, keys do both.
+
+import { s } from "../widget/dom.mjs";
+import { axes, transform } from "../widget/drawing.mjs";
+import { clamp, degrees, px, radians } from "../widget/numbers.mjs";
+import { shortened } from "../widget/tables.mjs";
+import { addPose, poseName, removePose, setPose, standing, statedOf } from "./document.mjs";
+import { stepOf, stepped } from "./fields.mjs";
+import { Kept } from "./scene.mjs";
+
+const LONGEST_ARM = 46; // pixels from the origin of a pose to the handle that turns it
+const SHORTEST_ARM = 27; // the same where poses are crowded
+const MOST = 240; // poses that have handles; of more, some, and the selected one
+const LONGEST_NAME = 18; // characters of a name that the drawing has room for
+const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+const tenths = (angle) => Number(angle.toFixed(1)) + 0;
+
+/** The angle nearest to another one that points the same way. */
+const unwrapped = (angle, near) => angle + 360 * Math.round((near - angle) / 360);
+
+/** The indices of the poses that are drawn. */
+export function drawnPoses(store) {
+  const count = store.document.poses.length, stride = Math.ceil(count / MOST);
+  const chosen = store.selection?.kind === "pose" ? store.selection.index : -1;
+  return [...store.document.poses.keys()].filter((k) => k % stride === 0 || k === count - 1 || k === chosen);
+}
+
+export class PoseHandles {
+  constructor(store, scene) {
+    this.store = store;
+    this.scene = scene;
+    this.element = scene.layer("poses");
+    this.names = scene.layer("labels");
+    this.kept = new Kept(this.element, (k) => this.make(k), (group, k) => this.show(group, k));
+    this.labels = new Kept(this.names, () => s("text", { class: "bs-pose-name" }), (text, k) => this.showName(text, k));
+    store.on("document selection", () => this.draw());
+    scene.on("view", () => this.draw());
+    scene.hold(() => store.document.poses.map((_, k) => standing(store.document, k)).map(({ x, y }) => [x, y]));
+    scene.on("click", () => store.select(null));
+    this.draw();
+  }
+
+  /** Arms are shorter where poses are crowded: about the distance from one to the next. */
+  get arm() {
+    const { document } = this.store, { scale } = this.scene.view, places = drawnPoses(this.store).map((k) => standing(document, k));
+    const away = places.slice(1).map(({ x, y }, k) => scale * Math.hypot(x - places[k].x, y - places[k].y)).sort((a, b) => a - b);
+    return away.length ? clamp(1.2 * away[away.length >> 1], SHORTEST_ARM, LONGEST_ARM) : LONGEST_ARM;
+  }
+
+  draw() {
+    this.length = this.scene.dragged ? this.length ?? this.arm : this.arm; // a handle does not run from the hand
+    const poses = drawnPoses(this.store).map((k) => [k, k]);
+    this.kept.draw(poses);
+    this.labels.draw(poses);
+  }
+
+  make(k) {
+    const origin = s("g", { class: "bs-origin", "data-pose": k + 1, tabindex: 0, role: "button" }, s("circle", { class: "bs-hold", r: 12 }), s("circle", { class: "bs-dot", r: 5.5 }));
+    const turn = s(
+      "g",
+      { class: "bs-turn", "data-turn": k + 1, tabindex: 0, role: "slider", "aria-valuemin": -360, "aria-valuemax": 360 },
+      s("circle", { class: "bs-hold", r: 12 }),
+      s("circle", { class: "bs-tip", r: 5 }),
+    );
+    const group = s("g", { class: "bs-pose" }, s("path", { class: "bs-axes" }), origin, turn);
+    this.dragOrigin(origin, k);
+    this.dragTurn(turn, k);
+    for (const part of [origin, turn]) part.addEventListener("focus", () => this.store.select({ kind: "pose", index: k }));
+    origin.addEventListener("keydown", (event) => this.key(event, k, false));
+    turn.addEventListener("keydown", (event) => this.key(event, k, true));
+    return group;
+  }
+
+  show(group, k) {
+    const { store, scene: { view } } = this, { x, y, angle } = standing(store.document, k), pose = store.document.poses[k];
+    const [arrow, origin, turn] = group.children;
+    const selected = store.selection?.kind === "pose" && store.selection.index === k;
+    group.setAttribute("transform", transform(view.X(x), view.Y(y), radians(angle)));
+    arrow.setAttribute("d", axes(this.length - 8));
+    turn.setAttribute("transform", `translate(${px(this.length)} 0)`);
+    group.classList.toggle("bs-selected", selected);
+    group.classList.toggle("bs-exact", Boolean(pose.exact));
+    const unit = store.document.length_unit ?? "", name = poseName(store.document, k);
+    const called = pose.name ? `Pose ${k + 1}, ${name}` : `Pose ${k + 1}`;
+    origin.setAttribute("aria-label", `${called}: x ${x} ${unit}, y ${y} ${unit}, angle ${angle}°. Drag, or use the arrow keys; Delete removes it.`);
+    origin.setAttribute("aria-pressed", selected);
+    turn.setAttribute("aria-label", `Turn ${called}`);
+    turn.setAttribute("aria-valuenow", angle);
+    turn.setAttribute("aria-valuetext", `${angle}°`);
+  }
+
+  /** Names stand behind the origin, away from the x axis. */
+  showName(text, k) {
+    const { store, scene: { view } } = this, { x, y, angle } = standing(store.document, k), a = radians(angle + 215);
+    const name = shortened(poseName(store.document, k), LONGEST_NAME);
+    if (text.textContent !== name) text.textContent = name;
+    text.setAttribute("text-anchor", Math.cos(a) < -0.3 ? "end" : Math.cos(a) > 0.3 ? "start" : "middle");
+    text.setAttribute("x", px(view.X(x) + 13 * Math.cos(a)));
+    text.setAttribute("y", px(view.Y(y) - 13 * Math.sin(a) + 4));
+  }
+
+  /** A change of one pose; what is free and not stated stays free. */
+  set(k, changes, gesture) {
+    this.store.edit((document) => setPose(document, k, statedOf(document.poses[k], changes)), { gesture });
+  }
+
+  dragOrigin(element, k) {
+    const { store, scene } = this;
+    let gesture, off;
+    scene.drag(element, {
+      start: (from) => {
+        const { x, y } = standing(store.document, k);
+        gesture = Symbol("move a pose");
+        off = [x - from.x, y - from.y];
+      },
+      move: (point) => this.set(k, { x: scene.rounded(point.x + off[0]), y: scene.rounded(point.y + off[1]) }, gesture),
+      cancel: () => store.abandon(gesture),
+    });
+  }
+
+  dragTurn(element, k) {
+    const { store, scene } = this;
+    let gesture, off;
+    const angleTo = (point) => {
+      const { x, y } = standing(store.document, k);
+      return degrees(Math.atan2(point.y - y, point.x - x));
+    };
+    scene.drag(element, {
+      start: (from) => {
+        gesture = Symbol("turn a pose");
+        off = standing(store.document, k).angle - angleTo(from);
+      },
+      move: (point) => this.set(k, { angle: tenths(unwrapped(angleTo(point) + off, standing(store.document, k).angle)) }, gesture),
+      cancel: () => store.abandon(gesture),
+    });
+  }
+
+  key(event, k, turning) {
+    const { store, scene } = this, arrow = ARROWS[event.key];
+    if (event.ctrlKey || event.metaKey) return;
+    if (arrow) {
+      if (!event.repeat) this.keyed = Symbol("keys"); // a key that is held is one gesture
+      const { x, y, angle } = standing(store.document, k), by = stepOf(event, turning ? 1 : scene.step);
+      if (turning) this.set(k, { angle: stepped(angle, by * (arrow[0] === 0 ? arrow[1] : -arrow[0])) }, this.keyed);
+      else this.set(k, { x: stepped(x, by * arrow[0]), y: stepped(y, by * arrow[1]) }, this.keyed);
+    } else if (event.key === "Delete" || event.key === "Backspace") {
+      store.edit((document) => removePose(document, k));
+      const left = store.document.poses.length;
+      store.select(left ? { kind: "pose", index: Math.min(k, left - 1) } : null);
+      this.focus(Math.min(k, left - 1));
+    } else {
+      return;
+    }
+    event.preventDefault();
+  }
+
+  focus(k) {
+    this.element.querySelector(`[data-pose="${k + 1}"]`)?.focus({ preventScroll: true });
+  }
+}
+
+/** The tool that adds poses: a click sets one, the second click turns it. */
+export class PoseTool {
+  constructor(store, scene) {
+    Object.assign(this, { store, scene, name: "pose", gesture: null });
+    this.hint = "Click where the pose is to stand, and click again to turn it. Escape ends.";
+  }
+
+  click(point) {
+    const { store, scene } = this;
+    if (this.gesture) {
+      this.turn(point);
+      this.gesture = null;
+      return;
+    }
+    this.gesture = Symbol("add a pose");
+    const angle = store.document.poses.at(-1)?.angle ?? 0;
+    store.edit((document) => addPose(document, { x: scene.rounded(point.x), y: scene.rounded(point.y), angle }), { gesture: this.gesture });
+    store.select({ kind: "pose", index: store.document.poses.length - 1 });
+  }
+
+  hover(point) {
+    if (this.gesture && point) this.turn(point);
+  }
+
+  turn(point) {
+    const { store, gesture } = this, k = store.document.poses.length - 1, { x, y, angle } = standing(store.document, k);
+    const away = Math.hypot(point.x - x, point.y - y) * this.scene.view.scale;
+    if (away < 6) return; // a second click on the origin leaves the angle
+    const next = tenths(unwrapped(degrees(Math.atan2(point.y - y, point.x - x)), angle));
+    store.edit((document) => setPose(document, k, { angle: next }), { gesture });
+  }
+
+  key(event) {
+    if (event.key !== "Escape") return false;
+    if (this.gesture) this.store.abandon(this.gesture);
+    this.gesture = null;
+    this.scene.use(null);
+    return true;
+  }
+}

@@ -1,0 +1,194 @@
+// The poses as a table: the same data as the handles, to the last digit.
+
+import { h } from "../widget/dom.mjs";
+import { addPose, duplicatePose, movePose, removePose, setFree, setPose, setTolerance, standing } from "./document.mjs";
+import { NumberField, button, choice, labelled, textField, tick } from "./fields.mjs";
+
+const PAGE = 60; // rows at a time
+const NUMBERS = [["x", "length"], ["y", "length"], ["angle", "angle"]];
+const BOUNDS = [["x", "x", "length"], ["y", "y", "length"], ["angle", "angle_deg", "angle"]];
+
+/** A name as one line of text: a field of the page keeps no line ends. */
+const oneLine = (name) => (name ?? "").replace(/[\r\n\u2028\u2029]+/g, " ");
+
+export class PoseTable {
+  constructor(store, scene) {
+    this.store = store;
+    this.scene = scene;
+    this.page = 0;
+    this.rows = [];
+    this.body = h("tbody", {});
+    this.unit = h("span", { class: "bs-unit" });
+    this.pages = h("div", { class: "bs-pages", hidden: true });
+    this.details = h("div", { class: "bs-details", "data-details": "pose" });
+    this.table = h(
+      "table",
+      { class: "bs-poses", "aria-label": "Poses" },
+      h("thead", {}, h("tr", {}, h("th", { scope: "col" }, "#"), h("th", { scope: "col" }, "name"), h("th", { scope: "col" }, "x"), h("th", { scope: "col" }, "y"), h("th", { scope: "col" }, "angle °"))),
+      this.body,
+    );
+    const add = button("Add a pose", () => this.add(), { "data-do": "add-pose-row" });
+    this.element = h("div", { class: "bs-table-box" }, this.table, this.pages, h("div", { class: "bs-row" }, add, this.unit), this.details);
+    this.makeDetails();
+    store.on("document selection", () => this.draw());
+    this.draw();
+  }
+
+  get selected() {
+    const { selection, document } = this.store;
+    return selection?.kind === "pose" && selection.index < document.poses.length ? selection.index : null;
+  }
+
+  draw() {
+    const { document } = this.store, count = document.poses.length, pages = Math.max(1, Math.ceil(count / PAGE));
+    if (this.selected !== null && this.selected !== this.shownSelection) this.page = Math.floor(this.selected / PAGE);
+    this.shownSelection = this.selected;
+    this.page = Math.min(this.page, pages - 1);
+    const first = this.page * PAGE, shown = Math.min(PAGE, count - first);
+    while (this.rows.length < shown) this.rows.push(this.makeRow(this.rows.length));
+    while (this.body.children.length > shown) this.body.lastChild.remove();
+    for (let k = 0; k < shown; k += 1) {
+      if (!this.rows[k].tr.isConnected || this.body.children[k] !== this.rows[k].tr) this.body.append(this.rows[k].tr);
+      this.showRow(this.rows[k], first + k);
+    }
+    this.unit.textContent = document.length_unit ? `x and y in ${document.length_unit}` : "";
+    this.showPages(pages, count);
+    this.showDetails();
+  }
+
+  /** One row of the table, at a place of the page; which pose it shows changes. */
+  makeRow(place) {
+    const row = { index: place, fields: {} };
+    const change = (changes) => this.store.edit((document) => setPose(document, row.index, changes));
+    row.number = h("button", { type: "button", class: "bs-index", onclick: () => this.store.select(row.index === this.selected ? null : { kind: "pose", index: row.index }) });
+    row.name = textField("Name", (text) => change({ name: text.trim() || undefined }), { class: "bs-text bs-name", placeholder: "–" });
+    const cells = NUMBERS.map(([key, kind]) => {
+      const field = new NumberField({
+        label: key,
+        options: () => ({ kind, unit: this.store.document.length_unit, optional: this.isFree(row.index, key) }),
+        step: () => (kind === "angle" ? 1 : this.scene.step),
+        commit: (value) => change({ [key]: value }),
+        attributes: { "data-key": key },
+      });
+      row.fields[key] = field;
+      return h("td", {}, field.element);
+    });
+    row.tr = h("tr", { class: "bs-pose-row" }, h("th", { scope: "row" }, row.number), h("td", {}, row.name), cells);
+    row.tr.addEventListener("focusin", (event) => event.target !== row.number && this.store.select({ kind: "pose", index: row.index }));
+    return row;
+  }
+
+  isFree(index, key) {
+    return Boolean(this.store.document.poses[index]?.free?.includes(key));
+  }
+
+  showRow(row, index) {
+    const pose = this.store.document.poses[index], moved = row.index !== index;
+    row.index = index;
+    row.tr.dataset.row = index + 1;
+    row.tr.classList.toggle("bs-selected", index === this.selected);
+    row.number.textContent = index + 1;
+    row.number.setAttribute("aria-label", `Pose ${index + 1}`);
+    row.number.setAttribute("aria-pressed", index === this.selected);
+    if (moved || document.activeElement !== row.name) row.name.value = oneLine(pose.name);
+    row.name.setAttribute("aria-label", `Name of pose ${index + 1}`);
+    for (const [key] of NUMBERS) {
+      const { input } = row.fields[key], free = this.isFree(index, key);
+      input.setAttribute("aria-label", `${key} of pose ${index + 1}`);
+      input.placeholder = free ? "free" : "";
+      row.fields[key].turnTo(index, pose[key]);
+      row.fields[key].show(pose[key]);
+    }
+  }
+
+  showPages(pages, count) {
+    this.pages.hidden = pages < 2;
+    if (pages < 2) return;
+    const go = (page) => {
+      this.page = page;
+      this.draw();
+    };
+    this.pages.replaceChildren(
+      button("‹", () => go(Math.max(0, this.page - 1)), { "aria-label": "Earlier poses", disabled: this.page === 0 }),
+      h("span", {}, `${this.page * PAGE + 1}–${Math.min(count, (this.page + 1) * PAGE)} of ${count}`),
+      button("›", () => go(Math.min(pages - 1, this.page + 1)), { "aria-label": "Later poses", disabled: this.page === pages - 1 }),
+    );
+  }
+
+  /** A copy of the last pose, a step beside it, and its x ready to be typed over. */
+  add() {
+    const { store, scene } = this, count = store.document.poses.length;
+    const last = count ? standing(store.document, count - 1) : { x: 0, y: 0, angle: 0 };
+    store.edit((document) => addPose(document, count ? { ...last, x: scene.rounded(last.x + 10 * scene.step) } : last));
+    store.select({ kind: "pose", index: count });
+    const field = this.rows.find((row) => row.index === count && row.tr.isConnected)?.fields.x.input;
+    field?.focus();
+    field?.select();
+  }
+
+  // What else a pose says: shown for the selected one
+
+  makeDetails() {
+    const { store } = this;
+    const at = () => this.selected;
+    const edit = (change) => store.edit((document) => change(document, at()));
+    this.title = h("h3", { class: "bs-pose-title" });
+    this.exact = tick("met exactly", (on) => edit((document, k) => setPose(document, k, { exact: on || undefined })), { "data-key": "exact" });
+    this.weight = new NumberField({
+      label: "weight", options: () => ({ optional: true, above: 0 }),
+      commit: (value) => edit((document, k) => setPose(document, k, { weight: value })), attributes: { "data-key": "weight", placeholder: "1" },
+    });
+    this.bounds = BOUNDS.map(([component, key, kind]) => {
+      const field = new NumberField({
+        label: `tolerance of ${component}`, options: () => ({ kind, unit: store.document.length_unit, optional: true, least: 0 }), step: () => (kind === "angle" ? 1 : this.scene.step),
+        commit: (value) => edit((document, k) => setTolerance(document, k, key, value)), attributes: { "data-key": `tolerance-${component}`, placeholder: "–" },
+      });
+      const free = tick("free", (on) => edit((document, k) => setFree(document, k, component, on)), { "data-key": `free-${component}`, "aria-label": `${component} is free` });
+      return { component, key, field, free };
+    });
+    this.axes = choice("Axes of the tolerance", [["fixed", "along the axes of the ground"], ["body", "along the axes of the body"]], (value) =>
+      edit((document, k) => setTolerance(document, k, "axes", value === "body" ? value : undefined)), { "data-key": "tolerance-axes" });
+    const act = (text, name, change, then) =>
+      button(text, () => {
+        const k = at();
+        edit(change);
+        store.select(then(k) === null ? null : { kind: "pose", index: then(k) });
+      }, { "data-do": name });
+    const last = () => store.document.poses.length - 1;
+    this.up = act("Earlier", "earlier", (document, k) => movePose(document, k, k - 1), (k) => k - 1);
+    this.down = act("Later", "later", (document, k) => movePose(document, k, k + 1), (k) => k + 1);
+    this.details.append(
+      this.title,
+      h("div", { class: "bs-row" }, this.exact.element, labelled("weight", this.weight.element)),
+      h("table", { class: "bs-tolerances" }, h("caption", {}, "Tolerance: how far from it the body may be, to either side"),
+        h("tbody", {}, this.bounds.map(({ component, field, free }) => h("tr", {}, h("th", { scope: "row" }, component === "angle" ? "angle °" : component), h("td", {}, field.element), h("td", {}, free.element))))),
+      this.axes,
+      h("div", { class: "bs-row" }, this.up, this.down,
+        act("Duplicate", "duplicate", duplicatePose, (k) => k + 1),
+        act("Delete", "delete-pose", removePose, (k) => (last() < 0 ? null : Math.min(k, last())))),
+    );
+  }
+
+  showDetails() {
+    const k = this.selected;
+    this.details.hidden = k === null;
+    if (k === null) return;
+    const pose = this.store.document.poses[k];
+    this.title.replaceChildren(`Pose ${k + 1}`, ...(pose.name ? [": ", h("bdi", {}, oneLine(pose.name))] : []));
+    this.exact.box.checked = Boolean(pose.exact);
+    this.weight.turnTo(k, pose.weight);
+    this.weight.show(pose.weight);
+    for (const { component, key, field, free } of this.bounds) {
+      const isFree = this.isFree(k, component) || pose.tolerance?.[component] === "free";
+      free.box.checked = isFree;
+      field.input.disabled = isFree;
+      const stated = pose.tolerance?.[key], bound = typeof stated === "number" ? stated : undefined;
+      field.turnTo(k, bound);
+      field.show(bound);
+    }
+    this.axes.hidden = !pose.tolerance;
+    this.axes.value = pose.tolerance?.axes ?? "fixed";
+    this.up.disabled = k === 0;
+    this.down.disabled = k === this.store.document.poses.length - 1;
+  }
+}
