@@ -21,7 +21,8 @@ Headers: TypeAlias = list[tuple[bytes, bytes]]
 
 MOST_BYTES: Final = 2_000_000  # of what the page sends at once
 PASSED_OVER: Final = 16_000_000  # bytes that are heard before they are refused
-OPEN: Final = ("/", "/studio.mjs", "/studio.css", "/widget.css", "/session")  # without the cookie
+SHELL: Final = ("/", "/studio.mjs", "/studio.css", "/widget.css", "/studio.svg")
+OPEN: Final = (*SHELL, "/session")  # without the cookie
 
 _HEADERS: Final = (
     (b"content-security-policy", b"default-src 'self'; frame-ancestors 'none'; base-uri 'none'; "

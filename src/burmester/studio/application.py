@@ -33,6 +33,7 @@ _STATIC = {
     "/studio.mjs": ("studio.mjs", "text/javascript; charset=utf-8"),
     "/studio.css": ("studio.css", "text/css; charset=utf-8"),
     "/widget.css": ("widget.css", "text/css; charset=utf-8"),
+    "/studio.svg": ("studio.svg", "image/svg+xml"),
 }
 
 

@@ -1,0 +1,56 @@
+// The task is kept: in this tab at once, so that a reload loses nothing, and by the server for the next time.
+
+const KEY = "burmester.studio", TAB = "burmester.studio.tab";
+const SOON = 400; // milliseconds of rest before it is kept
+
+export class Autosave {
+  constructor(store) {
+    this.store = store;
+    store.on("document", () => this.soon());
+    store.connection.on("open", () => this.isOpen && this.soon()); // what the server missed
+    addEventListener("pagehide", () => this.keep());
+    document.addEventListener("visibilitychange", () => document.visibilityState === "hidden" && this.keep());
+  }
+
+  soon() {
+    clearTimeout(this.timer);
+    this.isOpen = true;
+    document.documentElement.dataset.kept = "false";
+    this.timer = setTimeout(() => this.keep(), SOON);
+  }
+
+  keep() {
+    if (!this.isOpen) return;
+    this.isOpen = false;
+    clearTimeout(this.timer);
+    const { document: task, options, name, connection } = this.store, text = { document: task, options, name };
+    document.documentElement.dataset.kept = "true";
+    try {
+      sessionStorage.setItem(KEY, JSON.stringify(text));
+    } catch {
+      // a tab that keeps nothing, or is full: the server keeps it
+    }
+    connection.post("/autosave", { ...text, tab: tabName() }, "PUT").catch(() => (this.isOpen = true)); // once more after the next change
+  }
+}
+
+/** A name of this tab's own, so that two tabs keep two tasks. */
+function tabName() {
+  try {
+    const name = sessionStorage.getItem(TAB) ?? crypto.randomUUID();
+    sessionStorage.setItem(TAB, name);
+    return name;
+  } catch {
+    return "tab";
+  }
+}
+
+/** What this tab kept before it was loaded again, or null. */
+export function keptHere() {
+  try {
+    const kept = JSON.parse(sessionStorage.getItem(KEY));
+    return Array.isArray(kept?.document?.poses) ? kept : null;
+  } catch {
+    return null;
+  }
+}

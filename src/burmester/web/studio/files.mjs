@@ -1,0 +1,234 @@
+// Files: opened, dropped, pasted, saved, exported; and the command line that does the same.
+
+import { h } from "../widget/dom.mjs";
+import { setBody, withKeys } from "./document.mjs";
+import { Refused } from "./connection.mjs";
+import { button } from "./fields.mjs";
+
+const DRAWINGS = /\.(svg|dxf)$/i;
+const TASKS = /\.(toml|json)$/i;
+const KINDS = ".toml,.json,.csv,.tsv,.txt,.xlsx,.parquet,.trc,.svg,.dxf";
+const LARGEST = 1_400_000; // bytes of a file: in base64 they are 2 MB with what is around them
+
+/** A file's bytes in base64. */
+export async function base64Of(file) {
+  const bytes = new Uint8Array(await file.arrayBuffer());
+  let text = "";
+  for (let k = 0; k < bytes.length; k += 0x8000) text += String.fromCharCode(...bytes.subarray(k, k + 0x8000));
+  return btoa(text);
+}
+
+/** Whether a pasted text is rows of cells: tabs or several lines, with a digit. */
+export const isTable = (text) => /\d/.test(text) && (/\t/.test(text) || /\n\s*\S/.test(text.trim()));
+
+/** Hand a file to the person. */
+export function download(blob, name) {
+  const address = URL.createObjectURL(blob), link = h("a", { href: address, download: name });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(address), 10_000);
+}
+
+/** A menu under a button: a list of what can be done. */
+export function menu(text, items, attributes = {}) {
+  const list = h("div", { class: "bs-menu-list", role: "menu" });
+  const summary = h("summary", { class: "bm-button" }, text), element = h("details", { class: "bs-menu", ...attributes }, summary, list);
+  const close = () => {
+    if (!element.open) return;
+    element.open = false;
+    summary.focus();
+  };
+  element.addEventListener("toggle", () => {
+    if (element.open) list.replaceChildren(...items().map(({ title, note, act, data }) => h("button", { type: "button", role: "menuitem", class: "bs-menu-item", ...data, onclick: () => (close(), act()) }, h("b", {}, title), note ? h("span", {}, note) : null)));
+  });
+  element.addEventListener("keydown", (event) => {
+    const all = [...list.children], at = all.indexOf(document.activeElement);
+    if (event.key === "Escape") close();
+    else if (event.key === "ArrowDown") all[(at + 1) % all.length]?.focus();
+    else if (event.key === "ArrowUp") all[(at + all.length - 1) % all.length]?.focus();
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+  });
+  document.addEventListener("pointerdown", (event) => element.contains(event.target) || (element.open = false));
+  return element;
+}
+
+export class Files {
+  /** start: what the server said of templates and exports; banners: where is told what happened. */
+  constructor(store, start, banners) {
+    Object.assign(this, { store, start, banners, server: store.connection });
+    this.chooser = h("input", { type: "file", hidden: true, accept: KINDS, "data-file": "open", onchange: () => this.chosen(this.chooser) });
+    this.outlines = h("input", { type: "file", hidden: true, accept: ".svg,.dxf", "data-file": "outline", onchange: () => this.chosen(this.outlines) });
+    this.dropping = h("div", { class: "bs-dropping", hidden: true, "aria-hidden": "true" }, h("p", {}, "Drop a task, a table of poses, or the outline of the body"));
+    this.dialog = h("dialog", { class: "bs-dialog", "aria-label": "The same from the command line" });
+    this.element = h("div", { class: "bs-files" }, ...this.buttons(), this.chooser, this.outlines, this.dropping, this.dialog);
+    this.listen();
+  }
+
+  buttons() {
+    const { start } = this;
+    return [
+      menu("Templates", () => (start.templates ?? []).map(({ name, summary }) => ({ title: name, note: summary, act: () => this.template(name), data: { "data-template": name } })), { "data-menu": "templates" }),
+      button("New", () => this.fresh(), { "data-do": "new", title: "An empty task" }),
+      button("Open…", () => this.chooser.click(), { "data-do": "open", title: "A task, or a table of poses (Ctrl+O)" }),
+      button("Save task", () => this.save(), { "data-do": "save", title: "The file that the command reads (Ctrl+S)" }),
+      menu("Export", () => [
+        ...(start.exports ?? []).map(({ format, title, suffix }) => ({ title, note: suffix, act: () => this.export("/export", { format }), data: { "data-export": format } })),
+        { title: "Report", note: ".html", act: () => this.export("/report"), data: { "data-export": "report" } },
+        { title: "Result", note: ".json", act: () => this.export("/result"), data: { "data-export": "result" } },
+      ], { "data-menu": "export" }),
+      button("Copy as command", () => this.commands(), { "data-do": "command", title: "The same from the command line" }),
+    ];
+  }
+
+  get task() {
+    const { document, options, name } = this.store;
+    return { document, options, name };
+  }
+
+  /** Do what asks the server; what it refuses is told, and so is that it is not there. */
+  async trying(what, then) {
+    try {
+      return await then();
+    } catch (error) {
+      if (error instanceof Refused && error.messages.length) this.banners.say("refused", `${what} was not done.`, error.messages);
+      else this.banners.say("refused", `${what} was not done: ${error instanceof Refused ? error.message : "the server does not answer"}.`);
+      return null;
+    }
+  }
+
+  fresh() {
+    this.store.replace({ document: { length_unit: "mm", angle_unit: "deg", poses: [] }, options: {}, name: "task" });
+  }
+
+  template(name) {
+    return this.trying(`Opening ${name}`, async () => {
+      const made = await this.server.get(`/template/${encodeURIComponent(name)}`);
+      this.store.replace({ name, ...made });
+      this.opened?.();
+    });
+  }
+
+  async chosen(input) {
+    for (const file of input.files) await this.take(file, input === this.outlines);
+    input.value = "";
+  }
+
+  chooseOutline() {
+    this.outlines.click();
+  }
+
+  /** A file that was chosen or dropped: an outline, a task, or a table of poses. */
+  take(file, asOutline = DRAWINGS.test(file.name)) {
+    return this.trying(`Reading ${file.name}`, async () => {
+      if (file.size > LARGEST) throw new Refused(413, [{ message: `${file.name} has ${Math.round(file.size / 1000)} kB, and the page takes ${LARGEST / 1000}.`, help: "give it to the command: burmester studio FILE" }]);
+      const body = { name: file.name, base64: await base64Of(file), length_unit: this.store.document.length_unit };
+      if (asOutline) return this.outline(await (await this.server.post("/outline", body)).json(), file.name);
+      const { document, options = {}, notes = [] } = await (await this.server.post("/read", body)).json();
+      const name = file.name.replace(/\.[^.]*$/, "");
+      const whole = TASKS.test(file.name);
+      this.store.replace(whole ? { document, options, name } : { document, options: this.store.options, name });
+      this.opened?.();
+      return this.banners.say("note", `${file.name} is open.`, notes, { undo: true });
+    });
+  }
+
+  outline({ outline: corners, notes = [] }, name) {
+    this.store.edit((document) => setBody(document, corners));
+    this.store.select({ kind: "body", index: 0 });
+    this.banners.say("note", `The outline of the body is that in ${name}: ${corners.length} corners.`, notes, { undo: true });
+  }
+
+  /** Rows of a spreadsheet: the poses are theirs, the rest of the task stays. */
+  paste(text) {
+    return this.trying("Pasting", async () => {
+      const { document, notes = [] } = await (await this.server.post("/read", { name: "pasted", text, length_unit: this.store.document.length_unit, angle_unit: "deg" })).json();
+      const { poses, length_unit } = document;
+      this.store.edit((old) => withKeys(old, { poses, length_unit: length_unit ?? old.length_unit }));
+      this.store.select(null);
+      this.opened?.();
+      this.banners.say("note", `${poses.length} poses were pasted.`, notes, { undo: true });
+    });
+  }
+
+  /** As a task file in TOML; where there is no server, as the same in JSON. */
+  save() {
+    return this.trying("Saving", async () => {
+      try {
+        await this.hand(await this.server.post("/task", this.task), `${this.store.name}.toml`);
+      } catch (error) {
+        if (error instanceof Refused) throw error;
+        this.saveWithoutServer();
+        this.banners.say("note", "The server does not answer: the task was saved as JSON, which the command reads as well.");
+      }
+    });
+  }
+
+  /** The task as JSON, made by the page: what the command reads, where there is no server. */
+  saveWithoutServer() {
+    download(new Blob([`${JSON.stringify(this.store.document, null, 2)}\n`], { type: "application/json" }), `${this.store.name.replace(/[^\w.-]+/g, "-") || "task"}.json`);
+  }
+
+  export(path, what = {}) {
+    return this.trying("Exporting", async () => {
+      const linkage = this.store.chosen === "placed" ? null : this.store.chosen;
+      this.hand(await this.server.post(path, { ...this.task, linkage, ...what }), "export");
+    });
+  }
+
+  async hand(response, otherwise) {
+    const name = /filename="([^"]+)"/.exec(response.headers.get("Content-Disposition") ?? "")?.[1] ?? otherwise;
+    download(await response.blob(), name);
+  }
+
+  commands() {
+    return this.trying("Copying", async () => {
+      const { commands } = await (await this.server.post("/command", { ...this.task, linkage: this.store.chosen === "placed" ? null : this.store.chosen })).json();
+      const close = button("Close", () => this.dialog.close(), { "data-do": "close" });
+      const said = h("p", { class: "bs-hint", role: "status" });
+      const copy = async (command) => {
+        try {
+          await navigator.clipboard.writeText(command);
+          said.textContent = "Copied.";
+        } catch {
+          said.textContent = "The browser does not let this page copy: select the text.";
+        }
+      };
+      this.dialog.replaceChildren(
+        h("h2", {}, "The same from the command line"),
+        h("p", { class: "bs-hint" }, "Save the task first; the commands read that file."),
+        ...commands.map(({ title, command }) => h("div", { class: "bs-command" }, h("h3", {}, title), h("pre", { tabindex: 0 }, command), button("Copy", () => copy(command), { "aria-label": `Copy: ${title}` }))),
+        h("div", { class: "bs-row" }, close, said),
+      );
+      this.dialog.showModal();
+    });
+  }
+
+  listen() {
+    let inside = 0;
+    const hasFiles = (event) => [...(event.dataTransfer?.types ?? [])].includes("Files");
+    const show = (by) => {
+      inside = Math.max(0, inside + by);
+      this.dropping.hidden = inside === 0;
+    };
+    document.addEventListener("dragenter", (event) => hasFiles(event) && (event.preventDefault(), show(1)));
+    document.addEventListener("dragover", (event) => hasFiles(event) && event.preventDefault());
+    document.addEventListener("dragleave", (event) => hasFiles(event) && show(-1));
+    document.addEventListener("drop", async (event) => {
+      if (!hasFiles(event)) return;
+      event.preventDefault();
+      show(-Infinity);
+      inside = 0;
+      for (const file of event.dataTransfer.files) await this.take(file);
+    });
+    document.addEventListener("paste", (event) => {
+      const text = event.clipboardData?.getData("text/plain") ?? "", [file] = event.clipboardData?.files ?? [];
+      const typing = event.target.closest?.("input, textarea, select");
+      if (file) this.take(file);
+      else if (isTable(text)) this.paste(text);
+      else return;
+      event.preventDefault();
+      if (typing) typing.blur();
+    });
+  }
+}

@@ -1,0 +1,50 @@
+// Keys of the whole page; those of a handle or a field are theirs.
+
+import { h } from "../widget/dom.mjs";
+import { button } from "./fields.mjs";
+
+const KEYS = [
+  ["Tab", "from handle to handle, field to field"],
+  ["arrow keys", "move what has the focus by a step: a pose, the tip that turns it, a corner, a shape, a number; Shift: ten steps, Alt: a tenth"],
+  ["Delete", "removes the pose, the corner or the shape"],
+  ["Enter", "closes an outline; puts a shape in the middle while it is drawn"],
+  ["Escape", "gives up what is under way: a drag, a drawing, a selection"],
+  ["+ − 0", "on the plane: zoom and fit; arrow keys pan it"],
+  ["space", "plays and stops"],
+  ["Ctrl+Z, Ctrl+Shift+Z", "undo and redo"],
+  ["Ctrl+S, Ctrl+O, Ctrl+V", "save the task, open a file, paste rows of a spreadsheet"],
+];
+
+/** A button that shows what keys do. */
+export function keyList() {
+  const close = button("Close", () => dialog.close());
+  const dialog = h("dialog", { class: "bs-dialog", "aria-label": "Keys" }, h("h2", {}, "Keys"),
+    h("dl", { class: "bs-keys" }, KEYS.map(([key, what]) => h("div", {}, h("dt", {}, key), h("dd", {}, what)))), close);
+  return [button("Keys", () => dialog.showModal(), { "data-do": "keys" }), dialog];
+}
+
+const written = (element) => element?.matches?.("input:not([type=checkbox]):not([type=radio]):not([type=range]), textarea");
+
+/** Undo, redo, save, open; Escape ends a gesture, then a tool, then a selection. */
+export function listenToKeys(store, scene, files) {
+  document.addEventListener("keydown", (event) => {
+    const { key, target } = event, control = (event.ctrlKey || event.metaKey) && !event.altKey;
+    if (control) {
+      const act = { z: () => (event.shiftKey ? store.redo() : store.undo()), y: () => store.redo(), s: () => files.save(), o: () => files.chooser.click() }[key.toLowerCase()];
+      // A text that is being typed has the browser's own undo.
+      if (!act || (written(target) && target.dataset.typing === "true" && /^[zy]$/i.test(key))) return;
+      event.preventDefault();
+      act();
+    } else if (scene.dragged && key === "Escape") {
+      event.preventDefault();
+      scene.dragged.cancel();
+    } else if (scene.tool && !written(target) && scene.tool.key(event)) {
+      event.preventDefault();
+      event.stopPropagation();
+    } else if (key === "Escape" && !written(target) && store.selection) {
+      store.select(null);
+    }
+  }, true);
+  document.addEventListener("input", ({ target }) => target.dataset && (target.dataset.typing = "true"));
+  for (const name of ["change", "focusout"]) document.addEventListener(name, ({ target }) => target.dataset && delete target.dataset.typing);
+}

@@ -1,0 +1,136 @@
+"""The studio's page in a browser, driven by real pointer and key events."""
+
+import math
+import re
+from contextlib import contextmanager
+
+SECONDS = 25_000  # milliseconds that anything may take on a busy machine
+
+
+@contextmanager
+def studio_page(browser, visitor, *, width=1400, height=900, **options):
+    """The page of a studio, solved once; its errors are in `wrong`, its requests in `asked`."""
+    options.setdefault("reduced_motion", "reduce")
+    context = browser.new_context(viewport={"width": width, "height": height}, **options)
+    context.set_default_timeout(SECONDS)
+    page = context.new_page()
+    page.wrong, page.asked = [], []
+    page.on("console", lambda said: page.wrong.append(said.text) if said.type == "error" else None)
+    page.on("pageerror", lambda error: page.wrong.append(str(error)))
+    page.on("request", lambda request: page.asked.append(request.url))
+    try:
+        page.goto(f"{visitor.base}/#token={visitor.token}")
+        page.wait_for_selector("html[data-ready]")
+        solved(page)
+        yield page
+    finally:
+        context.close()
+
+
+def solved(page):
+    """Wait until the whole road has answered to the task as it is."""
+    page.wait_for_function(
+        """() => {
+          const status = document.querySelector(".bs-status");
+          return status.dataset.state === "resting" && status.textContent !== "";
+        }"""
+    )
+
+
+def middle(page, selector):
+    """The middle of an element, in pixels of the window."""
+    box = page.locator(selector).first.bounding_box()
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+
+def drag(page, selector, dx, dy, steps=8):
+    """Take hold of an element, move it by so many pixels, and let go."""
+    x, y = middle(page, selector)
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + dx, y + dy, steps=steps)
+    page.mouse.up()
+
+
+def view(page):
+    """Scale and origin of the picture: a point of F is at (left + scale x, top - scale y)."""
+    data = page.locator(".bs-scene").evaluate("node => ({...node.dataset})")
+    return {name: float(data[name]) for name in ("scale", "left", "top")}
+
+
+def see_all(page):
+    """Show all of the body and the regions; the page opens on the poses and the pivots."""
+    page.locator("[data-do=fit]").click()
+
+
+def on_screen(page, x, y):
+    """Where a point of F is, in pixels of the window."""
+    box, at = page.locator(".bs-scene").bounding_box(), view(page)
+    return box["x"] + at["left"] + at["scale"] * x, box["y"] + at["top"] - at["scale"] * y
+
+
+def field(page, row, key):
+    """A field of the table of poses; rows count from 1."""
+    return page.locator(f'[data-row="{row}"] [data-key="{key}"]')
+
+
+def number(text):
+    """A number as a field shows it."""
+    return float(text.replace("−", "-"))
+
+
+def pose(page, row):
+    """x, y and angle of a pose, as the table shows them."""
+    return tuple(number(field(page, row, key).input_value()) for key in ("x", "y", "angle"))
+
+
+def drawn(page, row):
+    """The same from the picture: the point and the direction of the handles."""
+    found = page.locator(f'.bs-pose:has(.bs-origin[data-pose="{row}"])').get_attribute("transform")
+    x, y, turn = map(
+        float, re.fullmatch(r"translate\((\S+) (\S+)\) rotate\((\S+)\)", found).groups()
+    )
+    at = view(page)
+    return (x - at["left"]) / at["scale"], (at["top"] - y) / at["scale"], -turn
+
+
+def same_angle(one, other, within):
+    """Whether two angles in degrees point the same way."""
+    return abs(math.remainder(one - other, 360)) <= within
+
+
+DROP = """([name, text]) => {
+  const data = new DataTransfer(), target = document.querySelector("main");
+  data.items.add(new File([text], name));
+  const options = { dataTransfer: data, bubbles: true, cancelable: true };
+  for (const kind of ["dragenter", "dragover", "drop"])
+    target.dispatchEvent(new DragEvent(kind, options));
+}"""
+PASTE = """(text) => {
+  const data = new DataTransfer();
+  data.setData("text/plain", text);
+  const options = { clipboardData: data, bubbles: true, cancelable: true };
+  document.activeElement.dispatchEvent(new ClipboardEvent("paste", options));
+}"""
+
+
+def drop(page, name, text):
+    """Drop a file on the page."""
+    page.evaluate(DROP, [name, text])
+
+
+def paste(page, text):
+    """Paste a text where the focus is."""
+    page.evaluate(PASTE, text)
+
+
+def has_poses(page, count):
+    """Wait until the table has so many rows."""
+    rows = "document.querySelectorAll('.bs-pose-row').length"
+    page.wait_for_function(f"() => {rows} === {count}")
+
+
+def kept(page):
+    """The task that this tab keeps, when what was done last is in it."""
+    page.wait_for_function("() => document.documentElement.dataset.kept === 'true'")
+    return page.evaluate("JSON.parse(sessionStorage.getItem('burmester.studio')).document")

@@ -1,0 +1,20 @@
+"""A browser for the studio's page, and the page open in it."""
+
+import pytest
+
+from tests.oracles import browser as browsers
+from tests.oracles.studio_page import studio_page
+
+
+@pytest.fixture(scope="package")
+def browser():
+    with browsers.launched() as found:
+        yield found
+
+
+@pytest.fixture
+def page(browser, visitor):
+    """The page as a visitor finds it; nothing went wrong in it when the test ends."""
+    with studio_page(browser, visitor) as found:
+        yield found
+        assert found.wrong == []

@@ -1,0 +1,103 @@
+"""Tasks in and out of the page: templates, files, rows pasted, and the command on the task."""
+
+import json
+
+import pytest
+
+from burmester.cli import main
+from tests.oracles.studio_page import drag, drop, field, has_poses, paste, pose, solved
+
+
+def rows(page):
+    return page.locator(".bs-pose-row").count()
+
+
+def test_what_was_dragged_is_what_the_command_finds_in_the_saved_task(page, tmp_path, capsys):
+    drag(page, '.bs-origin[data-pose="8"]', 6, 4)
+    page.wait_for_timeout(200)
+    solved(page)
+    with page.expect_download() as saved:
+        page.keyboard.press("Control+s")
+    file = tmp_path / saved.value.suggested_filename
+    saved.value.save_as(file)
+    assert file.suffix == ".toml"
+    with pytest.raises(SystemExit):
+        main(["synthesize", "--all", "--json", str(file)])
+    found = json.loads(capsys.readouterr().out)
+    x, y, _ = pose(page, 8)
+    assert found["task"]["poses"][7]["x"] == x
+    assert found["task"]["poses"][7]["y"] == y
+    linkages = found["linkages"]
+    usable = sum(each["usable"] for each in linkages)
+    assert page.inner_text(".bs-status") == f"{len(linkages)} linkages, {usable} usable"
+    page.locator("[data-menu=export] > summary").click()
+    with page.expect_download() as exported:
+        page.locator("[data-export=result]").click()
+    result = json.loads(exported.value.path().read_text(encoding="utf-8"))
+    assert result["linkages"] == linkages
+    assert result["dyads"] == found["dyads"]
+
+
+def test_a_template_is_opened_and_undone(page):
+    before = pose(page, 8)
+    page.locator("[data-menu=templates] > summary").click()
+    page.locator("[data-template=gripper]").click()
+    has_poses(page, 7)
+    assert page.locator(".bs-task-name").input_value() == "gripper"
+    assert pose(page, 3) == (-7.3, -33.8, -15)
+    page.keyboard.press("Control+z")
+    assert rows(page) == 8
+    assert pose(page, 8) == before
+    assert page.locator(".bs-task-name").input_value() == "lid-hinge"
+
+
+def test_rows_of_a_spreadsheet_are_pasted_anywhere(page):
+    field(page, 2, "x").focus()
+    text = "x [mm]\ty [mm]\tangle [deg]\n0\t0\t0\n12,5\t3\t20\n20\t10\t45\n"
+    paste(page, text)
+    has_poses(page, 3)
+    assert [pose(page, k) for k in (1, 2, 3)] == [(0, 0, 0), (12.5, 3, 20), (20, 10, 45)]
+    assert "3 poses were pasted" in page.locator("[data-banner=note]").inner_text()
+    page.locator("[data-banner=note]").get_by_role("button", name="Undo").click()
+    assert rows(page) == 8
+
+
+def test_a_file_is_dropped_anywhere_and_a_wrong_one_is_told(page):
+    drop(page, "lid.csv", "x,y,angle_deg\n0,0,0\n5,1,10\n9,4,30\n11,9,50\n")
+    has_poses(page, 4)
+    assert pose(page, 4) == (11, 9, 50)
+    assert page.locator(".bs-task-name").input_value() == "lid"
+    drop(page, "bad.csv", "x,y,angle_deg\n0,0,zero\n")
+    banner = page.locator("[data-banner=refused]")
+    banner.wait_for()
+    assert "zero" in banner.inner_text()
+    assert "bad.csv" in banner.inner_text()
+    assert rows(page) == 4  # what was open stays
+    (said,) = page.wrong
+    assert "422" in said  # the browser tells of the refusal
+    page.wrong.clear()
+
+
+def test_an_outline_is_dropped(page):
+    drawing = (
+        '<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="50mm" viewBox="0 0 100 50">'
+        '<path d="M0 0H100V50H0Z"/></svg>'
+    )
+    drop(page, "plate.svg", drawing)
+    page.locator("[data-banner=note]").wait_for()
+    page.locator("[data-section=body] > summary").click()
+    page.locator("[data-section=body] details > summary").click()
+    numbers = page.locator("[data-section=body] .bs-number")
+    assert numbers.count() == 8
+    spans = [float(numbers.nth(k).input_value().replace("−", "-")) for k in range(8)]
+    assert max(spans[::2]) - min(spans[::2]) == pytest.approx(100)
+    assert max(spans[1::2]) - min(spans[1::2]) == pytest.approx(50)
+
+
+def test_the_same_is_told_as_a_command(page):
+    page.locator("[data-do=command]").click()
+    dialog = page.locator("dialog[open]")
+    dialog.wait_for()
+    assert "burmester synthesize lid-hinge.toml" in dialog.inner_text()
+    dialog.locator("[data-do=close]").click()
+    assert dialog.count() == 0

@@ -1,0 +1,179 @@
+"""The page as a whole: what it asks for, shows as text, and says when things end."""
+
+import json
+import signal
+
+import pytest
+
+from tests.oracles.studio import served
+from tests.oracles.studio_page import (
+    drag,
+    drawn,
+    drop,
+    field,
+    has_poses,
+    kept,
+    pose,
+    solved,
+    studio_page,
+)
+
+NAMES = [
+    "<img src=x onerror=alert(1)>",
+    '=HYPERLINK("http://evil.example")',
+    "two words",
+    "&amp;<b>bold</b>",
+]
+
+
+# Of what can be reached, all that has no name of any kind.
+UNNAMED = """() => {
+  const reached = "button, input, select, summary, [tabindex='0'], [role]";
+  const nameOf = (node) => [
+    node.getAttribute("aria-label"), node.title, node.labels?.[0]?.textContent,
+    node.textContent, node.querySelector("title")?.textContent,
+  ].join("").trim();
+  return [...document.querySelectorAll(reached)]
+    .filter((node) => node.checkVisibility() && node.getAttribute("aria-hidden") !== "true")
+    .filter((node) => node.getAttribute("role") !== "status" && !nameOf(node))
+    .map((node) => node.outerHTML.slice(0, 200));
+}"""
+
+
+def test_w9_names_are_shown_as_text_everywhere(page):
+    poses = [
+        {"x": 10 * k, "y": k * k, "angle": 15 * k, "name": name} for k, name in enumerate(NAMES)
+    ]
+    task = {
+        "length_unit": "mm",
+        "angle_unit": "deg",
+        "poses": poses,
+        "body": [[0, 0], [5, 0], [0, 5]],
+        "keep_out": [{"name": NAMES[0], "box": [[200, 200], [210, 210]]}],
+    }
+    drop(page, "<i>odd</i> name.json", json.dumps(task))
+    has_poses(page, 4)
+    solved(page)
+    page.locator('[data-row="1"] .bs-index').click()
+    assert page.locator("#studio img, #studio b b, #studio i, #studio a[href^=http]").count() == 0
+    shown = page.locator(".bs-name").evaluate_all("all => all.map((each) => each.value)")
+    assert shown == NAMES
+    assert NAMES[0] in page.locator(".bs-pose-title").inner_text()
+    labels = page.locator(".bs-pose-name").all_text_contents()
+    assert labels[0] == "<img src=x onerro…"
+    assert page.locator(".bs-task-name").input_value() == "<i>odd</i> name"
+    # Typing elsewhere in the row leaves the name alone.
+    x = field(page, 4, "x")
+    x.fill("31")
+    x.press("Enter")
+    assert kept(page)["poses"][3]["x"] == 31
+    assert [each["name"] for each in kept(page)["poses"]] == NAMES
+    # A mark that turns the direction stays in its own name: what stands before it is where it was.
+    before = page.locator("[data-details=pose] h3").bounding_box()
+    name = page.locator('[data-row="4"] .bs-name')
+    name.fill("\u202eabc")
+    name.press("Enter")
+    title = page.locator(".bs-pose-title")
+    assert title.inner_text() == "Pose 4: \u202eabc"
+    assert title.locator("bdi").inner_text() == "\u202eabc"
+    assert title.bounding_box()["x"] == before["x"]
+    assert page.locator(".bs-pose-name").nth(3).text_content() == "\u202eabc"
+
+
+def test_w13_nothing_is_asked_of_any_other_machine(page, visitor):
+    drag(page, '.bs-origin[data-pose="8"]', 10, 5)
+    solved(page)
+    page.locator("[data-menu=templates] > summary").click()
+    page.locator("[data-template=derailleur]").click()
+    has_poses(page, 3)
+    solved(page)
+    hosts = {address.split("/")[2] for address in page.asked if not address.startswith("blob:")}
+    assert hosts == {f"127.0.0.1:{visitor.port}"}
+
+
+def test_w15_a_reload_in_mid_solve_loses_nothing(page):
+    drag(page, '.bs-origin[data-pose="8"]', 14, -9)
+    moved = pose(page, 8)
+    page.reload()
+    page.wait_for_selector("html[data-ready]")
+    assert pose(page, 8) == moved
+    solved(page)
+    page.evaluate("location.assign('about:blank')")
+    page.wait_for_url("about:blank")
+    page.go_back()
+    page.wait_for_selector("html[data-ready]")
+    assert pose(page, 8) == moved
+
+
+def test_w15_two_tabs_have_two_tasks(page, visitor):
+    drag(page, '.bs-origin[data-pose="8"]', 14, -9)
+    moved = pose(page, 8)
+    other = page.context.new_page()
+    other.goto(f"{visitor.base}/")
+    other.wait_for_selector("html[data-ready]")
+    before = pose(other, 8)
+    assert before != moved
+    drag(other, '.bs-origin[data-pose="8"]', -20, -9)
+    page.bring_to_front()
+    assert pose(page, 8) == moved
+    for each in (page, other):
+        mine = pose(each, 8)
+        each.reload()
+        each.wait_for_selector("html[data-ready]")
+        assert pose(each, 8) == mine
+
+
+def test_w15_when_the_server_ends_nothing_is_lost_and_a_banner_says_how_to_go_on(browser, tmp_path):
+    with served(home=tmp_path) as first, studio_page(browser, first) as page:
+        drag(page, '.bs-origin[data-pose="8"]', 14, -9)
+        page.wait_for_timeout(600)
+        moved = pose(page, 8)
+        first.process.send_signal(signal.SIGTERM)
+        first.process.wait(30)
+        banner = page.locator("[data-banner=offline]")
+        banner.wait_for()
+        assert "Nothing is lost" in banner.inner_text()
+        field(page, 1, "x").fill("1.5")  # it is edited all the same
+        field(page, 1, "x").press("Enter")
+        assert drawn(page, 1)[0] == pytest.approx(1.5, abs=0.01)
+        with page.expect_download() as saved:
+            page.locator("[data-do=save-json]").click()
+        task = json.loads(saved.value.path().read_text(encoding="utf-8"))
+        assert tuple(task["poses"][7][key] for key in ("x", "y", "angle")) == moved
+        assert task["poses"][0]["x"] == 1.5
+        with served("--port", str(first.port), home=tmp_path) as second:
+            page.locator("[data-banner=expired]").wait_for()
+            page.evaluate(f"location.hash = 'token={second.token}'")
+            page.wait_for_function("() => !document.querySelector('[data-banner=expired]')")
+            page.wait_for_timeout(300)
+            solved(page)
+            assert pose(page, 8) == moved
+            assert page.evaluate("location.hash") == ""
+
+
+def test_a_search_that_takes_too_long_is_told_and_nothing_is_lost(browser, tmp_path):
+    with (
+        served("--time-limit", "0.1", home=tmp_path) as visitor,
+        studio_page(browser, visitor) as page,
+    ):
+        banner = page.locator("[data-banner=limit]")
+        banner.wait_for()
+        assert "took too long" in banner.inner_text()
+        assert "0.1 s" in banner.inner_text()
+        assert page.locator(".bs-pose-row").count() == 8
+        page.locator("[data-do=solve-again]").click()
+        assert banner.count() == 0
+        banner.wait_for()
+
+
+@pytest.mark.parametrize(("width", "scheme"), [(390, "light"), (1400, "dark")])
+def test_no_width_needs_scrolling_sideways_and_every_control_has_a_name(
+    browser, visitor, width, scheme
+):
+    with studio_page(browser, visitor, width=width, color_scheme=scheme) as page:
+        page.locator('[data-row="2"] .bs-index').click()
+        page.locator("details").evaluate_all("all => all.forEach((each) => (each.open = true))")
+        assert page.evaluate("document.documentElement.scrollWidth") <= width
+        unnamed = page.evaluate(UNNAMED)
+        assert unnamed == []
+        assert page.wrong == []
