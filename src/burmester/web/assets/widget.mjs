@@ -308,7 +308,8 @@ function placeAt(linkage, way, u, length) {
 function linear(values, u) {
   const i = clamp(Math.floor(u), 0, values.length - 2), share = u - i;
   if (values[i] === null || values[i + 1] === null) return null;
-  return values[i] + share * (values[i + 1] - values[i]);
+  const value = values[i] + share * (values[i + 1] - values[i]);
+  return Number.isNaN(value) ? null : value;
 }
 function frameAt(values, wanted) {
   let low = 0, high = values.length - 1;
@@ -1396,13 +1397,14 @@ var ImageSpace = class {
     const t = Math.tan((place.a - chart.angle) / 2);
     return [(x * t - y) / 2, (x + y * t) / 2, t].map((value, k) => (value - centre[k]) / half[k]);
   }
-  build(linkage, index) {
+  /** A linkage on its way `index`; quick: coarsely, for more changes follow. */
+  build(linkage, index, quick = false) {
     this.linkage = linkage;
     this.space = linkage?.space ?? this.data.space;
     this.poses = this.data.poses.map((pose) => this.point({ x: pose.x, y: pose.y, a: radians(pose.angle_deg) }));
     this.curves = (linkage?.ways ?? []).map((way, k) => ({
       here: k === index,
-      points: way.x.map((x, i) => this.point({ x, y: way.y[i], a: way.angle[i] }))
+      points: Array.from(way.x, (x, i) => this.point({ x, y: way.y[i], a: way.angle[i] }))
     }));
     const { centre, half } = this.space;
     const angleOf = (q) => degrees(2 * Math.atan(centre[2] + half[2] * q) + this.data.chart.angle);
@@ -1412,7 +1414,7 @@ var ImageSpace = class {
     this.height = Math.round(clamp(0.8 * width, 240, 520));
     this.svg.setAttribute("viewBox", `0 0 ${width} ${this.height}`);
     this.box.style.height = `${this.height}px`;
-    this.draw(false);
+    this.draw(quick);
   }
   camera() {
     const { around: around2, above, zoom } = this.turn;
@@ -1767,7 +1769,7 @@ var LEAST_LINKAGE = 110;
 var MOST_PLACES = 400;
 var patterns = 0;
 var closed = (points, view, [x, y]) => `M${points.map((each) => `${px(x + view.scale * each[0])} ${px(y - view.scale * each[1])}`).join("L")}Z`;
-var bodyPath = (data, view, attributes) => data.body ? s("path", { ...attributes, d: closed(data.body, view, [0, 0]) }) : null;
+var bodyOutline = (data, view) => closed(data.body, view, [0, 0]);
 var placesAtPoses = (data, linkage) => data.poses.map((pose, k) => {
   const row = linkage?.pose_errors[k], at = row && row.x !== null ? row : pose;
   return { x: at.x, y: at.y, a: radians(at.angle_deg) };
@@ -1778,7 +1780,7 @@ function ghosts(data, linkage, view) {
   const places = placesAtPoses(data, linkage), last = Math.max(1, places.length - 1);
   places.forEach(({ x, y, a }, k) => {
     const opacity = (PALEST + (1 - PALEST) * k / last).toFixed(3);
-    group.append(bodyPath(data, view, { class: "bm-ghost", "data-pose": k + 1, opacity, transform: transform(view.X(x), view.Y(y), a) }));
+    group.append(s("path", { class: "bm-ghost", d: bodyOutline(data, view), "data-pose": k + 1, opacity, transform: transform(view.X(x), view.Y(y), a) }));
   });
   return group;
 }
@@ -1833,128 +1835,173 @@ var BLOCK_IN_SLOT = [18, 10];
 var SPARE = 5;
 var ARROW = 24;
 function mechanism(data, linkage, view, places) {
-  const parts = {
-    links: s("g"),
-    blocks: s("g"),
-    pins: s("g"),
-    coupler: s("g", { class: "bm-coupler" }),
-    corners: [[0, 0]],
-    // of the body's plate, in pixels from the origin of M
-    moves: []
-  };
-  const outline = bodyPath(data, view, { class: "bm-body-outline" });
-  parts.moves.push((place) => {
-    const at = transform(view.X(place.x), view.Y(place.y), place.a);
-    for (const part of [parts.coupler, outline]) part?.setAttribute("transform", at);
-  });
-  linkage.led.forEach((dyad, side) => {
-    if (dyad.moving_pivot) parts.corners.push([view.scale * dyad.moving_pivot[0], -view.scale * dyad.moving_pivot[1]]);
-    if (dyad.kind === "RR") addLink(parts, dyad, side, view);
-    else if (dyad.kind === "PR") addBlockOnRail(parts, dyad, side, view);
-    else if (dyad.kind === "RP") addSlot(parts, dyad, side, view, places);
-  });
-  const letter = addBody(parts, linkage, view);
-  const arrow = driverArrow(parts, linkage.led[0], view);
-  const group = s("g", { class: "bm-linkage" }, outline, arrow, parts.links, parts.coupler, parts.blocks, parts.pins, letter);
-  return { group, show: (place) => parts.moves.forEach((move) => move(place)) };
+  const drawn = new Mechanism(linkage);
+  drawn.shape(data, linkage, view, places);
+  return drawn;
 }
-var groundPin = (dyad, r, view) => s("circle", {
-  class: "bm-pin bm-fixed-pin",
-  r,
-  cx: px(view.X(dyad.fixed_pivot[0])),
-  cy: px(view.Y(dyad.fixed_pivot[1])),
-  "data-dyad": dyad.id
-});
-var block = (dyad, side, width, height) => s(
-  "g",
-  { class: `bm-block bm-side${side}`, "data-dyad": dyad.id },
-  s("rect", { x: -width / 2, y: -height / 2, width, height, rx: 2 })
-);
-function addLink({ links, pins, moves }, dyad, side, view) {
-  const d = `M0 0H${px(view.scale * dyad.radius)}`;
-  const bar = s(
-    "g",
-    { class: `bm-link bm-side${side}` },
-    s("path", { class: "bm-bar", d }),
-    s("path", { class: "bm-core", d })
-  );
-  links.append(bar);
-  pins.append(groundPin(dyad, 4.5, view));
-  const [cx, cy] = dyad.fixed_pivot;
-  moves.push((place) => {
-    const [x, y] = act(place, dyad.moving_pivot);
-    bar.setAttribute("transform", transform(view.X(cx), view.Y(cy), Math.atan2(y - cy, x - cx)));
-  });
-}
-function addBlockOnRail({ blocks, moves }, dyad, side, view) {
-  const slider = block(dyad, side, ...BLOCK);
-  blocks.append(slider);
-  const [nx, ny] = normalOf(dyad), along = Math.atan2(nx, -ny);
-  moves.push((place) => {
-    const [x, y] = act(place, dyad.moving_pivot);
-    slider.setAttribute("transform", transform(view.X(x), view.Y(y), along));
-  });
-}
-function addSlot({ blocks, pins, coupler, corners, moves }, dyad, side, view, places) {
-  const S = view.scale, [low, high] = travelOf(dyad, places), end = (BLOCK_IN_SLOT[0] / 2 + SPARE) / S;
-  const seen = (along) => (([x, y]) => [S * x, -S * y])(pointOnLine(dyad, along));
-  const ends = [seen(low - end), seen(high + end)];
-  const d = `M${ends.map((each) => each.map(px).join(" ")).join("L")}`;
-  coupler.append(
-    s("path", { class: "bm-slot-rim", d }),
-    s("path", { class: "bm-slot-plate", d }),
-    s("path", { class: "bm-slot-edge", d }),
-    s("path", { class: "bm-slot", d, "data-dyad": dyad.id })
-  );
-  corners.push(seen((low + high) / 2));
-  const [nx, ny] = normalOf(dyad), [cx, cy] = dyad.fixed_pivot;
-  const slider = block(dyad, side, ...BLOCK_IN_SLOT);
-  blocks.append(slider);
-  pins.append(groundPin(dyad, 4, view));
-  moves.push(
-    (place) => slider.setAttribute("transform", transform(view.X(cx), view.Y(cy), place.a + Math.atan2(nx, -ny)))
-  );
-}
-function addBody({ coupler, corners, moves }, linkage, view) {
-  const S = view.scale;
-  const d = `M${hull(corners).map((corner) => corner.map(px).join(" ")).join("L")}Z`;
-  coupler.prepend(s("path", { class: "bm-plate-rim", d }), s("path", { class: "bm-plate", d }));
-  coupler.append(
-    s("path", { class: "bm-body-frame", d: axes(BODY_AXIS) }),
-    s("circle", { class: "bm-origin", r: 4 })
-  );
-  for (const dyad of linkage.led) {
-    if (!dyad.moving_pivot) continue;
-    const [x, y] = dyad.moving_pivot;
-    coupler.append(s("circle", { class: "bm-pin", r: 4.5, cx: px(S * x), cy: px(-S * y), "data-dyad": dyad.id }));
+var Mechanism = class {
+  constructor({ led }) {
+    this.kinds = kindsOf(led);
+    this.outline = s("path", { class: "bm-body-outline" });
+    this.links = s("g");
+    this.blocks = s("g");
+    this.pins = s("g");
+    this.coupler = s("g", { class: "bm-coupler" });
+    this.arrow = s("path", { class: "bm-drive-mark bm-side0" });
+    this.letter = s("text", { class: "bm-letter", "text-anchor": "middle" }, "M");
+    this.plates = [s("path", { class: "bm-plate-rim" }), s("path", { class: "bm-plate" })];
+    this.coupler.append(...this.plates);
+    this.parts = led.map((dyad, side) => new PARTS[dyad.kind](this, side));
+    this.coupler.append(s("path", { class: "bm-body-frame", d: axes(BODY_AXIS) }), s("circle", { class: "bm-origin", r: 4 }));
+    for (const part of this.parts) if (part.pin) this.coupler.append(part.pin);
+    this.group = s("g", { class: "bm-linkage" }, this.arrow, this.links, this.coupler, this.blocks, this.pins, this.letter);
   }
-  const letter = s("text", { class: "bm-letter", "text-anchor": "middle" }, "M");
-  moves.push((place) => {
-    const [x, y] = act(place, [-LETTER / S, -LETTER / S]);
-    letter.setAttribute("x", px(view.X(x)));
-    letter.setAttribute("y", px(view.Y(y) + 4));
-  });
-  return letter;
-}
-function driverArrow({ moves }, driver, view) {
-  const arrow = s("path", { class: "bm-drive-mark bm-side0" });
-  if (driver.kind === "RR" || driver.kind === "RP") {
+  /** Whether it can be given the dimensions of a linkage. */
+  fits({ led }) {
+    return kindsOf(led) === this.kinds;
+  }
+  /** The dimensions of a linkage in a picture; slots are as long as the places need. */
+  shape(data, linkage, view, places) {
+    this.view = view;
+    this.led = linkage.led;
+    this.hasBody = Boolean(data.body);
+    if (this.hasBody) {
+      this.outline.setAttribute("d", bodyOutline(data, view));
+      if (!this.outline.parentNode) this.group.prepend(this.outline);
+    } else {
+      this.outline.remove();
+    }
+    const corners = [[0, 0]];
+    linkage.led.forEach((dyad, side) => {
+      if (dyad.moving_pivot) corners.push(inBody(dyad.moving_pivot, view));
+      const more = this.parts[side].shape(dyad, view, places);
+      if (more) corners.push(more);
+    });
+    const d = `M${hull(corners).map((corner) => corner.map(px).join(" ")).join("L")}Z`;
+    for (const plate of this.plates) plate.setAttribute("d", d);
+    this.shapeArrow();
+  }
+  show(place) {
+    const { view } = this, at = transform(view.X(place.x), view.Y(place.y), place.a);
+    this.coupler.setAttribute("transform", at);
+    if (this.hasBody) this.outline.setAttribute("transform", at);
+    for (const part of this.parts) part.show(place);
+    const [x, y] = act(place, [-LETTER / view.scale, -LETTER / view.scale]);
+    this.letter.setAttribute("x", px(view.X(x)));
+    this.letter.setAttribute("y", px(view.Y(y) + 4));
+    const [driver] = this.led;
+    if (driver.kind === "PR") this.arrow.setAttribute("transform", `${onRail(driver, place, view)} translate(0 ${-ARROW})`);
+  }
+  /** A turning or sliding arrow at the driver, for eyes that tell no colours apart. */
+  shapeArrow() {
+    const { arrow, view } = this, [driver] = this.led;
+    if (driver.kind === "PR") arrow.setAttribute("d", "M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6 5");
+    if (!driver.fixed_pivot) return;
     const [x, y] = driver.fixed_pivot;
     arrow.setAttribute("d", "M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9");
     arrow.setAttribute("transform", `translate(${px(view.X(x))} ${px(view.Y(y))}) rotate(-90)`);
-  } else if (driver.kind === "PR") {
-    arrow.setAttribute("d", "M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6 5");
-    const [nx, ny] = normalOf(driver), along = Math.atan2(nx, -ny);
-    moves.push((place) => {
-      const [x, y] = act(place, driver.moving_pivot);
-      arrow.setAttribute("transform", `${transform(view.X(x), view.Y(y), along)} translate(0 ${-ARROW})`);
-    });
   }
-  return arrow;
+};
+var kindsOf = (led) => led.map((dyad) => dyad.kind).join();
+var inBody = ([x, y], view) => [view.scale * x, -view.scale * y];
+function onRail(dyad, place, view) {
+  const [x, y] = act(place, dyad.moving_pivot), [nx, ny] = normalOf(dyad);
+  return transform(view.X(x), view.Y(y), Math.atan2(nx, -ny));
+}
+var block = (side, width, height) => s("g", { class: `bm-block bm-side${side}` }, s("rect", { x: -width / 2, y: -height / 2, width, height, rx: 2 }));
+function setPin(pin, [x, y], dyad) {
+  pin.setAttribute("cx", px(x));
+  pin.setAttribute("cy", px(y));
+  pin.dataset.dyad = dyad.id;
+}
+var inGround = ([x, y], view) => [view.X(x), view.Y(y)];
+var Bar = class {
+  constructor({ links, pins }, side) {
+    this.strokes = [s("path", { class: "bm-bar" }), s("path", { class: "bm-core" })];
+    this.bar = s("g", { class: `bm-link bm-side${side}` }, this.strokes);
+    this.ground = s("circle", { class: "bm-pin bm-fixed-pin", r: 4.5 });
+    this.pin = s("circle", { class: "bm-pin", r: 4.5 });
+    links.append(this.bar);
+    pins.append(this.ground);
+  }
+  shape(dyad, view) {
+    this.dyad = dyad;
+    this.view = view;
+    for (const stroke of this.strokes) stroke.setAttribute("d", `M0 0H${px(view.scale * dyad.radius)}`);
+    setPin(this.ground, inGround(dyad.fixed_pivot, view), dyad);
+    setPin(this.pin, inBody(dyad.moving_pivot, view), dyad);
+  }
+  show(place) {
+    const { dyad, view } = this, [cx, cy] = dyad.fixed_pivot, [x, y] = act(place, dyad.moving_pivot);
+    this.bar.setAttribute("transform", transform(view.X(cx), view.Y(cy), Math.atan2(y - cy, x - cx)));
+  }
+};
+var BlockOnRail = class {
+  constructor({ blocks }, side) {
+    this.block = block(side, ...BLOCK);
+    this.pin = s("circle", { class: "bm-pin", r: 4.5 });
+    blocks.append(this.block);
+  }
+  shape(dyad, view) {
+    this.dyad = dyad;
+    this.view = view;
+    this.block.dataset.dyad = dyad.id;
+    setPin(this.pin, inBody(dyad.moving_pivot, view), dyad);
+  }
+  show(place) {
+    this.block.setAttribute("transform", onRail(this.dyad, place, this.view));
+  }
+};
+var Slot = class {
+  constructor({ blocks, pins, coupler }, side) {
+    this.strokes = ["rim", "plate", "edge"].map((name) => s("path", { class: `bm-slot-${name}` }));
+    this.strokes.push(s("path", { class: "bm-slot" }));
+    this.block = block(side, ...BLOCK_IN_SLOT);
+    this.ground = s("circle", { class: "bm-pin bm-fixed-pin", r: 4 });
+    coupler.append(...this.strokes);
+    blocks.append(this.block);
+    pins.append(this.ground);
+  }
+  /** Returns the middle of the slot, for the body's plate. */
+  shape(dyad, view, places) {
+    this.dyad = dyad;
+    this.view = view;
+    const [low, high] = places.length ? travelOf(dyad, places) : [0, 0], end = (BLOCK_IN_SLOT[0] / 2 + SPARE) / view.scale;
+    const seen = (along) => inBody(pointOnLine(dyad, along), view);
+    const d = `M${[seen(low - end), seen(high + end)].map((each) => each.map(px).join(" ")).join("L")}`;
+    for (const stroke of this.strokes) stroke.setAttribute("d", d);
+    this.strokes[3].dataset.dyad = this.block.dataset.dyad = dyad.id;
+    setPin(this.ground, inGround(dyad.fixed_pivot, view), dyad);
+    return seen((low + high) / 2);
+  }
+  show(place) {
+    const { dyad, view } = this, [nx, ny] = normalOf(dyad), [cx, cy] = dyad.fixed_pivot;
+    this.block.setAttribute("transform", transform(view.X(cx), view.Y(cy), place.a + Math.atan2(nx, -ny)));
+  }
+};
+var Nothing = class {
+  shape() {
+  }
+  show() {
+  }
+};
+var PARTS = { RR: Bar, PR: BlockOnRail, RP: Slot, PP: Nothing };
+
+// src/burmester/web/widget/rail.mjs
+var LONGEST = 4e3;
+function railOf(dyad, places, view) {
+  const [nx, ny] = normalOf(dyad), [low, high] = travelOf(dyad, places);
+  const half = view.scale * (high - low) / 2 + BLOCK[0], edge = BLOCK[1] / 2 + 1;
+  const [x, y] = ((at) => [view.X(at[0]), view.Y(at[1])])(pointOnLine(dyad, (low + high) / 2));
+  const bodySide = places.reduce((sum, place) => sum + nx * place.x + ny * place.y - dyad.line.offset, 0);
+  const turned = Math.atan2(nx, -ny) + (bodySide > 0 ? Math.PI : 0);
+  const drawn = Math.min(half, LONGEST);
+  let hatch = "";
+  for (let k = -drawn + 4; k < drawn - 2; k += 8) hatch += `M${px(k + 4)} ${edge}l-6 7`;
+  return { x, y, half, drawn, turned, paths: [`M${px(-half)} ${edge}H${px(half)}${hatch}`, `M${px(-half)} ${-edge}H${px(half)}`] };
 }
 
 // src/burmester/web/widget/plane.mjs
-var LONGEST_RAIL = 4e3;
 var FACTORS = [0, 1, 10, 100, 1e3, 1e4, 1e5];
 function factorFor(data, linkage) {
   const worst = Math.max(0, ...linkage.pose_errors.map((row) => row.position ?? 0));
@@ -2073,21 +2120,13 @@ var Plane = class {
   /** A rail as long as the travel of its block. */
   rail(group, labels, dyad, side) {
     if (!this.places.length) return;
-    const { view } = this, [nx, ny] = normalOf(dyad);
-    const [low, high] = travelOf(dyad, this.places);
-    const half = view.scale * (high - low) / 2 + BLOCK[0], edge = BLOCK[1] / 2 + 1;
-    const [x, y] = ((at) => [view.X(at[0]), view.Y(at[1])])(pointOnLine(dyad, (low + high) / 2));
-    const bodySide = this.places.reduce((sum, place) => sum + nx * place.x + ny * place.y - dyad.line.offset, 0);
-    const turned = Math.atan2(nx, -ny) + (bodySide > 0 ? Math.PI : 0);
-    let hatch = "";
-    const drawn = Math.min(half, LONGEST_RAIL);
-    for (let k = -drawn + 4; k < drawn - 2; k += 8) hatch += `M${px(k + 4)} ${edge}l-6 7`;
+    const { x, y, drawn, turned, paths } = railOf(dyad, this.places, this.view), [nx, ny] = normalOf(dyad);
     group.append(
       s(
         "g",
         { class: `bm-rail bm-side${side}`, "data-dyad": dyad.id, transform: transform(x, y, turned) },
-        s("path", { class: "bm-ground", d: `M${px(-half)} ${edge}H${px(half)}${hatch}` }),
-        s("path", { class: "bm-ground bm-thin", d: `M${px(-half)} ${-edge}H${px(half)}` })
+        s("path", { class: "bm-ground", d: paths[0] }),
+        s("path", { class: "bm-ground bm-thin", d: paths[1] })
       )
     );
     for (let k = -drawn; k <= drawn; k += 14) labels.block(x - k * ny, y - k * nx, 22, 22);
@@ -2280,7 +2319,8 @@ var Player = class {
     if (!path) return;
     const width = Math.max(60, this.slider.clientWidth), inset = 9;
     const X = (u) => inset + (u - low) / (high - low) * (width - 2 * inset);
-    const rows = this.stopsOnWay.sort((a, b) => a.frame - b.frame).map((row) => ({ ...row, x: X(row.frame), pose: this.data.poses[row.k] }));
+    const known = this.stopsOnWay.filter((row) => this.data.poses[row.k]);
+    const rows = known.sort((a, b) => a.frame - b.frame).map((row) => ({ ...row, x: X(row.frame), pose: this.data.poses[row.k] }));
     const named = laidOut(rows.map(({ x, pose }) => ({ x, text: shortened(poseName(pose), LONGEST_TICK) })), width, NAME_ROWS);
     const texts = named.every(({ at }) => at >= 0) ? named : laidOut(rows.map(({ x, pose }) => ({ x, text: pose.label })), width, rows.length > MANY_POSES2 ? 1 : NUMBER_ROWS);
     const deepest = Math.max(0, ...texts.map(({ at }) => at));
@@ -2448,7 +2488,7 @@ var Plots = class {
   constructor(data, parent, scrub) {
     this.data = data;
     this.parent = parent;
-    this.svg = s("svg", { class: "bm-plots", role: "img" });
+    this.svg = s("svg", { class: "bm-plots", role: "img", "aria-label": "Errors and transmission angle" });
     parent.append(this.svg);
     const go = (event) => {
       if (!this.way) return;

@@ -105,13 +105,14 @@ export class ImageSpace {
     return [(x * t - y) / 2, (x + y * t) / 2, t].map((value, k) => (value - centre[k]) / half[k]);
   }
 
-  build(linkage, index) {
+  /** A linkage on its way `index`; quick: coarsely, for more changes follow. */
+  build(linkage, index, quick = false) {
     this.linkage = linkage;
     this.space = linkage?.space ?? this.data.space;
     this.poses = this.data.poses.map((pose) => this.point({ x: pose.x, y: pose.y, a: radians(pose.angle_deg) }));
     this.curves = (linkage?.ways ?? []).map((way, k) => ({
       here: k === index,
-      points: way.x.map((x, i) => this.point({ x, y: way.y[i], a: way.angle[i] })),
+      points: Array.from(way.x, (x, i) => this.point({ x, y: way.y[i], a: way.angle[i] })),
     }));
     const { centre, half } = this.space;
     const angleOf = (q) => degrees(2 * Math.atan(centre[2] + half[2] * q) + this.data.chart.angle);
@@ -121,7 +122,7 @@ export class ImageSpace {
     this.height = Math.round(clamp(0.8 * width, 240, 520));
     this.svg.setAttribute("viewBox", `0 0 ${width} ${this.height}`);
     this.box.style.height = `${this.height}px`;
-    this.draw(false);
+    this.draw(quick);
   }
 
   camera() {

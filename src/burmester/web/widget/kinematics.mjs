@@ -49,8 +49,11 @@ function constraint(dyad, place) {
   return [residual, nx, ny, (x - place.x) * ny - (y - place.y) * nx];
 }
 
+/** The derivatives of a dyad's constraint by x, y and the angle: the force that it can bear. */
+export const gradient = (dyad, place) => constraint(dyad, place).slice(1);
+
 /** The nearest place of a linkage, by Newton steps of least norm; `length` weighs the angle. */
-function project(dyads, place, length) {
+export function project(dyads, place, length) {
   let { x, y, a } = place;
   for (let step = 0; step < 4; step += 1) {
     const [f, ...p] = constraint(dyads[0], { x, y, a });
@@ -101,7 +104,8 @@ export function placeAt(linkage, way, u, length) {
 export function linear(values, u) {
   const i = clamp(Math.floor(u), 0, values.length - 2), share = u - i;
   if (values[i] === null || values[i + 1] === null) return null;
-  return values[i] + share * (values[i + 1] - values[i]);
+  const value = values[i] + share * (values[i + 1] - values[i]);
+  return Number.isNaN(value) ? null : value;
 }
 
 /** The frame at which rising values reach `wanted`. */

@@ -18,8 +18,8 @@ let patterns = 0; // ids of hatches are unique on the page
 /** A closed path through points (x, y) of the plane or of M, in pixels from its origin. */
 const closed = (points, view, [x, y]) => `M${points.map((each) => `${px(x + view.scale * each[0])} ${px(y - view.scale * each[1])}`).join("L")}Z`;
 
-/** The outline of the body, in pixels from the origin of M, or null. */
-export const bodyPath = (data, view, attributes) => (data.body ? s("path", { ...attributes, d: closed(data.body, view, [0, 0]) }) : null);
+/** The outline of the body as a path, in pixels from the origin of M. */
+export const bodyOutline = (data, view) => closed(data.body, view, [0, 0]);
 
 /** Where the body is at every pose: the place that a linkage takes for it, or else the pose itself. */
 const placesAtPoses = (data, linkage) =>
@@ -35,7 +35,7 @@ export function ghosts(data, linkage, view) {
   const places = placesAtPoses(data, linkage), last = Math.max(1, places.length - 1);
   places.forEach(({ x, y, a }, k) => {
     const opacity = (PALEST + ((1 - PALEST) * k) / last).toFixed(3);
-    group.append(bodyPath(data, view, { class: "bm-ghost", "data-pose": k + 1, opacity, transform: transform(view.X(x), view.Y(y), a) }));
+    group.append(s("path", { class: "bm-ghost", d: bodyOutline(data, view), "data-pose": k + 1, opacity, transform: transform(view.X(x), view.Y(y), a) }));
   });
   return group;
 }

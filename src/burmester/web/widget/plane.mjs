@@ -1,16 +1,15 @@
 // The linkage in its plane: grid, paths, ground, wanted and achieved poses, and the moving parts.
 
 import { s } from "./dom.mjs";
-import { AXIS, BLOCK, axes, boundsOf, farFrom, foot, pivotsAt, polyline, transform, viewOf } from "./drawing.mjs";
+import { AXIS, axes, boundsOf, farFrom, foot, pivotsAt, polyline, transform, viewOf } from "./drawing.mjs";
 import { act, normalOf } from "./kinematics.mjs";
 import { Labels } from "./labels.mjs";
 import { mechanism } from "./mechanism.mjs";
 import { clamp, fixed, px, radians, ticks } from "./numbers.mjs";
 import { ghosts, keepOut, keepOutNames, widened } from "./outlines.mjs";
 import { decimalsOf } from "./tables.mjs";
+import { railOf } from "./rail.mjs";
 import { placesOf, pointOnLine, travelOf } from "./travel.mjs";
-
-const LONGEST_RAIL = 4000; // pixels to either side: a rail is hatched no farther
 
 /** Magnifications of the error arrows; 0 draws none. */
 export const FACTORS = [0, 1, 10, 100, 1000, 10000, 100000];
@@ -145,22 +144,13 @@ export class Plane {
   /** A rail as long as the travel of its block. */
   rail(group, labels, dyad, side) {
     if (!this.places.length) return;
-    const { view } = this, [nx, ny] = normalOf(dyad);
-    const [low, high] = travelOf(dyad, this.places);
-    const half = (view.scale * (high - low)) / 2 + BLOCK[0], edge = BLOCK[1] / 2 + 1;
-    const [x, y] = ((at) => [view.X(at[0]), view.Y(at[1])])(pointOnLine(dyad, (low + high) / 2));
-    // The ground is on the side where the body is not.
-    const bodySide = this.places.reduce((sum, place) => sum + nx * place.x + ny * place.y - dyad.line.offset, 0);
-    const turned = Math.atan2(nx, -ny) + (bodySide > 0 ? Math.PI : 0);
-    let hatch = "";
-    const drawn = Math.min(half, LONGEST_RAIL);
-    for (let k = -drawn + 4; k < drawn - 2; k += 8) hatch += `M${px(k + 4)} ${edge}l-6 7`;
+    const { x, y, drawn, turned, paths } = railOf(dyad, this.places, this.view), [nx, ny] = normalOf(dyad);
     group.append(
       s(
         "g",
         { class: `bm-rail bm-side${side}`, "data-dyad": dyad.id, transform: transform(x, y, turned) },
-        s("path", { class: "bm-ground", d: `M${px(-half)} ${edge}H${px(half)}${hatch}` }),
-        s("path", { class: "bm-ground bm-thin", d: `M${px(-half)} ${-edge}H${px(half)}` }),
+        s("path", { class: "bm-ground", d: paths[0] }),
+        s("path", { class: "bm-ground bm-thin", d: paths[1] }),
       ),
     );
     for (let k = -drawn; k <= drawn; k += 14) labels.block(x - k * ny, y - k * nx, 22, 22);

@@ -124,7 +124,8 @@ export class Player {
     if (!path) return;
     const width = Math.max(60, this.slider.clientWidth), inset = 9;
     const X = (u) => inset + ((u - low) / (high - low)) * (width - 2 * inset);
-    const rows = this.stopsOnWay.sort((a, b) => a.frame - b.frame).map((row) => ({ ...row, x: X(row.frame), pose: this.data.poses[row.k] }));
+    const known = this.stopsOnWay.filter((row) => this.data.poses[row.k]); // a task may lose poses before it is solved again
+    const rows = known.sort((a, b) => a.frame - b.frame).map((row) => ({ ...row, x: X(row.frame), pose: this.data.poses[row.k] }));
     // Names where all of them have room, else numbers; the whole name is there to point at.
     const named = laidOut(rows.map(({ x, pose }) => ({ x, text: shortened(poseName(pose), LONGEST_TICK) })), width, NAME_ROWS);
     const texts = named.every(({ at }) => at >= 0) ? named : laidOut(rows.map(({ x, pose }) => ({ x, text: pose.label })), width, rows.length > MANY_POSES ? 1 : NUMBER_ROWS);

@@ -19,7 +19,7 @@ export class Plots {
   constructor(data, parent, scrub) {
     this.data = data;
     this.parent = parent;
-    this.svg = s("svg", { class: "bm-plots", role: "img" });
+    this.svg = s("svg", { class: "bm-plots", role: "img", "aria-label": "Errors and transmission angle" });
     parent.append(this.svg);
     const go = (event) => {
       if (!this.way) return;
