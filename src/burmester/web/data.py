@@ -14,6 +14,7 @@ import numpy as np
 
 from burmester.describe import digits, quality_words, sentences
 from burmester.describe.dimensions import decimals_of, dimensions
+from burmester.describe.moved_pivots import improvements
 from burmester.dyads.selection import FoundDyad
 from burmester.fourbar.dyad import Dyad
 from burmester.geometry.displacement import Displacement
@@ -52,6 +53,7 @@ def report_data(synthesis: Synthesis) -> dict[str, Any]:
         "schema": SCHEMA,
         "outcome": message_data(outcome),
         "best": list(sentences.best_sentences(synthesis)),
+        "better": improvements(synthesis),
         "warnings": list(map(message_data, synthesis.warnings)),
         "method": synthesis.method,
         "unit": task.length_unit,
@@ -151,6 +153,7 @@ def _linkage(
             "met": explanation.nearness(found, task, synthesis.length),
             "in_short": explanation.in_short(found, task, synthesis.length),
             "reasons": [] if found.usable else explanation.reasons(found, task),
+            "help": None if found.usable else explanation.hints([found], synthesis.problem),
             "freedom": _freedom(synthesis, found),
             "worst": worst,
             "angle": angle,
