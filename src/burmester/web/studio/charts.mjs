@@ -1,0 +1,34 @@
+// Errors at the poses and the transmission angle along the motion, which follow at a slower pace.
+
+import { h } from "../widget/dom.mjs";
+import { Plots } from "../widget/plots.mjs";
+import { Pace, isSeen, watch } from "./pacing.mjs";
+
+export class Charts {
+  constructor(answers, playing) {
+    this.playing = playing;
+    const fill = h("div", { class: "bm-fill" });
+    this.plots = new Plots(answers.data, fill, (u) => playing.player.go(u));
+    this.element = fill;
+    this.pace = new Pace(() => this.build(), () => isSeen(fill));
+    playing.on("shape", () => this.pace.ask());
+    playing.on("place", ({ drive, transmission }) => {
+      if (this.isFresh && isSeen(fill)) this.plots.show(drive, transmission);
+    });
+    answers.on("poses", () => (this.isFresh = false));
+    new ResizeObserver(() => this.pace.ask()).observe(fill);
+    watch(fill, () => this.pace.ask());
+  }
+
+  build() {
+    const { playing, plots } = this, { linkage, path, player } = playing;
+    if (!linkage || !path || linkage.gone || linkage.pose_errors.length !== plots.data.poses.length) {
+      plots.svg.replaceChildren();
+      plots.way = plots.cursor = null;
+      return;
+    }
+    plots.build(linkage, player.way, player.stretch);
+    this.isFresh = true;
+    if (playing.here) plots.show(playing.here.drive, playing.here.transmission);
+  }
+}

@@ -1,0 +1,13 @@
+// Events of a part: who listens is told by name.
+
+export class Events {
+  /** Call `fn` after any of the events whose names stand in `names`, blanks between them. */
+  on(names, fn) {
+    this.heard ??= new Map();
+    for (const name of names.split(" ")) this.heard.set(name, [...(this.heard.get(name) ?? []), fn]);
+  }
+
+  emit(name, ...values) {
+    for (const fn of this.heard?.get(name) ?? []) fn(...values);
+  }
+}

@@ -1,0 +1,184 @@
+// The chosen linkage in the scene: what it passes through, its ground, and the linkage itself, moved by
+// attributes while it is followed or played.
+
+import { s } from "../widget/dom.mjs";
+import { AXIS, axes, foot, transform } from "../widget/drawing.mjs";
+import { act, placeAt } from "../widget/kinematics.mjs";
+import { Mechanism } from "../widget/mechanism.mjs";
+import { px, radians } from "../widget/numbers.mjs";
+import { factorFor } from "../widget/plane.mjs";
+import { railOf } from "../widget/rail.mjs";
+import { smoothPath } from "../widget/smooth_path.mjs";
+import { UNSEEN } from "./answers.mjs";
+
+const MOST_ACHIEVED = 240; // places at poses that are drawn
+const BELOW = 38; // pixels: how far the name of a fixed pivot stands below it
+const LEAST_ARROW = 1.5; // pixels
+
+export class LiveLinkage {
+  constructor(answers, playing, scene) {
+    Object.assign(this, { answers, playing, scene, factor: 0 });
+    this.beyond = s("path", { class: "bm-curve bm-beyond" });
+    this.others = s("path", { class: "bm-curve bm-other" });
+    this.here = s("path", { class: "bm-curve bm-here" });
+    this.pivotPaths = [0, 1].map((side) => s("path", { class: `bm-pivot-path bm-side${side}` }));
+    this.paths = s("g", { class: "bs-paths", "aria-hidden": "true" }, this.others, this.beyond, ...this.pivotPaths, this.here);
+    this.feet = [0, 1].map((side) => {
+      const at = foot();
+      at.classList.add(`bm-side${side}`);
+      return at;
+    });
+    this.rails = [0, 1].map((side) => s("g", { class: `bm-rail bm-side${side}` }, s("path", { class: "bm-ground" }), s("path", { class: "bm-ground bm-thin" })));
+    this.achieved = s("g", { class: "bs-achieved" });
+    this.arrows = s("path", {});
+    this.names = [0, 1].map((side) => s("text", { class: `bm-name bm-side${side}`, "text-anchor": "middle" }));
+    this.mechanism = null;
+    this.holder = s("g", { class: "bs-mechanism" }, ...this.rails, ...this.feet, this.achieved, s("g", { class: "bm-errors" }, this.arrows));
+    this.labels = s("g", { class: "bs-dyad-names" }, this.names);
+    scene.layer("paths").append(this.paths);
+    scene.layer("mechanism").append(this.holder);
+    scene.layer("labels").append(this.labels);
+    scene.hold?.(() => this.points());
+    playing.on("shape", () => this.shape());
+    playing.on("place", ({ place }) => this.mechanism?.show(place));
+    scene.on("view", () => this.redraw());
+    this.redraw();
+  }
+
+  /** Points that a fit has to hold: the places at the poses and near pivots. */
+  points() {
+    const { linkage } = this.playing, { data } = this.answers;
+    if (!linkage) return [];
+    const [pose] = data.poses, near = ([x, y]) => pose && Math.hypot(x - pose.x, y - pose.y) < 3 * data.scene;
+    const pins = linkage.led.flatMap((dyad) => (dyad.fixed_pivot ? [dyad.fixed_pivot] : []));
+    const moving = linkage.pose_errors.filter((row) => row.x !== null).flatMap((row) => linkage.led.filter((dyad) => dyad.moving_pivot).map((dyad) => act({ x: row.x, y: row.y, a: radians(row.angle_deg) }, dyad.moving_pivot)));
+    return [...pins, ...moving].filter(near);
+  }
+
+  /** How errors are enlarged: while a hand drags never more than before, so that arrows do not flicker. */
+  enlarge() {
+    const { linkage } = this.playing, { data } = this.answers;
+    const seen = linkage?.pose_errors.length && !(linkage.followed && linkage.worst < UNSEEN * data.scene);
+    const fits = seen ? factorFor(data, linkage) : 0;
+    this.factor = this.answers.isOld && this.factor && fits ? Math.min(this.factor, fits) : fits;
+  }
+
+  redraw() {
+    this.shape();
+    if (this.playing.here && this.playing.path) this.mechanism?.show(this.playing.here.place);
+  }
+
+  /** Everything but the place along the way. */
+  shape() {
+    const { playing, answers, scene } = this, { linkage, path } = playing, { view } = scene;
+    const there = Boolean(linkage) && !linkage.gone;
+    for (const part of [this.paths, this.holder, this.labels]) part.setAttribute("visibility", there ? "visible" : "hidden");
+    if (!there) return;
+    const places = path ? framesOf(path) : [];
+    this.enlarge();
+    this.curves(linkage, path, places, view);
+    this.ground(linkage, places, view);
+    this.atPoses(linkage, view);
+    if (!path) {
+      this.mechanism?.group.remove();
+      this.mechanism = null;
+      return;
+    }
+    if (!this.mechanism?.fits(linkage)) {
+      this.mechanism?.group.remove();
+      this.mechanism = new Mechanism(linkage);
+      this.holder.append(this.mechanism.group);
+    }
+    this.mechanism.shape(answers.data, linkage, view, places);
+  }
+
+  curves(linkage, path, places, view) {
+    const set = (element, list, closed) =>
+      element.setAttribute("d", smoothPath(list.map(([x]) => view.X(x)), list.map(([, y]) => view.Y(y)), closed));
+    const others = linkage.ways.filter((way) => way !== path);
+    this.others.setAttribute("d", others.map((way) => pathOf(way, view)).join(""));
+    this.beyond.setAttribute("d", path ? pathOf(path, view) : "");
+    this.pivotPaths.forEach((element, side) => {
+      const dyad = linkage.led[side];
+      if (!path || !dyad.moving_pivot || dyad.kind === "PR") element.setAttribute("d", "");
+      else set(element, places.map((place) => act(place, dyad.moving_pivot)), path.round);
+    });
+    if (!path) {
+      this.here.setAttribute("d", "");
+      return;
+    }
+    const { low, high } = this.playing.player.stretch, { length } = this.answers.data.chart, list = [];
+    const end = (u) => ((place) => [place.x, place.y])(placeAt(linkage, path, u, length));
+    list.push(end(low));
+    for (let k = Math.floor(low) + 1; k < high; k += 1) list.push([path.x[k], path.y[k]]);
+    list.push(end(high));
+    set(this.here, list, path.round && high - low > path.x.length - 1 - 1e-6);
+  }
+
+  ground(linkage, places, view) {
+    linkage.led.forEach((dyad, side) => {
+      const [rail, at, name] = [this.rails[side], this.feet[side], this.names[side]];
+      const slides = dyad.kind === "PR" && places.length > 0;
+      rail.setAttribute("display", slides ? "inline" : "none");
+      at.setAttribute("display", dyad.fixed_pivot ? "inline" : "none");
+      name.setAttribute("display", slides || dyad.fixed_pivot ? "inline" : "none");
+      if (name.textContent !== dyad.id) name.textContent = dyad.id;
+      let x, y;
+      if (slides) {
+        const drawn = railOf(dyad, places, view);
+        ({ x, y } = drawn);
+        rail.setAttribute("transform", transform(x, y, drawn.turned));
+        drawn.paths.forEach((d, k) => rail.children[k].setAttribute("d", d));
+        rail.dataset.dyad = dyad.id;
+      } else if (dyad.fixed_pivot) {
+        [x, y] = [view.X(dyad.fixed_pivot[0]), view.Y(dyad.fixed_pivot[1])];
+        at.setAttribute("transform", `translate(${px(x)} ${px(y)})`);
+      } else {
+        return;
+      }
+      name.setAttribute("x", px(x));
+      name.setAttribute("y", px(y + BELOW));
+    });
+  }
+
+  /** Where the linkage takes the body instead of the poses, and the errors between them, enlarged. */
+  atPoses(linkage, view) {
+    const { achieved, answers: { data } } = this, rows = linkage.pose_errors;
+    const count = Math.min(rows.length, MOST_ACHIEVED), small = count > 24 ? 0.6 : 1;
+    while (achieved.children.length > count) achieved.lastChild.remove();
+    while (achieved.children.length < count) achieved.append(s("g", { class: "bm-achieved" }, s("path", {}), s("circle", {})));
+    let arrows = "";
+    for (let k = 0; k < count; k += 1) {
+      const row = rows[k], group = achieved.children[k];
+      if (group.dataset.size !== String(small)) {
+        group.dataset.size = small;
+        group.children[0].setAttribute("d", axes(0.72 * AXIS * small));
+        group.children[1].setAttribute("r", 2.2 * small);
+      }
+      if (row.x === null) {
+        group.setAttribute("display", "none");
+        continue;
+      }
+      group.setAttribute("display", "inline");
+      group.setAttribute("transform", transform(view.X(row.x), view.Y(row.y), radians(row.angle_deg)));
+      group.classList.toggle("bm-elsewhere", row.at !== this.playing.path);
+      if (this.factor && data.poses[k]) arrows += arrow(view, data.poses[k], row, this.factor);
+    }
+    this.arrows.setAttribute("d", arrows);
+  }
+}
+
+/** The frames of a way as places. */
+export const framesOf = (way) => Array.from(way.x, (x, k) => ({ x, y: way.y[k], a: way.angle[k] }));
+
+const pathOf = (way, view) => smoothPath(Array.from(way.x, view.X), Array.from(way.y, view.Y), way.round);
+
+/** An error as an arrow from the pose, enlarged. */
+function arrow(view, pose, row, factor) {
+  const x = view.X(pose.x), y = view.Y(pose.y), by = factor * view.scale;
+  const dx = by * (row.x - pose.x), dy = -by * (row.y - pose.y), size = Math.hypot(dx, dy);
+  if (!(size >= LEAST_ARROW)) return "";
+  const head = Math.min(7, 0.5 * size), ux = dx / size, uy = dy / size, tip = `${px(x + dx)} ${px(y + dy)}`;
+  const barb = (sign) => `L${px(x + dx - head * (ux - sign * 0.5 * uy))} ${px(y + dy - head * (uy + sign * 0.5 * ux))}`;
+  return `M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}`;
+}

@@ -1,0 +1,102 @@
+// One linkage as a card: its verdict with the reason, its figures, and what would help.
+
+import { h } from "../widget/dom.mjs";
+import { PLACED, leastOf, worstOf } from "./answers.mjs";
+import { helpInWords } from "./help_words.mjs";
+
+/** Text of an element, set only where it differs: a page that is read aloud, and one that is drawn, are left alone. */
+export function say(element, text) {
+  if (element.textContent !== text) element.textContent = text;
+}
+
+const FIGURES = [
+  ["worst", "worst miss"],
+  ["least", "transmission"],
+  ["size", "size"],
+  ["sensitivity", "sensitivity"],
+];
+
+/** A card for good: it shows whatever linkage `show` gives it, and keeps its elements. */
+export class ResultCard {
+  /** @param {{ choose: Function, pin: Function, compare: Function, improve: Function, letGo: Function }} does */
+  constructor(does) {
+    this.name = h("b", {});
+    this.type = h("span", { class: "bm-type" });
+    this.was = h("span", { class: "bs-was" });
+    this.verdict = h("span", { class: "bm-verdict" });
+    this.figures = new Map(FIGURES.map(([key]) => [key, h("dd", { "data-figure": key })]));
+    this.note = h("span", { class: "bs-card-note" });
+    this.reason = h("span", { class: "bm-reason" });
+    this.help = h("span", { class: "bs-help" });
+    this.main = h(
+      "button",
+      { type: "button", class: "bs-card-main", "aria-pressed": "false", onclick: () => does.choose(this.id) },
+      h("span", { class: "bm-choice-head" }, this.name, " ", this.type, " ", this.was),
+      this.verdict,
+      h("dl", { class: "bs-figures" }, FIGURES.map(([key, name]) => [h("dt", {}, name), this.figures.get(key)])),
+      this.note, this.reason, this.help,
+    );
+    this.pin = h("button", { type: "button", class: "bs-small", "aria-pressed": "false", onclick: () => does.pin(this.id) }, "Pin");
+    this.compare = h("button", { type: "button", class: "bs-small", "aria-pressed": "false", onclick: () => does.compare(this.id) }, "Compare");
+    this.improve = h("button", { type: "button", class: "bs-small", onclick: () => does.improve(this.id) }, "Look near it");
+    this.letGo = h("button", { type: "button", class: "bs-small", onclick: () => does.letGo() }, "Let go of the pivots");
+    this.better = h("ul", { class: "bs-better", "aria-live": "polite" });
+    this.element = h("article", { class: "bs-card bm-choice" }, this.main, h("div", { class: "bs-card-tools" }, this.pin, this.compare, this.improve, this.letGo), this.better);
+  }
+
+  /** Show a linkage as it is now; old: what only the whole road knows belongs to an older task. */
+  show(linkage, { data, old, chosen, pinned, compared }) {
+    const { said } = linkage, { classList } = this.element, isPlaced = linkage.id === PLACED;
+    if (this.id !== linkage.id || old) this.better.replaceChildren();
+    if (this.id !== linkage.id) {
+      this.id = linkage.id;
+      this.element.dataset.linkage = linkage.id;
+      say(this.name, isPlaced ? "By hand" : linkage.id);
+    }
+    say(this.type, linkage.type);
+    say(this.was, linkage.was ? `was ${linkage.was}` : linkage.isNew ? "new" : "");
+    say(this.verdict, linkage.gone ? "✕ gone" : linkage.usable ? "✓ usable" : "✕ not usable");
+    say(this.figures.get("worst"), worstOf(linkage, data));
+    say(this.figures.get("least"), least(linkage));
+    say(this.figures.get("size"), said.quality.extent ?? "–");
+    say(this.figures.get("sensitivity"), said.quality.sensitivity ?? "–");
+    say(this.note, linkage.gone ?? ((linkage.usable && linkage.change) || (linkage.usable && !linkage.followed && linkage.shortcomings?.length ? `Falls short: ${linkage.shortcomings.join("; ")}` : "")));
+    const reason = linkage.usable || linkage.gone ? "" : linkage.followed ? linkage.reason ?? "" : said.reasons.join("; ");
+    say(this.reason, reason);
+    say(this.help, reason && said.help && !linkage.followed ? `What would help: ${helpInWords(said.help)}.` : "");
+    classList.toggle("bm-good", linkage.usable && !linkage.gone);
+    classList.toggle("bm-bad", !linkage.usable || Boolean(linkage.gone));
+    classList.toggle("bs-gone", Boolean(linkage.gone));
+    classList.toggle("bs-old", old || Boolean(linkage.followed));
+    classList.toggle("bs-chosen", chosen);
+    setPressed(this.main, chosen);
+    setPressed(this.pin, pinned);
+    setPressed(this.compare, compared);
+    say(this.pin, pinned ? "Pinned" : "Pin");
+    this.pin.hidden = isPlaced;
+    this.compare.hidden = isPlaced || chosen;
+    this.improve.hidden = isPlaced || linkage.usable || old || Boolean(linkage.gone);
+    this.letGo.hidden = !isPlaced;
+    for (const button of [this.pin, this.compare, this.improve]) labelled(button, linkage.id);
+  }
+
+  /** What a search near the linkage found. */
+  tellBetter(sentences) {
+    this.better.replaceChildren(...sentences.map((sentence) => h("li", {}, sentence)));
+  }
+}
+
+function least(linkage) {
+  const angle = leastOf(linkage);
+  return angle === "–" ? angle : angle === "0°" ? "down to 0°" : `${angle} or more`;
+}
+
+function setPressed(button, on) {
+  const text = String(Boolean(on));
+  if (button.getAttribute("aria-pressed") !== text) button.setAttribute("aria-pressed", text);
+}
+
+function labelled(button, id) {
+  const text = `${button.textContent}: ${id}`;
+  if (button.getAttribute("aria-label") !== text) button.setAttribute("aria-label", text);
+}

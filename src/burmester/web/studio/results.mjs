@@ -1,0 +1,160 @@
+// The panel of cards: filtered, sorted and pinned.  A card keeps its linkage while a hand drags.
+
+import { h } from "../widget/dom.mjs";
+import { clamp, listed } from "../widget/numbers.mjs";
+import { PLACED } from "./answers.mjs";
+import { FILTERS, ORDERS, arranged } from "./ordering.mjs";
+import { ResultCard, say } from "./result_card.mjs";
+
+const MOST = 40; // cards that are there at once, unless all of them are asked for
+
+export class Results {
+  constructor(store, answers) {
+    Object.assign(this, { store, answers, cards: new Map(), wanted: { order: "rank", filter: "all", type: "" }, all: false });
+    const choice = (name, entries, key) =>
+      h("label", {}, `${name} `, h("select", { "data-choice": key, onchange: (event) => this.want(key, event.target.value) }, entries.map(([value, text]) => h("option", { value }, text))));
+    this.types = choice("Type", [["", "any"]], "type");
+    this.title = h("h2", {}, "Linkages");
+    this.status = h("p", { class: "bs-results-status", role: "status" });
+    this.doubt = h("p", { class: "bs-doubt" });
+    this.gone = h("p", { class: "bs-gone-note" });
+    this.list = h("div", { class: "bs-cards" });
+    this.more = h("button", { type: "button", class: "bs-small", hidden: true, onclick: () => this.showAll() });
+    this.element = h(
+      "section",
+      { class: "bs-results", "aria-label": "Linkages" },
+      h("div", { class: "bs-results-head" }, this.title, this.status, this.doubt, this.gone,
+        h("div", { class: "bs-choices" }, choice("Show", Object.entries(FILTERS).map(([key, { name }]) => [key, name]), "filter"), choice("Sort by", Object.entries(ORDERS).map(([key, { name }]) => [key, name]), "order"), this.types)),
+      this.list,
+      this.more,
+    );
+    this.list.addEventListener("keydown", (event) => this.walk(event));
+    answers.on("answers placed", () => this.arrange());
+    answers.on("moved", () => this.update());
+    answers.on("shown", () => this.update());
+    store.on("pinned", () => this.arrange());
+    store.on("state document", () => this.tell());
+    this.arrange();
+  }
+
+  want(key, value) {
+    this.wanted[key] = value;
+    this.arrange();
+  }
+
+  showAll() {
+    this.all = true;
+    this.arrange();
+  }
+
+  /** Cards in their order: new ones are made, those of linkages that go on keep their elements. */
+  arrange() {
+    const { answers, store, wanted } = this;
+    this.buildTypes();
+    const every = arranged(answers.linkages, { ...wanted, pinned: store.pinned });
+    const shown = this.all ? every : every.slice(0, MOST);
+    const list = answers.placed ? [answers.placed, ...shown] : shown;
+    const cards = new Map();
+    for (const linkage of list) cards.set(linkage, this.cards.get(linkage) ?? this.card());
+    for (const [linkage, card] of this.cards) if (!cards.has(linkage)) card.element.remove();
+    this.cards = cards;
+    let before = null;
+    for (const card of cards.values()) {
+      const next = before ? before.nextSibling : this.list.firstChild;
+      if (card.element !== next) this.list.insertBefore(card.element, next);
+      before = card.element;
+    }
+    this.more.hidden = every.length <= shown.length;
+    if (!this.more.hidden) say(this.more, `Show all ${every.length}`);
+    this.hidden = answers.linkages.length - every.length;
+    this.update();
+  }
+
+  card() {
+    const { store } = this;
+    return new ResultCard({
+      choose: (id) => store.choose(id),
+      pin: (id) => store.pin(id),
+      compare: (id) => store.compare(id),
+      improve: (id) => this.improve(id),
+      letGo: () => this.letGo(),
+    });
+  }
+
+  /** Put the pivots away that a hand put down. */
+  letGo() {
+    this.store.place([]);
+    if (this.store.chosen === PLACED) this.store.choose(this.answers.linkages[0]?.id ?? null);
+  }
+
+  buildTypes() {
+    const types = [...new Set(this.answers.linkages.map((each) => each.type))].sort(), key = types.join();
+    const select = this.types.querySelector("select");
+    if (key === this.typesKey) return;
+    this.typesKey = key;
+    if (!types.includes(this.wanted.type)) this.wanted.type = "";
+    select.replaceChildren(...["", ...types].map((type) => h("option", { value: type, selected: type === this.wanted.type }, type || "any")));
+    this.types.hidden = types.length < 2;
+  }
+
+  /** What the cards say, in the order in which they stand. */
+  update() {
+    const { answers, store } = this, { data, isOld, shown } = answers;
+    for (const [linkage, card] of this.cards) {
+      card.show(linkage, { data, old: isOld && linkage.id !== PLACED, chosen: linkage === shown, pinned: store.pinned.has(linkage.id), compared: store.compared === linkage.id });
+    }
+    this.tell();
+  }
+
+  /** How many there are, and what is doubtful; read aloud only when the hand rests. */
+  tell() {
+    const { answers, store } = this, there = answers.linkages.filter((each) => !each.gone);
+    const usable = there.filter((each) => each.usable).length;
+    say(this.title, there.length ? `${there.length} linkage${there.length === 1 ? "" : "s"}, ${usable} usable` : store.solved ? "No linkage" : "Linkages");
+    this.status.setAttribute("aria-live", store.state === "dragging" ? "off" : "polite");
+    say(this.status, this.statusText());
+    const uncertain = store.followed?.uncertain ?? [];
+    say(this.doubt, store.followed && answers.isOld ? (uncertain.length ? `May change when you let go: ${uncertain[0]}${/[.!]$/.test(uncertain[0]) ? "" : "."}` : store.followed.complete === false ? "A linkage that appears now is seen when you let go." : "") : "");
+    say(this.gone, !answers.isOld && answers.gone.length ? `Not in the new answer: ${listed(answers.gone)} of the one before.` : "");
+    this.element.classList.toggle("bs-stale", answers.isOld);
+  }
+
+  statusText() {
+    const { store, answers } = this, hidden = this.hidden ? `${this.hidden} not shown by the filter. ` : "";
+    if (store.state === "offline") return "The connection is gone; what you see is the last answer.";
+    if (answers.isOld && store.state === "dragging") return store.followed ? "Moving along." : "The new answer comes when you let go.";
+    if (store.state === "solving") return "Looking for all linkages.";
+    if (!store.solved) return "";
+    const { best, outcome } = store.solved;
+    if (!store.solved.linkages.some((each) => each.usable)) return `${hidden}${sentence(outcome?.message)}${outcome?.help ? ` What helps: ${outcome.help}.` : ""}`;
+    return `${hidden}${best?.[0] ?? ""}`;
+  }
+
+  /** Look for better linkages near one that is not usable, as `burmester judge --improve` does. */
+  async improve(id) {
+    const { document, options, connection } = this.store;
+    const card = () => [...this.cards].find(([linkage]) => linkage.id === id)?.[1];
+    card()?.tellBetter(["Looking near it …"]);
+    let said;
+    try {
+      said = (await (await connection.post("/improve", { document, options, linkage: id })).json()).better;
+    } catch (error) {
+      said = [`That did not work: ${error.message}`];
+    }
+    if (document === this.store.document) card()?.tellBetter(said.length ? said.map(nearIt) : ["Nothing better lies near it."]);
+  }
+
+  /** Arrow keys go from card to card. */
+  walk(event) {
+    const step = { ArrowDown: 1, ArrowRight: 1, ArrowUp: -1, ArrowLeft: -1 }[event.key];
+    const mains = [...this.cards.values()].map((card) => card.main), at = mains.indexOf(document.activeElement);
+    if (!step || at < 0) return;
+    event.preventDefault();
+    mains[clamp(at + step, 0, mains.length - 1)].focus();
+  }
+}
+
+/** A better linkage has a number only in the judgement that found it. */
+const nearIt = (text) => text.replace(/^L\d+ changes/, "One changes");
+
+const sentence = (text) => (text ? `${text[0].toUpperCase()}${text.slice(1)}.` : "");
