@@ -13,6 +13,10 @@ function furnish(node, attributes, children) {
 }
 var h = (tag, attributes, ...children) => furnish(document.createElement(tag), attributes, children);
 var s = (tag, attributes, ...children) => furnish(document.createElementNS(SVG, tag), attributes, children);
+function rgb(text) {
+  const hex = text.trim().replace("#", "");
+  return [0, 2, 4].map((k) => parseInt(hex.slice(k, k + 2), 16));
+}
 
 // src/burmester/web/studio/autosave.mjs
 var KEY = "burmester.studio";
@@ -85,25 +89,25 @@ var DIGITS = 12;
 var GREATEST = 1e300;
 var tidy = (value) => Number(value.toPrecision(DIGITS));
 var written = (value) => value === void 0 || value === null ? "" : String(value).replace("-", "−").replace("e−", "e-");
-function quantity(text, { kind = "number", unit = "", optional = false, least = -Infinity, above = -Infinity, most = Infinity } = {}) {
+function quantity(text, { kind = "number", unit: unit2 = "", optional = false, least: least2 = -Infinity, above = -Infinity, most = Infinity } = {}) {
   const plain = text.normalize("NFKC").replace(/[−–]/g, "-").replace(/[\u00a0\u2009\u202f]/g, " ").trim();
-  const example = { length: unit in LENGTHS ? `12.5 or 0.5 in` : "12.5", angle: "30 or 0.5 rad", number: "12.5" }[kind];
+  const example = { length: unit2 in LENGTHS ? `12.5 or 0.5 in` : "12.5", angle: "30 or 0.5 rad", number: "12.5" }[kind];
   if (!plain) return optional ? { value: void 0 } : { fault: `A number is missing here: write one such as ${example}.` };
   const found = WRITTEN.exec(plain);
   if (!found) return { fault: `“${text.trim()}” is not a number: write one such as ${example}.` };
   const number = Number(found[1].replace(",", ".")), name = found[2].trim().replace(/^μm$/, "µm");
-  const factor = factorOf(name, kind, unit);
+  const factor = factorOf(name, kind, unit2);
   if (typeof factor === "string") return { fault: factor };
   const value = factor === 1 ? number : tidy(number * factor);
   if (!(Math.abs(value) <= GREATEST)) return { fault: `${text.trim()} is too large a number.` };
-  const shown = kind === "angle" ? "°" : kind === "length" && unit ? ` ${unit}` : "";
-  if (value < least) return { fault: `This may not be less than ${least}${shown}.` };
+  const shown = kind === "angle" ? "°" : kind === "length" && unit2 ? ` ${unit2}` : "";
+  if (value < least2) return { fault: `This may not be less than ${least2}${shown}.` };
   if (value <= above) return { fault: `This must be greater than ${above}${shown}.` };
   if (value > most) return { fault: `This may not be more than ${most}${shown}.` };
   return { value };
 }
-function factorOf(name, kind, unit) {
-  if (!name || kind === "length" && name === unit) return 1;
+function factorOf(name, kind, unit2) {
+  if (!name || kind === "length" && name === unit2) return 1;
   if (kind === "number") return `“${name}” is not needed here: write the number alone.`;
   const units = kind === "angle" ? ANGLES : LENGTHS, known = name in units ? name : name.toLowerCase();
   if (!Object.hasOwn(units, known)) {
@@ -111,8 +115,8 @@ function factorOf(name, kind, unit) {
     return `“${name}” is not a unit of ${kind} known here: write ${usual}, or the number alone.`;
   }
   if (kind === "angle") return units[known];
-  if (!Object.hasOwn(LENGTHS, unit)) return `This task has ${unit ? `the unit ${unit}` : "no unit of length"}: write the number alone.`;
-  return units[known] / LENGTHS[unit];
+  if (!Object.hasOwn(LENGTHS, unit2)) return `This task has ${unit2 ? `the unit ${unit2}` : "no unit of length"}: write the number alone.`;
+  return units[known] / LENGTHS[unit2];
 }
 
 // src/burmester/web/studio/fields.mjs
@@ -183,10 +187,10 @@ var NumberField = class {
     this.input.value = written(stepped(value, sense * stepOf(event, step)));
     this.read();
   }
-  say(sentence) {
-    this.fault.hidden = sentence === null;
-    this.fault.textContent = sentence ?? "";
-    if (sentence === null) {
+  say(sentence2) {
+    this.fault.hidden = sentence2 === null;
+    this.fault.textContent = sentence2 ?? "";
+    if (sentence2 === null) {
       this.input.removeAttribute("aria-invalid");
       this.input.removeAttribute("aria-describedby");
     } else {
@@ -318,6 +322,15 @@ function fixed(value, digits) {
   const text = value.toFixed(digits);
   return Number(text) === 0 ? text.replace("-", "") : text;
 }
+function figure(value) {
+  if (value === null || !Number.isFinite(value)) return "–";
+  if (value === 0) return "0";
+  if (Math.abs(value) >= 99.5 && Math.abs(value) < 1e6) return value.toFixed(0);
+  const rounded = value.toExponential(1), [digits, power] = rounded.split("e");
+  if (power >= -4 && power < 2) return String(Number(rounded));
+  if (power > 0) return `${Number(digits)}e${Number(power)}`;
+  return `${Number(digits)}e-${String(-power).padStart(2, "0")}`;
+}
 function ticks(low, high, about) {
   const rough = (high - low) / Math.max(1, about);
   const power = 10 ** Math.floor(Math.log10(rough));
@@ -329,6 +342,29 @@ function ticks(low, high, about) {
   }
   return marks;
 }
+function angleTicks(low, high, about) {
+  const step = [5, 10, 15, 30, 45, 60, 90, 180].find((each) => (high - low) / each <= about) ?? 360;
+  const marks = [];
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-6; k += 1) {
+    marks.push({ at: k * step, text: `${fixed(k * step, 0)}°` });
+  }
+  return marks.length > 1 ? marks : ticks(low, high, about).map((t) => ({ ...t, text: `${t.text}°` }));
+}
+function listed(words) {
+  if (words.length < 2) return words.join("");
+  return `${words.slice(0, -1).join(", ")} and ${words[words.length - 1]}`;
+}
+function runs(numbers, names) {
+  const parts = [];
+  for (let k = 0; k < numbers.length; ) {
+    let end = k;
+    while (end + 1 < numbers.length && numbers[end + 1] === numbers[end] + 1) end += 1;
+    if (end - k >= 2) parts.push(`${names[numbers[k] - 1]}–${names[numbers[end] - 1]}`);
+    else for (let i = k; i <= end; i += 1) parts.push(names[numbers[i] - 1]);
+    k = end + 1;
+  }
+  return listed(parts);
+}
 
 // src/burmester/web/widget/kinematics.mjs
 function act(place, [x, y]) {
@@ -339,12 +375,225 @@ function back(place, [x, y]) {
   const c = Math.cos(place.a), d = Math.sin(place.a);
   return [c * (x - place.x) + d * (y - place.y), -d * (x - place.x) + c * (y - place.y)];
 }
+var normalOf = (dyad) => {
+  const angle = radians(dyad.line.normal_deg);
+  return [Math.cos(angle), Math.sin(angle)];
+};
+function constraint(dyad, place) {
+  if (dyad.kind === "PP") {
+    const away = place.a - radians(dyad.angle_deg);
+    return [away - 2 * Math.PI * Math.round(away / (2 * Math.PI)), 0, 0, 1];
+  }
+  if (dyad.kind === "RP") {
+    const [nx2, ny2] = normalOf(dyad);
+    const c = Math.cos(place.a), d = Math.sin(place.a);
+    const tx = c * nx2 - d * ny2, ty = d * nx2 + c * ny2;
+    const ax = dyad.fixed_pivot[0] - place.x, ay = dyad.fixed_pivot[1] - place.y;
+    return [tx * ax + ty * ay - dyad.line.offset, -tx, -ty, tx * ay - ty * ax];
+  }
+  const [x, y] = act(place, dyad.moving_pivot);
+  let nx, ny, residual;
+  if (dyad.kind === "RR") {
+    const ax = x - dyad.fixed_pivot[0], ay = y - dyad.fixed_pivot[1];
+    const size2 = Math.hypot(ax, ay) || 1;
+    [nx, ny, residual] = [ax / size2, ay / size2, size2 - dyad.radius];
+  } else {
+    [nx, ny] = normalOf(dyad);
+    residual = nx * x + ny * y - dyad.line.offset;
+  }
+  return [residual, nx, ny, (x - place.x) * ny - (y - place.y) * nx];
+}
+var gradient = (dyad, place) => constraint(dyad, place).slice(1);
+function project(dyads, place, length) {
+  let { x, y, a } = place;
+  for (let step = 0; step < 4; step += 1) {
+    const [f, ...p] = constraint(dyads[0], { x, y, a });
+    const [g, ...q] = constraint(dyads[1], { x, y, a });
+    p[2] /= length;
+    q[2] /= length;
+    const pp = p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
+    const pq = p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+    const qq = q[0] * q[0] + q[1] * q[1] + q[2] * q[2];
+    const det = pp * qq - pq * pq;
+    if (!(det > 1e-9 * pp * qq)) return { x, y, a };
+    const u = (f * qq - g * pq) / det, v = (g * pp - f * pq) / det;
+    x -= u * p[0] + v * q[0];
+    y -= u * p[1] + v * q[1];
+    a -= (u * p[2] + v * q[2]) / length;
+    if (Math.abs(f) + Math.abs(g) < 1e-14 * length) break;
+  }
+  return { x, y, a };
+}
+function catmullRom(values, i, share, round) {
+  const last = values.length - 1;
+  const at = (k) => {
+    if (k >= 0 && k <= last) return values[k];
+    if (!round) return k < 0 ? 2 * values[0] - values[-k] : 2 * values[last] - values[2 * last - k];
+    const wrap = k < 0 ? k + last : k - last;
+    return values[wrap] + (k < 0 ? -1 : 1) * (values[last] - values[0]);
+  };
+  const [p, q, r, t] = [at(i - 1), at(i), at(i + 1), at(i + 2)];
+  return q + share / 2 * (r - p + share * (2 * p - 5 * q + 4 * r - t + share * (3 * (q - r) + t - p)));
+}
+function placeAt(linkage, way, u, length) {
+  const stop = linkage.pose_errors.find((row) => row.at === way && Math.abs(row.frame - u) < 1e-6);
+  if (stop) return { x: stop.x, y: stop.y, a: radians(stop.angle_deg) };
+  const i = clamp(Math.floor(u), 0, way.x.length - 2), share = u - i;
+  const place = {
+    x: catmullRom(way.x, i, share, way.round),
+    y: catmullRom(way.y, i, share, way.round),
+    a: catmullRom(way.angle, i, share, way.round)
+  };
+  return project(linkage.led, place, length);
+}
+function linear(values, u) {
+  const i = clamp(Math.floor(u), 0, values.length - 2), share = u - i;
+  if (values[i] === null || values[i + 1] === null) return null;
+  const value = values[i] + share * (values[i + 1] - values[i]);
+  return Number.isNaN(value) ? null : value;
+}
+function frameAt(values, wanted) {
+  let low = 0, high = values.length - 1;
+  if (wanted <= values[low]) return low;
+  if (wanted >= values[high]) return high;
+  while (high - low > 1) {
+    const middle2 = low + high >> 1;
+    if (values[middle2] <= wanted) low = middle2;
+    else high = middle2;
+  }
+  const step = values[high] - values[low];
+  return low + (step > 0 ? (wanted - values[low]) / step : 0);
+}
+
+// src/burmester/web/widget/travel.mjs
+var LONGEST_STEP = 0.015;
+var MOST_BETWEEN = 40;
+function placesOf(data, linkage, way, { low, high }) {
+  const at = (u) => Number.isInteger(u) ? { x: way.x[u], y: way.y[u], a: way.angle[u] } : placeAt(linkage, way, u, data.chart.length);
+  const places = [at(low)];
+  let before = low;
+  const goTo = (u) => {
+    const next = at(u), last = places[places.length - 1];
+    const count = Math.min(MOST_BETWEEN, Math.floor(Math.hypot(next.x - last.x, next.y - last.y) / (LONGEST_STEP * data.scene)));
+    for (let k = 1; k <= count; k += 1) places.push(at(before + k / (count + 1) * (u - before)));
+    places.push(next);
+    before = u;
+  };
+  for (let k = Math.floor(low) + 1; k < high; k += 1) goTo(k);
+  goTo(high);
+  return places;
+}
+function alongLine(dyad, place) {
+  const [nx, ny] = normalOf(dyad);
+  const [x, y] = dyad.kind === "PR" ? act(place, dyad.moving_pivot) : back(place, dyad.fixed_pivot);
+  return nx * y - ny * x;
+}
+function travelOf(dyad, places) {
+  const along = places.map((place) => alongLine(dyad, place));
+  return [along.reduce((a, b) => Math.min(a, b)), along.reduce((a, b) => Math.max(a, b))];
+}
+function pointOnLine(dyad, along) {
+  const [nx, ny] = normalOf(dyad), { offset } = dyad.line;
+  return [offset * nx - along * ny, offset * ny + along * nx];
+}
 
 // src/burmester/web/widget/drawing.mjs
+var AXIS = 26;
+var BLOCK = [22, 14];
+var WIDEST = 4;
+function farFrom(data) {
+  const [x, y] = ["x", "y"].map((k) => {
+    const [low, high] = data.poses.reduce(([a, b], pose) => [Math.min(a, pose[k]), Math.max(b, pose[k])], [Infinity, -Infinity]);
+    return (low + high) / 2;
+  });
+  return (point2) => !(Math.hypot(point2[0] - x, point2[1] - y) < WIDEST * data.scene);
+}
+function pivotsAt(linkage, places) {
+  const found = [];
+  for (const dyad of linkage.led) {
+    if (dyad.fixed_pivot) found.push({ dyad, fixed: true, at: dyad.fixed_pivot });
+    const own = dyad.moving_pivot ? [dyad.moving_pivot] : dyad.kind === "RP" && places.length ? travelOf(dyad, places).map((end) => pointOnLine(dyad, end)) : [];
+    for (const point2 of own) for (const place of places) found.push({ dyad, fixed: false, at: act(place, point2) });
+  }
+  return found;
+}
+function boundsOf(data, linkage, places, far) {
+  const isFar = farFrom(data), box = [Infinity, Infinity, -Infinity, -Infinity];
+  const include = ([x, y]) => {
+    if (!Number.isFinite(x + y) || !far && isFar([x, y])) return;
+    box[0] = Math.min(box[0], x);
+    box[1] = Math.min(box[1], y);
+    box[2] = Math.max(box[2], x);
+    box[3] = Math.max(box[3], y);
+  };
+  for (const pose of data.poses) include([pose.x, pose.y]);
+  if (linkage) {
+    for (const row of linkage.pose_errors) if (row.x !== null) include([row.x, row.y]);
+    for (const place of places) include([place.x, place.y]);
+    for (const { at } of pivotsAt(linkage, places)) include(at);
+  }
+  const least2 = 0.25 * data.scene;
+  for (const k of [0, 1]) {
+    const lack = least2 - (box[k + 2] - box[k]);
+    if (lack > 0) {
+      box[k] -= lack / 2;
+      box[k + 2] += lack / 2;
+    }
+  }
+  return box;
+}
+function viewOf(box, width, height, margin) {
+  const scale = Math.min(
+    (width - 2 * margin) / (box[2] - box[0]),
+    (height - 2 * margin) / (box[3] - box[1])
+  );
+  const left = width / 2 - scale * (box[0] + box[2]) / 2;
+  const top = height / 2 + scale * (box[1] + box[3]) / 2;
+  return { scale, left, top, width, height, X: (x) => left + scale * x, Y: (y) => top - scale * y };
+}
 var transform = (x, y, angle) => `translate(${px(x)} ${px(y)}) rotate(${px(degrees(-angle))})`;
+function foot() {
+  let hatch = "";
+  for (let k = -2; k <= 2; k += 1) hatch += `M${5.5 * k + 3} 16l-6 7`;
+  return s(
+    "g",
+    { class: "bm-foot" },
+    s("path", { class: "bm-solid", d: "M0 0L-10 16H10Z" }),
+    s("path", { class: "bm-ground", d: `M-16 16H16${hatch}` })
+  );
+}
 function axes(length) {
   const l = length, head = Math.max(4, 0.22 * length);
   return `M0 0H${l}m${-head} ${-head / 2}l${head} ${head / 2}l${-head} ${head / 2}M0 0V${-0.6 * l}`;
+}
+function polyline(points, view) {
+  let path2 = "", pen = "M";
+  for (const [x, y] of points) {
+    if (!Number.isFinite(x) || !Number.isFinite(y)) {
+      pen = "M";
+      continue;
+    }
+    path2 += `${pen}${px(view.X(x))} ${px(view.Y(y))}`;
+    pen = "L";
+  }
+  return path2;
+}
+function hull(points) {
+  const sorted = [...points].sort((p, q) => p[0] - q[0] || p[1] - q[1]);
+  const half = (list) => {
+    const kept = [];
+    for (const point2 of list) {
+      while (kept.length > 1) {
+        const [a, b] = kept.slice(-2);
+        if ((b[0] - a[0]) * (point2[1] - a[1]) - (b[1] - a[1]) * (point2[0] - a[0]) > 0) break;
+        kept.pop();
+      }
+      kept.push(point2);
+    }
+    return kept.slice(0, -1);
+  };
+  const corners = [...half(sorted), ...half(sorted.reverse())];
+  return corners.length ? corners : sorted.slice(0, 1);
 }
 
 // src/burmester/web/studio/document.mjs
@@ -357,7 +606,7 @@ var replaced = (list, index, value) => list.map((each, k) => k === index ? value
 var without = (list, index) => list.filter((_, k) => k !== index);
 var inserted = (list, index, value) => [...list.slice(0, index), value, ...list.slice(index)];
 var withList = (document2, key, list) => withKeys(document2, { [key]: list.length ? list : void 0 });
-var filled = (table) => Object.keys(table).length ? table : void 0;
+var filled = (table3) => Object.keys(table3).length ? table3 : void 0;
 var setPose = (document2, index, changes) => withKeys(document2, { poses: replaced(document2.poses, index, withKeys(document2.poses[index], changes)) });
 var addPose = (document2, pose, index = document2.poses.length) => withKeys(document2, { poses: inserted(document2.poses, index, pose) });
 var removePose = (document2, index) => withKeys(document2, { poses: without(document2.poses, index) });
@@ -393,8 +642,8 @@ function splitLimits(document2, apart) {
   return tables.length > 1 ? document2 : withKeys(document2, { limits: [tables[0] ?? {}, tables[0] ?? {}] });
 }
 var limitRegions = (document2) => limitsOf(document2).flatMap(
-  (table, index) => ["fixed_pivot", "moving_pivot"].filter((key) => table[key]).map((key) => {
-    const [[shape, points]] = Object.entries(table[key]);
+  (table3, index) => ["fixed_pivot", "moving_pivot"].filter((key) => table3[key]).map((key) => {
+    const [[shape, points]] = Object.entries(table3[key]);
     return { table: index, key, shape, points: shape === "point" ? [points] : points };
   })
 );
@@ -417,13 +666,164 @@ var poseName = ({ poses }, index) => poses[index]?.name ?? String(index + 1);
 var statedOf = (pose, changes) => Object.fromEntries(Object.entries(changes).filter(([key]) => Number.isFinite(pose[key])));
 
 // src/burmester/web/widget/tables.mjs
+var NONE = "–";
+function table(caption, heads, rows, attributes) {
+  return h(
+    "div",
+    { class: "bm-scroll", tabindex: "0", role: "region", "aria-label": caption },
+    h(
+      "table",
+      attributes,
+      h("caption", {}, caption),
+      h("thead", {}, h("tr", {}, heads.map((head) => h("th", { scope: "col", class: head.text ? "bm-words" : null }, head.name ?? head)))),
+      h("tbody", {}, rows)
+    )
+  );
+}
+var cells = (values, words = [], heads = []) => values.map(
+  (value, k) => k === 0 ? h("th", { scope: "row" }, value) : h("td", { class: classes(words.includes(k) && "bm-words", (value ?? NONE) === NONE && "bm-none"), "data-head": heads[k]?.name ?? heads[k] }, value ?? NONE)
+);
+var classes = (...names) => names.filter(Boolean).join(" ") || null;
+var unitOf = (data) => data.unit ? ` (${data.unit})` : "";
+var decimalsOf = (data) => clamp(4 - Math.ceil(Math.log10(data.scene)), 0, 12);
+var poseName2 = (pose) => pose.label === pose.name ? pose.name : `${pose.label}: ${pose.name}`;
 var shortened = (text, most) => text.length > most ? `${text.slice(0, most - 1).trimEnd()}…` : text;
+function missOf(position, angle, unit2) {
+  if (position === "exact" && angle === "exact") return "exact";
+  if (position === "-") return "–";
+  return `${position}${position === "exact" ? "" : unit2} and ${angle}`;
+}
+function verdictOf(linkage) {
+  return linkage.usable ? "✓ usable" : "✕ not usable";
+}
+function dyadTable(data) {
+  const heads = ["", { name: "kind", text: true }, "on the ground (F)", "on the body (M)", `length${unitOf(data)}`, "rms miss", "worst miss"];
+  const rows = data.dyads.map(
+    (dyad) => h("tr", {}, cells([dyad.id, dyad.kind, dyad.said.ground, dyad.said.body, dyad.said.length, dyad.said.rms, dyad.said.worst], [1], heads))
+  );
+  return table(data.dyads_title, heads, rows, { class: "bm-stacks" });
+}
+function linkageTable(data) {
+  const names = ["ground", "driver", "coupler", "follower"];
+  const heads = [
+    "",
+    { name: "verdict", text: true },
+    { name: "type", text: true },
+    { name: "dyads", text: true },
+    { name: "driver", text: true },
+    ...names.map((name) => `${name} link`),
+    "worst miss",
+    "worst angle",
+    "least transm.",
+    "extent",
+    "sens.",
+    { name: "why not", text: true }
+  ];
+  const rows = data.linkages.map(
+    (each) => h(
+      "tr",
+      {},
+      cells(
+        [
+          each.id,
+          verdictOf(each),
+          each.type,
+          each.dyads.map((dyad) => dyad.id).join(" "),
+          each.led[0].id,
+          ...names.map((name) => each.said.links?.[name] ?? "–"),
+          each.said.worst,
+          each.said.angle,
+          each.said.transmission,
+          each.said.quality.extent?.split(" ")[0] ?? "–",
+          each.said.quality.sensitivity ?? "–",
+          each.said.reasons.join("; ") || "–"
+        ],
+        [1, 2, 3, 4, 14],
+        heads
+      )
+    )
+  );
+  return table(`All linkages${unitOf(data)}`, heads, rows, { class: "bm-linkages bm-stacks" });
+}
+function dimensionRows(linkage) {
+  const uncertain = linkage.said.dimensions.some((row) => row.give);
+  let last = null;
+  return linkage.said.dimensions.map((row) => {
+    const name = row.dyad === last ? "" : row.dyad;
+    last = row.dyad;
+    const side = linkage.led.findIndex((dyad) => dyad.id === row.dyad);
+    return h(
+      "tr",
+      {},
+      h("th", { scope: "row", class: name ? `bm-side${side}` : null }, name),
+      h("td", { class: "bm-words" }, row.what),
+      h("td", {}, row.value),
+      uncertain ? h("td", {}, row.give) : null
+    );
+  });
+}
+function dimensionTable(data, linkage) {
+  return table(
+    `Dimensions of ${linkage.id}${data.unit ? `, in ${data.unit}` : ""}`,
+    ["", { name: "", text: true }, "value", ...linkage.said.dimensions.some((row) => row.give) ? ["± (95 %)"] : []],
+    dimensionRows(linkage),
+    { class: "bm-dimensions" }
+  );
+}
+function poseTable(data, linkage) {
+  const digits = decimalsOf(data), unit2 = unitOf(data);
+  const heads = ["pose", `wanted x`, `y${unit2}`, "angle"];
+  if (linkage) heads.push("coupler x", `y${unit2}`, "angle", "off by", "turned by", "transm.", { name: "where", text: true });
+  const rows = data.poses.map((pose, k) => {
+    const values = [
+      poseName2(pose) + (pose.exact ? " (exact)" : ""),
+      fixed(pose.x, digits),
+      fixed(pose.y, digits),
+      `${fixed(pose.angle_deg, 2)}°`
+    ];
+    if (linkage) {
+      const row = linkage.pose_errors[k];
+      values.push(
+        fixed(row.x, digits),
+        fixed(row.y, digits),
+        row.angle_deg === null ? "–" : `${fixed(row.angle_deg, 2)}°`,
+        row.said.position,
+        row.said.turned,
+        row.said.transmission,
+        row.way === null ? "–" : wayName(linkage.ways[row.way], linkage)
+      );
+    }
+    return h("tr", { "data-pose": k + 1 }, cells(values, [10]));
+  });
+  return table(linkage ? `Poses, and where ${linkage.id} takes the body` : "Poses", heads, rows, { class: data.poses.some((pose) => pose.label !== pose.name) ? "bm-pose-table bm-named" : "bm-pose-table" });
+}
+function imageTables(data, linkage) {
+  const digits = decimalsOf(data);
+  const rows = data.poses.map((pose) => {
+    const c = Math.cos(pose.angle_deg * Math.PI / 360), d = Math.sin(pose.angle_deg * Math.PI / 360);
+    const z = [(pose.x * d - pose.y * c) / 2, (pose.x * c + pose.y * d) / 2, d, c];
+    return h("tr", {}, cells([pose.label, ...z.map((value, k) => fixed(value, k < 2 ? digits : 5))]));
+  });
+  const points = table(`Image points of the poses${unitOf(data)}, Z3² + Z4² = 1`, ["pose", "Z1", "Z2", "Z3", "Z4"], rows);
+  if (!linkage) return [points];
+  const surfaces = linkage.led.map((dyad, k) => h("tr", {}, cells([dyad.id, ...linkage.said.manifolds[k]])));
+  const heads = ["", ...[1, 2, 3, 4, 5, 6, 7, 8].map((k) => `p${k}`)];
+  const caption = "Surfaces: p1 (Z1² + Z2²) + p2 Z3² + p3 Z1 Z3 + p4 Z2 Z3 + p5 Z1 Z4 + p6 Z2 Z4 + p7 Z3 Z4 + p8 Z4² = 0";
+  return [points, table(caption, heads, surfaces)];
+}
+function wayName(way, linkage) {
+  const circuits = new Set(linkage.ways.map((each) => each.circuit)).size;
+  const parts = [];
+  if (circuits > 1 || way.branches < 2) parts.push(`assembly ${way.circuit}`);
+  if (way.branches > 1) parts.push(`branch ${way.branch}`);
+  return parts.join(", ");
+}
 
 // src/burmester/web/studio/scene.mjs
 var LAYERS = ["grid", "regions", "ghosts", "map", "curves", "paths", "mechanism", "limits", "pivots", "poses", "labels", "tool"];
 var MARGIN = 46;
 var ZOOM = 1.0018;
-var WIDEST = 1e6;
+var WIDEST2 = 1e6;
 var CLICK = 4;
 var SPARE = 0.5;
 var Scene = class {
@@ -495,7 +895,7 @@ var Scene = class {
   /** Zoom about a point in pixels, which stays where it is. */
   zoom(factor, X, Y) {
     const fitted = this.fittedScale ?? this.origin.scale;
-    const scale = clamp(this.origin.scale * factor, fitted / WIDEST, fitted * WIDEST), by = scale / this.origin.scale;
+    const scale = clamp(this.origin.scale * factor, fitted / WIDEST2, fitted * WIDEST2), by = scale / this.origin.scale;
     this.isFitted = false;
     this.origin = { scale, left: X + by * (this.origin.left - X), top: Y + by * (this.origin.top - Y) };
     this.update();
@@ -503,10 +903,10 @@ var Scene = class {
   /** Show what is held; what is far as well where all of it is wanted. */
   fit(whole = false) {
     const pointsOf = (isFar) => this.boxes.filter(({ far: far2 }) => far2 === isFar).flatMap(({ fn }) => fn());
-    const near = pointsOf(false), far = pointsOf(true), all = bounds([...near, ...far]);
-    let [x, y, u, v] = near.length && !whole ? bounds(near) : Number.isFinite(all[0]) ? all : [-50, -50, 50, 50];
+    const near2 = pointsOf(false), far = pointsOf(true), all = bounds([...near2, ...far]);
+    let [x, y, u, v] = near2.length && !whole ? bounds(near2) : Number.isFinite(all[0]) ? all : [-50, -50, 50, 50];
     const size2 = Math.max(u - x, v - y) || Math.max(1, Math.abs(u), Math.abs(v));
-    if (near.length && far.length && !whole) {
+    if (near2.length && far.length && !whole) {
       const reach = SPARE * size2;
       [x, y, u, v] = [Math.max(all[0], x - reach), Math.max(all[1], y - reach), Math.min(all[2], u + reach), Math.min(all[3], v + reach)];
     }
@@ -524,17 +924,17 @@ var Scene = class {
   }
   grid() {
     const { view } = this, { width, height } = view, group = this.layer("grid");
-    const name = this.unit = this.store.document.length_unit, unit = name ? ` ${name}` : "";
+    const name = this.unit = this.store.document.length_unit, unit2 = name ? ` ${name}` : "";
     const across = ticks(view.x(0), view.x(width), width / 110), up = ticks(view.y(height), view.y(0), height / 80);
     const lines = [...across.map(({ at }) => `M${px(view.X(at))} 0V${height}`), ...up.map(({ at }) => `M0 ${px(view.Y(at))}H${width}`)];
     const origin = `M${px(clamp(view.X(0), -9, width + 9))} 0V${height}M0 ${px(clamp(view.Y(0), -9, height + 9))}H${width}`;
     group.replaceChildren(
       s("path", { class: "bs-grid-line", d: lines.join("") }),
       s("path", { class: "bs-grid-axis", d: origin }),
-      ...across.filter(({ at }) => view.X(at) > 46 && view.X(at) < width - (unit ? 54 : 30)).map(({ at, text }) => s("text", { x: px(view.X(at)), y: height - 6, "text-anchor": "middle" }, text)),
+      ...across.filter(({ at }) => view.X(at) > 46 && view.X(at) < width - (unit2 ? 54 : 30)).map(({ at, text }) => s("text", { x: px(view.X(at)), y: height - 6, "text-anchor": "middle" }, text)),
       ...up.filter(({ at }) => view.Y(at) > 30 && view.Y(at) < height - 24).map(({ at, text }) => s("text", { x: 6, y: px(view.Y(at) - 4) }, text)),
-      s("text", { x: 6, y: 14 }, `y${unit}`),
-      s("text", { x: width - 6, y: height - 6, "text-anchor": "end" }, `x${unit}`)
+      s("text", { x: 6, y: 14 }, `y${unit2}`),
+      s("text", { x: width - 6, y: height - 6, "text-anchor": "end" }, `x${unit2}`)
     );
   }
   /** The finest number that a pixel tells, a power of ten. */
@@ -584,15 +984,15 @@ var Scene = class {
       this.capture(event);
       const on = (name, fn) => this.svg.addEventListener(name, (each) => each.pointerId === event.pointerId && fn(each), { signal });
       on("pointermove", (each) => {
-        const point = this.at(each);
+        const point2 = this.at(each);
         if (!begun) {
-          if (Math.hypot(point.X - from.X, point.Y - from.Y) < CLICK) return;
+          if (Math.hypot(point2.X - from.X, point2.Y - from.Y) < CLICK) return;
           begun = start(from, event) !== false;
           if (!begun) return stop(() => {
           });
           this.svg.classList.add("bs-grasped");
         }
-        move(point, each);
+        move(point2, each);
       });
       on("pointerup", (each) => stop(() => begun ? end(this.at(each)) : click(event)));
       on("pointercancel", () => stop(() => begun && cancel()));
@@ -611,8 +1011,8 @@ var Scene = class {
     const { svg } = this;
     svg.addEventListener("wheel", (event) => {
       event.preventDefault();
-      const { X, Y } = this.at(event), unit = event.deltaMode === 1 ? 16 : 1;
-      this.zoom(ZOOM ** (-event.deltaY * unit * (event.ctrlKey ? 4 : 1)), X, Y);
+      const { X, Y } = this.at(event), unit2 = event.deltaMode === 1 ? 16 : 1;
+      this.zoom(ZOOM ** (-event.deltaY * unit2 * (event.ctrlKey ? 4 : 1)), X, Y);
     }, { passive: false });
     svg.addEventListener("pointerdown", (event) => this.press(event));
     svg.addEventListener("pointermove", (event) => this.moved(event));
@@ -634,34 +1034,34 @@ var Scene = class {
     this.capture(event);
   }
   moved(event) {
-    const point = this.at(event), held = this.pointers.get(event.pointerId);
+    const point2 = this.at(event), held = this.pointers.get(event.pointerId);
     if (!held) {
-      if (!this.dragged) this.tool?.hover?.(point);
+      if (!this.dragged) this.tool?.hover?.(point2);
       return;
     }
     const before = { X: held.X, Y: held.Y };
-    Object.assign(held, { X: point.X, Y: point.Y });
+    Object.assign(held, { X: point2.X, Y: point2.Y });
     if (this.pointers.size === 2) {
       const [one, other] = this.pointers.values(), still = held === one ? other : one;
-      const [now, then] = [point, before].map(({ X, Y }) => Math.hypot(X - still.X, Y - still.Y));
-      if (then > 0) this.zoom(now / then, (point.X + still.X) / 2, (point.Y + still.Y) / 2);
+      const [now, then] = [point2, before].map(({ X, Y }) => Math.hypot(X - still.X, Y - still.Y));
+      if (then > 0) this.zoom(now / then, (point2.X + still.X) / 2, (point2.Y + still.Y) / 2);
       return;
     }
-    held.panned ||= Math.hypot(point.X - held.from.X, point.Y - held.from.Y) > CLICK;
+    held.panned ||= Math.hypot(point2.X - held.from.X, point2.Y - held.from.Y) > CLICK;
     if (!held.panned) return;
-    if (this.tool?.drag?.(point, held)) return;
+    if (this.tool?.drag?.(point2, held)) return;
     this.svg.classList.add("bs-grasped");
-    this.pan(point.X - before.X, point.Y - before.Y);
+    this.pan(point2.X - before.X, point2.Y - before.Y);
   }
   released(event) {
     const held = this.pointers.get(event.pointerId);
     if (!held) return;
     this.pointers.delete(event.pointerId);
     this.svg.classList.remove("bs-grasped");
-    const point = this.at(event);
+    const point2 = this.at(event);
     if (event.type === "pointercancel") this.tool?.hover?.(null);
-    else if (held.panned) this.tool?.release?.(point, held);
-    else if (held.button === 0) this.tool ? this.tool.click(point, event) : this.emit("click", point, event);
+    else if (held.panned) this.tool?.release?.(point2, held);
+    else if (held.button === 0) this.tool ? this.tool.click(point2, event) : this.emit("click", point2, event);
   }
   key(event) {
     if (event.target !== this.svg || event.ctrlKey || event.metaKey || event.altKey) return;
@@ -705,7 +1105,7 @@ var MOST = 240;
 var LONGEST_NAME = 18;
 var ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 var tenths = (angle) => Number(angle.toFixed(1)) + 0;
-var unwrapped = (angle, near) => angle + 360 * Math.round((near - angle) / 360);
+var unwrapped = (angle, near2) => angle + 360 * Math.round((near2 - angle) / 360);
 function drawnPoses(store) {
   const count = store.document.poses.length, stride = Math.ceil(count / MOST);
   const chosen = store.selection?.kind === "pose" ? store.selection.index : -1;
@@ -755,16 +1155,16 @@ var PoseHandles = class {
   }
   show(group, k) {
     const { store, scene: { view } } = this, { x, y, angle } = standing(store.document, k), pose = store.document.poses[k];
-    const [arrow, origin, turn] = group.children;
+    const [arrow2, origin, turn] = group.children;
     const selected = store.selection?.kind === "pose" && store.selection.index === k;
     group.setAttribute("transform", transform(view.X(x), view.Y(y), radians(angle)));
-    arrow.setAttribute("d", axes(this.length - 8));
+    arrow2.setAttribute("d", axes(this.length - 8));
     turn.setAttribute("transform", `translate(${px(this.length)} 0)`);
     group.classList.toggle("bs-selected", selected);
     group.classList.toggle("bs-exact", Boolean(pose.exact));
-    const unit = store.document.length_unit ?? "", name = poseName(store.document, k);
+    const unit2 = store.document.length_unit ?? "", name = poseName(store.document, k);
     const called = pose.name ? `Pose ${k + 1}, ${name}` : `Pose ${k + 1}`;
-    origin.setAttribute("aria-label", `${called}: x ${x} ${unit}, y ${y} ${unit}, angle ${angle}°. Drag, or use the arrow keys; Delete removes it.`);
+    origin.setAttribute("aria-label", `${called}: x ${x} ${unit2}, y ${y} ${unit2}, angle ${angle}°. Drag, or use the arrow keys; Delete removes it.`);
     origin.setAttribute("aria-pressed", selected);
     turn.setAttribute("aria-label", `Turn ${called}`);
     turn.setAttribute("aria-valuenow", angle);
@@ -792,34 +1192,34 @@ var PoseHandles = class {
         gesture = /* @__PURE__ */ Symbol("move a pose");
         off = [x - from.x, y - from.y];
       },
-      move: (point) => this.set(k, { x: scene.rounded(point.x + off[0]), y: scene.rounded(point.y + off[1]) }, gesture),
+      move: (point2) => this.set(k, { x: scene.rounded(point2.x + off[0]), y: scene.rounded(point2.y + off[1]) }, gesture),
       cancel: () => store.abandon(gesture)
     });
   }
   dragTurn(element, k) {
     const { store, scene } = this;
     let gesture, off;
-    const angleTo = (point) => {
+    const angleTo = (point2) => {
       const { x, y } = standing(store.document, k);
-      return degrees(Math.atan2(point.y - y, point.x - x));
+      return degrees(Math.atan2(point2.y - y, point2.x - x));
     };
     scene.drag(element, {
       start: (from) => {
         gesture = /* @__PURE__ */ Symbol("turn a pose");
         off = standing(store.document, k).angle - angleTo(from);
       },
-      move: (point) => this.set(k, { angle: tenths(unwrapped(angleTo(point) + off, standing(store.document, k).angle)) }, gesture),
+      move: (point2) => this.set(k, { angle: tenths(unwrapped(angleTo(point2) + off, standing(store.document, k).angle)) }, gesture),
       cancel: () => store.abandon(gesture)
     });
   }
   key(event, k, turning) {
-    const { store, scene } = this, arrow = ARROWS[event.key];
+    const { store, scene } = this, arrow2 = ARROWS[event.key];
     if (event.ctrlKey || event.metaKey) return;
-    if (arrow) {
+    if (arrow2) {
       if (!event.repeat) this.keyed = /* @__PURE__ */ Symbol("keys");
       const { x, y, angle } = standing(store.document, k), by = stepOf(event, turning ? 1 : scene.step);
-      if (turning) this.set(k, { angle: stepped(angle, by * (arrow[0] === 0 ? arrow[1] : -arrow[0])) }, this.keyed);
-      else this.set(k, { x: stepped(x, by * arrow[0]), y: stepped(y, by * arrow[1]) }, this.keyed);
+      if (turning) this.set(k, { angle: stepped(angle, by * (arrow2[0] === 0 ? arrow2[1] : -arrow2[0])) }, this.keyed);
+      else this.set(k, { x: stepped(x, by * arrow2[0]), y: stepped(y, by * arrow2[1]) }, this.keyed);
     } else if (event.key === "Delete" || event.key === "Backspace") {
       store.edit((document2) => removePose(document2, k));
       const left = store.document.poses.length;
@@ -839,26 +1239,26 @@ var PoseTool = class {
     Object.assign(this, { store, scene, name: "pose", gesture: null });
     this.hint = "Click where the pose is to stand, and click again to turn it. Escape ends.";
   }
-  click(point) {
+  click(point2) {
     const { store, scene } = this;
     if (this.gesture) {
-      this.turn(point);
+      this.turn(point2);
       this.gesture = null;
       return;
     }
     this.gesture = /* @__PURE__ */ Symbol("add a pose");
     const angle = store.document.poses.at(-1)?.angle ?? 0;
-    store.edit((document2) => addPose(document2, { x: scene.rounded(point.x), y: scene.rounded(point.y), angle }), { gesture: this.gesture });
+    store.edit((document2) => addPose(document2, { x: scene.rounded(point2.x), y: scene.rounded(point2.y), angle }), { gesture: this.gesture });
     store.select({ kind: "pose", index: store.document.poses.length - 1 });
   }
-  hover(point) {
-    if (this.gesture && point) this.turn(point);
+  hover(point2) {
+    if (this.gesture && point2) this.turn(point2);
   }
-  turn(point) {
+  turn(point2) {
     const { store, gesture } = this, k = store.document.poses.length - 1, { x, y, angle } = standing(store.document, k);
-    const away = Math.hypot(point.x - x, point.y - y) * this.scene.view.scale;
+    const away = Math.hypot(point2.x - x, point2.y - y) * this.scene.view.scale;
     if (away < 6) return;
-    const next = tenths(unwrapped(degrees(Math.atan2(point.y - y, point.x - x)), angle));
+    const next = tenths(unwrapped(degrees(Math.atan2(point2.y - y, point2.x - x)), angle));
     store.edit((document2) => setPose(document2, k, { angle: next }), { gesture });
   }
   key(event) {
@@ -874,31 +1274,31 @@ var PoseTool = class {
 var cross = ([a, b], [c, d]) => a * d - b * c;
 var minus = ([a, b], [c, d]) => [a - c, b - d];
 var size = ([a, b]) => Math.hypot(a, b);
-function fromSegment(point, start, end) {
-  const along = minus(end, start), away = minus(point, start), square = along[0] ** 2 + along[1] ** 2;
+function fromSegment(point2, start, end) {
+  const along = minus(end, start), away = minus(point2, start), square = along[0] ** 2 + along[1] ** 2;
   const share = square > 0 ? Math.min(1, Math.max(0, (along[0] * away[0] + along[1] * away[1]) / square)) : 0;
   return size(minus(away, [share * along[0], share * along[1]]));
 }
 var boxCorners = ([[a, b], [c, d]]) => [[a, b], [c, b], [c, d], [a, d]];
 var outlineOf = (shape, points) => shape === "box" ? boxCorners(points) : points;
 function isInside([x, y], corners) {
-  let inside = false;
+  let inside2 = false;
   corners.forEach(([a, b], k) => {
     const [c, d] = corners[(k + 1) % corners.length];
-    if (b > y !== d > y && x < a + (y - b) / (d - b) * (c - a)) inside = !inside;
+    if (b > y !== d > y && x < a + (y - b) / (d - b) * (c - a)) inside2 = !inside2;
   });
-  return inside;
+  return inside2;
 }
-function distanceTo(point, shape, points) {
-  if (shape === "point") return size(minus(point, points[0]));
-  if (shape === "segment") return fromSegment(point, ...points);
+function distanceTo(point2, shape, points) {
+  if (shape === "point") return size(minus(point2, points[0]));
+  if (shape === "segment") return fromSegment(point2, ...points);
   if (shape === "line") {
     const along = minus(points[1], points[0]);
-    return Math.abs(cross(along, minus(point, points[0]))) / size(along);
+    return Math.abs(cross(along, minus(point2, points[0]))) / size(along);
   }
   const corners = outlineOf(shape, points);
-  if (isInside(point, corners)) return 0;
-  return Math.min(...corners.map((corner, k) => fromSegment(point, corner, corners[(k + 1) % corners.length])));
+  if (isInside(point2, corners)) return 0;
+  return Math.min(...corners.map((corner, k) => fromSegment(point2, corner, corners[(k + 1) % corners.length])));
 }
 var crosses = (a, b, c, d) => {
   const turn = (p, q, r) => Math.sign(cross(minus(q, p), minus(r, p)));
@@ -922,17 +1322,17 @@ var LEAST_CORNERS = 3;
 var CLOSED = /* @__PURE__ */ new Set(["box", "polygon"]);
 var GROUND = { x: 0, y: 0, a: 0 };
 function pathOf(shape, points, place, view) {
-  const seen2 = outlineOf(shape, points).map((point) => act(place, point)).map(([x, y]) => [view.X(x), view.Y(y)]);
+  const seen2 = outlineOf(shape, points).map((point2) => act(place, point2)).map(([x, y]) => [view.X(x), view.Y(y)]);
   if (shape === "point") return `M${px(seen2[0][0] - 7)} ${px(seen2[0][1])}h14m-7 -7v14`;
   if (shape === "line") {
     const [[a, b], [c, d]] = seen2, size2 = Math.hypot(c - a, d - b) || 1, far = view.width + view.height + Math.hypot(a, b);
     const [u, v] = [far * (c - a) / size2, far * (d - b) / size2];
     return `M${px(a - u)} ${px(b - v)}L${px(c + u)} ${px(d + v)}`;
   }
-  return `M${seen2.map((point) => point.map(px).join(" ")).join("L")}${CLOSED.has(shape) ? "Z" : ""}`;
+  return `M${seen2.map((point2) => point2.map(px).join(" ")).join("L")}${CLOSED.has(shape) ? "Z" : ""}`;
 }
 function withCorner(shape, points, k, to) {
-  if (shape !== "box") return points.map((point, i) => i === k ? to : point);
+  if (shape !== "box") return points.map((point2, i) => i === k ? to : point2);
   const opposite = boxCorners(points)[(k + 2) % 4];
   return [[Math.min(to[0], opposite[0]), Math.min(to[1], opposite[1])], [Math.max(to[0], opposite[0]), Math.max(to[1], opposite[1])]];
 }
@@ -987,13 +1387,13 @@ var ShapeHandles = class {
   dragWhole() {
     let gesture, from, before;
     this.scene.drag(this.area, {
-      start: (point) => {
+      start: (point2) => {
         gesture = /* @__PURE__ */ Symbol("move a shape");
-        from = back(this.now.place, [point.x, point.y]);
+        from = back(this.now.place, [point2.x, point2.y]);
         before = this.now.points;
       },
-      move: (point) => {
-        const to = back(this.now.place, [point.x, point.y]), by = [to[0] - from[0], to[1] - from[1]];
+      move: (point2) => {
+        const to = back(this.now.place, [point2.x, point2.y]), by = [to[0] - from[0], to[1] - from[1]];
         this.set(before.map(([x, y]) => [this.scene.rounded(x + by[0]), this.scene.rounded(y + by[1])]), gesture);
       },
       cancel: () => this.abandon(gesture),
@@ -1005,7 +1405,7 @@ var ShapeHandles = class {
     let gesture;
     this.scene.drag(circle, {
       start: () => (gesture = /* @__PURE__ */ Symbol("move a corner")) && true,
-      move: (point) => this.set(withCorner(this.now.shape, this.now.points, k, this.point(point)), gesture),
+      move: (point2) => this.set(withCorner(this.now.shape, this.now.points, k, this.point(point2)), gesture),
       cancel: () => this.abandon(gesture)
     });
     circle.addEventListener("keydown", (event) => this.keys(event, (points, by) => {
@@ -1028,7 +1428,7 @@ var ShapeHandles = class {
         gesture = /* @__PURE__ */ Symbol("add a corner");
         this.set([...this.now.points.slice(0, k + 1), this.now.points[k], ...this.now.points.slice(k + 1)], gesture);
       },
-      move: (point) => this.set(withCorner("polygon", this.now.points, k + 1, this.point(point)), gesture),
+      move: (point2) => this.set(withCorner("polygon", this.now.points, k + 1, this.point(point2)), gesture),
       cancel: () => this.abandon(gesture)
     });
     return circle;
@@ -1045,11 +1445,11 @@ var ShapeHandles = class {
   }
   keys(event, moved, remove) {
     if (event.ctrlKey || event.metaKey) return;
-    const arrow = ARROWS2[event.key];
-    if (arrow) {
+    const arrow2 = ARROWS2[event.key];
+    if (arrow2) {
       if (!event.repeat) this.keyed = /* @__PURE__ */ Symbol("keys");
       const by = stepOf(event, this.scene.step);
-      this.set(moved(this.now.points, [by * arrow[0], by * arrow[1]]), this.keyed);
+      this.set(moved(this.now.points, [by * arrow2[0], by * arrow2[1]]), this.keyed);
     } else if (event.key === "Delete" || event.key === "Backspace") {
       remove();
     } else {
@@ -1086,10 +1486,10 @@ var ShapeTool = class {
   point({ x, y }) {
     return back(this.place(), [x, y]).map((each) => this.scene.rounded(each));
   }
-  click(point, event) {
-    const next = this.point(point);
+  click(point2, event) {
+    const next = this.point(point2);
     if (this.shape === "polygon") {
-      if (this.points.length > 2 && (this.isFirst(point) || event?.detail > 1)) return this.finish(this.points);
+      if (this.points.length > 2 && (this.isFirst(point2) || event?.detail > 1)) return this.finish(this.points);
       if (this.points.length && isFlat([this.points.at(-1), next])) return void 0;
     }
     this.points.push(next);
@@ -1100,14 +1500,14 @@ var ShapeTool = class {
     const [x, y] = act(this.place(), this.points[0]), { view } = this.scene;
     return Math.hypot(view.X(x) - X, view.Y(y) - Y) < CLOSE;
   }
-  hover(point) {
-    this.next = point && this.point(point);
+  hover(point2) {
+    this.next = point2 && this.point(point2);
     this.draw();
   }
   /** Two points are drawn by a drag as well; of a polygon a drag moves the plane. */
-  drag(point, held) {
+  drag(point2, held) {
     if (!PAIRS.has(this.shape) || this.points.length) return false;
-    this.dragging = [this.point(this.inPlane(held.from)), this.point(point)];
+    this.dragging = [this.point(this.inPlane(held.from)), this.point(point2)];
     this.draw();
     return true;
   }
@@ -1148,7 +1548,7 @@ var ShapeTool = class {
     const complete = shown.length > 1 || shape === "point";
     this.path.setAttribute("d", complete && shown.length ? pathOf(whole, shown, place, view) : "");
     this.dots.replaceChildren(
-      ...(this.dragging ?? this.points).map((point) => act(place, point)).map(([x, y], k) => s("circle", { class: k ? "bs-draft-dot" : "bs-draft-dot bs-first", r: 4, cx: px(view.X(x)), cy: px(view.Y(y)) }))
+      ...(this.dragging ?? this.points).map((point2) => act(place, point2)).map(([x, y], k) => s("circle", { class: k ? "bs-draft-dot" : "bs-draft-dot bs-first", r: 4, cx: px(view.X(x)), cy: px(view.Y(y)) }))
     );
   }
   end() {
@@ -1174,7 +1574,7 @@ var BodyEditor = class {
   constructor(store, scene) {
     this.store = store;
     this.scene = scene;
-    this.ghosts = new Kept(s("g", { class: "bs-ghosts", "aria-hidden": "true" }), () => s("path", { class: "bs-ghost" }), (path, item) => this.showGhost(path, item));
+    this.ghosts = new Kept(s("g", { class: "bs-ghosts", "aria-hidden": "true" }), () => s("path", { class: "bs-ghost" }), (path2, item) => this.showGhost(path2, item));
     scene.layer("ghosts").append(this.ghosts.group);
     this.handles = new ShapeHandles(scene, {
       className: "bs-body-shape",
@@ -1208,11 +1608,11 @@ var BodyEditor = class {
     if (!this.handles.element.parentNode) this.scene.layer("ghosts").append(this.handles.element);
     return this.handles.draw();
   }
-  showGhost(path, k) {
+  showGhost(path2, k) {
     const { view } = this.scene, { x, y, angle } = standing(this.store.document, k), last = Math.max(1, this.store.document.poses.length - 1);
-    if (path.getAttribute("d") !== this.path) path.setAttribute("d", this.path);
-    path.setAttribute("opacity", (PALEST + (1 - PALEST) * k / last).toFixed(3));
-    path.setAttribute("transform", transform(view.X(x), view.Y(y), radians(angle)));
+    if (path2.getAttribute("d") !== this.path) path2.setAttribute("d", this.path);
+    path2.setAttribute("opacity", (PALEST + (1 - PALEST) * k / last).toFixed(3));
+    path2.setAttribute("transform", transform(view.X(x), view.Y(y), radians(angle)));
   }
   /** Draw an outline by clicks, at the pose that is selected or the first one. */
   tool() {
@@ -1240,30 +1640,30 @@ function currentLinkage(store) {
   return store.solved?.linkages.find(({ id }) => id === store.chosen) ?? null;
 }
 var PIVOT = { fixed_pivot: "fixed pivot", moving_pivot: "moving pivot" };
-function missed(table, dyad, slack) {
+function missed(table3, dyad, slack) {
   const found = [];
   for (const key of KEYS) {
-    if (!table[key]) continue;
-    const [[shape, stated]] = Object.entries(table[key]), points = shape === "point" ? [stated] : stated;
+    if (!table3[key]) continue;
+    const [[shape, stated]] = Object.entries(table3[key]), points = shape === "point" ? [stated] : stated;
     const away = dyad[key] ? distanceTo(dyad[key], shape, points) : Infinity;
     if (away > slack) found.push({ key, dyad: dyad.id, away });
   }
-  const { least = 0, most = Infinity } = table.length ?? {};
-  if (table.length && dyad.kind === "RR" && (dyad.radius < least - slack || dyad.radius > most + slack)) {
-    found.push({ key: "length", dyad: dyad.id, away: Math.max(least - dyad.radius, dyad.radius - most) });
+  const { least: least2 = 0, most = Infinity } = table3.length ?? {};
+  if (table3.length && dyad.kind === "RR" && (dyad.radius < least2 - slack || dyad.radius > most + slack)) {
+    found.push({ key: "length", dyad: dyad.id, away: Math.max(least2 - dyad.radius, dyad.radius - most) });
   }
-  if (table.kinds && !table.kinds.includes(dyad.kind)) found.push({ key: "kinds", dyad: dyad.id, away: Infinity });
+  if (table3.kinds && !table3.kinds.includes(dyad.kind)) found.push({ key: "kinds", dyad: dyad.id, away: Infinity });
   return found;
 }
 function limitsMissed(document2, linkage, size2) {
   const tables = limitsOf(document2), slack = ROUNDING * size2, [one, other] = linkage.led;
-  if (tables.length < 2) return tables.map((table) => [...missed(table, one, slack), ...missed(table, other, slack)]);
+  if (tables.length < 2) return tables.map((table3) => [...missed(table3, one, slack), ...missed(table3, other, slack)]);
   const pairings = [[one, other], [other, one]].map((dyads) => dyads.map((dyad, k) => missed(tables[k], dyad, slack)));
   const total = (lists) => lists.flat().length;
   return total(pairings[1]) < total(pairings[0]) ? pairings[1] : pairings[0];
 }
-function missedSentence({ key, dyad, away }, unit) {
-  const by = `${Number(away.toPrecision(2))}${unit ? ` ${unit}` : ""}`;
+function missedSentence({ key, dyad, away }, unit2) {
+  const by = `${Number(away.toPrecision(2))}${unit2 ? ` ${unit2}` : ""}`;
   if (key === "kinds") return `${dyad} is of another kind.`;
   if (key === "length") return `The link of ${dyad} is ${by} beyond its range.`;
   return away === Infinity ? `${dyad} has no ${PIVOT[key]}.` : `The ${PIVOT[key]} of ${dyad} is ${by} outside.`;
@@ -1298,9 +1698,9 @@ function regionsTouched(document2, linkage, body) {
     if (body.length > 2 && places.some((place) => overlap(seen(body, place), corners))) return "The body touches it.";
     for (const dyad of linkage.led) {
       if (dyad.kind !== "RR") continue;
-      const near = Math.min(...places.map((place) => segmentFromPolygon([dyad.fixed_pivot, act(place, dyad.moving_pivot)], corners)));
-      if (near === 0 || near < width / 2) return `The link of ${dyad.id} touches it.`;
-      if (near < width / 2 + margin) return `The link of ${dyad.id} comes nearer than the margin.`;
+      const near2 = Math.min(...places.map((place) => segmentFromPolygon([dyad.fixed_pivot, act(place, dyad.moving_pivot)], corners)));
+      if (near2 === 0 || near2 < width / 2) return `The link of ${dyad.id} touches it.`;
+      if (near2 < width / 2 + margin) return `The link of ${dyad.id} comes nearer than the margin.`;
     }
     return "";
   });
@@ -1349,16 +1749,16 @@ var Connection = class {
     await this.post("/session", { token });
     history.replaceState(null, "", location.pathname);
   }
-  async get(path) {
-    return (await this.request(path, {})).json();
+  async get(path2) {
+    return (await this.request(path2, {})).json();
   }
   /** The answer as a Response: JSON or a file. */
-  post(path, body, method = "POST") {
-    return this.request(path, { method, headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) });
+  post(path2, body, method = "POST") {
+    return this.request(path2, { method, headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) });
   }
   /** Raises Refused with the server's messages; a TypeError where there is no server. */
-  async request(path, options) {
-    const response = await fetch(path, { credentials: "same-origin", ...options });
+  async request(path2, options) {
+    const response = await fetch(path2, { credentials: "same-origin", ...options });
     if (!response.ok) throw new Refused(response.status, await messagesOf(response));
     return response;
   }
@@ -1554,10 +1954,10 @@ var Files = class {
     download(new Blob([`${JSON.stringify(this.store.document, null, 2)}
 `], { type: "application/json" }), `${this.store.name.replace(/[^\w.-]+/g, "-") || "task"}.json`);
   }
-  export(path, what = {}) {
+  export(path2, what = {}) {
     return this.trying("Exporting", async () => {
       const linkage = this.store.chosen === "placed" ? null : this.store.chosen;
-      this.hand(await this.server.post(path, { ...this.task, linkage, ...what }), "export");
+      this.hand(await this.server.post(path2, { ...this.task, linkage, ...what }), "export");
     });
   }
   async hand(response, otherwise) {
@@ -1587,11 +1987,11 @@ var Files = class {
     });
   }
   listen() {
-    let inside = 0;
+    let inside2 = 0;
     const hasFiles = (event) => [...event.dataTransfer?.types ?? []].includes("Files");
     const show = (by) => {
-      inside = Math.max(0, inside + by);
-      this.dropping.hidden = inside === 0;
+      inside2 = Math.max(0, inside2 + by);
+      this.dropping.hidden = inside2 === 0;
     };
     document.addEventListener("dragenter", (event) => hasFiles(event) && (event.preventDefault(), show(1)));
     document.addEventListener("dragover", (event) => hasFiles(event) && event.preventDefault());
@@ -1600,7 +2000,7 @@ var Files = class {
       if (!hasFiles(event)) return;
       event.preventDefault();
       show(-Infinity);
-      inside = 0;
+      inside2 = 0;
       for (const file of event.dataTransfer.files) await this.take(file);
     });
     document.addEventListener("paste", (event) => {
@@ -1652,7 +2052,7 @@ var SAME = 2e-3;
 var AMBIGUOUS = 0.25;
 function coordinates(dyad, scene) {
   const out = [];
-  for (const point of [dyad.fixed_pivot, dyad.moving_pivot]) if (point) out.push(point[0] / scene, point[1] / scene);
+  for (const point2 of [dyad.fixed_pivot, dyad.moving_pivot]) if (point2) out.push(point2[0] / scene, point2[1] / scene);
   if (dyad.radius !== void 0) out.push(dyad.radius / scene);
   if (dyad.line) {
     const angle = radians(dyad.line.normal_deg), offset = dyad.line.offset / scene;
@@ -1789,7 +2189,7 @@ var PoseTable = class {
     const change = (changes) => this.store.edit((document2) => setPose(document2, row.index, changes));
     row.number = h("button", { type: "button", class: "bs-index", onclick: () => this.store.select(row.index === this.selected ? null : { kind: "pose", index: row.index }) });
     row.name = textField("Name", (text) => change({ name: text.trim() || void 0 }), { class: "bs-text bs-name", placeholder: "–" });
-    const cells = NUMBERS.map(([key, kind]) => {
+    const cells2 = NUMBERS.map(([key, kind]) => {
       const field = new NumberField({
         label: key,
         options: () => ({ kind, unit: this.store.document.length_unit, optional: this.isFree(row.index, key) }),
@@ -1800,7 +2200,7 @@ var PoseTable = class {
       row.fields[key] = field;
       return h("td", {}, field.element);
     });
-    row.tr = h("tr", { class: "bs-pose-row" }, h("th", { scope: "row" }, row.number), h("td", {}, row.name), cells);
+    row.tr = h("tr", { class: "bs-pose-row" }, h("th", { scope: "row" }, row.number), h("td", {}, row.name), cells2);
     row.tr.addEventListener("focusin", (event) => event.target !== row.number && this.store.select({ kind: "pose", index: row.index }));
     return row;
   }
@@ -1929,8 +2329,8 @@ var PoseTable = class {
 var LONGEST_NAME2 = 22;
 var HATCH = 9;
 var PIVOT2 = { fixed_pivot: "Fixed pivot", moving_pivot: "Moving pivot" };
-function limitName(document2, { table, key }) {
-  return `${PIVOT2[key]}${limitsOf(document2).length > 1 ? ` of dyad ${table + 1}` : ""}`;
+function limitName(document2, { table: table3, key }) {
+  return `${PIVOT2[key]}${limitsOf(document2).length > 1 ? ` of dyad ${table3 + 1}` : ""}`;
 }
 function regionShape(region) {
   if (region.box) return { shape: "box", points: region.box };
@@ -1961,7 +2361,7 @@ var Regions = class {
     return key === "moving_pivot" ? referencePlace(this.store) : GROUND;
   }
   corners(limit) {
-    return outlineOf(limit.shape, limit.points).map((point) => act(this.place(limit), point));
+    return outlineOf(limit.shape, limit.points).map((point2) => act(this.place(limit), point2));
   }
   /** Whether what must not be touched, or what touches, is another than when it was judged. */
   isOther() {
@@ -1983,8 +2383,8 @@ var Regions = class {
     this.onjudged?.();
   }
   /** Sentences on a limit, by its table and key; null where no linkage is there. */
-  said(table, key) {
-    return this.broken?.[table]?.filter((each) => each.key === key).map((each) => missedSentence(each, this.store.document.length_unit)) ?? null;
+  said(table3, key) {
+    return this.broken?.[table3]?.filter((each) => each.key === key).map((each) => missedSentence(each, this.store.document.length_unit)) ?? null;
   }
   draw() {
     const { document: document2 } = this.store, regions = regionsOf(document2), limits = limitRegions(document2), { footprint } = document2.requirements ?? {};
@@ -2039,13 +2439,13 @@ var Regions = class {
     this.store.select(null);
     this.scene.svg.focus({ preventScroll: true });
   }
-  makeLimit({ table, key }) {
+  makeLimit({ table: table3, key }) {
     const { store } = this, place = () => this.place({ key });
-    const at = () => limitRegions(store.document).findIndex((each) => each.table === table && each.key === key);
+    const at = () => limitRegions(store.document).findIndex((each) => each.table === table3 && each.key === key);
     return this.kept(new ShapeHandles(this.scene, {
       className: `bs-limit bs-${key.replace("_", "-")}`,
       what: () => {
-        const index = at(), limit = limitRegions(store.document)[index], said = this.said(table, key);
+        const index = at(), limit = limitRegions(store.document)[index], said = this.said(table3, key);
         return {
           ...limit,
           place: place(),
@@ -2055,14 +2455,14 @@ var Regions = class {
           data: { limit: index, plane: key === "moving_pivot" ? "M" : "F" }
         };
       },
-      set: (points, gesture) => store.edit((document2) => setLimit(document2, table, { [key]: shapeOf(Object.keys(limitsOf(document2)[table][key])[0], points) }), { gesture }),
-      remove: () => this.removeLimit(table, key),
+      set: (points, gesture) => store.edit((document2) => setLimit(document2, table3, { [key]: shapeOf(Object.keys(limitsOf(document2)[table3][key])[0], points) }), { gesture }),
+      remove: () => this.removeLimit(table3, key),
       select: () => store.select({ kind: "limit", index: at() }),
       abandon: (gesture) => store.abandon(gesture)
     }));
   }
-  removeLimit(table, key) {
-    this.store.edit((document2) => setLimit(document2, table, { [key]: void 0 }));
+  removeLimit(table3, key) {
+    this.store.edit((document2) => setLimit(document2, table3, { [key]: void 0 }));
     this.store.select(null);
     this.scene.svg.focus({ preventScroll: true });
   }
@@ -2101,15 +2501,15 @@ var Regions = class {
       }
     });
   }
-  limitTool(table, key, shape) {
+  limitTool(table3, key, shape) {
     const { store } = this;
     return new ShapeTool(this.scene, {
       shape,
-      name: `limit ${table} ${key} ${shape}`,
+      name: `limit ${table3} ${key} ${shape}`,
       place: () => this.place({ key }),
       done: (points) => {
-        store.edit((document2) => setLimit(document2, table, { [key]: shapeOf(shape, points) }));
-        store.select({ kind: "limit", index: limitRegions(store.document).findIndex((each) => each.table === table && each.key === key) });
+        store.edit((document2) => setLimit(document2, table3, { [key]: shapeOf(shape, points) }));
+        store.select({ kind: "limit", index: limitRegions(store.document).findIndex((each) => each.table === table3 && each.key === key) });
       }
     });
   }
@@ -2135,13 +2535,3848 @@ function middleOf(points, upper) {
   return [(x + u) / 2, upper ? v : y];
 }
 
+// src/burmester/web/widget/printing.mjs
+function unfoldForPrint(root, signal) {
+  window.addEventListener("beforeprint", () => {
+    for (const part of root.querySelectorAll("details:not([open])")) {
+      part.open = true;
+      part.dataset.opened = "";
+    }
+  }, { signal });
+  window.addEventListener("afterprint", () => {
+    for (const part of root.querySelectorAll("details[data-opened]")) {
+      part.open = false;
+      delete part.dataset.opened;
+    }
+  }, { signal });
+}
+
+// src/burmester/web/studio/events.mjs
+var Events = class {
+  /** Call `fn` after any of the events whose names stand in `names`, blanks between them. */
+  on(names, fn) {
+    this.heard ??= /* @__PURE__ */ new Map();
+    for (const name of names.split(" ")) this.heard.set(name, [...this.heard.get(name) ?? [], fn]);
+  }
+  emit(name, ...values) {
+    for (const fn of this.heard?.get(name) ?? []) fn(...values);
+  }
+};
+
+// src/burmester/web/studio/answers.mjs
+var LONGEST_NAME3 = 5;
+var FOLLOWED = 1e-7;
+var EXACT_TURN = 1e-5;
+var UNSEEN = 1e-6;
+var PLACED = "placed";
+var NOTHING = {
+  poses: [],
+  body: null,
+  keep_out: [],
+  scene: 1,
+  unit: null,
+  dyads: [],
+  linkages: [],
+  dyads_title: "Dyads",
+  chart: { origin: [0, 0], angle: 0, length: 1 },
+  space: { centre: [0, 0, 0], half: [1, 1, 1], quadrics: [] },
+  pivot_map: null,
+  family_map: null,
+  asked_transmission_deg: null,
+  best: [],
+  warnings: [],
+  footnotes: ""
+};
+var Answers = class extends Events {
+  /** @param {object} store */
+  constructor(store) {
+    super();
+    this.store = store;
+    this.data = { ...NOTHING };
+    this.linkages = [];
+    this.gone = [];
+    this.byId = /* @__PURE__ */ new Map();
+    this.placed = null;
+    store.on("solved", () => this.takeSolved());
+    store.on("followed", () => this.takeFollowed());
+    store.on("document", () => this.takePoses());
+    store.on("chosen", () => this.emit("shown"));
+    store.on("placed", () => this.takePlaced());
+    this.takePoses();
+    if (store.solved) this.takeSolved();
+  }
+  /** The linkage that is drawn, or undefined. */
+  get shown() {
+    return this.get(this.store.chosen) ?? (this.store.chosen === PLACED ? void 0 : this.linkages[0]);
+  }
+  /** @param {string | null} id */
+  get(id) {
+    return id === PLACED ? this.placed ?? void 0 : this.byId.get(id);
+  }
+  /** Whether what only the whole road knows belongs to an older task. */
+  get isOld() {
+    return this.store.solvedFor !== this.store.document;
+  }
+  takePoses() {
+    const poses = posesOf(this.store.document);
+    Object.assign(this.data, { poses, ...surroundingsOf(this.store.document, this.data) });
+    this.emit("poses");
+  }
+  takeSolved() {
+    const { solved, document: document2 } = this.store, before = this.linkages.filter((each) => !each.gone);
+    const names = this.store.renamed ?? continuedAs(before, solved.linkages, solved.scene);
+    const was = new Map([...names].map(([old, id]) => [id, this.byId.get(old)]));
+    const { poses, body, keep_out, ...rest } = solved;
+    Object.assign(this.data, { body, keep_out, ...rest, poses: posesOf(document2) });
+    this.gone = before.filter((each) => !names.has(each.id)).map((each) => each.id);
+    this.byId = /* @__PURE__ */ new Map();
+    this.linkages = solved.linkages.map((fresh) => {
+      const kept = was.get(fresh.id), now = kept ?? {};
+      const stood = kept && kept.rank !== Infinity;
+      const before2 = stood && kept.id !== fresh.id ? kept.id : null;
+      for (const key of Object.keys(now)) delete now[key];
+      Object.assign(now, figured(linked(fresh)), { was: before2, isNew: this.known && !stood, followed: false, gone: null, change: null });
+      this.byId.set(now.id, now);
+      return now;
+    });
+    this.known = true;
+    this.emit("answers");
+  }
+  takeFollowed() {
+    const frame = this.store.followed;
+    if (!frame) return;
+    for (const each of frame.linkages) {
+      let now = this.byId.get(each.id);
+      if (now && each.fresh === false) continue;
+      if (!now) {
+        now = appeared(each);
+        this.byId.set(each.id, now);
+        this.linkages.push(now);
+        this.hasNew = true;
+      }
+      follow(now, each, this.data);
+    }
+    for (const { id, message } of frame.vanished ?? []) {
+      const now = this.byId.get(id);
+      if (now) Object.assign(now, { gone: message, usable: false });
+    }
+    for (const { id, kind, message } of frame.changes ?? []) {
+      const now = this.byId.get(id);
+      if (now && kind !== "vanished") now.change = message;
+    }
+    if (this.hasNew) {
+      this.hasNew = false;
+      this.emit("answers");
+    } else {
+      this.emit("moved");
+    }
+  }
+  takePlaced() {
+    const placed = this.store.placed?.linkage;
+    const before = this.placed;
+    this.placed = placed ? Object.assign(before ?? {}, figured(renamed(linked(placed))), { id: PLACED, gone: null, followed: false }) : null;
+    this.emit("placed");
+    if (this.store.chosen === PLACED) this.emit(before && placed ? "moved" : "shown");
+  }
+};
+var linked = (linkage) => ({
+  ...linkage,
+  pose_errors: linkage.pose_errors.map((row) => ({ ...row, at: row.way === null ? null : linkage.ways[row.way] }))
+});
+var figured = (linkage) => Object.assign(linkage, { worst: linkage.position_error.max, least: linkage.min_transmission_angle_deg.range });
+function renamed(linkage) {
+  const names = new Map(linkage.dyads.map((dyad, k) => [dyad.id, `P${k + 1}`]));
+  const named = (dyad) => ({ ...dyad, id: names.get(dyad.id) ?? dyad.id });
+  const dimensions = linkage.said.dimensions.map((row) => ({ ...row, dyad: names.get(row.dyad) ?? row.dyad }));
+  return { ...linkage, dyads: linkage.dyads.map(named), led: linkage.led.map(named), said: { ...linkage.said, dimensions } };
+}
+function posesOf({ poses = [] }) {
+  const names = poses.map((pose, k) => pose.name || String(k + 1));
+  const short = names.every((name) => name.length <= LONGEST_NAME3);
+  return poses.map((pose, k) => ({ ...pose, angle_deg: pose.angle, name: names[k], label: short ? names[k] : String(k + 1) }));
+}
+var surroundingsOf = (document2, data) => ({ body: Array.isArray(document2.body) ? document2.body : document2.body === void 0 ? null : data.body });
+function follow(now, each, data) {
+  now.usable = each.usable;
+  now.led = each.led;
+  now.worst = each.worst;
+  now.least = each.transmission_deg;
+  now.reason = each.reason;
+  now.followed = true;
+  now.gone = null;
+  if (each.type) now.type = each.type;
+  if (!each.ways?.length) {
+    now.ways = now.ways ?? [];
+    return;
+  }
+  now.ways = each.ways;
+  now.pose_errors = each.pose_errors.map((row) => ({
+    ...row,
+    at: row.way === null ? null : each.ways[row.way],
+    said: row.x === null ? { position: "-", turned: "-", transmission: "-" } : {
+      position: row.position < FOLLOWED * data.scene ? "exact" : figure(row.position),
+      turned: row.turned_deg < EXACT_TURN ? "exact" : `${figure(row.turned_deg)}°`,
+      transmission: row.transmission_deg === null ? "-" : `${fixed(row.transmission_deg, 1)}°`
+    }
+  }));
+}
+var appeared = (each) => ({
+  id: each.id,
+  type: each.type ?? "linkage",
+  rank: Infinity,
+  dyads: each.led,
+  ways: [],
+  pose_errors: [],
+  isNew: true,
+  followed: true,
+  said: { met: "", in_short: each.reason ?? "", reasons: [], quality: {}, dimensions: [], notes: [], links: null, manifolds: [[], []], turns_fully: false, freedom: null, worst: "–", angle: "–", rms: "–", rms_angle: "–", transmission: "-" },
+  space: null,
+  shortcomings: [],
+  defects: [],
+  unmet: []
+});
+function worstOf(linkage, data) {
+  if (linkage.worst === null || linkage.worst === void 0) return "–";
+  if (!linkage.followed) return linkage.said.worst === "-" ? "–" : linkage.said.worst === "exact" ? "exact" : `${linkage.said.worst}${data.unit ? ` ${data.unit}` : ""}`;
+  return linkage.worst < FOLLOWED * data.scene ? "exact" : `${figure(linkage.worst)}${data.unit ? ` ${data.unit}` : ""}`;
+}
+function leastOf(linkage) {
+  if (!linkage.followed) return linkage.said.transmission === "-" ? "–" : linkage.said.transmission;
+  return linkage.least === null || linkage.least === void 0 ? "–" : `${fixed(linkage.least, 0)}°`;
+}
+function dimensionsOf(linkage, data) {
+  const digits = decimalsOf(data), point2 = (p) => `(${p.map((value) => fixed(value, digits)).join(", ")})`;
+  return linkage.led.flatMap((dyad) => [
+    ...dyad.fixed_pivot ? [{ dyad: dyad.id, what: "fixed pivot in F", value: point2(dyad.fixed_pivot) }] : [],
+    ...dyad.moving_pivot ? [{ dyad: dyad.id, what: "moving pivot in M", value: point2(dyad.moving_pivot) }] : [],
+    ...dyad.radius !== void 0 ? [{ dyad: dyad.id, what: "length", value: fixed(dyad.radius, digits) }] : [],
+    ...dyad.line ? [{ dyad: dyad.id, what: `line in ${dyad.kind === "PR" ? "F" : "M"}, normal and offset`, value: `${fixed(dyad.line.normal_deg, 2)}°, ${fixed(dyad.line.offset, digits)}` }] : []
+  ]);
+}
+var placeOf = (row) => ({ x: row.x, y: row.y, a: radians(row.angle_deg) });
+
+// src/burmester/web/widget/vectors.mjs
+var dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+var scaled = (a, k) => [a[0] * k, a[1] * k, a[2] * k];
+var plus = (a, b) => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
+var cross2 = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+var unit = (a) => scaled(a, 1 / Math.hypot(...a));
+var times = (c, p, w) => [0, 4, 8, 12].map((r) => c[r] * p[0] + c[r + 1] * p[1] + c[r + 2] * p[2] + c[r + 3] * w);
+function intersections(c, o, d) {
+  const cd = times(c, d, 0), co = times(c, o, 1);
+  const a = dot(d, cd), b = dot(o, cd) + cd[3], e = dot(o, co) + co[3];
+  const root = b * b - a * e;
+  if (root < 0) return [];
+  const q = -(b + (b < 0 ? -1 : 1) * Math.sqrt(root));
+  const roots = [];
+  if (Math.abs(a) > 1e-12 * Math.abs(q)) roots.push(q / a);
+  if (q !== 0) roots.push(e / q);
+  return roots;
+}
+
+// src/burmester/web/widget/instantaneous.mjs
+function instantCentre(dyads, place) {
+  const [u, v, omega] = cross2(gradient(dyads[0], place), gradient(dyads[1], place));
+  const centre = [place.x - v / omega, place.y + u / omega];
+  return Number.isFinite(centre[0]) && Number.isFinite(centre[1]) ? centre : null;
+}
+function centrodePoint(dyads, place) {
+  const fixed2 = instantCentre(dyads, place);
+  return fixed2 && { fixed: fixed2, moving: back(place, fixed2) };
+}
+function driveOf(dyad, place) {
+  if (dyad.kind === "PR") return alongLine(dyad, place);
+  if (dyad.kind === "RP") return place.a + radians(dyad.line.normal_deg);
+  const [x, y] = act(place, dyad.moving_pivot);
+  return Math.atan2(y - dyad.fixed_pivot[1], x - dyad.fixed_pivot[0]);
+}
+function transmissionOf(driver, follower, place) {
+  if (driver.kind === "PP" || follower.kind === "PP") return null;
+  const slot = (dyad) => {
+    const [nx, ny] = normalOf(dyad), c = Math.cos(place.a), d = Math.sin(place.a);
+    return [c * nx - d * ny, d * nx + c * ny];
+  };
+  if (driver.kind === "RP" && follower.kind === "RP") return 90;
+  if (follower.kind === "RP") {
+    const pin = act(place, driver.moving_pivot), [x, y] = follower.fixed_pivot;
+    return between(slot(follower), [x - pin[0], y - pin[1]]);
+  }
+  const end = act(place, follower.moving_pivot);
+  const lever = follower.kind === "PR" ? normalOf(follower) : [end[0] - follower.fixed_pivot[0], end[1] - follower.fixed_pivot[1]];
+  if (driver.kind === "RP") return between(slot(driver), lever);
+  const start = act(place, driver.moving_pivot);
+  return between([end[0] - start[0], end[1] - start[1]], lever);
+}
+var between = (a, b) => Math.atan2(Math.abs(a[0] * b[1] - a[1] * b[0]), Math.abs(a[0] * b[0] + a[1] * b[1])) * 180 / Math.PI;
+
+// src/burmester/web/widget/outlines.mjs
+var HATCH2 = 9;
+var PALEST2 = 0.45;
+var LONGEST_NAME4 = 28;
+var LEAST_LINKAGE = 110;
+var MOST_PLACES2 = 400;
+var patterns = 0;
+var closed = (points, view, [x, y]) => `M${points.map((each) => `${px(x + view.scale * each[0])} ${px(y - view.scale * each[1])}`).join("L")}Z`;
+var bodyOutline = (data, view) => closed(data.body, view, [0, 0]);
+var placesAtPoses = (data, linkage) => data.poses.map((pose, k) => {
+  const row = linkage?.pose_errors[k], at = row && row.x !== null ? row : pose;
+  return { x: at.x, y: at.y, a: radians(at.angle_deg) };
+});
+function ghosts(data, linkage, view) {
+  const group = s("g", { class: "bm-ghosts" });
+  if (!data.body) return group;
+  const places = placesAtPoses(data, linkage), last = Math.max(1, places.length - 1);
+  places.forEach(({ x, y, a }, k) => {
+    const opacity = (PALEST2 + (1 - PALEST2) * k / last).toFixed(3);
+    group.append(s("path", { class: "bm-ghost", d: bodyOutline(data, view), "data-pose": k + 1, opacity, transform: transform(view.X(x), view.Y(y), a) }));
+  });
+  return group;
+}
+function keepOut(data, view) {
+  const group = s("g", { class: "bm-keep-out" });
+  if (!data.keep_out.length) return group;
+  const id = `bm-hatch-${patterns += 1}`;
+  group.append(
+    s(
+      "defs",
+      {},
+      s(
+        "pattern",
+        { id, width: HATCH2, height: HATCH2, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" },
+        s("path", { class: "bm-hatch", d: `M0 0V${HATCH2}` })
+      )
+    )
+  );
+  for (const region of data.keep_out) {
+    const d = closed(region.outline, view, [view.left, view.top]);
+    group.append(s("g", { class: "bm-region" }, s("title", {}, region.name || "keep out"), s("path", { class: "bm-region-plain", d }), s("path", { class: "bm-region-edge", d, fill: `url(#${id})` })));
+  }
+  return group;
+}
+function keepOutNames(data, view, labels) {
+  return data.keep_out.filter(({ name }) => name).map(({ name, at: [x, y] }) => {
+    const text = shortened(name, LONGEST_NAME4);
+    labels.block(view.X(x), view.Y(y), 7.2 * text.length, 14);
+    return s("text", { class: "bm-region-name", x: px(view.X(x)), y: px(view.Y(y) + 4), "text-anchor": "middle" }, text);
+  });
+}
+function bodyCorners(data, linkage, places) {
+  if (!data.body) return [];
+  const some = places.filter((_, k) => k % Math.ceil(places.length / MOST_PLACES2) === 0);
+  return [...placesAtPoses(data, linkage), ...some].flatMap((place) => data.body.map((corner) => act(place, corner)));
+}
+var sizeOf = ([x, y, u, v]) => Math.max(u - x, v - y);
+var including = (box, points) => points.reduce(([x, y, u, v], [a, b]) => [Math.min(x, a), Math.min(y, b), Math.max(u, a), Math.max(v, b)], box);
+function widened(box, data, linkage, places, width, all) {
+  const withBody = including(box, bodyCorners(data, linkage, places));
+  const whole = including(withBody, data.keep_out.flatMap((region) => region.outline));
+  const most = Math.max(2, width / LEAST_LINKAGE) * sizeOf(box);
+  if (all || !linkage || sizeOf(whole) <= most) return whole;
+  const inner = sizeOf(withBody) <= most ? withBody : box, reach = (most - sizeOf(inner)) / 2;
+  return whole.map((each, k) => k < 2 ? Math.max(each, inner[k] - reach) : Math.min(each, inner[k] + reach));
+}
+
+// src/burmester/web/widget/mechanism.mjs
+var BODY_AXIS = AXIS + 10;
+var LETTER = 14;
+var BLOCK_IN_SLOT = [18, 10];
+var SPARE2 = 5;
+var ARROW = 24;
+function mechanism(data, linkage, view, places) {
+  const drawn = new Mechanism(linkage);
+  drawn.shape(data, linkage, view, places);
+  return drawn;
+}
+var Mechanism = class {
+  constructor({ led }) {
+    this.kinds = kindsOf(led);
+    this.outline = s("path", { class: "bm-body-outline" });
+    this.links = s("g");
+    this.blocks = s("g");
+    this.pins = s("g");
+    this.coupler = s("g", { class: "bm-coupler" });
+    this.arrow = s("path", { class: "bm-drive-mark bm-side0" });
+    this.letter = s("text", { class: "bm-letter", "text-anchor": "middle" }, "M");
+    this.plates = [s("path", { class: "bm-plate-rim" }), s("path", { class: "bm-plate" })];
+    this.coupler.append(...this.plates);
+    this.parts = led.map((dyad, side) => new PARTS[dyad.kind](this, side));
+    this.coupler.append(s("path", { class: "bm-body-frame", d: axes(BODY_AXIS) }), s("circle", { class: "bm-origin", r: 4 }));
+    for (const part of this.parts) if (part.pin) this.coupler.append(part.pin);
+    this.group = s("g", { class: "bm-linkage" }, this.arrow, this.links, this.coupler, this.blocks, this.pins, this.letter);
+  }
+  /** Whether it can be given the dimensions of a linkage. */
+  fits({ led }) {
+    return kindsOf(led) === this.kinds;
+  }
+  /** The dimensions of a linkage in a picture; slots are as long as the places need. */
+  shape(data, linkage, view, places) {
+    this.view = view;
+    this.led = linkage.led;
+    this.hasBody = Boolean(data.body);
+    if (this.hasBody) {
+      this.outline.setAttribute("d", bodyOutline(data, view));
+      if (!this.outline.parentNode) this.group.prepend(this.outline);
+    } else {
+      this.outline.remove();
+    }
+    const corners = [[0, 0]];
+    linkage.led.forEach((dyad, side) => {
+      if (dyad.moving_pivot) corners.push(inBody(dyad.moving_pivot, view));
+      const more = this.parts[side].shape(dyad, view, places);
+      if (more) corners.push(more);
+    });
+    const d = `M${hull(corners).map((corner) => corner.map(px).join(" ")).join("L")}Z`;
+    for (const plate of this.plates) plate.setAttribute("d", d);
+    this.shapeArrow();
+  }
+  show(place) {
+    const { view } = this, at = transform(view.X(place.x), view.Y(place.y), place.a);
+    this.coupler.setAttribute("transform", at);
+    if (this.hasBody) this.outline.setAttribute("transform", at);
+    for (const part of this.parts) part.show(place);
+    const [x, y] = act(place, [-LETTER / view.scale, -LETTER / view.scale]);
+    this.letter.setAttribute("x", px(view.X(x)));
+    this.letter.setAttribute("y", px(view.Y(y) + 4));
+    const [driver] = this.led;
+    if (driver.kind === "PR") this.arrow.setAttribute("transform", `${onRail(driver, place, view)} translate(0 ${-ARROW})`);
+  }
+  /** A turning or sliding arrow at the driver, for eyes that tell no colours apart. */
+  shapeArrow() {
+    const { arrow: arrow2, view } = this, [driver] = this.led;
+    if (driver.kind === "PR") arrow2.setAttribute("d", "M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6 5");
+    if (!driver.fixed_pivot) return;
+    const [x, y] = driver.fixed_pivot;
+    arrow2.setAttribute("d", "M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9");
+    arrow2.setAttribute("transform", `translate(${px(view.X(x))} ${px(view.Y(y))}) rotate(-90)`);
+  }
+};
+var kindsOf = (led) => led.map((dyad) => dyad.kind).join();
+var inBody = ([x, y], view) => [view.scale * x, -view.scale * y];
+function onRail(dyad, place, view) {
+  const [x, y] = act(place, dyad.moving_pivot), [nx, ny] = normalOf(dyad);
+  return transform(view.X(x), view.Y(y), Math.atan2(nx, -ny));
+}
+var block = (side, width, height) => s("g", { class: `bm-block bm-side${side}` }, s("rect", { x: -width / 2, y: -height / 2, width, height, rx: 2 }));
+function setPin(pin, [x, y], dyad) {
+  pin.setAttribute("cx", px(x));
+  pin.setAttribute("cy", px(y));
+  pin.dataset.dyad = dyad.id;
+}
+var inGround = ([x, y], view) => [view.X(x), view.Y(y)];
+var Bar = class {
+  constructor({ links, pins }, side) {
+    this.strokes = [s("path", { class: "bm-bar" }), s("path", { class: "bm-core" })];
+    this.bar = s("g", { class: `bm-link bm-side${side}` }, this.strokes);
+    this.ground = s("circle", { class: "bm-pin bm-fixed-pin", r: 4.5 });
+    this.pin = s("circle", { class: "bm-pin", r: 4.5 });
+    links.append(this.bar);
+    pins.append(this.ground);
+  }
+  shape(dyad, view) {
+    this.dyad = dyad;
+    this.view = view;
+    for (const stroke of this.strokes) stroke.setAttribute("d", `M0 0H${px(view.scale * dyad.radius)}`);
+    setPin(this.ground, inGround(dyad.fixed_pivot, view), dyad);
+    setPin(this.pin, inBody(dyad.moving_pivot, view), dyad);
+  }
+  show(place) {
+    const { dyad, view } = this, [cx, cy] = dyad.fixed_pivot, [x, y] = act(place, dyad.moving_pivot);
+    this.bar.setAttribute("transform", transform(view.X(cx), view.Y(cy), Math.atan2(y - cy, x - cx)));
+  }
+};
+var BlockOnRail = class {
+  constructor({ blocks }, side) {
+    this.block = block(side, ...BLOCK);
+    this.pin = s("circle", { class: "bm-pin", r: 4.5 });
+    blocks.append(this.block);
+  }
+  shape(dyad, view) {
+    this.dyad = dyad;
+    this.view = view;
+    this.block.dataset.dyad = dyad.id;
+    setPin(this.pin, inBody(dyad.moving_pivot, view), dyad);
+  }
+  show(place) {
+    this.block.setAttribute("transform", onRail(this.dyad, place, this.view));
+  }
+};
+var Slot = class {
+  constructor({ blocks, pins, coupler }, side) {
+    this.strokes = ["rim", "plate", "edge"].map((name) => s("path", { class: `bm-slot-${name}` }));
+    this.strokes.push(s("path", { class: "bm-slot" }));
+    this.block = block(side, ...BLOCK_IN_SLOT);
+    this.ground = s("circle", { class: "bm-pin bm-fixed-pin", r: 4 });
+    coupler.append(...this.strokes);
+    blocks.append(this.block);
+    pins.append(this.ground);
+  }
+  /** Returns the middle of the slot, for the body's plate. */
+  shape(dyad, view, places) {
+    this.dyad = dyad;
+    this.view = view;
+    const [low, high] = places.length ? travelOf(dyad, places) : [0, 0], end = (BLOCK_IN_SLOT[0] / 2 + SPARE2) / view.scale;
+    const seen2 = (along) => inBody(pointOnLine(dyad, along), view);
+    const d = `M${[seen2(low - end), seen2(high + end)].map((each) => each.map(px).join(" ")).join("L")}`;
+    for (const stroke of this.strokes) stroke.setAttribute("d", d);
+    this.strokes[3].dataset.dyad = this.block.dataset.dyad = dyad.id;
+    setPin(this.ground, inGround(dyad.fixed_pivot, view), dyad);
+    return seen2((low + high) / 2);
+  }
+  show(place) {
+    const { dyad, view } = this, [nx, ny] = normalOf(dyad), [cx, cy] = dyad.fixed_pivot;
+    this.block.setAttribute("transform", transform(view.X(cx), view.Y(cy), place.a + Math.atan2(nx, -ny)));
+  }
+};
+var Nothing = class {
+  shape() {
+  }
+  show() {
+  }
+};
+var PARTS = { RR: Bar, PR: BlockOnRail, RP: Slot, PP: Nothing };
+
+// src/burmester/web/widget/labels.mjs
+var Labels = class {
+  constructor(view) {
+    this.view = view;
+    this.taken = [];
+  }
+  block(x, y, width, height) {
+    this.taken.push([x - width / 2, y - height / 2, x + width / 2, y + height / 2]);
+  }
+  put(x, y, text, distance, attributes) {
+    const width = 7.2 * text.length + 4, height = 14;
+    let best = null;
+    for (let ring = 0; ring < 3; ring += 1) {
+      for (let k = 0; k < 16; k += 1) {
+        const angle = Math.PI / 8 * k + Math.PI / 4;
+        const away = distance + 9 * ring;
+        const cx = x + (away + width / 2 - 6) * Math.cos(angle);
+        const cy = y - away * Math.sin(angle);
+        const box = [cx - width / 2, cy - height / 2, cx + width / 2, cy + height / 2];
+        let cost = 0.02 * k + 6 * ring;
+        for (const other of this.taken) {
+          const across = Math.min(box[2], other[2]) - Math.max(box[0], other[0]);
+          const down = Math.min(box[3], other[3]) - Math.max(box[1], other[1]);
+          if (across > 0 && down > 0) cost += across * down;
+        }
+        if (box[0] < 2 || box[2] > this.view.width - 2) cost += 500;
+        if (box[1] < 2 || box[3] > this.view.height - 2) cost += 500;
+        if (!best || cost < best.cost) best = { cost, cx, cy, box };
+      }
+    }
+    this.taken.push(best.box);
+    return s(
+      "text",
+      { x: px(best.cx), y: px(best.cy + 4), "text-anchor": "middle", ...attributes },
+      text
+    );
+  }
+};
+
+// src/burmester/web/widget/rail.mjs
+var LONGEST = 4e3;
+function railOf(dyad, places, view) {
+  const [nx, ny] = normalOf(dyad), [low, high] = travelOf(dyad, places);
+  const half = view.scale * (high - low) / 2 + BLOCK[0], edge = BLOCK[1] / 2 + 1;
+  const [x, y] = ((at) => [view.X(at[0]), view.Y(at[1])])(pointOnLine(dyad, (low + high) / 2));
+  const bodySide = places.reduce((sum, place) => sum + nx * place.x + ny * place.y - dyad.line.offset, 0);
+  const turned = Math.atan2(nx, -ny) + (bodySide > 0 ? Math.PI : 0);
+  const drawn = Math.min(half, LONGEST);
+  let hatch = "";
+  for (let k = -drawn + 4; k < drawn - 2; k += 8) hatch += `M${px(k + 4)} ${edge}l-6 7`;
+  return { x, y, half, drawn, turned, paths: [`M${px(-half)} ${edge}H${px(half)}${hatch}`, `M${px(-half)} ${-edge}H${px(half)}`] };
+}
+
+// src/burmester/web/widget/plane.mjs
+var FACTORS = [0, 1, 10, 100, 1e3, 1e4, 1e5];
+function factorFor(data, linkage) {
+  const worst = Math.max(0, ...linkage.pose_errors.map((row) => row.position ?? 0));
+  if (!(worst > 1e-9 * data.scene)) return 0;
+  const fits = FACTORS.filter((factor) => factor >= 1 && factor * worst < 0.3 * data.scene);
+  return fits.length ? fits[fits.length - 1] : 1;
+}
+var standing2 = (dyad, places) => dyad.fixed_pivot ?? (dyad.kind === "PR" && places.length ? pointOnLine(dyad, travelOf(dyad, places).reduce((a, b) => (a + b) / 2)) : null);
+var Plane = class {
+  constructor(data, parent) {
+    this.data = data;
+    this.svg = s("svg", { class: "bm-plane", role: "img", tabindex: "0" });
+    this.parent = parent;
+    parent.append(this.svg);
+  }
+  /** Draw what stands still.
+   *
+   * stretch: the part of the way that is shown; factor: of the error arrows; fill: the height to
+   * fill, 0 for the picture's own; far: whether the picture is to hold pivots far from the poses.
+   */
+  build(linkage, way, stretch, { factor, fill, far }) {
+    const { data, svg } = this, path2 = linkage?.ways[way];
+    this.places = path2 ? placesOf(data, linkage, path2, stretch) : [];
+    const bare = boundsOf(data, linkage, this.places, far);
+    const width = Math.max(260, this.parent.clientWidth);
+    const box = widened(bare, data, linkage, this.places, width, far);
+    this.cut = !far && widened(bare, data, linkage, this.places, width, true).some((each, k) => each !== box[k]);
+    const shape = (box[3] - box[1]) / (box[2] - box[0]);
+    const own = clamp(width * clamp(shape, 0.45, 1), 260, clamp(0.62 * window.innerHeight, 340, 680));
+    const height = Math.round(fill ? clamp(fill, own, 1.15 * width) : own);
+    const view = viewOf(box, width, height, width < 500 ? 34 : 42);
+    this.view = view;
+    this.linkage = linkage;
+    this.way = way;
+    svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    svg.setAttribute("height", height);
+    svg.dataset.scale = view.scale;
+    svg.dataset.left = view.left;
+    svg.dataset.top = view.top;
+    svg.replaceChildren();
+    svg.append(this.grid(), keepOut(data, view), ghosts(data, linkage, view));
+    if (linkage) svg.append(this.paths());
+    const labels = new Labels(view);
+    this.names = s("g", { class: "bm-names" }, keepOutNames(data, view, labels));
+    if (linkage) svg.append(this.ground(labels));
+    for (const pose of data.poses) {
+      const x = view.X(pose.x), y = view.Y(pose.y), angle = radians(pose.angle_deg);
+      const c = AXIS * Math.cos(angle), d = AXIS * Math.sin(angle);
+      labels.block(x, y, 12, 12);
+      for (const share of [0.35, 0.65, 1]) {
+        labels.block(x + share * c, y - share * d, 6, 6);
+        labels.block(x - 0.6 * share * d, y - 0.6 * share * c, 6, 6);
+      }
+    }
+    svg.append(this.poses(linkage, factor, labels));
+    this.moving = path2 ? mechanism(data, linkage, view, this.places) : null;
+    if (this.moving) svg.append(this.moving.group);
+    if (linkage && !far) this.farPivots(labels);
+    svg.append(this.names);
+  }
+  grid() {
+    const { view } = this, group = s("g", { class: "bm-grid", "aria-hidden": "true" });
+    const unit2 = this.data.unit ? ` ${this.data.unit}` : "";
+    const across = ticks(-view.left / view.scale, (view.width - view.left) / view.scale, view.width / 110);
+    const up = ticks((view.top - view.height) / view.scale, view.top / view.scale, view.height / 80);
+    for (const { at, text } of across) {
+      const x = px(view.X(at));
+      group.append(s("path", { d: `M${x} 0V${view.height}` }));
+      if (x > 46 && x < view.width - (unit2 ? 54 : 30)) {
+        group.append(s("text", { x, y: view.height - 6, "text-anchor": "middle" }, text));
+      }
+    }
+    for (const { at, text } of up) {
+      const y = px(view.Y(at));
+      group.append(s("path", { d: `M0 ${y}H${view.width}` }));
+      if (y > 26 && y < view.height - 24) group.append(s("text", { x: 6, y: y - 4 }, text));
+    }
+    group.append(
+      s("text", { x: 6, y: 14 }, `y${unit2}`),
+      s("text", { x: view.width - 6, y: view.height - 6, "text-anchor": "end" }, `x${unit2}`)
+    );
+    return group;
+  }
+  /** Paths of the body's origin and of its pivots: full along the stretch that is shown. */
+  paths() {
+    const { view, linkage, places } = this, group = s("g", { class: "bm-paths" });
+    linkage.ways.forEach((way, k) => {
+      const same = way.circuit === linkage.ways[this.way]?.circuit;
+      const kind = k === this.way ? "bm-beyond" : same ? "bm-same" : "bm-other";
+      const whole = placesOf(this.data, linkage, way, { low: 0, high: way.x.length - 1 });
+      const d2 = polyline(whole.map(({ x, y }) => [x, y]), view);
+      group.append(s("path", { class: `bm-curve ${kind}`, d: d2 }));
+    });
+    for (const [side, dyad] of linkage.led.entries()) {
+      if (!dyad.moving_pivot || dyad.kind === "PR") continue;
+      const d2 = polyline(places.map((place) => act(place, dyad.moving_pivot)), view);
+      group.append(s("path", { class: `bm-pivot-path bm-side${side}`, d: d2 }));
+    }
+    const d = polyline(places.map(({ x, y }) => [x, y]), view);
+    group.append(s("path", { class: "bm-curve bm-here", d }));
+    return group;
+  }
+  /** Feet of fixed pivots and rails of sliders, with the names of their dyads. */
+  ground(labels) {
+    const group = s("g", { class: "bm-grounds" });
+    this.linkage.led.forEach((dyad, side) => {
+      if (dyad.kind === "PR") this.rail(group, labels, dyad, side);
+      else if (dyad.fixed_pivot) this.fixedPivot(group, labels, dyad, side);
+    });
+    return group;
+  }
+  /** A rail as long as the travel of its block. */
+  rail(group, labels, dyad, side) {
+    if (!this.places.length) return;
+    const { x, y, drawn, turned, paths } = railOf(dyad, this.places, this.view), [nx, ny] = normalOf(dyad);
+    group.append(
+      s(
+        "g",
+        { class: `bm-rail bm-side${side}`, "data-dyad": dyad.id, transform: transform(x, y, turned) },
+        s("path", { class: "bm-ground", d: paths[0] }),
+        s("path", { class: "bm-ground bm-thin", d: paths[1] })
+      )
+    );
+    for (let k = -drawn; k <= drawn; k += 14) labels.block(x - k * ny, y - k * nx, 22, 22);
+    this.names.append(labels.put(x, y, dyad.id, 26, { class: `bm-name bm-side${side}` }));
+  }
+  fixedPivot(group, labels, dyad, side) {
+    const x = this.view.X(dyad.fixed_pivot[0]), y = this.view.Y(dyad.fixed_pivot[1]);
+    labels.block(x, y + 10, 32, 34);
+    if (!side) labels.block(x, y, 40, 40);
+    const at = foot();
+    at.setAttribute("transform", `translate(${px(x)} ${px(y)})`);
+    group.append(at);
+    this.names.append(labels.put(x, y + 4, dyad.id, 27, { class: `bm-name bm-side${side}` }));
+  }
+  /** At the edge of the picture, in their direction, the names of what stands too far away for it. */
+  farPivots(labels) {
+    const { data, view } = this, isFar = farFrom(data), digits = decimalsOf(data);
+    this.linkage.led.forEach((dyad, side) => {
+      const at = standing2(dyad, this.places);
+      if (!at || !isFar(at)) return;
+      const [x, y] = [view.X(at[0]), view.Y(at[1])];
+      const cx = view.width / 2, cy = view.height / 2, size2 = Math.hypot(x - cx, y - cy);
+      const u = (x - cx) / size2, v = (y - cy) / size2;
+      const reach = Math.min((cx - 12) / Math.abs(u), (cy - 12) / Math.abs(v));
+      const ex = cx + reach * u, ey = cy + reach * v;
+      const text = `${dyad.id}: ${dyad.fixed_pivot ? "fixed pivot" : "rail"} at (${at.map((each) => fixed(each, digits)).join(", ")})`;
+      labels.block(ex, ey, 20, 20);
+      this.names.append(
+        s("path", { class: `bm-far-mark bm-side${side}`, d: "M-9 -6L3 0L-9 6", transform: transform(ex, ey, Math.atan2(-v, u)) }),
+        labels.put(ex, ey, text, 14, { class: `bm-name bm-far-name bm-side${side}` })
+      );
+    });
+  }
+  /** Wanted poses, the places that the linkage takes instead, and the errors between them, enlarged. */
+  poses(linkage, factor, labels) {
+    const { data, view } = this, group = s("g", { class: "bm-poses" });
+    const small = data.poses.length > 24 ? 0.6 : 1;
+    const arrows = this.errors(linkage, factor, labels);
+    const names = s("g", { class: "bm-pose-names" });
+    data.poses.forEach((pose, k) => {
+      const x = view.X(pose.x), y = view.Y(pose.y);
+      group.append(
+        s(
+          "g",
+          { class: "bm-wanted", transform: transform(x, y, radians(pose.angle_deg)), "data-pose": k + 1 },
+          s("path", { d: axes(AXIS * small) }),
+          s("circle", { r: 4.5 * small })
+        )
+      );
+      if (data.poses.length <= 60) names.append(labels.put(x, y, pose.label, 13, {}));
+      const row = linkage?.pose_errors[k];
+      if (!row || row.x === null) return;
+      const elsewhere = row.way === this.way ? "" : " bm-elsewhere";
+      group.append(
+        s(
+          "g",
+          { class: `bm-achieved${elsewhere}`, transform: transform(view.X(row.x), view.Y(row.y), radians(row.angle_deg)) },
+          s("path", { d: axes(0.72 * AXIS * small) }),
+          s("circle", { r: 2.2 * small })
+        )
+      );
+    });
+    group.append(arrows, names);
+    return group;
+  }
+  errors(linkage, factor, labels) {
+    const { data, view } = this, arrows = s("g", { class: "bm-errors" });
+    if (!linkage || !factor) return arrows;
+    linkage.pose_errors.forEach((row, k) => {
+      if (row.x === null) return;
+      const pose = data.poses[k], x = view.X(pose.x), y = view.Y(pose.y);
+      const dx = factor * view.scale * (row.x - pose.x), dy = -factor * view.scale * (row.y - pose.y);
+      const size2 = Math.hypot(dx, dy);
+      if (size2 < 1.5) return;
+      const head = Math.min(7, 0.5 * size2), ux = dx / size2, uy = dy / size2;
+      const tip = `${px(x + dx)} ${px(y + dy)}`;
+      const barb = (sign) => `L${px(x + dx - head * (ux - sign * 0.5 * uy))} ${px(y + dy - head * (uy + sign * 0.5 * ux))}`;
+      arrows.append(s("path", { d: `M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}` }));
+      for (let share = 0; share <= 1; share += 0.2) labels.block(x + share * dx, y + share * dy, 8, 8);
+    });
+    return arrows;
+  }
+  show(place) {
+    this.moving?.show(place);
+  }
+};
+
+// src/burmester/web/widget/smooth_path.mjs
+var hundredths = (value) => Math.round(Math.min(Math.max(value, -1e6), 1e6) * 100) / 100;
+function smoothPath(X, Y, closed2) {
+  const last = X.length - 1;
+  if (last < 1) return "";
+  const ahead = (values, k) => k < last ? values[k + 1] : closed2 ? values[1] : 2 * values[last] - values[last - 1];
+  const behind = (values, k) => k > 0 ? values[k - 1] : closed2 ? values[last - 1] : 2 * values[0] - values[1];
+  let d = `M${hundredths(X[0])} ${hundredths(Y[0])}`;
+  let [u, v] = [(ahead(X, 0) - behind(X, 0)) / 6, (ahead(Y, 0) - behind(Y, 0)) / 6];
+  for (let k = 0; k < last; k += 1) {
+    const p = (ahead(X, k + 1) - X[k]) / 6, q = (ahead(Y, k + 1) - Y[k]) / 6;
+    d += `C${hundredths(X[k] + u)} ${hundredths(Y[k] + v)} ${hundredths(X[k + 1] - p)} ${hundredths(Y[k + 1] - q)} ${hundredths(X[k + 1])} ${hundredths(Y[k + 1])}`;
+    [u, v] = [p, q];
+  }
+  return d;
+}
+
+// src/burmester/web/studio/live_linkage.mjs
+var MOST_ACHIEVED = 240;
+var BELOW = 38;
+var LEAST_ARROW = 1.5;
+var LiveLinkage = class {
+  constructor(answers, playing, scene) {
+    Object.assign(this, { answers, playing, scene, factor: 0 });
+    this.beyond = s("path", { class: "bm-curve bm-beyond" });
+    this.others = s("path", { class: "bm-curve bm-other" });
+    this.here = s("path", { class: "bm-curve bm-here" });
+    this.pivotPaths = [0, 1].map((side) => s("path", { class: `bm-pivot-path bm-side${side}` }));
+    this.paths = s("g", { class: "bs-paths", "aria-hidden": "true" }, this.others, this.beyond, ...this.pivotPaths, this.here);
+    this.feet = [0, 1].map((side) => {
+      const at = foot();
+      at.classList.add(`bm-side${side}`);
+      return at;
+    });
+    this.rails = [0, 1].map((side) => s("g", { class: `bm-rail bm-side${side}` }, s("path", { class: "bm-ground" }), s("path", { class: "bm-ground bm-thin" })));
+    this.achieved = s("g", { class: "bs-achieved" });
+    this.arrows = s("path", {});
+    this.names = [0, 1].map((side) => s("text", { class: `bm-name bm-side${side}`, "text-anchor": "middle" }));
+    this.mechanism = null;
+    this.holder = s("g", { class: "bs-mechanism" }, ...this.rails, ...this.feet, this.achieved, s("g", { class: "bm-errors" }, this.arrows));
+    this.labels = s("g", { class: "bs-dyad-names" }, this.names);
+    scene.layer("paths").append(this.paths);
+    scene.layer("mechanism").append(this.holder);
+    scene.layer("labels").append(this.labels);
+    scene.hold?.(() => this.points());
+    playing.on("shape", () => this.shape());
+    playing.on("place", ({ place }) => this.mechanism?.show(place));
+    scene.on("view", () => this.redraw());
+    this.redraw();
+  }
+  /** Points that a fit has to hold: the places at the poses and near pivots. */
+  points() {
+    const { linkage } = this.playing, { data } = this.answers;
+    if (!linkage) return [];
+    const [pose] = data.poses, near2 = ([x, y]) => pose && Math.hypot(x - pose.x, y - pose.y) < 3 * data.scene;
+    const pins = linkage.led.flatMap((dyad) => dyad.fixed_pivot ? [dyad.fixed_pivot] : []);
+    const moving = linkage.pose_errors.filter((row) => row.x !== null).flatMap((row) => linkage.led.filter((dyad) => dyad.moving_pivot).map((dyad) => act({ x: row.x, y: row.y, a: radians(row.angle_deg) }, dyad.moving_pivot)));
+    return [...pins, ...moving].filter(near2);
+  }
+  /** How errors are enlarged: while a hand drags never more than before, so that arrows do not flicker. */
+  enlarge() {
+    const { linkage } = this.playing, { data } = this.answers;
+    const seen2 = linkage?.pose_errors.length && !(linkage.followed && linkage.worst < UNSEEN * data.scene);
+    const fits = seen2 ? factorFor(data, linkage) : 0;
+    this.factor = this.answers.isOld && this.factor && fits ? Math.min(this.factor, fits) : fits;
+  }
+  redraw() {
+    this.shape();
+    if (this.playing.here && this.playing.path) this.mechanism?.show(this.playing.here.place);
+  }
+  /** Everything but the place along the way. */
+  shape() {
+    const { playing, answers, scene } = this, { linkage, path: path2 } = playing, { view } = scene;
+    const there = Boolean(linkage) && !linkage.gone;
+    for (const part of [this.paths, this.holder, this.labels]) part.setAttribute("visibility", there ? "visible" : "hidden");
+    if (!there) return;
+    const places = path2 ? framesOf(path2) : [];
+    this.enlarge();
+    this.curves(linkage, path2, places, view);
+    this.ground(linkage, places, view);
+    this.atPoses(linkage, view);
+    if (!path2) {
+      this.mechanism?.group.remove();
+      this.mechanism = null;
+      return;
+    }
+    if (!this.mechanism?.fits(linkage)) {
+      this.mechanism?.group.remove();
+      this.mechanism = new Mechanism(linkage);
+      this.holder.append(this.mechanism.group);
+    }
+    this.mechanism.shape(answers.data, linkage, view, places);
+  }
+  curves(linkage, path2, places, view) {
+    const set = (element, list2, closed2) => element.setAttribute("d", smoothPath(list2.map(([x]) => view.X(x)), list2.map(([, y]) => view.Y(y)), closed2));
+    const others = linkage.ways.filter((way) => way !== path2);
+    this.others.setAttribute("d", others.map((way) => pathOf2(way, view)).join(""));
+    this.beyond.setAttribute("d", path2 ? pathOf2(path2, view) : "");
+    this.pivotPaths.forEach((element, side) => {
+      const dyad = linkage.led[side];
+      if (!path2 || !dyad.moving_pivot || dyad.kind === "PR") element.setAttribute("d", "");
+      else set(element, places.map((place) => act(place, dyad.moving_pivot)), path2.round);
+    });
+    if (!path2) {
+      this.here.setAttribute("d", "");
+      return;
+    }
+    const { low, high } = this.playing.player.stretch, { length } = this.answers.data.chart, list = [];
+    const end = (u) => ((place) => [place.x, place.y])(placeAt(linkage, path2, u, length));
+    list.push(end(low));
+    for (let k = Math.floor(low) + 1; k < high; k += 1) list.push([path2.x[k], path2.y[k]]);
+    list.push(end(high));
+    set(this.here, list, path2.round && high - low > path2.x.length - 1 - 1e-6);
+  }
+  ground(linkage, places, view) {
+    linkage.led.forEach((dyad, side) => {
+      const [rail, at, name] = [this.rails[side], this.feet[side], this.names[side]];
+      const slides = dyad.kind === "PR" && places.length > 0;
+      rail.setAttribute("display", slides ? "inline" : "none");
+      at.setAttribute("display", dyad.fixed_pivot ? "inline" : "none");
+      name.setAttribute("display", slides || dyad.fixed_pivot ? "inline" : "none");
+      if (name.textContent !== dyad.id) name.textContent = dyad.id;
+      let x, y;
+      if (slides) {
+        const drawn = railOf(dyad, places, view);
+        ({ x, y } = drawn);
+        rail.setAttribute("transform", transform(x, y, drawn.turned));
+        drawn.paths.forEach((d, k) => rail.children[k].setAttribute("d", d));
+        rail.dataset.dyad = dyad.id;
+      } else if (dyad.fixed_pivot) {
+        [x, y] = [view.X(dyad.fixed_pivot[0]), view.Y(dyad.fixed_pivot[1])];
+        at.setAttribute("transform", `translate(${px(x)} ${px(y)})`);
+      } else {
+        return;
+      }
+      name.setAttribute("x", px(x));
+      name.setAttribute("y", px(y + BELOW));
+    });
+  }
+  /** Where the linkage takes the body instead of the poses, and the errors between them, enlarged. */
+  atPoses(linkage, view) {
+    const { achieved, answers: { data } } = this, rows = linkage.pose_errors;
+    const count = Math.min(rows.length, MOST_ACHIEVED), small = count > 24 ? 0.6 : 1;
+    while (achieved.children.length > count) achieved.lastChild.remove();
+    while (achieved.children.length < count) achieved.append(s("g", { class: "bm-achieved" }, s("path", {}), s("circle", {})));
+    let arrows = "";
+    for (let k = 0; k < count; k += 1) {
+      const row = rows[k], group = achieved.children[k];
+      if (group.dataset.size !== String(small)) {
+        group.dataset.size = small;
+        group.children[0].setAttribute("d", axes(0.72 * AXIS * small));
+        group.children[1].setAttribute("r", 2.2 * small);
+      }
+      if (row.x === null) {
+        group.setAttribute("display", "none");
+        continue;
+      }
+      group.setAttribute("display", "inline");
+      group.setAttribute("transform", transform(view.X(row.x), view.Y(row.y), radians(row.angle_deg)));
+      group.classList.toggle("bm-elsewhere", row.at !== this.playing.path);
+      if (this.factor && data.poses[k]) arrows += arrow(view, data.poses[k], row, this.factor);
+    }
+    this.arrows.setAttribute("d", arrows);
+  }
+};
+var framesOf = (way) => Array.from(way.x, (x, k) => ({ x, y: way.y[k], a: way.angle[k] }));
+var pathOf2 = (way, view) => smoothPath(Array.from(way.x, view.X), Array.from(way.y, view.Y), way.round);
+function arrow(view, pose, row, factor) {
+  const x = view.X(pose.x), y = view.Y(pose.y), by = factor * view.scale;
+  const dx = by * (row.x - pose.x), dy = -by * (row.y - pose.y), size2 = Math.hypot(dx, dy);
+  if (!(size2 >= LEAST_ARROW)) return "";
+  const head = Math.min(7, 0.5 * size2), ux = dx / size2, uy = dy / size2, tip = `${px(x + dx)} ${px(y + dy)}`;
+  const barb = (sign) => `L${px(x + dx - head * (ux - sign * 0.5 * uy))} ${px(y + dy - head * (uy + sign * 0.5 * ux))}`;
+  return `M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}`;
+}
+
+// src/burmester/web/studio/centrodes.mjs
+var FARTHEST = 30;
+var JUMP = 2;
+function centrodesOf(linkage, way, scene, near2) {
+  let before = null;
+  const points = framesOf(way).map((place) => {
+    const point2 = centrodePoint(linkage.led, place);
+    const far = !point2 || Math.hypot(point2.fixed[0] - near2[0], point2.fixed[1] - near2[1]) > FARTHEST * scene;
+    const cut = far || before && Math.hypot(point2.fixed[0] - before[0], point2.fixed[1] - before[1]) > JUMP * scene;
+    before = far ? null : point2.fixed;
+    return { point: far ? null : point2, cut };
+  });
+  const pieces2 = (key) => points.flatMap(({ point: point2, cut }) => cut ? [null, point2 && point2[key]] : [point2[key]]);
+  return { fixed: pieces2("fixed"), moving: pieces2("moving") };
+}
+var path = (points, X, Y) => {
+  let d = "", pen = "M";
+  for (const point2 of points) {
+    if (point2) d += `${pen}${px(X(point2[0]))} ${px(Y(point2[1]))}`;
+    pen = point2 ? "L" : "M";
+  }
+  return d;
+};
+var Centrodes = class {
+  constructor(answers, playing, scene) {
+    Object.assign(this, { answers, playing, scene });
+    this.fixed = s("path", { class: "bs-centrode bs-fixed-centrode" });
+    this.moving = s("path", { class: "bs-centrode bs-moving-centrode" });
+    this.mark = s("g", { class: "bs-instant-centre" }, s("circle", { r: 5 }), s("path", { d: "M-9 0H9M0 -9V9" }));
+    this.rays = s("path", { class: "bs-rays" });
+    this.group = s("g", { class: "bs-centrodes", visibility: "hidden", "aria-hidden": "true" }, this.fixed, this.moving, this.rays, this.mark);
+    scene.layer("curves").append(this.group);
+    this.box = h("input", { type: "checkbox", "data-tool": "centrodes", onchange: () => this.shape() });
+    this.readout = h("output", { class: "bs-quiet" });
+    this.element = h("div", { class: "bs-tool" }, h("label", {}, this.box, " Instant centre and centrodes"), " ", this.readout);
+    playing.on("shape", () => this.shape());
+    playing.on("place", ({ place }) => this.show(place));
+    scene.on("view", () => this.shape());
+  }
+  get on() {
+    return this.box.checked && Boolean(this.playing.path) && !this.playing.linkage.gone;
+  }
+  shape() {
+    this.group.setAttribute("visibility", this.on ? "visible" : "hidden");
+    if (!this.on) {
+      this.readout.textContent = "";
+      return;
+    }
+    const { data } = this.answers, { linkage, path: way } = this.playing, { view } = this.scene;
+    const [pose] = data.poses, both = centrodesOf(linkage, way, data.scene, pose ? [pose.x, pose.y] : [0, 0]);
+    this.fixed.setAttribute("d", path(both.fixed, view.X, view.Y));
+    this.moving.setAttribute("d", path(both.moving, (x) => view.scale * x, (y) => -view.scale * y));
+    if (this.playing.here) this.show(this.playing.here.place);
+  }
+  show(place) {
+    if (!this.on) return;
+    const { view } = this.scene, { led } = this.playing.linkage, centre = instantCentre(led, place);
+    this.moving.setAttribute("transform", transform(view.X(place.x), view.Y(place.y), place.a));
+    const there = centre && Math.hypot(centre[0] - place.x, centre[1] - place.y) < FARTHEST * this.answers.data.scene;
+    this.mark.setAttribute("visibility", there ? "inherit" : "hidden");
+    this.rays.setAttribute("visibility", there ? "inherit" : "hidden");
+    const digits = decimalsOf(this.answers.data), unit2 = this.answers.data.unit ? ` ${this.answers.data.unit}` : "";
+    this.readout.textContent = centre ? `at (${centre.map((value) => fixed(value, digits)).join(", ")})${unit2}` : "at infinity: the body only shifts";
+    if (!there) return;
+    const [x, y] = [view.X(centre[0]), view.Y(centre[1])];
+    this.mark.setAttribute("transform", `translate(${px(x)} ${px(y)})`);
+    const ends = led.filter((dyad) => dyad.fixed_pivot).map((dyad) => `M${px(view.X(dyad.fixed_pivot[0]))} ${px(view.Y(dyad.fixed_pivot[1]))}L${px(x)} ${px(y)}`);
+    this.rays.setAttribute("d", ends.join(""));
+  }
+};
+
+// src/burmester/web/widget/plots.mjs
+var LEFT = 62;
+var RIGHT = 14;
+var TOP = 22;
+var BOTTOM = 44;
+var PANEL = 84;
+var GAP = 28;
+var USUAL_LIMIT = 40;
+var MANY_POSES = 40;
+var HEADROOM = 1.32;
+var INSET = 8;
+var LONGEST_NAME5 = 16;
+var NAME_WIDTH = 11;
+var Plots = class {
+  constructor(data, parent, scrub) {
+    this.data = data;
+    this.parent = parent;
+    this.svg = s("svg", { class: "bm-plots", role: "img", "aria-label": "Errors and transmission angle" });
+    parent.append(this.svg);
+    const go = (event) => {
+      if (!this.way) return;
+      const box = this.svg.getBoundingClientRect();
+      const at = (event.clientX - box.left - LEFT - INSET) / (this.width - LEFT - RIGHT - 2 * INSET);
+      scrub(frameAt(this.way.drive, this.low + clamp(at, 0, 1) * (this.high - this.low)));
+    };
+    this.svg.addEventListener("pointerdown", (event) => {
+      this.svg.setPointerCapture(event.pointerId);
+      go(event);
+    });
+    this.svg.addEventListener("pointermove", (event) => event.buttons & 1 && go(event));
+  }
+  /** Draw the panels of a linkage over a stretch of its way `index`. */
+  build(linkage, index, stretch) {
+    const { data, svg } = this, way = linkage.ways[index];
+    this.way = way;
+    svg.replaceChildren();
+    this.cursor = null;
+    if (!way) return;
+    svg.setAttribute("aria-label", `${linkage.id}: errors at its poses, and its transmission angle along the driver`);
+    const width = this.width = Math.max(260, this.parent.clientWidth);
+    const poses = linkage.pose_errors.map((row, k) => ({ ...row, pose: data.poses[k] })).filter((row) => row.way === index);
+    const upright = poses.some(({ pose }) => pose.label !== pose.name);
+    const longest = Math.max(0, ...poses.map(({ pose }) => shortened(poseName2(pose), LONGEST_NAME5).length));
+    this.top = TOP + (upright ? 6.2 * longest + 6 : 0);
+    const height = this.top + 3 * PANEL + 2 * GAP + BOTTOM;
+    svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    svg.setAttribute("height", height);
+    const [driver] = linkage.led, slides = driver.kind === "PR";
+    this.stretch = stretch;
+    this.low = linear(way.drive, stretch.low);
+    this.high = linear(way.drive, stretch.high);
+    this.X = (drive) => LEFT + INSET + (drive - this.low) / (this.high - this.low) * (width - LEFT - RIGHT - 2 * INSET);
+    this.across = slides ? ticks(this.low, this.high, width / 90) : angleTicks(this.low, this.high, Math.max(3, width / 70));
+    const rows = poses.map((row) => ({ ...row, drive: linear(way.drive, row.frame) }));
+    const unit2 = data.unit ?? "unit of the poses";
+    this.errors(0, `position error (${unit2})`, rows, (row) => row.position, 1e-11 * data.scene);
+    this.errors(1, "angle error (°)", rows, (row) => row.turned_deg, 1e-9);
+    const base = this.transmission(2, rows);
+    if (upright) this.uprightNames(rows);
+    const title = slides ? `place of ${driver.id} on its line (${unit2})` : `driver angle (${driver.id})`;
+    svg.append(s("text", { class: "bm-title", x: (LEFT + width - RIGHT) / 2, y: height - 6, "text-anchor": "middle" }, title));
+    this.cursor = s("g", { class: "bm-cursor" }, s("path", { d: `M0 ${this.top}V${base}` }));
+    this.mark = s("circle", { r: 4.5 });
+    this.cursor.append(this.mark);
+    svg.append(this.cursor);
+  }
+  /** The errors of the poses as stems; below `rounding` they are zero. */
+  errors(k, title, rows, value, rounding) {
+    const { svg, X } = this, y0 = this.top + k * (PANEL + GAP), base = y0 + PANEL;
+    const greatest = Math.max(1e-300, ...rows.map((row) => value(row) ?? 0));
+    const visible = greatest > rounding;
+    const high = visible ? HEADROOM * greatest : 1;
+    const Y = (v) => base - v / high * PANEL;
+    this.panel(title, y0, base);
+    if (!visible) {
+      svg.append(s("text", { class: "bm-note", x: LEFT + 8, y: y0 + PANEL / 2 }, rows.length ? "exact, up to rounding" : "no pose is on this assembly"));
+    } else {
+      for (const { at } of ticks(0, high, 3).slice(1)) this.rule(Y(at), figure(at));
+      svg.append(s("text", { class: "bm-tick", x: LEFT - 6, y: base + 4, "text-anchor": "end" }, "0"));
+    }
+    const greatestThree = new Set([...rows].sort((a, b) => value(b) - value(a)).slice(0, 3));
+    let last = -99;
+    for (const row of [...rows].sort((a, b) => a.drive - b.drive)) {
+      const x = px(X(row.drive)), y = px(visible ? Y(value(row)) : base);
+      svg.append(
+        s("path", { class: "bm-stem", d: `M${x} ${base}V${y}` }),
+        s("circle", { class: "bm-dot", cx: x, cy: y, r: 3.5 }, s("title", {}, `pose ${poseName2(row.pose)}: ${figure(value(row))}`))
+      );
+      const { label } = row.pose;
+      if (x - last > 6 + 6.5 * label.length && (rows.length <= MANY_POSES || greatestThree.has(row))) {
+        svg.append(s("text", { class: "bm-dot-name", x, y: y - 7, "text-anchor": "middle" }, label));
+        last = x;
+      }
+    }
+  }
+  /** The transmission angle along the way, and at its poses.  Returns the panel's base. */
+  transmission(k, rows) {
+    const { svg, way, width, X } = this, y0 = this.top + k * (PANEL + GAP), base = y0 + PANEL;
+    const Y = this.Y = (v) => base - v / 90 * PANEL;
+    this.panel("transmission angle (°)", y0, base, true);
+    for (const at of [0, 30, 60, 90]) this.rule(Y(at), at);
+    const asked = this.data.asked_transmission_deg, limit = asked ?? USUAL_LIMIT;
+    svg.append(s("path", { class: "bm-usual", d: `M${LEFT} ${px(Y(limit))}H${width - RIGHT}` }));
+    const below = limit > 15 && (linear(way.transmission, this.stretch.high) ?? 90) > limit;
+    const limitName2 = s("text", { class: "bm-tick bm-halo", x: width - RIGHT - 4, y: px(Y(limit)) + (below ? 12 : -4), "text-anchor": "end" }, `${figure(limit)}°, ${asked ? "asked" : "a usual limit"}`);
+    const { low, high } = this.stretch, frames = [low];
+    for (let i = Math.floor(low) + 1; i < high; i += 1) frames.push(i);
+    frames.push(high);
+    let line2 = "", pen = "M";
+    for (const u of frames) {
+      const angle = linear(way.transmission, u);
+      if (angle === null) continue;
+      line2 += `${pen}${px(X(linear(way.drive, u)))} ${px(Y(angle))}`;
+      pen = "L";
+    }
+    svg.append(s("path", { class: "bm-line", d: line2 }));
+    for (const row of rows) {
+      if (row.transmission_deg === null) continue;
+      svg.append(s("circle", { class: "bm-dot", cx: px(X(row.drive)), cy: px(Y(row.transmission_deg)), r: 3 }));
+    }
+    svg.append(limitName2);
+    return base;
+  }
+  /** Names of the poses over their stems, those that have room. */
+  uprightNames(rows) {
+    let last = -99;
+    for (const row of [...rows].sort((a, b) => a.drive - b.drive)) {
+      const x = this.X(row.drive), y = this.top - 20;
+      if (x - last < NAME_WIDTH) continue;
+      last = x;
+      const text = s("text", { class: "bm-dot-name bm-upright", transform: `translate(${px(x + 4)} ${px(y)}) rotate(-90)` });
+      text.append(shortened(poseName2(row.pose), LONGEST_NAME5));
+      this.svg.append(s("g", {}, s("title", {}, poseName2(row.pose)), text));
+    }
+  }
+  /** An empty panel with its title and the lines of the drive. */
+  panel(title, y0, base, labelled3 = false) {
+    const { svg, width } = this;
+    svg.append(
+      s("rect", { class: "bm-panel", x: LEFT, y: y0, width: width - LEFT - RIGHT, height: base - y0 }),
+      s("text", { class: "bm-title", x: LEFT, y: y0 - 7 }, title)
+    );
+    let last = -99;
+    for (const { at, text } of this.across) {
+      const x = px(this.X(at));
+      svg.append(s("path", { class: "bm-rule", d: `M${x} ${y0}V${base}` }));
+      if (labelled3 && x - last > 34) {
+        svg.append(s("text", { class: "bm-tick", x, y: base + 15, "text-anchor": "middle" }, text));
+        last = x;
+      }
+    }
+  }
+  rule(y, text) {
+    this.svg.append(
+      s("path", { class: "bm-rule", d: `M${LEFT} ${px(y)}H${this.width - RIGHT}` }),
+      s("text", { class: "bm-tick", x: LEFT - 6, y: px(y) + 4, "text-anchor": "end" }, text)
+    );
+  }
+  show(drive, transmission) {
+    if (!this.cursor) return;
+    this.cursor.setAttribute("transform", `translate(${px(this.X(drive))} 0)`);
+    if (transmission !== null) this.mark.setAttribute("cy", px(this.Y(transmission)));
+  }
+};
+
+// src/burmester/web/studio/pacing.mjs
+var LEAST = 120;
+var SHARE2 = 8;
+var Pace = class {
+  /** @param {() => void} work @param {() => boolean} [wanted] asked before the work; what is not wanted is not done */
+  constructor(work, wanted = () => true) {
+    this.work = work;
+    this.wanted = wanted;
+    this.free = 0;
+    this.timer = null;
+    paces.add(this);
+  }
+  ask() {
+    if (this.timer !== null || !this.wanted()) return;
+    this.timer = setTimeout(() => this.now(), Math.max(0, this.free - performance.now()));
+  }
+  now() {
+    clearTimeout(this.timer);
+    this.timer = null;
+    const start = performance.now();
+    this.work();
+    const end = performance.now();
+    this.free = end + Math.max(LEAST, SHARE2 * (end - start));
+  }
+};
+var sights = /* @__PURE__ */ new WeakMap();
+var callers = /* @__PURE__ */ new WeakMap();
+var observer = null;
+function watch(element, fn) {
+  observer ??= new IntersectionObserver((entries) => {
+    for (const { target, isIntersecting } of entries) {
+      sights.set(target, isIntersecting);
+      if (isIntersecting) callers.get(target)();
+    }
+  });
+  callers.set(element, fn);
+  observer.observe(element);
+}
+var isSeen = (element) => printing || sights.get(element) === true;
+var paces = /* @__PURE__ */ new Set();
+var printing = false;
+function catchUpForPrint() {
+  addEventListener("beforeprint", () => {
+    printing = true;
+    for (const pace of paces) if (pace.wanted()) pace.now();
+  });
+  addEventListener("afterprint", () => printing = false);
+}
+
+// src/burmester/web/studio/charts.mjs
+var Charts = class {
+  constructor(answers, playing) {
+    this.playing = playing;
+    const fill = h("div", { class: "bm-fill" });
+    this.plots = new Plots(answers.data, fill, (u) => playing.player.go(u));
+    this.element = fill;
+    this.pace = new Pace(() => this.build(), () => isSeen(fill));
+    playing.on("shape", () => this.pace.ask());
+    playing.on("place", ({ drive, transmission }) => {
+      if (this.isFresh && isSeen(fill)) this.plots.show(drive, transmission);
+    });
+    answers.on("poses", () => this.isFresh = false);
+    new ResizeObserver(() => this.pace.ask()).observe(fill);
+    watch(fill, () => this.pace.ask());
+  }
+  build() {
+    const { playing, plots } = this, { linkage, path: path2, player } = playing;
+    if (!linkage || !path2 || linkage.gone || linkage.pose_errors.length !== plots.data.poses.length) {
+      plots.svg.replaceChildren();
+      plots.way = plots.cursor = null;
+      return;
+    }
+    plots.build(linkage, player.way, player.stretch);
+    this.isFresh = true;
+    if (playing.here) plots.show(playing.here.drive, playing.here.transmission);
+  }
+};
+
+// src/burmester/web/studio/together.mjs
+var stopsOf = (linkage, index) => linkage.pose_errors.map((row, k) => ({ k, way: row.way, frame: row.frame })).filter((stop) => stop.way === index).sort((a, b) => a.frame - b.frame);
+function stageOf(linkage, index, u) {
+  const stops = stopsOf(linkage, index);
+  if (!stops.length) return null;
+  if (stops.length === 1) return { from: stops[0].k, to: stops[0].k, share: 0 };
+  let at = 0;
+  while (at + 2 < stops.length && stops[at + 1].frame <= u) at += 1;
+  const [a, b] = [stops[at], stops[at + 1]], step = b.frame - a.frame;
+  const share = step > 0 ? (u - a.frame) / step : 0;
+  return { from: a.k, to: b.k, share: Math.min(Math.max(share, -1), 2) };
+}
+function frameAtStage(linkage, stage) {
+  if (!stage) return null;
+  const [a, b] = [stage.from, stage.to].map((k) => linkage.pose_errors[k]);
+  const there = (row) => Boolean(row) && row.way !== null;
+  if (!there(a) || !there(b) || a.way !== b.way) {
+    const [near2, other] = stage.share < 0.5 ? [a, b] : [b, a];
+    const row = there(near2) ? near2 : there(other) ? other : null;
+    return row && { way: row.way, u: row.frame };
+  }
+  const way = linkage.ways[a.way], last = way.x.length - 1;
+  let step = b.frame - a.frame;
+  if (way.round && Math.abs(step) > last / 2) step -= Math.sign(step) * last;
+  const u = a.frame + stage.share * step;
+  return { way: a.way, u: way.round ? (u % last + last) % last : Math.min(Math.max(u, 0), last) };
+}
+
+// src/burmester/web/studio/compare.mjs
+function comparison(one, other, data) {
+  const unit2 = data.unit ? ` ${data.unit}` : "", both = [one, other];
+  const least2 = (values) => values.every(Number.isFinite) && values[0] !== values[1] ? values[0] < values[1] ? 0 : 1 : null;
+  const row = (name, text, value, sign = 1) => ({ name, texts: both.map(text), better: value ? least2(both.map((each) => sign * (value(each) ?? NaN))) : null });
+  const links = ["ground", "driver", "coupler", "follower"];
+  return [
+    row("verdict", (each) => each.gone ? "gone" : each.usable ? "usable" : "not usable", (each) => each.usable ? 0 : 1),
+    row("type", (each) => each.type),
+    row("worst miss", (each) => worstOf(each, data), (each) => each.worst),
+    row("least transmission angle", (each) => leastOf(each), (each) => each.least, -1),
+    row("size", (each) => each.quality ? `${figure(each.quality.extent)} spans` : "–", (each) => each.quality?.extent),
+    row("sensitivity", (each) => each.quality ? figure(each.quality.sensitivity) : "–", (each) => each.quality?.sensitivity),
+    row("driver", (each) => each.led[0].id),
+    ...links.map((name) => row(`${name} link`, (each) => each.said.links?.[name] ? `${each.said.links[name]}${unit2}` : "–")),
+    row("reason", (each) => each.usable ? "–" : (each.followed ? each.reason : each.said.reasons.join("; ")) || "–")
+  ];
+}
+var Compare = class {
+  constructor(store, answers, playing) {
+    Object.assign(this, { store, answers, playing });
+    this.pictures = [0, 1].map(() => h("div", { class: "bm-drawing" }));
+    this.planes = this.pictures.map((parent) => new Plane(answers.data, parent));
+    this.names = [0, 1].map(() => h("h3", {}));
+    this.places = [0, 1].map(() => h("p", { class: "bs-quiet" }));
+    this.table = h("div", { class: "bm-scroll", tabindex: 0, role: "region", "aria-label": "Both linkages in numbers" });
+    this.button = h("button", { type: "button", class: "bm-button", onclick: () => playing.player.play(!playing.player.playing) }, "Play both");
+    this.close = h("button", { type: "button", class: "bs-small", onclick: () => store.compared && store.compare(store.compared) }, "End the comparison");
+    this.pairs = h("div", { class: "bs-beside" }, [0, 1].map((k) => h("div", {}, this.names[k], this.pictures[k], this.places[k])));
+    this.empty = h("p", { class: "bm-story" }, "Press “Compare” on a card: that linkage moves beside the chosen one.");
+    this.full = h("div", { hidden: true }, this.pairs, h("div", { class: "bs-tool" }, this.button, " ", this.close), this.table);
+    this.element = h("div", { class: "bs-compare" }, this.empty, this.full);
+    this.pace = new Pace(() => this.build(), () => this.on && isSeen(this.element));
+    answers.on("answers shown", () => this.start());
+    playing.on("shape", () => this.pace.ask());
+    playing.on("place", (here) => this.show(here));
+    new ResizeObserver(() => this.pace.ask()).observe(this.element);
+    watch(this.element, () => this.pace.ask());
+  }
+  get other() {
+    return this.answers.get(this.store.compared);
+  }
+  get on() {
+    return Boolean(this.other && this.playing.linkage && this.other !== this.answers.shown);
+  }
+  start() {
+    this.full.hidden = !this.on;
+    this.empty.hidden = this.on;
+    if (this.on) {
+      for (let part = this.element.parentElement; part; part = part.parentElement) if (part.tagName === "DETAILS") part.open = true;
+      this.build();
+    }
+  }
+  build() {
+    if (!this.on) return;
+    const { answers, playing, other } = this, mine = playing.linkage;
+    const options = { factor: 0, fill: 0, far: false };
+    this.names.forEach((name, k) => name.textContent = [mine, other][k].id === "placed" ? "By hand" : `${[mine, other][k].id}: ${[mine, other][k].type}`);
+    this.planes[0].build(mine, playing.player.way, playing.player.stretch, options);
+    this.way = null;
+    this.buildTable(comparison(mine, other, answers.data));
+    if (playing.here) this.show(playing.here);
+  }
+  buildTable(rows) {
+    const old = this.answers.isOld ? "bs-old" : null;
+    this.table.replaceChildren(
+      h(
+        "table",
+        { class: "bs-compared" },
+        h("caption", {}, "Both linkages in numbers; the better one of each row is bold"),
+        h("thead", {}, h("tr", {}, h("th", { scope: "col" }, ""), this.names.map((name) => h("th", { scope: "col" }, name.textContent)))),
+        h("tbody", {}, rows.map(({ name, texts, better }) => h("tr", { class: /size|sensitivity|link/.test(name) ? old : null }, h("th", { scope: "row" }, name), texts.map((text, k) => h("td", { class: "bm-words" }, better === k ? h("b", {}, text) : text)))))
+      )
+    );
+  }
+  /** Both at the same stage. */
+  show({ place, transmission }) {
+    if (!this.on || !isSeen(this.element)) return;
+    const { playing, other, answers: { data } } = this, { player } = playing;
+    this.planes[0].show(place);
+    this.tell(0, transmission);
+    const at = frameAtStage(other, stageOf(playing.linkage, player.way, player.u));
+    this.pictures[1].classList.toggle("bs-old", !at);
+    if (!at) {
+      this.planes[1].build(other, 0, { low: 0, high: (other.ways[0]?.x.length ?? 2) - 1 }, { factor: 0, fill: 0, far: false });
+      this.places[1].textContent = "It does not reach this pose.";
+      return;
+    }
+    if (this.way !== at.way) {
+      this.way = at.way;
+      const stops = other.pose_errors.filter((row) => row.way === at.way).map((row) => row.frame);
+      const [low, high] = [Math.min(...stops), Math.max(...stops)];
+      this.planes[1].build(other, at.way, high > low ? { low, high } : { low: 0, high: other.ways[at.way].x.length - 1 }, { factor: 0, fill: 0, far: false });
+    }
+    const way = other.ways[at.way];
+    this.planes[1].show(placeAt(other, way, at.u, data.chart.length));
+    this.tell(1, way.transmission[Math.round(at.u)]);
+  }
+  tell(k, transmission) {
+    const text = `transmission angle ${transmission === null || !Number.isFinite(transmission) ? "–" : `${fixed(transmission, 1)}°`}`;
+    if (this.places[k].textContent !== text) this.places[k].textContent = text;
+  }
+};
+
+// src/burmester/web/studio/coupler_curve.mjs
+var MOST2 = 8;
+var ARROWS3 = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+var curveOf = (way, point2) => framesOf(way).map((place) => act(place, point2));
+var CouplerCurves = class {
+  constructor(answers, playing, scene) {
+    Object.assign(this, { answers, playing, scene, points: [] });
+    this.group = s("g", { class: "bs-coupler-curves" });
+    this.handles = s("g", { class: "bs-coupler-points" });
+    scene.layer("paths").append(this.group);
+    scene.layer("pivots").append(this.handles);
+    this.button = h("button", { type: "button", class: "bs-small", "aria-pressed": "false", "data-tool": "coupler-point", onclick: () => this.pick() }, "Pick a point on the body");
+    this.list = h("ul", { class: "bs-points" });
+    this.readout = h("output", { class: "bs-quiet" });
+    this.element = h("div", { class: "bs-tool" }, this.button, " ", this.readout, this.list);
+    this.tool = {
+      name: "coupler-point",
+      hint: "Click on the body: the curve of that point is drawn. Escape ends.",
+      click: ({ x, y }) => this.add([x, y]),
+      key: (event) => {
+        if (event.key !== "Escape") return false;
+        scene.use?.(null);
+        return true;
+      },
+      end: () => this.button.setAttribute("aria-pressed", "false")
+    };
+    playing.on("shape", () => this.shape());
+    playing.on("place", ({ place }) => this.show(place));
+    scene.on("view", () => this.shape());
+    this.tell();
+  }
+  pick() {
+    const on = this.scene.tool !== this.tool;
+    this.scene.use?.(on ? this.tool : null);
+    this.button.setAttribute("aria-pressed", String(on));
+  }
+  /** A point of F where the body is now, or a point of M. */
+  add(at, inBody2 = false) {
+    const place = this.playing.here?.place;
+    if (!place && !inBody2 || this.points.length >= MOST2) return;
+    const point2 = { at: inBody2 ? at : this.rounded(back(place, at)), path: s("path", { class: "bm-curve bs-coupler-curve" }) };
+    point2.handle = s(
+      "g",
+      { class: "bs-coupler-point", tabindex: 0, role: "button", "data-point": this.points.length + 1 },
+      s("circle", { class: "bs-hold", r: 13 }),
+      s("circle", { class: "bs-coupler-dot", r: 4.5 })
+    );
+    this.drag(point2);
+    this.points.push(point2);
+    this.group.append(point2.path);
+    this.handles.append(point2.handle);
+    this.number();
+    this.shape();
+  }
+  remove(point2) {
+    this.points = this.points.filter((each) => each !== point2);
+    point2.path.remove();
+    point2.handle.remove();
+    this.number();
+    this.shape();
+  }
+  number() {
+    this.points.forEach((point2, k) => point2.handle.dataset.point = k + 1);
+  }
+  rounded(point2) {
+    return point2.map((value) => Number(value.toFixed(clamp(decimalsOf(this.answers.data), 0, 12))));
+  }
+  drag(point2) {
+    let before;
+    this.scene.drag?.(point2.handle, {
+      start: () => {
+        before = point2.at;
+        this.playing.player.play(false);
+      },
+      move: ({ x, y }) => this.put(point2, back(this.playing.here.place, [x, y])),
+      cancel: () => this.put(point2, before)
+    });
+    point2.handle.addEventListener("keydown", (event) => {
+      const arrow2 = ARROWS3[event.key];
+      if (event.ctrlKey || event.metaKey) return;
+      if (arrow2) {
+        const step = (this.scene.step ?? this.answers.data.scene / 100) * (event.shiftKey ? 10 : event.altKey ? 0.1 : 1);
+        this.put(point2, point2.at.map((value, k) => value + step * arrow2[k]));
+      } else if (event.key === "Delete" || event.key === "Backspace") {
+        this.remove(point2);
+      } else {
+        return;
+      }
+      event.preventDefault();
+    });
+  }
+  put(point2, at) {
+    point2.at = this.rounded(at);
+    this.shape();
+  }
+  shape() {
+    const { path: path2, linkage } = this.playing, { view } = this.scene, there = path2 && !linkage.gone;
+    for (const point2 of this.points) {
+      const list = there ? curveOf(path2, point2.at) : [];
+      point2.path.setAttribute("d", smoothPath(list.map(([x]) => view.X(x)), list.map(([, y]) => view.Y(y)), path2?.round));
+      point2.handle.setAttribute("visibility", there ? "visible" : "hidden");
+    }
+    if (there && this.playing.here) this.show(this.playing.here.place);
+    this.tell();
+  }
+  show(place) {
+    const { view } = this.scene;
+    for (const point2 of this.points) {
+      const [x, y] = act(place, point2.at);
+      point2.handle.setAttribute("transform", transform(view.X(x), view.Y(y), 0));
+    }
+  }
+  /** The points in words, each with a button that takes it away. */
+  tell() {
+    const digits = decimalsOf(this.answers.data), key = `${this.points.map(({ at }) => at.join()).join(" ")} ${digits}`;
+    if (key === this.told) return;
+    this.told = key;
+    this.readout.textContent = this.points.length ? "" : "Its curve is drawn, and goes along with every change.";
+    this.list.replaceChildren(
+      ...this.points.map((point2, k) => {
+        const name = `Point ${k + 1} at (${point2.at.map((value) => fixed(value, digits)).join(", ")}) of the body`;
+        point2.handle.setAttribute("aria-label", `${name}. Drag it, or use the arrow keys; Delete removes it.`);
+        return h("li", {}, name, " ", h("button", { type: "button", class: "bs-small", "aria-label": `Remove point ${k + 1}`, onclick: () => this.remove(point2) }, "Remove"));
+      })
+    );
+  }
+};
+
+// src/burmester/web/widget/words.mjs
+function storyOf(linkage) {
+  const { said } = linkage;
+  const met = `${linkage.usable ? "Usable" : "Not usable"}: it ${said.met}`;
+  if (!linkage.ways.length) return `${met}. It cannot be shown moving: ${said.reasons.join("; ") || "its motion is not known"}.`;
+  if (linkage.type === "change-point") {
+    return `${met}, driven by ${linkage.led[0].id}. At a change point, where all links lie in one line, it may go on either way.`;
+  }
+  return linkage.usable ? `${met}, driven by ${linkage.led[0].id}.` : `Not usable: it ${said.in_short}.`;
+}
+function wayStory(way, poses) {
+  const names = poses.map((pose) => pose.label);
+  const all = way.poses.length === names.length;
+  const here = all ? "all poses" : way.poses.length ? `pose${way.poses.length > 1 ? "s" : ""} ${runs(way.poses, names)}` : "no pose";
+  const dead = way.dead.filter(Boolean).length;
+  const ends = way.round ? "turns round" : dead === 2 ? "between two dead points" : dead ? "up to a dead point" : "open";
+  return `${here}; ${ends}`;
+}
+function factsOf(data, linkage) {
+  const { said } = linkage, unit2 = data.unit ? ` ${data.unit}` : "";
+  const rows = [
+    ["verdict", verdictOf(linkage)],
+    ...Object.entries(said.links ?? {}).map(([name, value]) => [`${name} link`, `${value}${unit2}`]),
+    ["worst miss", missOf(said.worst, said.angle, unit2)],
+    ["rms miss", missOf(said.rms, said.rms_angle, unit2)],
+    ["least transmission angle", said.transmission === "-" ? "–" : said.transmission],
+    ...Object.entries(said.quality),
+    ["driver", `${linkage.led[0].id}${said.turns_fully ? ", turns fully" : ""}`],
+    ...said.freedom ? [["pivots", said.freedom.replace("pivots ", "")]] : []
+  ];
+  return h("dl", { class: "bm-facts" }, rows.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value))));
+}
+function spaceStory(linkage) {
+  const plain = "Every place of the body is one point of this space; numbered points are the poses.";
+  if (!linkage) return [plain];
+  const surface = (side) => h("b", { class: `bm-side${side}` }, linkage.led[side].id);
+  return [plain, " The surfaces are all places that dyad ", surface(0), " (driver) and dyad ", surface(1), " (follower) allow; where they meet, the line, the coupler moves."];
+}
+
+// src/burmester/web/studio/facts_table.mjs
+function table2(caption, heads, rows) {
+  return h(
+    "div",
+    { class: "bm-scroll", tabindex: 0, role: "region", "aria-label": caption },
+    h(
+      "table",
+      {},
+      h("caption", {}, caption),
+      h("thead", {}, h("tr", {}, heads.map((head) => h("th", { scope: "col" }, head)))),
+      h("tbody", {}, rows.map((row) => h("tr", {}, row.map((text, k) => k ? h("td", {}, text) : h("th", { scope: "row" }, text)))))
+    )
+  );
+}
+var point = (at, digits) => `(${at.map((value) => fixed(value, digits)).join(", ")})`;
+function poseFacts(linkage, data, points) {
+  const digits = decimalsOf(data);
+  return linkage.pose_errors.map((row, k) => {
+    const name = data.poses[k] ? poseName2(data.poses[k]) : String(k + 1);
+    if (row.x === null) return [name, "–", ...points.map(() => "–")];
+    const place = placeOf(row), centre = instantCentre(linkage.led, place);
+    return [name, centre ? point(centre, digits) : "at infinity", ...points.map((each) => point(act(place, each.at), digits))];
+  });
+}
+var FactsTable = class {
+  constructor(store, answers, playing, curves) {
+    Object.assign(this, { store, answers, playing, curves });
+    this.element = h("div", { class: "bs-facts" });
+    this.pace = new Pace(() => this.build(), () => isSeen(this.element));
+    playing.on("shape", () => this.pace.ask());
+    answers.on("answers poses placed", () => this.pace.ask());
+    watch(this.element, () => this.pace.ask());
+    this.element.append(h("p", { class: "bm-story" }, "Nothing is known yet."));
+  }
+  build() {
+    const { answers, playing } = this, { data, isOld } = answers, { linkage } = playing;
+    const parts = [];
+    const part = (title, old, ...content) => parts.push(h("section", { class: old ? "bs-old" : null, "aria-label": title }, h("h3", {}, title), old ? h("p", { class: "bs-quiet" }, "As of the last whole answer.") : null, content));
+    const fits = linkage && linkage.pose_errors.length === data.poses.length;
+    if (linkage) {
+      const name = linkage.id === PLACED ? "Pivots put down by hand" : `${linkage.id}: ${linkage.type}`;
+      const live = linkage.followed || playing.isOther;
+      part(name, false, live ? this.followedFacts(linkage) : [h("p", { class: "bm-story" }, storyOf(linkage)), dimensionTable(data, { ...linkage, id: linkage.id === PLACED ? "the linkage by hand" : linkage.id }), factsOf(data, linkage)]);
+    }
+    part("Pose by pose", false, poseTable(data, fits ? linkage : void 0));
+    if (fits) {
+      const points = this.curves?.points ?? [];
+      part("Instant centre and picked points", false, table2("At each pose, in F", ["pose", "instant centre", ...points.map((each, k) => `point ${k + 1}`)], poseFacts(linkage, data, points)));
+    }
+    if (this.store.placed) part("Pivots put down by hand", false, this.placedTable());
+    if (data.linkages.length) part("All linkages", isOld, this.linkages());
+    if (data.dyads.length) part("Dyads", isOld, dyadTable(data));
+    if (linkage && !linkage.followed && linkage.said.manifolds?.[0].length && !playing.isOther) part("Image space", isOld, imageTables(data, linkage));
+    this.element.replaceChildren(...parts);
+  }
+  followedFacts(linkage) {
+    const { data } = this.answers;
+    return [
+      table2(`Dimensions of ${linkage.id}${data.unit ? `, in ${data.unit}` : ""}`, ["", "", "value"], dimensionsOf(linkage, data).map(({ dyad, what, value }) => [dyad, what, value])),
+      table2("Verdict", ["", "value"], [
+        ["verdict", linkage.gone ?? (linkage.usable ? "usable" : `not usable: ${linkage.reason ?? linkage.said.reasons.join("; ")}`)],
+        ["worst miss", worstOf(linkage, data)],
+        ["least transmission angle", leastOf(linkage)],
+        ["driver", linkage.led[0].id]
+      ])
+    ];
+  }
+  /** All linkages: as the report has them, or what was followed of them. */
+  linkages() {
+    const { answers } = this, { data } = answers;
+    if (!answers.linkages.some((each) => each.followed)) return linkageTable(data);
+    return table2("All linkages, followed", ["", "verdict", "type", "worst miss", "least transmission"], answers.linkages.map((each) => [each.id, each.gone ? "gone" : each.usable ? "usable" : "not usable", each.type, worstOf(each, data), leastOf(each)]));
+  }
+  placedTable() {
+    const { placed } = this.store, unit2 = this.answers.data.unit ? `, in ${this.answers.data.unit}` : "";
+    return table2(`Their dyads${unit2}`, ["", "on the ground (F)", "on the body (M)", "length", "rms miss", "worst miss"], placed.dyads.map((dyad) => [dyad.id, dyad.said.ground, dyad.said.body, dyad.said.length, dyad.said.rms, dyad.said.worst]));
+  }
+};
+
+// src/burmester/web/widget/family_pairs.mjs
+var CLASSES = 7;
+var OUTSIDE = 2;
+var FamilyPairs = class {
+  constructor(data) {
+    this.data = data;
+    this.map = data.family_map;
+    this.isCurve = this.map.kind === "curve";
+    this.columns = this.isCurve ? this.map.fixed.length : this.map.columns;
+    this.rows = this.isCurve ? this.columns : this.map.rows;
+    this.starts = [];
+    (this.map.loops ?? []).reduce((start, size2) => (this.starts.push(start), start + size2), 0);
+  }
+  /** The letter of a loop, where there are several. */
+  letter(loop) {
+    return this.starts.length > 1 ? `${"ABCDEFGH"[loop]} ` : "";
+  }
+  /** The pair at column i and row j: its class, its driver (0 or 1) and whole degrees. */
+  pair([i, j]) {
+    const { cells: cells2 } = this.map;
+    if (!this.isCurve) return this.decoded(cells2[j * this.columns + i]);
+    if (i === j) return { kind: CLASSES - 1, driver: 0, degrees: 0 };
+    const [a, b] = [Math.min(i, j), Math.max(i, j)], n = this.columns;
+    const pair = this.decoded(cells2[a * n - a * (a + 1) / 2 + b - a - 1]);
+    return i < j ? pair : { ...pair, driver: 1 - pair.driver };
+  }
+  decoded(code) {
+    const rest = Math.floor(code / CLASSES);
+    return { kind: code % CLASSES, driver: rest % 2, degrees: Math.floor(rest / 2) };
+  }
+  /** The best pair that a dyad of the curve makes. */
+  bestPartner(i) {
+    let best = { kind: CLASSES - 1, degrees: 0 };
+    for (let j = 0; j < this.columns; j += 1) {
+      const pair = this.pair([i, j]);
+      if (pair.kind < best.kind || pair.kind === best.kind && pair.degrees > best.degrees) best = pair;
+    }
+    return best;
+  }
+  /** The name of a place along the curve: its share of its loop, after the loop's letter. */
+  placeName(k) {
+    const loop = this.starts.findLastIndex((start) => start <= k), size2 = this.map.loops[loop];
+    return `${this.letter(loop)}${((k - this.starts[loop] + 0.5) / size2).toFixed(2)}`;
+  }
+  /** The cell of a fixed pivot in the plane of three poses. */
+  cellOf(pivot) {
+    if (!pivot) return null;
+    const { low, high } = this.map, many = [this.columns, this.rows];
+    const at = pivot.map((v, k) => Math.round((v - low[k]) / (high[k] - low[k]) * (many[k] - 1)));
+    return at.every((v, k) => v >= 0 && v < many[k]) ? at : null;
+  }
+  /** The fixed pivot of a cell in the plane of three poses. */
+  pivotOf(cell) {
+    const { low, high } = this.map, many = [this.columns, this.rows];
+    return cell.map((v, k) => low[k] + v / (many[k] - 1) * (high[k] - low[k]));
+  }
+  /** Both dyads of a pair: fixed pivots in F, moving ones in M, lengths. */
+  dyadsOf(cell) {
+    const { map } = this;
+    if (this.isCurve) return cell.map((k) => ({ fixed: map.fixed[k], moving: map.moving[k], length: map.length[k] }));
+    return [map.chosen, dyadOfThree(this.data.poses, this.pivotOf(cell))];
+  }
+  /** The pivots of a pair in F, at pose 1. */
+  pinsOf(cell) {
+    if (!cell) return [];
+    return this.dyadsOf(cell).flatMap((each) => [...each.fixed ? [each.fixed] : [], ...each.moving ? [this.seen(each.moving)] : []]);
+  }
+  /** A point of the body in F, at pose 1. */
+  seen([x, y]) {
+    const [pose] = this.data.poses, turn = pose.angle_deg * Math.PI / 180, [cos, sin] = [Math.cos(turn), Math.sin(turn)];
+    return [pose.x + cos * x - sin * y, pose.y + sin * x + cos * y];
+  }
+};
+function dyadOfThree(poses, pivot) {
+  const [a, b, c] = poses.map((pose) => {
+    const turn = -pose.angle_deg * Math.PI / 180, [x, y] = [pivot[0] - pose.x, pivot[1] - pose.y];
+    return [Math.cos(turn) * x - Math.sin(turn) * y, Math.sin(turn) * x + Math.cos(turn) * y];
+  });
+  const u = [b[0] - a[0], b[1] - a[1]], v = [c[0] - a[0], c[1] - a[1]];
+  const cross3 = 2 * (u[0] * v[1] - u[1] * v[0]), uu = u[0] ** 2 + u[1] ** 2, vv = v[0] ** 2 + v[1] ** 2;
+  const arm = [(uu * v[1] - vv * u[1]) / cross3, (vv * u[0] - uu * v[0]) / cross3];
+  return { fixed: pivot, moving: [a[0] + arm[0], a[1] + arm[1]], length: Math.hypot(...arm) };
+}
+
+// src/burmester/web/widget/pivot_map.mjs
+var MAX_BANDS = 12;
+var PivotMap = class {
+  constructor(data, parent) {
+    this.data = data;
+    this.parent = parent;
+    this.canvas = h("canvas", { "aria-hidden": "true" });
+    const name = `bm-map-${Math.random().toString(36).slice(2)}`;
+    this.svg = s("svg", {
+      class: "bm-map-picture",
+      role: "application",
+      tabindex: "0",
+      "aria-roledescription": "map",
+      "aria-describedby": name,
+      "aria-label": "Pivot map: the error of the best link for every fixed pivot. Arrow keys move a cursor, with Shift by ten steps; the error there is told."
+    });
+    this.readout = h("output", { class: "bm-readout", id: name });
+    this.cursor = null;
+    this.legend = h("p", { class: "bm-legend" });
+    parent.append(h("div", { class: "bm-map" }, this.canvas, this.svg), this.legend, this.readout);
+    this.svg.addEventListener("pointermove", (event) => this.read(event));
+    this.svg.addEventListener("pointerleave", () => this.tell());
+    this.svg.addEventListener("keydown", (event) => this.move(event));
+    const { log10_rms: levels } = data.pivot_map;
+    const known = levels.filter((level) => level !== null).sort((a, b) => a - b);
+    const low = known[Math.floor(2e-3 * known.length)], high = known[Math.floor(0.98 * known.length)];
+    this.step = [1 / 24, 1 / 12, 1 / 6, 1 / 3, 1 / 2, 1, 2].find((step) => (high - low) / step < MAX_BANDS - 1) ?? 3;
+    this.low = Math.floor(low / this.step) * this.step;
+    this.high = Math.ceil(high / this.step) * this.step;
+    this.count = Math.max(1, Math.round((this.high - this.low) / this.step));
+    this.invitation = "Point at the map to read it, or move over it by arrow keys.";
+    this.readout.append(this.invitation);
+  }
+  /** log10 of the error at column u and row v of the grid, bilinear between four of its points. */
+  level(u, v) {
+    const { columns, rows, log10_rms: levels } = this.data.pivot_map;
+    const i = clamp(Math.floor(u), 0, columns - 2), j = clamp(Math.floor(v), 0, rows - 2);
+    const a = u - i, b = v - j, at = j * columns + i;
+    const [p, q, r, t] = [levels[at], levels[at + 1], levels[at + columns], levels[at + columns + 1]];
+    const shares = [(1 - a) * (1 - b), a * (1 - b), (1 - a) * b, a * b];
+    if ([p, q, r, t].some((level, k) => level === null && shares[k] > 0)) return null;
+    return shares[0] * p + shares[1] * q + shares[2] * r + shares[3] * t;
+  }
+  build(linkage) {
+    const { svg } = this, map = this.data.pivot_map;
+    const width = Math.max(240, this.parent.clientWidth);
+    const height = Math.round(width * (map.high[1] - map.low[1]) / (map.high[0] - map.low[0]));
+    this.paint(width, height);
+    svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    svg.replaceChildren();
+    const scale = width / (map.high[0] - map.low[0]);
+    const view = { width, height, X: (x) => (x - map.low[0]) * scale, Y: (y) => height - (y - map.low[1]) * scale };
+    this.linkage = linkage;
+    this.view = view;
+    this.explain(this.pivots(linkage, view));
+    this.mark = s("path", { class: "bm-map-cursor", d: "M-11 0H-4M4 0H11M0 -11V-4M0 4V11" });
+    svg.append(this.mark);
+    this.tell();
+  }
+  /** The shades, painted again only where their size or the colours have changed. */
+  paint(width, height) {
+    const { canvas } = this, map = this.data.pivot_map;
+    const dense = Math.min(2, window.devicePixelRatio || 1);
+    const style = getComputedStyle(this.parent);
+    const near2 = rgb(style.getPropertyValue("--bm-map-near"));
+    const far = rgb(style.getPropertyValue("--bm-map-far"));
+    const w = Math.round(width * dense), t = Math.round(height * dense);
+    if (canvas.width === w && this.paintedIn === near2.join()) return;
+    this.paintedIn = near2.join();
+    canvas.width = w;
+    canvas.height = t;
+    const context = canvas.getContext("2d"), image = context.createImageData(w, t);
+    const band = new Int16Array(w * t);
+    for (let j = 0; j < t; j += 1) {
+      for (let i = 0; i < w; i += 1) {
+        const level = this.level(i / (w - 1) * (map.columns - 1), (1 - j / (t - 1)) * (map.rows - 1));
+        band[j * w + i] = level === null ? -1 : clamp(Math.floor((level - this.low) / this.step), 0, this.count - 1);
+      }
+    }
+    for (let k = 0; k < w * t; k += 1) {
+      const own = band[k];
+      const edge = k % w && band[k - 1] !== own || k >= w && band[k - w] !== own;
+      const share = own < 0 ? 1 : own / Math.max(1, this.count - 1);
+      const shade = edge ? 0.84 : 1;
+      for (let c = 0; c < 3; c += 1) image.data[4 * k + c] = shade * (near2[c] + share * (far[c] - near2[c]));
+      image.data[4 * k + 3] = 255;
+    }
+    context.putImageData(image, 0, 0);
+  }
+  /** Marks of poses and of all fixed pivots.  Returns sentences on those of the linkage that lie outside. */
+  pivots(linkage, view) {
+    const { data, svg } = this, map = data.pivot_map;
+    const labels = new Labels(view);
+    for (const pose of data.poses) {
+      const x = px(view.X(pose.x)), y = px(view.Y(pose.y));
+      svg.append(s("path", { class: "bm-cross", d: `M${x - 3} ${y}h6M${x} ${y - 3}v6` }));
+    }
+    const every = /* @__PURE__ */ new Map();
+    for (const each of data.linkages) for (const dyad of each.led) if (dyad.fixed_pivot) every.set(dyad.fixed_pivot.join(), dyad);
+    for (const dyad of data.dyads) if (dyad.fixed_pivot) every.set(dyad.fixed_pivot.join(), dyad);
+    const inside2 = ([x, y]) => x >= map.low[0] && x <= map.high[0] && y >= map.low[1] && y <= map.high[1];
+    for (const dyad of every.values()) {
+      if (!inside2(dyad.fixed_pivot)) continue;
+      const [x, y] = [view.X(dyad.fixed_pivot[0]), view.Y(dyad.fixed_pivot[1])];
+      svg.append(s("circle", { class: "bm-some-pivot", cx: px(x), cy: px(y), r: 2.5 }));
+    }
+    const outside = [];
+    (linkage?.led ?? []).forEach((dyad, side) => {
+      if (!dyad.fixed_pivot) return;
+      if (!inside2(dyad.fixed_pivot)) {
+        outside.push(`the fixed pivot of ${dyad.id} lies outside`);
+        return;
+      }
+      const [x, y] = [view.X(dyad.fixed_pivot[0]), view.Y(dyad.fixed_pivot[1])];
+      labels.block(x, y, 12, 12);
+      svg.append(
+        s("circle", { class: `bm-its-pivot bm-side${side}`, cx: px(x), cy: px(y), r: 6 }),
+        labels.put(x, y, dyad.id, 16, { class: "bm-map-name" })
+      );
+    });
+    return outside;
+  }
+  explain(outside) {
+    const unit2 = this.data.unit ? ` ${this.data.unit}` : "";
+    this.legend.replaceChildren(
+      h("span", { class: "bm-swatch bm-near" }),
+      ` ${figure(10 ** this.low)}${unit2} or less`,
+      h("span", { class: "bm-swatch bm-far" }),
+      ` ${figure(10 ** this.high)}${unit2} or more; each line is a factor of ${figure(10 ** this.step)}. `,
+      "Small dots: fixed pivots of all dyads; crosses: the poses.",
+      outside.length ? ` Of this linkage, ${listed(outside)}.` : ""
+    );
+  }
+  /** A place of the grid, by its column and row, in the plane. */
+  placeAt([u, v]) {
+    const { low, high, columns, rows } = this.data.pivot_map;
+    return [low[0] + u / (columns - 1) * (high[0] - low[0]), low[1] + v / (rows - 1) * (high[1] - low[1])];
+  }
+  /** Move the cursor by a key, from one place of the grid to the next; it starts at the driver's pivot. */
+  move(event) {
+    const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] }[event.key];
+    if (!step || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    const { low, high, columns, rows } = this.data.pivot_map, many = event.shiftKey ? 10 : 1;
+    const pivot = this.linkage?.led.map((dyad) => dyad.fixed_pivot).find(Boolean) ?? this.placeAt([(columns - 1) / 2, (rows - 1) / 2]);
+    const [u, v] = this.cursor ?? [
+      Math.round((pivot[0] - low[0]) / (high[0] - low[0]) * (columns - 1)),
+      Math.round((pivot[1] - low[1]) / (high[1] - low[1]) * (rows - 1))
+    ];
+    this.cursor = [clamp(u + many * step[0], 0, columns - 1), clamp(v + many * step[1], 0, rows - 1)];
+    this.tell();
+  }
+  /** The cursor, and the error there; without a cursor how to get one. */
+  tell() {
+    const { cursor, mark, view } = this;
+    mark?.setAttribute("visibility", cursor ? "visible" : "hidden");
+    if (!cursor) {
+      this.readout.textContent = this.invitation;
+      return;
+    }
+    const [x, y] = this.placeAt(cursor);
+    mark?.setAttribute("transform", `translate(${px(view.X(x))} ${px(view.Y(y))})`);
+    this.say(cursor);
+  }
+  /** The error at the pointer. */
+  read(event) {
+    const box = this.svg.getBoundingClientRect(), { columns, rows } = this.data.pivot_map;
+    this.say([(event.clientX - box.left) / box.width * (columns - 1), (1 - (event.clientY - box.top) / box.height) * (rows - 1)]);
+  }
+  /** The error at a column and a row of the grid, which may be fractions. */
+  say(at) {
+    const [x, y] = this.placeAt(at), level = this.level(...at);
+    const digits = Math.max(0, 2 - Math.floor(Math.log10(this.data.scene)));
+    const unit2 = this.data.unit ? ` ${this.data.unit}` : "";
+    this.readout.textContent = `Fixed pivot (${fixed(x, digits)}, ${fixed(y, digits)}): the best link misses by ` + (level === null ? "an unknown error." : `${figure(10 ** level)}${unit2} (rms).`);
+  }
+};
+
+// src/burmester/web/studio/burmester_curves.mjs
+var NEWTON_STEPS = 6;
+var FARTHEST_STEP = 0.1;
+function nearestOnCurve(points, loops, wanted, widest) {
+  let best = null, start = 0;
+  for (const size2 of loops) {
+    for (let i = 0; i < size2; i += 1) {
+      const j = (i + 1) % size2, a = points[start + i], b = points[start + j];
+      const d = [b[0] - a[0], b[1] - a[1]], squared = d[0] * d[0] + d[1] * d[1];
+      if (squared > widest * widest) continue;
+      const t = squared > 0 ? Math.min(1, Math.max(0, ((wanted[0] - a[0]) * d[0] + (wanted[1] - a[1]) * d[1]) / squared)) : 0;
+      const at = [a[0] + t * d[0], a[1] + t * d[1]], away = Math.hypot(at[0] - wanted[0], at[1] - wanted[1]);
+      if (!best || away < best.away) best = { k: start + i, next: start + j, share: t, at, away };
+    }
+    start += size2;
+  }
+  return best;
+}
+function circleDeterminant([o, ...others]) {
+  const [a, b, c] = others.map(([x, y]) => [x - o[0], y - o[1]]).map(([x, y]) => [x, y, x * x + y * y]);
+  return a[2] * (b[0] * c[1] - b[1] * c[0]) - b[2] * (a[0] * c[1] - a[1] * c[0]) + c[2] * (a[0] * b[1] - a[1] * b[0]);
+}
+function ontoCurve(poses, plane, point2, scene) {
+  const places = poses.map((pose) => ({ x: pose.x, y: pose.y, a: radians(pose.angle_deg) }));
+  const value = (at2) => circleDeterminant(places.map((place) => plane === "F" ? back(place, at2) : act(place, at2)));
+  const step = 1e-6 * scene;
+  let at = point2;
+  for (let k = 0; k < NEWTON_STEPS; k += 1) {
+    const slope = [0, 1].map((axis) => {
+      const [up, down] = [1, -1].map((sense) => value(at.map((each, n) => each + (n === axis ? sense * step : 0))));
+      return (up - down) / (2 * step);
+    });
+    const squared = slope[0] ** 2 + slope[1] ** 2, here = value(at);
+    if (!(squared > 0)) return at;
+    at = at.map((each, n) => each - here * slope[n] / squared);
+  }
+  return Math.hypot(at[0] - point2[0], at[1] - point2[1]) < FARTHEST_STEP * scene ? at : point2;
+}
+var worthOf = (pairs) => Array.from({ length: pairs.columns }, (_, k) => worth(pairs.bestPartner(k).kind));
+var worth = (kind) => kind < OUTSIDE ? "works" : kind === OUTSIDE ? "outside" : "fails";
+function curvesOf({ loops }) {
+  const curves = { fixed: [], moving: [], loops: [], worth: [] };
+  for (const loop of loops) {
+    const kept = loop.fixed.map((_, k) => k).filter((k) => [...loop.fixed[k], ...loop.moving[k]].every(Number.isFinite));
+    curves.loops.push(kept.length);
+    for (const k of kept) {
+      curves.fixed.push(loop.fixed[k]);
+      curves.moving.push(loop.moving[k]);
+      curves.worth.push(loop.class ? worth(loop.class[k]) : "plain");
+    }
+  }
+  return curves;
+}
+function curvePaths(points, loops, worth2, X, Y, widest) {
+  const paths = { works: "", outside: "", fails: "", plain: "" };
+  const near2 = (p, q) => Math.hypot(p[0] - q[0], p[1] - q[1]) <= widest;
+  const text = ([x, y]) => `${Math.round(X(x) * 100) / 100} ${Math.round(Y(y) * 100) / 100}`;
+  const between2 = (p, q) => [(p[0] + q[0]) / 2, (p[1] + q[1]) / 2];
+  let start = 0;
+  for (const size2 of loops) {
+    for (let i = 0; i < size2; i += 1) {
+      const [a, b, c] = [-1, 0, 1].map((step) => points[start + (i + step + size2) % size2]);
+      const list = [...near2(a, b) ? [between2(a, b)] : [], b, ...near2(b, c) ? [between2(b, c)] : []];
+      if (list.length > 1) paths[worth2[start + i]] += `M${list.map(text).join("L")}`;
+    }
+    start += size2;
+  }
+  return paths;
+}
+
+// src/burmester/web/studio/pivot_surface.mjs
+var ARROWS4 = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+var LONGEST_STEP2 = 0.5;
+var STROKES = ["plain", "fails", "outside", "works"];
+var GRASP = 26;
+var PivotSurface = class {
+  constructor(store, answers, playing, scene) {
+    Object.assign(this, { store, answers, playing, scene, pivots: null, held: null });
+    this.handles = s("g", { class: "bs-pivots" });
+    scene.layer("pivots").append(this.handles);
+    this.parts = [0, 1].map((k) => ["F", "M"].map((plane) => this.handle(k, plane)));
+    this.curves = ["F", "M"].map((plane) => s("g", { class: `bs-curve bs-curve-${plane}` }, STROKES.map((name) => s("path", { class: `bs-curve-${name}` }))));
+    this.curveGroup = s("g", { class: "bs-burmester", visibility: "hidden", "aria-hidden": "true" }, this.curves);
+    scene.layer("curves").append(this.curveGroup);
+    this.curveBox = h("input", { type: "checkbox", checked: true, "data-tool": "burmester-curves", onchange: () => this.drawCurves() });
+    this.curveLabel = h("label", { hidden: true }, this.curveBox, " Burmester curves of the four poses, in the drawing");
+    this.story = h("p", { class: "bm-story" });
+    this.readout = h("output", { class: "bs-placed-readout", "aria-live": "polite" });
+    this.letGo = h("button", { type: "button", class: "bs-small", hidden: true, onclick: () => this.release() }, "Let go of the pivots");
+    this.legend = h("p", { class: "bm-legend", hidden: true }, h("span", { class: "bs-key-works" }), " works with a partner; ", h("span", { class: "bs-key-outside" }), " works outside limits or standard; ", h("span", { class: "bs-key-fails" }), " no partner works. Solid: centre points in F; dashed: circle points in M, where the body is now.");
+    this.fill = h("div", { class: "bm-fill" });
+    this.element = h("div", { class: "bs-surface" }, this.story, h("div", { class: "bs-tool" }, this.curveLabel), this.legend, this.fill, this.readout, h("div", { class: "bs-tool" }, this.letGo));
+    this.mapPace = new Pace(() => this.buildMap(), () => isSeen(this.fill));
+    answers.on("answers", () => this.renew());
+    answers.on("poses", () => {
+      this.explain();
+      this.askCurve();
+      if (this.pivots) store.place(this.pivots);
+    });
+    answers.on("placed", () => this.tell());
+    playing.on("shape", () => {
+      this.show();
+      this.mapPace.ask();
+    });
+    playing.on("place", () => this.move());
+    scene.on("view", () => {
+      this.drawCurves();
+      this.show();
+    });
+    store.on("state document", () => this.element.classList.toggle("bs-stale", answers.isOld));
+    new ResizeObserver(() => this.mapPace.ask()).observe(this.fill);
+    watch(this.fill, () => this.mapPace.ask());
+    this.renew();
+  }
+  /** The dyads whose pivots can be taken: those put down by hand, or those of the linkage. */
+  get dyads() {
+    const placed = this.store.placed?.dyads;
+    if (this.pivots && placed?.length) return placed;
+    return this.answers.shown?.led ?? [];
+  }
+  /** A pivot of dyad k in a plane: { plane, at, id }, or null where it has none. */
+  pivot(k, plane) {
+    const dyad = this.dyads[k];
+    if (!dyad) return null;
+    const wanted = this.pivots?.[k];
+    const at = wanted?.plane === plane ? wanted.at : plane === "F" ? dyad.fixed_pivot : dyad.moving_pivot;
+    return at ? { plane, at, id: dyad.id } : null;
+  }
+  // Handles in the scene
+  handle(k, plane) {
+    const name = plane === "F" ? "fixed" : "moving";
+    const element = s("g", { class: `bs-pivot bs-pivot-${name} bm-side${k}`, "data-plane": plane, tabindex: 0, role: "button" }, s("circle", { class: "bs-hold", r: 13 }), s("circle", { class: "bs-pivot-ring", r: 8 }));
+    let before;
+    this.scene.drag?.(element, {
+      start: () => {
+        before = this.pivots;
+        this.playing.player.play(false);
+        this.place = this.playing.here?.place ?? null;
+        return this.take(k, plane);
+      },
+      move: ({ x, y }) => this.put(plane === "F" ? [x, y] : back(this.place, [x, y])),
+      end: () => this.drop(),
+      cancel: () => {
+        this.drop();
+        if (before) this.ask(before);
+        else this.release();
+      }
+    });
+    element.addEventListener("keydown", (event) => this.key(event, k, plane));
+    this.handles.append(element);
+    return element;
+  }
+  key(event, k, plane) {
+    if (event.ctrlKey || event.metaKey) return;
+    const arrow2 = ARROWS4[event.key];
+    if (event.key === "Escape" && this.pivots) {
+      this.release();
+    } else if (arrow2) {
+      const { at } = this.pivot(k, plane), step = (this.scene.step ?? this.answers.data.scene / 100) * (event.shiftKey ? 10 : event.altKey ? 0.1 : 1);
+      if (!this.take(k, plane)) return;
+      this.put(at.map((value, axis) => value + step * arrow2[axis]), step);
+      this.drop();
+    } else {
+      return;
+    }
+    event.preventDefault();
+  }
+  /** Take hold of a pivot; the other dyad keeps one of its own. */
+  take(k, plane) {
+    const start = this.pivot(k, plane);
+    if (!start || plane === "M" && !this.playing.here) return false;
+    const other = this.pivots?.[1 - k] ?? this.pivot(1 - k, "F") ?? this.pivot(1 - k, "M");
+    const next = [];
+    next[k] = { plane, at: start.at };
+    if (other) next[1 - k] = { plane: other.plane, at: other.at };
+    this.pivots = next;
+    this.held = { k, plane };
+    this.keepHeight();
+    return true;
+  }
+  /** What stands above does not shrink, so that nothing moves away under the hand. */
+  keepHeight() {
+    const { element } = this.playing;
+    element.style.minHeight = `${element.offsetHeight}px`;
+  }
+  /** The held pivot goes to a point of its plane, or to the nearest one of its curve. */
+  put(point2, step = 0) {
+    const { k, plane } = this.held, curve = this.curveOf(plane);
+    const digits = decimalsOf(this.answers.data), round = (at2) => at2.map((value) => Number(value.toFixed(digits)));
+    let at = this.scene.rounded && !curve ? point2.map((value) => this.scene.rounded(value)) : point2;
+    if (curve) {
+      const near2 = nearestOnCurve(curve.points, curve.loops, point2, this.widest);
+      if (near2) at = ontoCurve(this.answers.data.poses, plane, near2.at, this.answers.data.scene);
+    } else if (step) {
+      at = round(point2);
+    }
+    this.ask(this.pivots.map((each, n) => n === k ? { plane, at } : each));
+  }
+  drop() {
+    this.held = null;
+  }
+  /** Ask for the best dyads with these pivots. */
+  ask(pivots) {
+    this.pivots = pivots;
+    this.store.place(pivots.map(({ plane, at }) => ({ plane, at })));
+    this.show();
+    this.tell();
+  }
+  /** The pivots are no longer put down: the linkage that was chosen before is back. */
+  release() {
+    this.pivots = null;
+    this.held = null;
+    this.playing.element.style.minHeight = "";
+    this.store.place([]);
+    if (this.store.chosen === PLACED) this.store.choose(this.before ?? this.answers.linkages[0]?.id ?? null);
+    this.tell();
+    this.show();
+  }
+  // Curves of four poses
+  /** The curves of the four poses as they are now: { fixed, moving, loops, worth }, or null. */
+  get family() {
+    const { data, isOld } = this.answers;
+    if (data.poses.length !== 4) return null;
+    if (this.live && (isOld || !this.known)) return this.live;
+    return this.known;
+  }
+  /** The curves that the whole road brought, where the task has some. */
+  takeFamily() {
+    const { data } = this.answers, map = data.family_map;
+    this.known = map?.kind === "curve" ? { ...map, worth: worthOf(new FamilyPairs(data)) } : null;
+    this.live = null;
+    if (!this.known) this.askCurve();
+  }
+  /** The curves go along with the poses: one question at a time, the newest wins. */
+  async askCurve() {
+    const { store, answers } = this, { document: document2, options } = store;
+    if (document2.poses.length !== 4 || !this.curveBox.checked || this.asking || !store.connection?.isOpen) return;
+    this.asking = true;
+    try {
+      const answer = await store.connection.ask({ do: "curve", document: document2, options, judged: store.state !== "dragging" });
+      if (answer.kind === "curve" && store.document.poses.length === 4) {
+        this.live = curvesOf(answer);
+        this.drawCurves();
+      }
+    } catch {
+    }
+    this.asking = false;
+    if (store.document !== document2 && answers.isOld) this.askCurve();
+  }
+  get widest() {
+    return LONGEST_STEP2 * this.answers.data.scene;
+  }
+  /** The curve that a pivot of a plane slides along, or null. */
+  curveOf(plane) {
+    const map = this.family;
+    if (!map || !this.curveBox.checked) return null;
+    return { points: plane === "F" ? map.fixed : map.moving, loops: map.loops };
+  }
+  drawCurves() {
+    const map = this.family, on = Boolean(map) && this.curveBox.checked;
+    this.curveGroup.setAttribute("visibility", on ? "visible" : "hidden");
+    this.legend.hidden = !on;
+    if (!on) return;
+    const { view } = this.scene, planes = [[map.fixed, view.X, view.Y], [map.moving, (x) => view.scale * x, (y) => -view.scale * y]];
+    planes.forEach(([points, X, Y], n) => {
+      const paths = curvePaths(points, map.loops, map.worth, X, Y, this.widest);
+      [...this.curves[n].children].forEach((path2, k) => path2.setAttribute("d", paths[STROKES[k]]));
+    });
+    this.move();
+  }
+  // Drawing
+  /** Everything that the answer brings. */
+  renew() {
+    const { data } = this.answers;
+    if (!this.pivots && this.store.chosen !== PLACED) this.before = this.store.chosen;
+    this.takeFamily();
+    this.curveLabel.hidden = data.poses.length !== 4;
+    if (this.mapFor !== data.pivot_map) {
+      this.mapFor = data.pivot_map;
+      this.fill.replaceChildren();
+      this.map = data.pivot_map ? new PivotMap(data, this.fill) : null;
+      if (this.map) this.listenToMap();
+      this.mapPace.ask();
+    }
+    this.drawCurves();
+    this.explain();
+    this.show();
+  }
+  explain() {
+    const count = this.answers.data.poses.length;
+    const text = count === 4 && this.family ? "Four poses leave a curve of dyads. Drag a pivot in the drawing: it slides along its curve." : count === 3 ? "Three poses leave every pivot free. Drag a fixed pivot anywhere in F, or a moving pivot anywhere on the body." : count === 2 ? "Two poses leave much open. Drag a pivot: its best dyad follows." : "Drag a pivot in the drawing or on the map: the best dyad there is shown with what it costs.";
+    if (this.story.textContent !== text) this.story.textContent = text;
+  }
+  /** Handles where the pivots are. */
+  show() {
+    const { view } = this.scene, place = this.playing.here?.place, there = this.answers.shown && !this.answers.shown.gone;
+    this.parts.forEach((planes, k) => {
+      planes.forEach((element, n) => {
+        const plane = "FM"[n], pivot = there || this.pivots ? this.pivot(k, plane) : null;
+        const seen2 = pivot && (plane === "F" || place);
+        element.setAttribute("display", seen2 ? "inline" : "none");
+        if (!seen2) return;
+        if (element.dataset.pivot !== pivot.id) element.dataset.pivot = pivot.id;
+        element.classList.toggle("bs-put", this.pivots?.[k]?.plane === plane);
+        if (plane === "F") element.setAttribute("transform", `translate(${px(view.X(pivot.at[0]))} ${px(view.Y(pivot.at[1]))})`);
+      });
+    });
+    this.name();
+    this.move();
+    this.drawMapHandles();
+  }
+  /** What is on the body goes along with it. */
+  move() {
+    const { view } = this.scene, place = this.playing.here?.place;
+    if (!place) return;
+    if (this.family) this.curves[1].setAttribute("transform", transform(view.X(place.x), view.Y(place.y), place.a));
+    this.parts.forEach(([, element], k) => {
+      const pivot = element.getAttribute("display") === "none" ? null : this.pivot(k, "M");
+      if (!pivot) return;
+      const [x, y] = act(this.held?.k === k && this.held.plane === "M" && this.place ? this.place : place, pivot.at);
+      element.setAttribute("transform", `translate(${px(view.X(x))} ${px(view.Y(y))})`);
+    });
+  }
+  /** Names for those who do not see them; not while a hand drags. */
+  name() {
+    if (this.held || this.store.state === "dragging") return;
+    const digits = decimalsOf(this.answers.data);
+    this.parts.forEach((planes, k) => planes.forEach((element, n) => {
+      const pivot = this.pivot(k, "FM"[n]);
+      if (!pivot) return;
+      const text = `${n ? "Moving" : "Fixed"} pivot of ${pivot.id} at (${pivot.at.map((value) => fixed(value, digits)).join(", ")}) in ${"FM"[n]}. Drag it, or use the arrow keys; the best dyad there is shown.`;
+      if (element.getAttribute("aria-label") !== text) element.setAttribute("aria-label", text);
+    }));
+  }
+  /** What the pivots cost, in words. */
+  tell() {
+    const { store, answers } = this, { placed } = store;
+    this.letGo.hidden = !this.pivots;
+    if (!this.pivots || !placed) {
+      this.readout.textContent = "";
+      if (!placed && this.pivots && !this.held && store.placeWanted === null) this.pivots = null;
+      return;
+    }
+    this.readout.setAttribute("aria-live", this.held ? "off" : "polite");
+    this.readout.textContent = placedInWords(placed, answers.data);
+    if (placed.linkage && store.chosen !== PLACED && this.pivots) {
+      this.before = store.chosen;
+      store.choose(PLACED);
+    }
+    this.show();
+  }
+  // The map
+  buildMap() {
+    if (!this.map) return;
+    this.map.build(this.answers.shown);
+    this.mapHandles = [0, 1].map((k) => s("g", { class: `bs-pivot bs-map-pivot bm-side${k}` }, s("circle", { class: "bs-pivot-ring", r: 8 })));
+    this.map.svg.append(...this.mapHandles);
+    this.drawMapHandles();
+  }
+  drawMapHandles() {
+    if (!this.mapHandles || !this.map?.view) return;
+    const { view } = this.map;
+    this.mapHandles.forEach((element, k) => {
+      const pivot = this.pivot(k, "F");
+      element.setAttribute("display", pivot ? "inline" : "none");
+      if (!pivot) return;
+      element.setAttribute("transform", `translate(${px(view.X(pivot.at[0]))} ${px(view.Y(pivot.at[1]))})`);
+      element.dataset.mapPivot = pivot.id;
+    });
+  }
+  /** A press on the map takes the nearest fixed pivot there, and puts it where the pointer is. */
+  listenToMap() {
+    const { svg } = this.map;
+    const at = (event) => {
+      const box = svg.getBoundingClientRect(), { low, high } = this.answers.data.pivot_map;
+      const u = (event.clientX - box.left) / box.width, v = 1 - (event.clientY - box.top) / box.height;
+      return [low[0] + u * (high[0] - low[0]), low[1] + v * (high[1] - low[1])];
+    };
+    let pointer = null, start = null;
+    const end = (event) => {
+      if (event.pointerId !== pointer) return;
+      pointer = null;
+      this.drop();
+    };
+    svg.addEventListener("pointerdown", (event) => {
+      if (event.button !== 0) return;
+      const [x, y] = at(event), { view } = this.map;
+      const away = [0, 1].map((k2) => ((pivot) => pivot ? Math.hypot(view.X(pivot.at[0]) - view.X(x), view.Y(pivot.at[1]) - view.Y(y)) : Infinity)(this.pivot(k2, "F")));
+      const k = away[1] < away[0] ? 1 : 0;
+      if (!Number.isFinite(away[k]) || !this.take(k, "F")) return;
+      event.preventDefault();
+      pointer = event.pointerId;
+      start = { near: away[k] <= GRASP, X: event.clientX, Y: event.clientY };
+      svg.setPointerCapture(pointer);
+      this.playing.player.play(false);
+      if (!start.near) this.put([x, y]);
+    });
+    svg.addEventListener("pointermove", (event) => {
+      if (event.pointerId !== pointer) return;
+      if (start.near && Math.hypot(event.clientX - start.X, event.clientY - start.Y) < 3) return;
+      start.near = false;
+      this.put(at(event));
+    });
+    svg.addEventListener("pointerup", end);
+    svg.addEventListener("pointercancel", end);
+    svg.addEventListener("keydown", (event) => {
+      if (event.key === "Escape" && this.pivots) this.release();
+      if (event.key !== "Enter" || !this.map.cursor) return;
+      const point2 = this.map.placeAt(this.map.cursor);
+      const away = [0, 1].map((k) => ((pivot) => pivot ? Math.hypot(pivot.at[0] - point2[0], pivot.at[1] - point2[1]) : Infinity)(this.pivot(k, "F")));
+      if (!this.take(away[1] < away[0] ? 1 : 0, "F")) return;
+      event.preventDefault();
+      this.put(point2);
+      this.drop();
+    });
+  }
+};
+function placedInWords(placed, data) {
+  const unit2 = data.unit ? ` ${data.unit}` : "", digits = decimalsOf(data);
+  const miss = (value) => value === null ? "an unknown error" : value < 1e-9 * data.scene ? "nothing" : `${figure(value)}${unit2}`;
+  const dyads = placed.dyads.map((dyad) => `${dyad.id}: fixed pivot (${dyad.fixed_pivot.map((v) => fixed(v, digits)).join(", ")}), moving pivot (${dyad.moving_pivot.map((v) => fixed(v, digits)).join(", ")}), misses by ${miss(dyad.max_error)} at most.`);
+  const { linkage } = placed;
+  if (!linkage) return [...dyads, ...(placed.messages ?? []).map(({ message }) => `${message[0].toUpperCase()}${message.slice(1)}.`)].join(" ");
+  const both = linkage.usable ? `usable, ${linkage.said.met}` : `not usable: ${linkage.said.reasons.join("; ")}`;
+  return `${dyads.join(" ")} Together a ${linkage.type}: ${both}.`;
+}
+
+// src/burmester/web/widget/assemblies.mjs
+var Assemblies = class {
+  constructor(data, take) {
+    this.data = data;
+    this.take = take;
+    this.name = `bm-way-${Math.random().toString(36).slice(2)}`;
+    this.element = h("fieldset", { class: "bm-ways" });
+  }
+  build(linkage, index) {
+    const one = (way, k) => h(
+      "label",
+      {},
+      h("input", { type: "radio", name: this.name, value: k, checked: k === index, onchange: () => this.take(k) }),
+      h("span", {}, h("b", {}, wayName(way, linkage).replace("assembly ", "")), ` ${wayStory(way, this.data.poses)}`)
+    );
+    this.element.replaceChildren(h("legend", {}, "Assembly"), ...linkage.ways.map(one));
+    this.element.hidden = !linkage.ways.length;
+  }
+};
+
+// src/burmester/web/widget/player.mjs
+var TURN_SECONDS = 7;
+var LEAST_STRETCH = 1e-6;
+var NAME_ROWS = 5;
+var NUMBER_ROWS = 2;
+var MANY_POSES2 = 100;
+var ROW = 13;
+var LONGEST_TICK = 18;
+var STEPS = 360;
+var Player = class {
+  constructor(data, show, rebuild) {
+    this.data = data;
+    this.draw = { show, rebuild };
+    this.linkage = null;
+    this.way = 0;
+    this.u = 0;
+    this.heading = 1;
+    this.whole = false;
+    this.stretch = { low: 0, high: 1 };
+    this.playing = false;
+    this.remaining = null;
+    this.element = this.controls();
+  }
+  /** The way as frames; undefined where the linkage has none. */
+  get path() {
+    return this.linkage?.ways[this.way];
+  }
+  controls() {
+    const button2 = (name, text, label, onclick) => h("button", { type: "button", class: `bm-button ${name}`, "aria-label": label, title: label, onclick }, text);
+    this.button = button2("bm-play", "", "Play", () => this.play(!this.playing));
+    this.slider = h("input", { type: "range", class: "bm-slider", min: 0, step: "any", "aria-label": "Driver", oninput: () => this.go(Number(this.slider.value)) });
+    this.box = h("input", { type: "checkbox", onchange: () => this.playWhole(this.box.checked) });
+    this.boxName = h("span", {}, "Whole branch");
+    this.stops = s("svg", { class: "bm-stops", "aria-hidden": "true" });
+    this.parts = ["", "", "", ""].map((text) => h("span", {}, text));
+    this.readout = h("output", { class: "bm-now" }, this.parts.flatMap((part, k) => k ? [" ", part] : [part]));
+    this.slider.addEventListener("keydown", (event) => {
+      const step = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 }[event.key];
+      if (!step) return;
+      event.preventDefault();
+      this.step(event.shiftKey ? 10 * step : step);
+    });
+    return h(
+      "div",
+      { class: "bm-controls" },
+      h("div", { class: "bm-track" }, this.slider, this.stops),
+      h(
+        "div",
+        { class: "bm-row" },
+        this.button,
+        button2("bm-back", "◀ Pose", "Previous pose", () => this.toPose(-1)),
+        button2("bm-next", "Pose ▶", "Next pose", () => this.toPose(1)),
+        h("label", { class: "bm-whole", title: "Play all that the driver reaches, not only from the first pose to the last" }, this.box, this.boxName)
+      ),
+      this.readout
+    );
+  }
+  /** Another linkage, on the way with most poses, at the first of them. */
+  load(linkage) {
+    this.linkage = linkage;
+    const counts = linkage.ways.map((way) => way.poses.length);
+    this.take(Math.max(0, counts.indexOf(Math.max(...counts))));
+  }
+  /** Another way, at its first pose. */
+  take(index) {
+    this.way = index;
+    this.u = this.firstStop();
+    this.draw.rebuild();
+  }
+  /** Poses on this way, in their order: the rows of their errors, with k, the pose's index. */
+  get stopsOnWay() {
+    return this.linkage.pose_errors.map((row, k) => ({ ...row, k })).filter((row) => row.way === this.way);
+  }
+  firstStop() {
+    return this.stopsOnWay[0]?.frame ?? 0;
+  }
+  /** The slider and what it runs over, for the way as it is now. */
+  rebuild() {
+    const { path: path2, slider } = this;
+    if (!path2) this.play(false);
+    slider.disabled = this.button.disabled = !path2;
+    const last = path2 ? path2.x.length - 1 : 1;
+    const frames = path2 ? this.stopsOnWay.map((row) => row.frame) : [];
+    const [low, high] = [frames.reduce((a, b) => Math.min(a, b), last), frames.reduce((a, b) => Math.max(a, b), 0)];
+    const apart = high - low > LEAST_STRETCH;
+    this.stretch = apart && !this.whole ? { low, high } : { low: 0, high: last };
+    this.box.disabled = !apart;
+    this.boxName.textContent = path2?.round ? "Whole turn" : "Whole branch";
+    this.heading = 1;
+    this.u = clamp(this.u, this.stretch.low, this.stretch.high);
+    slider.min = this.stretch.low;
+    slider.max = this.stretch.high;
+  }
+  /** Play all of a way, or only from its first pose to its last; so it stays for other linkages. */
+  playWhole(on) {
+    this.whole = on;
+    this.draw.rebuild();
+  }
+  /** Marks under the slider where the poses are, with as many of their names as there is room for. */
+  drawStops() {
+    const { stops, path: path2 } = this, { low, high } = this.stretch;
+    stops.replaceChildren();
+    if (!path2) return;
+    const width = Math.max(60, this.slider.clientWidth), inset = 9;
+    const X = (u) => inset + (u - low) / (high - low) * (width - 2 * inset);
+    const known = this.stopsOnWay.filter((row) => this.data.poses[row.k]);
+    const rows = known.sort((a, b) => a.frame - b.frame).map((row) => ({ ...row, x: X(row.frame), pose: this.data.poses[row.k] }));
+    const named = laidOut(rows.map(({ x, pose }) => ({ x, text: shortened(poseName2(pose), LONGEST_TICK) })), width, NAME_ROWS);
+    const texts = named.every(({ at }) => at >= 0) ? named : laidOut(rows.map(({ x, pose }) => ({ x, text: pose.label })), width, rows.length > MANY_POSES2 ? 1 : NUMBER_ROWS);
+    const deepest = Math.max(0, ...texts.map(({ at }) => at));
+    const one = (k, pose, ...parts) => s("g", { "data-pose": k + 1 }, s("title", {}, `pose ${poseName2(pose)}`), ...parts);
+    rows.forEach(({ k, x, pose }, i) => stops.append(one(k, pose, s("path", { d: `M${px(x)} 0V${4 + ROW * Math.max(0, texts[i].at)}` }))));
+    rows.forEach(({ k, pose }, i) => {
+      const { at, middle: middle2, text } = texts[i];
+      if (at >= 0) stops.append(one(k, pose, s("text", { x: px(middle2), y: 14 + ROW * at, "text-anchor": "middle" }, text)));
+    });
+    stops.setAttribute("viewBox", `0 0 ${width} ${16 + ROW * deepest}`);
+    stops.setAttribute("height", 16 + ROW * deepest);
+  }
+  play(on) {
+    if (on && !this.path) return;
+    this.playing = on;
+    this.readout.setAttribute("aria-live", on ? "off" : "polite");
+    this.remaining = null;
+    this.button.replaceChildren(icon(on), on ? "Pause" : "Play");
+    this.button.setAttribute("aria-label", on ? "Pause" : "Play");
+    this.button.title = on ? "Pause (space)" : "Play (space)";
+    cancelAnimationFrame(this.tick);
+    if (!on) return;
+    let before = null;
+    const run = (now) => {
+      if (!this.playing) return;
+      if (before !== null) this.advance(Math.min(0.1, (now - before) / 1e3));
+      before = now;
+      if (this.playing) this.tick = requestAnimationFrame(run);
+    };
+    this.tick = requestAnimationFrame(run);
+  }
+  /** Play once there and back, or once round; then rest until someone asks. */
+  playOnce() {
+    if (!this.path) return;
+    const { low, high } = this.stretch;
+    this.play(true);
+    this.remaining = (this.goesRound ? 1 : 2) * (high - low);
+  }
+  /** Whether what is played ends where it begins. */
+  get goesRound() {
+    return this.path.round && this.stretch.high - this.stretch.low > this.path.x.length - 1 - LEAST_STRETCH;
+  }
+  advance(seconds) {
+    const { low, high } = this.stretch;
+    const step = seconds * (high - low) / (this.goesRound ? TURN_SECONDS : TURN_SECONDS / 2);
+    if (this.remaining !== null) {
+      this.remaining -= step;
+      if (this.remaining <= 0) {
+        this.play(false);
+        this.u = this.firstStop();
+        this.show();
+        return;
+      }
+    }
+    this.u += this.heading * step;
+    if (this.goesRound) this.u = around(this.u, high);
+    else if (this.u >= high || this.u <= low) {
+      this.heading = this.u >= high ? -1 : 1;
+      this.u = clamp(this.u, low, high);
+    }
+    this.show();
+  }
+  step(steps) {
+    if (!this.path) return;
+    const { low, high } = this.stretch;
+    const u = this.u + steps * Math.max(1e-3, (high - low) / STEPS);
+    this.go(this.goesRound ? around(u, high) : u);
+  }
+  go(u) {
+    if (!this.path) return;
+    this.play(false);
+    this.u = clamp(u, this.stretch.low, this.stretch.high);
+    this.show();
+  }
+  /** The next pose (sense 1) or the one before (-1) that the linkage reaches, on whichever way. */
+  toPose(sense) {
+    const all = this.linkage.pose_errors.map((row, k) => ({ ...row, k })).filter((row) => row.way !== null);
+    if (!all.length) return;
+    const here = this.atPose ?? (sense > 0 ? -1 : this.data.poses.length);
+    const next = sense > 0 ? all.find((row) => row.k > here) ?? all[0] : [...all].reverse().find((row) => row.k < here) ?? all[all.length - 1];
+    this.play(false);
+    if (next.way !== this.way) {
+      this.way = next.way;
+      this.u = next.frame;
+      this.draw.rebuild();
+    }
+    this.go(next.frame);
+    this.atPose = next.k;
+  }
+  /** The pose nearest to a place, the angle weighed as the errors weigh it. */
+  nearest(place) {
+    let near2 = 0, least2 = Infinity;
+    this.data.poses.forEach((pose, k) => {
+      const turn = place.a - radians(pose.angle_deg);
+      const away = Math.hypot(place.x - pose.x, place.y - pose.y, this.data.chart.length * (turn - 2 * Math.PI * Math.round(turn / (2 * Math.PI))));
+      if (away < least2) [near2, least2] = [k, away];
+    });
+    return near2;
+  }
+  show() {
+    const { path: path2, linkage, data } = this;
+    if (!path2) {
+      for (const part of this.parts) part.textContent = "";
+      return;
+    }
+    const place = placeAt(linkage, path2, this.u, data.chart.length);
+    const drive = linear(path2.drive, this.u), transmission = linear(path2.transmission, this.u);
+    const near2 = this.atPose = this.nearest(place);
+    this.slider.value = this.u;
+    this.tell(place, drive, transmission, near2);
+    this.draw.show(place, drive, transmission, near2);
+  }
+  /** The readout: driver, body, transmission angle, and the nearest pose. */
+  tell(place, drive, transmission, near2) {
+    const { data, linkage } = this;
+    const unit2 = data.unit ? ` ${data.unit}` : "", digits = decimalsOf(data);
+    const driver = linkage.led[0].kind === "PR" ? `${fixed(drive, digits)}${unit2}` : `${fixed(drive, 1)}°`;
+    const pose = data.poses[near2], row = linkage.pose_errors[near2];
+    const at = row.at === this.path && Math.abs(row.frame - this.u) < 1e-6;
+    const texts = [
+      `driver ${driver}`,
+      `body (${fixed(place.x, digits)}, ${fixed(place.y, digits)})${unit2}, ${fixed(((degrees(place.a) + 180) % 360 + 360) % 360 - 180, 2)}°`,
+      `transmission ${transmission === null ? "–" : `${fixed(transmission, 1)}°`}`,
+      at ? `at pose ${poseName2(pose)}, ${row.said.position === "exact" ? "" : "off by "}${missOf(row.said.position, row.said.turned, unit2)}` : `${figure(Math.hypot(place.x - pose.x, place.y - pose.y))}${unit2} from pose ${poseName2(pose)}`
+    ];
+    texts.forEach((text, k) => {
+      const whole = k + 1 < texts.length ? `${text} ·` : text;
+      if (this.parts[k].textContent !== whole) this.parts[k].textContent = whole;
+    });
+    this.slider.setAttribute("aria-valuetext", `driver ${driver}, ${texts[3]}`);
+  }
+};
+function laidOut(texts, width, count) {
+  const ends = Array(count).fill(-99);
+  return texts.map(({ x, text }) => {
+    const size2 = 6.4 * text.length, left = clamp(x - size2 / 2, 0, Math.max(0, width - size2));
+    const at = ends.findIndex((end) => left > end + 4);
+    if (at >= 0) ends[at] = left + size2;
+    return { text, at, middle: left + size2 / 2 };
+  });
+}
+var around = (u, turn) => (u % turn + turn) % turn;
+function icon(pause) {
+  return s(
+    "svg",
+    { width: 12, height: 12, viewBox: "0 0 12 12", "aria-hidden": "true" },
+    s("path", { d: pause ? "M1 0h3.5v12H1zM7.5 0H11v12H7.5z" : "M1 0l11 6l-11 6z" })
+  );
+}
+
+// src/burmester/web/studio/other_driver.mjs
+var APART = 3;
+var GOLDEN = 0.381966011250105;
+var HALVINGS = 24;
+function drivenByOther(linkage, length) {
+  const led = [linkage.led[1], linkage.led[0]];
+  if (led[0].kind === "PP" || !linkage.ways.length) return { ...linkage, led, ways: [], pose_errors: linkage.pose_errors.map((row) => ({ ...row, way: null, frame: null, at: null })) };
+  const ways = [], places = linkage.pose_errors.map(() => null);
+  for (const chain of chainsOf(linkage.ways)) {
+    for (const piece of piecesOf(linkage, led[0], chain, length)) {
+      const way = wayOf(linkage, led, piece, chain, length);
+      const number = ways.push(way) - 1;
+      linkage.pose_errors.forEach((row, k) => {
+        const frame = places[k] || row.way === null ? null : frameIn(piece, row, linkage.ways[row.way].x.length - 1);
+        if (frame === null) return;
+        places[k] = [number, way.falls ? piece.stations.length - 1 - frame : frame];
+        way.poses.push(k + 1);
+      });
+    }
+  }
+  const named = /* @__PURE__ */ new Map();
+  for (const way of ways) {
+    way.branches = ways.filter((each) => each.circuit === way.circuit).length;
+    named.set(way.circuit, (named.get(way.circuit) ?? 0) + 1);
+    way.branch = named.get(way.circuit);
+  }
+  const pose_errors = linkage.pose_errors.map((row, k) => ({
+    ...row,
+    way: places[k]?.[0] ?? null,
+    frame: places[k]?.[1] ?? null,
+    at: places[k] ? ways[places[k][0]] : null,
+    transmission_deg: row.x === null ? null : transmissionOf(...led, { x: row.x, y: row.y, a: row.angle_deg * Math.PI / 180 })
+  }));
+  return { ...linkage, led, ways, pose_errors };
+}
+function chainsOf(ways) {
+  const chains = [];
+  for (const circuit of new Set(ways.map((way) => way.circuit))) {
+    const own = ways.map((way, number) => ({ way, number })).filter(({ way }) => way.circuit === circuit);
+    const stations = ({ way, number }, turned) => {
+      const all = Array.from(way.x, (_, u) => ({ way: number, u }));
+      return turned ? all.reverse() : all;
+    };
+    const [one, other] = own;
+    const joined = (end, start) => other && one.way.dead[end] && other.way.dead[start] && near(one.way, end, other.way, start);
+    if (!other || !(joined(0, 0) || joined(1, 1))) {
+      for (const each of own) chains.push({ circuit, closed: each.way.round, stations: stations(each, false) });
+      continue;
+    }
+    const closed2 = joined(0, 0) && joined(1, 1), high = joined(1, 1);
+    const through = [...stations(one, !high), ...stations(other, high).slice(1)];
+    chains.push({ circuit, closed: closed2, stations: through });
+  }
+  return chains;
+}
+function near(one, end, other, start) {
+  const at = (way, k) => [way.x[k], way.y[k]], last = (way, k) => k ? way.x.length - 1 : 0;
+  const [i, j] = [last(one, end), last(other, start)], inner = end ? i - 1 : 1;
+  const step = Math.hypot(...at(one, i).map((v, k) => v - at(one, inner)[k]));
+  const away = Math.hypot(...at(one, i).map((v, k) => v - at(other, j)[k]));
+  return away <= APART * step + 1e-9 * Math.hypot(...at(one, i));
+}
+function piecesOf(linkage, driver, { circuit, closed: closed2, stations }, length) {
+  const placeOf2 = ({ way, u }) => placeAt(linkage, linkage.ways[way], u, length);
+  const slides = driver.kind === "PR";
+  let before = null;
+  const driveAt = (station) => {
+    let drive = driveOf(driver, placeOf2(station));
+    if (!slides && before !== null) drive -= 2 * Math.PI * Math.round((drive - before) / (2 * Math.PI));
+    return drive;
+  };
+  const drives = stations.map((station) => before = driveAt(station));
+  const count = stations.length - 1, sense = (k) => Math.sign(drives[k + 1] - drives[k]);
+  const cuts = [];
+  for (let k = 1; k < count; k += 1) if (sense(k) * sense(k - 1) < 0) cuts.push(k);
+  if (closed2 && sense(0) * sense(count - 1) < 0) cuts.push(0);
+  if (!cuts.length) return [{ circuit, round: closed2, dead: [false, false], stations }];
+  const dead = new Map(cuts.map((k) => [k, extreme(k)]));
+  function extreme(k) {
+    const here = stations[k], up = drives[k] > drives[k === 0 ? 1 : k - 1] ? 1 : -1;
+    before = drives[k];
+    const sides = [k > 0 ? k - 1 : count - 1, k + 1].map((at2) => {
+      const there = stations[at2];
+      if (there.way === here.way && Math.abs(there.u - here.u) < 1.5) return [here.way, here.u, there.u];
+      return [there.way, there.u, there.u < 1.5 ? 0 : there.u + 1];
+    });
+    const value = (way, u) => up * driveAt({ way, u });
+    let best = { station: here, value: value(here.way, here.u) };
+    for (const [way, u, v] of sides) {
+      let [low, high] = [Math.min(u, v), Math.max(u, v)];
+      for (let step = 0; step < HALVINGS; step += 1) {
+        const [a, b] = [low + GOLDEN * (high - low), high - GOLDEN * (high - low)];
+        if (value(way, a) < value(way, b)) low = a;
+        else high = b;
+      }
+      const station = { way, u: (low + high) / 2 }, found = value(way, station.u);
+      if (found > best.value) best = { station, value: found };
+    }
+    return best.station;
+  }
+  const part = (from, to) => {
+    const inner = [];
+    for (let k = from + 1; k < to; k += 1) inner.push(stations[closed2 ? k % count : k]);
+    const ends = [from, to].map((k) => dead.get(closed2 ? k % count : k) ?? stations[k]);
+    return [ends[0], ...inner.filter((each) => !ends.some((end) => end.way === each.way && Math.abs(end.u - each.u) < 1e-3)), ends[1]];
+  };
+  cuts.sort((a, b) => a - b);
+  if (closed2) {
+    const at2 = [...cuts, cuts[0] + count];
+    return at2.slice(1).map((to, k) => ({ circuit, round: false, dead: [true, true], stations: part(at2[k], to) }));
+  }
+  const at = [0, ...cuts, count];
+  return at.slice(1).map((to, k) => ({ circuit, round: false, dead: [k > 0, to < count], stations: part(at[k], to) }));
+}
+function wayOf(linkage, led, piece, chain, length) {
+  const slides = led[0].kind === "PR", places = piece.stations.map(({ way, u }) => ({ ...placeAt(linkage, linkage.ways[way], u, length) }));
+  const drive = [];
+  places.forEach((place, k) => {
+    let value = driveOf(led[0], place);
+    if (!slides && k) value -= 2 * Math.PI * Math.round((value - drive[k - 1]) / (2 * Math.PI));
+    if (k) place.a -= 2 * Math.PI * Math.round((place.a - places[k - 1].a) / (2 * Math.PI));
+    drive.push(value);
+  });
+  const falls = drive[drive.length - 1] < drive[0];
+  if (falls) [drive, places].forEach((each) => each.reverse());
+  const turns = slides ? 0 : 2 * Math.PI * Math.round((drive[0] + drive[drive.length - 1]) / (4 * Math.PI));
+  return {
+    circuit: chain.circuit,
+    round: piece.round,
+    dead: falls ? [...piece.dead].reverse() : piece.dead,
+    poses: [],
+    falls,
+    drive: drive.map((value) => slides ? value : degrees(value - turns)),
+    x: places.map(({ x }) => x),
+    y: places.map(({ y }) => y),
+    angle: places.map(({ a }) => a),
+    transmission: places.map((place) => transmissionOf(...led, place))
+  };
+}
+function frameIn({ stations }, { way, frame }, last) {
+  for (let k = 0; k + 1 < stations.length; k += 1) {
+    const [a, b] = [stations[k], stations[k + 1]];
+    if (a.way !== way || b.way !== way) {
+      if (a.way === way && Math.abs(a.u - frame) < 1e-9) return k;
+      if (b.way === way && Math.abs(b.u - frame) < 1e-9) return k + 1;
+      continue;
+    }
+    const [u, v] = Math.abs(b.u - a.u) > last / 2 ? [a, b].map((each) => each.u + (each.u < last / 2 ? last : 0)) : [a.u, b.u];
+    for (const at of [frame, frame + last]) {
+      if (at >= Math.min(u, v) - 1e-9 && at <= Math.max(u, v) + 1e-9) return u === v ? k : k + (at - u) / (v - u);
+      if (Math.max(u, v) <= last) break;
+    }
+  }
+  return null;
+}
+
+// src/burmester/web/studio/playing.mjs
+var AT_POSE = 1e-6;
+var Playing = class extends Events {
+  constructor(store, answers) {
+    super();
+    this.store = store;
+    this.answers = answers;
+    this.isOther = false;
+    this.here = null;
+    this.player = new Player(answers.data, (place, drive, transmission, near2) => this.placed({ place, drive, transmission, near: near2 }), () => this.rebuild());
+    this.assemblies = new Assemblies(answers.data, (index) => this.player.take(index));
+    this.drivers = h("fieldset", { class: "bm-ways bs-drivers", hidden: true });
+    this.note = h("p", { class: "bs-quiet bs-driver-note" });
+    this.element = h("div", { class: "bs-player" }, this.player.element, h("div", { class: "bs-player-ways" }, this.drivers, this.assemblies.element), this.note);
+    this.marks = new Pace(() => this.player.drawStops());
+    answers.on("answers shown placed", () => this.load());
+    answers.on("moved", () => this.follow());
+    store.on("selection", () => this.goToSelected());
+    store.on("state", () => this.hush());
+    new ResizeObserver(() => this.marks.ask()).observe(this.element);
+    this.load();
+  }
+  /** The linkage as it is driven, or null. */
+  get linkage() {
+    return this.player.linkage;
+  }
+  /** The frames of the way that is shown, or undefined. */
+  get path() {
+    return this.player.path;
+  }
+  /** Another linkage, or another answer for the same one, which stays where it is. */
+  load() {
+    const base = this.answers.shown ?? null;
+    if (base === this.base && base) {
+      this.follow();
+      this.tellDriver();
+      return;
+    }
+    this.base = base;
+    this.isOther = false;
+    this.at = null;
+    this.dress();
+    if (!base) {
+      this.player.linkage = null;
+      this.player.way = 0;
+      this.player.play(false);
+      this.assemblies.element.hidden = this.drivers.hidden = true;
+      this.note.textContent = "";
+      this.element.classList.add("bs-empty");
+      this.emit("shape", false);
+      return;
+    }
+    this.element.classList.remove("bs-empty");
+    this.player.load(this.driven());
+    this.goToSelected();
+  }
+  /** The linkage led by the dyad that is to drive. */
+  driven() {
+    return this.isOther ? drivenByOther(this.base, this.answers.data.chart.length) : this.base;
+  }
+  /** Drive by the first dyad of the linkage, or by the other one. */
+  driveBy(other) {
+    this.isOther = other;
+    this.player.linkage = this.driven();
+    this.at = null;
+    this.takeBest();
+    this.rebuild();
+    this.tellDriver();
+  }
+  takeBest() {
+    const counts = this.linkage.ways.map((way) => way.poses.length);
+    this.player.way = Math.max(0, counts.indexOf(Math.max(...counts)));
+    this.player.u = this.player.firstStop();
+  }
+  /** The same linkage with other dimensions: at the same pose, or the same place of its driver. */
+  follow() {
+    const { base, player } = this;
+    if (!base) return;
+    player.linkage = this.driven();
+    const row = this.at?.pose === void 0 ? null : player.linkage.pose_errors[this.at.pose];
+    if (row && row.way !== null) {
+      player.way = row.way;
+      player.u = row.frame;
+    } else if (!player.path) {
+      if (player.linkage.ways.length) this.takeBest();
+    } else if (this.at) {
+      player.u = this.frameOf(player.path, this.at.drive);
+    }
+    player.rebuild();
+    this.emit("shape", true);
+    player.show();
+    this.marks.ask();
+  }
+  /** The frame of a way at which its driver stands so; of angles, whole turns do not count. */
+  frameOf(way, drive) {
+    if (drive === null || this.linkage.led[0].kind === "PR") return frameAt(way.drive, drive ?? way.drive[0]);
+    const middle2 = (way.drive[0] + way.drive[way.drive.length - 1]) / 2;
+    return frameAt(way.drive, drive - 360 * Math.round((drive - middle2) / 360));
+  }
+  /** Everything that depends on the way. */
+  rebuild() {
+    const { player } = this;
+    player.rebuild();
+    this.assemblies.build(this.linkage, player.way);
+    this.buildDrivers();
+    this.emit("shape", false);
+    this.marks.ask();
+    player.show();
+  }
+  placed(here) {
+    this.here = here;
+    const { path: path2, u } = this.player;
+    const pose = this.linkage.pose_errors.findIndex((row) => row.at === path2 && Math.abs(row.frame - u) < AT_POSE);
+    this.at = { drive: here.drive, pose: pose < 0 ? void 0 : pose };
+    this.emit("place", here);
+  }
+  /** The linkage goes to a pose that is taken hold of. */
+  goToSelected() {
+    const { selection } = this.store, { player } = this;
+    if (selection?.kind !== "pose" || player.playing) return;
+    const row = this.linkage?.pose_errors[selection.index];
+    if (!row || row.way === null) return;
+    const other = row.way !== player.way;
+    player.way = row.way;
+    player.u = row.frame;
+    if (other) this.rebuild();
+    else player.go(row.frame);
+  }
+  /** A choice between both dyads. */
+  buildDrivers() {
+    const { base } = this;
+    this.drivers.hidden = !base || !base.ways.length || base.led.some((dyad) => dyad.kind === "PP");
+    if (this.drivers.hidden) return;
+    const key = `${base.id} ${base.led.map((dyad) => dyad.id)} ${this.isOther}`;
+    if (key === this.driversKey) return;
+    this.driversKey = key;
+    const one = (dyad, other) => h("label", {}, h("input", { type: "radio", name: "bs-driver", checked: other === this.isOther, "data-driver": dyad.id, onchange: () => this.driveBy(other) }), h("span", {}, h("b", {}, dyad.id), ` ${{ RR: "crank or rocker", PR: "slider on its rail", RP: "slot" }[dyad.kind]}`));
+    this.drivers.replaceChildren(h("legend", {}, "Driver"), one(base.led[0], false), one(base.led[1], true));
+    this.tellDriver();
+  }
+  /** What the whole road says of the driver that is chosen. */
+  tellDriver() {
+    const { base } = this;
+    if (!base?.drives || base.followed) {
+      this.note.textContent = "";
+      return;
+    }
+    const driver = this.isOther ? base.led[1] : base.led[0];
+    const drive = base.dyads[0].id === driver.id ? base.drives.first : base.drives.second;
+    const least2 = drive.min_transmission_angle_deg.range;
+    const said = drive.defects.length ? drive.defects.map((each) => each.message).join("; ") : `${drive.turns_fully ? "turns fully" : "reaches every pose"}${least2 === null ? "" : `, transmission angle ${fixed(least2, 1)}° or more between the poses`}`;
+    this.note.textContent = `Driven by ${driver.id}: ${said}.`;
+  }
+  /** Poses and outlines are read by the player from the data, which stay the same object. */
+  dress() {
+    this.driversKey = null;
+  }
+  /** While a hand drags, nothing is read out. */
+  hush() {
+    const quiet = this.store.state === "dragging" || this.player.playing;
+    this.player.readout.setAttribute("aria-live", quiet ? "off" : "polite");
+  }
+};
+
+// src/burmester/web/studio/ordering.mjs
+var ORDERS = {
+  rank: { name: "best first", of: (linkage) => linkage.rank ?? Infinity },
+  worst: { name: "worst miss", of: (linkage) => linkage.worst ?? Infinity },
+  least: { name: "transmission angle", of: (linkage) => -(linkage.least ?? -1) },
+  size: { name: "size", of: (linkage) => linkage.quality?.extent ?? Infinity },
+  sensitivity: { name: "sensitivity", of: (linkage) => linkage.quality?.sensitivity ?? Infinity }
+};
+var FILTERS = {
+  all: { name: "all", holds: () => true },
+  usable: { name: "usable", holds: (linkage) => linkage.usable },
+  pinned: { name: "pinned", holds: (linkage, pinned) => pinned.has(linkage.id) }
+};
+function arranged(linkages, { order, filter, type, pinned }) {
+  const { of } = ORDERS[order], { holds } = FILTERS[filter];
+  return linkages.filter((each) => holds(each, pinned) && (!type || each.type === type)).map((each, k) => ({ each, k, key: of(each) })).sort((a, b) => Number(pinned.has(b.each.id)) - Number(pinned.has(a.each.id)) || (a.key === b.key ? 0 : a.key - b.key) || a.k - b.k).map(({ each }) => each);
+}
+
+// src/burmester/web/studio/help_words.mjs
+var OPTIONS = [
+  [/--min-transmission ([\d.e+-]+)/g, "a least transmission angle of $1°"],
+  [/--within-angle ([\d.e+-]+)/g, "a permitted turn of $1°"],
+  [/--within ([\d.e+-]+)/g, "a permitted miss of $1"],
+  [/--link-ratio ([\d.e+-]+)/g, "a link ratio of $1"],
+  [/--type "([^"]+)"/g, "the type $1"],
+  [/--type (\S+)/g, "the type $1"],
+  [/--driver any/g, "either driver"],
+  [/--any-order/g, "any order of the poses"]
+];
+function helpInWords(text) {
+  const marked = OPTIONS.reduce((said, [option, words]) => said.replace(option, `${words}`), text);
+  const plain = marked.replaceAll(" ", " and ").replaceAll(/[\u0001\u0002]/g, "");
+  return plain.replace(/with (.+?) (L\d+) would do/g, "it would do with $1");
+}
+
+// src/burmester/web/studio/result_card.mjs
+function say(element, text) {
+  if (element.textContent !== text) element.textContent = text;
+}
+var FIGURES = [
+  ["worst", "worst miss"],
+  ["least", "transmission"],
+  ["size", "size"],
+  ["sensitivity", "sensitivity"]
+];
+var ResultCard = class {
+  /** @param {{ choose: Function, pin: Function, compare: Function, improve: Function, letGo: Function }} does */
+  constructor(does) {
+    this.name = h("b", {});
+    this.type = h("span", { class: "bm-type" });
+    this.was = h("span", { class: "bs-was" });
+    this.verdict = h("span", { class: "bm-verdict" });
+    this.figures = new Map(FIGURES.map(([key]) => [key, h("dd", { "data-figure": key })]));
+    this.note = h("span", { class: "bs-card-note" });
+    this.reason = h("span", { class: "bm-reason" });
+    this.help = h("span", { class: "bs-help" });
+    this.main = h(
+      "button",
+      { type: "button", class: "bs-card-main", "aria-pressed": "false", onclick: () => does.choose(this.id) },
+      h("span", { class: "bm-choice-head" }, this.name, " ", this.type, " ", this.was),
+      this.verdict,
+      h("dl", { class: "bs-figures" }, FIGURES.map(([key, name]) => [h("dt", {}, name), this.figures.get(key)])),
+      this.note,
+      this.reason,
+      this.help
+    );
+    this.pin = h("button", { type: "button", class: "bs-small", "aria-pressed": "false", onclick: () => does.pin(this.id) }, "Pin");
+    this.compare = h("button", { type: "button", class: "bs-small", "aria-pressed": "false", onclick: () => does.compare(this.id) }, "Compare");
+    this.improve = h("button", { type: "button", class: "bs-small", onclick: () => does.improve(this.id) }, "Look near it");
+    this.letGo = h("button", { type: "button", class: "bs-small", onclick: () => does.letGo() }, "Let go of the pivots");
+    this.better = h("ul", { class: "bs-better", "aria-live": "polite" });
+    this.element = h("article", { class: "bs-card bm-choice" }, this.main, h("div", { class: "bs-card-tools" }, this.pin, this.compare, this.improve, this.letGo), this.better);
+  }
+  /** Show a linkage as it is now; old: what only the whole road knows belongs to an older task. */
+  show(linkage, { data, old, chosen, pinned, compared }) {
+    const { said } = linkage, { classList } = this.element, isPlaced = linkage.id === PLACED;
+    if (this.id !== linkage.id || old) this.better.replaceChildren();
+    if (this.id !== linkage.id) {
+      this.id = linkage.id;
+      this.element.dataset.linkage = linkage.id;
+      say(this.name, isPlaced ? "By hand" : linkage.id);
+    }
+    say(this.type, linkage.type);
+    say(this.was, linkage.was ? `was ${linkage.was}` : linkage.isNew ? "new" : "");
+    say(this.verdict, linkage.gone ? "✕ gone" : linkage.usable ? "✓ usable" : "✕ not usable");
+    say(this.figures.get("worst"), worstOf(linkage, data));
+    say(this.figures.get("least"), least(linkage));
+    say(this.figures.get("size"), said.quality.extent ?? "–");
+    say(this.figures.get("sensitivity"), said.quality.sensitivity ?? "–");
+    say(this.note, linkage.gone ?? (linkage.usable && linkage.change || (linkage.usable && !linkage.followed && linkage.shortcomings?.length ? `Falls short: ${linkage.shortcomings.join("; ")}` : "")));
+    const reason = linkage.usable || linkage.gone ? "" : linkage.followed ? linkage.reason ?? "" : said.reasons.join("; ");
+    say(this.reason, reason);
+    say(this.help, reason && said.help && !linkage.followed ? `What would help: ${helpInWords(said.help)}.` : "");
+    classList.toggle("bm-good", linkage.usable && !linkage.gone);
+    classList.toggle("bm-bad", !linkage.usable || Boolean(linkage.gone));
+    classList.toggle("bs-gone", Boolean(linkage.gone));
+    classList.toggle("bs-old", old || Boolean(linkage.followed));
+    classList.toggle("bs-chosen", chosen);
+    setPressed(this.main, chosen);
+    setPressed(this.pin, pinned);
+    setPressed(this.compare, compared);
+    say(this.pin, pinned ? "Pinned" : "Pin");
+    this.pin.hidden = isPlaced;
+    this.compare.hidden = isPlaced || chosen;
+    this.improve.hidden = isPlaced || linkage.usable || old || Boolean(linkage.gone);
+    this.letGo.hidden = !isPlaced;
+    for (const button2 of [this.pin, this.compare, this.improve]) labelled2(button2, linkage.id);
+  }
+  /** What a search near the linkage found. */
+  tellBetter(sentences) {
+    this.better.replaceChildren(...sentences.map((sentence2) => h("li", {}, sentence2)));
+  }
+};
+function least(linkage) {
+  const angle = leastOf(linkage);
+  return angle === "–" ? angle : angle === "0°" ? "down to 0°" : `${angle} or more`;
+}
+function setPressed(button2, on) {
+  const text = String(Boolean(on));
+  if (button2.getAttribute("aria-pressed") !== text) button2.setAttribute("aria-pressed", text);
+}
+function labelled2(button2, id) {
+  const text = `${button2.textContent}: ${id}`;
+  if (button2.getAttribute("aria-label") !== text) button2.setAttribute("aria-label", text);
+}
+
+// src/burmester/web/studio/results.mjs
+var MOST3 = 40;
+var Results = class {
+  constructor(store, answers) {
+    Object.assign(this, { store, answers, cards: /* @__PURE__ */ new Map(), wanted: { order: "rank", filter: "all", type: "" }, all: false });
+    const choice2 = (name, entries, key) => h("label", {}, `${name} `, h("select", { "data-choice": key, onchange: (event) => this.want(key, event.target.value) }, entries.map(([value, text]) => h("option", { value }, text))));
+    this.types = choice2("Type", [["", "any"]], "type");
+    this.title = h("h2", {}, "Linkages");
+    this.status = h("p", { class: "bs-results-status", role: "status" });
+    this.doubt = h("p", { class: "bs-doubt" });
+    this.gone = h("p", { class: "bs-gone-note" });
+    this.list = h("div", { class: "bs-cards" });
+    this.more = h("button", { type: "button", class: "bs-small", hidden: true, onclick: () => this.showAll() });
+    this.element = h(
+      "section",
+      { class: "bs-results", "aria-label": "Linkages" },
+      h(
+        "div",
+        { class: "bs-results-head" },
+        this.title,
+        this.status,
+        this.doubt,
+        this.gone,
+        h("div", { class: "bs-choices" }, choice2("Show", Object.entries(FILTERS).map(([key, { name }]) => [key, name]), "filter"), choice2("Sort by", Object.entries(ORDERS).map(([key, { name }]) => [key, name]), "order"), this.types)
+      ),
+      this.list,
+      this.more
+    );
+    this.list.addEventListener("keydown", (event) => this.walk(event));
+    answers.on("answers placed", () => this.arrange());
+    answers.on("moved", () => this.update());
+    answers.on("shown", () => this.update());
+    store.on("pinned", () => this.arrange());
+    store.on("state document", () => this.tell());
+    this.arrange();
+  }
+  want(key, value) {
+    this.wanted[key] = value;
+    this.arrange();
+  }
+  showAll() {
+    this.all = true;
+    this.arrange();
+  }
+  /** Cards in their order: new ones are made, those of linkages that go on keep their elements. */
+  arrange() {
+    const { answers, store, wanted } = this;
+    this.buildTypes();
+    const every = arranged(answers.linkages, { ...wanted, pinned: store.pinned });
+    const shown = this.all ? every : every.slice(0, MOST3);
+    const list = answers.placed ? [answers.placed, ...shown] : shown;
+    const cards = /* @__PURE__ */ new Map();
+    for (const linkage of list) cards.set(linkage, this.cards.get(linkage) ?? this.card());
+    for (const [linkage, card] of this.cards) if (!cards.has(linkage)) card.element.remove();
+    this.cards = cards;
+    let before = null;
+    for (const card of cards.values()) {
+      const next = before ? before.nextSibling : this.list.firstChild;
+      if (card.element !== next) this.list.insertBefore(card.element, next);
+      before = card.element;
+    }
+    this.more.hidden = every.length <= shown.length;
+    if (!this.more.hidden) say(this.more, `Show all ${every.length}`);
+    this.hidden = answers.linkages.length - every.length;
+    this.update();
+  }
+  card() {
+    const { store } = this;
+    return new ResultCard({
+      choose: (id) => store.choose(id),
+      pin: (id) => store.pin(id),
+      compare: (id) => store.compare(id),
+      improve: (id) => this.improve(id),
+      letGo: () => this.letGo()
+    });
+  }
+  /** Put the pivots away that a hand put down. */
+  letGo() {
+    this.store.place([]);
+    if (this.store.chosen === PLACED) this.store.choose(this.answers.linkages[0]?.id ?? null);
+  }
+  buildTypes() {
+    const types = [...new Set(this.answers.linkages.map((each) => each.type))].sort(), key = types.join();
+    const select = this.types.querySelector("select");
+    if (key === this.typesKey) return;
+    this.typesKey = key;
+    if (!types.includes(this.wanted.type)) this.wanted.type = "";
+    select.replaceChildren(...["", ...types].map((type) => h("option", { value: type, selected: type === this.wanted.type }, type || "any")));
+    this.types.hidden = types.length < 2;
+  }
+  /** What the cards say, in the order in which they stand. */
+  update() {
+    const { answers, store } = this, { data, isOld, shown } = answers;
+    for (const [linkage, card] of this.cards) {
+      card.show(linkage, { data, old: isOld && linkage.id !== PLACED, chosen: linkage === shown, pinned: store.pinned.has(linkage.id), compared: store.compared === linkage.id });
+    }
+    this.tell();
+  }
+  /** How many there are, and what is doubtful; read aloud only when the hand rests. */
+  tell() {
+    const { answers, store } = this, there = answers.linkages.filter((each) => !each.gone);
+    const usable = there.filter((each) => each.usable).length;
+    say(this.title, there.length ? `${there.length} linkage${there.length === 1 ? "" : "s"}, ${usable} usable` : store.solved ? "No linkage" : "Linkages");
+    this.status.setAttribute("aria-live", store.state === "dragging" ? "off" : "polite");
+    say(this.status, this.statusText());
+    const uncertain = store.followed?.uncertain ?? [];
+    say(this.doubt, store.followed && answers.isOld ? uncertain.length ? `May change when you let go: ${uncertain[0]}${/[.!]$/.test(uncertain[0]) ? "" : "."}` : store.followed.complete === false ? "A linkage that appears now is seen when you let go." : "" : "");
+    say(this.gone, !answers.isOld && answers.gone.length ? `Not in the new answer: ${listed(answers.gone)} of the one before.` : "");
+    this.element.classList.toggle("bs-stale", answers.isOld);
+  }
+  statusText() {
+    const { store, answers } = this, hidden = this.hidden ? `${this.hidden} not shown by the filter. ` : "";
+    if (store.state === "offline") return "The connection is gone; what you see is the last answer.";
+    if (answers.isOld && store.state === "dragging") return store.followed ? "Moving along." : "The new answer comes when you let go.";
+    if (store.state === "solving") return "Looking for all linkages.";
+    if (!store.solved) return "";
+    const { best, outcome } = store.solved;
+    if (!store.solved.linkages.some((each) => each.usable)) return `${hidden}${sentence(outcome?.message)}${outcome?.help ? ` What helps: ${outcome.help}.` : ""}`;
+    return `${hidden}${best?.[0] ?? ""}`;
+  }
+  /** Look for better linkages near one that is not usable, as `burmester judge --improve` does. */
+  async improve(id) {
+    const { document: document2, options, connection } = this.store;
+    const card = () => [...this.cards].find(([linkage]) => linkage.id === id)?.[1];
+    card()?.tellBetter(["Looking near it …"]);
+    let said;
+    try {
+      said = (await (await connection.post("/improve", { document: document2, options, linkage: id })).json()).better;
+    } catch (error) {
+      said = [`That did not work: ${error.message}`];
+    }
+    if (document2 === this.store.document) card()?.tellBetter(said.length ? said.map(nearIt) : ["Nothing better lies near it."]);
+  }
+  /** Arrow keys go from card to card. */
+  walk(event) {
+    const step = { ArrowDown: 1, ArrowRight: 1, ArrowUp: -1, ArrowLeft: -1 }[event.key];
+    const mains = [...this.cards.values()].map((card) => card.main), at = mains.indexOf(document.activeElement);
+    if (!step || at < 0) return;
+    event.preventDefault();
+    mains[clamp(at + step, 0, mains.length - 1)].focus();
+  }
+};
+var nearIt = (text) => text.replace(/^L\d+ changes/, "One changes");
+var sentence = (text) => text ? `${text[0].toUpperCase()}${text.slice(1)}.` : "";
+
+// src/burmester/web/widget/ray_casting.mjs
+var WIDTH = 440;
+var TURNING_SHARE = 0.35;
+function drawStill(canvas, scene, size2, turning) {
+  const share = turning ? TURNING_SHARE : Math.min(1, WIDTH / size2.width);
+  const width = Math.round(size2.width * share), height = Math.round(size2.height * share);
+  canvas.width = width;
+  canvas.height = height;
+  if (!scene.quadrics.length) return;
+  const context = canvas.getContext("2d"), image = context.createImageData(width, height);
+  cast(image, scene);
+  context.putImageData(image, 0, 0);
+}
+function cast(image, { eye, ahead, right, up, reach, quadrics, paint, angles }) {
+  const { data, width, height } = image, [ex, ey, ez] = eye, [zc, zh, middleAngle, step] = angles;
+  const lamp = unit(plus(plus(scaled(ahead, -1), scaled(up, 0.5)), scaled(right, -0.6)));
+  const far = new Float64Array(4), which = new Uint8Array(4);
+  for (let j = 0; j < height; j += 1) {
+    const v = (1 - (2 * j + 1) / height) * reach[1];
+    for (let i = 0; i < width; i += 1) {
+      const u = ((2 * i + 1) / width - 1) * reach[0];
+      let dx = ahead[0] + u * right[0] + v * up[0];
+      let dy = ahead[1] + u * right[1] + v * up[1];
+      let dz = ahead[2] + u * right[2] + v * up[2];
+      const size2 = 1 / Math.sqrt(dx * dx + dy * dy + dz * dz);
+      dx *= size2;
+      dy *= size2;
+      dz *= size2;
+      const x1 = (-1 - ex) / dx, x2 = (1 - ex) / dx, y1 = (-1 - ey) / dy, y2 = (1 - ey) / dy;
+      const z1 = (-1 - ez) / dz, z2 = (1 - ez) / dz;
+      const enter = Math.max(Math.min(x1, x2), Math.min(y1, y2), Math.min(z1, z2));
+      const leave = Math.min(Math.max(x1, x2), Math.max(y1, y2), Math.max(z1, z2));
+      if (!(enter < leave)) continue;
+      const middle2 = (enter + leave) / 2, half = (leave - enter) / 2;
+      const ox = ex + middle2 * dx, oy = ey + middle2 * dy, oz = ez + middle2 * dz;
+      let count = 0;
+      for (let k = 0; k < quadrics.length; k += 1) {
+        const c = quadrics[k];
+        const cx = c[0] * dx + c[1] * dy + c[2] * dz, cy = c[4] * dx + c[5] * dy + c[6] * dz;
+        const cz = c[8] * dx + c[9] * dy + c[10] * dz, cw = c[12] * dx + c[13] * dy + c[14] * dz;
+        const a = dx * cx + dy * cy + dz * cz, b = ox * cx + oy * cy + oz * cz + cw;
+        const e = ox * (c[0] * ox + 2 * (c[1] * oy + c[2] * oz + c[3])) + oy * (c[5] * oy + 2 * (c[6] * oz + c[7])) + oz * (c[10] * oz + 2 * c[11]) + c[15];
+        const root = b * b - a * e;
+        if (root < 0) continue;
+        const q = -(b + (b < 0 ? -1 : 1) * Math.sqrt(root));
+        for (let side = 0; side < 2; side += 1) {
+          const t = side ? e / q : q / a;
+          if (!(Math.abs(t) <= half)) continue;
+          let at2 = count;
+          while (at2 > 0 && far[at2 - 1] > t) {
+            far[at2] = far[at2 - 1];
+            which[at2] = which[at2 - 1];
+            at2 -= 1;
+          }
+          far[at2] = t;
+          which[at2] = k;
+          count += 1;
+        }
+      }
+      if (!count) continue;
+      let red = 0, green = 0, blue = 0, through = 1;
+      for (let k = 0; k < count; k += 1) {
+        const t = far[k], c = quadrics[which[k]], own = paint[which[k]];
+        const x = ox + t * dx, y = oy + t * dy, z = oz + t * dz;
+        let nx = c[0] * x + c[1] * y + c[2] * z + c[3];
+        let ny = c[4] * x + c[5] * y + c[6] * z + c[7];
+        let nz = c[8] * x + c[9] * y + c[10] * z + c[11];
+        const n = 1 / Math.sqrt(nx * nx + ny * ny + nz * nz);
+        nx *= n;
+        ny *= n;
+        nz *= n;
+        const facing = Math.abs(nx * dx + ny * dy + nz * dz);
+        const pixels = (middle2 + t) * reach[1] / height * (Math.sqrt(Math.max(0, 1 - nz * nz)) / Math.max(facing, 0.15)) + 1e-4;
+        const z3 = zc + zh * z, turns = (2 * Math.atan(z3) + middleAngle) / step;
+        const off = Math.abs(turns - Math.round(turns)) * step * (1 + z3 * z3) / (2 * zh);
+        const line2 = 1 - clamp((off / pixels - 0.5) / 1.1, 0, 1);
+        const lit = (0.42 + 0.58 * Math.abs(nx * lamp[0] + ny * lamp[1] + nz * lamp[2])) * (1 - 0.35 * line2);
+        const alpha = 0.5 + 0.42 * (1 - facing) * (1 - facing), share = through * alpha;
+        red += share * own[0] * lit;
+        green += share * own[1] * lit;
+        blue += share * own[2] * lit;
+        through *= 1 - alpha;
+      }
+      const at = 4 * (j * width + i), whole = 255 / (1 - through);
+      data[at] = red * whole;
+      data[at + 1] = green * whole;
+      data[at + 2] = blue * whole;
+      data[at + 3] = 255 * (1 - through);
+    }
+  }
+}
+
+// src/burmester/web/widget/shader.mjs
+var STILL_MILLISECONDS = 250;
+var TURNING_MILLISECONDS = 25;
+var UNIFORMS = ["surface", "paint", "eye", "right", "up", "ahead", "reach", "pixel", "samples", "angles"];
+var VERTEX = `#version 300 es
+in vec2 corner;
+out vec2 at;
+void main() { at = corner; gl_Position = vec4(corner, 0.0, 1.0); }`;
+var FRAGMENT = `#version 300 es
+precision highp float;
+in vec2 at;
+out vec4 colour;
+uniform mat4 surface[2];
+uniform vec3 paint[2];
+uniform vec3 eye, right, up, ahead;
+uniform vec2 reach;   // half the picture's width and height, over the distance to it
+uniform vec2 pixel;   // a pixel's share of at
+uniform int samples;
+uniform vec4 angles;  // of M: Z3 in the middle of the box and half its height, middle angle, step of lines
+
+void meet(mat4 c, vec3 o, vec3 d, out float t1, out float t2) {
+  vec4 o4 = vec4(o, 1.0), d4 = vec4(d, 0.0);
+  vec4 cd = c * d4;
+  float a = dot(d4, cd), b = dot(o4, cd), e = dot(o4, c * o4);
+  float root = b * b - a * e;
+  t1 = t2 = 1e9;
+  if (root < 0.0) return;
+  float q = -(b + (b < 0.0 ? -1.0 : 1.0) * sqrt(root));
+  if (abs(a) > 1e-9 * abs(q)) t1 = q / a;
+  if (q != 0.0) t2 = e / q;
+}
+
+vec4 ray(vec2 xy) {
+  vec3 d = normalize(ahead + xy.x * reach.x * right + xy.y * reach.y * up);
+  vec3 near3 = (-1.0 - eye) / d, far3 = (1.0 - eye) / d;
+  vec3 least = min(near3, far3), most = max(near3, far3);
+  float enter = max(max(least.x, least.y), least.z), leave = min(min(most.x, most.y), most.z);
+  if (enter >= leave) return vec4(0.0);
+  float middle = (enter + leave) / 2.0;
+  vec3 o = eye + middle * d;
+  float reachable = (leave - enter) / 2.0;
+  vec2 hit[4]; // how far, and which surface
+  meet(surface[0], o, d, hit[0].x, hit[1].x);
+  meet(surface[1], o, d, hit[2].x, hit[3].x);
+  hit[0].y = hit[1].y = 0.0;
+  hit[2].y = hit[3].y = 1.0;
+  // Sorted, each pair first.
+  for (int k = 0; k < 5; k++) {
+    int i = k == 1 ? 2 : k == 3 ? 1 : k == 4 ? 1 : 0, j = k == 0 ? 1 : k == 1 ? 3 : k == 2 ? 2 : k == 3 ? 3 : 2;
+    if (hit[i].x > hit[j].x) { vec2 other = hit[i]; hit[i] = hit[j]; hit[j] = other; }
+  }
+  vec3 light = vec3(0.0);
+  float through = 1.0;
+  for (int k = 0; k < 4; k++) {
+    float t = hit[k].x;
+    if (abs(t) > reachable) continue;
+    bool first = hit[k].y < 0.5;
+    vec3 p = o + t * d;
+    vec3 n = normalize(((first ? surface[0] : surface[1]) * vec4(p, 1.0)).xyz);
+    float facing = abs(dot(n, d));
+    vec3 lamp = normalize(-ahead + 0.5 * up - 0.6 * right);
+    float lit = 0.42 + 0.58 * abs(dot(n, lamp));
+    float shine = pow(abs(dot(n, normalize(lamp - d))), 40.0);
+    float width = (middle + t) * pixel.y * reach.y * sqrt(max(0.0, 1.0 - n.z * n.z)) / max(facing, 0.15) + 1e-4;
+    float z = angles.x + angles.y * p.z;
+    float turns = (2.0 * atan(z) + angles.z) / angles.w;
+    float off = abs(fract(turns + 0.5) - 0.5) * angles.w * (1.0 + z * z) / (2.0 * angles.y);
+    float line = 1.0 - smoothstep(0.5 * width, 1.6 * width, off);
+    float alpha = mix(0.5, 0.92, pow(1.0 - facing, 2.0));
+    vec3 own = (first ? paint[0] : paint[1]) * lit * (1.0 - 0.35 * line) + 0.22 * shine;
+    light += through * alpha * own;
+    through *= 1.0 - alpha;
+  }
+  return vec4(light, 1.0 - through);
+}
+
+void main() {
+  if (samples == 1) { colour = ray(at); return; }
+  vec4 sum = vec4(0.0);
+  for (int k = 0; k < 4; k++) {
+    vec2 part = vec2(k % 2 == 0 ? -0.5 : 0.5, k < 2 ? -0.5 : 0.5);
+    sum += ray(at + part * pixel);
+  }
+  colour = sum / 4.0;
+}`;
+function hasGraphics() {
+  const gl = document.createElement("canvas").getContext("webgl2", { failIfMajorPerformanceCaveat: true });
+  const named = gl?.getExtension("WEBGL_debug_renderer_info");
+  const name = named ? gl.getParameter(named.UNMASKED_RENDERER_WEBGL) : "";
+  return Boolean(gl) && !/swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+}
+var Shader = class _Shader {
+  /** The shader on a canvas, null where it cannot be; `lost` is called when it ceases to be. */
+  static on(canvas, lost) {
+    if (!hasGraphics()) return null;
+    const gl = canvas.getContext("webgl2", { antialias: false, premultipliedAlpha: true, preserveDrawingBuffer: true });
+    if (!gl) return null;
+    const program = gl.createProgram();
+    for (const [kind, source] of [[gl.VERTEX_SHADER, VERTEX], [gl.FRAGMENT_SHADER, FRAGMENT]]) {
+      const shader = gl.createShader(kind);
+      gl.shaderSource(shader, source);
+      gl.compileShader(shader);
+      gl.attachShader(program, shader);
+    }
+    gl.linkProgram(program);
+    if (!gl.getProgramParameter(program, gl.LINK_STATUS)) {
+      lost();
+      return null;
+    }
+    canvas.addEventListener("webglcontextlost", lost, { once: true });
+    return new _Shader(canvas, gl, program);
+  }
+  constructor(canvas, gl, program) {
+    this.canvas = canvas;
+    this.gl = gl;
+    gl.useProgram(program);
+    gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array([-1, -1, 3, -1, -1, 3]), gl.STATIC_DRAW);
+    const corner = gl.getAttribLocation(program, "corner");
+    gl.enableVertexAttribArray(corner);
+    gl.vertexAttribPointer(corner, 2, gl.FLOAT, false, 0, 0);
+    this.places = Object.fromEntries(UNIFORMS.map((name) => [name, gl.getUniformLocation(program, name)]));
+  }
+  draw(scene, size2, turning) {
+    const { gl, places } = this;
+    gl.clearColor(0, 0, 0, 0);
+    if (!scene.quadrics.length) {
+      gl.clear(gl.COLOR_BUFFER_BIT);
+      return;
+    }
+    gl.uniformMatrix4fv(places.surface, false, new Float32Array(scene.quadrics.flat()));
+    gl.uniform3fv(places.paint, new Float32Array(scene.paint.flat()));
+    for (const name of ["eye", "right", "up", "ahead"]) gl.uniform3fv(places[name], scene[name]);
+    gl.uniform2fv(places.reach, scene.reach);
+    gl.uniform4fv(places.angles, scene.angles);
+    this.pace ??= this.measure(size2);
+    const full = Math.min(2, window.devicePixelRatio || 1), most = turning ? TURNING_MILLISECONDS : STILL_MILLISECONDS;
+    const ways = turning ? [[1, 1], [0.7, 1], [0.45, 1]] : [[full, 4], [1, 4], [full, 1], [1, 1], [0.7, 1]];
+    const fits = ways.find(([dense, samples]) => dense * dense * samples * this.pace * size2.width * size2.height < most);
+    this.once(size2, ...fits ?? ways[ways.length - 1]);
+  }
+  /** Milliseconds a ray takes: where graphics are slow, the picture gets fewer of them. */
+  measure(size2) {
+    const { gl } = this;
+    this.once(size2, 0.12, 1);
+    gl.finish();
+    const start = performance.now();
+    this.once(size2, 0.3, 1);
+    gl.finish();
+    return (performance.now() - start) / (0.09 * size2.width * size2.height);
+  }
+  /** One picture: pixels of the canvas per pixel of the page along a side, rays per pixel. */
+  once(size2, dense, samples) {
+    const { gl, canvas, places } = this;
+    const width = Math.round(size2.width * dense), height = Math.round(size2.height * dense);
+    if (canvas.width !== width || canvas.height !== height) {
+      canvas.width = width;
+      canvas.height = height;
+    }
+    gl.viewport(0, 0, width, height);
+    gl.clear(gl.COLOR_BUFFER_BIT);
+    gl.uniform2f(places.pixel, 1 / width, 1 / height);
+    gl.uniform1i(places.samples, samples);
+    gl.drawArrays(gl.TRIANGLES, 0, 3);
+  }
+};
+
+// src/burmester/web/widget/image_space.mjs
+var FOCAL_LENGTH = 2.3;
+var EYE_DISTANCE = 4.6;
+var START = { around: -0.62, above: 0.38, zoom: 1 };
+var MANY_POSES3 = 40;
+var inside = (point2) => point2.every((value) => Math.abs(value) <= 1.0001);
+var ImageSpace = class {
+  constructor(data, parent, webgl) {
+    this.data = data;
+    this.parent = parent;
+    this.turn = { ...START };
+    this.canvas = h("canvas", { "aria-hidden": "true" });
+    this.svg = s("svg", { "aria-hidden": "true" });
+    this.note = h("p", { class: "bm-readout" });
+    this.box = h("div", {
+      class: "bm-space",
+      role: "img",
+      tabindex: "0",
+      "aria-label": "Image space: two surfaces and the curve they meet in. Arrow keys turn it, plus and minus zoom."
+    }, this.canvas, this.svg);
+    parent.append(this.box, this.note);
+    this.shader = webgl ? Shader.on(this.canvas, () => this.withoutGl()) : null;
+    this.explain();
+    this.listen();
+  }
+  explain() {
+    this.canvas.dataset.drawn = this.shader ? "webgl" : "still";
+    this.note.textContent = this.shader ? "Drag it, or turn it with the arrow keys; + and − zoom, 0 goes back." : "A still picture, for fast WebGL 2 is missing here; it can be turned all the same, by dragging or with the arrow keys.";
+  }
+  /** Go on without WebGL, on a fresh canvas: the old one can hold nothing else. */
+  withoutGl() {
+    const fresh = this.canvas.cloneNode();
+    this.canvas.replaceWith(fresh);
+    this.canvas = fresh;
+    this.shader = null;
+    this.explain();
+    if (this.space) this.draw(false);
+  }
+  listen() {
+    const { box } = this;
+    let grip = null;
+    box.addEventListener("pointerdown", (event) => {
+      grip = [event.clientX, event.clientY];
+      box.setPointerCapture(event.pointerId);
+    });
+    box.addEventListener("pointermove", (event) => {
+      if (!grip) return;
+      this.turn.around -= 8e-3 * (event.clientX - grip[0]);
+      this.turn.above += 8e-3 * (event.clientY - grip[1]);
+      grip = [event.clientX, event.clientY];
+      this.redraw(true);
+    });
+    for (const end of ["pointerup", "pointercancel"]) {
+      box.addEventListener(end, () => {
+        if (grip) this.redraw(false);
+        grip = null;
+      });
+    }
+    box.addEventListener("keydown", (event) => {
+      const { turn } = this;
+      const step = {
+        ArrowLeft: () => turn.around += 0.1,
+        ArrowRight: () => turn.around -= 0.1,
+        ArrowUp: () => turn.above += 0.1,
+        ArrowDown: () => turn.above -= 0.1,
+        "+": () => turn.zoom *= 1.15,
+        "=": () => turn.zoom *= 1.15,
+        "-": () => turn.zoom /= 1.15,
+        0: () => Object.assign(turn, START)
+      }[event.key];
+      if (!step || event.ctrlKey || event.metaKey || event.altKey) return;
+      event.preventDefault();
+      event.stopPropagation();
+      step();
+      this.redraw(false);
+    });
+  }
+  redraw(turning) {
+    this.turn.above = clamp(this.turn.above, -1.5, 1.5);
+    this.turn.zoom = clamp(this.turn.zoom, 0.6, 4);
+    cancelAnimationFrame(this.waiting);
+    this.waiting = requestAnimationFrame(() => this.draw(turning));
+  }
+  /** The point of the box that is a place of the body. */
+  point(place) {
+    const { chart } = this.data, { centre, half } = this.space;
+    const x = (place.x - chart.origin[0]) / chart.length, y = (place.y - chart.origin[1]) / chart.length;
+    const t = Math.tan((place.a - chart.angle) / 2);
+    return [(x * t - y) / 2, (x + y * t) / 2, t].map((value, k) => (value - centre[k]) / half[k]);
+  }
+  /** A linkage on its way `index`; quick: coarsely, for more changes follow. */
+  build(linkage, index, quick = false) {
+    this.linkage = linkage;
+    this.space = linkage?.space ?? this.data.space;
+    this.poses = this.data.poses.map((pose) => this.point({ x: pose.x, y: pose.y, a: radians(pose.angle_deg) }));
+    this.curves = (linkage?.ways ?? []).map((way, k) => ({
+      here: k === index,
+      points: Array.from(way.x, (x, i) => this.point({ x, y: way.y[i], a: way.angle[i] }))
+    }));
+    const { centre, half } = this.space;
+    const angleOf = (q) => degrees(2 * Math.atan(centre[2] + half[2] * q) + this.data.chart.angle);
+    this.marks = angleTicks(angleOf(-1), angleOf(1), 7);
+    const width = Math.max(240, this.parent.clientWidth);
+    this.width = width;
+    this.height = Math.round(clamp(0.8 * width, 240, 520));
+    this.svg.setAttribute("viewBox", `0 0 ${width} ${this.height}`);
+    this.box.style.height = `${this.height}px`;
+    this.draw(quick);
+  }
+  camera() {
+    const { around: around2, above, zoom } = this.turn;
+    const ahead = [
+      -Math.cos(above) * Math.sin(around2),
+      Math.cos(above) * Math.cos(around2),
+      -Math.sin(above)
+    ];
+    const right = [Math.cos(around2), Math.sin(around2), 0];
+    const up = cross2(right, ahead);
+    const eye = scaled(ahead, -EYE_DISTANCE);
+    const least2 = Math.min(this.width, this.height);
+    const focal = least2 / 2 * FOCAL_LENGTH * zoom * 1.02;
+    return { ahead, right, up, eye, focal, reach: [this.width / 2 / focal, this.height / 2 / focal] };
+  }
+  draw(turning) {
+    this.view = this.camera();
+    const scene = this.sceneOf(this.view);
+    if (this.shader) this.shader.draw(scene, this, turning);
+    else drawStill(this.canvas, scene, this, turning);
+    this.overlay();
+    if (this.place) this.show(this.place);
+  }
+  /** What is drawn: the camera, the quadrics, their colours (0 to 1) and the lines of equal angle. */
+  sceneOf(camera) {
+    const style = getComputedStyle(this.parent);
+    const paint = ["--bm-driver-solid", "--bm-follower-solid"].map((name) => rgb(style.getPropertyValue(name)).map((v) => v / 255));
+    return { ...camera, paint, quadrics: this.space.quadrics, angles: this.angles() };
+  }
+  /** Of M: Z3 in the middle of the box and half its height, middle angle, step of the lines. */
+  angles() {
+    const { centre, half } = this.space, { marks } = this;
+    const step = marks.length > 1 ? radians(marks[1].at - marks[0].at) : Math.PI;
+    return [centre[2], half[2], this.data.chart.angle, step];
+  }
+  /** From the box to pixels, as the camera sees it. */
+  project(point2) {
+    const { eye, ahead, right, up, focal } = this.view;
+    const to = [0, 1, 2].map((k) => point2[k] - eye[k]), depth = dot(to, ahead);
+    return [this.width / 2 + focal * dot(to, right) / depth, this.height / 2 - focal * dot(to, up) / depth];
+  }
+  /** The number of sheets of the surfaces between a point and the eye. */
+  sheetsBefore(point2) {
+    const to = plus(this.view.eye, scaled(point2, -1)), d = unit(to);
+    let leave = Infinity;
+    for (let k = 0; k < 3; k += 1) leave = Math.min(leave, ((d[k] > 0 ? 1 : -1) - point2[k]) / d[k]);
+    let count = 0;
+    for (const c of this.space.quadrics) for (const t of intersections(c, point2, d)) if (t > 0.02 && t < leave) count += 1;
+    return count;
+  }
+  /** Lines, points and names over the surfaces. */
+  overlay() {
+    const { svg } = this;
+    const back2 = this.view.ahead.map((value) => value > 0 ? 1 : -1);
+    svg.replaceChildren(...this.edges(back2), ...this.axisNames(back2), ...this.angleMarks(), ...this.motions());
+    this.images();
+    this.runner = s("circle", { class: "bm-runner", r: 6, visibility: "hidden" });
+    svg.append(this.runner);
+  }
+  /** Edges of the box; those at the farthest corner are behind everything. */
+  edges(back2) {
+    let front = "", behind = "";
+    for (let axis = 0; axis < 3; axis += 1) {
+      for (const [b, c] of [[-1, -1], [-1, 1], [1, -1], [1, 1]]) {
+        const one = [0, 0, 0], [j, k] = [(axis + 1) % 3, (axis + 2) % 3];
+        [one[j], one[k], one[axis]] = [b, c, -1];
+        const other = [...one];
+        other[axis] = 1;
+        const d = `M${this.project(one).map(px).join(" ")}L${this.project(other).map(px).join(" ")}`;
+        if (b === back2[j] && c === back2[k]) behind += d;
+        else front += d;
+      }
+    }
+    return [s("path", { class: "bm-box bm-behind", d: behind }), s("path", { class: "bm-box", d: front })];
+  }
+  /** Names at the middle of edges that are in sight. */
+  axisNames(back2) {
+    const name = (point2, text) => {
+      const [x, y] = this.project(point2), [cx, cy] = [x - this.width / 2, y - this.height / 2];
+      const size2 = Math.hypot(cx, cy) || 1;
+      return s("text", { class: "bm-axis", x: px(x + 14 * cx / size2), y: px(y + 14 * cy / size2 + 4), "text-anchor": "middle" }, text);
+    };
+    const base = this.turn.above >= 0 ? -1 : 1;
+    return [name([0, -back2[1], base], "Z1"), name([-back2[0], 0, base], "Z2")];
+  }
+  /** The third coordinate, as the angle of M, at the edge farthest to the left. */
+  angleMarks() {
+    const upright = [[-1, -1], [-1, 1], [1, -1], [1, 1]].map(([a, b]) => ({ a, b, x: this.project([a, b, 0])[0] }));
+    const edge = upright.reduce((one, other) => other.x < one.x ? other : one);
+    const { centre, half } = this.space;
+    return this.marks.flatMap(({ at, text }) => {
+      const t = Math.tan((radians(at) - this.data.chart.angle) / 2), q = (t - centre[2]) / half[2];
+      const [x, y] = this.project([edge.a, edge.b, q]);
+      return [
+        s("path", { class: "bm-box", d: `M${px(x)} ${px(y)}h-5` }),
+        s("text", { class: "bm-axis", x: px(x - 8), y: px(y + 4), "text-anchor": "end" }, text)
+      ];
+    });
+  }
+  /** The motions of the coupler, in two paths each: behind a surface and before them. */
+  motions() {
+    return this.curves.flatMap(({ here, points }) => {
+      const paths = ["", ""];
+      let last = null;
+      for (let k = 0; k < points.length; k += 1) {
+        const p = points[k];
+        if (!inside(p) || k && Math.hypot(...plus(p, scaled(points[k - 1], -1))) > 0.6) last = null;
+        if (!inside(p)) continue;
+        const at = this.project(p), hidden = this.sheetsBefore(p) > 0 ? 1 : 0;
+        if (last) paths[hidden] += `M${last.map(px).join(" ")}L${at.map(px).join(" ")}`;
+        last = at;
+      }
+      const kind = here ? "bm-here" : "bm-other";
+      return [
+        s("path", { class: `bm-motion bm-hidden ${kind}`, d: paths[1] }),
+        s("path", { class: `bm-motion ${kind}`, d: paths[0] })
+      ];
+    });
+  }
+  /** The image points of the poses, with their names. */
+  images() {
+    const { svg, data } = this;
+    const labels = new Labels({ width: this.width, height: this.height });
+    const shown = this.poses.map((point2, k) => ({ point: point2, k })).filter(({ point: point2 }) => inside(point2));
+    for (const { point: point2 } of shown) labels.block(...this.project(point2), 10, 10);
+    for (const { point: point2, k } of shown) {
+      const [x, y] = this.project(point2), hidden = this.sheetsBefore(point2) > 0;
+      svg.append(s("circle", { class: `bm-image-point${hidden ? " bm-hidden" : ""}`, cx: px(x), cy: px(y), r: 4 }));
+      if (shown.length <= MANY_POSES3) svg.append(labels.put(x, y, data.poses[k].label, 12, { class: "bm-image-name" }));
+    }
+  }
+  /** No place of the body is known. */
+  hide() {
+    this.place = null;
+    this.runner.setAttribute("visibility", "hidden");
+  }
+  show(place) {
+    this.place = place;
+    const point2 = this.point(place);
+    const inside2 = point2.every((value) => Math.abs(value) <= 1.02);
+    this.runner.setAttribute("visibility", inside2 ? "visible" : "hidden");
+    if (!inside2) return;
+    const [x, y] = this.project(point2);
+    this.runner.setAttribute("transform", `translate(${px(x)} ${px(y)})`);
+  }
+};
+
+// src/burmester/web/studio/manifold.mjs
+function coefficients(dyad, { origin, angle, length }) {
+  const c = Math.cos(angle), d = Math.sin(angle);
+  const hand = dyad.moving_pivot && [(c * dyad.moving_pivot[0] - d * dyad.moving_pivot[1]) / length, (d * dyad.moving_pivot[0] + c * dyad.moving_pivot[1]) / length];
+  const foot2 = dyad.fixed_pivot && dyad.fixed_pivot.map((value, k) => (value - origin[k]) / length);
+  if (dyad.kind === "RR") {
+    const [x, y] = hand, [xc, yc] = foot2, squared = (dyad.radius / length) ** 2 / 4;
+    const s1 = -(x + xc) / 2, s2 = -(y + yc) / 2, t1 = -(y - yc) / 2, t2 = (x - xc) / 2;
+    return [1, s1 * s1 + s2 * s2 - squared, 2 * s1, 2 * s2, 2 * t1, 2 * t2, 2 * (s1 * t1 + s2 * t2), t1 * t1 + t2 * t2 - squared];
+  }
+  const normal = radians(dyad.line.normal_deg);
+  if (dyad.kind === "PR") {
+    const n = [Math.cos(normal), Math.sin(normal)];
+    return line(normal, (dyad.line.offset - n[0] * origin[0] - n[1] * origin[1]) / length, hand);
+  }
+  return line(normal + angle, dyad.line.offset / length, foot2).map((value, k) => k >= 4 && k < 7 ? -value : value);
+}
+function line(normal, offset, [x, y]) {
+  const n1 = Math.cos(normal), n2 = Math.sin(normal), along = n1 * x + n2 * y, across = n2 * x - n1 * y;
+  return [0, -along - offset, 2 * n1, 2 * n2, -2 * n2, 2 * n1, 2 * across, along - offset];
+}
+function matrixOf(dyad, chart) {
+  if (dyad.kind === "PP") {
+    const half = (radians(dyad.angle_deg) - chart.angle) / 2;
+    return [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, Math.cos(half) / 2, 0, 0, Math.cos(half) / 2, -Math.sin(half)];
+  }
+  const [p1, p2, p3, p4, p5, p6, p7, p8] = coefficients(dyad, chart);
+  return [p1, 0, p3 / 2, p5 / 2, 0, p1, p4 / 2, p6 / 2, p3 / 2, p4 / 2, p2, p7 / 2, p5 / 2, p6 / 2, p7 / 2, p8];
+}
+function quadricOf(dyad, chart, { centre, half }) {
+  const c = matrixOf(dyad, chart), to = (r, k) => r === k ? k < 3 ? half[k] : 1 : k === 3 ? centre[r] : 0;
+  const out = new Array(16).fill(0);
+  for (let i = 0; i < 4; i += 1) {
+    for (let j = 0; j < 4; j += 1) {
+      for (let r = 0; r < 4; r += 1) for (let k = 0; k < 4; k += 1) out[4 * i + j] += to(r, i) * c[4 * r + k] * to(k, j);
+    }
+  }
+  const greatest = Math.max(...out.map(Math.abs));
+  return out.map((value) => value / greatest);
+}
+
+// src/burmester/web/studio/space_panel.mjs
+var CALM = 200;
+var SpacePanel = class {
+  constructor(answers, playing) {
+    Object.assign(this, { answers, playing });
+    this.story = h("p", { class: "bm-story" });
+    const fill = h("div", { class: "bm-fill" });
+    this.element = h("div", {}, this.story, fill);
+    this.fill = fill;
+    this.space = new ImageSpace(answers.data, fill, true);
+    this.quick = new Pace(() => this.build(true), () => isSeen(fill));
+    playing.on("shape", () => this.ask());
+    answers.on("poses placed", () => this.ask());
+    playing.on("place", ({ place }) => {
+      if (this.space.view && isSeen(fill)) this.space.show(place);
+    });
+    new ResizeObserver(() => this.ask()).observe(fill);
+    watch(fill, () => this.ask());
+  }
+  /** Coarsely at once, and finely when nothing changes any more. */
+  ask() {
+    this.quick.ask();
+    clearTimeout(this.calm);
+    this.calm = setTimeout(() => isSeen(this.fill) && this.build(false), CALM);
+  }
+  /** The dyads whose manifolds are shown: those put down by hand where they make no linkage, or those of the linkage. */
+  get dyads() {
+    const { linkage } = this.playing, { placed } = this.answers.store;
+    if (!linkage && placed?.dyads?.length) return placed.dyads;
+    return linkage?.led ?? [];
+  }
+  build(quick) {
+    const { answers, playing, space, dyads } = this, { data } = answers, { linkage } = playing;
+    if (!data.poses.length) return;
+    const box = linkage?.space ?? data.space;
+    const quadrics = dyads.map((dyad) => quadricOf(dyad, data.chart, box));
+    if (quadrics.length === 1) quadrics.push(quadrics[0]);
+    const shown = { ...linkage && !linkage.gone ? linkage : { ways: [], led: dyads }, space: { ...box, quadrics } };
+    const key = dyads.map((dyad) => dyad.id).join();
+    if (key !== this.told) {
+      this.told = key;
+      this.story.replaceChildren(...spaceStory(linkage && dyads.length === 2 ? { led: dyads } : null));
+    }
+    space.build(shown, playing.player.way, quick);
+    if (playing.path && playing.here) space.show(playing.here.place);
+    else space.hide();
+  }
+};
+
 // src/burmester/web/studio/results_entry.mjs
-function addResults(store, scene, places) {
-  places.results.textContent = "";
+var REDUCED_MOTION = "(prefers-reduced-motion: reduce)";
+var TYPED_IN = "button, input, select, textarea, summary, a, [role=button], [role=slider]";
+var panel = (name, title, open, ...content) => h("details", { class: `bm-card bs-panel bs-panel-${name}`, open, "data-panel": name }, h("summary", {}, h("h2", {}, title)), content);
+function addResults(store, scene, { player, results, panels }) {
+  const answers = new Answers(store), playing = new Playing(store, answers);
+  const live = new LiveLinkage(answers, playing, scene), surface = new PivotSurface(store, answers, playing, scene);
+  const centrodes = new Centrodes(answers, playing, scene), curves = new CouplerCurves(answers, playing, scene);
+  const cards = new Results(store, answers), charts = new Charts(answers, playing), space = new SpacePanel(answers, playing);
+  const compare = new Compare(store, answers, playing), facts = new FactsTable(store, answers, playing, curves);
+  player.append(playing.element, h("div", { class: "bs-player-tools" }, centrodes.element, curves.element));
+  results.append(cards.element);
+  panels.append(
+    panel("pivots", "Put a pivot somewhere", true, surface.element),
+    panel("space", "Image space", true, space.element),
+    panel("charts", "Errors and transmission", true, charts.element),
+    panel("compare", "Compare two linkages", false, compare.element),
+    panel("facts", "Every number in tables", false, facts.element)
+  );
+  for (const part of panels.children) part.addEventListener("toggle", () => dispatchEvent(new Event("resize")));
+  unfoldForPrint(document.body, new AbortController().signal);
+  catchUpForPrint();
+  listenToSpace(playing);
+  playOnce(store, answers, playing);
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => answers.emit("answers"));
+  return { answers, playing, live, surface, centrodes, curves, cards, charts, space, compare, facts };
+}
+function listenToSpace({ player }) {
+  document.addEventListener("keydown", (event) => {
+    if (event.key !== " " || event.ctrlKey || event.metaKey || event.altKey || event.target.closest?.(TYPED_IN) || !player.path) return;
+    event.preventDefault();
+    player.play(!player.playing);
+  });
+}
+function playOnce(store, answers, { player }) {
+  if (matchMedia(REDUCED_MOTION).matches) return;
+  let first = true;
+  answers.on("answers", () => {
+    if (first && player.path) {
+      first = false;
+      player.playOnce();
+    }
+  });
+  store.on("document selection", () => {
+    first = false;
+    if (player.remaining !== null) player.play(false);
+  });
 }
 
 // src/burmester/web/studio/history.mjs
-var MOST2 = 500;
+var MOST4 = 500;
 var History = class {
   constructor() {
     this.past = [];
@@ -2153,7 +6388,7 @@ var History = class {
     const last = this.past.at(-1);
     if (gesture !== null && last?.gesture === gesture) return;
     this.past.push({ value, gesture });
-    if (this.past.length > MOST2) this.past.shift();
+    if (this.past.length > MOST4) this.past.shift();
   }
   /** The value before the last gesture, or null. */
   undo(value) {
@@ -2185,7 +6420,7 @@ var History = class {
 // src/burmester/web/studio/store.mjs
 var REST = 150;
 var MOST_SHOWN = 6;
-var PLACED = "placed";
+var PLACED2 = "placed";
 var sameIds = (before, after) => new Map(before.filter(({ id }) => after.some((each) => each.id === id)).map(({ id }) => [id, id]));
 var Store = class {
   /** continued(before, after, scene): for each linkage before the id with which it goes on.
@@ -2297,7 +6532,7 @@ var Store = class {
   // The server
   /** The linkages whose motion is wanted while dragging. */
   get shown() {
-    return [.../* @__PURE__ */ new Set([this.chosen, this.compared, ...this.pinned])].filter((id) => id && id !== PLACED).slice(0, MOST_SHOWN);
+    return [.../* @__PURE__ */ new Set([this.chosen, this.compared, ...this.pinned])].filter((id) => id && id !== PLACED2).slice(0, MOST_SHOWN);
   }
   follow() {
     if (!this.solved || this.flying) return;
@@ -2414,7 +6649,7 @@ var Store = class {
   install({ n, result, document: document2, seconds, was }) {
     const before = this.followed?.linkages ?? this.solved?.linkages ?? [];
     this.renamed = was ? new Map(Object.entries(was).map(([now, old]) => [old, now])) : this.continued(before, result.linkages, result.scene);
-    const carried = (id) => id === PLACED && this.placed?.linkage ? id : this.renamed.get(id) ?? null;
+    const carried = (id) => id === PLACED2 && this.placed?.linkage ? id : this.renamed.get(id) ?? null;
     Object.assign(this, { solved: result, solvedFor: document2, seconds, basis: n, pending: null, followed: null, followedFor: null });
     if (this.flying) this.flying.isOld = true;
     this.chosen = carried(this.chosen) ?? result.linkages[0]?.id ?? null;
@@ -2498,7 +6733,7 @@ var PointFields = class {
       label: `${axis} of point ${k + 1} of ${this.name}`,
       options: () => ({ ...this.options(), optional: false }),
       step: this.step,
-      commit: (value) => this.set((points) => points.map((point, j) => j === k ? point.map((old, m) => m === i ? value : old) : point))
+      commit: (value) => this.set((points) => points.map((point2, j) => j === k ? point2.map((old, m) => m === i ? value : old) : point2))
     }));
     return { pair, element: h("span", { class: "bs-pair" }, pair.map((field) => field.element)) };
   }
@@ -2573,9 +6808,9 @@ var TaskPanel = class {
       parts[key] = { state, numbers, remove };
       parts[key].element = h("div", { class: "bs-limit-box" }, h("h4", {}, name), this.tools(`Draw a limit: ${name}`, SHAPES, (shape) => regions.limitTool(k, key, shape), `limit ${k} ${key}`), numbers.element, state, remove);
     }
-    const least = this.length("least length", (value) => edit({ length: range(value, limitsOf(store.document)[k]?.length?.most) }), { least: 0 }, { "data-key": `least-${k}`, placeholder: "any" });
+    const least2 = this.length("least length", (value) => edit({ length: range(value, limitsOf(store.document)[k]?.length?.most) }), { least: 0 }, { "data-key": `least-${k}`, placeholder: "any" });
     const most = this.length("greatest length", (value) => edit({ length: range(limitsOf(store.document)[k]?.length?.least, value) }), { least: 0 }, { "data-key": `most-${k}`, placeholder: "any" });
-    const kinds = KINDS2.map(([kind, text]) => ({ kind, ...tick(text, () => edit({ kinds: kindsOf(kinds) }), { "data-key": `kind-${k}-${kind}` }) }));
+    const kinds = KINDS2.map(([kind, text]) => ({ kind, ...tick(text, () => edit({ kinds: kindsOf2(kinds) }), { "data-key": `kind-${k}-${kind}` }) }));
     const lengthState = h("p", { class: "bs-state" }), kindsState = h("p", { class: "bs-state" });
     const element = h(
       "div",
@@ -2583,12 +6818,12 @@ var TaskPanel = class {
       title,
       parts.fixed_pivot.element,
       parts.moving_pivot.element,
-      h("div", { class: "bs-row" }, labelled("length from", least.element), labelled("to", most.element)),
+      h("div", { class: "bs-row" }, labelled("length from", least2.element), labelled("to", most.element)),
       lengthState,
       h("div", { class: "bs-row", role: "group", "aria-label": "kinds of dyads" }, kinds.map((each) => each.element)),
       kindsState
     );
-    return { element, title, parts, least, most, kinds, lengthState, kindsState };
+    return { element, title, parts, least: least2, most, kinds, lengthState, kindsState };
   }
   drawLimits() {
     const { document: document2 } = this.store, tables = limitsOf(document2), count = Math.max(1, tables.length);
@@ -2597,12 +6832,12 @@ var TaskPanel = class {
     while (this.tables.children.length > count) this.tables.lastChild.remove();
     while (this.tables.children.length < count) this.tables.append(this.madeTables[this.tables.children.length].element);
     for (let k = 0; k < count; k += 1) {
-      const table = tables[k] ?? {}, made2 = this.madeTables[k];
+      const table3 = tables[k] ?? {}, made2 = this.madeTables[k];
       made2.title.textContent = count > 1 ? `Dyad ${k + 1}` : "Both dyads";
-      for (const key of ["fixed_pivot", "moving_pivot"]) this.drawLimit(made2.parts[key], table[key]);
-      made2.least.show(table.length?.least);
-      made2.most.show(table.length?.most);
-      for (const { kind, box } of made2.kinds) box.checked = !table.kinds || table.kinds.includes(kind);
+      for (const key of ["fixed_pivot", "moving_pivot"]) this.drawLimit(made2.parts[key], table3[key]);
+      made2.least.show(table3.length?.least);
+      made2.most.show(table3.length?.most);
+      for (const { kind, box } of made2.kinds) box.checked = !table3.kinds || table3.kinds.includes(kind);
     }
   }
   drawLimit({ numbers, remove }, region) {
@@ -2743,7 +6978,7 @@ var TaskPanel = class {
   }
   makeOptions() {
     const { store } = this;
-    this.unit = choice("unit of length", UNITS.map((unit) => [unit, unit || "not stated"]), (value) => this.edit((document2) => withKeys(document2, { length_unit: value || void 0 })), { "data-key": "length_unit" });
+    this.unit = choice("unit of length", UNITS.map((unit2) => [unit2, unit2 || "not stated"]), (value) => this.edit((document2) => withKeys(document2, { length_unit: value || void 0 })), { "data-key": "length_unit" });
     this.method = choice("method", METHODS, (value) => store.option("method", value === "auto" ? void 0 : value), { "data-key": "method" });
     this.norm = choice("norm", NORMS, (value) => store.option("norm", value === "rms" ? void 0 : value), { "data-key": "norm" });
     this.prefer = choice("best at", PREFERENCES, (value) => store.option("prefer", value === "transmission" ? void 0 : value), { "data-key": "prefer" });
@@ -2767,9 +7002,9 @@ var TaskPanel = class {
     );
   }
   drawOptions() {
-    const { document: document2, options } = this.store, unit = document2.length_unit ?? "";
-    if (![...this.unit.options].some((each) => each.value === unit)) this.unit.append(h("option", { value: unit }, unit));
-    this.unit.value = unit;
+    const { document: document2, options } = this.store, unit2 = document2.length_unit ?? "";
+    if (![...this.unit.options].some((each) => each.value === unit2)) this.unit.append(h("option", { value: unit2 }, unit2));
+    this.unit.value = unit2;
     this.method.value = options.method ?? "auto";
     this.norm.value = options.norm ?? "rms";
     this.prefer.value = options.prefer ?? "transmission";
@@ -2799,8 +7034,8 @@ function withPoints(document2, k, key, change) {
   const [[shape, stated]] = Object.entries(limitsOf(document2)[k][key]);
   return setLimit(document2, k, { [key]: shapeOf(shape, change(shape === "point" ? [stated] : stated)) });
 }
-var range = (least, most) => least === void 0 && most === void 0 ? void 0 : { ...least === void 0 ? {} : { least }, ...most === void 0 ? {} : { most } };
-function kindsOf(kinds) {
+var range = (least2, most) => least2 === void 0 && most === void 0 ? void 0 : { ...least2 === void 0 ? {} : { least: least2 }, ...most === void 0 ? {} : { most } };
+function kindsOf2(kinds) {
   const list = kinds.filter(({ box }) => box.checked).map(({ kind }) => kind);
   return list.length === kinds.length || !list.length ? void 0 : list;
 }
@@ -2816,7 +7051,7 @@ function layOut(root, store, start) {
   const scene = new Scene(store), banners = new Banners(store), files = new Files(store, start, banners);
   banners.files = files;
   const body = new BodyEditor(store, scene), regions = new Regions(store, scene);
-  const panel = new TaskPanel(store, scene, regions, body, files), handles = new PoseHandles(store, scene), table = new PoseTable(store, scene);
+  const panel2 = new TaskPanel(store, scene, regions, body, files), handles = new PoseHandles(store, scene), table3 = new PoseTable(store, scene);
   const player = h("div", { id: "bs-player" }), results = h("aside", { id: "bs-results", "aria-label": "Linkages" }), panels = h("div", { id: "bs-panels" });
   const name = h("input", { class: "bs-text bs-task-name", "aria-label": "Name of the task", autocomplete: "off", spellcheck: "false", onchange: () => store.rename(name.value.trim() || "task") });
   const undo = button("↶", () => store.undo(), { "data-do": "undo", title: "Undo (Ctrl+Z)", "aria-label": "Undo" }), redo = button("↷", () => store.redo(), { "data-do": "redo", title: "Redo (Ctrl+Shift+Z)", "aria-label": "Redo" });
@@ -2833,7 +7068,7 @@ function layOut(root, store, start) {
     h(
       "main",
       { class: "bs-main" },
-      h("section", { class: "bs-left", "aria-label": "The task" }, h("div", { class: "bm-card" }, h("h2", {}, "Poses"), table.element), h("div", { class: "bm-card" }, panel.element)),
+      h("section", { class: "bs-left", "aria-label": "The task" }, h("div", { class: "bm-card" }, h("h2", {}, "Poses"), table3.element), h("div", { class: "bm-card" }, panel2.element)),
       h("section", { class: "bs-stage bm-card", "aria-label": "The plane" }, stageBar(store, scene), scene.element, player),
       results,
       panels
@@ -2844,14 +7079,14 @@ function layOut(root, store, start) {
   listenToKeys(store, scene, files);
   new Autosave(store);
   files.opened = refitWhenSolved(store, scene);
-  return { scene, banners, files, body, regions, panel, handles, table };
+  return { scene, banners, files, body, regions, panel: panel2, handles, table: table3 };
 }
 function stageBar(store, scene) {
   const pose = button("Add poses", () => scene.use(scene.tool?.name === "pose" ? null : new PoseTool(store, scene)), { "data-do": "add-poses", "aria-pressed": "false" });
   const stop = button("Stop solving", () => store.cancel(), { "data-do": "cancel", hidden: true });
-  const line = h("p", { class: "bs-line" });
+  const line2 = h("p", { class: "bs-line" });
   const show = () => {
-    line.textContent = scene.tool?.hint ?? (store.document.poses.length ? FIRST : EMPTY);
+    line2.textContent = scene.tool?.hint ?? (store.document.poses.length ? FIRST : EMPTY);
     pose.setAttribute("aria-pressed", scene.tool?.name === "pose");
   };
   scene.on("tool", show);
@@ -2876,12 +7111,12 @@ function stageBar(store, scene) {
       ...keyList(),
       stop
     ),
-    line
+    line2
   );
 }
 function refitWhenSolved(store, scene) {
   let waits = true;
-  scene.hold(() => (waits ? [] : currentLinkage(store)?.led ?? []).map((dyad) => dyad.fixed_pivot).filter((point) => point && isNear(store, point)));
+  scene.hold(() => (waits ? [] : currentLinkage(store)?.led ?? []).map((dyad) => dyad.fixed_pivot).filter((point2) => point2 && isNear(store, point2)));
   store.on("solved", () => {
     const refit = waits && scene.isFitted;
     waits = false;

@@ -1,6 +1,74 @@
-// The parts that show answers; they are made here.
+// The parts that show answers, and where they stand.
 
-/** @param {object} store @param {object} scene @param {{ player: Element, results: Element, panels: Element }} places */
-export function addResults(store, scene, places) {
-  places.results.textContent = "";
+import { h } from "../widget/dom.mjs";
+import { unfoldForPrint } from "../widget/printing.mjs";
+import { Answers } from "./answers.mjs";
+import { Centrodes } from "./centrodes.mjs";
+import { Charts } from "./charts.mjs";
+import { Compare } from "./compare.mjs";
+import { CouplerCurves } from "./coupler_curve.mjs";
+import { FactsTable } from "./facts_table.mjs";
+import { LiveLinkage } from "./live_linkage.mjs";
+import { catchUpForPrint } from "./pacing.mjs";
+import { PivotSurface } from "./pivot_surface.mjs";
+import { Playing } from "./playing.mjs";
+import { Results } from "./results.mjs";
+import { SpacePanel } from "./space_panel.mjs";
+
+const REDUCED_MOTION = "(prefers-reduced-motion: reduce)";
+const TYPED_IN = "button, input, select, textarea, summary, a, [role=button], [role=slider]"; // elements with a use of their own for space
+
+/** A panel under the scene that folds. */
+const panel = (name, title, open, ...content) =>
+  h("details", { class: `bm-card bs-panel bs-panel-${name}`, open, "data-panel": name }, h("summary", {}, h("h2", {}, title)), content);
+
+/** Make every part that shows answers, and put it in its place.
+ * @param {object} store @param {object} scene @param {{ player: Element, results: Element, panels: Element }} places */
+export function addResults(store, scene, { player, results, panels }) {
+  const answers = new Answers(store), playing = new Playing(store, answers);
+  const live = new LiveLinkage(answers, playing, scene), surface = new PivotSurface(store, answers, playing, scene);
+  const centrodes = new Centrodes(answers, playing, scene), curves = new CouplerCurves(answers, playing, scene);
+  const cards = new Results(store, answers), charts = new Charts(answers, playing), space = new SpacePanel(answers, playing);
+  const compare = new Compare(store, answers, playing), facts = new FactsTable(store, answers, playing, curves);
+  player.append(playing.element, h("div", { class: "bs-player-tools" }, centrodes.element, curves.element));
+  results.append(cards.element);
+  panels.append(
+    panel("pivots", "Put a pivot somewhere", true, surface.element),
+    panel("space", "Image space", true, space.element),
+    panel("charts", "Errors and transmission", true, charts.element),
+    panel("compare", "Compare two linkages", false, compare.element),
+    panel("facts", "Every number in tables", false, facts.element),
+  );
+  for (const part of panels.children) part.addEventListener("toggle", () => dispatchEvent(new Event("resize")));
+  unfoldForPrint(document.body, new AbortController().signal);
+  catchUpForPrint();
+  listenToSpace(playing);
+  playOnce(store, answers, playing);
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => answers.emit("answers"));
+  return { answers, playing, live, surface, centrodes, curves, cards, charts, space, compare, facts };
+}
+
+/** Space plays and stops wherever it has no other use. */
+function listenToSpace({ player }) {
+  document.addEventListener("keydown", (event) => {
+    if (event.key !== " " || event.ctrlKey || event.metaKey || event.altKey || event.target.closest?.(TYPED_IN) || !player.path) return;
+    event.preventDefault();
+    player.play(!player.playing);
+  });
+}
+
+/** The first answer moves once, unless the reader wants no motion; a hand that takes hold of something stops it. */
+function playOnce(store, answers, { player }) {
+  if (matchMedia(REDUCED_MOTION).matches) return;
+  let first = true;
+  answers.on("answers", () => {
+    if (first && player.path) {
+      first = false;
+      player.playOnce();
+    }
+  });
+  store.on("document selection", () => {
+    first = false;
+    if (player.remaining !== null) player.play(false);
+  });
 }
