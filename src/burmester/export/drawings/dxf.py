@@ -90,9 +90,18 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
         _draw_outlines(document.modelspace(), outlines, sheet.letters)
         middle, size = (sheet.low + sheet.high) / 2, sheet.high - sheet.low
         document.set_modelspace_vport(float(size.max()), center=tuple(middle.tolist()))
+        _order_classes(document)
         document.saveas(path)
     finally:
         ezdxf.options.write_fixed_meta_data_for_testing = fixed
+
+
+def _order_classes(document: Any) -> None:
+    """Classes by name: ezdxf takes them from a set, in another order in each process."""
+    document.classes.add_required_classes(document.dxfversion)
+    by_name = sorted(document.classes, key=lambda each: each.key)
+    document.classes.classes.clear()
+    document.classes.register(by_name)
 
 
 def _draw(
