@@ -1,9 +1,9 @@
 """Make the pictures of pages and of image space in docs.
 
-report.png is the page of the example, few-poses.png that of a template with three poses, and
-image-space.png the paper's Fig. 4.
+report.png is the page of the example, few-poses.png that of a template with three poses, studio.png
+the studio as it opens, and image-space.png the paper's Fig. 4.
 
-Needs a browser, Playwright and Matplotlib, as the tests do.  Run it from the project's root:
+Needs a browser, Playwright, the studio and Matplotlib, as the tests do.  Run it from the project's root:
 
     .venv/bin/python -m docs.screens
 """
@@ -14,6 +14,8 @@ from pathlib import Path
 
 from PIL import Image
 from tests.oracles import browser as browsers
+from tests.oracles.studio import served
+from tests.oracles.studio_page import studio_page
 
 from burmester import read_task, synthesize
 from burmester.plot.paper import paper_figure
@@ -21,6 +23,7 @@ from burmester.plot.style import house_style
 from burmester.report.page import page as page_of
 
 SIZE = (1400, 1060)  # pixels of the screen
+STUDIO_HEIGHT = 940
 FIGURE_DPI = 125
 COLOURS = 256  # of a picture: more show no difference, and fill the file
 
@@ -39,6 +42,20 @@ def screen(poses="examples/poses.csv"):
             return page.screenshot()
 
 
+def studio():
+    """The studio as it opens, its linkage at the middle of its poses."""
+    with (
+        tempfile.TemporaryDirectory() as home,
+        served(home=home) as visitor,
+        browsers.launched() as browser,
+        studio_page(browser, visitor, width=SIZE[0], height=STUDIO_HEIGHT) as page,
+    ):
+        for _ in range(3):
+            page.get_by_role("button", name="Next pose").click()
+        assert page.wrong == []
+        return page.screenshot()
+
+
 def figure():
     """Two constraint manifolds in image space: the paper's Fig. 4."""
     held = BytesIO()
@@ -51,6 +68,7 @@ def main():
     pictures = {
         "report.png": screen(),
         "few-poses.png": screen("src/burmester/templates/chest-lid.toml"),
+        "studio.png": studio(),
         "image-space.png": figure(),
     }
     for name, drawn in pictures.items():
