@@ -113,6 +113,11 @@ def test_the_linkage_is_drawn_where_its_numbers_say(shared, result):
         for name, dyad in led(found).items():
             at = place_of(shared, FIXED.format(name))
             assert at == pytest.approx(dyad["fixed_pivot"], abs=1e-3)
+            pin = shared.locator(f'.bs-mechanism .bm-fixed-pin[data-dyad="{name}"]')
+            own = view(shared)
+            drawn = [float(pin.get_attribute(key)) for key in ("cx", "cy")]
+            assert (drawn[0] - own["left"]) / own["scale"] == pytest.approx(at[0], abs=1e-3)
+            assert (own["top"] - drawn[1]) / own["scale"] == pytest.approx(at[1], abs=1e-3)
             pin = complex(x, y) + turn * complex(*dyad["moving_pivot"])
             assert place_of(shared, MOVING.format(name)) == pytest.approx(
                 (pin.real, pin.imag), abs=2e-3
@@ -281,6 +286,9 @@ def test_cards_are_sorted_filtered_and_pinned(shared, result):
     shared.locator("[data-choice=order]").select_option("size")
     extents = {each["id"]: each["quality"]["extent"] for each in result["linkages"]}
     assert names() == sorted(extents, key=extents.get)
+    shared.locator("[data-choice=order]").select_option("worst")
+    worst = {each["id"]: each["position_error"]["max"] for each in result["linkages"]}
+    assert names() == sorted(worst, key=worst.get)
     shared.locator("[data-choice=filter]").select_option("usable")
     assert names() == [each["id"] for each in result["linkages"] if each["usable"]]
     shared.locator("[data-choice=filter]").select_option("all")
