@@ -86,7 +86,7 @@ class Studio:
 
     def __init__(self, task, server, page, url):
         self.task, self.server, self.page, self.url = task, server, page, url
-        self.solved, self.followed, self.answers = None, None, 0
+        self.solved, self.followed, self.answers, self.asked = None, None, 0, {}
 
     def received(self, payload):
         if isinstance(payload, bytes):
@@ -97,6 +97,17 @@ class Studio:
         if message["kind"] == "solved":
             self.solved = message
             self.answers += 1
+
+    def sent(self, payload):
+        message = json.loads(payload)
+        if message["do"] in ("follow", "solve"):
+            self.asked[message["n"]] = message["document"]
+
+    @property
+    def is_same(self):
+        """Whether the last frame that was followed is of the task that was solved."""
+        frame = self.followed and self.asked.get(self.followed["n"])
+        return frame is not None and frame == self.asked.get(self.solved["n"])
 
     def rest(self, before, seconds=30):
         """Wait for a whole answer after the one before."""
@@ -176,6 +187,7 @@ def opened(task):
         url = server.stdout.readline().strip()
         studio = Studio(task, server, page, url)
         page.on("websocket", lambda socket: socket.on("framereceived", studio.received))
+        page.on("websocket", lambda socket: socket.on("framesent", studio.sent))
         weight = []
         page.on("response", lambda response: weight.append(response))  # noqa: PLW0108
         try:
@@ -277,8 +289,8 @@ def check(studio, drags, seed):
         if not studio.rest(before):
             out["not followed"] += 1
             continue
-        if studio.answers != 1:
-            out["slow"] += 1  # the whole road answered on the way, and ids changed twice
+        if studio.answers != 1 or not studio.is_same:
+            out["slow"] += 1  # the whole road answered on the way, or before the last frame
             continue
         followed = {each["id"]: each for each in (studio.followed or {"linkages": []})["linkages"]}
         new = {each["id"]: each for each in studio.solved["result"]["linkages"]}
