@@ -58,9 +58,30 @@ def view(page):
     return {name: float(data[name]) for name in ("scale", "left", "top")}
 
 
+def see(page, what):
+    """Fit the picture until it shows this: "near" the poses and the pivots, or "all"."""
+    while page.locator(".bs-scene").get_attribute("data-fit") != what:
+        page.locator("[data-do=fit]").click()
+
+
 def see_all(page):
     """Show all of the body and the regions; the page opens on the poses and the pivots."""
-    page.locator("[data-do=fit]").click()
+    see(page, "all")
+
+
+def as_opened(page):
+    """Undo all that was done, and look at it as the page did when it was opened."""
+    page.mouse.move(2, 2)
+    page.keyboard.press("Escape")
+    closing = page.locator(".bs-banner .bs-close")
+    closing.evaluate_all("all => all.forEach((each) => each.click())")
+    undo = page.locator("[data-do=undo]")
+    while undo.is_enabled():
+        undo.click()
+    page.locator(".bs-scene").focus()
+    page.keyboard.press("Escape")
+    see(page, "near")
+    solved(page)
 
 
 def on_screen(page, x, y):

@@ -3,7 +3,7 @@
 import pytest
 
 from tests.oracles import browser as browsers
-from tests.oracles.studio_page import studio_page
+from tests.oracles.studio_page import as_opened, studio_page
 
 
 @pytest.fixture(scope="package")
@@ -18,3 +18,18 @@ def page(browser, visitor):
     with studio_page(browser, visitor) as found:
         yield found
         assert found.wrong == []
+
+
+@pytest.fixture(scope="module")
+def module_page(browser, visitor):
+    with studio_page(browser, visitor) as found:
+        yield found
+
+
+@pytest.fixture
+def same_page(module_page):
+    """The page of a module's tests, as it was opened; quicker than another one."""
+    as_opened(module_page)
+    yield module_page
+    assert module_page.wrong == []
+    module_page.wrong.clear()

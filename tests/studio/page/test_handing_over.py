@@ -12,6 +12,11 @@ def rows(page):
     return page.locator(".bs-pose-row").count()
 
 
+@pytest.fixture
+def page(same_page):
+    return same_page
+
+
 def test_what_was_dragged_is_what_the_command_finds_in_the_saved_task(page, tmp_path, capsys):
     drag(page, '.bs-origin[data-pose="8"]', 6, 4)
     page.wait_for_timeout(200)

@@ -21,6 +21,11 @@ from tests.oracles.studio_page import (
 ORIGIN, TURN = '.bs-origin[data-pose="{}"]', '.bs-turn[data-turn="{}"]'
 
 
+@pytest.fixture
+def page(same_page):
+    return same_page
+
+
 def test_a_drag_moves_the_pose_by_what_the_hand_moved(page):
     before, scale = pose(page, 8), view(page)["scale"]
     drag(page, ORIGIN.format(8), 40, -25)
@@ -32,9 +37,28 @@ def test_a_drag_moves_the_pose_by_what_the_hand_moved(page):
     assert drawn(page, 8)[:2] == pytest.approx((x, y), abs=0.1 / scale)
     page.keyboard.press("Control+z")  # one entry for all of the gesture
     assert pose(page, 8) == before
+    assert page.locator("[data-do=undo]").is_disabled()
     page.keyboard.press("Control+Shift+z")
     assert pose(page, 8) == (x, y, angle)
     solved(page)
+
+
+def test_nothing_is_said_aloud_while_a_pose_is_dragged(page):
+    page.evaluate("""() => {
+      window.said = [];
+      const heard = new MutationObserver((all) => window.said.push(all[0].target.textContent));
+      for (const each of document.querySelectorAll("[role=status], [aria-live]"))
+        heard.observe(each, { childList: true, characterData: true, subtree: true });
+    }""")
+    x, y = on_screen(page, *pose(page, 8)[:2])
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 30, y + 10, steps=20)
+    assert page.evaluate("window.said") == []
+    page.mouse.up()
+    page.wait_for_timeout(300)
+    solved(page)
+    assert page.evaluate("window.said.length") > 0
 
 
 def test_escape_gives_a_drag_up(page):

@@ -18,7 +18,9 @@ from tests.oracles.studio_page import (
 
 
 def section(page, name):
-    page.locator(f"[data-section={name}] > summary").click()
+    """Open a part of the task's panel."""
+    if not page.locator(f"[data-section={name}]").evaluate("node => node.open"):
+        page.locator(f"[data-section={name}] > summary").click()
 
 
 def draw_box(page, what, low, high):
@@ -27,6 +29,11 @@ def draw_box(page, what, low, high):
     page.mouse.down()
     page.mouse.move(*on_screen(page, *high), steps=4)
     page.mouse.up()
+
+
+@pytest.fixture
+def page(same_page):
+    return same_page
 
 
 def test_a_region_is_drawn_named_moved_reshaped_and_deleted(page):

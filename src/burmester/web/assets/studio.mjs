@@ -238,7 +238,8 @@ var Banners = class {
     this.store = store;
     this.shown = /* @__PURE__ */ new Map();
     this.element = h("div", { class: "bs-banners" });
-    this.status = h("p", { class: "bs-status", role: "status", "aria-live": "polite" });
+    this.status = h("p", { class: "bs-status" });
+    this.live = h("p", { class: "bs-unseen", role: "status" });
     store.on("messages", () => this.messages());
     store.on("state solved messages", () => this.state());
   }
@@ -285,7 +286,9 @@ var Banners = class {
     else this.close("offline");
     this.status.dataset.state = store.state;
     if (store.state === "dragging") return;
-    this.status.textContent = solving ? `Solving${store.progress ? `: ${store.progress}` : "…"}` : store.state === "offline" ? "Not connected" : this.summary();
+    const said = store.state === "offline" ? "Not connected" : this.summary();
+    this.status.textContent = solving ? `Solving${store.progress ? `: ${store.progress}` : "…"}` : said;
+    if (!solving && said && this.live.textContent !== said) this.live.textContent = said;
   }
   summary() {
     const { solved, solvedFor, document: document2, messages } = this.store;
@@ -874,7 +877,7 @@ var Scene = class {
       x: (X) => (X - left) / scale,
       y: (Y) => (top - Y) / scale
     };
-    Object.assign(this.svg.dataset, { scale, left, top });
+    Object.assign(this.svg.dataset, { scale, left, top, fit: this.isFitted ? this.isWhole ? "all" : "near" : "" });
     this.grid();
     this.emit("view", this.view);
   }
@@ -7063,7 +7066,7 @@ function layOut(root, store, start) {
   store.on("document", show);
   show();
   root.replaceChildren(
-    h("header", { class: "bs-head" }, h("h1", {}, "burmester studio"), name, h("div", { class: "bs-row" }, undo, redo), files.element, banners.status),
+    h("header", { class: "bs-head" }, h("h1", {}, "burmester studio"), name, h("div", { class: "bs-row" }, undo, redo), files.element, banners.status, banners.live),
     banners.element,
     h(
       "main",

@@ -20,7 +20,8 @@ export class Banners {
     this.store = store;
     this.shown = new Map(); // by kind: one of each
     this.element = h("div", { class: "bs-banners" });
-    this.status = h("p", { class: "bs-status", role: "status", "aria-live": "polite" });
+    this.status = h("p", { class: "bs-status" });
+    this.live = h("p", { class: "bs-unseen", role: "status" }); // what is said aloud: answers, not each step to them
     store.on("messages", () => this.messages());
     store.on("state solved messages", () => this.state());
   }
@@ -65,8 +66,10 @@ export class Banners {
     if (store.state === "offline") this.offline();
     else this.close("offline");
     this.status.dataset.state = store.state;
-    if (store.state === "dragging") return; // a live region that speaks at every move is noise
-    this.status.textContent = solving ? `Solving${store.progress ? `: ${store.progress}` : "…"}` : store.state === "offline" ? "Not connected" : this.summary();
+    if (store.state === "dragging") return;
+    const said = store.state === "offline" ? "Not connected" : this.summary();
+    this.status.textContent = solving ? `Solving${store.progress ? `: ${store.progress}` : "…"}` : said;
+    if (!solving && said && this.live.textContent !== said) this.live.textContent = said;
   }
 
   summary() {

@@ -58,7 +58,7 @@ export class Scene {
       scale, left, top, width, height,
       X: (x) => left + scale * x, Y: (y) => top - scale * y, x: (X) => (X - left) / scale, y: (Y) => (top - Y) / scale,
     };
-    Object.assign(this.svg.dataset, { scale, left, top });
+    Object.assign(this.svg.dataset, { scale, left, top, fit: this.isFitted ? (this.isWhole ? "all" : "near") : "" });
     this.grid();
     this.emit("view", this.view);
   }

@@ -40,7 +40,7 @@ function layOut(root, store, start) {
   store.on("document", show);
   show();
   root.replaceChildren(
-    h("header", { class: "bs-head" }, h("h1", {}, "burmester studio"), name, h("div", { class: "bs-row" }, undo, redo), files.element, banners.status),
+    h("header", { class: "bs-head" }, h("h1", {}, "burmester studio"), name, h("div", { class: "bs-row" }, undo, redo), files.element, banners.status, banners.live),
     banners.element,
     h("main", { class: "bs-main" },
       h("section", { class: "bs-left", "aria-label": "The task" }, h("div", { class: "bm-card" }, h("h2", {}, "Poses"), table.element), h("div", { class: "bm-card" }, panel.element)),
