@@ -1,6 +1,7 @@
 """Tasks in and out of the page: templates, files, rows pasted, and the command on the task."""
 
 import json
+import re
 
 import pytest
 
@@ -106,3 +107,19 @@ def test_the_same_is_told_as_a_command(page):
     assert "burmester synthesize lid-hinge.toml" in dialog.inner_text()
     dialog.locator("[data-do=close]").click()
     assert dialog.count() == 0
+
+
+def test_an_empty_task_is_filled_by_hand(page):
+    page.locator("[data-do=new]").click()
+    assert rows(page) == 0
+    assert "add poses here" in page.locator(".bs-line").inner_text()
+    page.locator("[data-do=add-poses]").click()
+    box = page.locator(".bs-scene").bounding_box()
+    for x, y, toward in ((150, 350, (230, 350)), (260, 300, (330, 250)), (340, 210, (360, 120))):
+        page.mouse.click(box["x"] + x, box["y"] + y)
+        page.mouse.click(box["x"] + toward[0], box["y"] + toward[1])
+    page.keyboard.press("Escape")
+    assert rows(page) == 3
+    solved(page)
+    assert page.locator("[data-banner=refused]").count() == 0
+    assert re.fullmatch(r"\d+ linkages?, \d+ usable", page.inner_text(".bs-status"))

@@ -268,7 +268,7 @@ var Banners = class {
     const { store } = this, { messages } = store, [first] = messages;
     this.close("limit");
     this.close("refused");
-    if (!first) return;
+    if (!first || store.document.poses.length < 2) return;
     if (first.tone === "cancelled") this.say("note", "Solving was stopped. What is shown was followed from the answer before.", [], { actions: [this.again()] });
     else if (first.tone === "limit") this.say("limit", "Solving took too long and was stopped. Nothing is lost: what is shown was followed from the answer before.", messages, { actions: [this.again()] });
     else this.say("refused", "The task cannot be solved as it is.", messages);
@@ -292,6 +292,7 @@ var Banners = class {
   }
   summary() {
     const { solved, solvedFor, document: document2, messages } = this.store;
+    if (document2.poses.length < 2) return "Two poses or more make a task";
     if (messages.length) return "Not solved";
     if (!solved || solvedFor !== document2) return "";
     const count = solved.linkages.length, usable = solved.linkages.filter((each) => each.usable).length;
@@ -1104,15 +1105,19 @@ var Kept = class {
 // src/burmester/web/studio/pose_handles.mjs
 var LONGEST_ARM = 46;
 var SHORTEST_ARM = 27;
+var FEW = 24;
 var MOST = 240;
+var ROOM = 14;
 var LONGEST_NAME = 18;
 var ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 var tenths = (angle) => Number(angle.toFixed(1)) + 0;
 var unwrapped = (angle, near2) => angle + 360 * Math.round((near2 - angle) / 360);
-function drawnPoses(store) {
-  const count = store.document.poses.length, stride = Math.ceil(count / MOST);
-  const chosen = store.selection?.kind === "pose" ? store.selection.index : -1;
-  return [...store.document.poses.keys()].filter((k) => k % stride === 0 || k === count - 1 || k === chosen);
+function drawnPoses({ document: document2, selection }, scale) {
+  const { poses } = document2, count = poses.length, all = [...poses.keys()];
+  if (count <= FEW) return all;
+  const length = poses.slice(1).reduce((sum, { x, y }, k) => sum + (Math.hypot(x - poses[k].x, y - poses[k].y) || 0), 0);
+  const stride = Math.ceil(count / clamp(scale * length / ROOM, FEW, MOST)), chosen = selection?.kind === "pose" ? selection.index : -1;
+  return all.filter((k) => k % stride === 0 || k === count - 1 || k === chosen);
 }
 var PoseHandles = class {
   constructor(store, scene) {
@@ -1130,13 +1135,13 @@ var PoseHandles = class {
   }
   /** Arms are shorter where poses are crowded: about the distance from one to the next. */
   get arm() {
-    const { document: document2 } = this.store, { scale } = this.scene.view, places = drawnPoses(this.store).map((k) => standing(document2, k));
+    const { document: document2 } = this.store, { scale } = this.scene.view, places = drawnPoses(this.store, scale).map((k) => standing(document2, k));
     const away = places.slice(1).map(({ x, y }, k) => scale * Math.hypot(x - places[k].x, y - places[k].y)).sort((a, b) => a - b);
     return away.length ? clamp(1.2 * away[away.length >> 1], SHORTEST_ARM, LONGEST_ARM) : LONGEST_ARM;
   }
   draw() {
     this.length = this.scene.dragged ? this.length ?? this.arm : this.arm;
-    const poses = drawnPoses(this.store).map((k) => [k, k]);
+    const poses = drawnPoses(this.store, this.scene.view.scale).map((k) => [k, k]);
     this.kept.draw(poses);
     this.labels.draw(poses);
   }
@@ -1600,7 +1605,7 @@ var BodyEditor = class {
     });
   }
   indices() {
-    const drawn = drawnPoses(this.store), stride = Math.ceil(drawn.length / MOST_GHOSTS);
+    const drawn = drawnPoses(this.store, this.scene.view.scale), stride = Math.ceil(drawn.length / MOST_GHOSTS);
     return drawn.filter((_, i) => i % stride === 0 || i === drawn.length - 1);
   }
   draw() {
@@ -2287,10 +2292,10 @@ var PoseTable = class {
     this.details.append(
       this.title,
       h("div", { class: "bs-row" }, this.exact.element, labelled("weight", this.weight.element)),
+      h("p", { class: "bs-hint" }, "Tolerance: how far from it the body may be, to either side"),
       h(
         "table",
-        { class: "bs-tolerances" },
-        h("caption", {}, "Tolerance: how far from it the body may be, to either side"),
+        { class: "bs-tolerances", "aria-label": "Tolerance" },
         h("tbody", {}, this.bounds.map(({ component: component2, field, free }) => h("tr", {}, h("th", { scope: "row" }, component2 === "angle" ? "angle °" : component2), h("td", {}, field.element), h("td", {}, free.element))))
       ),
       this.axes,
@@ -3587,7 +3592,7 @@ var Plots = class {
     if (!way) return;
     svg.setAttribute("aria-label", `${linkage.id}: errors at its poses, and its transmission angle along the driver`);
     const width = this.width = Math.max(260, this.parent.clientWidth);
-    const poses = linkage.pose_errors.map((row, k) => ({ ...row, pose: data.poses[k] })).filter((row) => row.way === index);
+    const poses = linkage.pose_errors.map((row, k) => ({ ...row, pose: data.poses[k] })).filter((row) => row.way === index && row.pose);
     const upright = poses.some(({ pose }) => pose.label !== pose.name);
     const longest = Math.max(0, ...poses.map(({ pose }) => shortened(poseName2(pose), LONGEST_NAME5).length));
     this.top = TOP + (upright ? 6.2 * longest + 6 : 0);
@@ -5102,12 +5107,15 @@ var Player = class {
     const unit2 = data.unit ? ` ${data.unit}` : "", digits = decimalsOf(data);
     const driver = linkage.led[0].kind === "PR" ? `${fixed(drive, digits)}${unit2}` : `${fixed(drive, 1)}°`;
     const pose = data.poses[near2], row = linkage.pose_errors[near2];
-    const at = row.at === this.path && Math.abs(row.frame - this.u) < 1e-6;
+    const at = row?.at === this.path && Math.abs(row.frame - this.u) < 1e-6;
+    const away = () => `${figure(Math.hypot(place.x - pose.x, place.y - pose.y))}${unit2} from pose ${poseName2(pose)}`;
+    const missed2 = () => `at pose ${poseName2(pose)}, ${row.said.position === "exact" ? "" : "off by "}${missOf(row.said.position, row.said.turned, unit2)}`;
+    const said = !pose ? "between the poses" : at ? missed2() : away();
     const texts = [
       `driver ${driver}`,
       `body (${fixed(place.x, digits)}, ${fixed(place.y, digits)})${unit2}, ${fixed(((degrees(place.a) + 180) % 360 + 360) % 360 - 180, 2)}°`,
       `transmission ${transmission === null ? "–" : `${fixed(transmission, 1)}°`}`,
-      at ? `at pose ${poseName2(pose)}, ${row.said.position === "exact" ? "" : "off by "}${missOf(row.said.position, row.said.turned, unit2)}` : `${figure(Math.hypot(place.x - pose.x, place.y - pose.y))}${unit2} from pose ${poseName2(pose)}`
+      said
     ];
     texts.forEach((text, k) => {
       const whole = k + 1 < texts.length ? `${text} ·` : text;
@@ -6708,7 +6716,7 @@ var Store = class {
 };
 
 // src/burmester/web/studio/point_fields.mjs
-var FEW = 40;
+var FEW2 = 40;
 var PointFields = class {
   /** options and step: as a NumberField of a length takes them; set(change): change goes from points to points. */
   constructor({ name, options, step, set }) {
@@ -6720,7 +6728,7 @@ var PointFields = class {
   }
   /** Show a shape; text that is no number stays where it is, as long as its point does. */
   show(shape, points) {
-    const count = Math.min(points.length, FEW);
+    const count = Math.min(points.length, FEW2);
     if (shape !== this.shape.textContent) this.fields = [];
     this.shape.textContent = shape;
     while (this.fields.length < count) this.fields.push(this.make(this.fields.length));
@@ -6728,8 +6736,8 @@ var PointFields = class {
     const wanted = this.fields.map((each) => each.element);
     if (wanted.length !== this.pairs.children.length || wanted.some((each, k) => each !== this.pairs.children[k])) this.pairs.replaceChildren(...wanted);
     this.fields.forEach(({ pair }, k) => pair.forEach((field, i) => field.show(points[k][i])));
-    this.more.hidden = points.length <= FEW;
-    this.more.textContent = `and ${points.length - FEW} more, to drag in the plane`;
+    this.more.hidden = points.length <= FEW2;
+    this.more.textContent = `and ${points.length - FEW2} more, to drag in the plane`;
   }
   make(k) {
     const pair = ["x", "y"].map((axis, i) => new NumberField({

@@ -2439,12 +2439,15 @@ var Player = class {
     const unit2 = data.unit ? ` ${data.unit}` : "", digits = decimalsOf(data);
     const driver = linkage.led[0].kind === "PR" ? `${fixed(drive, digits)}${unit2}` : `${fixed(drive, 1)}°`;
     const pose = data.poses[near], row = linkage.pose_errors[near];
-    const at = row.at === this.path && Math.abs(row.frame - this.u) < 1e-6;
+    const at = row?.at === this.path && Math.abs(row.frame - this.u) < 1e-6;
+    const away = () => `${figure(Math.hypot(place.x - pose.x, place.y - pose.y))}${unit2} from pose ${poseName(pose)}`;
+    const missed = () => `at pose ${poseName(pose)}, ${row.said.position === "exact" ? "" : "off by "}${missOf(row.said.position, row.said.turned, unit2)}`;
+    const said = !pose ? "between the poses" : at ? missed() : away();
     const texts = [
       `driver ${driver}`,
       `body (${fixed(place.x, digits)}, ${fixed(place.y, digits)})${unit2}, ${fixed(((degrees(place.a) + 180) % 360 + 360) % 360 - 180, 2)}°`,
       `transmission ${transmission === null ? "–" : `${fixed(transmission, 1)}°`}`,
-      at ? `at pose ${poseName(pose)}, ${row.said.position === "exact" ? "" : "off by "}${missOf(row.said.position, row.said.turned, unit2)}` : `${figure(Math.hypot(place.x - pose.x, place.y - pose.y))}${unit2} from pose ${poseName(pose)}`
+      said
     ];
     texts.forEach((text, k) => {
       const whole = k + 1 < texts.length ? `${text} ·` : text;
@@ -2511,7 +2514,7 @@ var Plots = class {
     if (!way) return;
     svg.setAttribute("aria-label", `${linkage.id}: errors at its poses, and its transmission angle along the driver`);
     const width = this.width = Math.max(260, this.parent.clientWidth);
-    const poses = linkage.pose_errors.map((row, k) => ({ ...row, pose: data.poses[k] })).filter((row) => row.way === index);
+    const poses = linkage.pose_errors.map((row, k) => ({ ...row, pose: data.poses[k] })).filter((row) => row.way === index && row.pose);
     const upright = poses.some(({ pose }) => pose.label !== pose.name);
     const longest = Math.max(0, ...poses.map(({ pose }) => shortened(poseName(pose), LONGEST_NAME2).length));
     this.top = TOP + (upright ? 6.2 * longest + 6 : 0);

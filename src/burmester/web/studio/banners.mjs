@@ -47,7 +47,7 @@ export class Banners {
     const { store } = this, { messages } = store, [first] = messages;
     this.close("limit");
     this.close("refused");
-    if (!first) return;
+    if (!first || store.document.poses.length < 2) return; // the line above the plane says what to do
     if (first.tone === "cancelled") this.say("note", "Solving was stopped. What is shown was followed from the answer before.", [], { actions: [this.again()] });
     else if (first.tone === "limit") this.say("limit", "Solving took too long and was stopped. Nothing is lost: what is shown was followed from the answer before.", messages, { actions: [this.again()] });
     else this.say("refused", "The task cannot be solved as it is.", messages);
@@ -74,6 +74,7 @@ export class Banners {
 
   summary() {
     const { solved, solvedFor, document, messages } = this.store;
+    if (document.poses.length < 2) return "Two poses or more make a task";
     if (messages.length) return "Not solved";
     if (!solved || solvedFor !== document) return "";
     const count = solved.linkages.length, usable = solved.linkages.filter((each) => each.usable).length;

@@ -57,7 +57,7 @@ export class BodyEditor {
   }
 
   indices() {
-    const drawn = drawnPoses(this.store), stride = Math.ceil(drawn.length / MOST_GHOSTS);
+    const drawn = drawnPoses(this.store, this.scene.view.scale), stride = Math.ceil(drawn.length / MOST_GHOSTS);
     return drawn.filter((_, i) => i % stride === 0 || i === drawn.length - 1);
   }
 

@@ -10,7 +10,9 @@ import { Kept } from "./scene.mjs";
 
 const LONGEST_ARM = 46; // pixels from the origin of a pose to the handle that turns it
 const SHORTEST_ARM = 27; // the same where poses are crowded
-const MOST = 240; // poses that have handles; of more, some, and the selected one
+const FEW = 24; // poses that all have handles; of more, those that have room, the last and the selected one
+const MOST = 240; // poses that have handles
+const ROOM = 14; // pixels from a handle to the next
 const LONGEST_NAME = 18; // characters of a name that the drawing has room for
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 const tenths = (angle) => Number(angle.toFixed(1)) + 0;
@@ -18,11 +20,13 @@ const tenths = (angle) => Number(angle.toFixed(1)) + 0;
 /** The angle nearest to another one that points the same way. */
 const unwrapped = (angle, near) => angle + 360 * Math.round((near - angle) / 360);
 
-/** The indices of the poses that are drawn. */
-export function drawnPoses(store) {
-  const count = store.document.poses.length, stride = Math.ceil(count / MOST);
-  const chosen = store.selection?.kind === "pose" ? store.selection.index : -1;
-  return [...store.document.poses.keys()].filter((k) => k % stride === 0 || k === count - 1 || k === chosen);
+/** The indices of the poses that are drawn: as many as have room at this scale. */
+export function drawnPoses({ document, selection }, scale) {
+  const { poses } = document, count = poses.length, all = [...poses.keys()];
+  if (count <= FEW) return all;
+  const length = poses.slice(1).reduce((sum, { x, y }, k) => sum + (Math.hypot(x - poses[k].x, y - poses[k].y) || 0), 0);
+  const stride = Math.ceil(count / clamp((scale * length) / ROOM, FEW, MOST)), chosen = selection?.kind === "pose" ? selection.index : -1;
+  return all.filter((k) => k % stride === 0 || k === count - 1 || k === chosen);
 }
 
 export class PoseHandles {
@@ -42,14 +46,14 @@ export class PoseHandles {
 
   /** Arms are shorter where poses are crowded: about the distance from one to the next. */
   get arm() {
-    const { document } = this.store, { scale } = this.scene.view, places = drawnPoses(this.store).map((k) => standing(document, k));
+    const { document } = this.store, { scale } = this.scene.view, places = drawnPoses(this.store, scale).map((k) => standing(document, k));
     const away = places.slice(1).map(({ x, y }, k) => scale * Math.hypot(x - places[k].x, y - places[k].y)).sort((a, b) => a - b);
     return away.length ? clamp(1.2 * away[away.length >> 1], SHORTEST_ARM, LONGEST_ARM) : LONGEST_ARM;
   }
 
   draw() {
     this.length = this.scene.dragged ? this.length ?? this.arm : this.arm; // a handle does not run from the hand
-    const poses = drawnPoses(this.store).map((k) => [k, k]);
+    const poses = drawnPoses(this.store, this.scene.view.scale).map((k) => [k, k]);
     this.kept.draw(poses);
     this.labels.draw(poses);
   }

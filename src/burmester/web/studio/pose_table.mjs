@@ -160,7 +160,8 @@ export class PoseTable {
     this.details.append(
       this.title,
       h("div", { class: "bs-row" }, this.exact.element, labelled("weight", this.weight.element)),
-      h("table", { class: "bs-tolerances" }, h("caption", {}, "Tolerance: how far from it the body may be, to either side"),
+      h("p", { class: "bs-hint" }, "Tolerance: how far from it the body may be, to either side"),
+      h("table", { class: "bs-tolerances", "aria-label": "Tolerance" },
         h("tbody", {}, this.bounds.map(({ component, field, free }) => h("tr", {}, h("th", { scope: "row" }, component === "angle" ? "angle °" : component), h("td", {}, field.element), h("td", {}, free.element))))),
       this.axes,
       h("div", { class: "bs-row" }, this.up, this.down,

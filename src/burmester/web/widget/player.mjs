@@ -256,14 +256,16 @@ export class Player {
     const unit = data.unit ? ` ${data.unit}` : "", digits = decimalsOf(data);
     const driver = linkage.led[0].kind === "PR" ? `${fixed(drive, digits)}${unit}` : `${fixed(drive, 1)}°`;
     const pose = data.poses[near], row = linkage.pose_errors[near];
-    const at = row.at === this.path && Math.abs(row.frame - this.u) < 1e-6;
+    const at = row?.at === this.path && Math.abs(row.frame - this.u) < 1e-6;
+    // A task may lose poses before it is solved again.
+    const away = () => `${figure(Math.hypot(place.x - pose.x, place.y - pose.y))}${unit} from pose ${poseName(pose)}`;
+    const missed = () => `at pose ${poseName(pose)}, ${row.said.position === "exact" ? "" : "off by "}${missOf(row.said.position, row.said.turned, unit)}`;
+    const said = !pose ? "between the poses" : at ? missed() : away();
     const texts = [
       `driver ${driver}`,
       `body (${fixed(place.x, digits)}, ${fixed(place.y, digits)})${unit}, ${fixed(((degrees(place.a) + 180) % 360 + 360) % 360 - 180, 2)}°`,
       `transmission ${transmission === null ? "–" : `${fixed(transmission, 1)}°`}`,
-      at
-        ? `at pose ${poseName(pose)}, ${row.said.position === "exact" ? "" : "off by "}${missOf(row.said.position, row.said.turned, unit)}`
-        : `${figure(Math.hypot(place.x - pose.x, place.y - pose.y))}${unit} from pose ${poseName(pose)}`,
+      said,
     ];
     texts.forEach((text, k) => {
       const whole = k + 1 < texts.length ? `${text} ·` : text;

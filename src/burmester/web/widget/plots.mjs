@@ -44,7 +44,7 @@ export class Plots {
     svg.setAttribute("aria-label", `${linkage.id}: errors at its poses, and its transmission angle along the driver`);
     const width = (this.width = Math.max(260, this.parent.clientWidth));
     // Long names stand upright, in a strip over the first panel.
-    const poses = linkage.pose_errors.map((row, k) => ({ ...row, pose: data.poses[k] })).filter((row) => row.way === index);
+    const poses = linkage.pose_errors.map((row, k) => ({ ...row, pose: data.poses[k] })).filter((row) => row.way === index && row.pose);
     const upright = poses.some(({ pose }) => pose.label !== pose.name);
     const longest = Math.max(0, ...poses.map(({ pose }) => shortened(poseName(pose), LONGEST_NAME).length));
     this.top = TOP + (upright ? 6.2 * longest + 6 : 0);
