@@ -6659,7 +6659,11 @@ var Store = class {
   /** A whole answer becomes what is shown; what was chosen goes on as the same linkage, whatever its id. */
   install({ n, result, document: document2, seconds, was }) {
     const before = this.followed?.linkages ?? this.solved?.linkages ?? [];
-    this.renamed = was ? new Map(Object.entries(was).map(([now, old]) => [old, now])) : this.continued(before, result.linkages, result.scene);
+    this.renamed = new Map(Object.entries(was ?? {}).map(([now, old]) => [old, now]));
+    const taken = new Set(this.renamed.values());
+    for (const [old, now] of this.continued(before, result.linkages, result.scene)) {
+      if (!this.renamed.has(old) && !taken.has(now)) this.renamed.set(old, now);
+    }
     const carried = (id) => id === PLACED2 && this.placed?.linkage ? id : this.renamed.get(id) ?? null;
     Object.assign(this, { solved: result, solvedFor: document2, seconds, basis: n, pending: null, followed: null, followedFor: null });
     if (this.flying) this.flying.isOld = true;

@@ -269,8 +269,12 @@ export class Store {
   /** A whole answer becomes what is shown; what was chosen goes on as the same linkage, whatever its id. */
   install({ n, result, document, seconds, was }) {
     const before = this.followed?.linkages ?? this.solved?.linkages ?? [];
-    // The server knows what it followed to this very task; of another answer the page looks for itself.
-    this.renamed = was ? new Map(Object.entries(was).map(([now, old]) => [old, now])) : this.continued(before, result.linkages, result.scene);
+    // The server knows what it followed to this very task; for the rest the page looks itself.
+    this.renamed = new Map(Object.entries(was ?? {}).map(([now, old]) => [old, now]));
+    const taken = new Set(this.renamed.values());
+    for (const [old, now] of this.continued(before, result.linkages, result.scene)) {
+      if (!this.renamed.has(old) && !taken.has(now)) this.renamed.set(old, now);
+    }
     const carried = (id) => (id === PLACED && this.placed?.linkage ? id : this.renamed.get(id) ?? null);
     Object.assign(this, { solved: result, solvedFor: document, seconds, basis: n, pending: null, followed: null, followedFor: null });
     if (this.flying) this.flying.isOld = true; // it may go on from the answer before
