@@ -171,11 +171,11 @@ def test_a_card_keeps_its_linkage(tab, document):
     assert len(set(was.values())) == len(was)
     for new, old in was.items():
         a, b = pivots(after[new]["led"]), pivots(before[old]["led"])
-        assert min(np.abs(a - b).max(), np.abs(a - b[::-1]).max()) < 0.5  # mm, of 150
+        assert min(np.abs(a - b).max(), np.abs(a - b[::-1]).max()) < 4.0  # mm, of 150
     for new in set(after) - set(was):
         for old in set(before) - set(was.values()):
             a, b = pivots(after[new]["led"]), pivots(before[old]["led"])
-            assert min(np.abs(a - b).max(), np.abs(a - b[::-1]).max()) > 0.05
+            assert min(np.abs(a - b).max(), np.abs(a - b[::-1]).max()) > 1.0
 
 
 def test_a_frame_says_which_answer_it_goes_on_from(tab, document):
@@ -192,11 +192,11 @@ def test_a_frame_says_which_answer_it_goes_on_from(tab, document):
             each = tab.hear()
             heard[each["n"]] = each
         told = heard[follow]["from"]
-        solved = any(each["kind"] == "solved" for each in heard.values())
+        if solve in heard and heard[solve]["kind"] == "solved":
+            assert heard[solve]["was"]["L1"] == "L1"  # though the hand did not rest
         if told == solve:
             break
         assert told == first
-        assert not solved or heard[solve]["kind"] == "solved"
 
 
 def test_another_tab_has_answers_of_its_own(visitor, tab, document):
@@ -216,11 +216,19 @@ def test_a_tab_that_is_opened_again_has_its_answers_at_once(visitor, document):
     document["poses"][2]["x"] += 0.5
     with visitor.live() as tab:
         first = tab.ask("solve", document=document, options={})
+        moved = copy.deepcopy(document)
+        for _ in range(20):
+            moved["poses"][4]["x"] += 0.5
+            tab.ask("follow", document=moved, shown=[])
     with visitor.live() as tab:
         tab.say("solve", document=document, options={})
         again = tab.hear()
         assert again["kind"] == "solved"  # at once: no "solving" before it
         assert again["result"] == first["result"]
+        # Where the first tab followed it to is forgotten.
+        there = linkages(tab.ask("follow", document=document, shown=[], every=True))
+        for id, each in linkages(first["result"]).items():
+            assert there[id]["worst"] == pytest.approx(each["position_error"]["max"], rel=1e-4)
         assert tab.ask("follow", document=document, options={})["kind"] == "followed"
 
 

@@ -85,7 +85,7 @@ class House:
         self._opening = key, self.later(self._solve_opening(key, as_json(given)))
 
     async def _solve_opening(self, key: str, body: bytes) -> None:
-        async with self.workers.lent(anew=True) as worker:
+        async with self.workers.lent() as worker:
             try:
                 await self.solve(worker, key, body, lambda text: None)
             except (TimeoutError, WorkerEndedError):

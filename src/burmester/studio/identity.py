@@ -16,7 +16,9 @@ from burmester.web.data import scene_of
 
 __all__ = ["matched", "standing"]
 
-SAME: Final = 1e-3  # sizes of what is compared: linkages nearer than that are one
+# Sizes of what is compared.  A linkage that moved along with the poses is off by some thousandths
+# from where a search finds it; two linkages of one answer are a tenth and more apart.
+SAME: Final = 0.02
 
 
 def standing(linkages: Sequence[FoundLinkage]) -> list[dict[str, Any]]:

@@ -178,6 +178,11 @@ class Road:
         job.send({"kind": "result"}, json_line(synthesis_data(synthesis)).encode())
         return {"kind": "solved"}, as_json(report_data(synthesis))
 
+    def again(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
+        """Back to the last synthesis, wherever its answers have been followed to."""
+        self._answers, self._drawn = self._synthesis, {}
+        return _json({})
+
     def follow(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """The last answers, followed to the task that the page shows now."""
         task = self._reader.task_of(given.get("document"))
@@ -250,7 +255,7 @@ _DEEDS: dict[str, Callable[[Road, dict[str, Any], Any, Job], Answer]] = {
     name: getattr(Road, name)
     for name in (
         *("template", "read", "outline", "check", "task", "export", "result", "report", "improve"),
-        *("solve", "follow", "stand", "match", "place", "curve"),
+        *("solve", "again", "follow", "stand", "match", "place", "curve"),
     )
 }
 

@@ -104,10 +104,12 @@ class Session:
                 await self._send(n, kind, body)
 
     async def _by_hand(self, do: str, text: str) -> Parcel:
-        if self._live is not None:
-            with self._house.workers.held(self._live, self) as ours:
-                if ours:
-                    return await self._live.ask({"do": do, "from": self._from}, text.encode())
+        last = None
+        while self._live is not last:  # while it waits, a search may bring another one
+            last = self._live
+            async with self._house.workers.held(last, self) as live:
+                if live is not None:
+                    return await live.ask({"do": do, "from": self._from}, text.encode())
         if do == "follow":
             return {"kind": "refused"}, _solve_first("there is nothing to follow yet")
         async with self._house.workers.lent() as worker:
@@ -124,8 +126,9 @@ class Session:
             def waits(before: int) -> None:
                 house.later(self._tell(n, "waiting", before=before))
 
-            async with house.turns.turn(waits), house.workers.lent(key=key, anew=True) as worker:
+            async with house.turns.turn(waits), house.workers.lent(key) as worker:
                 if worker.key == key and (known := house.answers.get(key)) is not None:
+                    await worker.ask({"do": "again"}, b"{}")
                     body = known.report
                 else:
                     await self._tell(n, "solving", since=time.time())
@@ -145,12 +148,12 @@ class Session:
 
     async def _matched(self, worker: Worker, text: str) -> dict[str, str]:
         """For the new linkages the ids that they have on the page, where they are there already."""
-        if self._live is None or self._live is worker:
+        if self._live is worker:
             return {}
-        with self._house.workers.held(self._live, self) as ours:
-            if not ours:
+        async with self._house.workers.held(self._live, self) as live:
+            if live is None:
                 return {}
-            head, before = await self._live.ask({"do": "stand"}, text.encode())
+            head, before = await live.ask({"do": "stand"}, text.encode())
         if head["kind"] == "failed":
             return {}
         head, body = await worker.ask({"do": "match"}, before)

@@ -12,8 +12,8 @@ import os
 import signal
 import sys
 from collections import deque
-from collections.abc import AsyncIterator, Callable, Iterator
-from contextlib import asynccontextmanager, contextmanager, suppress
+from collections.abc import AsyncIterator, Callable
+from contextlib import asynccontextmanager, suppress
 from typing import Any, TypeAlias
 
 from burmester.studio.parcel import LENGTHS, lengths, packed
@@ -22,6 +22,7 @@ __all__ = ["Parcel", "Turns", "Worker", "WorkerEndedError", "Workers"]
 
 Parcel: TypeAlias = tuple[dict[str, Any], bytes]
 
+SHORT_S = 0.002  # between two looks whether a worker is free
 GRACE_S = 0.4  # for a computation that was called off to end by itself
 # Matrices are small here: more threads would only wait for each other.
 ENVIRONMENT = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
@@ -174,33 +175,35 @@ class Workers:
         await asyncio.gather(*(each.kill() for each in (*self._idle, *self._lent)))
 
     @asynccontextmanager
-    async def lent(self, *, key: str | None = None, anew: bool = False) -> AsyncIterator[Worker]:
+    async def lent(self, key: str | None = None) -> AsyncIterator[Worker]:
         """A worker for this block: one that holds the answers of `key`, if there is one.
 
-        anew: whether its answers will be others, so that nobody's are to be lost.
+        It is nobody's, if there may be one more.
         """
-        worker = await self._borrow(key, anew)
+        worker = await self._borrow(key)
         try:
             yield worker
         finally:
             self._return(worker)
 
-    @contextmanager
-    def held(self, worker: Worker, holder: object) -> Iterator[bool]:
-        """Borrow this very worker, without waiting; whether it still holds the holder's answers."""
+    @asynccontextmanager
+    async def held(self, worker: Worker | None, holder: object) -> AsyncIterator[Worker | None]:
+        """The same worker, when it is free; None where it holds the holder's answers no more."""
+        while worker in self._lent and worker.holder is holder:
+            await asyncio.sleep(SHORT_S)  # seldom, and not for long: a tab asks one thing at a time
         if worker not in self._idle or worker.holder is not holder or not worker.alive:
-            yield False
+            yield None
             return
         self._idle.remove(worker)
         self._lent.add(worker)
         try:
-            yield True
+            yield worker
         finally:
             self._return(worker)
 
-    async def _borrow(self, key: str | None, anew: bool) -> Worker:
+    async def _borrow(self, key: str | None) -> Worker:
         while True:
-            if (worker := self._choice(key, anew)) is not None:
+            if (worker := self._choice(key)) is not None:
                 self._idle.remove(worker)
                 self._lent.add(worker)
                 return worker
@@ -211,7 +214,7 @@ class Workers:
             self._waiting.append(turn)
             await turn
 
-    def _choice(self, key: str | None, anew: bool) -> Worker | None:
+    def _choice(self, key: str | None) -> Worker | None:
         """The idle worker that is to be had; None where another is to be started first."""
         for each in [each for each in self._idle if not each.alive]:
             self._idle.remove(each)
@@ -222,9 +225,7 @@ class Workers:
         free = [each for each in self._idle if each.holder is None]
         if free:
             return next((each for each in free if each.key is None), free[0])
-        full = self._size >= self._most
-        # What changes no answers may be asked of anybody.
-        return self._idle[0] if self._idle and (full or not anew) else None
+        return self._idle[0] if self._idle and self._size >= self._most else None
 
     @property
     def _size(self) -> int:
