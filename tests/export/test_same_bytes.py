@@ -37,6 +37,6 @@ def written(folder, formats, later, zone, seed):
 def test_every_format_has_the_same_bytes_whenever_it_is_written(formats, tmp_path):
     first = written(tmp_path / "first", formats, 0, "UTC", 1)
     assert len(first) == len(formats)
-    for seed in (2, 3):
+    for seed in (2, 4):
         again = written(tmp_path / f"again{seed}", formats, 4e7, "Asia/Tokyo", seed)
         assert [name for name in first if again[name] != first[name]] == []

@@ -47,7 +47,13 @@ from burmester.tasks.pose_sample import PoseSample
 from burmester.tasks.problem import SynthesisProblem
 from burmester.wording import count
 
-__all__ = ["Candidates", "Evaluation", "at_given_poses", "sizable"]
+__all__ = [
+    "Candidates",
+    "Evaluation",
+    "at_given_poses",
+    "sizable",
+    "transmission_at_given_poses",
+]
 
 MIN_LINK = 1e-6  # motion sizes; linkages with a shorter ground link or coupler are dropped
 EXACT_WEIGHT = 1e8  # weight of an exact pose in the covariance
@@ -397,6 +403,14 @@ def at_given_poses(
         )
         for each in found
     )
+
+
+def transmission_at_given_poses(found: FoundLinkage, problem: SynthesisProblem) -> FloatArray:
+    """The transmission angles (N,) of a linkage at all poses as given, repeated ones too."""
+    angles = found.driven.transmission
+    if problem.motion is None or len(angles) == problem.given.poses.shape[0]:
+        return angles
+    return np.asarray(angles[problem.motion.group])
 
 
 def _at_deepest_places(

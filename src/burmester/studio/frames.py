@@ -25,12 +25,14 @@ import numpy as np
 from burmester.following.followed import Followed
 from burmester.fourbar.defects import Driven
 from burmester.io.linkage_data import dyad_data, number
+from burmester.linkages.evaluation import transmission_at_given_poses
 from burmester.linkages.explanation import reasons
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.numerics.arrays import FloatArray
+from burmester.tasks.problem import SynthesisProblem
 from burmester.web.branches import Branches
 
-__all__ = ["Drawn", "followed_frame", "frame"]
+__all__ = ["Drawn", "drawn_of", "followed_frame", "frame"]
 
 WAY = ("x", "y", "angle", "drive", "transmission")
 
@@ -90,7 +92,7 @@ def followed_frame(
     for found in followed.linkages:
         last = drawn.get(found.id)
         fresh = last is None or last.found is not found
-        one = _drawn(followed, found) if last is None or fresh else last
+        one = _drawn(followed.problem, found) if last is None or fresh else last
         now[found.id] = one
         ways = motion.get(found.id)
         linkages.append(
@@ -120,7 +122,12 @@ def followed_frame(
     return frame(header, numbers.bytes()), now
 
 
-def _drawn(followed: Followed, found: FoundLinkage) -> Drawn:
+def drawn_of(problem: SynthesisProblem, linkages: Sequence[FoundLinkage]) -> dict[str, Drawn]:
+    """What a frame would say of linkages: of a search, say, from which a follow goes on."""
+    return {each.id: _drawn(problem, each) for each in linkages}
+
+
+def _drawn(problem: SynthesisProblem, found: FoundLinkage) -> Drawn:
     """What is said of a linkage."""
     error, driven = found.error, found.driven
     places = error.places
@@ -131,7 +138,7 @@ def _drawn(followed: Followed, found: FoundLinkage) -> Drawn:
         "type": found.type,
         "driver": found.driver,
         "verdict": "usable" if found.usable else "not usable",
-        "reason": None if found.usable else "; ".join(reasons(found, followed.task)),
+        "reason": None if found.usable else "; ".join(reasons(found, problem.given)),
         "rms": number(error.rms),
         "worst": number(error.worst),
         "worst_deg": number(math.degrees(float(error.angle.max()))),
@@ -145,7 +152,8 @@ def _drawn(followed: Followed, found: FoundLinkage) -> Drawn:
             places.translation.T.ravel(),
             np.degrees(places.angle),
             error.position,
-            np.degrees(np.concatenate([error.angle, driven.transmission])),
+            np.degrees(error.angle),
+            np.degrees(transmission_at_given_poses(found, problem)),
         ]
     )
     return Drawn(found, facts, at_poses)

@@ -33,7 +33,7 @@ from burmester.studio.document import (
     task_of,
 )
 from burmester.studio.exports import exported, formats, report_page
-from burmester.studio.frames import Drawn, followed_frame
+from burmester.studio.frames import Drawn, drawn_of, followed_frame
 from burmester.studio.identity import matched, standing
 from burmester.studio.names import plain_name
 from burmester.studio.parcel import as_json
@@ -173,15 +173,20 @@ class Road:
         options = options_of(given.get("options"), head.get("time_limit"))
         with shown(job.listen):
             synthesis = synthesize(task, options)
-        self._synthesis = self._answers = synthesis
-        self._drawn = {}
+        self._begin_at(synthesis)
         job.send({"kind": "result"}, json_line(synthesis_data(synthesis)).encode())
         return {"kind": "solved"}, as_json(report_data(synthesis))
 
     def again(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """Back to the last synthesis, wherever its answers have been followed to."""
-        self._answers, self._drawn = self._synthesis, {}
+        if self._synthesis is not None:
+            self._begin_at(self._synthesis)
         return _json({})
+
+    def _begin_at(self, synthesis: Synthesis) -> None:
+        """Follow from here."""
+        self._synthesis = self._answers = synthesis
+        self._drawn = drawn_of(synthesis.problem, synthesis.linkages)
 
     def follow(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """The last answers, followed to the task that the page shows now."""

@@ -22,6 +22,7 @@ from burmester.geometry.inner_point import inner_point
 from burmester.io.linkage_data import dyad_data, linkage_data, number, poses_data
 from burmester.io.result import message_data
 from burmester.linkages import explanation
+from burmester.linkages.evaluation import transmission_at_given_poses
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.linkages.tolerance_words import share_texts
 from burmester.synthesis.result import Synthesis
@@ -200,7 +201,8 @@ def _pose_errors(
     synthesis: Synthesis, found: FoundLinkage, branches: Branches
 ) -> list[dict[str, Any]]:
     """At each pose: the place of the coupler, its errors, and the frame of a way where it is."""
-    error, transmission = found.error, found.driven.transmission
+    error = found.error
+    transmission = transmission_at_given_poses(found, synthesis.problem)
     rows = []
     for pose, at in enumerate(branches.at):
         x, y = error.places.translation[pose]
