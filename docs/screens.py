@@ -3,7 +3,8 @@
 report.png is the page of the example, few-poses.png that of a template with three poses, studio.png
 the studio as it opens, and image-space.png the paper's Fig. 4.
 
-Needs a browser, Playwright, the studio and Matplotlib, as the tests do.  Run it from the project's root:
+Needs a browser, Playwright, the studio and Matplotlib, as the tests do.  Run it from the
+project's root:
 
     .venv/bin/python -m docs.screens
 """
