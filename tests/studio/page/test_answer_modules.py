@@ -10,6 +10,7 @@ import pytest
 from burmester import Task, read_task, synthesize
 from burmester.dyads.pivot_map import fixed_pivot_map, moving_pivot_map
 from burmester.geometry.displacement import Displacement
+from burmester.tasks.notation import least_angle
 from burmester.web.data import report_data
 from tests.oracles.page_modules import value
 
@@ -200,3 +201,10 @@ def test_a_smooth_path_goes_through_its_points_and_closes_smoothly():
     leaves = math.atan2(first[1] - pieces[0][1], first[0] - pieces[0][0])
     arrives = math.atan2(last[5] - last[3], last[4] - last[2])
     assert math.remainder(leaves - arrives, 2 * math.pi) == pytest.approx(0, abs=1e-3)
+
+
+def test_a_followed_angle_is_rounded_down_as_the_road_rounds_it():
+    angles = [39.66, 40.0, 0.04, 7.25, 90.0]
+    script = "return angles.map((least) => m.leastOf({ followed: true, least }));"
+    said = value("answers.mjs", script, angles=angles)
+    assert said == [least_angle(math.radians(each)) for each in angles]

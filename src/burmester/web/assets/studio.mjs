@@ -2750,7 +2750,7 @@ function worstOf(linkage, data) {
 }
 function leastOf(linkage) {
   if (!linkage.followed) return linkage.said.transmission === "-" ? "–" : linkage.said.transmission;
-  return linkage.least === null || linkage.least === void 0 ? "–" : `${fixed(linkage.least, 0)}°`;
+  return linkage.least === null || linkage.least === void 0 ? "–" : `${Math.floor(10 * linkage.least + 1e-6) / 10}°`;
 }
 function dimensionsOf(linkage, data) {
   const digits = decimalsOf(data), point2 = (p) => `(${p.map((value) => fixed(value, digits)).join(", ")})`;

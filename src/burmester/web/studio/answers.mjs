@@ -194,10 +194,10 @@ export function worstOf(linkage, data) {
   return linkage.worst < FOLLOWED * data.scene ? "exact" : `${figure(linkage.worst)}${data.unit ? ` ${data.unit}` : ""}`;
 }
 
-/** The least transmission angle, in the same way. */
+/** The least transmission angle, in the same way; a bound, so it is rounded down. */
 export function leastOf(linkage) {
   if (!linkage.followed) return linkage.said.transmission === "-" ? "–" : linkage.said.transmission;
-  return linkage.least === null || linkage.least === undefined ? "–" : `${fixed(linkage.least, 0)}°`;
+  return linkage.least === null || linkage.least === undefined ? "–" : `${Math.floor(10 * linkage.least + 1e-6) / 10}°`;
 }
 
 /** The dimensions of both dyads as rows { dyad, what, value }, from their numbers. */
