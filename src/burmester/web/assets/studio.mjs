@@ -6337,7 +6337,7 @@ var SpacePanel = class {
   }
 };
 
-// src/burmester/web/studio/results_entry.mjs
+// src/burmester/web/studio/answer_panels.mjs
 var REDUCED_MOTION = "(prefers-reduced-motion: reduce)";
 var TYPED_IN = "button, input, select, textarea, summary, a, [role=button], [role=slider]";
 var panel = (name, title, open, ...content) => h("details", { class: `bm-card bs-panel bs-panel-${name}`, open, "data-panel": name }, h("summary", {}, h("h2", {}, title)), content);

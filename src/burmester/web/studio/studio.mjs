@@ -15,7 +15,7 @@ import { keyList, listenToKeys } from "./keyboard.mjs";
 import { PoseHandles, PoseTool } from "./pose_handles.mjs";
 import { PoseTable } from "./pose_table.mjs";
 import { Regions } from "./regions.mjs";
-import { addResults } from "./results_entry.mjs";
+import { addResults } from "./answer_panels.mjs";
 import { Scene } from "./scene.mjs";
 import { Store } from "./store.mjs";
 import { TaskPanel } from "./task_panel.mjs";
