@@ -14,7 +14,8 @@ included.  Start is from the command to the first linkage on the page.
 
 Cards: after each random drag of a pose the whole road answers.  A card counts as kept where its
 linkage is the same as the one it had, in the coordinates of the last frame that was followed to
-that very task; as told where the card says that it is gone or new; as old frame where the last
+that very task; as told where the card says that it is gone or new, or how far the search moved its
+linkage; as old frame where the last
 frame did not judge it; else as wrong.  Cards that ended are named above the list.
 
 Memory: resident sizes of the server with its workers, and the page's heap after a collection.
@@ -37,6 +38,7 @@ from playwright.sync_api import sync_playwright
 
 SAME = 2e-3  # of the size of a linkage: dyads nearer than that are one
 TELLTALE = re.compile(r"gone|new|was L\d+")
+MOVED = re.compile(r"moved \d")
 
 # Times in the page: which pointer event a followed task came from, and when its picture is there.
 CLOCK = """
@@ -304,6 +306,8 @@ def check(studio, drags, seed):
                 out["old frame"] += 1
             elif apart(followed[shown[key][0]], new[name]) < SAME:
                 out["kept"] += 1
+            elif MOVED.search(text):
+                out["told"] += 1
             else:
                 out["wrong"] += 1
                 away = apart(followed[shown[key][0]], new[name])

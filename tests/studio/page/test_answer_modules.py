@@ -208,3 +208,16 @@ def test_a_followed_angle_is_rounded_down_as_the_road_rounds_it():
     script = "return angles.map((least) => m.leastOf({ followed: true, least }));"
     said = value("answers.mjs", script, angles=angles)
     assert said == [least_angle(math.radians(each)) for each in angles]
+
+
+def test_a_card_tells_how_far_a_search_moved_its_linkage():
+    link = {"kind": "RR", "fixed_pivot": [0, 0], "moving_pivot": [100, 0], "radius": 50}
+    moved = {**link, "moving_pivot": [100, 3]}
+    pair, other = {"led": [link, link]}, {"led": [link, moved]}
+    script = "return [m.shiftOf(a, a, 100), m.shiftOf(a, b, 100)];"
+    # 0.03 scenes of a dyad that is one scene and one of origin large
+    assert value("identity.mjs", script, a=pair, b=other) == [0, pytest.approx(0.03 / 2)]
+    script = "return cards.map(m.pastOf);"
+    cards = [{"shift": 0.015}, {"was": "L3", "shift": 0.015}, {"isNew": True}, {"was": "L2"}, {}]
+    said = value("result_card.mjs", script, cards=cards)
+    assert said == ["moved 1.5 %", "was L3, moved 1.5 %", "new", "was L2", ""]

@@ -2080,6 +2080,10 @@ function linkageDistance(one, other, scene) {
   const pairs = (p, q) => Math.max(dyadDistance(one.led[0], other.led[p], scene), dyadDistance(one.led[1], other.led[q], scene));
   return Math.min(pairs(0, 1), pairs(1, 0));
 }
+function shiftOf(followed, searched, scene) {
+  const away = linkageDistance(followed, searched, scene);
+  return away > SAME && Number.isFinite(away) ? away : 0;
+}
 function continuedAs(before, after, scene) {
   const away = before.map((one) => after.map((other) => linkageDistance(one, other, scene)));
   const nearest = (row) => {
@@ -2642,8 +2646,9 @@ var Answers = class extends Events {
       const kept = was.get(fresh.id), now = kept ?? {};
       const stood = kept && kept.rank !== Infinity;
       const before2 = stood && kept.id !== fresh.id ? kept.id : null;
+      const shift = kept?.followed ? shiftOf(kept, fresh, solved.scene) : 0;
       for (const key of Object.keys(now)) delete now[key];
-      Object.assign(now, figured(linked(fresh)), { was: before2, isNew: this.known && !stood, followed: false, gone: null, change: null });
+      Object.assign(now, figured(linked(fresh)), { was: before2, shift, isNew: this.known && !stood, followed: false, gone: null, change: null });
       this.byId.set(now.id, now);
       return now;
     });
@@ -5545,7 +5550,7 @@ var ResultCard = class {
       say(this.name, isPlaced ? "By hand" : linkage.id);
     }
     say(this.type, linkage.type);
-    say(this.was, linkage.was ? `was ${linkage.was}` : linkage.isNew ? "new" : "");
+    say(this.was, pastOf(linkage));
     say(this.verdict, linkage.gone ? "✕ gone" : linkage.usable ? "✓ usable" : "✕ not usable");
     say(this.figures.get("worst"), worstOf(linkage, data));
     say(this.figures.get("least"), least(linkage));
@@ -5575,6 +5580,11 @@ var ResultCard = class {
     this.better.replaceChildren(...sentences.map((sentence2) => h("li", {}, sentence2)));
   }
 };
+function pastOf({ was, shift, isNew, followed }) {
+  if (isNew && !was) return "new";
+  const moved = shift && !followed ? `moved ${(100 * shift).toFixed(1)} %` : "";
+  return [was ? `was ${was}` : "", moved].filter(Boolean).join(", ");
+}
 function least(linkage) {
   const angle = leastOf(linkage);
   return angle === "–" ? angle : angle === "0°" ? "down to 0°" : `${angle} or more`;

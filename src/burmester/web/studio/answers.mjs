@@ -5,7 +5,7 @@
 
 import { figure, fixed, radians } from "../widget/numbers.mjs";
 import { decimalsOf } from "../widget/tables.mjs";
-import { continuedAs } from "./identity.mjs";
+import { continuedAs, shiftOf } from "./identity.mjs";
 import { Events } from "./events.mjs";
 
 const LONGEST_NAME = 5; // characters of a pose's name that a drawing has room for
@@ -78,8 +78,9 @@ export class Answers extends Events {
       const kept = was.get(fresh.id), now = kept ?? {};
       const stood = kept && kept.rank !== Infinity; // in the last whole answer, not only since
       const before = stood && kept.id !== fresh.id ? kept.id : null;
+      const shift = kept?.followed ? shiftOf(kept, fresh, solved.scene) : 0;
       for (const key of Object.keys(now)) delete now[key];
-      Object.assign(now, figured(linked(fresh)), { was: before, isNew: this.known && !stood, followed: false, gone: null, change: null });
+      Object.assign(now, figured(linked(fresh)), { was: before, shift, isNew: this.known && !stood, followed: false, gone: null, change: null });
       this.byId.set(now.id, now);
       return now;
     });

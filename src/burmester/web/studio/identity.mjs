@@ -34,6 +34,12 @@ export function linkageDistance(one, other, scene) {
   return Math.min(pairs(0, 1), pairs(1, 0));
 }
 
+/** How far a search moved a linkage from where it was followed to, in its size; 0 where it stands as it stood. */
+export function shiftOf(followed, searched, scene) {
+  const away = linkageDistance(followed, searched, scene);
+  return away > SAME && Number.isFinite(away) ? away : 0;
+}
+
 /** For each linkage before the id with which it goes on; without an entry it does not.
  *
  * A linkage goes on as the nearest one where both are each other's nearest and no other is about

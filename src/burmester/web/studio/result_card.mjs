@@ -54,7 +54,7 @@ export class ResultCard {
       say(this.name, isPlaced ? "By hand" : linkage.id);
     }
     say(this.type, linkage.type);
-    say(this.was, linkage.was ? `was ${linkage.was}` : linkage.isNew ? "new" : "");
+    say(this.was, pastOf(linkage));
     say(this.verdict, linkage.gone ? "✕ gone" : linkage.usable ? "✓ usable" : "✕ not usable");
     say(this.figures.get("worst"), worstOf(linkage, data));
     say(this.figures.get("least"), least(linkage));
@@ -84,6 +84,13 @@ export class ResultCard {
   tellBetter(sentences) {
     this.better.replaceChildren(...sentences.map((sentence) => h("li", {}, sentence)));
   }
+}
+
+/** What became of a linkage since the last search: its id then, and how far this search moved it. */
+export function pastOf({ was, shift, isNew, followed }) {
+  if (isNew && !was) return "new";
+  const moved = shift && !followed ? `moved ${(100 * shift).toFixed(1)} %` : "";
+  return [was ? `was ${was}` : "", moved].filter(Boolean).join(", ");
 }
 
 function least(linkage) {
