@@ -90,6 +90,14 @@ def on_screen(page, x, y):
     return box["x"] + at["left"] + at["scale"] * x, box["y"] + at["top"] - at["scale"] * y
 
 
+def place_of(page, selector):
+    """Where an element stands, as a point of F."""
+    found = page.locator(selector).get_attribute("transform")
+    x, y = map(float, re.match(r"translate\((\S+) (\S+)\)", found).groups())
+    at = view(page)
+    return (x - at["left"]) / at["scale"], (at["top"] - y) / at["scale"]
+
+
 def field(page, row, key):
     """A field of the table of poses; rows count from 1."""
     return page.locator(f'[data-row="{row}"] [data-key="{key}"]')

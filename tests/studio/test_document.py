@@ -94,7 +94,7 @@ def test_digits_that_numbers_cannot_keep_are_kept_as_what_they_mean():
     "more",
     [
         {"body": "lid.svg"},
-        {"body": {"file": "/tmp/lid.dxf"}},
+        {"body": {"file": "/drawings/lid.dxf"}},
         {"keep_out": [{"file": "../wall.svg", "id": "wall"}]},
     ],
 )

@@ -311,7 +311,7 @@ def test_what_is_no_request_is_refused_in_words(visitor):
 
 
 def test_an_export_takes_the_options_of_the_command_only(visitor, gripper):
-    for wrong in ({"hole": "5"}, {"pose": 1.5}, {"path": "/tmp/x"}, [1], {"assembled": 1}):
+    for wrong in ({"hole": "5"}, {"pose": 1.5}, {"path": "/elsewhere"}, [1], {"assembled": 1}):
         asked = {**gripper, "format": "svg", "settings": wrong}
         answer = visitor.http.post("/export", json=asked)
         assert answer.status_code == 422

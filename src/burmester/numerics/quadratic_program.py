@@ -86,7 +86,7 @@ def _multipliers(
     y, settled = box.descended(y * size, STEPS_FROM_START)
     hard = np.flatnonzero(~settled)
     if len(hard):
-        box = _BoxProgram(*(each[hard] for each in box))
+        box = box.at(hard)
         y[hard], _ = box.descended(box.interior(), STEPS_FROM_INSIDE)
     return np.asarray(y / size)
 
@@ -99,54 +99,64 @@ class _BoxProgram(NamedTuple):
     low: FloatArray
     high: FloatArray
 
-    def off(self, y: FloatArray, which: NDArray[np.intp]) -> FloatArray:
-        """The way downhill (r, m) of some programs at y (r, m): w."""
-        root = self.root[which]
-        return np.asarray(self.b[which] - matvec(root, (y[:, None] @ root)[:, 0]))
+    def at(self, index: NDArray[np.intp]) -> _BoxProgram:
+        """Some of the programs."""
+        return _BoxProgram(*(each[index] for each in self))
+
+    def off(self, y: FloatArray) -> FloatArray:
+        """The way downhill (k, m) at y (k, m): w."""
+        return np.asarray(self.b - matvec(self.root, (y[:, None] @ self.root)[:, 0]))
 
     def descended(self, y: FloatArray, steps: int) -> tuple[FloatArray, NDArray[np.bool_]]:
-        """The y (k, m) after steps of the projected Newton method, and which of them settled.
-
-        Each step is downhill.
-        """
+        """The y (k, m) after steps of the projected Newton method, and which of them settled."""
         run, settled = np.arange(len(y)), np.zeros(len(y), dtype=bool)
         for last in range(steps + 1):
-            (root, b, low, high), here = (each[run] for each in self), y[run]
-            reached = (here[:, None] @ root)[:, 0]
-            off = b - matvec(root, reached)  # w, and the way downhill
-            free = ~(((here <= low) & (off < 0)) | ((here >= high) & (off > 0)))
-            terms = np.abs(np.where(free, b, here)).max(axis=1)
+            some, here = self.at(run), y[run]
+            off = some.off(here)
+            free = ~(((here <= some.low) & (off < 0)) | ((here >= some.high) & (off > 0)))
+            terms = np.abs(np.where(free, some.b, here)).max(axis=1)
             going = np.where(free, np.abs(off), 0.0).max(axis=1) > SETTLED * terms
             settled[run[~going]] = True
             if last == steps or not going.any():
                 break
-            run, here, reached, free = run[going], here[going], reached[going], free[going]
-            before = (reached * reached).sum(axis=-1) / 2 - (b[going] * here).sum(axis=-1)
-            # From here on only the free multipliers, side by side: few of many constraints bind.
-            every = np.arange(len(run))[:, None]
-            index = np.argsort(~free, axis=1, kind="stable")[:, : free.sum(axis=1).max()]
-            free, own, at = free[every, index], root[going][every, index], run[:, None]
-            here, least, most = here[every, index], self.low[at, index], self.high[at, index]
-            downhill = np.where(free, off[going][every, index], 0.0)
-            step = _newton_step(own, downhill, free)
-            held = free & (((here <= least) & (step < 0)) | ((here >= most) & (step > 0)))
-            if held.any():
-                step = _newton_step(own, downhill, free & ~held)
-            # Along the step bent at the bounds: at its end, at each bend, and a little downhill.
-            with np.errstate(divide="ignore", invalid="ignore"):
-                reach = np.where(step > 0, most - here, least - here) / step
-            share = np.where(step == 0, 1.0, np.minimum(reach, 1.0))
-            share = np.concatenate([np.ones((len(run), 1)), share], axis=1)
-            ways = share[..., None] * step[:, None]
-            ways = np.concatenate([ways, SHARES_DOWNHILL[:, None] * downhill[:, None]], axis=1)
-            tried = np.clip(here[:, None] + ways, least[:, None], most[:, None])
-            ways = tried - here[:, None]
-            rise = ((ways @ own) ** 2).sum(axis=-1) / 2 - matvec(ways, downhill)
-            best = rise.argmin(axis=1)
-            better = -rise[every[:, 0], best] > HEIGHT_ROUNDING * np.abs(before)
-            y[at[better], index[better]] = tried[every[:, 0], best][better]
+            some, run = some.at(np.flatnonzero(going)), run[going]
+            y[run], better = some.stepped(here[going], off[going], free[going])
             run = run[better]
         return y, settled
+
+    def stepped(
+        self, y: FloatArray, off: FloatArray, free: NDArray[np.bool_]
+    ) -> tuple[FloatArray, NDArray[np.bool_]]:
+        """The y (k, m) after one step of those that are free, and which of them (k,) are better.
+
+        off: (k, m), w at y.  A step that is not better is not taken.
+        """
+        every = np.arange(len(y))[:, None]
+        # Only the free multipliers, side by side: few of many constraints bind.
+        index = np.argsort(~free, axis=1, kind="stable")[:, : free.sum(axis=1).max()]
+        free, root, here = free[every, index], self.root[every, index], y[every, index]
+        low, high = self.low[every, index], self.high[every, index]
+        downhill = np.where(free, off[every, index], 0.0)
+        step = _newton_step(root, downhill, free)
+        held = free & (((here <= low) & (step < 0)) | ((here >= high) & (step > 0)))
+        if held.any():
+            step = _newton_step(root, downhill, free & ~held)
+        # Along the step bent at the bounds: at its end, at each bend, and a little downhill.
+        with np.errstate(divide="ignore", invalid="ignore"):
+            reach = np.where(step > 0, high - here, low - here) / step
+        share = np.where(step == 0, 1.0, np.minimum(reach, 1.0))
+        share = np.concatenate([np.ones((len(y), 1)), share], axis=1)
+        ways = share[..., None] * step[:, None]
+        ways = np.concatenate([ways, SHARES_DOWNHILL[:, None] * downhill[:, None]], axis=1)
+        tried = np.clip(here[:, None] + ways, low[:, None], high[:, None])
+        ways = tried - here[:, None]
+        rise = ((ways @ root) ** 2).sum(axis=-1) / 2 - matvec(ways, downhill)
+        best = rise.argmin(axis=1)
+        # The height is y · A y / 2 - b · y, and off = b - A y.
+        height = ((self.b + off) * y).sum(axis=1) / 2
+        better = -rise[every[:, 0], best] > HEIGHT_ROUNDING * np.abs(height)
+        y[every[better], index[better]] = tried[every[:, 0], best][better]
+        return y, better
 
     def interior(self) -> FloatArray:
         """The y (k, m) by the interior-point method, those near a bound put on it.
@@ -155,14 +165,14 @@ class _BoxProgram(NamedTuple):
         rounding.
         """
         y, bounds = (self.low + self.high) / 2, np.stack([self.high, self.low], axis=1)
-        off = self.off(y, np.arange(len(y)))
+        off = self.off(y)
         slack = np.abs(off).mean(axis=1)[:, None, None] + np.finfo(float).tiny
         price = np.maximum(SIDES * off[:, None], 0.0) + slack
         least = np.finfo(float).eps * (bounds[:, :1] - bounds[:, 1:])
         run, count = np.arange(len(y)), 2 * y.shape[1]
         for _ in range(INTERIOR_STEPS):
-            gap = np.maximum(SIDES * (bounds[run] - y[run, None]), least[run])
-            here = _InteriorPoint(self.root[run], self.off(y[run], run), gap, price[run])
+            some, gap = self.at(run), np.maximum(SIDES * (bounds[run] - y[run, None]), least[run])
+            here = _InteriorPoint(some.root, some.off(y[run]), gap, price[run])
             rest = (gap * here.price).sum(axis=(1, 2), keepdims=True) / count
             # Mehrotra's step: aimed as far ahead as the plain one leads, and bent as that bends.
             system = here.system()
@@ -174,7 +184,7 @@ class _BoxProgram(NamedTuple):
             share = INSIDE * here.share(narrowed, cheaper)
             y[run] += share[:, 0] * step
             price[run] += share * cheaper
-            height = np.abs(self.b[run] * y[run]).sum(axis=1) + np.finfo(float).tiny
+            height = np.abs(some.b * y[run]).sum(axis=1) + np.finfo(float).tiny
             run = run[count * rest[:, 0, 0] > SETTLED_GAP * height]
             if not len(run):
                 break

@@ -23,6 +23,7 @@ from burmester.io.reading.poses import read_task
 from burmester.io.reading.requirements_text import positive_length
 from burmester.io.reading.stated_requirements import requirements_data
 from burmester.io.result import tolerances_data
+from burmester.studio.parcel import plain
 from burmester.tasks.limits import KINDS, Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.options import SynthesisOptions
@@ -32,7 +33,6 @@ __all__ = [
     "TaskReader",
     "document_of",
     "options_of",
-    "plain",
     "read_file",
     "task_file",
     "task_of",
@@ -213,17 +213,6 @@ def _with_digits(document: dict[str, Any], task: Task) -> dict[str, Any]:
         return document
     position, angle = (known / math.sqrt(3) for known in task.resolution)
     return {**document, "pose_sigma": {"position": position, "angle_deg": math.degrees(angle)}}
-
-
-def plain(value: Any) -> Any:
-    """Numbers as a person writes them: 12, not 12.0."""
-    if isinstance(value, float) and value.is_integer() and abs(value) < 1e15:
-        return int(value)
-    if isinstance(value, list):
-        return [plain(each) for each in value]
-    if isinstance(value, dict):
-        return {key: plain(each) for key, each in value.items()}
-    return value
 
 
 def task_file(document: dict[str, Any]) -> str:

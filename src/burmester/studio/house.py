@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from burmester.errors import InputError
-from burmester.studio.parcel import as_json
+from burmester.studio.parcel import as_json, plain
 from burmester.studio.workers import Parcel, Turns, Worker, WorkerEndedError, Workers
 
 __all__ = ["Answer", "House"]
@@ -139,7 +139,7 @@ class House:
     @staticmethod
     def key_of(given: dict[str, Any]) -> str:
         """The key of a task: the same for the same numbers, however they are written."""
-        both = [_plain(given.get("document")), _plain(given.get("options") or {})]
+        both = [plain(given.get("document")), plain(given.get("options") or {})]
         return hashlib.sha256(json.dumps(both, sort_keys=True).encode()).hexdigest()
 
     def later(self, what: Coroutine[Any, Any, Any]) -> asyncio.Task[Any]:
@@ -153,14 +153,3 @@ class House:
         self._background.discard(task)
         if not task.cancelled() and (error := task.exception()) is not None:
             traceback.print_exception(error)  # a fault of ours, which nobody waits for
-
-
-def _plain(value: Any) -> Any:
-    """Numbers that are equal are written alike."""
-    if isinstance(value, float) and value.is_integer():
-        return int(value)
-    if isinstance(value, list):
-        return [_plain(each) for each in value]
-    if isinstance(value, dict):
-        return {key: _plain(each) for key, each in value.items()}
-    return value

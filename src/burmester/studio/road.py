@@ -27,7 +27,6 @@ from burmester.studio.document import (
     TaskReader,
     document_of,
     options_of,
-    plain,
     read_file,
     task_file,
     task_of,
@@ -36,7 +35,7 @@ from burmester.studio.exports import exported, formats, report_page
 from burmester.studio.frames import Drawn, drawn_of, followed_frame
 from burmester.studio.identity import matched, standing
 from burmester.studio.names import plain_name
-from burmester.studio.parcel import as_json
+from burmester.studio.parcel import as_json, plain
 from burmester.studio.placed import placed
 from burmester.synthesis.judgement import judge_linkage
 from burmester.synthesis.motion_generation import synthesize

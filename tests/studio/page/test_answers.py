@@ -15,7 +15,7 @@ from burmester import read_task, synthesize
 from burmester.fourbar.instantaneous import instant_centre
 from burmester.geometry.displacement import Displacement
 from burmester.io import templates
-from tests.oracles.studio_page import drag, middle, on_screen, solved, studio_page, view
+from tests.oracles.studio_page import drag, middle, on_screen, place_of, solved, studio_page, view
 
 FIVE = Path(templates.__file__).parent.parent / "templates" / "folding-table.toml"
 FIXED = '.bs-pivot[data-pivot="{}"][data-plane="F"]'
@@ -55,14 +55,6 @@ def card(page, name):
 
 def figure(page, name, key):
     return card(page, name).locator(f'[data-figure="{key}"]').inner_text()
-
-
-def place_of(page, selector):
-    """Where an element stands, as a point of F."""
-    found = page.locator(selector).get_attribute("transform")
-    x, y = map(float, re.match(r"translate\((\S+) (\S+)\)", found).groups())
-    at = view(page)
-    return (x - at["left"]) / at["scale"], (at["top"] - y) / at["scale"]
 
 
 def body(page):

@@ -8,7 +8,7 @@ import pytest
 
 from burmester.dyads.pivot_map import fixed_pivot_map, moving_pivot_map
 from burmester.geometry.displacement import Displacement
-from tests.oracles.studio_page import drag, solved, view
+from tests.oracles.studio_page import drag, place_of, solved, view
 
 FIXED = '.bs-pivot[data-pivot="{}"][data-plane="F"]'
 MOVING = '.bs-pivot[data-pivot="{}"][data-plane="M"]'
@@ -32,13 +32,6 @@ def told(page, name):
     values = [float(each) for each in said.groups()[:4]]
     miss = 0.0 if said[5] == "nothing" else float(said[5])
     return values[:2], values[2:], miss
-
-
-def place_of(page, selector):
-    found = page.locator(selector).get_attribute("transform")
-    x, y = map(float, re.match(r"translate\((\S+) (\S+)\)", found).groups())
-    at = view(page)
-    return (x - at["left"]) / at["scale"], (at["top"] - y) / at["scale"]
 
 
 def waits(page):
