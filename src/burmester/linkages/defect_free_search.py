@@ -39,6 +39,7 @@ from burmester.tasks.requirements import Requirements
 
 __all__ = [
     "FEW_POSES",
+    "MAX_CONTINUED",
     "SearchResult",
     "defect_free_linkages",
     "driving_sides",
@@ -50,7 +51,7 @@ __all__ = [
 # Linkages are refined under constraints on at most so many poses, evenly thinned, and by their last
 # steps on so many.
 FEW_POSES, MORE_POSES, MORE_STEPS = 14, 60, 20
-MOST_CONTINUED = 12  # number of linkages whose last steps are on more poses
+MAX_CONTINUED = 8  # number of linkages whose last steps are on more poses
 MAX_STARTS = 144  # number of starts at most
 # Numbers of refinement steps, and after each the number of the best starts that go on.
 SELECTION = (12, 32), (30, 16), (50, 8)
@@ -131,9 +132,9 @@ def refined_on_branch(
     if few is target:
         return refined
     going = np.flatnonzero(refined.met)
-    going = going[np.argsort(refined.cost[going], kind="stable")][:MOST_CONTINUED]
+    going = going[np.argsort(refined.cost[going], kind="stable")][:MAX_CONTINUED]
     asked = None if transmission is None else transmission[going]
-    some, rows, met = _continued(refined.batch[going], driver[going], target, asked)
+    some, rows, met = on_more_poses(refined.batch[going], driver[going], target, asked)
     dimensions = refined.batch.dimensions.copy()
     every = np.full((len(batch), *rows.shape[1:]), nan)
     dimensions[going], every[going] = some.dimensions, rows
@@ -143,21 +144,16 @@ def refined_on_branch(
 
 
 def on_more_poses(
-    batch: LinkageBatch, driver: NDArray[np.intp], target: Target
-) -> tuple[LinkageBatch, FloatArray]:
+    batch: LinkageBatch,
+    driver: NDArray[np.intp],
+    target: Target,
+    transmission: FloatArray | None = None,
+) -> tuple[LinkageBatch, FloatArray, NDArray[np.bool_]]:
     """Linkages (k,) refined on few poses, refined on more under the same constraints.
 
-    With their places (k, N, 3) at all poses of the target.  What does not keep to the constraints
-    then stays as it was.
+    With their places (k, N, 3) at all poses of the target, and which (k,) keep to the constraints;
+    the others stay as they were.
     """
-    batch, rows, _ = _continued(batch, driver, target, None)
-    return batch, rows
-
-
-def _continued(
-    batch: LinkageBatch, driver: NDArray[np.intp], target: Target, transmission: FloatArray | None
-) -> tuple[LinkageBatch, FloatArray, NDArray[np.bool_]]:
-    """`on_more_poses`, and which linkages (k,) keep to the constraints there."""
     more = target.thinned(MORE_POSES)
     rows = more.places(batch)
     sound = np.flatnonzero(np.isfinite(rows).all(axis=(1, 2)))

@@ -26,6 +26,7 @@ from burmester.linkages.by_all_poses import judged_at_all, refined_by_all, worst
 from burmester.linkages.constraints import AllConstraints, Constraints, DyadLimitsConstraint
 from burmester.linkages.defect_free_search import (
     FEW_POSES,
+    MAX_CONTINUED,
     defect_free_linkages,
     on_more_poses,
 )
@@ -74,7 +75,6 @@ MAX_POSES_REFINED = 200
 MAX_EXCHANGES = 5
 # Degrees by which a greater least transmission angle is asked for within tolerances, and how often.
 RISE, MAX_RISES = 8.0, 6
-MAX_CONTINUED = 8  # number of linkages of the search by few poses that are refined on more of them
 MAX_SEARCHED = 5  # number of linkages kept from the search for defect-free linkages
 KEPT_OF_RISE = 2  # number of linkages kept of each rise; the others are like them
 
@@ -349,6 +349,7 @@ def _searched(starts: PairsToSearch, evaluation: Evaluation, most: float) -> lis
     """Usable linkages of the search whose combined error is below `most`."""
     whole = evaluation.target
     target = whole.thinned(FEW_POSES)
+    # Tolerances bind once a linkage is found: as constraints they would shut the search's ways.
     found = defect_free_linkages(starts.batch, target.relaxed, starts.parts)
     if found is None:
         return []
@@ -359,7 +360,7 @@ def _searched(starts: PairsToSearch, evaluation: Evaluation, most: float) -> lis
         index = index[np.argsort(found.refined.cost[index], kind="stable")][:MAX_CONTINUED]
     batch, rows = found.refined.batch[index], found.refined.rows[index]
     if target is not whole or target.boxes is not None:
-        batch, rows = on_more_poses(batch, found.driver[index], whole)
+        batch, rows, _ = on_more_poses(batch, found.driver[index], whole)
     origins = [starts.origin(k) for k in found.pair[index].tolist()]
     evaluated = evaluation.evaluate(
         Candidates(batch, rows, origins, np.ones(len(index), dtype=bool))
