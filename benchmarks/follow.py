@@ -8,10 +8,11 @@ up to a tenth of the span of the poses in 200 steps, its angle by up to 6 degree
 goes along.  Then the whole road looks for all dyads of the last task (`search_dyads`).  A drag is
 confirmed where every dyad followed is one of these within 1e-8 of the span; it is complete where
 these are all there are.  An exception counts as told where the follow was uncertain of a dyad
-during the drag.  Of the linkages at the end it is counted whether their verdict is one of those at
-places that are looked for anew, and whether those that are followed as minima are some.  Where a
-linkage stays on its branch though a place beyond the dead point is nearer, it works when followed,
-and not when it is judged from nothing: a search, too, keeps to the branch.
+during the drag.  Of the linkages at the end it is counted whether they work as they do at places
+that are looked for anew, whether their defects are the same, too, and whether those that are
+followed as minima are some.  A linkage keeps to its branch; where a place beyond a dead point has
+come nearer, its verdict may be another one than when it is judged from nothing: these are counted
+for themselves.
 
 Times are CPU times of one step, on one thread; the first step of a drag is counted like the others.
 """
@@ -60,7 +61,9 @@ class Record:
     times: list = field(default_factory=list)
     changes: Counter = field(default_factory=Counter)
     linkages: int = 0
-    same_verdict: int = 0
+    same_use: int = 0
+    same_defects: int = 0
+    nearer_elsewhere: int = 0
     least: int = 0
     at_rest: int = 0
 
@@ -161,7 +164,10 @@ def verdict(found):
 
 
 def verdicts(followed):
-    """The verdicts on each linkage at the places where a linkage that exists is judged."""
+    """Of each linkage the verdicts, and squared errors, where a linkage that exists is judged.
+
+    With the squared error at the places where it was followed to.
+    """
     problem, strands = followed.problem, followed.linkage_strands
     target = target_of(problem)
     batch = strands.own.to_canonical(target.frames)
@@ -179,7 +185,8 @@ def verdicts(followed):
                 strands.own[index],
             )
         )
-        out.append([verdict(each) for each in found])
+        own = target.cost(target.rows_at(followed.linkages[k].error.places))
+        out.append(([verdict(each) for each in found], np.nanmin(target.cost(rows)), own))
     return out
 
 
@@ -212,11 +219,12 @@ def dragged(sort, number, seed, record):
         record.complete += not more
         if (lost or more) and not told:
             record.untold.append((number, lost, more))
-    again = verdicts(here)
-    record.linkages += len(again)
-    record.same_verdict += sum(
-        verdict(one) in every for one, every in zip(here.linkages, again, strict=True)
-    )
+    for one, (again, least, own) in zip(here.linkages, verdicts(here), strict=True):
+        record.linkages += 1
+        same = one.usable in {works for works, _ in again}
+        record.same_use += same
+        record.same_defects += verdict(one) in again
+        record.nearer_elsewhere += bool(not same and least < own * (1 - 1e-6))
     strands, target = here.linkage_strands, target_of(here.problem)
     least = np.flatnonzero(strands.way == Way.LEAST)
     if len(least) and not target.kept and target.exact is None:
@@ -242,9 +250,11 @@ def main():
         print(
             f"{sort}: {record.drags} drags; median {median:.1f} ms, 95th percentile {high:.1f} ms, "
             f"most {most:.0f} ms; dyads confirmed {record.confirmed}, complete {record.complete}, "
-            f"exceptions not told {record.untold}; uncertain in {record.doubtful} drags; same "
-            f"verdict {record.same_verdict} of {record.linkages} linkages; at rest "
-            f"{record.at_rest} of {record.least} minima; {dict(record.changes)}",
+            f"exceptions not told {record.untold}; uncertain in {record.doubtful} drags; of "
+            f"{record.linkages} linkages {record.same_use} work or fail as judged anew (of the "
+            f"others {record.nearer_elsewhere} have nearer places elsewhere), "
+            f"{record.same_defects} for the same reasons; at rest {record.at_rest} of "
+            f"{record.least} minima; {dict(record.changes)}",
             flush=True,
         )
 

@@ -22,7 +22,7 @@ from burmester.numerics.iteration import iterate, shortened
 from burmester.numerics.linear_algebra import matvec
 from burmester.numerics.unique_rows import unique_rows
 
-__all__ = ["CircleMinima", "circle_minima", "reach", "sharpened_circles"]
+__all__ = ["CircleMinima", "circle_minima", "further_down", "reach", "sharpened_circles"]
 
 MAX_NEWTON_STEPS = 60  # from each start
 MAX_VALLEY_STEPS = 240  # the same where the body turns little
@@ -68,6 +68,32 @@ def circle_minima(
     helps.  A circle that grows so far that it is a slider is left out.
     narrow: whether valleys are to be followed that keep half of the digits; that takes longer.
     """
+    steps = MAX_VALLEY_STEPS if narrow else MAX_NEWTON_STEPS
+    ends, ended_at = _descent(z, poses, share, steps, narrow=narrow)
+    settled = np.flatnonzero(ends.settled)
+    settled = settled[np.argsort(ended_at[settled], kind="stable")]
+    cost = ends.terms[0] ** 2 @ share
+    minima = ends.z[settled][np.argsort(cost[settled], kind="stable")]
+    minima = unique_rows(minima, SAME_DYAD, "maximum")
+    of_minima = np.asarray(circle_terms(poses)(minima)[0] ** 2 @ share)
+    return CircleMinima(minima, of_minima, cost[ended_at == 0])
+
+
+def further_down(
+    z: FloatArray, poses: Displacement, share: FloatArray, steps: int
+) -> tuple[FloatArray, NDArray[np.bool_], NDArray[np.bool_]]:
+    """Circles (k, 5) after so many steps of the way down of `circle_minima`, at most.
+
+    Also, which (k,) have come to rest at a minimum, and which have ended, there or for good.
+    """
+    ends, ended_at = _descent(z, poses, share, steps, narrow=False)
+    return ends.z, ends.settled, ended_at > 0
+
+
+def _descent(
+    z: FloatArray, poses: Displacement, share: FloatArray, steps: int, *, narrow: bool
+) -> tuple[_Point, NDArray[np.intp]]:
+    """Circles (k, 5) after so many steps down, and the step (k,) with which each ended, or 0."""
     terms, longest = circle_terms(poses), MAX_LENGTH * reach(poses, share)
 
     def cost(terms: tuple[FloatArray, ...]) -> FloatArray:
@@ -102,14 +128,7 @@ def circle_minima(
         ended = settled | (failed & ~convex) | (size > longest)
         return there._replace(settled=settled), ended
 
-    steps = MAX_VALLEY_STEPS if narrow else MAX_NEWTON_STEPS
-    ends, ended_at = iterate(advance, point(z), np.arange(len(z)), steps)
-    settled = np.flatnonzero(ends.settled)
-    settled = settled[np.argsort(ended_at[settled], kind="stable")]
-    minima = ends.z[settled]
-    minima = minima[np.argsort(cost(terms(minima)), kind="stable")]
-    minima = unique_rows(minima, SAME_DYAD, "maximum")
-    return CircleMinima(minima, cost(terms(minima)), cost(ends.terms)[ended_at == 0])
+    return iterate(advance, point(z), np.arange(len(z)), steps)
 
 
 def reach(poses: Displacement, share: FloatArray) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import final
 
@@ -22,7 +23,7 @@ from burmester.tasks.limits import Limits
 from burmester.tasks.options import Norm
 from burmester.tasks.pose_sample import PoseSample
 
-__all__ = ["BestDyads", "best_dyads"]
+__all__ = ["BestDyads", "best_dyads", "is_hard", "starts_down"]
 
 # Generic factors by which one of each pair of conjugate points is picked.
 CONJUGATE_PICK = np.sqrt([2.0, 3.0, 5.0, 7.0])
@@ -124,23 +125,17 @@ def best_dyads(
     _, seen = CanonicalFrames.of(poses, weights)  # with less rounding than by these frames
     share = shares(weights, poses.shape)
     lines = [lines(seen, weights)[0][0] for lines in (fixed_lines, moving_lines)]
-    points = critical.points[: int(critical.found)]
-    pivots = points[points.imag @ CONJUGATE_PICK >= 0].real
-    pivots = np.concatenate([pivots, np.zeros((1, 4))])  # where the frames' origins stay close
-    hard = int(critical.found) < COUNT or reach(seen, share) > LITTLE_TURN
+    points, more = critical.points[: int(critical.found)], np.zeros((0, 4))
+    hard = is_hard(points, seen, share)
     if hard:
         origin = np.concatenate([critical.frames.fixed_origin, critical.frames.moving_origin])
         more = (pivots_of_fits(poses, weights) - origin) / critical.frames.length
-        pivots = np.concatenate([pivots, more])
     some, weight = seen, weights
     if many := seen.shape[0] > MAX_POSES_FOLLOWED:
         sample = PoseSample.of(poses, weights, MAX_POSES_FOLLOWED)
         some, weight = seen[sample.index], sample.cells
-    if _is_rough(pivots, some, weight, shares(weight, some.shape)):
-        pivots = np.concatenate([pivots, _beside(points)])
-    starts = [_circles_about(pivots, some, weight)]
-    starts += [_circles_along(line, some, weight) for line in lines]
-    found = circle_minima(np.concatenate(starts), some, shares(weight, some.shape), narrow=hard)
+    starts = starts_down(points, lines, some, weight, more)
+    found = circle_minima(starts, some, shares(weight, some.shape), narrow=hard)
     if many:
         found = circle_minima(found.z, seen, share, narrow=hard)._replace(
             unfinished=found.unfinished
@@ -160,6 +155,32 @@ def best_dyads(
     distance = distance[order] / critical.frames.length
     best = _with_errors(critical, circles[order], tuple(lines), distance, unfinished)
     return replace(best, dyads=dyads[order])
+
+
+def is_hard(points: ComplexArray, seen: Displacement, share: FloatArray) -> bool:
+    """Whether the body turns so little that ways down are narrow, or critical points are lost."""
+    return len(points) < COUNT or reach(seen, share) > LITTLE_TURN
+
+
+def starts_down(
+    points: ComplexArray,
+    lines: Sequence[PR | RP],
+    seen: Displacement,
+    weights: FloatArray | None,
+    more: FloatArray,
+) -> FloatArray:
+    """Circles (k, 5) from which ways lead down to the minima, for poses in canonical frames.
+
+    points: (c, 4), complex, the critical points of the squared residual; lines: the best sliders;
+    more: (p, 4), other pivots.
+    """
+    pivots = points[points.imag @ CONJUGATE_PICK >= 0].real
+    # With zeros, where the frames' origins stay close.
+    pivots = np.concatenate([pivots, np.zeros((1, 4)), more])
+    if _is_rough(pivots, seen, weights, shares(weights, seen.shape)):
+        pivots = np.concatenate([pivots, _beside(points)])
+    starts = [_circles_about(pivots, seen, weights)]
+    return np.concatenate(starts + [_circles_along(line, seen, weights) for line in lines])
 
 
 def _with_errors(

@@ -335,7 +335,7 @@ def refine_constrained(
     # What kept all constraints from the start is not given up for less.
     kept = _greatest_violation(way.start.constraints.residual[which], way.equal) < FEASIBLE
     with np.errstate(invalid="ignore"):
-        worse = _cost(problem, before) < _cost(problem, state)
+        worse = _cost(problem, which, before) < _cost(problem, which, state)
     back = np.array(way.start.sound[which] & kept & (~met | worse), dtype=np.bool_)
     state = where(back, before, state)
     z, rows, all_met = z.copy(), way.start.state.rows.copy(), ~way.given_up
@@ -344,9 +344,9 @@ def refine_constrained(
     return z, rows, done & ~way.given_up, all_met
 
 
-def _cost(problem: Problem, state: State) -> FloatArray:
+def _cost(problem: Problem, which: NDArray[np.intp], state: State) -> FloatArray:
     """The weighted sum (k,) of squared distances from the poses."""
-    gap = problem.share[:, None] * problem.counted(state.rows - problem.wanted)
+    gap = problem.share[:, None] * problem.counted(which, state.rows - problem.wanted)
     return np.asarray((gap * gap).sum(axis=(1, 2)))
 
 

@@ -120,21 +120,26 @@ def refined_on_branch(
     *,
     steps: int,
     transmission: FloatArray | None = None,
+    metric: FloatArray | None = None,
 ) -> Refined:
     """Linkages (k,) refined under all constraints, on the branches of their places (k, N, 3).
 
     driver: (k,), the side that drives; transmission: (k,), a least angle for each, where more is
-    asked of it than the target does.  Of many poses few are refined on, evenly thinned, and what
-    is best then on more of them; the others do not meet the constraints.
+    asked of it than the target does; metric: (k, 1, 3, 3), as in `refine`.  Of many poses few are
+    refined on, evenly thinned, and what is best then on more of them; the others do not meet the
+    constraints.
     """
     few, index = target.thinned(FEW_POSES), target.thin_numbers(FEW_POSES)
-    refined = _on_branch(batch, rows[:, index], few, driver, steps=steps, transmission=transmission)
+    refined = _on_branch(
+        batch, rows[:, index], few, driver, steps=steps, transmission=transmission, metric=metric
+    )
     if few is target:
         return refined
     going = np.flatnonzero(refined.met)
     going = going[np.argsort(refined.cost[going], kind="stable")][:MAX_CONTINUED]
-    asked = None if transmission is None else transmission[going]
-    some, rows, met = on_more_poses(refined.batch[going], driver[going], target, asked)
+    some, rows, met = on_more_poses(
+        refined.batch[going], driver[going], target, *_at(going, transmission, metric)
+    )
     dimensions = refined.batch.dimensions.copy()
     every = np.full((len(batch), *rows.shape[1:]), nan)
     dimensions[going], every[going] = some.dimensions, rows
@@ -148,6 +153,7 @@ def on_more_poses(
     driver: NDArray[np.intp],
     target: Target,
     transmission: FloatArray | None = None,
+    metric: FloatArray | None = None,
 ) -> tuple[LinkageBatch, FloatArray, NDArray[np.bool_]]:
     """Linkages (k,) refined on few poses, refined on more under the same constraints.
 
@@ -159,15 +165,26 @@ def on_more_poses(
     sound = np.flatnonzero(np.isfinite(rows).all(axis=(1, 2)))
     met = np.zeros(len(batch), dtype=bool)
     if len(sound):
-        asked = None if transmission is None else transmission[sound]
+        asked, counts = _at(sound, transmission, metric)
         refined = _on_branch(
-            batch[sound], rows[sound], more, driver[sound], steps=MORE_STEPS, transmission=asked
+            batch[sound],
+            rows[sound],
+            more,
+            driver[sound],
+            steps=MORE_STEPS,
+            transmission=asked,
+            metric=counts,
         )
         dimensions, met[sound] = batch.dimensions.copy(), refined.met
         dimensions[met] = refined.batch.dimensions[refined.met]
         rows[met] = refined.rows[refined.met]
         batch = LinkageBatch(batch.kinds, dimensions)
     return batch, rows if more is target else target.places(batch), met
+
+
+def _at(index: NDArray[np.intp], *each: FloatArray | None) -> list[FloatArray | None]:
+    """The rows of arrays at the indices; None stays None."""
+    return [None if every is None else every[index] for every in each]
 
 
 def _on_branch(
@@ -177,7 +194,8 @@ def _on_branch(
     driver: NDArray[np.intp],
     *,
     steps: int,
-    transmission: FloatArray | None = None,
+    transmission: FloatArray | None,
+    metric: FloatArray | None,
 ) -> Refined:
     """`refined_on_branch` on all poses of the target."""
     sine = signed_transmission_sine(batch, rows, target.length, driver)
@@ -190,6 +208,7 @@ def _on_branch(
         constraints=_all_constraints(starts, target, transmission),
         worst=target.worst,
         constrained_steps=steps,
+        metric=metric,
     )
 
 

@@ -109,7 +109,7 @@ def refine(
         All further constraints.
     free : (k, 10) array of bool, optional
         The dimensions that may change; by default all.
-    metric : (N, 3, 3) array of float, optional
+    metric : (k, N, 3, 3) array of float or broadcastable, optional
         What counts of the gap at each pose is this matrix times the gap (x, y, length x angle),
         under constraints that use the places.
     worst : bool
@@ -129,6 +129,8 @@ def refine(
     slots = np.ones((count, 2, DIMENSIONS), dtype=bool)
     slots[..., -1] = batch.kinds == 0
     used = slots.reshape(count, SIZE) & (True if free is None else free)
+    if metric is not None:
+        metric = np.broadcast_to(metric, (count, *metric.shape[-3:]))
     problem = Problem(
         batch.kinds, rows_of(poses, length), length, share, exact, constraints, used, metric
     )
@@ -146,7 +148,8 @@ def refine(
         else:
             state, done = _descend(problem, state, power, steps, damping)
             rows = state.rows
-    size = share * np.sqrt((problem.counted(rows - problem.wanted) ** 2).sum(axis=-1))
+    away = problem.counted(np.arange(count), rows - problem.wanted)
+    size = share * np.sqrt((away**2).sum(axis=-1))
     cost = size.max(axis=-1) if worst else (size * size).sum(axis=-1) / 2
     lost = ~np.isfinite(cost)
     return Refined(problem.batch(np.arange(count), state.z), rows, cost, done & ~lost, met & ~lost)

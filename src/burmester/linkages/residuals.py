@@ -81,8 +81,8 @@ class Problem:
     wanted: (N, 3), the poses as rows of x, y, length x angle.
     share: (N,), roots of their weights, 0 for exact poses.
     free: (k, 10), which dimensions may change.
-    metric: (N, 3, 3), what counts of a gap at each pose is this matrix times the gap, where places
-        are free; None: all of it.
+    metric: (k, N, 3, 3) or broadcastable, what counts of a gap at each pose is this matrix times
+        the gap, where places are free; None: all of it.
     """
 
     kinds: NDArray[np.int8]
@@ -94,9 +94,9 @@ class Problem:
     free: NDArray[np.bool_]
     metric: FloatArray | None = None
 
-    def counted(self, gap: FloatArray) -> FloatArray:
-        """What counts of gaps (*, N, 3)."""
-        return gap if self.metric is None else matvec(self.metric, gap)
+    def counted(self, which: NDArray[np.intp], gap: FloatArray) -> FloatArray:
+        """What counts of gaps (r, N, 3) of the linkages at the indices."""
+        return gap if self.metric is None else matvec(self.metric[which], gap)
 
     def batch(self, which: NDArray[np.intp], z: FloatArray) -> LinkageBatch:
         """The linkages at the indices with dimensions z."""
@@ -112,7 +112,7 @@ class Problem:
             self.exact,
             None,
             self.free[index],
-            self.metric,
+            None if self.metric is None else self.metric[index],
         )
 
     def state(self, which: NDArray[np.intp], z: FloatArray, rows: FloatArray) -> State:
@@ -163,7 +163,8 @@ class Problem:
             place_jacobian[:, every, :, SIZE + every] = np.moveaxis(at.tangent, 1, 0)
             if self.metric is None:
                 return State(z, rows, gap, place_jacobian, place_jacobian)
-            return State(z, rows, self.counted(gap), self.metric @ place_jacobian, place_jacobian)
+            jacobian = self.metric[which] @ place_jacobian
+            return State(z, rows, self.counted(which, gap), jacobian, place_jacobian)
 
     def constraint_values(
         self, which: NDArray[np.intp], state: State

@@ -61,8 +61,15 @@ class Target:
         kept = tuple(each for each in self.kept if not isinstance(each, ToleranceBoxes))
         return replace(self, kept=(*kept, boxes), boxes=boxes)
 
-    def refine(self, batch: LinkageBatch, rows: FloatArray, **how: Any) -> Refined:
-        """Linkages (k,) with places (k, N, 3), refined to the least error; how: as in `refine`."""
+    def refine(
+        self, batch: LinkageBatch, rows: FloatArray, metric: FloatArray | None = None, **how: Any
+    ) -> Refined:
+        """Linkages (k,) with places (k, N, 3), refined to the least error; how: as in `refine`.
+
+        metric: by default that of the boxes, where there are some.
+        """
+        if metric is None and self.boxes is not None:
+            metric = self.boxes.metric
         return refine(
             batch,
             self.places_of(rows),
@@ -70,7 +77,7 @@ class Target:
             self.length,
             weights=self.weights,
             exact=self.exact,
-            metric=None if self.boxes is None else self.boxes.metric,
+            metric=metric,
             **how,
         )
 

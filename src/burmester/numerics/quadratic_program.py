@@ -27,7 +27,7 @@ from burmester.numerics.linear_algebra import matvec, solve
 
 __all__ = ["SoftProgram"]
 
-STEPS_FROM_START = 2  # of the projected Newton method from multipliers that may be far off
+STEPS_FROM_START = 4  # of the projected Newton method from multipliers that may be far off
 STEPS_FROM_INSIDE = 2  # of it from where the interior-point method led
 SIDES = np.array([1.0, -1.0])[:, None]  # of the upper bound, and of the lower one
 INTERIOR_STEPS = 25  # of the interior-point method at most; it takes about twelve
@@ -120,16 +120,18 @@ class _BoxProgram(NamedTuple):
             if last == steps or not going.any():
                 break
             some, run = some.at(np.flatnonzero(going)), run[going]
-            y[run], better = some.stepped(here[going], off[going], free[going])
-            run = run[better]
+            y[run], better, least = some.stepped(here[going], off[going], free[going])
+            settled[run[least]] = True
+            run = run[better & ~least]
         return y, settled
 
     def stepped(
         self, y: FloatArray, off: FloatArray, free: NDArray[np.bool_]
-    ) -> tuple[FloatArray, NDArray[np.bool_]]:
+    ) -> tuple[FloatArray, NDArray[np.bool_], NDArray[np.bool_]]:
         """The y (k, m) after one step of those that are free, and which of them (k,) are better.
 
-        off: (k, m), w at y.  A step that is not better is not taken.
+        off: (k, m), w at y.  A step that is not better is not taken.  Also, which (k,) were at the
+        least height but for rounding: Newton's step promises no more, and is taken for its w.
         """
         every = np.arange(len(y))[:, None]
         # Only the free multipliers, side by side: few of many constraints bind.
@@ -138,6 +140,8 @@ class _BoxProgram(NamedTuple):
         low, high = self.low[every, index], self.high[every, index]
         downhill = np.where(free, off[every, index], 0.0)
         step = _newton_step(root, downhill, free)
+        promise = (step * downhill).sum(axis=1) / 2
+        whole = np.clip(here + step, low, high)
         held = free & (((here <= low) & (step < 0)) | ((here >= high) & (step > 0)))
         if held.any():
             step = _newton_step(root, downhill, free & ~held)
@@ -154,9 +158,12 @@ class _BoxProgram(NamedTuple):
         best = rise.argmin(axis=1)
         # The height is y · A y / 2 - b · y, and off = b - A y.
         height = ((self.b + off) * y).sum(axis=1) / 2
-        better = -rise[every[:, 0], best] > HEIGHT_ROUNDING * np.abs(height)
-        y[every[better], index[better]] = tried[every[:, 0], best][better]
-        return y, better
+        hidden = HEIGHT_ROUNDING * np.abs(height)
+        better, least = -rise[every[:, 0], best] > hidden, promise <= hidden
+        there = np.where(least[:, None], whole, tried[every[:, 0], best])
+        taken = better | least
+        y[every[taken], index[taken]] = there[taken]
+        return y, better, least
 
     def interior(self) -> FloatArray:
         """The y (k, m) by the interior-point method, those near a bound put on it.

@@ -1,0 +1,214 @@
+"""The minima within limits: each moves along the faces on which it lies.
+
+Where one leaves a face or comes to one, it goes down as in the search.  A dyad that appears is not
+seen.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Self, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burmester.dyads.face_descent import descend, inside
+from burmester.dyads.geometric_fit import (
+    DistanceFunction,
+    FitProblem,
+    GeometricFit,
+    Point,
+    circle_distances,
+    line_distances,
+)
+from burmester.dyads.least_powers import least_squares_step
+from burmester.dyads.limited_block import Block, LengthRange
+from burmester.dyads.local_minima import BestDyads
+from burmester.dyads.minima_within_limits import LimitedDyads, limits_in
+from burmester.following.face_table import FaceTable, face_numbers, held, nearest_face
+from burmester.following.minimum_step import moved_minima
+from burmester.following.moved_fit import moved_fit, twins
+from burmester.fourbar.canonical_frames import CanonicalFrames
+from burmester.fourbar.dyad import PR, RP, RR, Dyad
+from burmester.geometry.displacement import Displacement
+from burmester.numerics.arrays import FloatArray
+from burmester.numerics.weights import shares
+from burmester.tasks.limits import Limits
+
+__all__ = ["LimitedMinima", "limited_fit"]
+
+EXACT_ROUNDING = 1e-9  # relative; an exact pose that is missed by less is met
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class LimitedMinima:
+    """The minima of one kind within one limits.
+
+    kind: RR, PR or RP; z: (k, 5) circles or (k, 4) lines in the frames of the fit, an RP dyad as
+    the PR dyad of the inverse motion.  tables: the faces of `limits`; numbers: (k, blocks), those
+    on which the minima lie.
+    """
+
+    kind: type[RR] | type[PR] | type[RP]
+    limits: Limits
+    tables: tuple[FaceTable, ...]
+    z: FloatArray
+    numbers: NDArray[np.intp]
+
+    @classmethod
+    def every(cls, fit: BestDyads, limits: Limits) -> tuple[Self, ...]:
+        """The minima of a fit, those of one kind together."""
+        out = []
+        for kind in (RR, PR, RP):
+            z = _coordinates(kind, fit)
+            if len(z):
+                tables = _tables(kind, limits, fit.frames)
+                out.append(cls(kind, limits, tables, z, face_numbers(z, tables)))
+        return tuple(out)
+
+    def moved(
+        self,
+        seen: Displacement,
+        limits: Limits,
+        frames: CanonicalFrames,
+        weights: FloatArray | None,
+        exact: NDArray[np.bool_],
+    ) -> tuple[Self, NDArray[np.intp], list[str]]:
+        """The minima of other poses (N,) within other limits.
+
+        With the number that each had, and what is doubtful of them.
+        """
+        doubts, tables = [], self.tables
+        if limits is not self.limits:
+            tables = _tables(self.kind, limits, frames)
+            if any(len(a.at) != len(b.at) for a, b in zip(tables, self.tables, strict=True)):
+                doubts.append("a limit has another number of edges than before")
+                tables = self.tables
+        poses = seen.inverse() if self.kind is RP else seen
+        distances = circle_distances(poses) if self.kind is RR else line_distances(poses)
+        share = shares(weights, poses.shape)
+        kept = held(tables, self.numbers)
+        there = moved_minima(self.z, distances, share, exact, kept)
+        z, numbers = there.z.copy(), self.numbers.copy()
+        blocks = [table.block for table in tables]
+        outside = np.any([block.outside(z) for block in blocks], axis=0)
+        events = np.flatnonzero(~there.sound | there.let_go | outside)
+        if len(events):
+            starts = [
+                _onto(self.z[k], there.z[k], tables, numbers[k], bool(there.sound[k]))
+                for k in events
+            ]
+            z[events] = np.stack(starts)
+            events = events[inside(z[events], blocks)]
+            z[events] = _down(z[events], distances, share, exact, blocks)
+            events = events[np.isfinite(z[events]).all(axis=1)]
+            numbers[events] = face_numbers(z[events], tables)
+        lost = np.flatnonzero(~(np.isfinite(z).all(axis=1) & inside(np.nan_to_num(z), blocks)))
+        index = np.delete(np.arange(len(z)), lost)
+        if len(lost):
+            doubts.append("a dyad within the limits was lost")
+        if len(met := twins(z[index])):
+            doubts.append("two dyads within the limits have met")
+            index = np.delete(index, met)
+        new = replace(self, limits=limits, tables=tables, z=z[index], numbers=numbers[index])
+        return new, index, doubts
+
+    def dyads(self, frames: CanonicalFrames) -> list[Dyad]:
+        """The minima in the task's frames."""
+        out: list[Dyad] = []
+        for each in self.z:
+            if self.kind is RR:
+                one = frames.circle_from_canonical(RR(each[None, :2], each[None, 2:4], each[4:]))
+                out.append(RR(one.fixed_pivot[0], one.moving_pivot[0], one.radius[0]))
+            elif self.kind is PR:
+                out.append(frames.line_from_canonical(PR(each[0], each[1], each[2:])))
+            else:
+                out.append(frames.line_from_canonical(RP(each[2:], each[0], each[1])))
+        return out
+
+
+def _coordinates(kind: type[RR] | type[PR] | type[RP], fit: BestDyads) -> FloatArray:
+    """The minima of one kind in a fit, as `_Limited` has them."""
+    if kind is RR:
+        some = fit.circles
+        return np.concatenate([some.fixed_pivot, some.moving_pivot, some.radius[:, None]], axis=-1)
+    rows = []
+    for each in fit.sliders:
+        if isinstance(each, PR) and kind is PR:
+            rows.append([each.normal_angle, each.offset, *each.moving_pivot])
+        if isinstance(each, RP) and kind is RP:
+            rows.append([each.normal_angle, each.offset, *each.fixed_pivot])
+    return np.array(rows, dtype=float).reshape(-1, 4)
+
+
+def _tables(
+    kind: type[RR] | type[PR] | type[RP], limits: Limits, frames: CanonicalFrames
+) -> tuple[FaceTable, ...]:
+    """The faces of limits in the coordinates of one kind."""
+    own = limits_in(frames, limits)
+    if kind is RR:
+        blocks = (
+            Block(slice(0, 2), own.fixed_pivot),
+            Block(slice(2, 4), own.moving_pivot),
+            Block(slice(4, 5), LengthRange(*own.length)),
+        )
+        return tuple(FaceTable.of(block, 5) for block in blocks)
+    region = own.moving_pivot if kind is PR else own.fixed_pivot
+    return (FaceTable.of(Block(slice(2, 4), region), 4),)
+
+
+def _onto(
+    old: FloatArray,
+    new: FloatArray,
+    tables: Sequence[FaceTable],
+    numbers: NDArray[np.intp],
+    sound: bool,
+) -> FloatArray:
+    """A start (n,) inside the limits: where the faces are now, as near to `new` as they allow."""
+    if sound and not any(table.block.outside(new) for table in tables):
+        return new
+    start = old.copy()
+    kept = held(tables, numbers[None])
+    rows, gap = kept.rows[0][kept.active[0]], kept.gap(start[None])[0][kept.active[0]]
+    start = start - np.linalg.pinv(rows) @ gap if len(rows) else start
+    for table in tables:  # on the nearest face, where an edge came over the dyad
+        if table.block.outside(start):
+            start = nearest_face(start, table)[1]
+    return start
+
+
+def _down(
+    starts: FloatArray,
+    distances: DistanceFunction,
+    share: FloatArray,
+    exact: NDArray[np.bool_],
+    blocks: Sequence[Block],
+) -> FloatArray:
+    """The minima within limits to which dyads (k, n) lead, as the search goes down; or nan."""
+    problem = FitProblem(distances, share, exact)
+
+    def step(at: Point, along: FloatArray) -> GeometricFit:
+        return least_squares_step(problem, at, along)
+
+    z, settled = descend(starts, distances, step, blocks)
+    missed = np.abs(distances.only(z)[:, exact]).max(axis=1, initial=0)
+    good = settled & (missed <= EXACT_ROUNDING * (1 + np.abs(z).max(axis=1)))
+    return np.where(good[:, None], z, np.nan)
+
+
+def limited_fit(fit: BestDyads, strands: Sequence[LimitedMinima], seen: Displacement) -> BestDyads:
+    """The fit with the minima where they are now."""
+    z = np.empty((0, 5))
+    sliders: list[PR | RP] = []
+    for strand in strands:
+        if strand.kind is RR:
+            z = strand.z
+        elif strand.kind is PR:
+            sliders += [PR(each[0], each[1], each[2:]) for each in strand.z]
+        else:
+            sliders += [RP(each[2:], each[0], each[1]) for each in strand.z]
+    new = moved_fit(fit, z, tuple(sliders), seen)
+    assert isinstance(fit.search, LimitedDyads)
+    return replace(new, search=replace(fit.search, circles=new.circles, sliders=new.sliders))
