@@ -4262,6 +4262,153 @@ function dyadOfThree(poses, pivot) {
   return { fixed: pivot, moving: [a[0] + arm[0], a[1] + arm[1]], length: Math.hypot(...arm) };
 }
 
+// src/burmester/web/studio/burmester_curves.mjs
+var NEWTON_STEPS = 6;
+var FARTHEST_STEP = 0.1;
+function nearestOnCurve(points, loops, wanted, widest) {
+  let best = null, start = 0;
+  for (const size2 of loops) {
+    for (let i = 0; i < size2; i += 1) {
+      const j = (i + 1) % size2, a = points[start + i], b = points[start + j];
+      const d = [b[0] - a[0], b[1] - a[1]], squared = d[0] * d[0] + d[1] * d[1];
+      if (squared > widest * widest) continue;
+      const t = squared > 0 ? Math.min(1, Math.max(0, ((wanted[0] - a[0]) * d[0] + (wanted[1] - a[1]) * d[1]) / squared)) : 0;
+      const at = [a[0] + t * d[0], a[1] + t * d[1]], away = Math.hypot(at[0] - wanted[0], at[1] - wanted[1]);
+      if (!best || away < best.away) best = { k: start + i, next: start + j, share: t, at, away };
+    }
+    start += size2;
+  }
+  return best;
+}
+function circleDeterminant([o, ...others]) {
+  const [a, b, c] = others.map(([x, y]) => [x - o[0], y - o[1]]).map(([x, y]) => [x, y, x * x + y * y]);
+  return a[2] * (b[0] * c[1] - b[1] * c[0]) - b[2] * (a[0] * c[1] - a[1] * c[0]) + c[2] * (a[0] * b[1] - a[1] * b[0]);
+}
+function ontoCurve(poses, plane, point2, scene) {
+  const places = poses.map((pose) => ({ x: pose.x, y: pose.y, a: radians(pose.angle_deg) }));
+  const value = (at2) => circleDeterminant(places.map((place) => plane === "F" ? back(place, at2) : act(place, at2)));
+  const step = 1e-6 * scene;
+  let at = point2;
+  for (let k = 0; k < NEWTON_STEPS; k += 1) {
+    const slope = [0, 1].map((axis) => {
+      const [up, down] = [1, -1].map((sense) => value(at.map((each, n) => each + (n === axis ? sense * step : 0))));
+      return (up - down) / (2 * step);
+    });
+    const squared = slope[0] ** 2 + slope[1] ** 2, here = value(at);
+    if (!(squared > 0)) return at;
+    at = at.map((each, n) => each - here * slope[n] / squared);
+  }
+  return Math.hypot(at[0] - point2[0], at[1] - point2[1]) < FARTHEST_STEP * scene ? at : point2;
+}
+var worthOf = (pairs) => Array.from({ length: pairs.columns }, (_, k) => worth(pairs.bestPartner(k).kind));
+var worth = (kind) => kind < OUTSIDE ? "works" : kind === OUTSIDE ? "outside" : "fails";
+function curvesOf({ loops }) {
+  const curves = { fixed: [], moving: [], loops: [], worth: [] };
+  for (const loop of loops) {
+    const kept = loop.fixed.map((_, k) => k).filter((k) => [...loop.fixed[k], ...loop.moving[k]].every(Number.isFinite));
+    curves.loops.push(kept.length);
+    for (const k of kept) {
+      curves.fixed.push(loop.fixed[k]);
+      curves.moving.push(loop.moving[k]);
+      curves.worth.push(loop.class ? worth(loop.class[k]) : "plain");
+    }
+  }
+  return curves;
+}
+function curvePaths(points, loops, worth2, X, Y, widest) {
+  const paths = { works: "", outside: "", fails: "", plain: "" };
+  const near2 = (p, q) => Math.hypot(p[0] - q[0], p[1] - q[1]) <= widest;
+  const text = ([x, y]) => `${Math.round(X(x) * 100) / 100} ${Math.round(Y(y) * 100) / 100}`;
+  const between2 = (p, q) => [(p[0] + q[0]) / 2, (p[1] + q[1]) / 2];
+  let start = 0;
+  for (const size2 of loops) {
+    for (let i = 0; i < size2; i += 1) {
+      const [a, b, c] = [-1, 0, 1].map((step) => points[start + (i + step + size2) % size2]);
+      const list = [...near2(a, b) ? [between2(a, b)] : [], b, ...near2(b, c) ? [between2(b, c)] : []];
+      if (list.length > 1) paths[worth2[start + i]] += `M${list.map(text).join("L")}`;
+    }
+    start += size2;
+  }
+  return paths;
+}
+
+// src/burmester/web/studio/family_curves.mjs
+var LONGEST_STEP2 = 0.5;
+var STROKES = ["plain", "fails", "outside", "works"];
+var FamilyCurves = class {
+  constructor(store, answers, playing, scene) {
+    Object.assign(this, { store, answers, playing, scene, known: null, live: null, asking: false });
+    this.curves = ["F", "M"].map((plane) => s("g", { class: `bs-curve bs-curve-${plane}` }, STROKES.map((name) => s("path", { class: `bs-curve-${name}` }))));
+    this.group = s("g", { class: "bs-burmester", visibility: "hidden", "aria-hidden": "true" }, this.curves);
+    scene.layer("curves").append(this.group);
+    this.box = h("input", { type: "checkbox", checked: true, "data-tool": "burmester-curves", onchange: () => this.draw() });
+    this.label = h("label", { hidden: true }, this.box, " Burmester curves of the four poses, in the drawing");
+    this.legend = h("p", { class: "bm-legend", hidden: true }, h("span", { class: "bs-key-works" }), " works with a partner; ", h("span", { class: "bs-key-outside" }), " works outside limits or standard; ", h("span", { class: "bs-key-fails" }), " no partner works. Solid: centre points in F; dashed: circle points in M, where the body is now.");
+    answers.on("poses", () => this.ask());
+    playing.on("place", () => this.move());
+    scene.on("view", () => this.draw());
+  }
+  /** The curves of the four poses as they are now: { fixed, moving, loops, worth }, or null. */
+  get family() {
+    const { data, isOld } = this.answers;
+    if (data.poses.length !== 4) return null;
+    if (this.live && (isOld || !this.known)) return this.live;
+    return this.known;
+  }
+  /** The curves that the whole road brought, where the task has some. */
+  renew() {
+    const { data } = this.answers, map = data.family_map;
+    this.known = map?.kind === "curve" ? { ...map, worth: worthOf(new FamilyPairs(data)) } : null;
+    this.live = null;
+    if (!this.known) this.ask();
+    this.label.hidden = data.poses.length !== 4;
+    this.draw();
+  }
+  /** The curves go along with the poses: one question at a time, the newest wins. */
+  async ask() {
+    const { store, answers } = this, { document: document2, options } = store;
+    if (document2.poses.length !== 4 || !this.box.checked || this.asking || !store.connection?.isOpen) return;
+    this.asking = true;
+    try {
+      const answer = await store.connection.ask({ do: "curve", document: document2, options, judged: store.state !== "dragging" });
+      if (answer.kind === "curve" && store.document.poses.length === 4) {
+        this.live = curvesOf(answer);
+        this.draw();
+      }
+    } catch {
+    }
+    this.asking = false;
+    if (store.document !== document2 && answers.isOld) this.ask();
+  }
+  get widest() {
+    return LONGEST_STEP2 * this.answers.data.scene;
+  }
+  /** The place on the curve of a plane that is nearest to a point; null where pivots have no curve to slide along. */
+  onto(plane, point2) {
+    const map = this.family, { poses, scene } = this.answers.data;
+    if (!map || !this.box.checked) return null;
+    const near2 = nearestOnCurve(plane === "F" ? map.fixed : map.moving, map.loops, point2, this.widest);
+    return near2 ? ontoCurve(poses, plane, near2.at, scene) : point2;
+  }
+  draw() {
+    const map = this.family, on = Boolean(map) && this.box.checked;
+    this.group.setAttribute("visibility", on ? "visible" : "hidden");
+    this.legend.hidden = !on;
+    if (!on) return;
+    const { view } = this.scene, planes = [[map.fixed, view.X, view.Y], [map.moving, (x) => view.scale * x, (y) => -view.scale * y]];
+    planes.forEach(([points, X, Y], n) => {
+      const paths = curvePaths(points, map.loops, map.worth, X, Y, this.widest);
+      [...this.curves[n].children].forEach((path2, k) => path2.setAttribute("d", paths[STROKES[k]]));
+    });
+    this.move();
+  }
+  /** Circle points are on the body, and go along with it. */
+  move() {
+    const { view } = this.scene, place = this.playing.here?.place;
+    if (place && this.family) this.curves[1].setAttribute("transform", transform(view.X(place.x), view.Y(place.y), place.a));
+  }
+};
+
 // src/burmester/web/widget/pivot_map.mjs
 var MAX_BANDS = 12;
 var PivotMap = class {
@@ -4440,118 +4587,126 @@ var PivotMap = class {
   }
 };
 
-// src/burmester/web/studio/burmester_curves.mjs
-var NEWTON_STEPS = 6;
-var FARTHEST_STEP = 0.1;
-function nearestOnCurve(points, loops, wanted, widest) {
-  let best = null, start = 0;
-  for (const size2 of loops) {
-    for (let i = 0; i < size2; i += 1) {
-      const j = (i + 1) % size2, a = points[start + i], b = points[start + j];
-      const d = [b[0] - a[0], b[1] - a[1]], squared = d[0] * d[0] + d[1] * d[1];
-      if (squared > widest * widest) continue;
-      const t = squared > 0 ? Math.min(1, Math.max(0, ((wanted[0] - a[0]) * d[0] + (wanted[1] - a[1]) * d[1]) / squared)) : 0;
-      const at = [a[0] + t * d[0], a[1] + t * d[1]], away = Math.hypot(at[0] - wanted[0], at[1] - wanted[1]);
-      if (!best || away < best.away) best = { k: start + i, next: start + j, share: t, at, away };
-    }
-    start += size2;
+// src/burmester/web/studio/pivot_map_panel.mjs
+var GRASP = 26;
+var STILL = 3;
+var PivotMapPanel = class {
+  /** hand: the pivots that can be taken hold of: pivot, take, put, drop and release, as PivotSurface has them. */
+  constructor(answers, playing, hand) {
+    Object.assign(this, { answers, playing, hand, map: null, handles: null });
+    this.element = h("div", { class: "bm-fill" });
+    this.pace = new Pace(() => this.build(), () => isSeen(this.element));
+    playing.on("shape", () => this.pace.ask());
+    new ResizeObserver(() => this.pace.ask()).observe(this.element);
+    watch(this.element, () => this.pace.ask());
   }
-  return best;
-}
-function circleDeterminant([o, ...others]) {
-  const [a, b, c] = others.map(([x, y]) => [x - o[0], y - o[1]]).map(([x, y]) => [x, y, x * x + y * y]);
-  return a[2] * (b[0] * c[1] - b[1] * c[0]) - b[2] * (a[0] * c[1] - a[1] * c[0]) + c[2] * (a[0] * b[1] - a[1] * b[0]);
-}
-function ontoCurve(poses, plane, point2, scene) {
-  const places = poses.map((pose) => ({ x: pose.x, y: pose.y, a: radians(pose.angle_deg) }));
-  const value = (at2) => circleDeterminant(places.map((place) => plane === "F" ? back(place, at2) : act(place, at2)));
-  const step = 1e-6 * scene;
-  let at = point2;
-  for (let k = 0; k < NEWTON_STEPS; k += 1) {
-    const slope = [0, 1].map((axis) => {
-      const [up, down] = [1, -1].map((sense) => value(at.map((each, n) => each + (n === axis ? sense * step : 0))));
-      return (up - down) / (2 * step);
+  /** The map that the whole road brought, if it is another one. */
+  renew() {
+    const { data } = this.answers;
+    if (this.shown === data.pivot_map) return;
+    this.shown = data.pivot_map;
+    this.element.replaceChildren();
+    this.map = data.pivot_map ? new PivotMap(data, this.element) : null;
+    if (this.map) this.listen();
+    this.pace.ask();
+  }
+  build() {
+    if (!this.map) return;
+    this.map.build(this.answers.shown);
+    this.handles = [0, 1].map((k) => s("g", { class: `bs-pivot bs-map-pivot bm-side${k}` }, s("circle", { class: "bs-pivot-ring", r: 8 })));
+    this.map.svg.append(...this.handles);
+    this.drawHandles();
+  }
+  drawHandles() {
+    if (!this.handles || !this.map?.view) return;
+    const { view } = this.map;
+    this.handles.forEach((element, k) => {
+      const pivot = this.hand.pivot(k, "F");
+      element.setAttribute("display", pivot ? "inline" : "none");
+      if (!pivot) return;
+      element.setAttribute("transform", `translate(${px(view.X(pivot.at[0]))} ${px(view.Y(pivot.at[1]))})`);
+      element.dataset.mapPivot = pivot.id;
     });
-    const squared = slope[0] ** 2 + slope[1] ** 2, here = value(at);
-    if (!(squared > 0)) return at;
-    at = at.map((each, n) => each - here * slope[n] / squared);
   }
-  return Math.hypot(at[0] - point2[0], at[1] - point2[1]) < FARTHEST_STEP * scene ? at : point2;
-}
-var worthOf = (pairs) => Array.from({ length: pairs.columns }, (_, k) => worth(pairs.bestPartner(k).kind));
-var worth = (kind) => kind < OUTSIDE ? "works" : kind === OUTSIDE ? "outside" : "fails";
-function curvesOf({ loops }) {
-  const curves = { fixed: [], moving: [], loops: [], worth: [] };
-  for (const loop of loops) {
-    const kept = loop.fixed.map((_, k) => k).filter((k) => [...loop.fixed[k], ...loop.moving[k]].every(Number.isFinite));
-    curves.loops.push(kept.length);
-    for (const k of kept) {
-      curves.fixed.push(loop.fixed[k]);
-      curves.moving.push(loop.moving[k]);
-      curves.worth.push(loop.class ? worth(loop.class[k]) : "plain");
-    }
+  /** The fixed pivot nearest to a point: { k, away } in pixels of the map; Infinity where there is none. */
+  nearest([x, y]) {
+    const { view } = this.map;
+    const away = [0, 1].map((k2) => {
+      const pivot = this.hand.pivot(k2, "F");
+      return pivot ? Math.hypot(view.X(pivot.at[0]) - view.X(x), view.Y(pivot.at[1]) - view.Y(y)) : Infinity;
+    });
+    const k = away[1] < away[0] ? 1 : 0;
+    return { k, away: away[k] };
   }
-  return curves;
-}
-function curvePaths(points, loops, worth2, X, Y, widest) {
-  const paths = { works: "", outside: "", fails: "", plain: "" };
-  const near2 = (p, q) => Math.hypot(p[0] - q[0], p[1] - q[1]) <= widest;
-  const text = ([x, y]) => `${Math.round(X(x) * 100) / 100} ${Math.round(Y(y) * 100) / 100}`;
-  const between2 = (p, q) => [(p[0] + q[0]) / 2, (p[1] + q[1]) / 2];
-  let start = 0;
-  for (const size2 of loops) {
-    for (let i = 0; i < size2; i += 1) {
-      const [a, b, c] = [-1, 0, 1].map((step) => points[start + (i + step + size2) % size2]);
-      const list = [...near2(a, b) ? [between2(a, b)] : [], b, ...near2(b, c) ? [between2(b, c)] : []];
-      if (list.length > 1) paths[worth2[start + i]] += `M${list.map(text).join("L")}`;
-    }
-    start += size2;
+  /** A press takes the nearest fixed pivot, and puts it where the pointer is; Enter puts it to the cursor of the keys. */
+  listen() {
+    const { hand } = this, { svg } = this.map;
+    const at = (event) => {
+      const box = svg.getBoundingClientRect(), { low, high } = this.answers.data.pivot_map;
+      const u = (event.clientX - box.left) / box.width, v = 1 - (event.clientY - box.top) / box.height;
+      return [low[0] + u * (high[0] - low[0]), low[1] + v * (high[1] - low[1])];
+    };
+    let pointer = null, start = null;
+    const end = (event) => {
+      if (event.pointerId !== pointer) return;
+      pointer = null;
+      hand.drop();
+    };
+    svg.addEventListener("pointerdown", (event) => {
+      if (event.button !== 0) return;
+      const point2 = at(event), { k, away } = this.nearest(point2);
+      if (!Number.isFinite(away) || !hand.take(k, "F")) return;
+      event.preventDefault();
+      pointer = event.pointerId;
+      start = { near: away <= GRASP, X: event.clientX, Y: event.clientY };
+      svg.setPointerCapture(pointer);
+      this.playing.player.play(false);
+      if (!start.near) hand.put(point2);
+    });
+    svg.addEventListener("pointermove", (event) => {
+      if (event.pointerId !== pointer) return;
+      if (start.near && Math.hypot(event.clientX - start.X, event.clientY - start.Y) < STILL) return;
+      start.near = false;
+      hand.put(at(event));
+    });
+    svg.addEventListener("pointerup", end);
+    svg.addEventListener("pointercancel", end);
+    svg.addEventListener("keydown", (event) => {
+      if (event.key === "Escape" && hand.pivots) hand.release();
+      if (event.key !== "Enter" || !this.map.cursor) return;
+      const point2 = this.map.placeAt(this.map.cursor), { k } = this.nearest(point2);
+      if (!hand.take(k, "F")) return;
+      event.preventDefault();
+      hand.put(point2);
+      hand.drop();
+    });
   }
-  return paths;
-}
+};
 
 // src/burmester/web/studio/pivot_surface.mjs
 var ARROWS4 = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
-var LONGEST_STEP2 = 0.5;
-var STROKES = ["plain", "fails", "outside", "works"];
-var GRASP = 26;
 var PivotSurface = class {
   constructor(store, answers, playing, scene) {
     Object.assign(this, { store, answers, playing, scene, pivots: null, held: null });
     this.handles = s("g", { class: "bs-pivots" });
     scene.layer("pivots").append(this.handles);
     this.parts = [0, 1].map((k) => ["F", "M"].map((plane) => this.handle(k, plane)));
-    this.curves = ["F", "M"].map((plane) => s("g", { class: `bs-curve bs-curve-${plane}` }, STROKES.map((name) => s("path", { class: `bs-curve-${name}` }))));
-    this.curveGroup = s("g", { class: "bs-burmester", visibility: "hidden", "aria-hidden": "true" }, this.curves);
-    scene.layer("curves").append(this.curveGroup);
-    this.curveBox = h("input", { type: "checkbox", checked: true, "data-tool": "burmester-curves", onchange: () => this.drawCurves() });
-    this.curveLabel = h("label", { hidden: true }, this.curveBox, " Burmester curves of the four poses, in the drawing");
     this.story = h("p", { class: "bm-story" });
     this.readout = h("output", { class: "bs-placed-readout", "aria-live": "polite" });
     this.letGo = h("button", { type: "button", class: "bs-small", hidden: true, onclick: () => this.release() }, "Let go of the pivots");
-    this.legend = h("p", { class: "bm-legend", hidden: true }, h("span", { class: "bs-key-works" }), " works with a partner; ", h("span", { class: "bs-key-outside" }), " works outside limits or standard; ", h("span", { class: "bs-key-fails" }), " no partner works. Solid: centre points in F; dashed: circle points in M, where the body is now.");
-    this.fill = h("div", { class: "bm-fill" });
-    this.element = h("div", { class: "bs-surface" }, this.story, h("div", { class: "bs-tool" }, this.curveLabel), this.legend, this.fill, this.readout, h("div", { class: "bs-tool" }, this.letGo));
-    this.mapPace = new Pace(() => this.buildMap(), () => isSeen(this.fill));
+    this.curves = new FamilyCurves(store, answers, playing, scene);
+    this.map = new PivotMapPanel(answers, playing, this);
+    this.element = h("div", { class: "bs-surface" }, this.story, h("div", { class: "bs-tool" }, this.curves.label), this.curves.legend, this.map.element, this.readout, h("div", { class: "bs-tool" }, this.letGo));
     answers.on("answers", () => this.renew());
     answers.on("poses", () => {
       this.explain();
-      this.askCurve();
       if (this.pivots) store.place(this.pivots);
     });
     answers.on("placed", () => this.tell());
-    playing.on("shape", () => {
-      this.show();
-      this.mapPace.ask();
-    });
+    playing.on("shape", () => this.show());
     playing.on("place", () => this.move());
-    scene.on("view", () => {
-      this.drawCurves();
-      this.show();
-    });
+    scene.on("view", () => this.show());
     store.on("state document", () => this.element.classList.toggle("bs-stale", answers.isOld));
-    new ResizeObserver(() => this.mapPace.ask()).observe(this.fill);
-    watch(this.fill, () => this.mapPace.ask());
     this.renew();
   }
   /** The dyads whose pivots can be taken: those put down by hand, or those of the linkage. */
@@ -4627,15 +4782,9 @@ var PivotSurface = class {
   }
   /** The held pivot goes to a point of its plane, or to the nearest one of its curve. */
   put(point2, step = 0) {
-    const { k, plane } = this.held, curve = this.curveOf(plane);
-    const digits = decimalsOf(this.answers.data), round = (at2) => at2.map((value) => Number(value.toFixed(digits)));
-    let at = this.scene.rounded && !curve ? point2.map((value) => this.scene.rounded(value)) : point2;
-    if (curve) {
-      const near2 = nearestOnCurve(curve.points, curve.loops, point2, this.widest);
-      if (near2) at = ontoCurve(this.answers.data.poses, plane, near2.at, this.answers.data.scene);
-    } else if (step) {
-      at = round(point2);
-    }
+    const { k, plane } = this.held, digits = decimalsOf(this.answers.data);
+    let at = this.curves.onto(plane, point2);
+    if (!at) at = point2.map((value) => step ? Number(value.toFixed(digits)) : this.scene.rounded(value));
     this.ask(this.pivots.map((each, n) => n === k ? { plane, at } : each));
   }
   drop() {
@@ -4658,79 +4807,19 @@ var PivotSurface = class {
     this.tell();
     this.show();
   }
-  // Curves of four poses
-  /** The curves of the four poses as they are now: { fixed, moving, loops, worth }, or null. */
-  get family() {
-    const { data, isOld } = this.answers;
-    if (data.poses.length !== 4) return null;
-    if (this.live && (isOld || !this.known)) return this.live;
-    return this.known;
-  }
-  /** The curves that the whole road brought, where the task has some. */
-  takeFamily() {
-    const { data } = this.answers, map = data.family_map;
-    this.known = map?.kind === "curve" ? { ...map, worth: worthOf(new FamilyPairs(data)) } : null;
-    this.live = null;
-    if (!this.known) this.askCurve();
-  }
-  /** The curves go along with the poses: one question at a time, the newest wins. */
-  async askCurve() {
-    const { store, answers } = this, { document: document2, options } = store;
-    if (document2.poses.length !== 4 || !this.curveBox.checked || this.asking || !store.connection?.isOpen) return;
-    this.asking = true;
-    try {
-      const answer = await store.connection.ask({ do: "curve", document: document2, options, judged: store.state !== "dragging" });
-      if (answer.kind === "curve" && store.document.poses.length === 4) {
-        this.live = curvesOf(answer);
-        this.drawCurves();
-      }
-    } catch {
-    }
-    this.asking = false;
-    if (store.document !== document2 && answers.isOld) this.askCurve();
-  }
-  get widest() {
-    return LONGEST_STEP2 * this.answers.data.scene;
-  }
-  /** The curve that a pivot of a plane slides along, or null. */
-  curveOf(plane) {
-    const map = this.family;
-    if (!map || !this.curveBox.checked) return null;
-    return { points: plane === "F" ? map.fixed : map.moving, loops: map.loops };
-  }
-  drawCurves() {
-    const map = this.family, on = Boolean(map) && this.curveBox.checked;
-    this.curveGroup.setAttribute("visibility", on ? "visible" : "hidden");
-    this.legend.hidden = !on;
-    if (!on) return;
-    const { view } = this.scene, planes = [[map.fixed, view.X, view.Y], [map.moving, (x) => view.scale * x, (y) => -view.scale * y]];
-    planes.forEach(([points, X, Y], n) => {
-      const paths = curvePaths(points, map.loops, map.worth, X, Y, this.widest);
-      [...this.curves[n].children].forEach((path2, k) => path2.setAttribute("d", paths[STROKES[k]]));
-    });
-    this.move();
-  }
   // Drawing
   /** Everything that the answer brings. */
   renew() {
     const { data } = this.answers;
     if (!this.pivots && this.store.chosen !== PLACED) this.before = this.store.chosen;
-    this.takeFamily();
-    this.curveLabel.hidden = data.poses.length !== 4;
-    if (this.mapFor !== data.pivot_map) {
-      this.mapFor = data.pivot_map;
-      this.fill.replaceChildren();
-      this.map = data.pivot_map ? new PivotMap(data, this.fill) : null;
-      if (this.map) this.listenToMap();
-      this.mapPace.ask();
-    }
-    this.drawCurves();
+    this.curves.renew();
+    this.map.renew();
     this.explain();
     this.show();
   }
   explain() {
     const count = this.answers.data.poses.length;
-    const text = count === 4 && this.family ? "Four poses leave a curve of dyads. Drag a pivot in the drawing: it slides along its curve." : count === 3 ? "Three poses leave every pivot free. Drag a fixed pivot anywhere in F, or a moving pivot anywhere on the body." : count === 2 ? "Two poses leave much open. Drag a pivot: its best dyad follows." : "Drag a pivot in the drawing or on the map: the best dyad there is shown with what it costs.";
+    const text = count === 4 && this.curves.family ? "Four poses leave a curve of dyads. Drag a pivot in the drawing: it slides along its curve." : count === 3 ? "Three poses leave every pivot free. Drag a fixed pivot anywhere in F, or a moving pivot anywhere on the body." : count === 2 ? "Two poses leave much open. Drag a pivot: its best dyad follows." : "Drag a pivot in the drawing or on the map: the best dyad there is shown with what it costs.";
     if (this.story.textContent !== text) this.story.textContent = text;
   }
   /** Handles where the pivots are. */
@@ -4749,13 +4838,12 @@ var PivotSurface = class {
     });
     this.name();
     this.move();
-    this.drawMapHandles();
+    this.map.drawHandles();
   }
   /** What is on the body goes along with it. */
   move() {
     const { view } = this.scene, place = this.playing.here?.place;
     if (!place) return;
-    if (this.family) this.curves[1].setAttribute("transform", transform(view.X(place.x), view.Y(place.y), place.a));
     this.parts.forEach(([, element], k) => {
       const pivot = element.getAttribute("display") === "none" ? null : this.pivot(k, "M");
       if (!pivot) return;
@@ -4790,71 +4878,6 @@ var PivotSurface = class {
       store.choose(PLACED);
     }
     this.show();
-  }
-  // The map
-  buildMap() {
-    if (!this.map) return;
-    this.map.build(this.answers.shown);
-    this.mapHandles = [0, 1].map((k) => s("g", { class: `bs-pivot bs-map-pivot bm-side${k}` }, s("circle", { class: "bs-pivot-ring", r: 8 })));
-    this.map.svg.append(...this.mapHandles);
-    this.drawMapHandles();
-  }
-  drawMapHandles() {
-    if (!this.mapHandles || !this.map?.view) return;
-    const { view } = this.map;
-    this.mapHandles.forEach((element, k) => {
-      const pivot = this.pivot(k, "F");
-      element.setAttribute("display", pivot ? "inline" : "none");
-      if (!pivot) return;
-      element.setAttribute("transform", `translate(${px(view.X(pivot.at[0]))} ${px(view.Y(pivot.at[1]))})`);
-      element.dataset.mapPivot = pivot.id;
-    });
-  }
-  /** A press on the map takes the nearest fixed pivot there, and puts it where the pointer is. */
-  listenToMap() {
-    const { svg } = this.map;
-    const at = (event) => {
-      const box = svg.getBoundingClientRect(), { low, high } = this.answers.data.pivot_map;
-      const u = (event.clientX - box.left) / box.width, v = 1 - (event.clientY - box.top) / box.height;
-      return [low[0] + u * (high[0] - low[0]), low[1] + v * (high[1] - low[1])];
-    };
-    let pointer = null, start = null;
-    const end = (event) => {
-      if (event.pointerId !== pointer) return;
-      pointer = null;
-      this.drop();
-    };
-    svg.addEventListener("pointerdown", (event) => {
-      if (event.button !== 0) return;
-      const [x, y] = at(event), { view } = this.map;
-      const away = [0, 1].map((k2) => ((pivot) => pivot ? Math.hypot(view.X(pivot.at[0]) - view.X(x), view.Y(pivot.at[1]) - view.Y(y)) : Infinity)(this.pivot(k2, "F")));
-      const k = away[1] < away[0] ? 1 : 0;
-      if (!Number.isFinite(away[k]) || !this.take(k, "F")) return;
-      event.preventDefault();
-      pointer = event.pointerId;
-      start = { near: away[k] <= GRASP, X: event.clientX, Y: event.clientY };
-      svg.setPointerCapture(pointer);
-      this.playing.player.play(false);
-      if (!start.near) this.put([x, y]);
-    });
-    svg.addEventListener("pointermove", (event) => {
-      if (event.pointerId !== pointer) return;
-      if (start.near && Math.hypot(event.clientX - start.X, event.clientY - start.Y) < 3) return;
-      start.near = false;
-      this.put(at(event));
-    });
-    svg.addEventListener("pointerup", end);
-    svg.addEventListener("pointercancel", end);
-    svg.addEventListener("keydown", (event) => {
-      if (event.key === "Escape" && this.pivots) this.release();
-      if (event.key !== "Enter" || !this.map.cursor) return;
-      const point2 = this.map.placeAt(this.map.cursor);
-      const away = [0, 1].map((k) => ((pivot) => pivot ? Math.hypot(pivot.at[0] - point2[0], pivot.at[1] - point2[1]) : Infinity)(this.pivot(k, "F")));
-      if (!this.take(away[1] < away[0] ? 1 : 0, "F")) return;
-      event.preventDefault();
-      this.put(point2);
-      this.drop();
-    });
   }
 };
 function placedInWords(placed, data) {

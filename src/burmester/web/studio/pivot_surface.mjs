@@ -1,23 +1,16 @@
 // Pivots to take hold of: put one anywhere, and see the best dyad there and what it costs; two make a linkage.
 //
-// Of four poses a pivot slides along a Burmester curve, of three it goes anywhere in F or in M.  The map of the
-// price of each fixed pivot is the same surface seen as a whole.
+// Of four poses a pivot slides along a Burmester curve, of three it goes anywhere in F or in M.
 
 import { h, s } from "../widget/dom.mjs";
-import { transform } from "../widget/drawing.mjs";
-import { FamilyPairs } from "../widget/family_pairs.mjs";
 import { act, back } from "../widget/kinematics.mjs";
 import { figure, fixed, px } from "../widget/numbers.mjs";
-import { PivotMap } from "../widget/pivot_map.mjs";
 import { decimalsOf } from "../widget/tables.mjs";
 import { PLACED } from "./answers.mjs";
-import { curvePaths, curvesOf, nearestOnCurve, ontoCurve, worthOf } from "./burmester_curves.mjs";
-import { Pace, isSeen, watch } from "./pacing.mjs";
+import { FamilyCurves } from "./family_curves.mjs";
+import { PivotMapPanel } from "./pivot_map_panel.mjs";
 
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
-const LONGEST_STEP = 0.5; // scenes between two samples of a curve: a longer one goes through infinity
-const STROKES = ["plain", "fails", "outside", "works"]; // of a curve, from below
-const GRASP = 26; // pixels: how near a pointer on the map takes hold of a pivot
 
 export class PivotSurface {
   constructor(store, answers, playing, scene) {
@@ -25,37 +18,22 @@ export class PivotSurface {
     this.handles = s("g", { class: "bs-pivots" });
     scene.layer("pivots").append(this.handles);
     this.parts = [0, 1].map((k) => ["F", "M"].map((plane) => this.handle(k, plane)));
-    this.curves = ["F", "M"].map((plane) => s("g", { class: `bs-curve bs-curve-${plane}` }, STROKES.map((name) => s("path", { class: `bs-curve-${name}` }))));
-    this.curveGroup = s("g", { class: "bs-burmester", visibility: "hidden", "aria-hidden": "true" }, this.curves);
-    scene.layer("curves").append(this.curveGroup);
-    this.curveBox = h("input", { type: "checkbox", checked: true, "data-tool": "burmester-curves", onchange: () => this.drawCurves() });
-    this.curveLabel = h("label", { hidden: true }, this.curveBox, " Burmester curves of the four poses, in the drawing");
     this.story = h("p", { class: "bm-story" });
     this.readout = h("output", { class: "bs-placed-readout", "aria-live": "polite" });
     this.letGo = h("button", { type: "button", class: "bs-small", hidden: true, onclick: () => this.release() }, "Let go of the pivots");
-    this.legend = h("p", { class: "bm-legend", hidden: true }, h("span", { class: "bs-key-works" }), " works with a partner; ", h("span", { class: "bs-key-outside" }), " works outside limits or standard; ", h("span", { class: "bs-key-fails" }), " no partner works. Solid: centre points in F; dashed: circle points in M, where the body is now.");
-    this.fill = h("div", { class: "bm-fill" });
-    this.element = h("div", { class: "bs-surface" }, this.story, h("div", { class: "bs-tool" }, this.curveLabel), this.legend, this.fill, this.readout, h("div", { class: "bs-tool" }, this.letGo)); // what comes and goes stands below
-    this.mapPace = new Pace(() => this.buildMap(), () => isSeen(this.fill));
+    this.curves = new FamilyCurves(store, answers, playing, scene);
+    this.map = new PivotMapPanel(answers, playing, this);
+    this.element = h("div", { class: "bs-surface" }, this.story, h("div", { class: "bs-tool" }, this.curves.label), this.curves.legend, this.map.element, this.readout, h("div", { class: "bs-tool" }, this.letGo)); // what comes and goes stands below
     answers.on("answers", () => this.renew());
     answers.on("poses", () => {
       this.explain();
-      this.askCurve();
       if (this.pivots) store.place(this.pivots); // the best dyads with the same pivots are others now
     });
     answers.on("placed", () => this.tell());
-    playing.on("shape", () => {
-      this.show();
-      this.mapPace.ask();
-    });
+    playing.on("shape", () => this.show());
     playing.on("place", () => this.move());
-    scene.on("view", () => {
-      this.drawCurves();
-      this.show();
-    });
+    scene.on("view", () => this.show());
     store.on("state document", () => this.element.classList.toggle("bs-stale", answers.isOld));
-    new ResizeObserver(() => this.mapPace.ask()).observe(this.fill);
-    watch(this.fill, () => this.mapPace.ask());
     this.renew();
   }
 
@@ -139,15 +117,9 @@ export class PivotSurface {
 
   /** The held pivot goes to a point of its plane, or to the nearest one of its curve. */
   put(point, step = 0) {
-    const { k, plane } = this.held, curve = this.curveOf(plane);
-    const digits = decimalsOf(this.answers.data), round = (at) => at.map((value) => Number(value.toFixed(digits)));
-    let at = this.scene.rounded && !curve ? point.map((value) => this.scene.rounded(value)) : point;
-    if (curve) {
-      const near = nearestOnCurve(curve.points, curve.loops, point, this.widest);
-      if (near) at = ontoCurve(this.answers.data.poses, plane, near.at, this.answers.data.scene);
-    } else if (step) {
-      at = round(point);
-    }
+    const { k, plane } = this.held, digits = decimalsOf(this.answers.data);
+    let at = this.curves.onto(plane, point);
+    if (!at) at = point.map((value) => (step ? Number(value.toFixed(digits)) : this.scene.rounded(value)));
     this.ask(this.pivots.map((each, n) => (n === k ? { plane, at } : each)));
   }
 
@@ -174,89 +146,21 @@ export class PivotSurface {
     this.show();
   }
 
-  // Curves of four poses
-
-  /** The curves of the four poses as they are now: { fixed, moving, loops, worth }, or null. */
-  get family() {
-    const { data, isOld } = this.answers;
-    if (data.poses.length !== 4) return null;
-    if (this.live && (isOld || !this.known)) return this.live;
-    return this.known;
-  }
-
-  /** The curves that the whole road brought, where the task has some. */
-  takeFamily() {
-    const { data } = this.answers, map = data.family_map;
-    this.known = map?.kind === "curve" ? { ...map, worth: worthOf(new FamilyPairs(data)) } : null;
-    this.live = null;
-    if (!this.known) this.askCurve();
-  }
-
-  /** The curves go along with the poses: one question at a time, the newest wins. */
-  async askCurve() {
-    const { store, answers } = this, { document, options } = store;
-    if (document.poses.length !== 4 || !this.curveBox.checked || this.asking || !store.connection?.isOpen) return;
-    this.asking = true;
-    try {
-      const answer = await store.connection.ask({ do: "curve", document, options, judged: store.state !== "dragging" });
-      if (answer.kind === "curve" && store.document.poses.length === 4) {
-        this.live = curvesOf(answer);
-        this.drawCurves();
-      }
-    } catch {
-      // the connection ended: it says so itself
-    }
-    this.asking = false;
-    if (store.document !== document && answers.isOld) this.askCurve();
-  }
-
-  get widest() {
-    return LONGEST_STEP * this.answers.data.scene;
-  }
-
-  /** The curve that a pivot of a plane slides along, or null. */
-  curveOf(plane) {
-    const map = this.family;
-    if (!map || !this.curveBox.checked) return null;
-    return { points: plane === "F" ? map.fixed : map.moving, loops: map.loops };
-  }
-
-  drawCurves() {
-    const map = this.family, on = Boolean(map) && this.curveBox.checked;
-    this.curveGroup.setAttribute("visibility", on ? "visible" : "hidden");
-    this.legend.hidden = !on;
-    if (!on) return;
-    const { view } = this.scene, planes = [[map.fixed, view.X, view.Y], [map.moving, (x) => view.scale * x, (y) => -view.scale * y]];
-    planes.forEach(([points, X, Y], n) => {
-      const paths = curvePaths(points, map.loops, map.worth, X, Y, this.widest);
-      [...this.curves[n].children].forEach((path, k) => path.setAttribute("d", paths[STROKES[k]]));
-    });
-    this.move();
-  }
-
   // Drawing
 
   /** Everything that the answer brings. */
   renew() {
     const { data } = this.answers;
     if (!this.pivots && this.store.chosen !== PLACED) this.before = this.store.chosen;
-    this.takeFamily();
-    this.curveLabel.hidden = data.poses.length !== 4;
-    if (this.mapFor !== data.pivot_map) {
-      this.mapFor = data.pivot_map;
-      this.fill.replaceChildren();
-      this.map = data.pivot_map ? new PivotMap(data, this.fill) : null;
-      if (this.map) this.listenToMap();
-      this.mapPace.ask();
-    }
-    this.drawCurves();
+    this.curves.renew();
+    this.map.renew();
     this.explain();
     this.show();
   }
 
   explain() {
     const count = this.answers.data.poses.length;
-    const text = count === 4 && this.family
+    const text = count === 4 && this.curves.family
       ? "Four poses leave a curve of dyads. Drag a pivot in the drawing: it slides along its curve."
       : count === 3
         ? "Three poses leave every pivot free. Drag a fixed pivot anywhere in F, or a moving pivot anywhere on the body."
@@ -282,14 +186,13 @@ export class PivotSurface {
     });
     this.name();
     this.move();
-    this.drawMapHandles();
+    this.map.drawHandles();
   }
 
   /** What is on the body goes along with it. */
   move() {
     const { view } = this.scene, place = this.playing.here?.place;
     if (!place) return;
-    if (this.family) this.curves[1].setAttribute("transform", transform(view.X(place.x), view.Y(place.y), place.a));
     this.parts.forEach(([, element], k) => {
       const pivot = element.getAttribute("display") === "none" ? null : this.pivot(k, "M");
       if (!pivot) return;
@@ -326,76 +229,6 @@ export class PivotSurface {
       store.choose(PLACED);
     }
     this.show();
-  }
-
-  // The map
-
-  buildMap() {
-    if (!this.map) return;
-    this.map.build(this.answers.shown);
-    this.mapHandles = [0, 1].map((k) => s("g", { class: `bs-pivot bs-map-pivot bm-side${k}` }, s("circle", { class: "bs-pivot-ring", r: 8 })));
-    this.map.svg.append(...this.mapHandles);
-    this.drawMapHandles();
-  }
-
-  drawMapHandles() {
-    if (!this.mapHandles || !this.map?.view) return;
-    const { view } = this.map;
-    this.mapHandles.forEach((element, k) => {
-      const pivot = this.pivot(k, "F");
-      element.setAttribute("display", pivot ? "inline" : "none");
-      if (!pivot) return;
-      element.setAttribute("transform", `translate(${px(view.X(pivot.at[0]))} ${px(view.Y(pivot.at[1]))})`);
-      element.dataset.mapPivot = pivot.id;
-    });
-  }
-
-  /** A press on the map takes the nearest fixed pivot there, and puts it where the pointer is. */
-  listenToMap() {
-    const { svg } = this.map;
-    const at = (event) => {
-      const box = svg.getBoundingClientRect(), { low, high } = this.answers.data.pivot_map;
-      const u = (event.clientX - box.left) / box.width, v = 1 - (event.clientY - box.top) / box.height;
-      return [low[0] + u * (high[0] - low[0]), low[1] + v * (high[1] - low[1])];
-    };
-    let pointer = null, start = null;
-    const end = (event) => {
-      if (event.pointerId !== pointer) return;
-      pointer = null;
-      this.drop();
-    };
-    svg.addEventListener("pointerdown", (event) => {
-      if (event.button !== 0) return;
-      const [x, y] = at(event), { view } = this.map;
-      const away = [0, 1].map((k) => ((pivot) => (pivot ? Math.hypot(view.X(pivot.at[0]) - view.X(x), view.Y(pivot.at[1]) - view.Y(y)) : Infinity))(this.pivot(k, "F")));
-      const k = away[1] < away[0] ? 1 : 0;
-      if (!Number.isFinite(away[k]) || !this.take(k, "F")) return;
-      event.preventDefault();
-      pointer = event.pointerId;
-      start = { near: away[k] <= GRASP, X: event.clientX, Y: event.clientY };
-      svg.setPointerCapture(pointer);
-      this.playing.player.play(false);
-      if (!start.near) this.put([x, y]);
-    });
-    svg.addEventListener("pointermove", (event) => {
-      if (event.pointerId !== pointer) return;
-      if (start.near && Math.hypot(event.clientX - start.X, event.clientY - start.Y) < 3) return;
-      start.near = false;
-      this.put(at(event));
-    });
-    svg.addEventListener("pointerup", end);
-    svg.addEventListener("pointercancel", end);
-    // Enter puts the nearest fixed pivot to the cursor that the arrow keys move.
-    svg.addEventListener("keydown", (event) => {
-      if (event.key === "Escape" && this.pivots) this.release();
-      if (event.key !== "Enter" || !this.map.cursor) return;
-      const point = this.map.placeAt(this.map.cursor);
-      const away = [0, 1].map((k) => ((pivot) => (pivot ? Math.hypot(pivot.at[0] - point[0], pivot.at[1] - point[1]) : Infinity))(this.pivot(k, "F")));
-      if (!this.take(away[1] < away[0] ? 1 : 0, "F")) return;
-      event.preventDefault();
-      this.put(point);
-      this.drop();
-    });
   }
 }
 
