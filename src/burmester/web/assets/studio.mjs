@@ -13,6 +13,14 @@ function furnish(node, attributes, children) {
 }
 var h = (tag, attributes, ...children) => furnish(document.createElement(tag), attributes, children);
 var s = (tag, attributes, ...children) => furnish(document.createElementNS(SVG, tag), attributes, children);
+function put(node, name, value) {
+  const text = String(value);
+  if (node.getAttribute(name) !== text) node.setAttribute(name, text);
+}
+function give(node, name, value) {
+  const next = typeof node[name] === "boolean" ? Boolean(value) : String(value);
+  if (node[name] !== next) node[name] = next;
+}
 function rgb(text) {
   const hex = text.trim().replace("#", "");
   return [0, 2, 4].map((k) => parseInt(hex.slice(k, k + 2), 16));
@@ -100,10 +108,10 @@ function quantity(text, { kind = "number", unit: unit2 = "", optional = false, l
   if (typeof factor === "string") return { fault: factor };
   const value = factor === 1 ? number : tidy(number * factor);
   if (!(Math.abs(value) <= GREATEST)) return { fault: `${text.trim()} is too large a number.` };
-  const shown = kind === "angle" ? "°" : kind === "length" && unit2 ? ` ${unit2}` : "";
-  if (value < least2) return { fault: `This may not be less than ${least2}${shown}.` };
-  if (value <= above) return { fault: `This must be greater than ${above}${shown}.` };
-  if (value > most) return { fault: `This may not be more than ${most}${shown}.` };
+  const shown2 = kind === "angle" ? "°" : kind === "length" && unit2 ? ` ${unit2}` : "";
+  if (value < least2) return { fault: `This may not be less than ${least2}${shown2}.` };
+  if (value <= above) return { fault: `This must be greater than ${above}${shown2}.` };
+  if (value > most) return { fault: `This may not be more than ${most}${shown2}.` };
   return { value };
 }
 function factorOf(name, kind, unit2) {
@@ -188,7 +196,7 @@ var NumberField = class {
     this.read();
   }
   say(sentence2) {
-    this.fault.hidden = sentence2 === null;
+    give(this.fault, "hidden", sentence2 === null);
     this.fault.textContent = sentence2 ?? "";
     if (sentence2 === null) {
       this.input.removeAttribute("aria-invalid");
@@ -668,6 +676,61 @@ function standing({ poses }, index) {
 }
 var poseName = ({ poses }, index) => poses[index]?.name ?? String(index + 1);
 var statedOf = (pose, changes) => Object.fromEntries(Object.entries(changes).filter(([key]) => Number.isFinite(pose[key])));
+
+// src/burmester/web/studio/pacing.mjs
+var LEAST = 120;
+var SHARE = 8;
+var Pace = class {
+  /** @param {() => void} work @param {() => boolean} [wanted] asked before the work; what is not wanted is not done */
+  constructor(work, wanted = () => true) {
+    this.work = work;
+    this.wanted = wanted;
+    this.free = 0;
+    this.timer = null;
+    paces.add(this);
+  }
+  ask() {
+    if (this.timer !== null || !this.wanted()) return;
+    this.timer = setTimeout(() => this.now(), Math.max(0, this.free - performance.now()));
+  }
+  now() {
+    clearTimeout(this.timer);
+    this.timer = null;
+    const start = performance.now();
+    this.work();
+    const end = performance.now();
+    this.free = end + Math.max(LEAST, SHARE * (end - start));
+  }
+};
+var shown = /* @__PURE__ */ new WeakMap();
+function isOther(element, facts) {
+  const before = shown.get(element);
+  shown.set(element, facts);
+  return before?.length !== facts.length || facts.some((fact, k) => !Object.is(fact, before[k]));
+}
+var sights = /* @__PURE__ */ new WeakMap();
+var callers = /* @__PURE__ */ new WeakMap();
+var observer = null;
+function watch(element, fn) {
+  observer ??= new IntersectionObserver((entries) => {
+    for (const { target, isIntersecting } of entries) {
+      sights.set(target, isIntersecting);
+      if (isIntersecting) callers.get(target)();
+    }
+  });
+  callers.set(element, fn);
+  observer.observe(element);
+}
+var isSeen = (element) => printing || sights.get(element) === true;
+var paces = /* @__PURE__ */ new Set();
+var printing = false;
+function catchUpForPrint() {
+  addEventListener("beforeprint", () => {
+    printing = true;
+    for (const pace of paces) if (pace.wanted()) pace.now();
+  });
+  addEventListener("afterprint", () => printing = false);
+}
 
 // src/burmester/web/widget/tables.mjs
 var NONE = "–";
@@ -1163,29 +1226,30 @@ var PoseHandles = class {
   }
   show(group, k) {
     const { store, scene: { view } } = this, { x, y, angle } = standing(store.document, k), pose = store.document.poses[k];
+    const selected = store.selection?.kind === "pose" && store.selection.index === k, unit2 = store.document.length_unit ?? "", name = poseName(store.document, k);
+    if (!isOther(group, [view, this.length, x, y, angle, Boolean(pose.exact), pose.name, name, unit2, selected])) return;
     const [arrow2, origin, turn] = group.children;
-    const selected = store.selection?.kind === "pose" && store.selection.index === k;
-    group.setAttribute("transform", transform(view.X(x), view.Y(y), radians(angle)));
-    arrow2.setAttribute("d", axes(this.length - 8));
-    turn.setAttribute("transform", `translate(${px(this.length)} 0)`);
+    put(group, "transform", transform(view.X(x), view.Y(y), radians(angle)));
+    put(arrow2, "d", axes(this.length - 8));
+    put(turn, "transform", `translate(${px(this.length)} 0)`);
     group.classList.toggle("bs-selected", selected);
     group.classList.toggle("bs-exact", Boolean(pose.exact));
-    const unit2 = store.document.length_unit ?? "", name = poseName(store.document, k);
     const called = pose.name ? `Pose ${k + 1}, ${name}` : `Pose ${k + 1}`;
-    origin.setAttribute("aria-label", `${called}: x ${x} ${unit2}, y ${y} ${unit2}, angle ${angle}°. Drag, or use the arrow keys; Delete removes it.`);
-    origin.setAttribute("aria-pressed", selected);
-    turn.setAttribute("aria-label", `Turn ${called}`);
-    turn.setAttribute("aria-valuenow", angle);
-    turn.setAttribute("aria-valuetext", `${angle}°`);
+    put(origin, "aria-label", `${called}: x ${x} ${unit2}, y ${y} ${unit2}, angle ${angle}°. Drag, or use the arrow keys; Delete removes it.`);
+    put(origin, "aria-pressed", selected);
+    put(turn, "aria-label", `Turn ${called}`);
+    put(turn, "aria-valuenow", angle);
+    put(turn, "aria-valuetext", `${angle}°`);
   }
   /** Names stand behind the origin, away from the x axis. */
   showName(text, k) {
     const { store, scene: { view } } = this, { x, y, angle } = standing(store.document, k), a = radians(angle + 215);
+    if (!isOther(text, [view, x, y, angle, poseName(store.document, k)])) return;
     const name = shortened(poseName(store.document, k), LONGEST_NAME);
     if (text.textContent !== name) text.textContent = name;
-    text.setAttribute("text-anchor", Math.cos(a) < -0.3 ? "end" : Math.cos(a) > 0.3 ? "start" : "middle");
-    text.setAttribute("x", px(view.X(x) + 13 * Math.cos(a)));
-    text.setAttribute("y", px(view.Y(y) - 13 * Math.sin(a) + 4));
+    put(text, "text-anchor", Math.cos(a) < -0.3 ? "end" : Math.cos(a) > 0.3 ? "start" : "middle");
+    put(text, "x", px(view.X(x) + 13 * Math.cos(a)));
+    put(text, "y", px(view.Y(y) - 13 * Math.sin(a) + 4));
   }
   /** A change of one pose; what is free and not stated stays free. */
   set(k, changes, gesture) {
@@ -1361,11 +1425,11 @@ var ShapeHandles = class {
   draw() {
     const { shape, points, place, name, selected, state, data } = this.now = this.what();
     const d = pathOf(shape, points, place, this.scene.view);
-    this.line.setAttribute("d", d);
-    this.area.setAttribute("d", d);
+    put(this.line, "d", d);
+    put(this.area, "d", d);
     this.area.classList.toggle("bs-open", !CLOSED.has(shape));
-    this.area.setAttribute("aria-label", `${name}${state ? `, ${state} by the chosen linkage` : ""}. Drag, or use the arrow keys; Delete removes it.`);
-    this.area.setAttribute("aria-pressed", Boolean(selected));
+    put(this.area, "aria-label", `${name}${state ? `, ${state} by the chosen linkage` : ""}. Drag, or use the arrow keys; Delete removes it.`);
+    put(this.area, "aria-pressed", Boolean(selected));
     this.title.textContent = name;
     for (const [key2, value2] of Object.entries(data)) this.element.dataset[key2] = value2;
     this.element.dataset.shape = shape;
@@ -1443,13 +1507,13 @@ var ShapeHandles = class {
   }
   showCorner(element, k) {
     const corner = outlineOf(this.now.shape, this.now.points)[k];
-    for (const [name, value] of Object.entries(this.at(corner))) element.setAttribute(name, value);
-    element.setAttribute("aria-label", `Corner ${k + 1} of ${this.now.name}: ${corner.join(", ")}`);
+    for (const [name, value] of Object.entries(this.at(corner))) put(element, name, value);
+    put(element, "aria-label", `Corner ${k + 1} of ${this.now.name}: ${corner.join(", ")}`);
   }
   showMiddle(element, k) {
     const { points } = this.now, next = points[(k + 1) % points.length];
     const middle2 = this.at([(points[k][0] + next[0]) / 2, (points[k][1] + next[1]) / 2]);
-    for (const [name, value] of Object.entries(middle2)) element.setAttribute(name, value);
+    for (const [name, value] of Object.entries(middle2)) put(element, name, value);
   }
   keys(event, moved, remove) {
     if (event.ctrlKey || event.metaKey) return;
@@ -1479,7 +1543,7 @@ var HINTS = {
   polygon: "Click the corners; Enter or a click on the first one closes. Backspace takes the last one back, Escape gives up."
 };
 var MIDDLE = { point: [[0, 0]], segment: [[-1, 0], [1, 0]], line: [[-1, 0], [1, 0]], box: [[-1, -1], [1, 1]], polygon: [[-1, -1], [1, -1], [0, 1]] };
-var SHARE = 0.12;
+var SHARE2 = 0.12;
 var ordered = ([[a, b], [c, d]]) => [[Math.min(a, c), Math.min(b, d)], [Math.max(a, c), Math.max(b, d)]];
 var isFlat = ([[a, b], [c, d]]) => a === c && b === d;
 var ShapeTool = class {
@@ -1524,7 +1588,7 @@ var ShapeTool = class {
   }
   /** A shape in the middle of the picture, to be moved by keys. */
   inMiddle() {
-    const { width, height } = this.scene.size, half = SHARE * Math.min(width, height);
+    const { width, height } = this.scene.size, half = SHARE2 * Math.min(width, height);
     return MIDDLE[this.shape].map(([x, y]) => this.point(this.inPlane({ X: width / 2 + half * x, Y: height / 2 - half * y })));
   }
   release() {
@@ -1551,10 +1615,10 @@ var ShapeTool = class {
     return true;
   }
   draw() {
-    const { scene: { view }, shape } = this, shown = this.dragging ?? [...this.points, ...this.next ? [this.next] : []];
+    const { scene: { view }, shape } = this, shown2 = this.dragging ?? [...this.points, ...this.next ? [this.next] : []];
     const place = this.place(), whole = shape === "polygon" ? "open polygon" : shape;
-    const complete = shown.length > 1 || shape === "point";
-    this.path.setAttribute("d", complete && shown.length ? pathOf(whole, shown, place, view) : "");
+    const complete = shown2.length > 1 || shape === "point";
+    this.path.setAttribute("d", complete && shown2.length ? pathOf(whole, shown2, place, view) : "");
     this.dots.replaceChildren(
       ...(this.dragging ?? this.points).map((point2) => act(place, point2)).map(([x, y], k) => s("circle", { class: k ? "bs-draft-dot" : "bs-draft-dot bs-first", r: 4, cx: px(view.X(x)), cy: px(view.Y(y)) }))
     );
@@ -1618,9 +1682,10 @@ var BodyEditor = class {
   }
   showGhost(path2, k) {
     const { view } = this.scene, { x, y, angle } = standing(this.store.document, k), last = Math.max(1, this.store.document.poses.length - 1);
-    if (path2.getAttribute("d") !== this.path) path2.setAttribute("d", this.path);
-    path2.setAttribute("opacity", (PALEST + (1 - PALEST) * k / last).toFixed(3));
-    path2.setAttribute("transform", transform(view.X(x), view.Y(y), radians(angle)));
+    if (!isOther(path2, [view, x, y, angle, k / last, this.path])) return;
+    put(path2, "d", this.path);
+    put(path2, "opacity", (PALEST + (1 - PALEST) * k / last).toFixed(3));
+    put(path2, "transform", transform(view.X(x), view.Y(y), radians(angle)));
   }
   /** Draw an outline by clicks, at the pose that is selected or the first one. */
   tool() {
@@ -1999,7 +2064,7 @@ var Files = class {
     const hasFiles = (event) => [...event.dataTransfer?.types ?? []].includes("Files");
     const show = (by) => {
       inside2 = Math.max(0, inside2 + by);
-      this.dropping.hidden = inside2 === 0;
+      give(this.dropping, "hidden", inside2 === 0);
     };
     document.addEventListener("dragenter", (event) => hasFiles(event) && (event.preventDefault(), show(1)));
     document.addEventListener("dragover", (event) => hasFiles(event) && event.preventDefault());
@@ -2184,10 +2249,10 @@ var PoseTable = class {
     if (this.selected !== null && this.selected !== this.shownSelection) this.page = Math.floor(this.selected / PAGE);
     this.shownSelection = this.selected;
     this.page = Math.min(this.page, pages - 1);
-    const first = this.page * PAGE, shown = Math.min(PAGE, count - first);
-    while (this.rows.length < shown) this.rows.push(this.makeRow(this.rows.length));
-    while (this.body.children.length > shown) this.body.lastChild.remove();
-    for (let k = 0; k < shown; k += 1) {
+    const first = this.page * PAGE, shown2 = Math.min(PAGE, count - first);
+    while (this.rows.length < shown2) this.rows.push(this.makeRow(this.rows.length));
+    while (this.body.children.length > shown2) this.body.lastChild.remove();
+    for (let k = 0; k < shown2; k += 1) {
       if (!this.rows[k].tr.isConnected || this.body.children[k] !== this.rows[k].tr) this.body.append(this.rows[k].tr);
       this.showRow(this.rows[k], first + k);
     }
@@ -2220,25 +2285,26 @@ var PoseTable = class {
     return Boolean(this.store.document.poses[index]?.free?.includes(key));
   }
   showRow(row, index) {
-    const pose = this.store.document.poses[index], moved = row.index !== index;
+    const pose = this.store.document.poses[index], moved = row.index !== index, selected = index === this.selected;
     row.index = index;
+    if (!isOther(row.tr, [index, pose, selected]) && document.activeElement?.closest("tr") !== row.tr) return;
     row.tr.dataset.row = index + 1;
-    row.tr.classList.toggle("bs-selected", index === this.selected);
+    row.tr.classList.toggle("bs-selected", selected);
     row.number.textContent = index + 1;
-    row.number.setAttribute("aria-label", `Pose ${index + 1}`);
-    row.number.setAttribute("aria-pressed", index === this.selected);
-    if (moved || document.activeElement !== row.name) row.name.value = oneLine(pose.name);
-    row.name.setAttribute("aria-label", `Name of pose ${index + 1}`);
+    put(row.number, "aria-label", `Pose ${index + 1}`);
+    put(row.number, "aria-pressed", selected);
+    if (moved || document.activeElement !== row.name) give(row.name, "value", oneLine(pose.name));
+    put(row.name, "aria-label", `Name of pose ${index + 1}`);
     for (const [key] of NUMBERS) {
       const { input } = row.fields[key], free = this.isFree(index, key);
-      input.setAttribute("aria-label", `${key} of pose ${index + 1}`);
-      input.placeholder = free ? "free" : "";
+      put(input, "aria-label", `${key} of pose ${index + 1}`);
+      put(input, "placeholder", free ? "free" : "");
       row.fields[key].turnTo(index, pose[key]);
       row.fields[key].show(pose[key]);
     }
   }
   showPages(pages, count) {
-    this.pages.hidden = pages < 2;
+    give(this.pages, "hidden", pages < 2);
     if (pages < 2) return;
     const go = (page) => {
       this.page = page;
@@ -2315,25 +2381,26 @@ var PoseTable = class {
   }
   showDetails() {
     const k = this.selected;
-    this.details.hidden = k === null;
+    give(this.details, "hidden", k === null);
     if (k === null) return;
-    const pose = this.store.document.poses[k];
+    const { poses } = this.store.document, pose = poses[k];
+    if (!isOther(this.details, [k, pose, poses.length]) && !this.details.contains(document.activeElement)) return;
     this.title.replaceChildren(`Pose ${k + 1}`, ...pose.name ? [": ", h("bdi", {}, oneLine(pose.name))] : []);
-    this.exact.box.checked = Boolean(pose.exact);
+    give(this.exact.box, "checked", Boolean(pose.exact));
     this.weight.turnTo(k, pose.weight);
     this.weight.show(pose.weight);
     for (const { component: component2, key, field, free } of this.bounds) {
       const isFree = this.isFree(k, component2) || pose.tolerance?.[component2] === "free";
-      free.box.checked = isFree;
-      field.input.disabled = isFree;
+      give(free.box, "checked", isFree);
+      give(field.input, "disabled", isFree);
       const stated = pose.tolerance?.[key], bound = typeof stated === "number" ? stated : void 0;
       field.turnTo(k, bound);
       field.show(bound);
     }
-    this.axes.hidden = !pose.tolerance;
-    this.axes.value = pose.tolerance?.axes ?? "fixed";
-    this.up.disabled = k === 0;
-    this.down.disabled = k === this.store.document.poses.length - 1;
+    give(this.axes, "hidden", !pose.tolerance);
+    give(this.axes, "value", pose.tolerance?.axes ?? "fixed");
+    give(this.up, "disabled", k === 0);
+    give(this.down, "disabled", k === poses.length - 1);
   }
 };
 
@@ -2493,8 +2560,8 @@ var Regions = class {
     }));
   }
   showName(text, { text: name, at: [x, y], off }) {
-    const { view } = this.scene, shown = shortened(name, LONGEST_NAME2);
-    if (text.textContent !== shown) text.textContent = shown;
+    const { view } = this.scene, shown2 = shortened(name, LONGEST_NAME2);
+    if (text.textContent !== shown2) text.textContent = shown2;
     text.setAttribute("class", off ? "bs-limit-name" : "bs-region-name");
     text.setAttribute("text-anchor", "middle");
     text.setAttribute("x", px(view.X(x)));
@@ -2927,7 +2994,7 @@ var Mechanism = class {
     this.led = linkage.led;
     this.hasBody = Boolean(data.body);
     if (this.hasBody) {
-      this.outline.setAttribute("d", bodyOutline(data, view));
+      put(this.outline, "d", bodyOutline(data, view));
       if (!this.outline.parentNode) this.group.prepend(this.outline);
     } else {
       this.outline.remove();
@@ -2939,28 +3006,28 @@ var Mechanism = class {
       if (more) corners.push(more);
     });
     const d = `M${hull(corners).map((corner) => corner.map(px).join(" ")).join("L")}Z`;
-    for (const plate of this.plates) plate.setAttribute("d", d);
+    for (const plate of this.plates) put(plate, "d", d);
     this.shapeArrow();
   }
   show(place) {
     const { view } = this, at = transform(view.X(place.x), view.Y(place.y), place.a);
-    this.coupler.setAttribute("transform", at);
-    if (this.hasBody) this.outline.setAttribute("transform", at);
+    put(this.coupler, "transform", at);
+    if (this.hasBody) put(this.outline, "transform", at);
     for (const part of this.parts) part.show(place);
     const [x, y] = act(place, [-LETTER / view.scale, -LETTER / view.scale]);
-    this.letter.setAttribute("x", px(view.X(x)));
-    this.letter.setAttribute("y", px(view.Y(y) + 4));
+    put(this.letter, "x", px(view.X(x)));
+    put(this.letter, "y", px(view.Y(y) + 4));
     const [driver] = this.led;
-    if (driver.kind === "PR") this.arrow.setAttribute("transform", `${onRail(driver, place, view)} translate(0 ${-ARROW})`);
+    if (driver.kind === "PR") put(this.arrow, "transform", `${onRail(driver, place, view)} translate(0 ${-ARROW})`);
   }
   /** A turning or sliding arrow at the driver, for eyes that tell no colours apart. */
   shapeArrow() {
     const { arrow: arrow2, view } = this, [driver] = this.led;
-    if (driver.kind === "PR") arrow2.setAttribute("d", "M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6 5");
+    if (driver.kind === "PR") put(arrow2, "d", "M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6 5");
     if (!driver.fixed_pivot) return;
     const [x, y] = driver.fixed_pivot;
-    arrow2.setAttribute("d", "M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9");
-    arrow2.setAttribute("transform", `translate(${px(view.X(x))} ${px(view.Y(y))}) rotate(-90)`);
+    put(arrow2, "d", "M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9");
+    put(arrow2, "transform", `translate(${px(view.X(x))} ${px(view.Y(y))}) rotate(-90)`);
   }
 };
 var kindsOf = (led) => led.map((dyad) => dyad.kind).join();
@@ -2971,8 +3038,8 @@ function onRail(dyad, place, view) {
 }
 var block = (side, width, height) => s("g", { class: `bm-block bm-side${side}` }, s("rect", { x: -width / 2, y: -height / 2, width, height, rx: 2 }));
 function setPin(pin, [x, y], dyad) {
-  pin.setAttribute("cx", px(x));
-  pin.setAttribute("cy", px(y));
+  put(pin, "cx", px(x));
+  put(pin, "cy", px(y));
   pin.dataset.dyad = dyad.id;
 }
 var inGround = ([x, y], view) => [view.X(x), view.Y(y)];
@@ -2988,13 +3055,13 @@ var Bar = class {
   shape(dyad, view) {
     this.dyad = dyad;
     this.view = view;
-    for (const stroke of this.strokes) stroke.setAttribute("d", `M0 0H${px(view.scale * dyad.radius)}`);
+    for (const stroke of this.strokes) put(stroke, "d", `M0 0H${px(view.scale * dyad.radius)}`);
     setPin(this.ground, inGround(dyad.fixed_pivot, view), dyad);
     setPin(this.pin, inBody(dyad.moving_pivot, view), dyad);
   }
   show(place) {
     const { dyad, view } = this, [cx, cy] = dyad.fixed_pivot, [x, y] = act(place, dyad.moving_pivot);
-    this.bar.setAttribute("transform", transform(view.X(cx), view.Y(cy), Math.atan2(y - cy, x - cx)));
+    put(this.bar, "transform", transform(view.X(cx), view.Y(cy), Math.atan2(y - cy, x - cx)));
   }
 };
 var BlockOnRail = class {
@@ -3010,7 +3077,7 @@ var BlockOnRail = class {
     setPin(this.pin, inBody(dyad.moving_pivot, view), dyad);
   }
   show(place) {
-    this.block.setAttribute("transform", onRail(this.dyad, place, this.view));
+    put(this.block, "transform", onRail(this.dyad, place, this.view));
   }
 };
 var Slot = class {
@@ -3030,14 +3097,14 @@ var Slot = class {
     const [low, high] = places.length ? travelOf(dyad, places) : [0, 0], end = (BLOCK_IN_SLOT[0] / 2 + SPARE2) / view.scale;
     const seen2 = (along) => inBody(pointOnLine(dyad, along), view);
     const d = `M${[seen2(low - end), seen2(high + end)].map((each) => each.map(px).join(" ")).join("L")}`;
-    for (const stroke of this.strokes) stroke.setAttribute("d", d);
+    for (const stroke of this.strokes) put(stroke, "d", d);
     this.strokes[3].dataset.dyad = this.block.dataset.dyad = dyad.id;
     setPin(this.ground, inGround(dyad.fixed_pivot, view), dyad);
     return seen2((low + high) / 2);
   }
   show(place) {
     const { dyad, view } = this, [nx, ny] = normalOf(dyad), [cx, cy] = dyad.fixed_pivot;
-    this.block.setAttribute("transform", transform(view.X(cx), view.Y(cy), place.a + Math.atan2(nx, -ny)));
+    put(this.block, "transform", transform(view.X(cx), view.Y(cy), place.a + Math.atan2(nx, -ny)));
   }
 };
 var Nothing = class {
@@ -3384,7 +3451,7 @@ var LiveLinkage = class {
   shape() {
     const { playing, answers, scene } = this, { linkage, path: path2 } = playing, { view } = scene;
     const there = Boolean(linkage) && !linkage.gone;
-    for (const part of [this.paths, this.holder, this.labels]) part.setAttribute("visibility", there ? "visible" : "hidden");
+    for (const part of [this.paths, this.holder, this.labels]) put(part, "visibility", there ? "visible" : "hidden");
     if (!there) return;
     const places = path2 ? framesOf(path2) : [];
     this.enlarge();
@@ -3404,17 +3471,17 @@ var LiveLinkage = class {
     this.mechanism.shape(answers.data, linkage, view, places);
   }
   curves(linkage, path2, places, view) {
-    const set = (element, list2, closed2) => element.setAttribute("d", smoothPath(list2.map(([x]) => view.X(x)), list2.map(([, y]) => view.Y(y)), closed2));
+    const set = (element, list2, closed2) => put(element, "d", smoothPath(list2.map(([x]) => view.X(x)), list2.map(([, y]) => view.Y(y)), closed2));
     const others = linkage.ways.filter((way) => way !== path2);
-    this.others.setAttribute("d", others.map((way) => pathOf2(way, view)).join(""));
-    this.beyond.setAttribute("d", path2 ? pathOf2(path2, view) : "");
+    put(this.others, "d", others.map((way) => pathOf2(way, view)).join(""));
+    put(this.beyond, "d", path2 ? pathOf2(path2, view) : "");
     this.pivotPaths.forEach((element, side) => {
       const dyad = linkage.led[side];
-      if (!path2 || !dyad.moving_pivot || dyad.kind === "PR") element.setAttribute("d", "");
+      if (!path2 || !dyad.moving_pivot || dyad.kind === "PR") put(element, "d", "");
       else set(element, places.map((place) => act(place, dyad.moving_pivot)), path2.round);
     });
     if (!path2) {
-      this.here.setAttribute("d", "");
+      put(this.here, "d", "");
       return;
     }
     const { low, high } = this.playing.player.stretch, { length } = this.answers.data.chart, list = [];
@@ -3428,25 +3495,25 @@ var LiveLinkage = class {
     linkage.led.forEach((dyad, side) => {
       const [rail, at, name] = [this.rails[side], this.feet[side], this.names[side]];
       const slides = dyad.kind === "PR" && places.length > 0;
-      rail.setAttribute("display", slides ? "inline" : "none");
-      at.setAttribute("display", dyad.fixed_pivot ? "inline" : "none");
-      name.setAttribute("display", slides || dyad.fixed_pivot ? "inline" : "none");
+      put(rail, "display", slides ? "inline" : "none");
+      put(at, "display", dyad.fixed_pivot ? "inline" : "none");
+      put(name, "display", slides || dyad.fixed_pivot ? "inline" : "none");
       if (name.textContent !== dyad.id) name.textContent = dyad.id;
       let x, y;
       if (slides) {
         const drawn = railOf(dyad, places, view);
         ({ x, y } = drawn);
-        rail.setAttribute("transform", transform(x, y, drawn.turned));
-        drawn.paths.forEach((d, k) => rail.children[k].setAttribute("d", d));
+        put(rail, "transform", transform(x, y, drawn.turned));
+        drawn.paths.forEach((d, k) => put(rail.children[k], "d", d));
         rail.dataset.dyad = dyad.id;
       } else if (dyad.fixed_pivot) {
         [x, y] = [view.X(dyad.fixed_pivot[0]), view.Y(dyad.fixed_pivot[1])];
-        at.setAttribute("transform", `translate(${px(x)} ${px(y)})`);
+        put(at, "transform", `translate(${px(x)} ${px(y)})`);
       } else {
         return;
       }
-      name.setAttribute("x", px(x));
-      name.setAttribute("y", px(y + BELOW));
+      put(name, "x", px(x));
+      put(name, "y", px(y + BELOW));
     });
   }
   /** Where the linkage takes the body instead of the poses, and the errors between them, enlarged. */
@@ -3460,19 +3527,19 @@ var LiveLinkage = class {
       const row = rows[k], group = achieved.children[k];
       if (group.dataset.size !== String(small)) {
         group.dataset.size = small;
-        group.children[0].setAttribute("d", axes(0.72 * AXIS * small));
-        group.children[1].setAttribute("r", 2.2 * small);
+        put(group.children[0], "d", axes(0.72 * AXIS * small));
+        put(group.children[1], "r", 2.2 * small);
       }
       if (row.x === null) {
-        group.setAttribute("display", "none");
+        put(group, "display", "none");
         continue;
       }
-      group.setAttribute("display", "inline");
-      group.setAttribute("transform", transform(view.X(row.x), view.Y(row.y), radians(row.angle_deg)));
+      put(group, "display", "inline");
+      put(group, "transform", transform(view.X(row.x), view.Y(row.y), radians(row.angle_deg)));
       group.classList.toggle("bm-elsewhere", row.at !== this.playing.path);
       if (this.factor && data.poses[k]) arrows += arrow(view, data.poses[k], row, this.factor);
     }
-    this.arrows.setAttribute("d", arrows);
+    put(this.arrows, "d", arrows);
   }
 };
 var framesOf = (way) => Array.from(way.x, (x, k) => ({ x, y: way.y[k], a: way.angle[k] }));
@@ -3529,31 +3596,31 @@ var Centrodes = class {
     return this.box.checked && Boolean(this.playing.path) && !this.playing.linkage.gone;
   }
   shape() {
-    this.group.setAttribute("visibility", this.on ? "visible" : "hidden");
+    put(this.group, "visibility", this.on ? "visible" : "hidden");
     if (!this.on) {
       this.readout.textContent = "";
       return;
     }
     const { data } = this.answers, { linkage, path: way } = this.playing, { view } = this.scene;
     const [pose] = data.poses, both = centrodesOf(linkage, way, data.scene, pose ? [pose.x, pose.y] : [0, 0]);
-    this.fixed.setAttribute("d", path(both.fixed, view.X, view.Y));
-    this.moving.setAttribute("d", path(both.moving, (x) => view.scale * x, (y) => -view.scale * y));
+    put(this.fixed, "d", path(both.fixed, view.X, view.Y));
+    put(this.moving, "d", path(both.moving, (x) => view.scale * x, (y) => -view.scale * y));
     if (this.playing.here) this.show(this.playing.here.place);
   }
   show(place) {
     if (!this.on) return;
     const { view } = this.scene, { led } = this.playing.linkage, centre = instantCentre(led, place);
-    this.moving.setAttribute("transform", transform(view.X(place.x), view.Y(place.y), place.a));
+    put(this.moving, "transform", transform(view.X(place.x), view.Y(place.y), place.a));
     const there = centre && Math.hypot(centre[0] - place.x, centre[1] - place.y) < FARTHEST * this.answers.data.scene;
-    this.mark.setAttribute("visibility", there ? "inherit" : "hidden");
-    this.rays.setAttribute("visibility", there ? "inherit" : "hidden");
+    put(this.mark, "visibility", there ? "inherit" : "hidden");
+    put(this.rays, "visibility", there ? "inherit" : "hidden");
     const digits = decimalsOf(this.answers.data), unit2 = this.answers.data.unit ? ` ${this.answers.data.unit}` : "";
     this.readout.textContent = centre ? `at (${centre.map((value) => fixed(value, digits)).join(", ")})${unit2}` : "at infinity: the body only shifts";
     if (!there) return;
     const [x, y] = [view.X(centre[0]), view.Y(centre[1])];
-    this.mark.setAttribute("transform", `translate(${px(x)} ${px(y)})`);
+    put(this.mark, "transform", `translate(${px(x)} ${px(y)})`);
     const ends = led.filter((dyad) => dyad.fixed_pivot).map((dyad) => `M${px(view.X(dyad.fixed_pivot[0]))} ${px(view.Y(dyad.fixed_pivot[1]))}L${px(x)} ${px(y)}`);
-    this.rays.setAttribute("d", ends.join(""));
+    put(this.rays, "d", ends.join(""));
   }
 };
 
@@ -3722,55 +3789,6 @@ var Plots = class {
   }
 };
 
-// src/burmester/web/studio/pacing.mjs
-var LEAST = 120;
-var SHARE2 = 8;
-var Pace = class {
-  /** @param {() => void} work @param {() => boolean} [wanted] asked before the work; what is not wanted is not done */
-  constructor(work, wanted = () => true) {
-    this.work = work;
-    this.wanted = wanted;
-    this.free = 0;
-    this.timer = null;
-    paces.add(this);
-  }
-  ask() {
-    if (this.timer !== null || !this.wanted()) return;
-    this.timer = setTimeout(() => this.now(), Math.max(0, this.free - performance.now()));
-  }
-  now() {
-    clearTimeout(this.timer);
-    this.timer = null;
-    const start = performance.now();
-    this.work();
-    const end = performance.now();
-    this.free = end + Math.max(LEAST, SHARE2 * (end - start));
-  }
-};
-var sights = /* @__PURE__ */ new WeakMap();
-var callers = /* @__PURE__ */ new WeakMap();
-var observer = null;
-function watch(element, fn) {
-  observer ??= new IntersectionObserver((entries) => {
-    for (const { target, isIntersecting } of entries) {
-      sights.set(target, isIntersecting);
-      if (isIntersecting) callers.get(target)();
-    }
-  });
-  callers.set(element, fn);
-  observer.observe(element);
-}
-var isSeen = (element) => printing || sights.get(element) === true;
-var paces = /* @__PURE__ */ new Set();
-var printing = false;
-function catchUpForPrint() {
-  addEventListener("beforeprint", () => {
-    printing = true;
-    for (const pace of paces) if (pace.wanted()) pace.now();
-  });
-  addEventListener("afterprint", () => printing = false);
-}
-
 // src/burmester/web/studio/charts.mjs
 var Charts = class {
   constructor(answers, playing) {
@@ -3874,8 +3892,8 @@ var Compare = class {
     return Boolean(this.other && this.playing.linkage && this.other !== this.answers.shown);
   }
   start() {
-    this.full.hidden = !this.on;
-    this.empty.hidden = this.on;
+    give(this.full, "hidden", !this.on);
+    give(this.empty, "hidden", this.on);
     if (this.on) {
       for (let part = this.element.parentElement; part; part = part.parentElement) if (part.tagName === "DETAILS") part.open = true;
       this.build();
@@ -3956,7 +3974,7 @@ var CouplerCurves = class {
         scene.use?.(null);
         return true;
       },
-      end: () => this.button.setAttribute("aria-pressed", "false")
+      end: () => put(this.button, "aria-pressed", "false")
     };
     playing.on("shape", () => this.shape());
     playing.on("place", ({ place }) => this.show(place));
@@ -3966,7 +3984,7 @@ var CouplerCurves = class {
   pick() {
     const on = this.scene.tool !== this.tool;
     this.scene.use?.(on ? this.tool : null);
-    this.button.setAttribute("aria-pressed", String(on));
+    put(this.button, "aria-pressed", String(on));
   }
   /** A point of F where the body is now, or a point of M. */
   add(at, inBody2 = false) {
@@ -4031,8 +4049,8 @@ var CouplerCurves = class {
     const { path: path2, linkage } = this.playing, { view } = this.scene, there = path2 && !linkage.gone;
     for (const point2 of this.points) {
       const list = there ? curveOf(path2, point2.at) : [];
-      point2.path.setAttribute("d", smoothPath(list.map(([x]) => view.X(x)), list.map(([, y]) => view.Y(y)), path2?.round));
-      point2.handle.setAttribute("visibility", there ? "visible" : "hidden");
+      put(point2.path, "d", smoothPath(list.map(([x]) => view.X(x)), list.map(([, y]) => view.Y(y)), path2?.round));
+      put(point2.handle, "visibility", there ? "visible" : "hidden");
     }
     if (there && this.playing.here) this.show(this.playing.here.place);
     this.tell();
@@ -4041,7 +4059,7 @@ var CouplerCurves = class {
     const { view } = this.scene;
     for (const point2 of this.points) {
       const [x, y] = act(place, point2.at);
-      point2.handle.setAttribute("transform", transform(view.X(x), view.Y(y), 0));
+      put(point2.handle, "transform", transform(view.X(x), view.Y(y), 0));
     }
   }
   /** The points in words, each with a button that takes it away. */
@@ -4053,7 +4071,7 @@ var CouplerCurves = class {
     this.list.replaceChildren(
       ...this.points.map((point2, k) => {
         const name = `Point ${k + 1} at (${point2.at.map((value) => fixed(value, digits)).join(", ")}) of the body`;
-        point2.handle.setAttribute("aria-label", `${name}. Drag it, or use the arrow keys; Delete removes it.`);
+        put(point2.handle, "aria-label", `${name}. Drag it, or use the arrow keys; Delete removes it.`);
         return h("li", {}, name, " ", h("button", { type: "button", class: "bs-small", "aria-label": `Remove point ${k + 1}`, onclick: () => this.remove(point2) }, "Remove"));
       })
     );
@@ -4361,7 +4379,7 @@ var FamilyCurves = class {
     this.known = map?.kind === "curve" ? { ...map, worth: worthOf(new FamilyPairs(data)) } : null;
     this.live = null;
     if (!this.known) this.ask();
-    this.label.hidden = data.poses.length !== 4;
+    give(this.label, "hidden", data.poses.length !== 4);
     this.draw();
   }
   /** The curves go along with the poses: one question at a time, the newest wins. */
@@ -4392,20 +4410,20 @@ var FamilyCurves = class {
   }
   draw() {
     const map = this.family, on = Boolean(map) && this.box.checked;
-    this.group.setAttribute("visibility", on ? "visible" : "hidden");
-    this.legend.hidden = !on;
+    put(this.group, "visibility", on ? "visible" : "hidden");
+    give(this.legend, "hidden", !on);
     if (!on) return;
     const { view } = this.scene, planes = [[map.fixed, view.X, view.Y], [map.moving, (x) => view.scale * x, (y) => -view.scale * y]];
     planes.forEach(([points, X, Y], n) => {
       const paths = curvePaths(points, map.loops, map.worth, X, Y, this.widest);
-      [...this.curves[n].children].forEach((path2, k) => path2.setAttribute("d", paths[STROKES[k]]));
+      [...this.curves[n].children].forEach((path2, k) => put(path2, "d", paths[STROKES[k]]));
     });
     this.move();
   }
   /** Circle points are on the body, and go along with it. */
   move() {
     const { view } = this.scene, place = this.playing.here?.place;
-    if (place && this.family) this.curves[1].setAttribute("transform", transform(view.X(place.x), view.Y(place.y), place.a));
+    if (place && this.family) put(this.curves[1], "transform", transform(view.X(place.x), view.Y(place.y), place.a));
   }
 };
 
@@ -4622,9 +4640,9 @@ var PivotMapPanel = class {
     const { view } = this.map;
     this.handles.forEach((element, k) => {
       const pivot = this.hand.pivot(k, "F");
-      element.setAttribute("display", pivot ? "inline" : "none");
+      put(element, "display", pivot ? "inline" : "none");
       if (!pivot) return;
-      element.setAttribute("transform", `translate(${px(view.X(pivot.at[0]))} ${px(view.Y(pivot.at[1]))})`);
+      put(element, "transform", `translate(${px(view.X(pivot.at[0]))} ${px(view.Y(pivot.at[1]))})`);
       element.dataset.mapPivot = pivot.id;
     });
   }
@@ -4829,11 +4847,11 @@ var PivotSurface = class {
       planes.forEach((element, n) => {
         const plane = "FM"[n], pivot = there || this.pivots ? this.pivot(k, plane) : null;
         const seen2 = pivot && (plane === "F" || place);
-        element.setAttribute("display", seen2 ? "inline" : "none");
+        put(element, "display", seen2 ? "inline" : "none");
         if (!seen2) return;
         if (element.dataset.pivot !== pivot.id) element.dataset.pivot = pivot.id;
         element.classList.toggle("bs-put", this.pivots?.[k]?.plane === plane);
-        if (plane === "F") element.setAttribute("transform", `translate(${px(view.X(pivot.at[0]))} ${px(view.Y(pivot.at[1]))})`);
+        if (plane === "F") put(element, "transform", `translate(${px(view.X(pivot.at[0]))} ${px(view.Y(pivot.at[1]))})`);
       });
     });
     this.name();
@@ -4848,7 +4866,7 @@ var PivotSurface = class {
       const pivot = element.getAttribute("display") === "none" ? null : this.pivot(k, "M");
       if (!pivot) return;
       const [x, y] = act(this.held?.k === k && this.held.plane === "M" && this.place ? this.place : place, pivot.at);
-      element.setAttribute("transform", `translate(${px(view.X(x))} ${px(view.Y(y))})`);
+      put(element, "transform", `translate(${px(view.X(x))} ${px(view.Y(y))})`);
     });
   }
   /** Names for those who do not see them; not while a hand drags. */
@@ -4859,19 +4877,19 @@ var PivotSurface = class {
       const pivot = this.pivot(k, "FM"[n]);
       if (!pivot) return;
       const text = `${n ? "Moving" : "Fixed"} pivot of ${pivot.id} at (${pivot.at.map((value) => fixed(value, digits)).join(", ")}) in ${"FM"[n]}. Drag it, or use the arrow keys; the best dyad there is shown.`;
-      if (element.getAttribute("aria-label") !== text) element.setAttribute("aria-label", text);
+      put(element, "aria-label", text);
     }));
   }
   /** What the pivots cost, in words. */
   tell() {
     const { store, answers } = this, { placed } = store;
-    this.letGo.hidden = !this.pivots;
+    give(this.letGo, "hidden", !this.pivots);
     if (!this.pivots || !placed) {
       this.readout.textContent = "";
       if (!placed && this.pivots && !this.held && store.placeWanted === null) this.pivots = null;
       return;
     }
-    this.readout.setAttribute("aria-live", this.held ? "off" : "polite");
+    put(this.readout, "aria-live", this.held ? "off" : "polite");
     this.readout.textContent = placedInWords(placed, answers.data);
     if (placed.linkage && store.chosen !== PLACED && this.pivots) {
       this.before = store.chosen;
@@ -4906,7 +4924,7 @@ var Assemblies = class {
       h("span", {}, h("b", {}, wayName(way, linkage).replace("assembly ", "")), ` ${wayStory(way, this.data.poses)}`)
     );
     this.element.replaceChildren(h("legend", {}, "Assembly"), ...linkage.ways.map(one));
-    this.element.hidden = !linkage.ways.length;
+    give(this.element, "hidden", !linkage.ways.length);
   }
 };
 
@@ -4990,13 +5008,13 @@ var Player = class {
   rebuild() {
     const { path: path2, slider } = this;
     if (!path2) this.play(false);
-    slider.disabled = this.button.disabled = !path2;
+    for (const each of [slider, this.button]) give(each, "disabled", !path2);
     const last = path2 ? path2.x.length - 1 : 1;
     const frames = path2 ? this.stopsOnWay.map((row) => row.frame) : [];
     const [low, high] = [frames.reduce((a, b) => Math.min(a, b), last), frames.reduce((a, b) => Math.max(a, b), 0)];
     const apart = high - low > LEAST_STRETCH;
     this.stretch = apart && !this.whole ? { low, high } : { low: 0, high: last };
-    this.box.disabled = !apart;
+    give(this.box, "disabled", !apart);
     this.boxName.textContent = path2?.round ? "Whole turn" : "Whole branch";
     this.heading = 1;
     this.u = clamp(this.u, this.stretch.low, this.stretch.high);
@@ -5372,7 +5390,7 @@ var Playing = class extends Events {
       this.player.linkage = null;
       this.player.way = 0;
       this.player.play(false);
-      this.assemblies.element.hidden = this.drivers.hidden = true;
+      for (const each of [this.assemblies.element, this.drivers]) give(each, "hidden", true);
       this.note.textContent = "";
       this.element.classList.add("bs-empty");
       this.emit("shape", false);
@@ -5457,7 +5475,7 @@ var Playing = class extends Events {
   /** A choice between both dyads. */
   buildDrivers() {
     const { base } = this;
-    this.drivers.hidden = !base || !base.ways.length || base.led.some((dyad) => dyad.kind === "PP");
+    give(this.drivers, "hidden", !base || !base.ways.length || base.led.some((dyad) => dyad.kind === "PP"));
     if (this.drivers.hidden) return;
     const key = `${base.id} ${base.led.map((dyad) => dyad.id)} ${this.isOther}`;
     if (key === this.driversKey) return;
@@ -5592,10 +5610,10 @@ var ResultCard = class {
     setPressed(this.pin, pinned);
     setPressed(this.compare, compared);
     say(this.pin, pinned ? "Pinned" : "Pin");
-    this.pin.hidden = isPlaced;
-    this.compare.hidden = isPlaced || chosen;
-    this.improve.hidden = isPlaced || linkage.usable || old || Boolean(linkage.gone);
-    this.letGo.hidden = !isPlaced;
+    give(this.pin, "hidden", isPlaced);
+    give(this.compare, "hidden", isPlaced || chosen);
+    give(this.improve, "hidden", isPlaced || linkage.usable || old || Boolean(linkage.gone));
+    give(this.letGo, "hidden", !isPlaced);
     for (const button2 of [this.pin, this.compare, this.improve]) labelled2(button2, linkage.id);
   }
   /** What a search near the linkage found. */
@@ -5649,9 +5667,10 @@ var Results = class {
       this.list,
       this.more
     );
+    this.pace = new Pace(() => this.update());
     this.list.addEventListener("keydown", (event) => this.walk(event));
     answers.on("answers placed", () => this.arrange());
-    answers.on("moved", () => this.update());
+    answers.on("moved", () => this.pace.ask());
     answers.on("shown", () => this.update());
     store.on("pinned", () => this.arrange());
     store.on("state document", () => this.tell());
@@ -5670,8 +5689,8 @@ var Results = class {
     const { answers, store, wanted } = this;
     this.buildTypes();
     const every = arranged(answers.linkages, { ...wanted, pinned: store.pinned });
-    const shown = this.all ? every : every.slice(0, MOST3);
-    const list = answers.placed ? [answers.placed, ...shown] : shown;
+    const shown2 = this.all ? every : every.slice(0, MOST3);
+    const list = answers.placed ? [answers.placed, ...shown2] : shown2;
     const cards = /* @__PURE__ */ new Map();
     for (const linkage of list) cards.set(linkage, this.cards.get(linkage) ?? this.card());
     for (const [linkage, card] of this.cards) if (!cards.has(linkage)) card.element.remove();
@@ -5682,9 +5701,9 @@ var Results = class {
       if (card.element !== next) this.list.insertBefore(card.element, next);
       before = card.element;
     }
-    this.more.hidden = every.length <= shown.length;
+    give(this.more, "hidden", every.length <= shown2.length);
     if (!this.more.hidden) say(this.more, `Show all ${every.length}`);
-    this.hidden = answers.linkages.length - every.length;
+    give(this, "hidden", answers.linkages.length - every.length);
     this.update();
   }
   card() {
@@ -5709,13 +5728,13 @@ var Results = class {
     this.typesKey = key;
     if (!types.includes(this.wanted.type)) this.wanted.type = "";
     select.replaceChildren(...["", ...types].map((type) => h("option", { value: type, selected: type === this.wanted.type }, type || "any")));
-    this.types.hidden = types.length < 2;
+    give(this.types, "hidden", types.length < 2);
   }
   /** What the cards say, in the order in which they stand. */
   update() {
-    const { answers, store } = this, { data, isOld, shown } = answers;
+    const { answers, store } = this, { data, isOld, shown: shown2 } = answers;
     for (const [linkage, card] of this.cards) {
-      card.show(linkage, { data, old: isOld && linkage.id !== PLACED, chosen: linkage === shown, pinned: store.pinned.has(linkage.id), compared: store.compared === linkage.id });
+      card.show(linkage, { data, old: isOld && linkage.id !== PLACED, chosen: linkage === shown2, pinned: store.pinned.has(linkage.id), compared: store.compared === linkage.id });
     }
     this.tell();
   }
@@ -6256,12 +6275,12 @@ var ImageSpace = class {
   images() {
     const { svg, data } = this;
     const labels = new Labels({ width: this.width, height: this.height });
-    const shown = this.poses.map((point2, k) => ({ point: point2, k })).filter(({ point: point2 }) => inside(point2));
-    for (const { point: point2 } of shown) labels.block(...this.project(point2), 10, 10);
-    for (const { point: point2, k } of shown) {
+    const shown2 = this.poses.map((point2, k) => ({ point: point2, k })).filter(({ point: point2 }) => inside(point2));
+    for (const { point: point2 } of shown2) labels.block(...this.project(point2), 10, 10);
+    for (const { point: point2, k } of shown2) {
       const [x, y] = this.project(point2), hidden = this.sheetsBefore(point2) > 0;
       svg.append(s("circle", { class: `bm-image-point${hidden ? " bm-hidden" : ""}`, cx: px(x), cy: px(y), r: 4 }));
-      if (shown.length <= MANY_POSES3) svg.append(labels.put(x, y, data.poses[k].label, 12, { class: "bm-image-name" }));
+      if (shown2.length <= MANY_POSES3) svg.append(labels.put(x, y, data.poses[k].label, 12, { class: "bm-image-name" }));
     }
   }
   /** No place of the body is known. */
@@ -6358,13 +6377,13 @@ var SpacePanel = class {
     const box = linkage?.space ?? data.space;
     const quadrics = dyads.map((dyad) => quadricOf(dyad, data.chart, box));
     if (quadrics.length === 1) quadrics.push(quadrics[0]);
-    const shown = { ...linkage && !linkage.gone ? linkage : { ways: [], led: dyads }, space: { ...box, quadrics } };
+    const shown2 = { ...linkage && !linkage.gone ? linkage : { ways: [], led: dyads }, space: { ...box, quadrics } };
     const key = dyads.map((dyad) => dyad.id).join();
     if (key !== this.told) {
       this.told = key;
       this.story.replaceChildren(...spaceStory(linkage && dyads.length === 2 ? { led: dyads } : null));
     }
-    space.build(shown, playing.player.way, quick);
+    space.build(shown2, playing.player.way, quick);
     if (playing.path && playing.here) space.show(playing.here.place);
     else space.hide();
   }
@@ -6580,8 +6599,8 @@ var Store = class {
   }
   follow() {
     if (!this.solved || this.flying) return;
-    const { document: document2, options, shown } = this;
-    const n = this.connection.send({ do: "follow", document: document2, options, shown });
+    const { document: document2, options, shown: shown2 } = this;
+    const n = this.connection.send({ do: "follow", document: document2, options, shown: shown2 });
     if (n !== null) this.flying = { n, document: document2 };
   }
   solveAfterRest() {
@@ -6773,7 +6792,7 @@ var PointFields = class {
     const wanted = this.fields.map((each) => each.element);
     if (wanted.length !== this.pairs.children.length || wanted.some((each, k) => each !== this.pairs.children[k])) this.pairs.replaceChildren(...wanted);
     this.fields.forEach(({ pair }, k) => pair.forEach((field, i) => field.show(points[k][i])));
-    this.more.hidden = points.length <= FEW2;
+    give(this.more, "hidden", points.length <= FEW2);
     this.more.textContent = `and ${points.length - FEW2} more, to drag in the plane`;
   }
   make(k) {
@@ -6875,7 +6894,7 @@ var TaskPanel = class {
   }
   drawLimits() {
     const { document: document2 } = this.store, tables = limitsOf(document2), count = Math.max(1, tables.length);
-    this.apart.box.checked = tables.length > 1;
+    give(this.apart.box, "checked", tables.length > 1);
     while (this.madeTables.length < count) this.madeTables.push(this.makeTable(this.madeTables.length));
     while (this.tables.children.length > count) this.tables.lastChild.remove();
     while (this.tables.children.length < count) this.tables.append(this.madeTables[this.tables.children.length].element);
@@ -6889,7 +6908,7 @@ var TaskPanel = class {
     }
   }
   drawLimit({ numbers, remove }, region) {
-    remove.hidden = numbers.element.hidden = !region;
+    for (const each of [remove, numbers.element]) give(each, "hidden", !region);
     if (!region) return;
     const [[shape, stated]] = Object.entries(region);
     numbers.show(shape, shape === "point" ? [stated] : stated);
@@ -6932,7 +6951,7 @@ var TaskPanel = class {
     const { link_width, margin, body_in_plane } = store.document.surroundings ?? {};
     this.linkWidth.show(link_width);
     this.margin.show(margin);
-    this.inPlane.box.checked = Boolean(body_in_plane);
+    give(this.inPlane.box, "checked", Boolean(body_in_plane));
   }
   regionRow(k) {
     const { store } = this, shapeKey = (region) => region.box ? "box" : "polygon";
@@ -6954,8 +6973,8 @@ var TaskPanel = class {
       const text = (region.name ?? "").replace(/[\r\n]+/g, " ");
       if (document.activeElement !== name && name.value !== text) name.value = text;
       element.classList.toggle("bs-selected", selected);
-      inNumbers.hidden = region.file !== void 0;
-      file.hidden = !inNumbers.hidden;
+      give(inNumbers, "hidden", region.file !== void 0);
+      give(file, "hidden", !inNumbers.hidden);
       if (inNumbers.hidden) file.textContent = `from the drawing ${region.file}`;
       else numbers.show(shapeKey(region), region[shapeKey(region)]);
     };
@@ -6978,8 +6997,8 @@ var TaskPanel = class {
   }
   drawBody() {
     const { document: task } = this.store, corners = bodyOf(task);
-    this.noBody.hidden = !task.body;
-    this.bodyBox.hidden = !corners.length;
+    give(this.noBody, "hidden", !task.body);
+    give(this.bodyBox, "hidden", !corners.length);
     if (!corners.length) return;
     this.bodyCount.textContent = `${corners.length} corners, in numbers`;
     this.bodyNumbers.show("polygon", corners);
@@ -7020,8 +7039,8 @@ var TaskPanel = class {
     const asked = this.store.document.requirements ?? {};
     for (const [key, field] of Object.entries(this.numbers)) field.show(asked[key]);
     this.driver.value = asked.driver ?? "any";
-    this.anyOrder.box.checked = Boolean(asked.any_order);
-    this.noFootprint.hidden = !asked.footprint;
+    give(this.anyOrder.box, "checked", Boolean(asked.any_order));
+    give(this.noFootprint, "hidden", !asked.footprint);
     for (const { type, box } of this.types) box.checked = Boolean(asked.types?.includes(type));
   }
   makeOptions() {
@@ -7073,7 +7092,7 @@ var TaskPanel = class {
   }
 };
 function tell(element, sentences) {
-  element.hidden = sentences === null;
+  give(element, "hidden", sentences === null);
   if (sentences === null) return;
   element.className = `bs-state ${sentences.length ? "bs-broken" : "bs-met"}`;
   element.textContent = sentences.length ? `✕ ${sentences.join(" ")}` : "✓ met by the chosen linkage";
@@ -7104,9 +7123,9 @@ function layOut(root, store, start) {
   const name = h("input", { class: "bs-text bs-task-name", "aria-label": "Name of the task", autocomplete: "off", spellcheck: "false", onchange: () => store.rename(name.value.trim() || "task") });
   const undo = button("↶", () => store.undo(), { "data-do": "undo", title: "Undo (Ctrl+Z)", "aria-label": "Undo" }), redo = button("↷", () => store.redo(), { "data-do": "redo", title: "Redo (Ctrl+Shift+Z)", "aria-label": "Redo" });
   const show = () => {
-    if (document.activeElement !== name) name.value = store.name.replace(/[\r\n]+/g, " ");
-    undo.disabled = !store.history.canUndo;
-    redo.disabled = !store.history.canRedo;
+    if (document.activeElement !== name) give(name, "value", store.name.replace(/[\r\n]+/g, " "));
+    give(undo, "disabled", !store.history.canUndo);
+    give(redo, "disabled", !store.history.canRedo);
   };
   store.on("document", show);
   show();
@@ -7142,8 +7161,8 @@ function stageBar(store, scene) {
   let waiting;
   store.on("state", () => {
     clearTimeout(waiting);
-    if (store.state === "solving") waiting = setTimeout(() => stop.hidden = false, 700);
-    else stop.hidden = true;
+    if (store.state === "solving") waiting = setTimeout(() => give(stop, "hidden", false), 700);
+    else give(stop, "hidden", true);
   });
   show();
   return h(

@@ -13,6 +13,14 @@ function furnish(node, attributes, children) {
 }
 var h = (tag, attributes, ...children) => furnish(document.createElement(tag), attributes, children);
 var s = (tag, attributes, ...children) => furnish(document.createElementNS(SVG, tag), attributes, children);
+function put(node, name, value) {
+  const text = String(value);
+  if (node.getAttribute(name) !== text) node.setAttribute(name, text);
+}
+function give(node, name, value) {
+  const next = typeof node[name] === "boolean" ? Boolean(value) : String(value);
+  if (node[name] !== next) node[name] = next;
+}
 function rgb(text) {
   const hex = text.trim().replace("#", "");
   return [0, 2, 4].map((k) => parseInt(hex.slice(k, k + 2), 16));
@@ -528,7 +536,7 @@ var Assemblies = class {
       h("span", {}, h("b", {}, wayName(way, linkage).replace("assembly ", "")), ` ${wayStory(way, this.data.poses)}`)
     );
     this.element.replaceChildren(h("legend", {}, "Assembly"), ...linkage.ways.map(one));
-    this.element.hidden = !linkage.ways.length;
+    give(this.element, "hidden", !linkage.ways.length);
   }
 };
 
@@ -1866,7 +1874,7 @@ var Mechanism = class {
     this.led = linkage.led;
     this.hasBody = Boolean(data.body);
     if (this.hasBody) {
-      this.outline.setAttribute("d", bodyOutline(data, view));
+      put(this.outline, "d", bodyOutline(data, view));
       if (!this.outline.parentNode) this.group.prepend(this.outline);
     } else {
       this.outline.remove();
@@ -1878,28 +1886,28 @@ var Mechanism = class {
       if (more) corners.push(more);
     });
     const d = `M${hull(corners).map((corner) => corner.map(px).join(" ")).join("L")}Z`;
-    for (const plate of this.plates) plate.setAttribute("d", d);
+    for (const plate of this.plates) put(plate, "d", d);
     this.shapeArrow();
   }
   show(place) {
     const { view } = this, at = transform(view.X(place.x), view.Y(place.y), place.a);
-    this.coupler.setAttribute("transform", at);
-    if (this.hasBody) this.outline.setAttribute("transform", at);
+    put(this.coupler, "transform", at);
+    if (this.hasBody) put(this.outline, "transform", at);
     for (const part of this.parts) part.show(place);
     const [x, y] = act(place, [-LETTER / view.scale, -LETTER / view.scale]);
-    this.letter.setAttribute("x", px(view.X(x)));
-    this.letter.setAttribute("y", px(view.Y(y) + 4));
+    put(this.letter, "x", px(view.X(x)));
+    put(this.letter, "y", px(view.Y(y) + 4));
     const [driver] = this.led;
-    if (driver.kind === "PR") this.arrow.setAttribute("transform", `${onRail(driver, place, view)} translate(0 ${-ARROW})`);
+    if (driver.kind === "PR") put(this.arrow, "transform", `${onRail(driver, place, view)} translate(0 ${-ARROW})`);
   }
   /** A turning or sliding arrow at the driver, for eyes that tell no colours apart. */
   shapeArrow() {
     const { arrow, view } = this, [driver] = this.led;
-    if (driver.kind === "PR") arrow.setAttribute("d", "M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6 5");
+    if (driver.kind === "PR") put(arrow, "d", "M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6 5");
     if (!driver.fixed_pivot) return;
     const [x, y] = driver.fixed_pivot;
-    arrow.setAttribute("d", "M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9");
-    arrow.setAttribute("transform", `translate(${px(view.X(x))} ${px(view.Y(y))}) rotate(-90)`);
+    put(arrow, "d", "M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9");
+    put(arrow, "transform", `translate(${px(view.X(x))} ${px(view.Y(y))}) rotate(-90)`);
   }
 };
 var kindsOf = (led) => led.map((dyad) => dyad.kind).join();
@@ -1910,8 +1918,8 @@ function onRail(dyad, place, view) {
 }
 var block = (side, width, height) => s("g", { class: `bm-block bm-side${side}` }, s("rect", { x: -width / 2, y: -height / 2, width, height, rx: 2 }));
 function setPin(pin, [x, y], dyad) {
-  pin.setAttribute("cx", px(x));
-  pin.setAttribute("cy", px(y));
+  put(pin, "cx", px(x));
+  put(pin, "cy", px(y));
   pin.dataset.dyad = dyad.id;
 }
 var inGround = ([x, y], view) => [view.X(x), view.Y(y)];
@@ -1927,13 +1935,13 @@ var Bar = class {
   shape(dyad, view) {
     this.dyad = dyad;
     this.view = view;
-    for (const stroke of this.strokes) stroke.setAttribute("d", `M0 0H${px(view.scale * dyad.radius)}`);
+    for (const stroke of this.strokes) put(stroke, "d", `M0 0H${px(view.scale * dyad.radius)}`);
     setPin(this.ground, inGround(dyad.fixed_pivot, view), dyad);
     setPin(this.pin, inBody(dyad.moving_pivot, view), dyad);
   }
   show(place) {
     const { dyad, view } = this, [cx, cy] = dyad.fixed_pivot, [x, y] = act(place, dyad.moving_pivot);
-    this.bar.setAttribute("transform", transform(view.X(cx), view.Y(cy), Math.atan2(y - cy, x - cx)));
+    put(this.bar, "transform", transform(view.X(cx), view.Y(cy), Math.atan2(y - cy, x - cx)));
   }
 };
 var BlockOnRail = class {
@@ -1949,7 +1957,7 @@ var BlockOnRail = class {
     setPin(this.pin, inBody(dyad.moving_pivot, view), dyad);
   }
   show(place) {
-    this.block.setAttribute("transform", onRail(this.dyad, place, this.view));
+    put(this.block, "transform", onRail(this.dyad, place, this.view));
   }
 };
 var Slot = class {
@@ -1969,14 +1977,14 @@ var Slot = class {
     const [low, high] = places.length ? travelOf(dyad, places) : [0, 0], end = (BLOCK_IN_SLOT[0] / 2 + SPARE) / view.scale;
     const seen = (along) => inBody(pointOnLine(dyad, along), view);
     const d = `M${[seen(low - end), seen(high + end)].map((each) => each.map(px).join(" ")).join("L")}`;
-    for (const stroke of this.strokes) stroke.setAttribute("d", d);
+    for (const stroke of this.strokes) put(stroke, "d", d);
     this.strokes[3].dataset.dyad = this.block.dataset.dyad = dyad.id;
     setPin(this.ground, inGround(dyad.fixed_pivot, view), dyad);
     return seen((low + high) / 2);
   }
   show(place) {
     const { dyad, view } = this, [nx, ny] = normalOf(dyad), [cx, cy] = dyad.fixed_pivot;
-    this.block.setAttribute("transform", transform(view.X(cx), view.Y(cy), place.a + Math.atan2(nx, -ny)));
+    put(this.block, "transform", transform(view.X(cx), view.Y(cy), place.a + Math.atan2(nx, -ny)));
   }
 };
 var Nothing = class {
@@ -2294,13 +2302,13 @@ var Player = class {
   rebuild() {
     const { path, slider } = this;
     if (!path) this.play(false);
-    slider.disabled = this.button.disabled = !path;
+    for (const each of [slider, this.button]) give(each, "disabled", !path);
     const last = path ? path.x.length - 1 : 1;
     const frames = path ? this.stopsOnWay.map((row) => row.frame) : [];
     const [low, high] = [frames.reduce((a, b) => Math.min(a, b), last), frames.reduce((a, b) => Math.max(a, b), 0)];
     const apart = high - low > LEAST_STRETCH;
     this.stretch = apart && !this.whole ? { low, high } : { low: 0, high: last };
-    this.box.disabled = !apart;
+    give(this.box, "disabled", !apart);
     this.boxName.textContent = path?.round ? "Whole turn" : "Whole branch";
     this.heading = 1;
     this.u = clamp(this.u, this.stretch.low, this.stretch.high);

@@ -1,10 +1,11 @@
 // The body: its ghosts at every pose, and its outline to edit where one of them stands.
 
-import { s } from "../widget/dom.mjs";
+import { put, s } from "../widget/dom.mjs";
 import { transform } from "../widget/drawing.mjs";
 import { act } from "../widget/kinematics.mjs";
 import { px, radians } from "../widget/numbers.mjs";
 import { bodyOf, setBody, standing } from "./document.mjs";
+import { isOther } from "./pacing.mjs";
 import { drawnPoses } from "./pose_handles.mjs";
 import { Kept } from "./scene.mjs";
 import { ShapeHandles } from "./shape_handles.mjs";
@@ -72,9 +73,10 @@ export class BodyEditor {
 
   showGhost(path, k) {
     const { view } = this.scene, { x, y, angle } = standing(this.store.document, k), last = Math.max(1, this.store.document.poses.length - 1);
-    if (path.getAttribute("d") !== this.path) path.setAttribute("d", this.path);
-    path.setAttribute("opacity", (PALEST + ((1 - PALEST) * k) / last).toFixed(3));
-    path.setAttribute("transform", transform(view.X(x), view.Y(y), radians(angle)));
+    if (!isOther(path, [view, x, y, angle, k / last, this.path])) return;
+    put(path, "d", this.path);
+    put(path, "opacity", (PALEST + ((1 - PALEST) * k) / last).toFixed(3));
+    put(path, "transform", transform(view.X(x), view.Y(y), radians(angle)));
   }
 
   /** Draw an outline by clicks, at the pose that is selected or the first one. */

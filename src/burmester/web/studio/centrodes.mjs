@@ -1,6 +1,6 @@
 // The instant centre of the body, and the two curves that roll on each other: its paths in F and in M.
 
-import { h, s } from "../widget/dom.mjs";
+import { h, put, s } from "../widget/dom.mjs";
 import { transform } from "../widget/drawing.mjs";
 import { centrodePoint, instantCentre } from "../widget/instantaneous.mjs";
 import { fixed, px } from "../widget/numbers.mjs";
@@ -56,31 +56,31 @@ export class Centrodes {
   }
 
   shape() {
-    this.group.setAttribute("visibility", this.on ? "visible" : "hidden");
+    put(this.group, "visibility", this.on ? "visible" : "hidden");
     if (!this.on) {
       this.readout.textContent = "";
       return;
     }
     const { data } = this.answers, { linkage, path: way } = this.playing, { view } = this.scene;
     const [pose] = data.poses, both = centrodesOf(linkage, way, data.scene, pose ? [pose.x, pose.y] : [0, 0]);
-    this.fixed.setAttribute("d", path(both.fixed, view.X, view.Y));
-    this.moving.setAttribute("d", path(both.moving, (x) => view.scale * x, (y) => -view.scale * y));
+    put(this.fixed, "d", path(both.fixed, view.X, view.Y));
+    put(this.moving, "d", path(both.moving, (x) => view.scale * x, (y) => -view.scale * y));
     if (this.playing.here) this.show(this.playing.here.place);
   }
 
   show(place) {
     if (!this.on) return;
     const { view } = this.scene, { led } = this.playing.linkage, centre = instantCentre(led, place);
-    this.moving.setAttribute("transform", transform(view.X(place.x), view.Y(place.y), place.a));
+    put(this.moving, "transform", transform(view.X(place.x), view.Y(place.y), place.a));
     const there = centre && Math.hypot(centre[0] - place.x, centre[1] - place.y) < FARTHEST * this.answers.data.scene;
-    this.mark.setAttribute("visibility", there ? "inherit" : "hidden");
-    this.rays.setAttribute("visibility", there ? "inherit" : "hidden");
+    put(this.mark, "visibility", there ? "inherit" : "hidden");
+    put(this.rays, "visibility", there ? "inherit" : "hidden");
     const digits = decimalsOf(this.answers.data), unit = this.answers.data.unit ? ` ${this.answers.data.unit}` : "";
     this.readout.textContent = centre ? `at (${centre.map((value) => fixed(value, digits)).join(", ")})${unit}` : "at infinity: the body only shifts";
     if (!there) return;
     const [x, y] = [view.X(centre[0]), view.Y(centre[1])];
-    this.mark.setAttribute("transform", `translate(${px(x)} ${px(y)})`);
+    put(this.mark, "transform", `translate(${px(x)} ${px(y)})`);
     const ends = led.filter((dyad) => dyad.fixed_pivot).map((dyad) => `M${px(view.X(dyad.fixed_pivot[0]))} ${px(view.Y(dyad.fixed_pivot[1]))}L${px(x)} ${px(y)}`);
-    this.rays.setAttribute("d", ends.join(""));
+    put(this.rays, "d", ends.join(""));
   }
 }

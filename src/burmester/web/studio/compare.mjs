@@ -1,6 +1,6 @@
 // Two linkages side by side, moving together, with their numbers beside each other.
 
-import { h } from "../widget/dom.mjs";
+import { give, h } from "../widget/dom.mjs";
 import { placeAt } from "../widget/kinematics.mjs";
 import { figure, fixed } from "../widget/numbers.mjs";
 import { Plane } from "../widget/plane.mjs";
@@ -58,8 +58,8 @@ export class Compare {
   }
 
   start() {
-    this.full.hidden = !this.on;
-    this.empty.hidden = this.on;
+    give(this.full, "hidden", !this.on);
+    give(this.empty, "hidden", this.on);
     if (this.on) {
       for (let part = this.element.parentElement; part; part = part.parentElement) if (part.tagName === "DETAILS") part.open = true;
       this.build();

@@ -1,6 +1,6 @@
 // The coupler curve of any point picked on the body: points stay on the body and can be taken hold of.
 
-import { h, s } from "../widget/dom.mjs";
+import { h, put, s } from "../widget/dom.mjs";
 import { transform } from "../widget/drawing.mjs";
 import { act, back } from "../widget/kinematics.mjs";
 import { clamp, fixed } from "../widget/numbers.mjs";
@@ -35,7 +35,7 @@ export class CouplerCurves {
         scene.use?.(null);
         return true;
       },
-      end: () => this.button.setAttribute("aria-pressed", "false"),
+      end: () => put(this.button, "aria-pressed", "false"),
     };
     playing.on("shape", () => this.shape());
     playing.on("place", ({ place }) => this.show(place));
@@ -46,7 +46,7 @@ export class CouplerCurves {
   pick() {
     const on = this.scene.tool !== this.tool;
     this.scene.use?.(on ? this.tool : null);
-    this.button.setAttribute("aria-pressed", String(on));
+    put(this.button, "aria-pressed", String(on));
   }
 
   /** A point of F where the body is now, or a point of M. */
@@ -116,8 +116,8 @@ export class CouplerCurves {
     const { path, linkage } = this.playing, { view } = this.scene, there = path && !linkage.gone;
     for (const point of this.points) {
       const list = there ? curveOf(path, point.at) : [];
-      point.path.setAttribute("d", smoothPath(list.map(([x]) => view.X(x)), list.map(([, y]) => view.Y(y)), path?.round));
-      point.handle.setAttribute("visibility", there ? "visible" : "hidden");
+      put(point.path, "d", smoothPath(list.map(([x]) => view.X(x)), list.map(([, y]) => view.Y(y)), path?.round));
+      put(point.handle, "visibility", there ? "visible" : "hidden");
     }
     if (there && this.playing.here) this.show(this.playing.here.place);
     this.tell();
@@ -127,7 +127,7 @@ export class CouplerCurves {
     const { view } = this.scene;
     for (const point of this.points) {
       const [x, y] = act(place, point.at);
-      point.handle.setAttribute("transform", transform(view.X(x), view.Y(y), 0));
+      put(point.handle, "transform", transform(view.X(x), view.Y(y), 0));
     }
   }
 
@@ -140,7 +140,7 @@ export class CouplerCurves {
     this.list.replaceChildren(
       ...this.points.map((point, k) => {
         const name = `Point ${k + 1} at (${point.at.map((value) => fixed(value, digits)).join(", ")}) of the body`;
-        point.handle.setAttribute("aria-label", `${name}. Drag it, or use the arrow keys; Delete removes it.`);
+        put(point.handle, "aria-label", `${name}. Drag it, or use the arrow keys; Delete removes it.`);
         return h("li", {}, name, " ", h("button", { type: "button", class: "bs-small", "aria-label": `Remove point ${k + 1}`, onclick: () => this.remove(point) }, "Remove"));
       }),
     );

@@ -1,6 +1,6 @@
 // The Burmester curves of four poses in the drawing: they go along with the poses, and pivots slide along them.
 
-import { h, s } from "../widget/dom.mjs";
+import { give, h, put, s } from "../widget/dom.mjs";
 import { transform } from "../widget/drawing.mjs";
 import { FamilyPairs } from "../widget/family_pairs.mjs";
 import { curvePaths, curvesOf, nearestOnCurve, ontoCurve, worthOf } from "./burmester_curves.mjs";
@@ -36,7 +36,7 @@ export class FamilyCurves {
     this.known = map?.kind === "curve" ? { ...map, worth: worthOf(new FamilyPairs(data)) } : null;
     this.live = null;
     if (!this.known) this.ask();
-    this.label.hidden = data.poses.length !== 4;
+    give(this.label, "hidden", data.poses.length !== 4);
     this.draw();
   }
 
@@ -72,13 +72,13 @@ export class FamilyCurves {
 
   draw() {
     const map = this.family, on = Boolean(map) && this.box.checked;
-    this.group.setAttribute("visibility", on ? "visible" : "hidden");
-    this.legend.hidden = !on;
+    put(this.group, "visibility", on ? "visible" : "hidden");
+    give(this.legend, "hidden", !on);
     if (!on) return;
     const { view } = this.scene, planes = [[map.fixed, view.X, view.Y], [map.moving, (x) => view.scale * x, (y) => -view.scale * y]];
     planes.forEach(([points, X, Y], n) => {
       const paths = curvePaths(points, map.loops, map.worth, X, Y, this.widest);
-      [...this.curves[n].children].forEach((path, k) => path.setAttribute("d", paths[STROKES[k]]));
+      [...this.curves[n].children].forEach((path, k) => put(path, "d", paths[STROKES[k]]));
     });
     this.move();
   }
@@ -86,6 +86,6 @@ export class FamilyCurves {
   /** Circle points are on the body, and go along with it. */
   move() {
     const { view } = this.scene, place = this.playing.here?.place;
-    if (place && this.family) this.curves[1].setAttribute("transform", transform(view.X(place.x), view.Y(place.y), place.a));
+    if (place && this.family) put(this.curves[1], "transform", transform(view.X(place.x), view.Y(place.y), place.a));
   }
 }

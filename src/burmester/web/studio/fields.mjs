@@ -1,7 +1,7 @@
 // Fields of the task: a number with its unit, a text, a choice.  What cannot be read stays in its field, with the
 // sentence that says so under it, and never enters the task.
 
-import { h } from "../widget/dom.mjs";
+import { give, h } from "../widget/dom.mjs";
 import { quantity, written } from "./quantities.mjs";
 
 let made = 0; // ids of fields and their sentences are unique on the page
@@ -78,7 +78,7 @@ export class NumberField {
   }
 
   say(sentence) {
-    this.fault.hidden = sentence === null;
+    give(this.fault, "hidden", sentence === null);
     this.fault.textContent = sentence ?? "";
     if (sentence === null) {
       this.input.removeAttribute("aria-invalid");

@@ -1,6 +1,6 @@
 // Files: opened, dropped, pasted, saved, exported; and the command line that does the same.
 
-import { h } from "../widget/dom.mjs";
+import { give, h } from "../widget/dom.mjs";
 import { setBody, withKeys } from "./document.mjs";
 import { Refused } from "./connection.mjs";
 import { button } from "./fields.mjs";
@@ -209,7 +209,7 @@ export class Files {
     const hasFiles = (event) => [...(event.dataTransfer?.types ?? [])].includes("Files");
     const show = (by) => {
       inside = Math.max(0, inside + by);
-      this.dropping.hidden = inside === 0;
+      give(this.dropping, "hidden", inside === 0);
     };
     document.addEventListener("dragenter", (event) => hasFiles(event) && (event.preventDefault(), show(1)));
     document.addEventListener("dragover", (event) => hasFiles(event) && event.preventDefault());

@@ -1,7 +1,7 @@
 // The chosen linkage in the scene: what it passes through, its ground, and the linkage itself, moved by
 // attributes while it is followed or played.
 
-import { s } from "../widget/dom.mjs";
+import { put, s } from "../widget/dom.mjs";
 import { AXIS, axes, foot, transform } from "../widget/drawing.mjs";
 import { act, placeAt } from "../widget/kinematics.mjs";
 import { Mechanism } from "../widget/mechanism.mjs";
@@ -72,7 +72,7 @@ export class LiveLinkage {
   shape() {
     const { playing, answers, scene } = this, { linkage, path } = playing, { view } = scene;
     const there = Boolean(linkage) && !linkage.gone;
-    for (const part of [this.paths, this.holder, this.labels]) part.setAttribute("visibility", there ? "visible" : "hidden");
+    for (const part of [this.paths, this.holder, this.labels]) put(part, "visibility", there ? "visible" : "hidden");
     if (!there) return;
     const places = path ? framesOf(path) : [];
     this.enlarge();
@@ -94,17 +94,17 @@ export class LiveLinkage {
 
   curves(linkage, path, places, view) {
     const set = (element, list, closed) =>
-      element.setAttribute("d", smoothPath(list.map(([x]) => view.X(x)), list.map(([, y]) => view.Y(y)), closed));
+      put(element, "d", smoothPath(list.map(([x]) => view.X(x)), list.map(([, y]) => view.Y(y)), closed));
     const others = linkage.ways.filter((way) => way !== path);
-    this.others.setAttribute("d", others.map((way) => pathOf(way, view)).join(""));
-    this.beyond.setAttribute("d", path ? pathOf(path, view) : "");
+    put(this.others, "d", others.map((way) => pathOf(way, view)).join(""));
+    put(this.beyond, "d", path ? pathOf(path, view) : "");
     this.pivotPaths.forEach((element, side) => {
       const dyad = linkage.led[side];
-      if (!path || !dyad.moving_pivot || dyad.kind === "PR") element.setAttribute("d", "");
+      if (!path || !dyad.moving_pivot || dyad.kind === "PR") put(element, "d", "");
       else set(element, places.map((place) => act(place, dyad.moving_pivot)), path.round);
     });
     if (!path) {
-      this.here.setAttribute("d", "");
+      put(this.here, "d", "");
       return;
     }
     const { low, high } = this.playing.player.stretch, { length } = this.answers.data.chart, list = [];
@@ -119,25 +119,25 @@ export class LiveLinkage {
     linkage.led.forEach((dyad, side) => {
       const [rail, at, name] = [this.rails[side], this.feet[side], this.names[side]];
       const slides = dyad.kind === "PR" && places.length > 0;
-      rail.setAttribute("display", slides ? "inline" : "none");
-      at.setAttribute("display", dyad.fixed_pivot ? "inline" : "none");
-      name.setAttribute("display", slides || dyad.fixed_pivot ? "inline" : "none");
+      put(rail, "display", slides ? "inline" : "none");
+      put(at, "display", dyad.fixed_pivot ? "inline" : "none");
+      put(name, "display", slides || dyad.fixed_pivot ? "inline" : "none");
       if (name.textContent !== dyad.id) name.textContent = dyad.id;
       let x, y;
       if (slides) {
         const drawn = railOf(dyad, places, view);
         ({ x, y } = drawn);
-        rail.setAttribute("transform", transform(x, y, drawn.turned));
-        drawn.paths.forEach((d, k) => rail.children[k].setAttribute("d", d));
+        put(rail, "transform", transform(x, y, drawn.turned));
+        drawn.paths.forEach((d, k) => put(rail.children[k], "d", d));
         rail.dataset.dyad = dyad.id;
       } else if (dyad.fixed_pivot) {
         [x, y] = [view.X(dyad.fixed_pivot[0]), view.Y(dyad.fixed_pivot[1])];
-        at.setAttribute("transform", `translate(${px(x)} ${px(y)})`);
+        put(at, "transform", `translate(${px(x)} ${px(y)})`);
       } else {
         return;
       }
-      name.setAttribute("x", px(x));
-      name.setAttribute("y", px(y + BELOW));
+      put(name, "x", px(x));
+      put(name, "y", px(y + BELOW));
     });
   }
 
@@ -152,19 +152,19 @@ export class LiveLinkage {
       const row = rows[k], group = achieved.children[k];
       if (group.dataset.size !== String(small)) {
         group.dataset.size = small;
-        group.children[0].setAttribute("d", axes(0.72 * AXIS * small));
-        group.children[1].setAttribute("r", 2.2 * small);
+        put(group.children[0], "d", axes(0.72 * AXIS * small));
+        put(group.children[1], "r", 2.2 * small);
       }
       if (row.x === null) {
-        group.setAttribute("display", "none");
+        put(group, "display", "none");
         continue;
       }
-      group.setAttribute("display", "inline");
-      group.setAttribute("transform", transform(view.X(row.x), view.Y(row.y), radians(row.angle_deg)));
+      put(group, "display", "inline");
+      put(group, "transform", transform(view.X(row.x), view.Y(row.y), radians(row.angle_deg)));
       group.classList.toggle("bm-elsewhere", row.at !== this.playing.path);
       if (this.factor && data.poses[k]) arrows += arrow(view, data.poses[k], row, this.factor);
     }
-    this.arrows.setAttribute("d", arrows);
+    put(this.arrows, "d", arrows);
   }
 }
 

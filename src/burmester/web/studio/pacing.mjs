@@ -29,6 +29,15 @@ export class Pace {
   }
 }
 
+const shown = new WeakMap();
+
+/** Whether an element shows other facts than at the last call: what shows the same ones need not be drawn again. */
+export function isOther(element, facts) {
+  const before = shown.get(element);
+  shown.set(element, facts);
+  return before?.length !== facts.length || facts.some((fact, k) => !Object.is(fact, before[k]));
+}
+
 const sights = new WeakMap(); // whether an element is in the window, as the browser tells: asking it costs a layout
 const callers = new WeakMap();
 let observer = null;

@@ -1,6 +1,6 @@
 // The map of the price of each fixed pivot, with the pivots of the linkage on it: a press takes the nearest one there.
 
-import { h, s } from "../widget/dom.mjs";
+import { h, put, s } from "../widget/dom.mjs";
 import { px } from "../widget/numbers.mjs";
 import { PivotMap } from "../widget/pivot_map.mjs";
 import { Pace, isSeen, watch } from "./pacing.mjs";
@@ -43,9 +43,9 @@ export class PivotMapPanel {
     const { view } = this.map;
     this.handles.forEach((element, k) => {
       const pivot = this.hand.pivot(k, "F");
-      element.setAttribute("display", pivot ? "inline" : "none");
+      put(element, "display", pivot ? "inline" : "none");
       if (!pivot) return;
-      element.setAttribute("transform", `translate(${px(view.X(pivot.at[0]))} ${px(view.Y(pivot.at[1]))})`);
+      put(element, "transform", `translate(${px(view.X(pivot.at[0]))} ${px(view.Y(pivot.at[1]))})`);
       element.dataset.mapPivot = pivot.id;
     });
   }

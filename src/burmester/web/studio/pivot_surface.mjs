@@ -2,7 +2,7 @@
 //
 // Of four poses a pivot slides along a Burmester curve, of three it goes anywhere in F or in M.
 
-import { h, s } from "../widget/dom.mjs";
+import { give, h, put, s } from "../widget/dom.mjs";
 import { act, back } from "../widget/kinematics.mjs";
 import { figure, fixed, px } from "../widget/numbers.mjs";
 import { decimalsOf } from "../widget/tables.mjs";
@@ -177,11 +177,11 @@ export class PivotSurface {
       planes.forEach((element, n) => {
         const plane = "FM"[n], pivot = there || this.pivots ? this.pivot(k, plane) : null;
         const seen = pivot && (plane === "F" || place);
-        element.setAttribute("display", seen ? "inline" : "none");
+        put(element, "display", seen ? "inline" : "none");
         if (!seen) return;
         if (element.dataset.pivot !== pivot.id) element.dataset.pivot = pivot.id;
         element.classList.toggle("bs-put", this.pivots?.[k]?.plane === plane);
-        if (plane === "F") element.setAttribute("transform", `translate(${px(view.X(pivot.at[0]))} ${px(view.Y(pivot.at[1]))})`);
+        if (plane === "F") put(element, "transform", `translate(${px(view.X(pivot.at[0]))} ${px(view.Y(pivot.at[1]))})`);
       });
     });
     this.name();
@@ -197,7 +197,7 @@ export class PivotSurface {
       const pivot = element.getAttribute("display") === "none" ? null : this.pivot(k, "M");
       if (!pivot) return;
       const [x, y] = act(this.held?.k === k && this.held.plane === "M" && this.place ? this.place : place, pivot.at);
-      element.setAttribute("transform", `translate(${px(view.X(x))} ${px(view.Y(y))})`);
+      put(element, "transform", `translate(${px(view.X(x))} ${px(view.Y(y))})`);
     });
   }
 
@@ -209,20 +209,20 @@ export class PivotSurface {
       const pivot = this.pivot(k, "FM"[n]);
       if (!pivot) return;
       const text = `${n ? "Moving" : "Fixed"} pivot of ${pivot.id} at (${pivot.at.map((value) => fixed(value, digits)).join(", ")}) in ${"FM"[n]}. Drag it, or use the arrow keys; the best dyad there is shown.`;
-      if (element.getAttribute("aria-label") !== text) element.setAttribute("aria-label", text);
+      put(element, "aria-label", text);
     }));
   }
 
   /** What the pivots cost, in words. */
   tell() {
     const { store, answers } = this, { placed } = store;
-    this.letGo.hidden = !this.pivots;
+    give(this.letGo, "hidden", !this.pivots);
     if (!this.pivots || !placed) {
       this.readout.textContent = "";
       if (!placed && this.pivots && !this.held && store.placeWanted === null) this.pivots = null;
       return;
     }
-    this.readout.setAttribute("aria-live", this.held ? "off" : "polite");
+    put(this.readout, "aria-live", this.held ? "off" : "polite");
     this.readout.textContent = placedInWords(placed, answers.data);
     if (placed.linkage && store.chosen !== PLACED && this.pivots) {
       this.before = store.chosen;

@@ -1,7 +1,7 @@
 // What moves the chosen linkage: play controls, either driver, either assembly; and where it is now.
 
 import { Assemblies } from "../widget/assemblies.mjs";
-import { h } from "../widget/dom.mjs";
+import { give, h } from "../widget/dom.mjs";
 import { frameAt } from "../widget/kinematics.mjs";
 import { fixed } from "../widget/numbers.mjs";
 import { Player } from "../widget/player.mjs";
@@ -59,7 +59,7 @@ export class Playing extends Events {
       this.player.linkage = null;
       this.player.way = 0;
       this.player.play(false);
-      this.assemblies.element.hidden = this.drivers.hidden = true;
+      for (const each of [this.assemblies.element, this.drivers]) give(each, "hidden", true);
       this.note.textContent = "";
       this.element.classList.add("bs-empty");
       this.emit("shape", false);
@@ -153,7 +153,7 @@ export class Playing extends Events {
   /** A choice between both dyads. */
   buildDrivers() {
     const { base } = this;
-    this.drivers.hidden = !base || !base.ways.length || base.led.some((dyad) => dyad.kind === "PP");
+    give(this.drivers, "hidden", !base || !base.ways.length || base.led.some((dyad) => dyad.kind === "PP"));
     if (this.drivers.hidden) return;
     const key = `${base.id} ${base.led.map((dyad) => dyad.id)} ${this.isOther}`;
     if (key === this.driversKey) return;

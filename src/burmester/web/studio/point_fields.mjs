@@ -1,6 +1,6 @@
 // The points of a shape as fields, two for each.
 
-import { h } from "../widget/dom.mjs";
+import { give, h } from "../widget/dom.mjs";
 import { NumberField } from "./fields.mjs";
 
 const FEW = 40; // points that have fields
@@ -25,7 +25,7 @@ export class PointFields {
     const wanted = this.fields.map((each) => each.element);
     if (wanted.length !== this.pairs.children.length || wanted.some((each, k) => each !== this.pairs.children[k])) this.pairs.replaceChildren(...wanted);
     this.fields.forEach(({ pair }, k) => pair.forEach((field, i) => field.show(points[k][i])));
-    this.more.hidden = points.length <= FEW;
+    give(this.more, "hidden", points.length <= FEW);
     this.more.textContent = `and ${points.length - FEW} more, to drag in the plane`;
   }
 

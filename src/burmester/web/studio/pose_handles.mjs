@@ -1,11 +1,12 @@
 // Poses to take hold of: the origin moves, the tip of the x axis turns, keys do both.
 
-import { s } from "../widget/dom.mjs";
+import { put, s } from "../widget/dom.mjs";
 import { axes, transform } from "../widget/drawing.mjs";
 import { clamp, degrees, px, radians } from "../widget/numbers.mjs";
 import { shortened } from "../widget/tables.mjs";
 import { addPose, poseName, removePose, setPose, standing, statedOf } from "./document.mjs";
 import { stepOf, stepped } from "./fields.mjs";
+import { isOther } from "./pacing.mjs";
 import { Kept } from "./scene.mjs";
 
 const LONGEST_ARM = 46; // pixels from the origin of a pose to the handle that turns it
@@ -77,30 +78,31 @@ export class PoseHandles {
 
   show(group, k) {
     const { store, scene: { view } } = this, { x, y, angle } = standing(store.document, k), pose = store.document.poses[k];
+    const selected = store.selection?.kind === "pose" && store.selection.index === k, unit = store.document.length_unit ?? "", name = poseName(store.document, k);
+    if (!isOther(group, [view, this.length, x, y, angle, Boolean(pose.exact), pose.name, name, unit, selected])) return;
     const [arrow, origin, turn] = group.children;
-    const selected = store.selection?.kind === "pose" && store.selection.index === k;
-    group.setAttribute("transform", transform(view.X(x), view.Y(y), radians(angle)));
-    arrow.setAttribute("d", axes(this.length - 8));
-    turn.setAttribute("transform", `translate(${px(this.length)} 0)`);
+    put(group, "transform", transform(view.X(x), view.Y(y), radians(angle)));
+    put(arrow, "d", axes(this.length - 8));
+    put(turn, "transform", `translate(${px(this.length)} 0)`);
     group.classList.toggle("bs-selected", selected);
     group.classList.toggle("bs-exact", Boolean(pose.exact));
-    const unit = store.document.length_unit ?? "", name = poseName(store.document, k);
     const called = pose.name ? `Pose ${k + 1}, ${name}` : `Pose ${k + 1}`;
-    origin.setAttribute("aria-label", `${called}: x ${x} ${unit}, y ${y} ${unit}, angle ${angle}°. Drag, or use the arrow keys; Delete removes it.`);
-    origin.setAttribute("aria-pressed", selected);
-    turn.setAttribute("aria-label", `Turn ${called}`);
-    turn.setAttribute("aria-valuenow", angle);
-    turn.setAttribute("aria-valuetext", `${angle}°`);
+    put(origin, "aria-label", `${called}: x ${x} ${unit}, y ${y} ${unit}, angle ${angle}°. Drag, or use the arrow keys; Delete removes it.`);
+    put(origin, "aria-pressed", selected);
+    put(turn, "aria-label", `Turn ${called}`);
+    put(turn, "aria-valuenow", angle);
+    put(turn, "aria-valuetext", `${angle}°`);
   }
 
   /** Names stand behind the origin, away from the x axis. */
   showName(text, k) {
     const { store, scene: { view } } = this, { x, y, angle } = standing(store.document, k), a = radians(angle + 215);
+    if (!isOther(text, [view, x, y, angle, poseName(store.document, k)])) return;
     const name = shortened(poseName(store.document, k), LONGEST_NAME);
     if (text.textContent !== name) text.textContent = name;
-    text.setAttribute("text-anchor", Math.cos(a) < -0.3 ? "end" : Math.cos(a) > 0.3 ? "start" : "middle");
-    text.setAttribute("x", px(view.X(x) + 13 * Math.cos(a)));
-    text.setAttribute("y", px(view.Y(y) - 13 * Math.sin(a) + 4));
+    put(text, "text-anchor", Math.cos(a) < -0.3 ? "end" : Math.cos(a) > 0.3 ? "start" : "middle");
+    put(text, "x", px(view.X(x) + 13 * Math.cos(a)));
+    put(text, "y", px(view.Y(y) - 13 * Math.sin(a) + 4));
   }
 
   /** A change of one pose; what is free and not stated stays free. */

@@ -1,8 +1,9 @@
 // The poses as a table: the same data as the handles, to the last digit.
 
-import { h } from "../widget/dom.mjs";
+import { give, h, put } from "../widget/dom.mjs";
 import { addPose, duplicatePose, movePose, removePose, setFree, setPose, setTolerance, standing } from "./document.mjs";
 import { NumberField, button, choice, labelled, textField, tick } from "./fields.mjs";
+import { isOther } from "./pacing.mjs";
 
 const PAGE = 60; // rows at a time
 const NUMBERS = [["x", "length"], ["y", "length"], ["angle", "angle"]];
@@ -83,26 +84,27 @@ export class PoseTable {
   }
 
   showRow(row, index) {
-    const pose = this.store.document.poses[index], moved = row.index !== index;
+    const pose = this.store.document.poses[index], moved = row.index !== index, selected = index === this.selected;
     row.index = index;
+    if (!isOther(row.tr, [index, pose, selected]) && document.activeElement?.closest("tr") !== row.tr) return;
     row.tr.dataset.row = index + 1;
-    row.tr.classList.toggle("bs-selected", index === this.selected);
+    row.tr.classList.toggle("bs-selected", selected);
     row.number.textContent = index + 1;
-    row.number.setAttribute("aria-label", `Pose ${index + 1}`);
-    row.number.setAttribute("aria-pressed", index === this.selected);
-    if (moved || document.activeElement !== row.name) row.name.value = oneLine(pose.name);
-    row.name.setAttribute("aria-label", `Name of pose ${index + 1}`);
+    put(row.number, "aria-label", `Pose ${index + 1}`);
+    put(row.number, "aria-pressed", selected);
+    if (moved || document.activeElement !== row.name) give(row.name, "value", oneLine(pose.name));
+    put(row.name, "aria-label", `Name of pose ${index + 1}`);
     for (const [key] of NUMBERS) {
       const { input } = row.fields[key], free = this.isFree(index, key);
-      input.setAttribute("aria-label", `${key} of pose ${index + 1}`);
-      input.placeholder = free ? "free" : "";
+      put(input, "aria-label", `${key} of pose ${index + 1}`);
+      put(input, "placeholder", free ? "free" : "");
       row.fields[key].turnTo(index, pose[key]);
       row.fields[key].show(pose[key]);
     }
   }
 
   showPages(pages, count) {
-    this.pages.hidden = pages < 2;
+    give(this.pages, "hidden", pages < 2);
     if (pages < 2) return;
     const go = (page) => {
       this.page = page;
@@ -172,24 +174,25 @@ export class PoseTable {
 
   showDetails() {
     const k = this.selected;
-    this.details.hidden = k === null;
+    give(this.details, "hidden", k === null);
     if (k === null) return;
-    const pose = this.store.document.poses[k];
+    const { poses } = this.store.document, pose = poses[k];
+    if (!isOther(this.details, [k, pose, poses.length]) && !this.details.contains(document.activeElement)) return;
     this.title.replaceChildren(`Pose ${k + 1}`, ...(pose.name ? [": ", h("bdi", {}, oneLine(pose.name))] : []));
-    this.exact.box.checked = Boolean(pose.exact);
+    give(this.exact.box, "checked", Boolean(pose.exact));
     this.weight.turnTo(k, pose.weight);
     this.weight.show(pose.weight);
     for (const { component, key, field, free } of this.bounds) {
       const isFree = this.isFree(k, component) || pose.tolerance?.[component] === "free";
-      free.box.checked = isFree;
-      field.input.disabled = isFree;
+      give(free.box, "checked", isFree);
+      give(field.input, "disabled", isFree);
       const stated = pose.tolerance?.[key], bound = typeof stated === "number" ? stated : undefined;
       field.turnTo(k, bound);
       field.show(bound);
     }
-    this.axes.hidden = !pose.tolerance;
-    this.axes.value = pose.tolerance?.axes ?? "fixed";
-    this.up.disabled = k === 0;
-    this.down.disabled = k === this.store.document.poses.length - 1;
+    give(this.axes, "hidden", !pose.tolerance);
+    give(this.axes, "value", pose.tolerance?.axes ?? "fixed");
+    give(this.up, "disabled", k === 0);
+    give(this.down, "disabled", k === poses.length - 1);
   }
 }

@@ -1,6 +1,6 @@
 // One linkage as a card: its verdict with the reason, its figures, and what would help.
 
-import { h } from "../widget/dom.mjs";
+import { give, h } from "../widget/dom.mjs";
 import { PLACED, leastOf, worstOf } from "./answers.mjs";
 import { helpInWords } from "./help_words.mjs";
 
@@ -73,10 +73,10 @@ export class ResultCard {
     setPressed(this.pin, pinned);
     setPressed(this.compare, compared);
     say(this.pin, pinned ? "Pinned" : "Pin");
-    this.pin.hidden = isPlaced;
-    this.compare.hidden = isPlaced || chosen;
-    this.improve.hidden = isPlaced || linkage.usable || old || Boolean(linkage.gone);
-    this.letGo.hidden = !isPlaced;
+    give(this.pin, "hidden", isPlaced);
+    give(this.compare, "hidden", isPlaced || chosen);
+    give(this.improve, "hidden", isPlaced || linkage.usable || old || Boolean(linkage.gone));
+    give(this.letGo, "hidden", !isPlaced);
     for (const button of [this.pin, this.compare, this.improve]) labelled(button, linkage.id);
   }
 

@@ -1,9 +1,10 @@
 // The panel of cards: filtered, sorted and pinned.  A card keeps its linkage while a hand drags.
 
-import { h } from "../widget/dom.mjs";
+import { give, h } from "../widget/dom.mjs";
 import { clamp, listed } from "../widget/numbers.mjs";
 import { PLACED } from "./answers.mjs";
 import { FILTERS, ORDERS, arranged } from "./ordering.mjs";
+import { Pace } from "./pacing.mjs";
 import { ResultCard, say } from "./result_card.mjs";
 
 const MOST = 40; // cards that are there at once, unless all of them are asked for
@@ -28,9 +29,10 @@ export class Results {
       this.list,
       this.more,
     );
+    this.pace = new Pace(() => this.update()); // what is read may lag behind the hand, what it holds may not
     this.list.addEventListener("keydown", (event) => this.walk(event));
     answers.on("answers placed", () => this.arrange());
-    answers.on("moved", () => this.update());
+    answers.on("moved", () => this.pace.ask());
     answers.on("shown", () => this.update());
     store.on("pinned", () => this.arrange());
     store.on("state document", () => this.tell());
@@ -64,9 +66,9 @@ export class Results {
       if (card.element !== next) this.list.insertBefore(card.element, next);
       before = card.element;
     }
-    this.more.hidden = every.length <= shown.length;
+    give(this.more, "hidden", every.length <= shown.length);
     if (!this.more.hidden) say(this.more, `Show all ${every.length}`);
-    this.hidden = answers.linkages.length - every.length;
+    give(this, "hidden", answers.linkages.length - every.length);
     this.update();
   }
 
@@ -94,7 +96,7 @@ export class Results {
     this.typesKey = key;
     if (!types.includes(this.wanted.type)) this.wanted.type = "";
     select.replaceChildren(...["", ...types].map((type) => h("option", { value: type, selected: type === this.wanted.type }, type || "any")));
-    this.types.hidden = types.length < 2;
+    give(this.types, "hidden", types.length < 2);
   }
 
   /** What the cards say, in the order in which they stand. */

@@ -1,6 +1,6 @@
 // A shape in the plane to take hold of: its corners, the middles of its edges, and all of it.
 
-import { s } from "../widget/dom.mjs";
+import { put, s } from "../widget/dom.mjs";
 import { act, back } from "../widget/kinematics.mjs";
 import { px } from "../widget/numbers.mjs";
 import { stepOf, stepped } from "./fields.mjs";
@@ -52,11 +52,11 @@ export class ShapeHandles {
   draw() {
     const { shape, points, place, name, selected, state, data } = (this.now = this.what());
     const d = pathOf(shape, points, place, this.scene.view);
-    this.line.setAttribute("d", d);
-    this.area.setAttribute("d", d);
+    put(this.line, "d", d);
+    put(this.area, "d", d);
     this.area.classList.toggle("bs-open", !CLOSED.has(shape));
-    this.area.setAttribute("aria-label", `${name}${state ? `, ${state} by the chosen linkage` : ""}. Drag, or use the arrow keys; Delete removes it.`);
-    this.area.setAttribute("aria-pressed", Boolean(selected));
+    put(this.area, "aria-label", `${name}${state ? `, ${state} by the chosen linkage` : ""}. Drag, or use the arrow keys; Delete removes it.`);
+    put(this.area, "aria-pressed", Boolean(selected));
     this.title.textContent = name;
     for (const [key, value] of Object.entries(data)) this.element.dataset[key] = value;
     this.element.dataset.shape = shape;
@@ -143,14 +143,14 @@ export class ShapeHandles {
 
   showCorner(element, k) {
     const corner = outlineOf(this.now.shape, this.now.points)[k];
-    for (const [name, value] of Object.entries(this.at(corner))) element.setAttribute(name, value);
-    element.setAttribute("aria-label", `Corner ${k + 1} of ${this.now.name}: ${corner.join(", ")}`);
+    for (const [name, value] of Object.entries(this.at(corner))) put(element, name, value);
+    put(element, "aria-label", `Corner ${k + 1} of ${this.now.name}: ${corner.join(", ")}`);
   }
 
   showMiddle(element, k) {
     const { points } = this.now, next = points[(k + 1) % points.length];
     const middle = this.at([(points[k][0] + next[0]) / 2, (points[k][1] + next[1]) / 2]);
-    for (const [name, value] of Object.entries(middle)) element.setAttribute(name, value);
+    for (const [name, value] of Object.entries(middle)) put(element, name, value);
   }
 
   keys(event, moved, remove) {

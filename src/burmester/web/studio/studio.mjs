@@ -1,7 +1,7 @@
 // The studio: one page on which a linkage is designed by hand.  Lengths are in the task's unit, angles in degrees
 // where a document or a name says so, else in radians; F is the ground, M the body.
 
-import { h } from "../widget/dom.mjs";
+import { give, h } from "../widget/dom.mjs";
 import { Autosave, keptHere } from "./autosave.mjs";
 import { Banners } from "./banners.mjs";
 import { BodyEditor } from "./body_editor.mjs";
@@ -33,9 +33,9 @@ function layOut(root, store, start) {
   const name = h("input", { class: "bs-text bs-task-name", "aria-label": "Name of the task", autocomplete: "off", spellcheck: "false", onchange: () => store.rename(name.value.trim() || "task") });
   const undo = button("↶", () => store.undo(), { "data-do": "undo", title: "Undo (Ctrl+Z)", "aria-label": "Undo" }), redo = button("↷", () => store.redo(), { "data-do": "redo", title: "Redo (Ctrl+Shift+Z)", "aria-label": "Redo" });
   const show = () => {
-    if (document.activeElement !== name) name.value = store.name.replace(/[\r\n]+/g, " ");
-    undo.disabled = !store.history.canUndo;
-    redo.disabled = !store.history.canRedo;
+    if (document.activeElement !== name) give(name, "value", store.name.replace(/[\r\n]+/g, " "));
+    give(undo, "disabled", !store.history.canUndo);
+    give(redo, "disabled", !store.history.canRedo);
   };
   store.on("document", show);
   show();
@@ -70,8 +70,8 @@ function stageBar(store, scene) {
   let waiting;
   store.on("state", () => {
     clearTimeout(waiting);
-    if (store.state === "solving") waiting = setTimeout(() => (stop.hidden = false), 700);
-    else stop.hidden = true;
+    if (store.state === "solving") waiting = setTimeout(() => give(stop, "hidden", false), 700);
+    else give(stop, "hidden", true);
   });
   show();
   return h("div", { class: "bs-bar" },

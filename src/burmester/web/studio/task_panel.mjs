@@ -1,6 +1,6 @@
 // What the linkage must be, in fields: limits of dyads, regions, requirements, options.
 
-import { h } from "../widget/dom.mjs";
+import { give, h } from "../widget/dom.mjs";
 import { limitsOf, regionsOf, setBody, setLimit, setRegion, setRequirement, setSurrounding, shapeOf, splitLimits, bodyOf, limitRegions, withKeys } from "./document.mjs";
 import { NumberField, button, choice, labelled, textField, tick } from "./fields.mjs";
 import { PointFields } from "./point_fields.mjs";
@@ -84,7 +84,7 @@ export class TaskPanel {
 
   drawLimits() {
     const { document } = this.store, tables = limitsOf(document), count = Math.max(1, tables.length);
-    this.apart.box.checked = tables.length > 1;
+    give(this.apart.box, "checked", tables.length > 1);
     while (this.madeTables.length < count) this.madeTables.push(this.makeTable(this.madeTables.length));
     while (this.tables.children.length > count) this.tables.lastChild.remove();
     while (this.tables.children.length < count) this.tables.append(this.madeTables[this.tables.children.length].element);
@@ -99,7 +99,7 @@ export class TaskPanel {
   }
 
   drawLimit({ numbers, remove }, region) {
-    remove.hidden = numbers.element.hidden = !region;
+    for (const each of [remove, numbers.element]) give(each, "hidden", !region);
     if (!region) return;
     const [[shape, stated]] = Object.entries(region);
     numbers.show(shape, shape === "point" ? [stated] : stated);
@@ -140,7 +140,7 @@ export class TaskPanel {
     const { link_width, margin, body_in_plane } = store.document.surroundings ?? {};
     this.linkWidth.show(link_width);
     this.margin.show(margin);
-    this.inPlane.box.checked = Boolean(body_in_plane);
+    give(this.inPlane.box, "checked", Boolean(body_in_plane));
   }
 
   regionRow(k) {
@@ -158,8 +158,8 @@ export class TaskPanel {
       const text = (region.name ?? "").replace(/[\r\n]+/g, " ");
       if (document.activeElement !== name && name.value !== text) name.value = text;
       element.classList.toggle("bs-selected", selected);
-      inNumbers.hidden = region.file !== undefined;
-      file.hidden = !inNumbers.hidden;
+      give(inNumbers, "hidden", region.file !== undefined);
+      give(file, "hidden", !inNumbers.hidden);
       if (inNumbers.hidden) file.textContent = `from the drawing ${region.file}`;
       else numbers.show(shapeKey(region), region[shapeKey(region)]);
     };
@@ -181,8 +181,8 @@ export class TaskPanel {
 
   drawBody() {
     const { document: task } = this.store, corners = bodyOf(task);
-    this.noBody.hidden = !task.body;
-    this.bodyBox.hidden = !corners.length;
+    give(this.noBody, "hidden", !task.body);
+    give(this.bodyBox, "hidden", !corners.length);
     if (!corners.length) return;
     this.bodyCount.textContent = `${corners.length} corners, in numbers`;
     this.bodyNumbers.show("polygon", corners);
@@ -219,8 +219,8 @@ export class TaskPanel {
     const asked = this.store.document.requirements ?? {};
     for (const [key, field] of Object.entries(this.numbers)) field.show(asked[key]);
     this.driver.value = asked.driver ?? "any";
-    this.anyOrder.box.checked = Boolean(asked.any_order);
-    this.noFootprint.hidden = !asked.footprint;
+    give(this.anyOrder.box, "checked", Boolean(asked.any_order));
+    give(this.noFootprint, "hidden", !asked.footprint);
     for (const { type, box } of this.types) box.checked = Boolean(asked.types?.includes(type));
   }
 
@@ -265,7 +265,7 @@ export class TaskPanel {
 
 /** Whether a condition is met: a sign, and sentences where it is not. */
 function tell(element, sentences) {
-  element.hidden = sentences === null;
+  give(element, "hidden", sentences === null);
   if (sentences === null) return;
   element.className = `bs-state ${sentences.length ? "bs-broken" : "bs-met"}`;
   element.textContent = sentences.length ? `✕ ${sentences.join(" ")}` : "✓ met by the chosen linkage";

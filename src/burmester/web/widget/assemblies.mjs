@@ -1,6 +1,6 @@
 // The ways of a linkage to choose from: its assemblies, and their branches.
 
-import { h } from "./dom.mjs";
+import { give, h } from "./dom.mjs";
 import { wayName } from "./tables.mjs";
 import { wayStory } from "./words.mjs";
 
@@ -22,6 +22,6 @@ export class Assemblies {
         h("span", {}, h("b", {}, wayName(way, linkage).replace("assembly ", "")), ` ${wayStory(way, this.data.poses)}`),
       );
     this.element.replaceChildren(h("legend", {}, "Assembly"), ...linkage.ways.map(one));
-    this.element.hidden = !linkage.ways.length;
+    give(this.element, "hidden", !linkage.ways.length);
   }
 }

@@ -16,6 +16,19 @@ export const h = (tag, attributes, ...children) => furnish(document.createElemen
 export const s = (tag, attributes, ...children) =>
   furnish(document.createElementNS(SVG, tag), attributes, children);
 
+/** An attribute, set only where it differs: a browser looks anew at whatever is written, changed or not. */
+export function put(node, name, value) {
+  const text = String(value);
+  if (node.getAttribute(name) !== text) node.setAttribute(name, text);
+}
+
+/** A property such as value, hidden or checked, set only where it differs: of a field or a button that was written a
+ * browser goes through every field of the page. */
+export function give(node, name, value) {
+  const next = typeof node[name] === "boolean" ? Boolean(value) : String(value);
+  if (node[name] !== next) node[name] = next;
+}
+
 /** A colour of a style sheet, #rrggbb, as three numbers from 0 to 255. */
 export function rgb(text) {
   const hex = text.trim().replace("#", "");

@@ -3,7 +3,7 @@
 // Elements are made once for two kinds of dyads; `shape` gives them the dimensions of a linkage and
 // `show` puts them at a place of the body, so that a linkage that changes is not drawn anew.
 
-import { s } from "./dom.mjs";
+import { put, s } from "./dom.mjs";
 import { AXIS, BLOCK, axes, hull, transform } from "./drawing.mjs";
 import { act, normalOf } from "./kinematics.mjs";
 import { px } from "./numbers.mjs";
@@ -53,7 +53,7 @@ export class Mechanism {
     this.led = linkage.led;
     this.hasBody = Boolean(data.body);
     if (this.hasBody) {
-      this.outline.setAttribute("d", bodyOutline(data, view));
+      put(this.outline, "d", bodyOutline(data, view));
       if (!this.outline.parentNode) this.group.prepend(this.outline);
     } else {
       this.outline.remove();
@@ -65,30 +65,30 @@ export class Mechanism {
       if (more) corners.push(more);
     });
     const d = `M${hull(corners).map((corner) => corner.map(px).join(" ")).join("L")}Z`;
-    for (const plate of this.plates) plate.setAttribute("d", d);
+    for (const plate of this.plates) put(plate, "d", d);
     this.shapeArrow();
   }
 
   show(place) {
     const { view } = this, at = transform(view.X(place.x), view.Y(place.y), place.a);
-    this.coupler.setAttribute("transform", at);
-    if (this.hasBody) this.outline.setAttribute("transform", at);
+    put(this.coupler, "transform", at);
+    if (this.hasBody) put(this.outline, "transform", at);
     for (const part of this.parts) part.show(place);
     const [x, y] = act(place, [-LETTER / view.scale, -LETTER / view.scale]);
-    this.letter.setAttribute("x", px(view.X(x)));
-    this.letter.setAttribute("y", px(view.Y(y) + 4));
+    put(this.letter, "x", px(view.X(x)));
+    put(this.letter, "y", px(view.Y(y) + 4));
     const [driver] = this.led;
-    if (driver.kind === "PR") this.arrow.setAttribute("transform", `${onRail(driver, place, view)} translate(0 ${-ARROW})`);
+    if (driver.kind === "PR") put(this.arrow, "transform", `${onRail(driver, place, view)} translate(0 ${-ARROW})`);
   }
 
   /** A turning or sliding arrow at the driver, for eyes that tell no colours apart. */
   shapeArrow() {
     const { arrow, view } = this, [driver] = this.led;
-    if (driver.kind === "PR") arrow.setAttribute("d", "M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6 5");
+    if (driver.kind === "PR") put(arrow, "d", "M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6 5");
     if (!driver.fixed_pivot) return;
     const [x, y] = driver.fixed_pivot;
-    arrow.setAttribute("d", "M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9");
-    arrow.setAttribute("transform", `translate(${px(view.X(x))} ${px(view.Y(y))}) rotate(-90)`);
+    put(arrow, "d", "M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9");
+    put(arrow, "transform", `translate(${px(view.X(x))} ${px(view.Y(y))}) rotate(-90)`);
   }
 }
 
@@ -108,8 +108,8 @@ const block = (side, width, height) =>
 
 /** Put a pin at a point given in pixels, with the name of its dyad. */
 function setPin(pin, [x, y], dyad) {
-  pin.setAttribute("cx", px(x));
-  pin.setAttribute("cy", px(y));
+  put(pin, "cx", px(x));
+  put(pin, "cy", px(y));
   pin.dataset.dyad = dyad.id;
 }
 
@@ -129,14 +129,14 @@ class Bar {
   shape(dyad, view) {
     this.dyad = dyad;
     this.view = view;
-    for (const stroke of this.strokes) stroke.setAttribute("d", `M0 0H${px(view.scale * dyad.radius)}`);
+    for (const stroke of this.strokes) put(stroke, "d", `M0 0H${px(view.scale * dyad.radius)}`);
     setPin(this.ground, inGround(dyad.fixed_pivot, view), dyad);
     setPin(this.pin, inBody(dyad.moving_pivot, view), dyad);
   }
 
   show(place) {
     const { dyad, view } = this, [cx, cy] = dyad.fixed_pivot, [x, y] = act(place, dyad.moving_pivot);
-    this.bar.setAttribute("transform", transform(view.X(cx), view.Y(cy), Math.atan2(y - cy, x - cx)));
+    put(this.bar, "transform", transform(view.X(cx), view.Y(cy), Math.atan2(y - cy, x - cx)));
   }
 }
 
@@ -156,7 +156,7 @@ class BlockOnRail {
   }
 
   show(place) {
-    this.block.setAttribute("transform", onRail(this.dyad, place, this.view));
+    put(this.block, "transform", onRail(this.dyad, place, this.view));
   }
 }
 
@@ -179,7 +179,7 @@ class Slot {
     const [low, high] = places.length ? travelOf(dyad, places) : [0, 0], end = (BLOCK_IN_SLOT[0] / 2 + SPARE) / view.scale;
     const seen = (along) => inBody(pointOnLine(dyad, along), view);
     const d = `M${[seen(low - end), seen(high + end)].map((each) => each.map(px).join(" ")).join("L")}`;
-    for (const stroke of this.strokes) stroke.setAttribute("d", d);
+    for (const stroke of this.strokes) put(stroke, "d", d);
     this.strokes[3].dataset.dyad = this.block.dataset.dyad = dyad.id;
     setPin(this.ground, inGround(dyad.fixed_pivot, view), dyad);
     return seen((low + high) / 2);
@@ -187,7 +187,7 @@ class Slot {
 
   show(place) {
     const { dyad, view } = this, [nx, ny] = normalOf(dyad), [cx, cy] = dyad.fixed_pivot;
-    this.block.setAttribute("transform", transform(view.X(cx), view.Y(cy), place.a + Math.atan2(nx, -ny)));
+    put(this.block, "transform", transform(view.X(cx), view.Y(cy), place.a + Math.atan2(nx, -ny)));
   }
 }
 

@@ -1,6 +1,6 @@
 // What moves a linkage along one of its ways: playing, the slider, steps from pose to pose.
 
-import { h, s } from "./dom.mjs";
+import { give, h, s } from "./dom.mjs";
 import { linear, placeAt } from "./kinematics.mjs";
 import { clamp, degrees, figure, fixed, px, radians } from "./numbers.mjs";
 import { decimalsOf, missOf, poseName, shortened } from "./tables.mjs";
@@ -97,13 +97,13 @@ export class Player {
   rebuild() {
     const { path, slider } = this;
     if (!path) this.play(false);
-    slider.disabled = this.button.disabled = !path;
+    for (const each of [slider, this.button]) give(each, "disabled", !path);
     const last = path ? path.x.length - 1 : 1;
     const frames = path ? this.stopsOnWay.map((row) => row.frame) : [];
     const [low, high] = [frames.reduce((a, b) => Math.min(a, b), last), frames.reduce((a, b) => Math.max(a, b), 0)];
     const apart = high - low > LEAST_STRETCH;
     this.stretch = apart && !this.whole ? { low, high } : { low: 0, high: last };
-    this.box.disabled = !apart;
+    give(this.box, "disabled", !apart);
     this.boxName.textContent = path?.round ? "Whole turn" : "Whole branch";
     this.heading = 1; // at an end it turns round by itself
     this.u = clamp(this.u, this.stretch.low, this.stretch.high);
