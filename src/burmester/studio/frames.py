@@ -86,7 +86,8 @@ def followed_frame(
 
     start: the number of the message whose answer they go on from.
     motion: the ways of the linkages that are shown, by their ids.
-    drawn: what the frame before has drawn: linkages that were not judged since are as they were.
+    drawn: what the frame before has drawn: linkages that were not judged since are as they were,
+    and the frame names them only.
     """
     numbers, linkages, now = _Numbers(), [], {}
     for found in followed.linkages:
@@ -95,6 +96,9 @@ def followed_frame(
         one = _drawn(followed.problem, found) if last is None or fresh else last
         now[found.id] = one
         ways = motion.get(found.id)
+        if ways is None and not fresh:
+            linkages.append({"id": found.id, "fresh": False})
+            continue
         linkages.append(
             {
                 **one.facts,

@@ -1,4 +1,7 @@
-"""Which linkages of a new answer are those that were there before: a card keeps its linkage."""
+"""Which linkages of a new answer are those that were there before: a card keeps its linkage.
+
+This is the one place where that is decided; the page does what it is told.
+"""
 
 from __future__ import annotations
 
@@ -7,8 +10,8 @@ from typing import Any, Final
 
 import numpy as np
 
-from burmester.fourbar.dyad import PP, RR
-from burmester.fourbar.linkage_batch import DYAD_KINDS, LinkageBatch
+from burmester.following.identity import AS_NEAR
+from burmester.fourbar.dyad import PP, PR, RR, Dyad
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Synthesis
@@ -19,70 +22,76 @@ __all__ = ["matched", "standing"]
 # Sizes of what is compared.  A linkage that moved along with the poses is off by some thousandths
 # from where a search finds it; two linkages of one answer are a tenth and more apart.
 SAME: Final = 0.02
+UNTOLD: Final = 1e-3  # of it: a linkage that a search moved by less is where it was
 
 
 def standing(linkages: Sequence[FoundLinkage]) -> list[dict[str, Any]]:
-    """The dimensions of linkages, by their ids, as `matched` takes them."""
-    known = _of_links(linkages)
-    batch = LinkageBatch.of([each.linkage for each in known])
-    rows = zip(known, batch.kinds.tolist(), batch.dimensions.tolist(), strict=True)
+    """The dyads of linkages, by their ids, as `matched` takes them."""
     return [
-        {"id": found.id, "kinds": kinds, "dimensions": dimensions}
-        for found, kinds, dimensions in rows
+        {
+            "id": each.id,
+            "kinds": [type(found.dyad).__name__ for found in each.dyads],
+            "numbers": [_numbers(found.dyad) for found in each.dyads],
+        }
+        for each in linkages
     ]
 
 
-def matched(before: Sequence[dict[str, Any]], synthesis: Synthesis) -> dict[str, str]:
-    """For linkages of a synthesis the id that each had before, where it is the same linkage.
+def matched(before: Sequence[dict[str, Any]], synthesis: Synthesis) -> dict[str, dict[str, Any]]:
+    """For linkages of a synthesis the "id" that each had before, where it is the same linkage.
 
+    "moved" says how far the search moved it, in its size; 0 for less than can be told.
     before: what `standing` said of the linkages at the same task.  None is taken twice: of several
-    that are near each other the nearest pair counts first.
+    that are near each other the nearest pair counts first.  Where another one is about as near,
+    neither is surely the one, and none is taken.
     """
-    new = _of_links(synthesis.linkages)
+    new = standing(synthesis.linkages)
     if not new or not before:
         return {}
-    batch = LinkageBatch.of([each.linkage for each in new])
-    old = LinkageBatch(
-        np.array([each["kinds"] for each in before], dtype=batch.kinds.dtype),
-        np.array([each["dimensions"] for each in before], dtype=np.float64),
-    )
     scene = scene_of(synthesis)
-    away = np.minimum(_away(batch, old, scene), _away(batch, old.exchanged(), scene))
-    out: dict[str, str] = {}
-    while away.min() < SAME:
+    away = np.minimum(_away(new, before, scene, (0, 1)), _away(new, before, scene, (1, 0)))
+    out: dict[str, dict[str, Any]] = {}
+    while (least := float(away.min())) < SAME:
         i, j = divmod(int(away.argmin()), len(before))
-        out[new[i].id] = before[j]["id"]
+        away[i, j] = np.inf
+        if least < UNTOLD or min(away[i].min(), away[:, j].min()) > AS_NEAR * least:
+            moved = round(least, 4) if least >= UNTOLD else 0
+            out[new[i]["id"]] = {"id": before[j]["id"], "moved": moved}
         away[i, :] = away[:, j] = np.inf
     return out
 
 
-def _of_links(linkages: Sequence[FoundLinkage]) -> list[FoundLinkage]:
-    """Those without a dyad that only slides, which has no place."""
-    return [each for each in linkages if not any(isinstance(d.dyad, PP) for d in each.dyads)]
-
-
-def _away(new: LinkageBatch, old: LinkageBatch, scene: float) -> FloatArray:
-    """How far new linkages (n,) are from old ones (m,), in their sizes: (n, m)."""
-    alike = (new.kinds[:, None] == old.kinds).all(axis=-1)
-    one, other = _lengths(new, scene), _lengths(old, scene)
-    size = np.maximum(scene, np.abs(other).max(axis=(1, 2)))
-    gap = np.abs(one[:, None] - other).max(axis=(2, 3)) / size
-    return np.where(alike, gap, np.inf)
-
-
-def _lengths(batch: LinkageBatch, scene: float) -> FloatArray:
-    """Dyads as lengths (k, 2, 6) that are equal for equal dyads.
+def _numbers(dyad: Dyad) -> list[float]:
+    """A direction and lengths that are equal for equal dyads.
 
     A line is its point nearest to the origin and twice its angle, as its normal has two directions.
     """
-    z = batch.dimensions
-    out = np.zeros((*z.shape[:2], 6))
-    for kind, at in ((1, 0), (2, 2)):  # where the line of a PR stands, and that of an RP
-        line = batch.kinds == kind
-        angle, offset = z[line][:, at], z[line][:, at + 1]
-        out[line, 0], out[line, 1] = scene * np.cos(2 * angle), scene * np.sin(2 * angle)
-        out[line, 2], out[line, 3] = offset * np.cos(angle), offset * np.sin(angle)
-        out[line, 4:] = z[line][:, 2 - at : 4 - at]
-    link = batch.kinds == DYAD_KINDS.index(RR)
-    out[link, :5] = z[link]
-    return out
+    if isinstance(dyad, RR):
+        return [0.0, 0.0, *map(float, (*dyad.fixed_pivot, *dyad.moving_pivot, dyad.radius))]
+    if isinstance(dyad, PP):
+        return [float(np.cos(dyad.angle)), float(np.sin(dyad.angle)), *5 * [0.0]]
+    angle, pivot = (
+        dyad.normal_angle,
+        dyad.moving_pivot if isinstance(dyad, PR) else dyad.fixed_pivot,
+    )
+    line = dyad.offset * np.cos(angle), dyad.offset * np.sin(angle)
+    return [*map(float, (np.cos(2 * angle), np.sin(2 * angle), *line, *pivot)), 0.0]
+
+
+def _away(
+    new: Sequence[dict[str, Any]],
+    old: Sequence[dict[str, Any]],
+    scene: float,
+    order: tuple[int, int],
+) -> FloatArray:
+    """How far new linkages (n,) are from old ones (m,), in their sizes: (n, m).
+
+    order: which dyads of the old ones are compared with the first and the second of the new ones.
+    """
+    alike = [[one["kinds"] == [other["kinds"][k] for k in order] for other in old] for one in new]
+    unit = np.array([scene, scene, 1, 1, 1, 1, 1])
+    one = unit * np.array([each["numbers"] for each in new])
+    other = unit * np.array([each["numbers"] for each in old])[:, order]
+    size = np.maximum(scene, np.abs(other).max(axis=(1, 2)))
+    gap = np.abs(one[:, None] - other).max(axis=(2, 3)) / size
+    return np.where(alike, gap, np.inf)

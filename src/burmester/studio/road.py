@@ -234,9 +234,14 @@ class Road:
             return f"{error.message}: {error.why}"
 
     def stand(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
-        """Where the linkages are at a task, for `match`; it changes nothing."""
-        found = self._followed(task_of(given.get("document")))
-        return _json([] if isinstance(found, str) else standing(found.linkages))
+        """Where the linkages are at a task, for `match`; it changes nothing.
+
+        What cannot be followed there stands where it stood last.
+        """
+        found: Synthesis | Followed | str | None = self._followed(task_of(given.get("document")))
+        if isinstance(found, str):
+            found = self._answers
+        return _json([] if found is None else standing(found.linkages))
 
     def match(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """Which linkages of this task are those that stood elsewhere."""

@@ -127,6 +127,8 @@ class Session:
                 house.later(self._tell(n, "waiting", before=before))
 
             async with house.turns.turn(waits), house.workers.lent(key) as worker:
+                is_own = worker is self._live and worker.holder is self
+                before = await self._standing(worker, text) if is_own else None
                 if worker.key == key and (known := house.answers.get(key)) is not None:
                     await worker.ask({"do": "again"}, b"{}")
                     body = known.report
@@ -136,7 +138,7 @@ class Session:
                     if head["kind"] == "failed":
                         await self._send(n, "refused", body)
                         return
-                was = await self._matched(worker, text)
+                was = await self._matched(worker, before, text)
                 self._hold(worker, n)
             seconds = round(time.monotonic() - start, 3)
             await self._send(n, "solved", body, key="result", seconds=seconds, was=was)
@@ -146,18 +148,23 @@ class Session:
         except WorkerEndedError:
             await self._refuse(n, "the computation ended before its time; try it once more")
 
-    async def _matched(self, worker: Worker, text: str) -> dict[str, str]:
-        """For the new linkages the ids that they have on the page, where they are there already."""
-        if self._live is worker:
-            return {}
-        async with self._house.workers.held(self._live, self) as live:
-            if live is None:
-                return {}
-            head, before = await live.ask({"do": "stand"}, text.encode())
-        if head["kind"] == "failed":
+    async def _standing(self, live: Worker, text: str) -> bytes | None:
+        """Where the linkages of the page are at a task."""
+        head, before = await live.ask({"do": "stand"}, text.encode())
+        return None if head["kind"] == "failed" else before
+
+    async def _matched(self, worker: Worker, before: bytes | None, text: str) -> dict[str, Any]:
+        """For the new linkages the ids that they have on the page, where they are there already.
+
+        before: where those are, if the worker that held them has the new ones by now.
+        """
+        if self._live is not worker:
+            async with self._house.workers.held(self._live, self) as live:
+                before = None if live is None else await self._standing(live, text)
+        if before is None:
             return {}
         head, body = await worker.ask({"do": "match"}, before)
-        was: dict[str, str] = {} if head["kind"] == "failed" else json.loads(body)
+        was: dict[str, Any] = {} if head["kind"] == "failed" else json.loads(body)
         return was
 
     def _hold(self, worker: Worker, n: int) -> None:

@@ -28,55 +28,6 @@ def four_poses():
     return poses, report_data(synthesize(Task(poses)))
 
 
-def moved(linkage, by, rng, scene):
-    """The same linkage a little elsewhere, its dyads the other way round."""
-
-    def shifted(dyad):
-        out = dict(dyad)
-        for key in ("fixed_pivot", "moving_pivot"):
-            if key in dyad:
-                out[key] = (np.array(dyad[key]) + by * scene * rng.uniform(-1, 1, 2)).tolist()
-        if "line" in dyad:  # a line has two normals
-            line = dyad["line"]
-            out["line"] = {
-                **line,
-                "normal_deg": line["normal_deg"] + 180,
-                "offset": -line["offset"],
-            }
-        return out
-
-    return {"led": [shifted(dyad) for dyad in reversed(linkage["led"])]}
-
-
-@pytest.mark.parametrize("name", ["case:ge2012-exact", "case:motiongen-rrrp"])
-def test_a_linkage_goes_on_as_the_one_where_it_was(name):
-    data, rng = data_of(name), np.random.default_rng(0)
-    order = rng.permutation(len(data["linkages"])).tolist()
-    before = [{"id": each["id"], "led": each["led"]} for each in data["linkages"]]
-    after = [
-        {"id": f"L{k + 1}", **moved(data["linkages"][old], 1e-6, rng, data["scene"])}
-        for k, old in enumerate(order)
-    ]
-    script = "return [...m.continuedAs(before, after, scene)];"
-    found = dict(value("identity.mjs", script, before=before, after=after, scene=data["scene"]))
-    assert found == {before[old]["id"]: f"L{k + 1}" for k, old in enumerate(order)}
-    # Farther off, none of them is the same.
-    far = [{"id": each["id"], **moved(each, 0.05, rng, data["scene"])} for each in data["linkages"]]
-    assert value("identity.mjs", script, before=before, after=far, scene=data["scene"]) == []
-
-
-def test_a_linkage_with_two_candidates_goes_on_as_neither():
-    (one, *_), scene = data_of("case:ge2012-exact")["linkages"], 1.0
-    near = [{**dyad, "radius": dyad["radius"] + 1e-5} for dyad in one["led"]]
-    nearer = [{**dyad, "radius": dyad["radius"] - 0.8e-5} for dyad in one["led"]]
-    after = [{"id": "L1", "led": near}, {"id": "L2", "led": nearer}]
-    before = [{"id": "L7", "led": one["led"]}]
-    script = "return [...m.continuedAs(before, after, scene)];"
-    assert value("identity.mjs", script, before=before, after=after, scene=scene) == []
-    alone = value("identity.mjs", script, before=before, after=after[:1], scene=scene)
-    assert alone == [["L7", "L1"]]
-
-
 LINKAGES = [
     {"id": "L1", "rank": 1, "worst": 0.3, "least": 40, "type": "a", "usable": True},
     {"id": "L2", "rank": 2, "worst": 0.1, "least": None, "type": "b", "usable": False},
@@ -211,12 +162,6 @@ def test_a_followed_angle_is_rounded_down_as_the_road_rounds_it():
 
 
 def test_a_card_tells_how_far_a_search_moved_its_linkage():
-    link = {"kind": "RR", "fixed_pivot": [0, 0], "moving_pivot": [100, 0], "radius": 50}
-    moved = {**link, "moving_pivot": [100, 3]}
-    pair, other = {"led": [link, link]}, {"led": [link, moved]}
-    script = "return [m.shiftOf(a, a, 100), m.shiftOf(a, b, 100)];"
-    # 0.03 scenes of a dyad that is one scene and one of origin large
-    assert value("identity.mjs", script, a=pair, b=other) == [0, pytest.approx(0.03 / 2)]
     script = "return cards.map(m.pastOf);"
     cards = [{"shift": 0.015}, {"was": "L3", "shift": 0.015}, {"isNew": True}, {"was": "L2"}, {}]
     said = value("result_card.mjs", script, cards=cards)

@@ -1022,7 +1022,11 @@ var Scene = class {
   // Gestures
   /** The point of an event: in F, and in pixels of the picture. */
   at(event) {
-    const { left, top } = this.svg.getBoundingClientRect(), X = event.clientX - left, Y = event.clientY - top;
+    if (!this.box) {
+      this.box = this.svg.getBoundingClientRect();
+      requestAnimationFrame(() => this.box = null);
+    }
+    const { left, top } = this.box, X = event.clientX - left, Y = event.clientY - top;
     return { X, Y, x: this.view.x(X), y: this.view.y(Y) };
   }
   /** Drag an element: start(point, event) may return false; move(point, event); end(point); cancel() at Escape.
@@ -1708,7 +1712,7 @@ var KEYS = ["fixed_pivot", "moving_pivot"];
 function currentLinkage(store) {
   if (store.chosen === "placed") return store.placed?.linkage ?? null;
   const followed = store.followed?.linkages.find(({ id }) => id === store.chosen);
-  if (followed) return followed;
+  if (followed?.led) return followed;
   if (store.followed?.vanished?.some(({ id }) => id === store.chosen)) return null;
   return store.solved?.linkages.find(({ id }) => id === store.chosen) ?? null;
 }
@@ -2097,6 +2101,7 @@ function decodeFrame(buffer) {
   const numbers = floats(buffer, 4 + length);
   for (const linkage of header.linkages ?? []) {
     if (linkage.ways) linkage.ways = linkage.ways.map((way) => ({ ...way, ...pieces(numbers, way, WAY) }));
+    if (!linkage.poses) continue;
     const { count } = linkage.poses;
     const columns = pieces(numbers, linkage.poses, POSE);
     linkage.pose_errors = Array.from({ length: count }, (_, pose) => {
@@ -2118,53 +2123,6 @@ function floats(buffer, start) {
 }
 function pieces(numbers, { start, count }, names) {
   return Object.fromEntries(names.map((name, k) => [name, numbers.subarray(start + k * count, start + (k + 1) * count)]));
-}
-
-// src/burmester/web/studio/identity.mjs
-var SAME = 2e-3;
-var AMBIGUOUS = 0.25;
-function coordinates(dyad, scene) {
-  const out = [];
-  for (const point2 of [dyad.fixed_pivot, dyad.moving_pivot]) if (point2) out.push(point2[0] / scene, point2[1] / scene);
-  if (dyad.radius !== void 0) out.push(dyad.radius / scene);
-  if (dyad.line) {
-    const angle = radians(dyad.line.normal_deg), offset = dyad.line.offset / scene;
-    const sense = Math.cos(angle) > 1e-9 || Math.abs(Math.cos(angle)) <= 1e-9 && Math.sin(angle) > 0 ? 1 : -1;
-    out.push(sense * Math.cos(angle), sense * Math.sin(angle), sense * offset);
-  }
-  if (dyad.angle_deg !== void 0) out.push(Math.cos(radians(dyad.angle_deg)), Math.sin(radians(dyad.angle_deg)));
-  return out;
-}
-function dyadDistance(one, other, scene) {
-  if (one.kind !== other.kind) return Infinity;
-  const a = coordinates(one, scene), b = coordinates(other, scene);
-  const size2 = 1 + Math.max(...a.map(Math.abs));
-  return Math.max(...a.map((value, k) => Math.abs(value - b[k]))) / size2;
-}
-function linkageDistance(one, other, scene) {
-  const pairs = (p, q) => Math.max(dyadDistance(one.led[0], other.led[p], scene), dyadDistance(one.led[1], other.led[q], scene));
-  return Math.min(pairs(0, 1), pairs(1, 0));
-}
-function shiftOf(followed, searched, scene) {
-  const away = linkageDistance(followed, searched, scene);
-  return away > SAME && Number.isFinite(away) ? away : 0;
-}
-function continuedAs(before, after, scene) {
-  const away = before.map((one) => after.map((other) => linkageDistance(one, other, scene)));
-  const nearest = (row) => {
-    let best = -1, second = Infinity;
-    row.forEach((value, k) => {
-      if (best < 0 || value < row[best]) [best, second] = [k, best < 0 ? Infinity : row[best]];
-      else if (value < second) second = value;
-    });
-    return best >= 0 && row[best] < SAME && row[best] <= AMBIGUOUS * second ? best : -1;
-  };
-  const names = /* @__PURE__ */ new Map();
-  before.forEach((one, i) => {
-    const j = nearest(away[i]);
-    if (j >= 0 && nearest(away.map((row) => row[j])) === i) names.set(one.id, after[j].id);
-  });
-  return names;
 }
 
 // src/burmester/web/studio/keyboard.mjs
@@ -2237,7 +2195,8 @@ var PoseTable = class {
     const add = button("Add a pose", () => this.add(), { "data-do": "add-pose-row" });
     this.element = h("div", { class: "bs-table-box" }, this.table, this.pages, h("div", { class: "bs-row" }, add, this.unit), this.details);
     this.makeDetails();
-    store.on("document selection", () => this.draw());
+    this.pace = new Pace(() => this.draw());
+    store.on("document selection", () => scene.dragged ? this.pace.ask() : this.draw());
     this.draw();
   }
   get selected() {
@@ -2703,7 +2662,7 @@ var Answers = class extends Events {
   }
   takeSolved() {
     const { solved, document: document2 } = this.store, before = this.linkages.filter((each) => !each.gone);
-    const names = this.store.renamed ?? continuedAs(before, solved.linkages, solved.scene);
+    const { renamed: names, moved } = this.store;
     const was = new Map([...names].map(([old, id]) => [id, this.byId.get(old)]));
     const { poses, body, keep_out, ...rest } = solved;
     Object.assign(this.data, { body, keep_out, ...rest, poses: posesOf(document2) });
@@ -2713,9 +2672,8 @@ var Answers = class extends Events {
       const kept = was.get(fresh.id), now = kept ?? {};
       const stood = kept && kept.rank !== Infinity;
       const before2 = stood && kept.id !== fresh.id ? kept.id : null;
-      const shift = kept?.followed ? shiftOf(kept, fresh, solved.scene) : 0;
       for (const key of Object.keys(now)) delete now[key];
-      Object.assign(now, figured(linked(fresh)), { was: before2, shift, isNew: this.known && !stood, followed: false, gone: null, change: null });
+      Object.assign(now, figured(linked(fresh)), { was: before2, shift: moved.get(fresh.id) ?? 0, isNew: this.known && !stood, followed: false, gone: null, change: null });
       this.byId.set(now.id, now);
       return now;
     });
@@ -5018,8 +4976,6 @@ var Player = class {
     this.boxName.textContent = path2?.round ? "Whole turn" : "Whole branch";
     this.heading = 1;
     this.u = clamp(this.u, this.stretch.low, this.stretch.high);
-    slider.min = this.stretch.low;
-    slider.max = this.stretch.high;
   }
   /** Play all of a way, or only from its first pose to its last; so it stays for other linkages. */
   playWhole(on) {
@@ -5134,7 +5090,8 @@ var Player = class {
     });
     return near2;
   }
-  show() {
+  /** Draw where it is; told: also with the slider and in words, which may lag behind a hand. */
+  show(told = true) {
     const { path: path2, linkage, data } = this;
     if (!path2) {
       for (const part of this.parts) part.textContent = "";
@@ -5143,8 +5100,12 @@ var Player = class {
     const place = placeAt(linkage, path2, this.u, data.chart.length);
     const drive = linear(path2.drive, this.u), transmission = linear(path2.transmission, this.u);
     const near2 = this.atPose = this.nearest(place);
-    this.slider.value = this.u;
-    this.tell(place, drive, transmission, near2);
+    if (told) {
+      give(this.slider, "min", this.stretch.low);
+      give(this.slider, "max", this.stretch.high);
+      give(this.slider, "value", this.u);
+      this.tell(place, drive, transmission, near2);
+    }
     this.draw.show(place, drive, transmission, near2);
   }
   /** The readout: driver, body, transmission angle, and the nearest pose. */
@@ -5358,6 +5319,7 @@ var Playing = class extends Events {
     this.drivers = h("fieldset", { class: "bm-ways bs-drivers", hidden: true });
     this.note = h("p", { class: "bs-quiet bs-driver-note" });
     this.element = h("div", { class: "bs-player" }, this.player.element, h("div", { class: "bs-player-ways" }, this.drivers, this.assemblies.element), this.note);
+    this.words = new Pace(() => this.player.path && this.player.show());
     this.marks = new Pace(() => this.player.drawStops());
     answers.on("answers shown placed", () => this.load());
     answers.on("moved", () => this.follow());
@@ -5434,7 +5396,8 @@ var Playing = class extends Events {
     }
     player.rebuild();
     this.emit("shape", true);
-    player.show();
+    player.show(false);
+    this.words.ask();
     this.marks.ask();
   }
   /** The frame of a way at which its driver stands so; of angles, whole turns do not count. */
@@ -6354,7 +6317,7 @@ var SpacePanel = class {
     playing.on("shape", () => this.ask());
     answers.on("poses placed", () => this.ask());
     playing.on("place", ({ place }) => {
-      if (this.space.view && isSeen(fill)) this.space.show(place);
+      if (this.space.view && !answers.isOld && isSeen(fill)) this.space.show(place);
     });
     new ResizeObserver(() => this.ask()).observe(fill);
     watch(fill, () => this.ask());
@@ -6482,16 +6445,16 @@ var History = class {
 
 // src/burmester/web/studio/store.mjs
 var REST = 150;
+var MOST_REST = 1e3;
+var MOST_FLYING = 1;
 var MOST_SHOWN = 6;
 var PLACED2 = "placed";
-var sameIds = (before, after) => new Map(before.filter(({ id }) => after.some((each) => each.id === id)).map(({ id }) => [id, id]));
 var Store = class {
-  /** continued(before, after, scene): for each linkage before the id with which it goes on.
-   * @param {{ connection: import("./connection.mjs").Connection, document: object, options?: object, name?: string, continued?: Function }} start */
-  constructor({ connection, document: document2, options = {}, name = "task", continued = sameIds }) {
+  /** @param {{ connection: import("./connection.mjs").Connection, document: object, options?: object, name?: string }} start */
+  constructor({ connection, document: document2, options = {}, name = "task" }) {
     this.connection = connection;
-    this.continued = continued;
-    this.renamed = null;
+    this.renamed = /* @__PURE__ */ new Map();
+    this.moved = /* @__PURE__ */ new Map();
     this.document = document2;
     this.options = options;
     this.name = name;
@@ -6511,7 +6474,7 @@ var Store = class {
     this.listeners = /* @__PURE__ */ new Map();
     this.basis = null;
     this.pending = null;
-    this.flying = null;
+    this.flying = /* @__PURE__ */ new Map();
     this.placing = null;
     this.solving = null;
     this.improving = null;
@@ -6598,14 +6561,19 @@ var Store = class {
     return [.../* @__PURE__ */ new Set([this.chosen, this.compared, ...this.pinned])].filter((id) => id && id !== PLACED2).slice(0, MOST_SHOWN);
   }
   follow() {
-    if (!this.solved || this.flying) return;
+    if (!this.solved || this.flying.size >= MOST_FLYING) return;
     const { document: document2, options, shown: shown2 } = this;
     const n = this.connection.send({ do: "follow", document: document2, options, shown: shown2 });
-    if (n !== null) this.flying = { n, document: document2 };
+    if (n !== null) this.flying.set(n, { document: document2, isOld: false });
   }
   solveAfterRest() {
     clearTimeout(this.resting);
-    this.resting = setTimeout(() => this.solve(), REST);
+    const since = performance.now();
+    const rest = () => {
+      if (this.flying.size && performance.now() - since < MOST_REST) this.resting = setTimeout(rest, REST / 3);
+      else this.solve();
+    };
+    this.resting = setTimeout(rest, REST);
   }
   /** Run the whole road for the task as it is now. */
   solve() {
@@ -6638,29 +6606,36 @@ var Store = class {
   take(message) {
     const { n, kind } = message;
     if (kind === "followed") this.takeFollowed(message);
-    else if (n === this.flying?.n) this.followRefused(message);
+    else if (this.flying.has(n)) this.followRefused(message);
     else if (n === this.placing?.n) this.takePlaced(message);
     else if (n === this.improving?.n) this.takeImproved(message);
     else if (n === this.solving?.n || kind === "cancelled" && this.solving && n > this.solving.n) this.takeSolving(message);
   }
   takeFollowed(frame) {
-    if (frame.n !== this.flying?.n) return;
-    const { document: document2, isOld } = this.flying, from = frame.from ?? (isOld ? null : this.basis);
-    this.flying = null;
+    const asked = this.flying.get(frame.n);
+    if (!asked) return;
+    const { document: document2, isOld } = asked, from = frame.from ?? (isOld ? null : this.basis);
+    this.flying.delete(frame.n);
     if (this.pending && from === this.pending.n) this.install(this.pending);
+    this.goOn(document2);
     if (from === this.basis) {
       this.followed = frame;
       this.followedFor = document2;
       this.emit("followed");
     }
-    if (document2 !== this.document || ![this.followedFor, this.solvedFor].includes(document2)) this.follow();
+    if (!this.flying.size && ![this.followedFor, this.solvedFor].includes(this.document)) this.follow();
+  }
+  /** Follow the task as it is now, if it is another than one that was followed, and none that is on its way. */
+  goOn(document2) {
+    const asked = [document2, ...[...this.flying.values()].map((each) => each.document)];
+    if (!asked.includes(this.document)) this.follow();
   }
   /** What cannot be followed is solved when the hand rests. */
-  followRefused({ kind, messages = [], solve = false }) {
-    const { document: document2 } = this.flying;
-    this.flying = null;
+  followRefused({ n, kind, messages = [], solve = false }) {
+    const { document: document2 } = this.flying.get(n);
+    this.flying.delete(n);
     if (kind === "refused" && !solve) this.say(messages);
-    if (document2 !== this.document) this.follow();
+    this.goOn(document2);
   }
   takePlaced(message) {
     const { pivots } = this.placing;
@@ -6710,15 +6685,13 @@ var Store = class {
   }
   /** A whole answer becomes what is shown; what was chosen goes on as the same linkage, whatever its id. */
   install({ n, result, document: document2, seconds, was }) {
-    const before = this.followed?.linkages ?? this.solved?.linkages ?? [];
-    this.renamed = new Map(Object.entries(was ?? {}).map(([now, old]) => [old, now]));
-    const taken = new Set(this.renamed.values());
-    for (const [old, now] of this.continued(before, result.linkages, result.scene)) {
-      if (!this.renamed.has(old) && !taken.has(now)) this.renamed.set(old, now);
-    }
+    const told = Object.entries(was ?? {});
+    this.renamed = new Map(told.map(([now, { id }]) => [id, now]));
+    this.moved = new Map(told.map(([now, { moved }]) => [now, moved]));
+    if (!told.length && document2 === this.solvedFor && !this.followed) for (const { id } of result.linkages) this.renamed.set(id, id);
     const carried = (id) => id === PLACED2 && this.placed?.linkage ? id : this.renamed.get(id) ?? null;
     Object.assign(this, { solved: result, solvedFor: document2, seconds, basis: n, pending: null, followed: null, followedFor: null });
-    if (this.flying) this.flying.isOld = true;
+    for (const each of this.flying.values()) each.isOld = true;
     this.chosen = carried(this.chosen) ?? result.linkages[0]?.id ?? null;
     this.compared = carried(this.compared);
     this.pinned = new Set([...this.pinned].map(carried).filter(Boolean));
@@ -6727,14 +6700,16 @@ var Store = class {
     if (document2 !== this.document) this.follow();
   }
   opened() {
-    this.flying = this.solving = this.placing = this.improving = null;
+    this.flying.clear();
+    this.solving = this.placing = this.improving = null;
     this.setState("resting", "");
     this.basis = null;
     this.solve();
   }
   closed() {
     clearTimeout(this.resting);
-    this.flying = this.solving = this.placing = this.improving = null;
+    this.flying.clear();
+    this.solving = this.placing = this.improving = null;
     this.setState("offline", "");
   }
   setState(state, progress = "") {
@@ -7221,7 +7196,7 @@ async function main() {
   try {
     await connection.session();
     const start = await connection.get("/start"), kept = keptHere();
-    const store = new Store({ connection, continued: continuedAs, document: start.document, options: start.options, name: start.name, ...kept });
+    const store = new Store({ connection, document: start.document, options: start.options, name: start.name, ...kept });
     const parts = layOut(root, store, start);
     if (start.saved && !kept) offerSaved(store, parts, start.saved);
     listenToTokens(connection, parts.banners);

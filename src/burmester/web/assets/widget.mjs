@@ -2312,8 +2312,6 @@ var Player = class {
     this.boxName.textContent = path?.round ? "Whole turn" : "Whole branch";
     this.heading = 1;
     this.u = clamp(this.u, this.stretch.low, this.stretch.high);
-    slider.min = this.stretch.low;
-    slider.max = this.stretch.high;
   }
   /** Play all of a way, or only from its first pose to its last; so it stays for other linkages. */
   playWhole(on) {
@@ -2428,7 +2426,8 @@ var Player = class {
     });
     return near;
   }
-  show() {
+  /** Draw where it is; told: also with the slider and in words, which may lag behind a hand. */
+  show(told = true) {
     const { path, linkage, data } = this;
     if (!path) {
       for (const part of this.parts) part.textContent = "";
@@ -2437,8 +2436,12 @@ var Player = class {
     const place = placeAt(linkage, path, this.u, data.chart.length);
     const drive = linear(path.drive, this.u), transmission = linear(path.transmission, this.u);
     const near = this.atPose = this.nearest(place);
-    this.slider.value = this.u;
-    this.tell(place, drive, transmission, near);
+    if (told) {
+      give(this.slider, "min", this.stretch.low);
+      give(this.slider, "max", this.stretch.high);
+      give(this.slider, "value", this.u);
+      this.tell(place, drive, transmission, near);
+    }
     this.draw.show(place, drive, transmission, near);
   }
   /** The readout: driver, body, transmission angle, and the nearest pose. */

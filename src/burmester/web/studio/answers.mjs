@@ -1,11 +1,10 @@
 // The linkages as they are known now: those of the last whole road, moved on by what was followed since.
 //
 // Every part of the page that shows a linkage reads it here.  A linkage stays the same object while it is
-// followed, and over whole roads as long as it goes on.
+// followed, and over whole roads as long as it goes on: the server says which one goes on as which.
 
 import { figure, fixed, radians } from "../widget/numbers.mjs";
 import { decimalsOf } from "../widget/tables.mjs";
-import { continuedAs, shiftOf } from "./identity.mjs";
 import { Events } from "./events.mjs";
 
 const LONGEST_NAME = 5; // characters of a pose's name that a drawing has room for
@@ -68,7 +67,7 @@ export class Answers extends Events {
 
   takeSolved() {
     const { solved, document } = this.store, before = this.linkages.filter((each) => !each.gone);
-    const names = this.store.renamed ?? continuedAs(before, solved.linkages, solved.scene);
+    const { renamed: names, moved } = this.store;
     const was = new Map([...names].map(([old, id]) => [id, this.byId.get(old)]));
     const { poses, body, keep_out, ...rest } = solved;
     Object.assign(this.data, { body, keep_out, ...rest, poses: posesOf(document) });
@@ -78,9 +77,8 @@ export class Answers extends Events {
       const kept = was.get(fresh.id), now = kept ?? {};
       const stood = kept && kept.rank !== Infinity; // in the last whole answer, not only since
       const before = stood && kept.id !== fresh.id ? kept.id : null;
-      const shift = kept?.followed ? shiftOf(kept, fresh, solved.scene) : 0;
       for (const key of Object.keys(now)) delete now[key];
-      Object.assign(now, figured(linked(fresh)), { was: before, shift, isNew: this.known && !stood, followed: false, gone: null, change: null });
+      Object.assign(now, figured(linked(fresh)), { was: before, shift: moved.get(fresh.id) ?? 0, isNew: this.known && !stood, followed: false, gone: null, change: null });
       this.byId.set(now.id, now);
       return now;
     });

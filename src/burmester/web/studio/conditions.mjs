@@ -15,7 +15,7 @@ const KEYS = ["fixed_pivot", "moving_pivot"];
 export function currentLinkage(store) {
   if (store.chosen === "placed") return store.placed?.linkage ?? null;
   const followed = store.followed?.linkages.find(({ id }) => id === store.chosen);
-  if (followed) return followed;
+  if (followed?.led) return followed;
   if (store.followed?.vanished?.some(({ id }) => id === store.chosen)) return null;
   return store.solved?.linkages.find(({ id }) => id === store.chosen) ?? null;
 }

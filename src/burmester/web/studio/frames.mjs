@@ -16,6 +16,7 @@ export function decodeFrame(buffer) {
   const numbers = floats(buffer, 4 + length);
   for (const linkage of header.linkages ?? []) {
     if (linkage.ways) linkage.ways = linkage.ways.map((way) => ({ ...way, ...pieces(numbers, way, WAY) }));
+    if (!linkage.poses) continue; // it stands as it did
     const { count } = linkage.poses;
     const columns = pieces(numbers, linkage.poses, POSE);
     linkage.pose_errors = Array.from({ length: count }, (_, pose) => {

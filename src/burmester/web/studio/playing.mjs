@@ -24,6 +24,7 @@ export class Playing extends Events {
     this.drivers = h("fieldset", { class: "bm-ways bs-drivers", hidden: true });
     this.note = h("p", { class: "bs-quiet bs-driver-note" });
     this.element = h("div", { class: "bs-player" }, this.player.element, h("div", { class: "bs-player-ways" }, this.drivers, this.assemblies.element), this.note);
+    this.words = new Pace(() => this.player.path && this.player.show());
     this.marks = new Pace(() => this.player.drawStops());
     answers.on("answers shown placed", () => this.load());
     answers.on("moved", () => this.follow());
@@ -107,7 +108,8 @@ export class Playing extends Events {
     }
     player.rebuild();
     this.emit("shape", true);
-    player.show();
+    player.show(false);
+    this.words.ask();
     this.marks.ask();
   }
 

@@ -3,7 +3,7 @@
 import { give, h, put } from "../widget/dom.mjs";
 import { addPose, duplicatePose, movePose, removePose, setFree, setPose, setTolerance, standing } from "./document.mjs";
 import { NumberField, button, choice, labelled, textField, tick } from "./fields.mjs";
-import { isOther } from "./pacing.mjs";
+import { Pace, isOther } from "./pacing.mjs";
 
 const PAGE = 60; // rows at a time
 const NUMBERS = [["x", "length"], ["y", "length"], ["angle", "angle"]];
@@ -31,7 +31,8 @@ export class PoseTable {
     const add = button("Add a pose", () => this.add(), { "data-do": "add-pose-row" });
     this.element = h("div", { class: "bs-table-box" }, this.table, this.pages, h("div", { class: "bs-row" }, add, this.unit), this.details);
     this.makeDetails();
-    store.on("document selection", () => this.draw());
+    this.pace = new Pace(() => this.draw());
+    store.on("document selection", () => (scene.dragged ? this.pace.ask() : this.draw())); // numbers may lag behind a hand
     this.draw();
   }
 

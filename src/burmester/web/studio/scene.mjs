@@ -150,7 +150,11 @@ export class Scene {
 
   /** The point of an event: in F, and in pixels of the picture. */
   at(event) {
-    const { left, top } = this.svg.getBoundingClientRect(), X = event.clientX - left, Y = event.clientY - top;
+    if (!this.box) {
+      this.box = this.svg.getBoundingClientRect(); // once a picture: it costs a layout where something was drawn since
+      requestAnimationFrame(() => (this.box = null));
+    }
+    const { left, top } = this.box, X = event.clientX - left, Y = event.clientY - top;
     return { X, Y, x: this.view.x(X), y: this.view.y(Y) };
   }
 

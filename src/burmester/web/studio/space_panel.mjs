@@ -20,7 +20,7 @@ export class SpacePanel {
     playing.on("shape", () => this.ask());
     answers.on("poses placed", () => this.ask());
     playing.on("place", ({ place }) => {
-      if (this.space.view && isSeen(fill)) this.space.show(place);
+      if (this.space.view && !answers.isOld && isSeen(fill)) this.space.show(place); // under a hand it is built again and again
     });
     new ResizeObserver(() => this.ask()).observe(fill);
     watch(fill, () => this.ask());

@@ -1,25 +1,24 @@
 // What the page knows: the task with its history, the server's answers, and what is chosen.
 //
-// While a gesture lasts, its documents are followed: one request in flight, the newest wins.  When the hand has
+// While a gesture lasts, its documents are followed: each is sent at once, and the server takes the newest one when it is
+// free, so that it never waits for a page that is drawing.  When the hand has
 // rested, the whole road runs.  Every part draws from here and listens for what it draws.
 
 import { History } from "./history.mjs";
 
 const REST = 150; // milliseconds without an edit before the whole road runs
+const MOST_REST = 1000; // the same where what was asked before is not answered yet
+const MOST_FLYING = 1; // follows on their way: of two the second would wait, and answer to an older task than one asked later
 const MOST_SHOWN = 6; // linkages whose motion is asked for while dragging
 const PLACED = "placed"; // chosen: the linkage whose pivots were put down by hand
 
-/** Linkages that keep their ids, where nobody knows better. */
-const sameIds = (before, after) => new Map(before.filter(({ id }) => after.some((each) => each.id === id)).map(({ id }) => [id, id]));
-
 /** Events: document, solved, followed, state, chosen, pinned, placed, improved, selection, messages. */
 export class Store {
-  /** continued(before, after, scene): for each linkage before the id with which it goes on.
-   * @param {{ connection: import("./connection.mjs").Connection, document: object, options?: object, name?: string, continued?: Function }} start */
-  constructor({ connection, document, options = {}, name = "task", continued = sameIds }) {
+  /** @param {{ connection: import("./connection.mjs").Connection, document: object, options?: object, name?: string }} start */
+  constructor({ connection, document, options = {}, name = "task" }) {
     this.connection = connection;
-    this.continued = continued;
-    this.renamed = null; // the map of the last whole answer: old id, new id
+    this.renamed = new Map(); // of the last whole answer: old id, new id
+    this.moved = new Map(); // of it, too: new id, how far the search moved that linkage
     this.document = document;
     this.options = options;
     this.name = name;
@@ -39,7 +38,7 @@ export class Store {
     this.listeners = new Map();
     this.basis = null; // the number of the solve that `solved` answers
     this.pending = null; // a whole answer to an older document, until a followed frame goes on from it
-    this.flying = null; // the follow in flight: { n, document }
+    this.flying = new Map(); // the follows in flight by their numbers: { document, isOld }
     this.placing = null; // the place in flight: { n, wanted }
     this.solving = null; // the solve in flight: { n, document, options }
     this.improving = null; // the search for better linkages in flight: { n, linkage }
@@ -143,15 +142,21 @@ export class Store {
   }
 
   follow() {
-    if (!this.solved || this.flying) return;
+    if (!this.solved || this.flying.size >= MOST_FLYING) return;
     const { document, options, shown } = this;
     const n = this.connection.send({ do: "follow", document, options, shown });
-    if (n !== null) this.flying = { n, document };
+    if (n !== null) this.flying.set(n, { document, isOld: false });
   }
 
   solveAfterRest() {
     clearTimeout(this.resting);
-    this.resting = setTimeout(() => this.solve(), REST);
+    const since = performance.now();
+    const rest = () => {
+      // A machine that is behind with what is followed has no time for more.
+      if (this.flying.size && performance.now() - since < MOST_REST) this.resting = setTimeout(rest, REST / 3);
+      else this.solve();
+    };
+    this.resting = setTimeout(rest, REST);
   }
 
   /** Run the whole road for the task as it is now. */
@@ -189,31 +194,39 @@ export class Store {
   take(message) {
     const { n, kind } = message;
     if (kind === "followed") this.takeFollowed(message);
-    else if (n === this.flying?.n) this.followRefused(message);
+    else if (this.flying.has(n)) this.followRefused(message);
     else if (n === this.placing?.n) this.takePlaced(message);
     else if (n === this.improving?.n) this.takeImproved(message);
     else if (n === this.solving?.n || (kind === "cancelled" && this.solving && n > this.solving.n)) this.takeSolving(message);
   }
 
   takeFollowed(frame) {
-    if (frame.n !== this.flying?.n) return;
-    const { document, isOld } = this.flying, from = frame.from ?? (isOld ? null : this.basis);
-    this.flying = null;
+    const asked = this.flying.get(frame.n);
+    if (!asked) return;
+    const { document, isOld } = asked, from = frame.from ?? (isOld ? null : this.basis);
+    this.flying.delete(frame.n);
     if (this.pending && from === this.pending.n) this.install(this.pending);
+    this.goOn(document); // before anything is drawn
     if (from === this.basis) {
       this.followed = frame;
       this.followedFor = document;
       this.emit("followed");
     }
-    if (document !== this.document || ![this.followedFor, this.solvedFor].includes(document)) this.follow();
+    if (!this.flying.size && ![this.followedFor, this.solvedFor].includes(this.document)) this.follow();
+  }
+
+  /** Follow the task as it is now, if it is another than one that was followed, and none that is on its way. */
+  goOn(document) {
+    const asked = [document, ...[...this.flying.values()].map((each) => each.document)];
+    if (!asked.includes(this.document)) this.follow();
   }
 
   /** What cannot be followed is solved when the hand rests. */
-  followRefused({ kind, messages = [], solve = false }) {
-    const { document } = this.flying;
-    this.flying = null;
+  followRefused({ n, kind, messages = [], solve = false }) {
+    const { document } = this.flying.get(n);
+    this.flying.delete(n);
     if (kind === "refused" && !solve) this.say(messages);
-    if (document !== this.document) this.follow();
+    this.goOn(document);
   }
 
   takePlaced(message) {
@@ -268,16 +281,14 @@ export class Store {
 
   /** A whole answer becomes what is shown; what was chosen goes on as the same linkage, whatever its id. */
   install({ n, result, document, seconds, was }) {
-    const before = this.followed?.linkages ?? this.solved?.linkages ?? [];
-    // The server knows what it followed to this very task; for the rest the page looks itself.
-    this.renamed = new Map(Object.entries(was ?? {}).map(([now, old]) => [old, now]));
-    const taken = new Set(this.renamed.values());
-    for (const [old, now] of this.continued(before, result.linkages, result.scene)) {
-      if (!this.renamed.has(old) && !taken.has(now)) this.renamed.set(old, now);
-    }
+    const told = Object.entries(was ?? {});
+    this.renamed = new Map(told.map(([now, { id }]) => [id, now]));
+    this.moved = new Map(told.map(([now, { moved }]) => [now, moved]));
+    // A server that was started anew finds the same linkages of the same task.
+    if (!told.length && document === this.solvedFor && !this.followed) for (const { id } of result.linkages) this.renamed.set(id, id);
     const carried = (id) => (id === PLACED && this.placed?.linkage ? id : this.renamed.get(id) ?? null);
     Object.assign(this, { solved: result, solvedFor: document, seconds, basis: n, pending: null, followed: null, followedFor: null });
-    if (this.flying) this.flying.isOld = true; // it may go on from the answer before
+    for (const each of this.flying.values()) each.isOld = true; // it may go on from the answer before
     this.chosen = carried(this.chosen) ?? result.linkages[0]?.id ?? null;
     this.compared = carried(this.compared);
     this.pinned = new Set([...this.pinned].map(carried).filter(Boolean));
@@ -287,7 +298,8 @@ export class Store {
   }
 
   opened() {
-    this.flying = this.solving = this.placing = this.improving = null;
+    this.flying.clear();
+    this.solving = this.placing = this.improving = null;
     this.setState("resting", "");
     this.basis = null; // the server knows nothing of what was solved before
     this.solve();
@@ -295,7 +307,8 @@ export class Store {
 
   closed() {
     clearTimeout(this.resting);
-    this.flying = this.solving = this.placing = this.improving = null;
+    this.flying.clear();
+    this.solving = this.placing = this.improving = null;
     this.setState("offline", "");
   }
 

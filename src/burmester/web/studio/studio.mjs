@@ -10,7 +10,6 @@ import { Connection, Refused } from "./connection.mjs";
 import { button } from "./fields.mjs";
 import { Files } from "./files.mjs";
 import { decodeFrame } from "./frames.mjs";
-import { continuedAs } from "./identity.mjs";
 import { keyList, listenToKeys } from "./keyboard.mjs";
 import { PoseHandles, PoseTool } from "./pose_handles.mjs";
 import { PoseTable } from "./pose_table.mjs";
@@ -126,7 +125,7 @@ async function main() {
   try {
     await connection.session();
     const start = await connection.get("/start"), kept = keptHere();
-    const store = new Store({ connection, continued: continuedAs, document: start.document, options: start.options, name: start.name, ...kept });
+    const store = new Store({ connection, document: start.document, options: start.options, name: start.name, ...kept });
     const parts = layOut(root, store, start);
     if (start.saved && !kept) offerSaved(store, parts, start.saved);
     listenToTokens(connection, parts.banners);

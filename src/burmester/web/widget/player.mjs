@@ -107,8 +107,6 @@ export class Player {
     this.boxName.textContent = path?.round ? "Whole turn" : "Whole branch";
     this.heading = 1; // at an end it turns round by itself
     this.u = clamp(this.u, this.stretch.low, this.stretch.high);
-    slider.min = this.stretch.low;
-    slider.max = this.stretch.high;
   }
 
   /** Play all of a way, or only from its first pose to its last; so it stays for other linkages. */
@@ -236,7 +234,8 @@ export class Player {
     return near;
   }
 
-  show() {
+  /** Draw where it is; told: also with the slider and in words, which may lag behind a hand. */
+  show(told = true) {
     const { path, linkage, data } = this;
     if (!path) {
       for (const part of this.parts) part.textContent = "";
@@ -245,8 +244,12 @@ export class Player {
     const place = placeAt(linkage, path, this.u, data.chart.length);
     const drive = linear(path.drive, this.u), transmission = linear(path.transmission, this.u);
     const near = (this.atPose = this.nearest(place));
-    this.slider.value = this.u;
-    this.tell(place, drive, transmission, near);
+    if (told) {
+      give(this.slider, "min", this.stretch.low);
+      give(this.slider, "max", this.stretch.high);
+      give(this.slider, "value", this.u);
+      this.tell(place, drive, transmission, near);
+    }
     this.draw.show(place, drive, transmission, near);
   }
 
