@@ -43,6 +43,57 @@ def test_a_drag_moves_the_pose_by_what_the_hand_moved(page):
     solved(page)
 
 
+def test_a_pose_goes_with_the_hand_though_nobody_answers(page):
+    """The picture of the hand is the page's own: it is there before any answer."""
+    before, scale = pose(page, 8), view(page)["scale"]
+    page.evaluate("""() => {
+      window.sent = WebSocket.prototype.send;
+      WebSocket.prototype.send = function (data) { (window.held ??= []).push([this, data]); };
+    }""")
+    x, y = on_screen(page, *before[:2])
+    page.mouse.move(x, y)
+    page.mouse.down()
+    for k in (1, 2, 3):
+        page.mouse.move(x + 10 * k, y - 5 * k)
+        at = before[0] + 10 * k / scale, before[1] + 5 * k / scale
+        assert drawn(page, 8)[:2] == pytest.approx(at, abs=0.6 / scale)
+    page.mouse.up()
+    assert pose(page, 8)[:2] == pytest.approx(at, abs=0.6 / scale)
+    page.evaluate("""() => {
+      WebSocket.prototype.send = window.sent;
+      for (const [socket, data] of window.held) socket.send(data);
+    }""")
+    solved(page)
+
+
+def test_what_is_shown_already_is_not_written_again(page):
+    """Of a field that is written a browser goes through every field of the page."""
+    page.evaluate("""() => {
+      window.again = [];
+      window.watch = new MutationObserver((records) => {
+        for (const { target, attributeName: name, oldValue } of records)
+          if (target.getAttribute(name) === oldValue && target.matches("input, button, select"))
+            window.again.push(`${name} of ${target.className}`);
+      });
+      window.watch.observe(document, { attributes: true, attributeOldValue: true, subtree: true });
+      const { get, set } = Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, "value");
+      Object.defineProperty(HTMLInputElement.prototype, "value", { get, set(value) {
+        if (get.call(this) === String(value)) window.again.push(`value of ${this.className}`);
+        set.call(this, value);
+      } });
+    }""")
+    x, y = on_screen(page, *pose(page, 8)[:2])
+    page.mouse.move(x, y)
+    page.mouse.down()
+    for k in range(10):
+        page.mouse.move(x + 2 * k, y + k)
+        page.wait_for_timeout(30)
+    again = page.evaluate("window.watch.disconnect(), window.again")
+    page.mouse.up()
+    assert again == []
+    solved(page)
+
+
 def test_nothing_is_said_aloud_while_a_pose_is_dragged(page):
     page.evaluate("""() => {
       window.said = [];

@@ -693,6 +693,10 @@ var Pace = class {
     if (this.timer !== null || !this.wanted()) return;
     this.timer = setTimeout(() => this.now(), Math.max(0, this.free - performance.now()));
   }
+  /** Do at once what was asked for. */
+  catchUp() {
+    if (this.timer !== null) this.now();
+  }
   now() {
     clearTimeout(this.timer);
     this.timer = null;
@@ -896,7 +900,7 @@ var SPARE = 0.5;
 var Scene = class {
   constructor(store) {
     this.store = store;
-    this.listeners = { view: [], click: [], tool: [] };
+    this.listeners = { view: [], click: [], tool: [], dropped: [] };
     this.tool = null;
     this.dragged = null;
     this.layers = new Map(LAYERS.map((name) => [name, s("g", { class: `bs-layer bs-layer-${name}` })]));
@@ -916,7 +920,7 @@ var Scene = class {
   layer(name) {
     return this.layers.get(name);
   }
-  /** "view": after it changes; "click": on the empty plane, with a point and the event; "tool": another tool, or none. */
+  /** "view": after it changes; "click": on the empty plane, with a point and the event; "tool": another tool, or none; "dropped": a hand let go. */
   on(name, fn) {
     this.listeners[name].push(fn);
   }
@@ -1050,6 +1054,7 @@ var Scene = class {
         this.svg.classList.remove("bs-grasped");
         if (this.svg.hasPointerCapture?.(event.pointerId)) this.svg.releasePointerCapture(event.pointerId);
         finish();
+        this.emit("dropped");
       };
       this.dragged = { cancel: () => stop(() => begun && cancel()) };
       this.capture(event);
@@ -2197,6 +2202,7 @@ var PoseTable = class {
     this.makeDetails();
     this.pace = new Pace(() => this.draw());
     store.on("document selection", () => scene.dragged ? this.pace.ask() : this.draw());
+    scene.on("dropped", () => this.pace.catchUp());
     this.draw();
   }
   get selected() {
@@ -5005,9 +5011,10 @@ var Player = class {
   }
   play(on) {
     if (on && !this.path) return;
+    this.remaining = null;
+    if (on === this.playing && this.button.firstChild) return;
     this.playing = on;
     this.readout.setAttribute("aria-live", on ? "off" : "polite");
-    this.remaining = null;
     this.button.replaceChildren(icon(on), on ? "Pause" : "Play");
     this.button.setAttribute("aria-label", on ? "Pause" : "Play");
     this.button.title = on ? "Pause (space)" : "Play (space)";
@@ -5128,7 +5135,7 @@ var Player = class {
       const whole = k + 1 < texts.length ? `${text} ·` : text;
       if (this.parts[k].textContent !== whole) this.parts[k].textContent = whole;
     });
-    this.slider.setAttribute("aria-valuetext", `driver ${driver}, ${texts[3]}`);
+    put(this.slider, "aria-valuetext", `driver ${driver}, ${texts[3]}`);
   }
 };
 function laidOut(texts, width, count) {

@@ -2341,9 +2341,10 @@ var Player = class {
   }
   play(on) {
     if (on && !this.path) return;
+    this.remaining = null;
+    if (on === this.playing && this.button.firstChild) return;
     this.playing = on;
     this.readout.setAttribute("aria-live", on ? "off" : "polite");
-    this.remaining = null;
     this.button.replaceChildren(icon(on), on ? "Pause" : "Play");
     this.button.setAttribute("aria-label", on ? "Pause" : "Play");
     this.button.title = on ? "Pause (space)" : "Play (space)";
@@ -2464,7 +2465,7 @@ var Player = class {
       const whole = k + 1 < texts.length ? `${text} ·` : text;
       if (this.parts[k].textContent !== whole) this.parts[k].textContent = whole;
     });
-    this.slider.setAttribute("aria-valuetext", `driver ${driver}, ${texts[3]}`);
+    put(this.slider, "aria-valuetext", `driver ${driver}, ${texts[3]}`);
   }
 };
 function laidOut(texts, width, count) {

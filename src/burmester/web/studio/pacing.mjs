@@ -19,6 +19,11 @@ export class Pace {
     this.timer = setTimeout(() => this.now(), Math.max(0, this.free - performance.now()));
   }
 
+  /** Do at once what was asked for. */
+  catchUp() {
+    if (this.timer !== null) this.now();
+  }
+
   now() {
     clearTimeout(this.timer);
     this.timer = null;

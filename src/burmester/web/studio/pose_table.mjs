@@ -33,6 +33,7 @@ export class PoseTable {
     this.makeDetails();
     this.pace = new Pace(() => this.draw());
     store.on("document selection", () => (scene.dragged ? this.pace.ask() : this.draw())); // numbers may lag behind a hand
+    scene.on("dropped", () => this.pace.catchUp());
     this.draw();
   }
 

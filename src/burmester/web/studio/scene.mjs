@@ -14,7 +14,7 @@ const SPARE = 0.5; // of the size of what is near: so far a picture reaches for 
 export class Scene {
   constructor(store) {
     this.store = store;
-    this.listeners = { view: [], click: [], tool: [] };
+    this.listeners = { view: [], click: [], tool: [], dropped: [] };
     this.tool = null;
     this.dragged = null;
     this.layers = new Map(LAYERS.map((name) => [name, s("g", { class: `bs-layer bs-layer-${name}` })]));
@@ -36,7 +36,7 @@ export class Scene {
     return this.layers.get(name);
   }
 
-  /** "view": after it changes; "click": on the empty plane, with a point and the event; "tool": another tool, or none. */
+  /** "view": after it changes; "click": on the empty plane, with a point and the event; "tool": another tool, or none; "dropped": a hand let go. */
   on(name, fn) {
     this.listeners[name].push(fn);
   }
@@ -176,6 +176,7 @@ export class Scene {
         this.svg.classList.remove("bs-grasped");
         if (this.svg.hasPointerCapture?.(event.pointerId)) this.svg.releasePointerCapture(event.pointerId);
         finish();
+        this.emit("dropped");
       };
       this.dragged = { cancel: () => stop(() => begun && cancel()) };
       this.capture(event);

@@ -1,6 +1,6 @@
 // What moves a linkage along one of its ways: playing, the slider, steps from pose to pose.
 
-import { give, h, s } from "./dom.mjs";
+import { give, h, put, s } from "./dom.mjs";
 import { linear, placeAt } from "./kinematics.mjs";
 import { clamp, degrees, figure, fixed, px, radians } from "./numbers.mjs";
 import { decimalsOf, missOf, poseName, shortened } from "./tables.mjs";
@@ -140,9 +140,10 @@ export class Player {
 
   play(on) {
     if (on && !this.path) return;
+    this.remaining = null;
+    if (on === this.playing && this.button.firstChild) return;
     this.playing = on;
     this.readout.setAttribute("aria-live", on ? "off" : "polite"); // it would talk without end
-    this.remaining = null;
     this.button.replaceChildren(icon(on), on ? "Pause" : "Play");
     this.button.setAttribute("aria-label", on ? "Pause" : "Play");
     this.button.title = on ? "Pause (space)" : "Play (space)";
@@ -274,7 +275,7 @@ export class Player {
       const whole = k + 1 < texts.length ? `${text} ·` : text;
       if (this.parts[k].textContent !== whole) this.parts[k].textContent = whole;
     });
-    this.slider.setAttribute("aria-valuetext", `driver ${driver}, ${texts[3]}`);
+    put(this.slider, "aria-valuetext", `driver ${driver}, ${texts[3]}`);
   }
 }
 
