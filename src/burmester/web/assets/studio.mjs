@@ -202,8 +202,8 @@ var NumberField = class {
       this.input.removeAttribute("aria-invalid");
       this.input.removeAttribute("aria-describedby");
     } else {
-      this.input.setAttribute("aria-invalid", "true");
-      this.input.setAttribute("aria-describedby", this.fault.id);
+      put(this.input, "aria-invalid", "true");
+      put(this.input, "aria-describedby", this.fault.id);
     }
   }
 };
@@ -954,7 +954,7 @@ var Scene = class {
     if (!width || !height || width === this.size.width && height === this.size.height) return;
     this.origin = { ...this.origin, left: this.origin.left + (width - this.size.width) / 2, top: this.origin.top + (height - this.size.height) / 2 };
     this.size = { width, height };
-    this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    put(this.svg, "viewBox", `0 0 ${width} ${height}`);
     if (this.isFitted) this.fit(this.isWhole);
     else this.update();
   }
@@ -1627,7 +1627,7 @@ var ShapeTool = class {
     const { scene: { view }, shape } = this, shown2 = this.dragging ?? [...this.points, ...this.next ? [this.next] : []];
     const place = this.place(), whole = shape === "polygon" ? "open polygon" : shape;
     const complete = shown2.length > 1 || shape === "point";
-    this.path.setAttribute("d", complete && shown2.length ? pathOf(whole, shown2, place, view) : "");
+    put(this.path, "d", complete && shown2.length ? pathOf(whole, shown2, place, view) : "");
     this.dots.replaceChildren(
       ...(this.dragging ?? this.points).map((point2) => act(place, point2)).map(([x, y], k) => s("circle", { class: k ? "bs-draft-dot" : "bs-draft-dot bs-first", r: 4, cx: px(view.X(x)), cy: px(view.Y(y)) }))
     );
@@ -2527,10 +2527,10 @@ var Regions = class {
   showName(text, { text: name, at: [x, y], off }) {
     const { view } = this.scene, shown2 = shortened(name, LONGEST_NAME2);
     if (text.textContent !== shown2) text.textContent = shown2;
-    text.setAttribute("class", off ? "bs-limit-name" : "bs-region-name");
-    text.setAttribute("text-anchor", "middle");
-    text.setAttribute("x", px(view.X(x)));
-    text.setAttribute("y", px(view.Y(y) + (off ?? 4)));
+    put(text, "class", off ? "bs-limit-name" : "bs-region-name");
+    put(text, "text-anchor", "middle");
+    put(text, "x", px(view.X(x)));
+    put(text, "y", px(view.Y(y) + (off ?? 4)));
   }
   // Tools that draw a new one
   regionTool(shape) {
@@ -5006,17 +5006,17 @@ var Player = class {
       const { at, middle: middle2, text } = texts[i];
       if (at >= 0) stops.append(one(k, pose, s("text", { x: px(middle2), y: 14 + ROW * at, "text-anchor": "middle" }, text)));
     });
-    stops.setAttribute("viewBox", `0 0 ${width} ${16 + ROW * deepest}`);
-    stops.setAttribute("height", 16 + ROW * deepest);
+    put(stops, "viewBox", `0 0 ${width} ${16 + ROW * deepest}`);
+    put(stops, "height", 16 + ROW * deepest);
   }
   play(on) {
     if (on && !this.path) return;
     this.remaining = null;
     if (on === this.playing && this.button.firstChild) return;
     this.playing = on;
-    this.readout.setAttribute("aria-live", on ? "off" : "polite");
+    put(this.readout, "aria-live", on ? "off" : "polite");
     this.button.replaceChildren(icon(on), on ? "Pause" : "Play");
-    this.button.setAttribute("aria-label", on ? "Pause" : "Play");
+    put(this.button, "aria-label", on ? "Pause" : "Play");
     this.button.title = on ? "Pause (space)" : "Play (space)";
     cancelAnimationFrame(this.tick);
     if (!on) return;
@@ -5474,7 +5474,7 @@ var Playing = class extends Events {
   /** While a hand drags, nothing is read out. */
   hush() {
     const quiet = this.store.state === "dragging" || this.player.playing;
-    this.player.readout.setAttribute("aria-live", quiet ? "off" : "polite");
+    put(this.player.readout, "aria-live", quiet ? "off" : "polite");
   }
 };
 
@@ -5601,12 +5601,10 @@ function least(linkage) {
   return angle === "–" ? angle : angle === "0°" ? "down to 0°" : `${angle} or more`;
 }
 function setPressed(button2, on) {
-  const text = String(Boolean(on));
-  if (button2.getAttribute("aria-pressed") !== text) button2.setAttribute("aria-pressed", text);
+  put(button2, "aria-pressed", Boolean(on));
 }
 function labelled2(button2, id) {
-  const text = `${button2.textContent}: ${id}`;
-  if (button2.getAttribute("aria-label") !== text) button2.setAttribute("aria-label", text);
+  put(button2, "aria-label", `${button2.textContent}: ${id}`);
 }
 
 // src/burmester/web/studio/results.mjs
@@ -5713,7 +5711,7 @@ var Results = class {
     const { answers, store } = this, there = answers.linkages.filter((each) => !each.gone);
     const usable = there.filter((each) => each.usable).length;
     say(this.title, there.length ? `${there.length} linkage${there.length === 1 ? "" : "s"}, ${usable} usable` : store.solved ? "No linkage" : "Linkages");
-    this.status.setAttribute("aria-live", store.state === "dragging" ? "off" : "polite");
+    put(this.status, "aria-live", store.state === "dragging" ? "off" : "polite");
     say(this.status, this.statusText());
     const uncertain = store.followed?.uncertain ?? [];
     say(this.doubt, store.followed && answers.isOld ? uncertain.length ? `May change when you let go: ${uncertain[0]}${/[.!]$/.test(uncertain[0]) ? "" : "."}` : store.followed.complete === false ? "A linkage that appears now is seen when you let go." : "" : "");
@@ -6833,7 +6831,7 @@ var TaskPanel = class {
   }
   toolButton(text, toolOf, attributes) {
     const made2 = button(text, () => this.scene.use(made2.tool && made2.tool === this.scene.tool ? null : made2.tool = toolOf()), { "aria-pressed": "false", ...attributes });
-    this.scene.on("tool", (tool) => made2.setAttribute("aria-pressed", Boolean(tool) && tool === made2.tool));
+    this.scene.on("tool", (tool) => put(made2, "aria-pressed", Boolean(tool) && tool === made2.tool));
     return made2;
   }
   /** Fields for the points of a shape; set(change) changes them. */
@@ -7136,7 +7134,7 @@ function stageBar(store, scene) {
   const line2 = h("p", { class: "bs-line" });
   const show = () => {
     line2.textContent = scene.tool?.hint ?? (store.document.poses.length ? FIRST : EMPTY);
-    pose.setAttribute("aria-pressed", scene.tool?.name === "pose");
+    put(pose, "aria-pressed", scene.tool?.name === "pose");
   };
   scene.on("tool", show);
   store.on("document", show);

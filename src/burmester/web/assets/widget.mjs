@@ -2336,17 +2336,17 @@ var Player = class {
       const { at, middle, text } = texts[i];
       if (at >= 0) stops.append(one(k, pose, s("text", { x: px(middle), y: 14 + ROW * at, "text-anchor": "middle" }, text)));
     });
-    stops.setAttribute("viewBox", `0 0 ${width} ${16 + ROW * deepest}`);
-    stops.setAttribute("height", 16 + ROW * deepest);
+    put(stops, "viewBox", `0 0 ${width} ${16 + ROW * deepest}`);
+    put(stops, "height", 16 + ROW * deepest);
   }
   play(on) {
     if (on && !this.path) return;
     this.remaining = null;
     if (on === this.playing && this.button.firstChild) return;
     this.playing = on;
-    this.readout.setAttribute("aria-live", on ? "off" : "polite");
+    put(this.readout, "aria-live", on ? "off" : "polite");
     this.button.replaceChildren(icon(on), on ? "Pause" : "Play");
-    this.button.setAttribute("aria-label", on ? "Pause" : "Play");
+    put(this.button, "aria-label", on ? "Pause" : "Play");
     this.button.title = on ? "Pause (space)" : "Play (space)";
     cancelAnimationFrame(this.tick);
     if (!on) return;

@@ -1,7 +1,7 @@
 // Fields of the task: a number with its unit, a text, a choice.  What cannot be read stays in its field, with the
 // sentence that says so under it, and never enters the task.
 
-import { give, h } from "../widget/dom.mjs";
+import { give, h, put } from "../widget/dom.mjs";
 import { quantity, written } from "./quantities.mjs";
 
 let made = 0; // ids of fields and their sentences are unique on the page
@@ -84,8 +84,8 @@ export class NumberField {
       this.input.removeAttribute("aria-invalid");
       this.input.removeAttribute("aria-describedby");
     } else {
-      this.input.setAttribute("aria-invalid", "true");
-      this.input.setAttribute("aria-describedby", this.fault.id);
+      put(this.input, "aria-invalid", "true");
+      put(this.input, "aria-describedby", this.fault.id);
     }
   }
 }

@@ -1,7 +1,7 @@
 // What moves the chosen linkage: play controls, either driver, either assembly; and where it is now.
 
 import { Assemblies } from "../widget/assemblies.mjs";
-import { give, h } from "../widget/dom.mjs";
+import { give, h, put } from "../widget/dom.mjs";
 import { frameAt } from "../widget/kinematics.mjs";
 import { fixed } from "../widget/numbers.mjs";
 import { Player } from "../widget/player.mjs";
@@ -190,6 +190,6 @@ export class Playing extends Events {
   /** While a hand drags, nothing is read out. */
   hush() {
     const quiet = this.store.state === "dragging" || this.player.playing;
-    this.player.readout.setAttribute("aria-live", quiet ? "off" : "polite");
+    put(this.player.readout, "aria-live", quiet ? "off" : "polite");
   }
 }

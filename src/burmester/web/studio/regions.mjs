@@ -1,6 +1,6 @@
 // What is drawn in the plane as a condition: regions to keep out of, limits of pivots, the footprint.
 
-import { s } from "../widget/dom.mjs";
+import { put, s } from "../widget/dom.mjs";
 import { act } from "../widget/kinematics.mjs";
 import { px } from "../widget/numbers.mjs";
 import { shortened } from "../widget/tables.mjs";
@@ -179,10 +179,10 @@ export class Regions {
   showName(text, { text: name, at: [x, y], off }) {
     const { view } = this.scene, shown = shortened(name, LONGEST_NAME);
     if (text.textContent !== shown) text.textContent = shown;
-    text.setAttribute("class", off ? "bs-limit-name" : "bs-region-name");
-    text.setAttribute("text-anchor", "middle");
-    text.setAttribute("x", px(view.X(x)));
-    text.setAttribute("y", px(view.Y(y) + (off ?? 4)));
+    put(text, "class", off ? "bs-limit-name" : "bs-region-name");
+    put(text, "text-anchor", "middle");
+    put(text, "x", px(view.X(x)));
+    put(text, "y", px(view.Y(y) + (off ?? 4)));
   }
 
   // Tools that draw a new one

@@ -1,6 +1,6 @@
 // One linkage as a card: its verdict with the reason, its figures, and what would help.
 
-import { give, h } from "../widget/dom.mjs";
+import { give, h, put } from "../widget/dom.mjs";
 import { PLACED, leastOf, worstOf } from "./answers.mjs";
 import { helpInWords } from "./help_words.mjs";
 
@@ -99,11 +99,9 @@ function least(linkage) {
 }
 
 function setPressed(button, on) {
-  const text = String(Boolean(on));
-  if (button.getAttribute("aria-pressed") !== text) button.setAttribute("aria-pressed", text);
+  put(button, "aria-pressed", Boolean(on));
 }
 
 function labelled(button, id) {
-  const text = `${button.textContent}: ${id}`;
-  if (button.getAttribute("aria-label") !== text) button.setAttribute("aria-label", text);
+  put(button, "aria-label", `${button.textContent}: ${id}`);
 }

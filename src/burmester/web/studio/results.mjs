@@ -1,6 +1,6 @@
 // The panel of cards: filtered, sorted and pinned.  A card keeps its linkage while a hand drags.
 
-import { give, h } from "../widget/dom.mjs";
+import { give, h, put } from "../widget/dom.mjs";
 import { clamp, listed } from "../widget/numbers.mjs";
 import { PLACED } from "./answers.mjs";
 import { FILTERS, ORDERS, arranged } from "./ordering.mjs";
@@ -113,7 +113,7 @@ export class Results {
     const { answers, store } = this, there = answers.linkages.filter((each) => !each.gone);
     const usable = there.filter((each) => each.usable).length;
     say(this.title, there.length ? `${there.length} linkage${there.length === 1 ? "" : "s"}, ${usable} usable` : store.solved ? "No linkage" : "Linkages");
-    this.status.setAttribute("aria-live", store.state === "dragging" ? "off" : "polite");
+    put(this.status, "aria-live", store.state === "dragging" ? "off" : "polite");
     say(this.status, this.statusText());
     const uncertain = store.followed?.uncertain ?? [];
     say(this.doubt, store.followed && answers.isOld ? (uncertain.length ? `May change when you let go: ${uncertain[0]}${/[.!]$/.test(uncertain[0]) ? "" : "."}` : store.followed.complete === false ? "A linkage that appears now is seen when you let go." : "") : "");

@@ -1,6 +1,6 @@
 // The plane with its layers: panned, zoomed and fitted, with a grid, and gestures on what is drawn in it.
 
-import { h, s } from "../widget/dom.mjs";
+import { h, put, s } from "../widget/dom.mjs";
 import { clamp, px, ticks } from "../widget/numbers.mjs";
 
 const LAYERS = ["grid", "regions", "ghosts", "map", "curves", "paths", "mechanism", "limits", "pivots", "poses", "labels", "tool"];
@@ -68,7 +68,7 @@ export class Scene {
     if (!width || !height || (width === this.size.width && height === this.size.height)) return;
     this.origin = { ...this.origin, left: this.origin.left + (width - this.size.width) / 2, top: this.origin.top + (height - this.size.height) / 2 };
     this.size = { width, height };
-    this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    put(this.svg, "viewBox", `0 0 ${width} ${height}`);
     if (this.isFitted) this.fit(this.isWhole);
     else this.update();
   }

@@ -1,6 +1,6 @@
 // The tool that draws a shape by clicks: a point, two points or corners, or a polygon.
 
-import { s } from "../widget/dom.mjs";
+import { put, s } from "../widget/dom.mjs";
 import { act, back } from "../widget/kinematics.mjs";
 import { px } from "../widget/numbers.mjs";
 import { pathOf } from "./shape_handles.mjs";
@@ -104,7 +104,7 @@ export class ShapeTool {
     const { scene: { view }, shape } = this, shown = this.dragging ?? [...this.points, ...(this.next ? [this.next] : [])];
     const place = this.place(), whole = shape === "polygon" ? "open polygon" : shape;
     const complete = shown.length > 1 || shape === "point";
-    this.path.setAttribute("d", complete && shown.length ? pathOf(whole, shown, place, view) : "");
+    put(this.path, "d", complete && shown.length ? pathOf(whole, shown, place, view) : "");
     this.dots.replaceChildren(
       ...(this.dragging ?? this.points).map((point) => act(place, point)).map(([x, y], k) => s("circle", { class: k ? "bs-draft-dot" : "bs-draft-dot bs-first", r: 4, cx: px(view.X(x)), cy: px(view.Y(y)) })),
     );

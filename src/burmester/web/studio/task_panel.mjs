@@ -1,6 +1,6 @@
 // What the linkage must be, in fields: limits of dyads, regions, requirements, options.
 
-import { give, h } from "../widget/dom.mjs";
+import { give, h, put } from "../widget/dom.mjs";
 import { limitsOf, regionsOf, setBody, setLimit, setRegion, setRequirement, setSurrounding, shapeOf, splitLimits, bodyOf, limitRegions, withKeys } from "./document.mjs";
 import { NumberField, button, choice, labelled, textField, tick } from "./fields.mjs";
 import { PointFields } from "./point_fields.mjs";
@@ -44,7 +44,7 @@ export class TaskPanel {
 
   toolButton(text, toolOf, attributes) {
     const made = button(text, () => this.scene.use(made.tool && made.tool === this.scene.tool ? null : (made.tool = toolOf())), { "aria-pressed": "false", ...attributes });
-    this.scene.on("tool", (tool) => made.setAttribute("aria-pressed", Boolean(tool) && tool === made.tool));
+    this.scene.on("tool", (tool) => put(made, "aria-pressed", Boolean(tool) && tool === made.tool));
     return made;
   }
 

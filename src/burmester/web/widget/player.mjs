@@ -134,8 +134,8 @@ export class Player {
       const { at, middle, text } = texts[i];
       if (at >= 0) stops.append(one(k, pose, s("text", { x: px(middle), y: 14 + ROW * at, "text-anchor": "middle" }, text)));
     });
-    stops.setAttribute("viewBox", `0 0 ${width} ${16 + ROW * deepest}`);
-    stops.setAttribute("height", 16 + ROW * deepest);
+    put(stops, "viewBox", `0 0 ${width} ${16 + ROW * deepest}`);
+    put(stops, "height", 16 + ROW * deepest);
   }
 
   play(on) {
@@ -143,9 +143,9 @@ export class Player {
     this.remaining = null;
     if (on === this.playing && this.button.firstChild) return;
     this.playing = on;
-    this.readout.setAttribute("aria-live", on ? "off" : "polite"); // it would talk without end
+    put(this.readout, "aria-live", on ? "off" : "polite"); // it would talk without end
     this.button.replaceChildren(icon(on), on ? "Pause" : "Play");
-    this.button.setAttribute("aria-label", on ? "Pause" : "Play");
+    put(this.button, "aria-label", on ? "Pause" : "Play");
     this.button.title = on ? "Pause (space)" : "Play (space)";
     cancelAnimationFrame(this.tick);
     if (!on) return;
