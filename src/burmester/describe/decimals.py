@@ -15,7 +15,7 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
+from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad, line_direction_deg
 from burmester.fourbar.foot_points import foot_points, places_of, rows_of
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
@@ -77,8 +77,7 @@ class Decimals:
 
 def direction_deg(line: PR | RP) -> float:
     """The direction of a slider's line in its own frame, degrees in (-90, 90]."""
-    turned = math.degrees(float(line.normal_angle)) % 180  # that of the normal, in [0, 180)
-    return turned - 90 if turned > 0 else 90.0
+    return float(line_direction_deg(line.normal_angle))
 
 
 def figures_of(size: float) -> int:

@@ -17,7 +17,7 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.weights import weights_or_ones
 
-__all__ = ["PP", "PR", "RP", "RR", "Dyad", "refitted_circles"]
+__all__ = ["PP", "PR", "RP", "RR", "Dyad", "line_direction_deg", "refitted_circles"]
 
 
 class _Dimensions:
@@ -245,6 +245,12 @@ def _wrench(force: FloatArray, at: FloatArray) -> FloatArray:
     moment = at[..., 0] * force[..., 1] - at[..., 1] * force[..., 0]
     x, y = force[..., 0], force[..., 1]
     return np.stack(np.broadcast_arrays(x, y, moment), axis=-1)
+
+
+def line_direction_deg(normal_angle: FloatArray) -> FloatArray:
+    """The directions (*,) of sliders' lines in their own frames, degrees in (-90, 90]."""
+    turned = np.degrees(normal_angle) % 180  # that of the normal, in [0, 180)
+    return np.where(turned > 0, turned - 90, 90.0)
 
 
 def refitted_circles(

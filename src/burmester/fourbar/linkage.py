@@ -17,7 +17,7 @@ from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["GRASHOF_SUMS", "TYPE_OF_SIGNS", "Linkage", "Links", "grashof"]
+__all__ = ["GRASHOF_SUMS", "TYPES", "TYPE_OF_SIGNS", "Linkage", "Links", "grashof"]
 
 PARALLEL = 1e-9  # relative; lines whose cross product is smaller are parallel within rounding
 GRASHOF_TIE = 1e-9  # of all links together; a sum as small is zero but for rounding
@@ -45,6 +45,9 @@ _TYPES = {
     frozenset({RP}): "Oldham linkage",
     frozenset({PR, RP}): "Rapson slide",
 }
+TRANSLATING, CHANGE_POINT = "translating linkage", "change-point"
+# The names of all types, each once.
+TYPES = tuple(dict.fromkeys([*TYPE_OF_SIGNS.values(), CHANGE_POINT, *_TYPES.values(), TRANSLATING]))
 
 
 class Links(NamedTuple):
@@ -95,7 +98,7 @@ class Linkage:
         if (links := self.links) is not None:
             return grashof(links)
         pair = frozenset({type(self.first), type(self.second)})
-        return _TYPES.get(pair, "translating linkage")
+        return _TYPES.get(pair, TRANSLATING)
 
     def couplers(self, angle: FloatArray) -> Displacement:
         """The two coupler places at each coupler angle.
@@ -152,7 +155,7 @@ def grashof(links: Links) -> str:
     lengths = np.array([float(length) for length in links])
     sums = GRASHOF_SUMS @ lengths
     if np.abs(sums).min() <= GRASHOF_TIE * lengths.sum():
-        return "change-point"
+        return CHANGE_POINT
     return TYPE_OF_SIGNS[tuple(int(sign) for sign in np.sign(sums))]
 
 
