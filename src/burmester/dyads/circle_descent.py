@@ -13,20 +13,31 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.dyads.geometric_fit import DIVISOR_FLOOR, NEGLIGIBLE_GAIN, circle_terms
-from burmester.dyads.plain_circle_descent import newton_step
+from burmester.dyads.plain_circle_descent import (
+    ROUNDING,
+    SETTLED_STEP,
+    Descent,
+    plain_descent,
+)
 from burmester.fourbar.dyad import RR
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import where
 from burmester.numerics.iteration import iterate, shortened
 from burmester.numerics.linear_algebra import matvec
-from burmester.numerics.unique_rows import unique_rows
+from burmester.numerics.unique_rows import unique_index
 
-__all__ = ["CircleMinima", "circle_minima", "further_down", "reach", "sharpened_circles"]
+__all__ = [
+    "MAX_LENGTH",
+    "CircleMinima",
+    "circle_minima",
+    "further_down",
+    "minima_of",
+    "reach",
+    "sharpened_circles",
+]
 
-MAX_NEWTON_STEPS = 60  # from each start
-MAX_VALLEY_STEPS = 240  # the same where the body turns little
-SETTLED_STEP = 1e-9  # relative; a shorter step of Newton's method is its last one
+MAX_VALLEY_STEPS = 240  # from each start, where the body turns little
 SAME_DYAD = 1e-6  # relative; circles whose coordinates differ by less are one
 MAX_LENGTH = 1e3  # times how far pivots are; a circle with greater coordinates is a line
 FLAT_SINGULAR_VALUE = 1e-15  # share of the greatest; smaller ones are taken for this one
@@ -37,7 +48,6 @@ SHARPENING_STEPS = 40  # in the longest floating point; at most
 MAX_LOST_STEPS = 4  # in a row without a gain, after which all digits are taken for restored
 MAX_SHARPENING = 0.1  # of a dyad's size; a longer step does not remove rounding
 MET_ROUNDING = 4.0  # units in the last place of a circle's size; within them it meets the poses
-ROUNDING = float(np.finfo(np.float64).eps)  # of a circle's size; a smaller distance is zero
 
 
 class CircleMinima(NamedTuple):
@@ -68,33 +78,10 @@ def circle_minima(
     helps.  A circle that grows so far that it is a slider is left out.
     narrow: whether valleys are to be followed that keep half of the digits; that takes longer.
     """
-    steps = MAX_VALLEY_STEPS if narrow else MAX_NEWTON_STEPS
-    ends, ended_at = _descent(z, poses, share, steps, narrow=narrow)
-    settled = np.flatnonzero(ends.settled)
-    settled = settled[np.argsort(ended_at[settled], kind="stable")]
-    cost = ends.terms[0] ** 2 @ share
-    minima = ends.z[settled][np.argsort(cost[settled], kind="stable")]
-    minima = unique_rows(minima, SAME_DYAD, "maximum")
-    of_minima = np.asarray(circle_terms(poses)(minima)[0] ** 2 @ share)
-    return CircleMinima(minima, of_minima, cost[ended_at == 0])
-
-
-def further_down(
-    z: FloatArray, poses: Displacement, share: FloatArray, steps: int
-) -> tuple[FloatArray, NDArray[np.bool_], NDArray[np.bool_]]:
-    """Circles (k, 5) after so many steps of the way down of `circle_minima`, at most.
-
-    Also, which (k,) have come to rest at a minimum, and which have ended, there or for good.
-    """
-    ends, ended_at = _descent(z, poses, share, steps, narrow=False)
-    return ends.z, ends.settled, ended_at > 0
-
-
-def _descent(
-    z: FloatArray, poses: Displacement, share: FloatArray, steps: int, *, narrow: bool
-) -> tuple[_Point, NDArray[np.intp]]:
-    """Circles (k, 5) after so many steps down, and the step (k,) with which each ended, or 0."""
-    terms, longest = circle_terms(poses), MAX_LENGTH * reach(poses, share)
+    one = np.zeros(len(z), dtype=np.intp)
+    if not narrow:
+        return _of_one_task(further_down(z, poses, share), one)
+    terms, longest = circle_terms(poses), MAX_LENGTH * float(reach(poses, share))
 
     def cost(terms: tuple[FloatArray, ...]) -> FloatArray:
         return np.asarray(terms[0] ** 2 @ share)
@@ -103,10 +90,7 @@ def _descent(
         return _Point(z, terms(z), np.zeros(len(z), dtype=bool))
 
     def advance(_: NDArray[np.intp], here: _Point) -> tuple[_Point, NDArray[np.bool_]]:
-        if narrow:
-            step, bent, convex, gain = _narrow_step(here.terms, share)
-        else:
-            step, convex, gain = newton_step(here.terms, share)
+        step, bent, convex, gain = _narrow_step(here.terms, share)
         before = cost(here.terms)
         # Newton's last steps gain so little that the sum would tell by its rounding only.
         negligible = convex & (gain < NEGLIGIBLE_GAIN * before)
@@ -114,10 +98,8 @@ def _descent(
         def worse(there: _Point) -> NDArray[np.bool_]:
             return np.asarray(~negligible & (cost(there.terms) > before))
 
-        there, failed = here, np.ones(len(step), dtype=bool)
-        if narrow:
-            there = point(here.z + step + bent)
-            failed = worse(there)
+        there = point(here.z + step + bent)
+        failed = worse(there)
         if failed.any():
             straight, stuck = shortened(lambda step: point(here.z + step), step, worse)
             there = where(failed, where(stuck, here, straight), there)
@@ -128,17 +110,55 @@ def _descent(
         ended = settled | (failed & ~convex) | (size > longest)
         return there._replace(settled=settled), ended
 
-    return iterate(advance, point(z), np.arange(len(z)), steps)
+    ends, ended_at = iterate(advance, point(z), np.arange(len(z)), MAX_VALLEY_STEPS)
+    return _of_one_task(Descent(ends.z, cost(ends.terms), ends.settled, ended_at), one)
 
 
-def reach(poses: Displacement, share: FloatArray) -> float:
-    """How far away pivots are, in units of what the best rotation leaves of the poses (N,).
+def further_down(
+    z: FloatArray, poses: Displacement, share: FloatArray, steps: int = MAX_NEWTON_STEPS
+) -> Descent:
+    """Circles (k, 5) after so many steps of the plain way down, at most, for poses (N,)."""
+    one, longest = np.zeros(len(z), dtype=np.intp), MAX_LENGTH * reach(poses, share)
+    return plain_descent(z, one, poses[None], share[None], np.atleast_1d(longest), steps)
+
+
+def _of_one_task(descent: Descent, task: NDArray[np.intp]) -> CircleMinima:
+    once, _ = minima_of(descent, task, 1)
+    return CircleMinima(descent.z[once], descent.cost[once], descent.cost[descent.ended_at == 0])
+
+
+def minima_of(
+    descent: Descent, task: NDArray[np.intp], tasks: int
+) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """The minima to which circles (k,) of tasks (k,) came, each once: indices (m,).
+
+    By task, then by rising sum of squares.  Also returns how many ways down of each task were
+    given up, (tasks,), where they were better already than the second minimum.
+    """
+    order = np.lexsort((descent.ended_at, descent.cost, task))
+    order = order[descent.settled[order]]
+    count = np.bincount(task[order], minlength=tasks)
+    column = np.arange(len(order)) - np.repeat(np.cumsum(count) - count, count)
+    table = np.full((tasks, int(count.max(initial=0)), descent.z.shape[-1]), np.nan)
+    table[task[order], column] = descent.z[order]
+    order = order[unique_index(table, SAME_DYAD, "maximum")[task[order], column]]
+    count = np.bincount(task[order], minlength=tasks)
+    second = np.full(tasks, np.inf)
+    two = count >= 2
+    second[two] = descent.cost[order[(np.cumsum(count) - count)[two] + 1]]
+    better = (descent.ended_at == 0) & (descent.cost < second[task])
+    return order, np.bincount(task[better], minlength=tasks)
+
+
+def reach(poses: Displacement, share: FloatArray) -> FloatArray:
+    """How far away pivots are (*,), in units of what the best rotation leaves of the poses (*, N).
 
     That rest is of second order in the turn of the body.  1 where the body turns much.
     """
     turn = np.exp(1j * poses.angle)
-    spread = float(share @ np.abs(turn - share @ turn) ** 2)
-    return max(1.0, 1 / max(spread, ROTATION_ROUNDING))
+    middle = (share * turn).sum(axis=-1, keepdims=True)
+    spread = (share * np.abs(turn - middle) ** 2).sum(axis=-1)
+    return np.asarray(np.maximum(1.0, 1 / np.maximum(spread, ROTATION_ROUNDING)))
 
 
 def sharpened_circles(

@@ -34,7 +34,15 @@ from burmester.numerics.linear_algebra import matvec, one_thread, solve_or_short
 from burmester.numerics.unique_rows import unique_rows
 from burmester.numerics.weights import shares, weights_or_ones
 
-__all__ = ["COUNT", "CriticalDyads", "continued_points", "critical_dyads", "residual_rows"]
+__all__ = [
+    "COUNT",
+    "CriticalDyads",
+    "balancing_length",
+    "continued_points",
+    "critical_dyads",
+    "residual_rows",
+    "residual_triangle",
+]
 
 COUNT = 25  # finite critical points of generic poses (a Groebner basis over a finite field)
 MAX_NEWTON_STEPS = 40  # more than 5 are taken only towards points that lie close together
@@ -131,7 +139,7 @@ def critical_dyads(poses: Displacement, weights: FloatArray | None = None) -> Cr
     poses.require_finite()
     frames, seen = CanonicalFrames.of(poses, weights)
     lead = poses.shape[:-1]
-    triangle = _triangle(seen, weights)
+    triangle = residual_triangle(seen, weights)
     points = np.full((*lead, COUNT, 4), np.nan + 0j)
     found, charts = np.zeros(lead, dtype=int), np.zeros(lead, dtype=int)
     far = np.asarray(POINTS_OF_SLIDER * _exact_sliders(poses, frames, seen, weights))
@@ -169,7 +177,7 @@ def residual_rows(poses: Displacement) -> FloatArray:
     return np.stack([*rows, -2 * c, -2 * s], axis=-1)
 
 
-def _triangle(poses: Displacement, weights: FloatArray | None) -> FloatArray:
+def residual_triangle(poses: Displacement, weights: FloatArray | None) -> FloatArray:
     """T (*, 7, 7) with |T v|² the weighted mean of the squared circle residuals."""
     a = residual_rows(poses)
     share = shares(weights, poses.shape)
@@ -232,7 +240,7 @@ def _all_points(triangle: FloatArray, at_infinity: int) -> _Points:
 
     at_infinity: how many of the 25 are not finite.
     """
-    unit = _balancing_length(triangle)
+    unit = float(balancing_length(triangle))
     scaled = triangle * [1.0, *[unit] * 4, unit**2, unit**2]
     size = np.linalg.norm(scaled)
     scaled = scaled / size if size > 0 else scaled
@@ -282,13 +290,17 @@ def _exact_sliders(
     return count
 
 
-def _balancing_length(triangle: FloatArray) -> float:
-    """The length in which the pivots weigh as much in the residual as their products do.
+def balancing_length(triangle: FloatArray) -> FloatArray:
+    """The lengths (*,) in which pivots weigh as much in the residual as their products do.
 
-    Where the body turns little that is long, as the pivots are then far away.
+    Where the body turns little that is long, as the pivots are then far away.  Powers of two, by
+    which nothing is rounded.
     """
-    alone, products = np.linalg.norm(triangle[:, 1:5]), np.linalg.norm(triangle[:, 5:])
-    return float(BALANCE * alone / products) if alone > 0 and products > 0 else 1.0
+    alone = np.linalg.norm(triangle[..., 1:5], axis=(-2, -1))
+    products = np.linalg.norm(triangle[..., 5:], axis=(-2, -1))
+    some = (alone > 0) & (products > 0)
+    ratio = np.where(some, BALANCE * alone / np.where(some, products, 1.0), 1.0)
+    return np.asarray(2.0 ** np.round(np.log2(ratio)))
 
 
 class _Iterate(NamedTuple):
@@ -347,8 +359,8 @@ def continued_points(
     to rest nearer to itself than to the others, so that two may have met, or has become real: then
     `critical_dyads` says what there is.
     """
-    triangle = _triangle(poses, weights)
-    unit = _balancing_length(triangle)
+    triangle = residual_triangle(poses, weights)
+    unit = float(balancing_length(triangle))
     scaled = triangle * [1.0, *[unit] * 4, unit**2, unit**2]
     scaled = scaled / np.linalg.norm(scaled)
     start = x = points / unit

@@ -23,7 +23,7 @@ from burmester.fourbar.dyad import RR, refitted_circles
 from burmester.geometry import constraint_manifold
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray
-from burmester.numerics.linear_algebra import solve, solve_or_shortest
+from burmester.numerics.linear_algebra import matvec, solve_where_regular
 
 __all__ = ["FivePoseDyads", "dyads_of_five", "require_count"]
 
@@ -233,21 +233,27 @@ def _polish(p: ComplexArray, design: FloatArray) -> ComplexArray:
 
     Removes the rounding of the null space and the eigenproblem.
     """
-    jacobian = np.empty((*p.shape[:-1], 8, 8), dtype=complex)
-    jacobian[..., :5, :] = design[..., None, :, :]
-    values = np.zeros(p.shape, dtype=complex)
+    lead, p = p.shape[:-2], p.reshape(-1, *p.shape[-2:]).copy()
+    design = design.reshape(-1, *design.shape[-2:])
+    run = np.arange(len(p))  # the tasks that still gain
     for _ in range(NEWTON_STEPS):
-        jacobian[..., 5:7, :] = constraint_manifold.condition_gradients(p)
-        jacobian[..., 7, :] = p.conj()
-        values[..., :7] = _equations(p, design)
-        step = solve_or_shortest(jacobian, values)  # an exact double root has no other step
+        here = p[run]
+        jacobian, values = np.empty((*here.shape, 8), dtype=complex), np.zeros_like(here)
+        jacobian[..., :5, :] = design[run, None]
+        jacobian[..., 5:7, :] = constraint_manifold.condition_gradients(here)
+        jacobian[..., 7, :] = here.conj()
+        values[..., :7] = _equations(here, design[run])
+        step, regular = solve_where_regular(jacobian, values)
+        if len(at := np.flatnonzero(~regular.all(axis=-1))):  # an exact double root has no step
+            step[at] = matvec(np.linalg.pinv(jacobian[at]), values[at])
         short = np.linalg.norm(step, axis=-1) < MAX_NEWTON_STEP
         sound = np.isfinite(step).all(axis=-1) & short
-        p = p - np.where(sound[..., None], step, 0.0)
-        p = p / np.linalg.norm(p, axis=-1, keepdims=True)
-        if not (sound & (np.linalg.norm(step, axis=-1) > LAST_STEP)).any():
+        here = here - np.where(sound[..., None], step, 0.0)
+        p[run] = here / np.linalg.norm(here, axis=-1, keepdims=True)
+        run = run[(sound & (np.linalg.norm(step, axis=-1) > LAST_STEP)).any(axis=-1)]
+        if not len(run):
             break
-    return p
+    return p.reshape(*lead, *p.shape[-2:])
 
 
 def _sharpened(dyads: RR, poses: Displacement, length: FloatArray) -> RR:
@@ -258,32 +264,40 @@ def _sharpened(dyads: RR, poses: Displacement, length: FloatArray) -> RR:
     Left as they are: sliders (`length` is (*, 1), see `canonical_frames`), and double roots, which
     have no more digits to gain.
     """
-    long = np.longdouble
-    d1, d2 = np.moveaxis(poses.translation.astype(long), -1, 0)[..., None, :]
-    cos, sin = (f(poses.angle.astype(long))[..., None, :] for f in (np.cos, np.sin))
+    long, lead = np.longdouble, dyads.radius.shape
+    d1, d2 = np.moveaxis(poses.translation.astype(long).reshape(-1, 5, 2), -1, 0)[..., None, :]
+    angle = poses.angle.astype(long).reshape(-1, 1, 5)
+    cos, sin = np.cos(angle), np.sin(angle)
     given = np.concatenate([dyads.fixed_pivot, dyads.moving_pivot], axis=-1)
     size = np.where(dyads.radius < SLIDER_LENGTH * length, np.abs(given).max(axis=-1) + length, 0.0)
-    x = np.where(size[..., None] > 0, given, 0.0).astype(long)
-    best, radius, least = given, dyads.radius, np.full(size.shape, np.inf)
+    best, radius, size = (
+        given.reshape(-1, 4, 4).copy(),
+        dyads.radius.reshape(-1, 4).copy(),
+        size.reshape(-1, 4),
+    )
+    x = np.where(size[..., None] > 0, best, 0.0).astype(long)
+    least, run = np.full(size.shape, np.inf), np.arange(len(size))  # the tasks that still gain
     for _ in range(SHARPENING_STEPS):
-        c1, c2, m1, m2 = np.moveaxis(x, -1, 0)[..., None]
-        a1, a2 = cos * m1 - sin * m2 + (d1 - c1), sin * m1 + cos * m2 + (d2 - c2)
+        c1, c2, m1, m2 = np.moveaxis(x[run], -1, 0)[..., None]
+        c, s = cos[run], sin[run]
+        a1, a2 = c * m1 - s * m2 + (d1[run] - c1), s * m1 + c * m2 + (d2[run] - c2)
         squared = a1 * a1 + a2 * a2
         mean = squared.mean(axis=-1)
         residual = np.asarray(squared - mean[..., None], dtype=np.float64)
         worst = np.abs(residual).max(axis=-1)
-        better = (worst < least) & (size > 0)
-        best = np.where(better[..., None], np.asarray(x, dtype=np.float64), best)
-        radius = np.where(better, np.asarray(np.sqrt(mean), dtype=np.float64), radius)
-        least = np.where(better, worst, least)
-        if not better.any():
-            break
-        columns = [-a1, -a2, cos * a1 + sin * a2, cos * a2 - sin * a1, np.full_like(a1, -0.5)]
+        better = (worst < least[run]) & (size[run] > 0)
+        task, number = np.nonzero(better)
+        best[run[task], number] = x[run[task], number]
+        radius[run[task], number] = np.sqrt(mean[task, number])
+        least[run[task], number] = worst[task, number]
+        gains = better.any(axis=-1)
+        columns = [-a1, -a2, c * a1 + s * a2, c * a2 - s * a1, np.full_like(a1, -0.5)]
         jacobian = np.asarray(2 * np.stack(columns, axis=-1), dtype=np.float64)
-        try:
-            step = solve(jacobian, residual)[..., :4]
-        except np.linalg.LinAlgError:
+        step, regular = solve_where_regular(jacobian[gains], residual[gains])
+        run, step = run[gains][on := regular.all(axis=-1)], step[on, :, :4]
+        if not len(run):
             break
-        small = np.abs(step).max(axis=-1, keepdims=True) < MAX_SHARPENING * size[..., None]
-        x = x - np.where(small, step, 0.0)
-    return RR(best[..., :2], best[..., 2:], radius)
+        small = np.abs(step).max(axis=-1, keepdims=True) < MAX_SHARPENING * size[run, :, None]
+        x[run] -= np.where(small, step, 0.0)
+    pivots = best.reshape(*lead, 4)
+    return RR(pivots[..., :2], pivots[..., 2:], radius.reshape(lead))

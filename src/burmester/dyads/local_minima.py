@@ -159,7 +159,7 @@ def best_dyads(
 
 def is_hard(points: ComplexArray, seen: Displacement, share: FloatArray) -> bool:
     """Whether the body turns so little that ways down are narrow, or critical points are lost."""
-    return len(points) < COUNT or reach(seen, share) > LITTLE_TURN
+    return len(points) < COUNT or float(reach(seen, share)) > LITTLE_TURN
 
 
 def starts_down(

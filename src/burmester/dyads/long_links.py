@@ -10,9 +10,10 @@ import numpy as np
 
 from burmester.fourbar.dyad import RR
 from burmester.geometry.displacement import Displacement
-from burmester.tasks.repeated_poses import rotation_range
+from burmester.numerics.arrays import FloatArray
+from burmester.tasks.repeated_poses import orientation_arcs
 
-__all__ = ["SENSIBLE_SWING", "is_nearly_slider", "swing"]
+__all__ = ["OUT_OF_SIGHT", "SENSIBLE_SWING", "is_nearly_slider", "swing", "swings"]
 
 SENSIBLE_SWING = 0.1  # radians; a link that swings more is a link; arcs bend by 1 % of their chords
 OUT_OF_SIGHT = 10.0  # sizes of the picture; no picture shows both ends of a longer link
@@ -23,11 +24,17 @@ def swing(dyad: RR, poses: Displacement) -> float:
 
     Against F or against M, where it turns less.  An endless link does not turn.
     """
-    if not np.isfinite(dyad.radius):
-        return 0.0
-    arm = poses.act(dyad.moving_pivot) - dyad.fixed_pivot
-    direction = np.arctan2(arm[:, 1], arm[:, 0])
-    return min(rotation_range(direction), rotation_range(direction - poses.angle))
+    return float(swings(dyad, poses))
+
+
+def swings(dyads: RR, poses: Displacement) -> FloatArray:
+    """The same of RR dyads (*,), each with its poses (*, N)."""
+    with np.errstate(invalid="ignore"):
+        arm = poses.act(dyads.moving_pivot[..., None, :]) - dyads.fixed_pivot[..., None, :]
+        direction = np.arctan2(arm[..., 1], arm[..., 0])
+        _, in_f = orientation_arcs(direction)
+        _, in_m = orientation_arcs(direction - poses.angle)
+    return np.where(np.isfinite(dyads.radius), np.minimum(in_f, in_m), 0.0)
 
 
 def is_nearly_slider(dyad: RR, poses: Displacement, size: float) -> bool:

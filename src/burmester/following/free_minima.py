@@ -30,7 +30,6 @@ from burmester.tasks.motion_task import Task
 __all__ = ["FreeMinima", "MovedFit"]
 
 STEPS_DOWN = 12  # number of steps on each way down, for each task
-MAX_STEPS_DOWN = 60  # number of steps from where a minimum was lost
 
 
 class MovedFit(NamedTuple):
@@ -76,9 +75,9 @@ class FreeMinima:
             descents = there.descents
             if not len(descents):
                 descents = starts_down(there.points, sliders, seen, task.weights, np.empty((0, 4)))
-            descents, at_rest, ended = further_down(descents, seen, share, STEPS_DOWN)
-            z = np.concatenate([z, descents[at_rest]])
-            there = replace(there, descents=descents[~ended])
+            down = further_down(descents, seen, share, STEPS_DOWN)
+            z = np.concatenate([z, down.z[down.settled]])
+            there = replace(there, descents=down.z[down.ended_at == 0])
         own = np.delete(np.arange(len(z)), twins(z))
         new = moved_fit(fit, z[own], sliders, seen)
         before, after = listed(fit), listed(new)
@@ -115,6 +114,6 @@ def _down_where_lost(
     lost = np.flatnonzero(~moved.sound)
     if not len(lost):
         return moved.z, np.arange(len(z))
-    there, here = moved.z.copy(), moved.sound.copy()
-    there[lost], here[lost], _ = further_down(z[lost], seen, share, MAX_STEPS_DOWN)
+    there, here, down = moved.z.copy(), moved.sound.copy(), further_down(z[lost], seen, share)
+    there[lost], here[lost] = down.z, down.settled
     return there[here], np.flatnonzero(here)

@@ -73,9 +73,9 @@ class CanonicalFrames:
         return frames, Displacement(_pair(rest / length[..., None]), poses.angle)
 
     def to_canonical(self, poses: Displacement) -> Displacement:
-        """Poses (N,) as these frames, of one task, see them."""
-        moved = poses.act(self.moving_origin) - self.fixed_origin
-        return Displacement(moved / self.length, poses.angle)
+        """Poses (*, N) as these frames (*,) see them."""
+        moved = poses.act(self.moving_origin[..., None, :]) - self.fixed_origin[..., None, :]
+        return Displacement(moved / self.length[..., None, None], poses.angle)
 
     def from_canonical(self, places: Displacement) -> Displacement:
         """Places (*,) found in these frames, of one task, as its own see them."""
@@ -92,14 +92,15 @@ class CanonicalFrames:
         )
 
     def line_from_canonical(self, line: PR | RP) -> PR | RP:
-        """A PR or RP dyad found in these frames, of one task, as its own frames see it."""
+        """PR or RP dyads (*,) found in these frames (*,), as the task's own frames see them."""
         normal = np.stack([np.cos(line.normal_angle), np.sin(line.normal_angle)], axis=-1)
+        unit = self.length[..., None]
         if isinstance(line, PR):
-            offset = line.offset * self.length + normal @ self.fixed_origin
-            pivot = line.moving_pivot * self.length + self.moving_origin
+            offset = line.offset * self.length + (normal * self.fixed_origin).sum(axis=-1)
+            pivot = line.moving_pivot * unit + self.moving_origin
             return PR(line.normal_angle, offset, pivot)
-        offset = line.offset * self.length + normal @ self.moving_origin
-        pivot = line.fixed_pivot * self.length + self.fixed_origin
+        offset = line.offset * self.length + (normal * self.moving_origin).sum(axis=-1)
+        pivot = line.fixed_pivot * unit + self.fixed_origin
         return RP(pivot, line.normal_angle, offset)
 
 

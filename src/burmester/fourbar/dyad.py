@@ -136,15 +136,17 @@ class PR(_Dimensions):
         return _wrench(normal, poses.rotate(self.moving_pivot))
 
     def middle_of_travel(self, places: Displacement) -> FloatArray:
-        """The middle (2,) in F of the stretch of one line that places (N,) use.
+        """The middles (*, 2) in F of the stretches of lines (*,) that places (*, N) use.
 
         Places that are nan do not count; without any it is the foot of the normal.
         """
-        n = np.array([np.cos(self.normal_angle), np.sin(self.normal_angle)])
-        ahead = np.array([-n[1], n[0]])
-        along = places.act(self.moving_pivot) @ ahead
-        low, high = (f.reduce(along, initial=np.nan) for f in (np.fmin, np.fmax))
-        return np.asarray(self.offset * n + np.nan_to_num((low + high) / 2) * ahead)
+        n = np.stack([np.cos(self.normal_angle), np.sin(self.normal_angle)], axis=-1)
+        ahead = np.stack([-n[..., 1], n[..., 0]], axis=-1)
+        points = places.act(self.moving_pivot[..., None, :])
+        along = (points * ahead[..., None, :]).sum(axis=-1)
+        low, high = (f.reduce(along, axis=-1, initial=np.nan) for f in (np.fmin, np.fmax))
+        middle = np.nan_to_num((low + high) / 2)
+        return np.asarray(self.offset[..., None] * n + middle[..., None] * ahead)
 
 
 @final
@@ -191,7 +193,7 @@ class RP(_Dimensions):
         return _wrench(-poses.rotate(normal), self.fixed_pivot - poses.translation)
 
     def middle_of_travel(self, places: Displacement) -> FloatArray:
-        """The middle (2,) in M of the stretch of one line that places (N,) use.
+        """The middles (*, 2) in M of the stretches of lines (*,) that places (*, N) use.
 
         Places that are nan do not count; without any it is the foot of the normal.
         """

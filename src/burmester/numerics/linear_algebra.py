@@ -9,7 +9,14 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["matvec", "one_thread", "solve", "solve_or_shortest", "unit_vectors"]
+__all__ = [
+    "matvec",
+    "one_thread",
+    "solve",
+    "solve_or_shortest",
+    "solve_where_regular",
+    "unit_vectors",
+]
 
 
 def matvec(matrix: NDArray[Any], vector: NDArray[Any]) -> NDArray[Any]:
@@ -28,6 +35,34 @@ def solve_or_shortest(matrix: NDArray[Any], right: NDArray[Any]) -> NDArray[Any]
         return solve(matrix, right)
     except np.linalg.LinAlgError:
         return matvec(np.linalg.pinv(matrix), right)
+
+
+def solve_where_regular(
+    matrix: NDArray[Any], right: NDArray[Any]
+) -> tuple[NDArray[Any], NDArray[np.bool_]]:
+    """The solutions, and which of the systems (*,) have one; zeros where a matrix is singular.
+
+    A matrix is singular where elimination meets a pivot of zero exactly.
+    """
+    try:
+        return solve(matrix, right), np.ones(matrix.shape[:-2], dtype=bool)
+    except np.linalg.LinAlgError:
+        size = matrix.shape[-1]
+        regular = _regular(matrix.reshape(-1, size, size)).reshape(matrix.shape[:-2])
+    safe = np.where(regular[..., None, None], matrix, np.eye(size))
+    return np.where(regular[..., None], solve(safe, right), 0.0), regular
+
+
+def _regular(matrices: NDArray[Any]) -> NDArray[np.bool_]:
+    """Which of matrices (k, n, n) are not singular, by halves until all are or one is left."""
+    try:
+        np.linalg.solve(matrices, np.zeros((len(matrices), matrices.shape[-1], 1)))
+    except np.linalg.LinAlgError:
+        half = len(matrices) // 2
+        if not half:
+            return np.zeros(len(matrices), dtype=bool)
+        return np.concatenate([_regular(matrices[:half]), _regular(matrices[half:])])
+    return np.ones(len(matrices), dtype=bool)
 
 
 def unit_vectors(vectors: NDArray[np.float64]) -> NDArray[np.float64]:

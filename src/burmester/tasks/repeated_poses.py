@@ -13,6 +13,7 @@ __all__ = [
     "distinguishable",
     "exact_repeats",
     "orientation_arc",
+    "orientation_arcs",
     "rotation_range",
     "spanning",
 ]
@@ -92,8 +93,15 @@ def rotation_range(angle: FloatArray) -> float:
 
 def orientation_arc(angle: FloatArray) -> tuple[float, float]:
     """The least arc that holds all orientations (N,): its middle and its length, in radians."""
-    around = np.sort(angle % (2 * np.pi))
-    gaps = np.diff(around, append=around[0] + 2 * np.pi)
-    widest = int(gaps.argmax())
-    length = 2 * np.pi - gaps[widest]
-    return float(around[(widest + 1) % len(around)] + length / 2), float(length)
+    middle, length = orientation_arcs(angle)
+    return float(middle), float(length)
+
+
+def orientation_arcs(angle: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """The same of many: for orientations (*, N) middles and lengths (*,)."""
+    around = np.sort(angle % (2 * np.pi), axis=-1)
+    gaps = np.diff(around, append=around[..., :1] + 2 * np.pi, axis=-1)
+    widest = gaps.argmax(axis=-1)[..., None]
+    length = 2 * np.pi - np.take_along_axis(gaps, widest, axis=-1)[..., 0]
+    start = np.take_along_axis(around, (widest + 1) % around.shape[-1], axis=-1)[..., 0]
+    return start + length / 2, length
