@@ -2,33 +2,84 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
+from burmester.dyads.pencil import MIN_POSES
 from burmester.errors import InputError
-from burmester.stacked.answers import Depth, LinkageRows, StackedAnswers
-from burmester.stacked.dyad_table import rows_of_tasks
+from burmester.numerics.bundles import concatenate, take
+from burmester.stacked.answers import Depth, DyadRows, LinkageRows, StackedAnswers, joined
+from burmester.stacked.best_dyads import best_dyads_in_stack
+from burmester.stacked.dyad_table import rows_of_found, rows_of_tasks
+from burmester.stacked.five_pose_dyads import five_pose_dyads
 from burmester.stacked.one_task import TaskDyads, dyads_of_task
+from burmester.stacked.pencils import pencil_dyads
+from burmester.stacked.plain_tasks import computable
 from burmester.stacked.task_stack import TaskStack
+from burmester.stacked.vouched import Vouched
+from burmester.tasks.motion_task import CONDITIONS
 
 __all__ = ["stacked_answers"]
 
+POSES_AT_ONCE = 20_000  # of tasks computed together; bounds the memory, and fits a cache
+
 
 def stacked_answers(stack: TaskStack, depth: Depth) -> StackedAnswers:
-    """The dyads of many tasks, and with the depth "linkages" the pairs of them."""
-    found = [_answer(stack, k, depth) for k in range(len(stack))]
-    rows = rows_of_tasks(found, range(len(stack)), stack.displacements)
+    """The dyads of many tasks, and with the depth "linkages" the pairs of them.
+
+    A task that the stacked road cannot vouch for takes the road of one task; its neighbours'
+    answers do not change for it.
+    """
+    size = max(1, POSES_AT_ONCE // max(1, stack.poses.shape[1]))
+    starts = range(0, max(1, len(stack)), size)
+    return joined([_answers(stack[start : start + size], depth) for start in starts])
+
+
+def _answers(stack: TaskStack, depth: Depth) -> StackedAnswers:
+    """The answers of tasks that are computed together."""
+    outcome, code = np.zeros(len(stack), dtype=np.int8), np.full(len(stack), "", dtype="<U4")
+    alone, rows = np.ones(len(stack), dtype=bool), [DyadRows.blank(0)]
+    warnings: list[tuple[int, str]] = []
+    sound = np.flatnonzero(computable(stack))
+    for each in _vouched(stack[sound], depth) if len(sound) else []:
+        index = sound[each.tasks]
+        alone[index] = False
+        table = rows_of_found(each.found, each.fits.poses, each.status)
+        rows.append(replace(table, task=index[table.task]))
+        few = index[each.advice.pairs == 0]
+        outcome[few], code[few] = StackedAnswers.OUTCOMES.index("too few dyads"), "R302"
+        warnings += [(int(index[task]), name) for task, name in each.advice.warnings]
+    rest = np.flatnonzero(alone).tolist()
+    singles = [_answer(stack, k, depth) for k in rest]
+    rows.append(rows_of_tasks(singles, rest, stack.displacements))
+    outcome[rest] = [StackedAnswers.OUTCOMES.index(each.outcome) for each in singles]
+    code[rest] = [each.code for each in singles]
+    for task, single in zip(rest, singles, strict=True):
+        warnings += [(task, name) for name in single.warnings]
+    every = concatenate(rows)
     return StackedAnswers(
-        rows,
+        take(every, np.argsort(every.task, kind="stable")),
         LinkageRows.blank(0) if depth == "linkages" else None,
-        np.array([StackedAnswers.OUTCOMES.index(each.outcome) for each in found], dtype=np.int8),
-        np.array([each.code for each in found], dtype="<U4"),
-        np.ones(len(stack), dtype=bool),
-        tuple((task, code) for task, each in enumerate(found) for code in each.warnings),
+        outcome,
+        code,
+        alone,
+        tuple(sorted(warnings, key=lambda each: each[0])),
     )
 
 
+def _vouched(stack: TaskStack, depth: Depth) -> list[Vouched]:
+    """The tasks that the stacked road vouches for, each of them once."""
+    count = stack.poses.shape[1]
+    if depth == "pencil":
+        return [pencil_dyads(stack)] if count >= MIN_POSES else []
+    if count == CONDITIONS:
+        return five_pose_dyads(stack)
+    return [best_dyads_in_stack(stack)] if count > CONDITIONS else []
+
+
 def _answer(stack: TaskStack, index: int, depth: Depth) -> TaskDyads:
-    """What came of one task of a stack."""
+    """What came of one task of a stack, by the road of one task."""
     try:
         task = stack.task(index)
     except InputError as error:

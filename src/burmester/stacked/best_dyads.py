@@ -1,0 +1,144 @@
+"""The locally best dyads of many plain tasks: `local_minima.best_dyads` for stacks.
+
+The critical points of all tasks come from stacked eigenproblems; the ways down from them are made
+by Newton's method on the circles of all tasks at once.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burmester.dyads.circle_descent import MAX_LENGTH, minima_of, reach
+from burmester.dyads.local_minima import (
+    CONJUGATE_PICK,
+    LITTLE_TURN,
+    MAX_POSES_FOLLOWED,
+    ROUGH_DISTANCE,
+    START_LENGTH,
+)
+from burmester.dyads.many_critical_points import many_critical_points
+from burmester.dyads.pencil import MIN_POSES, fit_pencil
+from burmester.dyads.plain_circle_descent import plain_descent
+from burmester.dyads.selection import MAX_SLIDER_ANGLE
+from burmester.dyads.sliders import fixed_lines, moving_lines
+from burmester.fourbar.canonical_frames import CanonicalFrames
+from burmester.fourbar.dyad import PR, RR
+from burmester.geometry.displacement import Displacement
+from burmester.numerics.arrays import ComplexArray, FloatArray
+from burmester.numerics.bundles import take
+from burmester.numerics.weights import shares
+from burmester.stacked.advice import within_digits
+from burmester.stacked.found_dyads import Fits, Solutions, found_in_stack
+from burmester.stacked.plain_tasks import plain_tasks
+from burmester.stacked.task_stack import TaskStack
+from burmester.stacked.vouched import Vouched
+from burmester.synthesis.dyad_search import LINKAGE_QUADRICS
+from burmester.synthesis.outcome import NEAR_DIGITS
+
+__all__ = ["best_dyads_in_stack"]
+
+Indices = NDArray[np.intp]
+
+
+def best_dyads_in_stack(stack: TaskStack) -> Vouched:
+    """The locally best dyads of tasks that can be computed with, of five poses or more.
+
+    Vouched for are plain tasks whose critical points are all found, and whose body does not turn
+    so little that the ways down are long.
+    """
+    plain, nullity = plain_tasks(stack)
+    count = stack.poses.shape[1]
+    index = np.flatnonzero(plain & (count <= MAX_POSES_FOLLOWED))
+    poses, weights = stack[index].displacements, stack[index].weights
+    frames, seen = CanonicalFrames.of(poses, weights)
+    share = shares(weights, seen.shape)
+    points, all_found = many_critical_points(seen, weights)
+    easy = all_found & (reach(seen, share) <= LITTLE_TURN)
+    index, points, share, seen = index[easy], points[easy], share[easy], seen[easy]
+    stack, frames = stack[index], take(frames, easy)
+    task, z = _starts(points, seen, share, stack.weights)
+    longest = MAX_LENGTH * reach(seen, share)
+    descent = plain_descent(z, task, seen, share, longest)
+    once, unfinished = minima_of(descent, task, len(index))
+    task, z = task[once], descent.z[once]
+    circles = RR(z[:, :2], z[:, 2:4], z[:, 4])
+    distance = circles[:, None].residual(seen[task])
+    unit = frames.length[task]
+    own = take(frames, task).circle_from_canonical(circles[:, None])[:, 0]
+    solutions = Solutions(
+        task,
+        circles.coefficients(),
+        own,
+        np.sqrt((distance**2).mean(axis=-1)) * unit,
+        np.abs(distance).max(axis=-1) * unit,
+    )
+    fits = Fits(stack, frames, seen, frames.length, minima=True)
+    found = found_in_stack(fits, solutions, _blur(fits), lines=True)
+    vouched = Vouched.of(index, "locally best", fits, found)
+    meeting = np.bincount(found.task[within_digits(fits, found, NEAR_DIGITS)], minlength=len(index))
+    exact = (nullity[index] >= LINKAGE_QUADRICS) & (max(0, 8 - count) < LINKAGE_QUADRICS)
+    missing = (exact & (meeting < LINKAGE_QUADRICS)) | (unfinished > 0)
+    return vouched._replace(advice=vouched.advice._replace(missing=missing))
+
+
+def _blur(fits: Fits) -> FloatArray:
+    """The angles (T,) by which noise turns manifolds of sliders, by the pencils of the poses."""
+    if fits.poses.shape[-1] < MIN_POSES:
+        return np.full(len(fits.length), MAX_SLIDER_ANGLE)
+    pencil = fit_pencil(fits.poses, fits.weights)
+    return fits.blur(pencil.noise, pencil.gap)
+
+
+def _starts(
+    points: ComplexArray, seen: Displacement, share: FloatArray, weights: FloatArray | None
+) -> tuple[Indices, FloatArray]:
+    """Circles (k, 5) to start from, and the tasks (k,) of them."""
+    tasks = len(points)
+    side = points.imag @ CONJUGATE_PICK
+    task, number = np.nonzero(side >= 0)  # one of each two conjugate points
+    pivots = np.concatenate([points[task, number].real, np.zeros((tasks, 4))])
+    task = np.concatenate([task, np.arange(tasks)])
+    circles, cost = _circles_about(pivots, task, seen, share)
+    least = np.full(tasks, np.inf)
+    np.minimum.at(least, task, cost)
+    # Far from any circle the distance has minima of its own, and complex points lead to them.
+    rough = (least > ROUGH_DISTANCE**2)[:, None] & (side > 0)
+    more, number = np.nonzero(rough)
+    beside = points[more, number]
+    pivots = np.concatenate([beside.real + beside.imag, beside.real - beside.imag])
+    rough_circles, _ = _circles_about(pivots, np.tile(more, 2), seen, share)
+    every = [circles, rough_circles]
+    lines = fixed_lines(seen, weights)[0][:, 0], moving_lines(seen, weights)[0][:, 0]
+    back = PR(lines[1].normal_angle, lines[1].offset, lines[1].fixed_pivot)
+    for line, motion, order in (
+        (lines[0], seen, [0, 1, 2, 3]),
+        (back, seen.inverse(), [2, 3, 0, 1]),
+    ):
+        for pivots in _pivots_along(line, motion):
+            every.append(_circles_about(pivots[:, order], np.arange(tasks), seen, share)[0])
+    owners = [task, np.tile(more, 2), *[np.arange(tasks)] * 4]
+    return np.concatenate(owners), np.concatenate(every)
+
+
+def _circles_about(
+    pivots: FloatArray, task: Indices, seen: Displacement, share: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Circles (k, 5) with pivots (k, 4) and the best radius, and their mean squares (k,)."""
+    centred = RR(pivots[:, :2], pivots[:, 2:], np.zeros(len(pivots)))
+    distance = centred[:, None].residual(seen[task])
+    radius = (distance * share[task]).sum(axis=1)
+    cost = (share[task] * (distance - radius[:, None]) ** 2).sum(axis=1)
+    return np.concatenate([pivots, radius[:, None]], axis=1), cost
+
+
+def _pivots_along(line: PR, motion: Displacement) -> tuple[FloatArray, FloatArray]:
+    """Pivots (T, 4) of long links that nearly follow lines (T,), one on either side of each."""
+    n = np.stack([np.cos(line.normal_angle), np.sin(line.normal_angle)], axis=-1)
+    foot = motion.act(line.moving_pivot[:, None]).mean(axis=1)
+    foot = foot - ((foot * n).sum(axis=1) - line.offset)[:, None] * n
+    first, second = (
+        np.concatenate([foot + side * START_LENGTH * n, line.moving_pivot], axis=1)
+        for side in (-1, 1)
+    )
+    return first, second
