@@ -12,7 +12,7 @@ def mixed_tasks(count, seed=0):
     shaken = rng.normal(scale=[1e-3, 1e-3, 1e-3], size=(8, count, 3))
     tasks = {}
     for k in range(4):
-        linkage = random_poses(random_four_bar(rng, RR), rng, count)
+        linkage = random_poses(random_four_bar(rng, RR), rng, count, ordered=k > 0)
         tasks[f"four-bar {k}"] = linkage
         tasks[f"noisy four-bar {k}"] = linkage + shaken[k]
         tasks[f"rough {k}"] = rng.normal(size=(count, 3))

@@ -106,7 +106,7 @@ def judge(
     places: Displacement,
     *,
     missed: FloatArray,
-    reach: float,
+    reach: float | FloatArray,
     length: float | None = None,
     names: Sequence[str] | None = None,
     any_order: bool = False,
@@ -117,7 +117,8 @@ def judge(
     places: (k, N), the coupler's places nearest to the poses, in their order; nan where there is
         none: such poses are left out of the other verdicts.
     missed: (k, N), the distances of the poses from their places; a distance above `reach` is an
-        assembly defect.  Both in the unit in which distances between poses are measured.
+        assembly defect.  Both in the unit in which distances between poses are measured; reach may
+        be one of each linkage, (k, 1).
     length: the length that a radian counts as in `missed`; None: the poses have an order however
         far they are missed.
     names: names of the poses in messages, instead of their numbers from 1.

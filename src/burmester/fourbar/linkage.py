@@ -12,12 +12,21 @@ from dataclasses import dataclass
 from typing import NamedTuple, final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["GRASHOF_SUMS", "TYPES", "TYPE_OF_SIGNS", "Linkage", "Links", "grashof"]
+__all__ = [
+    "GRASHOF_SUMS",
+    "TYPES",
+    "TYPE_OF_SIGNS",
+    "Linkage",
+    "Links",
+    "grashof",
+    "grashof_numbers",
+]
 
 PARALLEL = 1e-9  # relative; lines whose cross product is smaller are parallel within rounding
 GRASHOF_TIE = 1e-9  # of all links together; a sum as small is zero but for rounding
@@ -152,11 +161,25 @@ def grashof(links: Links) -> str:
     By the signs of `GRASHOF_SUMS`; one of them is s + l - p - q but for its sign.  A sum within
     GRASHOF_TIE of zero is a change point.
     """
-    lengths = np.array([float(length) for length in links])
-    sums = GRASHOF_SUMS @ lengths
-    if np.abs(sums).min() <= GRASHOF_TIE * lengths.sum():
-        return CHANGE_POINT
-    return TYPE_OF_SIGNS[tuple(int(sign) for sign in np.sign(sums))]
+    return TYPES[int(grashof_numbers(links))]
+
+
+def grashof_numbers(links: Links) -> NDArray[np.int8]:
+    """The same types of 4R linkages (*,), as numbers in `TYPES`."""
+    lengths = np.stack(np.broadcast_arrays(*links), axis=-1)
+    sums = (GRASHOF_SUMS * lengths[..., None, :]).sum(axis=-1)
+    change = np.abs(sums).min(axis=-1) <= GRASHOF_TIE * lengths.sum(axis=-1)
+    number = ((np.sign(sums) > 0) * np.array([4, 2, 1])).sum(axis=-1)
+    return np.where(change, TYPES.index(CHANGE_POINT), _NUMBER_OF_SIGNS[number]).astype(np.int8)
+
+
+# The type by the signs of the three sums, those above zero as the bits of a number.
+_NUMBER_OF_SIGNS = np.array(
+    [
+        TYPES.index(TYPE_OF_SIGNS[tuple(1 if number & bit else -1 for bit in (4, 2, 1))])
+        for number in range(8)
+    ]
+)
 
 
 def _slice(p: FloatArray, s: FloatArray, c: FloatArray) -> tuple[FloatArray, FloatArray]:

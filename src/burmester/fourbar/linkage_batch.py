@@ -105,25 +105,33 @@ class LinkageBatch:
         return RP(row[..., :2], row[..., 2], row[..., 3])
 
     def to_canonical(self, frames: CanonicalFrames) -> LinkageBatch:
-        """The same linkages in the frames of one task."""
-        return self._moved(-frames.fixed_origin, -frames.moving_origin, 1.0, 1 / frames.length)
+        """The same linkages in the frames of one task, or of each one's own (k,)."""
+        one = np.ones_like(frames.length)
+        return self._moved(-frames.fixed_origin, -frames.moving_origin, one, 1 / frames.length)
 
     def from_canonical(self, frames: CanonicalFrames) -> LinkageBatch:
         """The inverse of `to_canonical`."""
-        return self._moved(frames.fixed_origin, frames.moving_origin, frames.length, 1.0)
+        one = np.ones_like(frames.length)
+        return self._moved(frames.fixed_origin, frames.moving_origin, frames.length, one)
 
     def _moved(
-        self, fixed: FloatArray, moving: FloatArray, before: Any, after: Any
+        self, fixed: FloatArray, moving: FloatArray, before: FloatArray, after: FloatArray
     ) -> LinkageBatch:
-        """With lengths times `before`, origins moved by fixed and moving, then times `after`."""
-        out = self.dimensions.copy()
-        for at, kind, shift in ((0, 1, fixed), (2, 2, moving)):
+        """With lengths times `before`, origins moved by fixed and moving, then times `after`.
+
+        All for one task, or for each linkage (k,).
+        """
+        out, shape = self.dimensions.copy(), self.kinds.shape
+        before, after = (np.broadcast_to(each[..., None], shape) for each in (before, after))
+        for at, kind, origin in ((0, 1, fixed), (2, 2, moving)):
             line = self.kinds == kind
+            shift = np.broadcast_to(origin[..., None, :], (*shape, 2))
             points, lines = out[~line], out[line]
-            points[:, at : at + 2] = (before * points[:, at : at + 2] + shift) * after
+            moved = before[~line, None] * points[:, at : at + 2] + shift[~line]
+            points[:, at : at + 2] = moved * after[~line, None]
             normal = lines[:, at]
-            along = np.cos(normal) * shift[0] + np.sin(normal) * shift[1]
-            lines[:, at + 1] = (before * lines[:, at + 1] + along) * after
+            along = np.cos(normal) * shift[line, 0] + np.sin(normal) * shift[line, 1]
+            lines[:, at + 1] = (before[line] * lines[:, at + 1] + along) * after[line]
             out[~line], out[line] = points, lines
         out[..., 4] *= before * after
         return LinkageBatch(self.kinds, out)

@@ -66,7 +66,7 @@ MEETING_MARGIN: Final = 1e-9  # circuits meet where `Location.circuit_margin` is
 def on_circuits(
     batch: LinkageBatch, poses: Displacement, length: float, only: int | None = None
 ) -> Displacement:
-    """The nearest places (k, 2, N) to poses (N,) on both circuits of linkages (k,).
+    """The nearest places (k, 2, N) to poses (N,) or (k, N) on both circuits of linkages (k,).
 
     only: the number of the one circuit that is looked at; nan on the other.
 
@@ -74,7 +74,7 @@ def on_circuits(
     exist.  Newton's method starts from the nearest of some hundred samples of the circuit; that no
     other minimum is nearer is not proved.  Angles are within half a turn of the poses'.
     """
-    count, number = len(batch), poses.shape[0]
+    count, number = len(batch), poses.shape[-1]
     out = np.full((count, 2, number, 3), np.nan)
     target = rows_of(poses, length)
     effort = THOROUGH if number <= MAX_POSES_THOROUGH else QUICK
@@ -86,7 +86,7 @@ def on_circuits(
         at_once = max(POSES_PER_BLOCK, PLACES_PER_BLOCK // (2 * count))
     for at in range(0, number, at_once):
         block = slice(at, at + at_once)
-        out[:, :, block] = search.nearest(target[block])
+        out[:, :, block] = search.nearest(target[..., block, :])
     return places_of(out, length)
 
 
@@ -115,8 +115,12 @@ def on_own_circuits(
 
 
 def nearest(places: Displacement, poses: Displacement, length: float) -> Displacement:
-    """The nearer (k, N) of the places (k, 2, N) on two circuits; nan where there is none."""
-    side = _nearest_of(rows_of(places, length), rows_of(poses, length), 1)
+    """The nearer (k, N) of the places (k, 2, N) on two circuits; nan where there is none.
+
+    poses: (N,) or (k, N).
+    """
+    target = rows_of(poses, length)
+    side = _nearest_of(rows_of(places, length), target if target.ndim == 2 else target[:, None], 1)
     row, pose = np.indices(side.shape)
     return places[row, side, pose]
 
@@ -158,16 +162,18 @@ class _CircuitSearch:
         return cls(batch, circuits, length, effort, row, side, share, gap, samples, spacing)
 
     def nearest(self, target: FloatArray) -> FloatArray:
-        """The places (k, 2, N, 3) nearest to target (N, 3)."""
-        out = np.full((len(self.batch), 2, len(target), 3), np.nan)
+        """The places (k, 2, N, 3) nearest to target (N, 3) or (k, N, 3)."""
+        out = np.full((len(self.batch), 2, target.shape[-2], 3), np.nan)
         if not len(self.row):
             return out
+        if target.ndim == 3:  # of each circuit
+            target = target[self.row]
         # The numbers (n, N, *) of the samples from which Newton's method starts, and their places.
         if self.effort.minima == 1:
             start, sample = _nearest_samples(self.samples, target, self.length)
         else:
             start, sample = _local_minima(self.samples, target, self.length, self.effort.minima)
-        wanted = np.broadcast_to(target[:, None], start.shape)
+        wanted = np.broadcast_to(target[..., None, :], start.shape)
         away = np.sqrt(_squares(start, wanted))
         # No place beside a sample is nearer than this.
         spacing = self.spacing[np.arange(len(sample))[:, None, None], sample]
@@ -319,15 +325,17 @@ def _nearest_of(rows: FloatArray, target: FloatArray, axis: int) -> NDArray[np.i
 def _local_minima(
     samples: FloatArray, target: FloatArray, length: float, count: int
 ) -> tuple[FloatArray, NDArray[np.intp]]:
-    """Of samples (n, s, 3) the `count` local minima nearest to target (N, 3): (n, N, count + 1, 3).
+    """Of samples (n, s, 3) the `count` local minima nearest to target: (n, N, count + 1, 3).
+
+    target: (N, 3) or (n, N, 3).
 
     The last one is the sample beside the nearest.  With angles within half a turn of the target's,
     and the numbers (n, N, count + 1) of the samples.  nan where there are fewer.
     """
     x, y, swung = np.moveaxis(samples[:, None], -1, 0)
-    gap = swung - target[:, None, 2]
+    gap = swung - target[..., None, 2]
     gap -= 2 * np.pi * length * np.round(gap / (2 * np.pi * length))
-    away = (x - target[:, None, 0]) ** 2 + (y - target[:, None, 1]) ** 2 + gap * gap
+    away = (x - target[..., None, 0]) ** 2 + (y - target[..., None, 1]) ** 2 + gap * gap
     away[np.isnan(away)] = np.inf
     minimum = np.ones(away.shape, dtype=bool)  # an open circuit ends at its first and last sample
     falls = away[..., 1:] <= away[..., :-1]
@@ -338,7 +346,7 @@ def _local_minima(
     far = [np.take_along_axis(depth, best, axis=-1), np.take_along_axis(away, beside, axis=-1)]
     best = np.concatenate([best, beside], axis=-1)
     chosen = samples[np.arange(len(samples))[:, None, None], best]
-    start = target[:, None] + wrapped(chosen - target[:, None], length)
+    start = target[..., None, :] + wrapped(chosen - target[..., None, :], length)
     none = np.isinf(np.concatenate(far, axis=-1))
     return np.where(none[..., None], np.nan, start), best
 
@@ -357,7 +365,7 @@ def _beside_nearest(away: FloatArray) -> NDArray[np.intp]:
 def _nearest_samples(
     samples: FloatArray, target: FloatArray, length: float
 ) -> tuple[FloatArray, NDArray[np.intp]]:
-    """Of samples (n, s, 3) the one nearest to each target (N, 3): (n, N, 1, 3), as `_local_minima`.
+    """Of samples (n, s, 3) the one nearest to each target: (n, N, 1, 3), as `_local_minima`.
 
     Near is meant in the plane and on the circle of orientations, where one product compares all.
     """

@@ -426,13 +426,13 @@ def _at_deepest_places(
     return concatenate([deepest, take(candidates, inside)]) if len(inside) else deepest
 
 
-def sizable(batch: LinkageBatch) -> NDArray[np.bool_]:
-    """Whether ground links and couplers (k,) between pins have a length."""
+def sizable(batch: LinkageBatch, size: float | FloatArray = 1.0) -> NDArray[np.bool_]:
+    """Whether ground links and couplers (k,) between pins have a length; size: of the motion."""
     kinds, z = batch.kinds, batch.dimensions
     ground, coupler = (np.linalg.norm(z[:, 1, at] - z[:, 0, at], axis=-1) for at in (FIXED, MOVING))
     return np.asarray(
-        ((kinds == 1).any(axis=1) | (ground > MIN_LINK))
-        & ((kinds == 2).any(axis=1) | (coupler > MIN_LINK))
+        ((kinds == 1).any(axis=1) | (ground > MIN_LINK * size))
+        & ((kinds == 2).any(axis=1) | (coupler > MIN_LINK * size))
     )
 
 

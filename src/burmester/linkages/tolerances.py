@@ -254,11 +254,17 @@ def sensitivity(
 def sensitivity_bound(
     batch: LinkageBatch, poses: Displacement, places: Displacement, length: float
 ) -> FloatArray:
-    """The greatest position error (k, N) that errors of 1 cause at places nearest to poses (N,).
+    """The greatest position error (k, N) that errors of 1 cause at places nearest to poses.
+
+    poses: (N,), or (k, N), of each linkage.
 
     All coordinates of pivots and lengths are off by up to 1, in the worst way.  To first order: t
     times this is what errors up to a small t do.  Arguments as in `sensitivity`.
     """
+    poses = Displacement(
+        np.broadcast_to(poses.translation, places.translation.shape),
+        np.broadcast_to(poses.angle, places.angle.shape),
+    )
     gap = np.abs(rows_of(places, length) - rows_of(poses, length)).max(axis=(-2, -1))
     out, met = np.empty(places.shape), gap <= EXACT_GAP
     count = max(1, PLACES_PER_BLOCK // places.shape[-1])
@@ -268,7 +274,9 @@ def sensitivity_bound(
             if met[rows[0]]:
                 out[rows] = _bound_where_met(batch[rows], places[rows], length)
             else:
-                out[rows] = _greatest_sum(sensitivity(batch[rows], poses, places[rows], length))
+                out[rows] = _greatest_sum(
+                    sensitivity(batch[rows], poses[rows], places[rows], length)
+                )
     return out
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from burmester.dyads.pencil import MIN_POSES
 from burmester.errors import InputError
@@ -14,11 +15,13 @@ from burmester.stacked.best_dyads import best_dyads_in_stack
 from burmester.stacked.dyad_table import rows_of_found, rows_of_tasks
 from burmester.stacked.five_pose_dyads import five_pose_dyads
 from burmester.stacked.one_task import TaskDyads, dyads_of_task
+from burmester.stacked.pair_linkages import USABLE, Scales, pair_linkages
 from burmester.stacked.pencils import pencil_dyads
 from burmester.stacked.plain_tasks import computable
 from burmester.stacked.task_stack import TaskStack
 from burmester.stacked.vouched import Vouched
 from burmester.tasks.motion_task import CONDITIONS
+from burmester.tasks.repeated_poses import exact_repeats
 
 __all__ = ["stacked_answers"]
 
@@ -57,15 +60,47 @@ def _answers(stack: TaskStack, depth: Depth) -> StackedAnswers:
     code[rest] = [each.code for each in singles]
     for task, single in zip(rest, singles, strict=True):
         warnings += [(task, name) for name in single.warnings]
-    every = concatenate(rows)
+    dyads = concatenate(rows)
+    dyads = take(dyads, np.argsort(dyads.task, kind="stable"))
+    linkages = _linkages(stack, dyads, alone) if depth == "linkages" else None
+    if linkages is not None:
+        made = np.bincount(linkages.task, minlength=len(stack)) > 0
+        usable = np.bincount(linkages.task[linkages.verdict == USABLE], minlength=len(stack)) > 0
+        solved = outcome == StackedAnswers.OUTCOMES.index("solved")
+        code[solved] = np.where(made, np.where(usable, "R300", "R301"), "R302")[solved]
+        outcome[solved & ~usable] = StackedAnswers.OUTCOMES.index("none usable")
+        outcome[solved & ~made] = StackedAnswers.OUTCOMES.index("too few dyads")
     return StackedAnswers(
-        take(every, np.argsort(every.task, kind="stable")),
-        LinkageRows.blank(0) if depth == "linkages" else None,
+        dyads,
+        linkages,
         outcome,
         code,
         alone,
         tuple(sorted(warnings, key=lambda each: each[0])),
     )
+
+
+def _linkages(stack: TaskStack, dyads: DyadRows, alone: NDArray[np.bool_]) -> LinkageRows:
+    """The linkages of all pairs of dyads; a repeated pose of a task counts once."""
+    poses, weights = stack.displacements, stack.weights
+    scales, repeated = Scales.of(poses, weights), np.zeros(len(stack), dtype=bool)
+    has_dyads = np.bincount(dyads.task, minlength=len(stack)) > 1
+    parts = []
+    for task in np.flatnonzero(alone & has_dyads).tolist():
+        first, group = exact_repeats(poses[task])
+        if len(first) == len(group):
+            continue
+        repeated[task] = True
+        merged = None
+        if weights is not None:
+            merged = np.bincount(group, weights[task]).astype(np.float64)[None]
+        own = take(dyads, dyads.task == task)
+        own = replace(own, task=own.task - task)
+        found = pair_linkages(own, poses[task][first][None], merged, take(scales, [task]))
+        parts.append(replace(found, task=found.task + task))
+    rest = take(dyads, ~repeated[dyads.task])
+    every = concatenate([pair_linkages(rest, poses, weights, scales), *parts])
+    return take(every, np.argsort(every.task, kind="stable"))
 
 
 def _vouched(stack: TaskStack, depth: Depth) -> list[Vouched]:

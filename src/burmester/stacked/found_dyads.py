@@ -31,7 +31,7 @@ from burmester.numerics.bundles import concatenate, take
 from burmester.stacked.task_stack import TaskStack
 from burmester.tasks.motion_task import COARSE
 
-__all__ = ["Fits", "Found", "Solutions", "beside", "found_in_stack", "same_dyads"]
+__all__ = ["ANGLES", "Fits", "Found", "Solutions", "beside", "found_in_stack", "same_dyads"]
 
 NEAR = 1 + 1e-9  # times an angle, so that rounding leaves no slider out
 
@@ -253,7 +253,7 @@ class _Padded(NamedTuple):
     def same(self, late: int, length: FloatArray) -> Mask:
         """Which of the dyads (T, late) before the one in a column are the same dyad as that."""
         kind = self.kind[:, late]
-        most = np.where(_ANGLES[kind], SAME_DYAD, SAME_DYAD * length[:, None])
+        most = np.where(ANGLES[kind], SAME_DYAD, SAME_DYAD * length[:, None])
         near = np.abs(self.dimensions[:, :late] - self.dimensions[:, late, None]) < most[:, None]
         return np.asarray((self.kind[:, :late] == kind[:, None]) & near.all(axis=2))
 
@@ -301,5 +301,5 @@ def same_dyads(found: Found, length: FloatArray) -> Indices:
 
 
 # Which dimensions of each kind of dyad are angles.
-_ANGLES = np.zeros((len(DYAD_KINDS), DIMENSIONS), dtype=bool)
-_ANGLES[DYAD_KINDS.index(PR), 0] = _ANGLES[DYAD_KINDS.index(RP), 2] = True
+ANGLES = np.zeros((len(DYAD_KINDS), DIMENSIONS), dtype=bool)
+ANGLES[DYAD_KINDS.index(PR), 0] = ANGLES[DYAD_KINDS.index(RP), 2] = True

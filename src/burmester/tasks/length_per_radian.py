@@ -10,11 +10,14 @@ from __future__ import annotations
 
 import numpy as np
 
+from burmester.fourbar.canonical_frames import CanonicalFrames
+from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
+from burmester.numerics.arrays import FloatArray
 from burmester.numerics.weights import shares
-from burmester.tasks.motion_task import Task, characteristic_length
+from burmester.tasks.motion_task import Task
 
-__all__ = ["default_length_per_radian"]
+__all__ = ["default_length_per_radian", "lengths_per_radian"]
 
 # Of the travel per radian; bodies between a tenth and six tenths of it lose least by this share
 # (`python -m benchmarks.angle_weight`).
@@ -32,15 +35,22 @@ def default_length_per_radian(task: Task) -> float:
     """
     if task.body is not None:
         return _radius_of_gyration(task.body)
-    share = shares(task.weights, task.poses.shape)
-    d = task.poses.translation
-    turn = np.exp(1j * task.poses.angle)
-    spread = float(np.sqrt(share @ ((d - share @ d) ** 2).sum(axis=-1)))
-    swing = float(np.sqrt(share @ np.abs(turn - share @ turn) ** 2))
-    span = float(np.linalg.norm(np.ptp(d, axis=0)))
-    if not span > 0:
-        return characteristic_length(task)
-    return TRAVEL_SHARE * spread / max(swing, TRAVEL_SHARE * spread / span)
+    return float(lengths_per_radian(task.poses, task.weights))
+
+
+def lengths_per_radian(poses: Displacement, weights: FloatArray | None = None) -> FloatArray:
+    """The same of tasks (*,) without an outline, with poses (*, N)."""
+    share = shares(weights, poses.shape)
+    d, turn = poses.translation, np.exp(1j * poses.angle)
+    middle = (share[..., None] * d).sum(axis=-2, keepdims=True)
+    spread = np.sqrt((share * ((d - middle) ** 2).sum(axis=-1)).sum(axis=-1))
+    mean = (share * turn).sum(axis=-1, keepdims=True)
+    swing = np.sqrt((share * np.abs(turn - mean) ** 2).sum(axis=-1))
+    span = np.linalg.norm(np.ptp(d, axis=-2), axis=-1)
+    moves = span > 0
+    least = TRAVEL_SHARE * spread / np.where(moves, span, 1.0)
+    share_of_travel = TRAVEL_SHARE * spread / np.maximum(swing, np.where(moves, least, 1.0))
+    return np.where(moves, share_of_travel, CanonicalFrames.of(poses, weights)[0].length)
 
 
 def _radius_of_gyration(polygon: Polygon) -> float:

@@ -1,0 +1,222 @@
+"""Linkages of many tasks: every pair of dyads of a task, as they are, with errors and verdicts.
+
+Lengths are measured in what a radian counts as in each task, so that near is the same for all.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burmester.dyads.selection import SAME_DYAD
+from burmester.fourbar.canonical_frames import CanonicalFrames
+from burmester.fourbar.circuits import Circuits
+from burmester.fourbar.defects import Driven, Verdict, judge
+from burmester.fourbar.foot_points import places_of, rows_of
+from burmester.fourbar.linkage import TYPES, grashof_numbers
+from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
+from burmester.fourbar.nearest_places import nearest, on_circuits
+from burmester.fourbar.pivot_box import extent
+from burmester.geometry.displacement import Displacement
+from burmester.linkages.evaluation import sizable
+from burmester.linkages.from_dyads import ONE_CIRCUIT_RATIO
+from burmester.linkages.ranking import DEFAULT_TOLERANCE
+from burmester.linkages.tolerances import sensitivity_bound
+from burmester.numerics.arrays import ROUNDING, FloatArray, wrapped_angle
+from burmester.numerics.bundles import concatenate, take
+from burmester.numerics.weights import shares
+from burmester.stacked.answers import DyadRows, LinkageRows
+from burmester.stacked.found_dyads import ANGLES
+from burmester.tasks.length_per_radian import lengths_per_radian
+
+__all__ = ["USABLE", "Scales", "pair_linkages"]
+
+PLACES_AT_ONCE = 1500  # of linkages computed together; their samples fit a cache
+RADIAN = 1.0  # in its own unit
+USABLE = LinkageRows.VERDICTS.index("usable")
+
+Indices = NDArray[np.intp]
+Mask = NDArray[np.bool_]
+
+
+class Scales(NamedTuple):
+    """Lengths of tasks (T,), each in its own unit.
+
+    characteristic: of the task; radian: what a radian counts as; motion: the size of its motion.
+    """
+
+    characteristic: FloatArray
+    radian: FloatArray
+    motion: FloatArray
+
+    @classmethod
+    def of(cls, poses: Displacement, weights: FloatArray | None) -> Scales:
+        """Those of tasks with poses (T, N)."""
+        radian = lengths_per_radian(poses, weights)
+        span = np.linalg.norm(np.ptp(poses.translation, axis=-2), axis=-1)
+        own = CanonicalFrames.of(poses, weights)[0].length
+        return cls(own, radian, np.maximum(span, radian))
+
+
+def pair_linkages(
+    dyads: DyadRows, poses: Displacement, weights: FloatArray | None, scales: Scales
+) -> LinkageRows:
+    """The linkages of all pairs of dyads (D,), by rising task, of tasks with poses (T, N).
+
+    Usable ones come first, those of the least combined error first.  A pair of one dyad with
+    itself is none, nor one of pins that fall together; no single joint drives a PP dyad.
+    """
+    pairs = _pairs(dyads, scales)
+    at_once = max(1, PLACES_AT_ONCE // poses.shape[-1])
+    parts = [LinkageRows.blank(0)]
+    for start in range(0, len(pairs.task), at_once):
+        some = take(pairs, slice(start, start + at_once))
+        parts.append(_judged(some, poses, weights, scales))
+    rows = concatenate(parts)
+    order = (rows.second, rows.first, rows.combined, rows.verdict != USABLE, rows.task)
+    return take(rows, np.lexsort(order))
+
+
+class _Pairs(NamedTuple):
+    """Pairs (k,) of dyads: their tasks, the dyads' places among those of the task, the linkages."""
+
+    task: Indices
+    first: Indices
+    second: Indices
+    batch: LinkageBatch
+
+
+def _pairs(dyads: DyadRows, scales: Scales) -> _Pairs:
+    """All pairs of two different dyads of a task, the kinds in the order of `DYAD_KINDS`."""
+    count = np.bincount(dyads.task, minlength=len(scales.radian))
+    starts = np.cumsum(count) - count
+    one, two = [np.zeros(0, dtype=np.intp)], [np.zeros(0, dtype=np.intp)]
+    for number in range(2, int(count.max(initial=0)) + 1):  # of the later dyad, from 1
+        task = np.flatnonzero(count >= number)
+        earlier = np.arange(number - 1)
+        one.append((starts[task][:, None] + earlier).ravel())
+        two.append(np.repeat(starts[task] + number - 1, number - 1))
+    a, b = np.concatenate(one), np.concatenate(two)
+    z, pp = _dimensions(dyads), DyadRows.KINDS.index("PP")
+    task = dyads.task[a]
+    length = scales.characteristic[task][:, None]
+    most = np.where(ANGLES[np.minimum(dyads.kind[a], pp - 1)], SAME_DYAD, SAME_DYAD * length)
+    same = (dyads.kind[a] == dyads.kind[b]) & (np.abs(z[a] - z[b]) < most).all(axis=1)
+    sound = np.flatnonzero(~same & (dyads.kind[a] != pp) & (dyads.kind[b] != pp))
+    a, b, task = a[sound], b[sound], task[sound]
+    swap = dyads.kind[b] < dyads.kind[a]
+    a, b = np.where(swap, b, a), np.where(swap, a, b)
+    batch = LinkageBatch(
+        np.stack([dyads.kind[a], dyads.kind[b]], axis=1), np.stack([z[a], z[b]], 1)
+    )
+    return _Pairs(task, a - starts[task], b - starts[task], batch)
+
+
+def _dimensions(dyads: DyadRows) -> FloatArray:
+    """The dimensions (D, 5) of dyads as in `LinkageBatch`; nan for PP."""
+    z = np.full((len(dyads), DIMENSIONS), np.nan)
+    rr, pr, rp = (dyads.kind == k for k in range(3))
+    normal, zero = np.radians(dyads.normal_deg)[:, None], np.zeros((len(dyads), 1))
+    line = np.concatenate([normal, dyads.offset[:, None]], axis=1)
+    for of, parts in (
+        (rr, (dyads.fixed, dyads.moving, dyads.length[:, None])),
+        (pr, (line, dyads.moving, zero)),
+        (rp, (dyads.fixed, line, zero)),
+    ):
+        z[of] = np.concatenate(parts, axis=1)[of]
+    return z
+
+
+def _judged(
+    pairs: _Pairs, poses: Displacement, weights: FloatArray | None, scales: Scales
+) -> LinkageRows:
+    """The linkages of pairs that are judged together."""
+    given, unit = poses.translation[pairs.task], scales.radian[pairs.task]
+    middle = given.mean(axis=1)
+    frames = CanonicalFrames(middle, np.zeros_like(middle), unit)
+    spread = np.sqrt(((given - middle[:, None]) ** 2).sum(axis=-1).mean(axis=1)) / unit
+    size = np.maximum(spread, RADIAN)
+    pairs = pairs._replace(batch=pairs.batch.to_canonical(frames))
+    sound = np.flatnonzero(sizable(pairs.batch, size))
+    pairs, frames, unit, size = take((pairs, frames, unit, size), sound)
+    batch, wanted = pairs.batch, frames.to_canonical(poses[pairs.task])
+    share = shares(None if weights is None else weights[pairs.task], wanted.shape)
+    rows = _places(batch, wanted, share)
+    places, gap = places_of(rows, RADIAN), rows - rows_of(wanted, RADIAN)
+    away = np.hypot(gap[..., 0], gap[..., 1])
+    turn = np.abs(wrapped_angle(places.angle - wanted.angle))
+    missed, reach = np.maximum(away, RADIAN * turn), DEFAULT_TOLERANCE * size[:, None]
+    verdicts = judge(batch, places, missed=missed, reach=reach, length=RADIAN)
+    out = LinkageRows.blank(len(batch))
+    out.task[:], out.first[:], out.second[:] = pairs.task, pairs.first, pairs.second
+    far, turned, both = (
+        np.nan_to_num(each, nan=np.inf) for each in (away, turn, np.linalg.norm(gap, axis=-1))
+    )
+    out.rms[:], out.worst[:] = unit * np.sqrt((far**2).mean(axis=1)), unit * far.max(axis=1)
+    out.angle_rms_deg[:] = np.degrees(np.sqrt((turned**2).mean(axis=1)))
+    out.angle_worst_deg[:] = np.degrees(turned.max(axis=1))
+    out.combined[:] = unit * np.sqrt((share * both**2).sum(axis=1))
+    side = np.array([_better_side(each) for each in verdicts], dtype=np.intp)
+    driven = [
+        each.second if other else each.first for each, other in zip(verdicts, side, strict=True)
+    ]
+    for k, (verdict, motion) in enumerate(zip(verdicts, driven, strict=True)):
+        if defects := verdict.defects + motion.defects:
+            out.verdict[k] = LinkageRows.VERDICTS.index(defects[0].kind)
+    exchanged = side == 1
+    out.first[exchanged], out.second[exchanged] = out.second[exchanged], out.first[exchanged]
+    order = np.arange(len(batch))[:, None], side[:, None] ^ np.arange(2)
+    batch = LinkageBatch(batch.kinds[order], batch.dimensions[order])
+    for index, linkage in batch.alike():
+        links = linkage.links
+        number = TYPES.index(linkage.type) if links is None else grashof_numbers(links)
+        out.type[index] = number
+    exists = np.flatnonzero(np.isfinite(out.combined))
+    if len(exists):
+        some = take((batch, wanted, places), exists)
+        quality = _quality([driven[k] for k in exists.tolist()], *some)
+        out.transmission_deg[exists], out.sensitivity[exists] = quality[0], quality[2]
+        out.extent[exists] = quality[1] * (unit / scales.motion[pairs.task])[exists]
+    return out
+
+
+def _places(batch: LinkageBatch, wanted: Displacement, share: FloatArray) -> FloatArray:
+    """Rows (k, N, 3) of the places nearest to poses (k, N), on one circuit unless it is far off."""
+    rows, target = rows_of(on_circuits(batch, wanted, RADIAN), RADIAN), rows_of(wanted, RADIAN)
+    gap = np.nan_to_num(((rows - target[:, None]) ** 2).sum(axis=-1), nan=np.inf)
+    every = np.arange(len(batch))
+    near = (share[:, None] * gap).sum(axis=-1).argmin(axis=1)
+    one, best = rows[every, near], rows_of(nearest(places_of(rows, RADIAN), wanted, RADIAN), RADIAN)
+    away = np.sqrt(gap[every, near].max(axis=1))
+    least = np.sqrt(gap.min(axis=1).max(axis=1))
+    apart = away > np.maximum(ONE_CIRCUIT_RATIO * least, ROUNDING)
+    return np.where(apart[:, None, None], best, one)
+
+
+def _better_side(verdict: Verdict) -> int:
+    """The side that drives better, 0 or 1, as `Evaluation.driver` has it where nothing is asked."""
+
+    def merit(driven: Driven) -> tuple[float, ...]:
+        poses = sum(len(each.poses) for each in driven.defects)
+        weak = -round(float(np.nan_to_num(driven.least_over_range)), 6)
+        return len(driven.defects), poses, 0.0 if driven.turns_fully else 1.0, weak
+
+    return int(merit(verdict.second) < merit(verdict.first))
+
+
+def _quality(
+    driven: list[Driven], batch: LinkageBatch, wanted: Displacement, places: Displacement
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Transmission in degrees, extent and sensitivity of linkages (k,), the driver first."""
+    number = np.array([max(each.circuit, 0) for each in driven])
+    inputs = np.array([each.input_range for each in driven])
+    along = np.array([each.parameter for each in driven])
+    ends = np.stack(
+        [end.reduce(along, axis=1, initial=np.nan) for end in (np.fmin, np.fmax)], axis=1
+    )
+    circuits = Circuits.of(batch, as_given=True)[np.arange(len(batch)), number]
+    least = np.degrees([each.least_over_range for each in driven])
+    bound = sensitivity_bound(batch, wanted, places, RADIAN).max(axis=-1)
+    return least, extent(circuits, ends, inputs), np.asarray(bound)
