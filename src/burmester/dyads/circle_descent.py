@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from burmester.dyads.geometric_fit import DIVISOR_FLOOR, NEGLIGIBLE_GAIN, circle_terms
 from burmester.dyads.plain_circle_descent import (
+    MAX_NEWTON_STEPS,
     ROUNDING,
     SETTLED_STEP,
     Descent,
@@ -119,7 +120,7 @@ def further_down(
 ) -> Descent:
     """Circles (k, 5) after so many steps of the plain way down, at most, for poses (N,)."""
     one, longest = np.zeros(len(z), dtype=np.intp), MAX_LENGTH * reach(poses, share)
-    return plain_descent(z, one, poses[None], share[None], np.atleast_1d(longest), steps)
+    return plain_descent(z, one, poses[None], share[None], np.atleast_1d(longest), steps=steps)
 
 
 def _of_one_task(descent: Descent, task: NDArray[np.intp]) -> CircleMinima:

@@ -76,6 +76,7 @@ def plain_descent(
     poses: Displacement,
     share: FloatArray,
     longest: FloatArray,
+    *,
     steps: int = MAX_NEWTON_STEPS,
 ) -> Descent:
     """The way down from circles z (k, 5), of tasks (k,) with poses (T, N) and shares (T, N).
