@@ -7,7 +7,8 @@
 >>> result.best.type
 'crank-rocker'
 
-`burmester.plot`, `burmester.report` and `burmester.export` are loaded when they are first used.
+`burmester.plot`, `burmester.report`, `burmester.export` and `burmester.batch` are loaded when
+they are first used.
 The classical methods and the solvers live in their rooms, such as `burmester.dyads.pencil`.
 """
 
@@ -15,6 +16,7 @@ from __future__ import annotations
 
 TYPE_CHECKING = False  # as type checkers take it; `typing` would be a third of the way to --help
 if TYPE_CHECKING:
+    from burmester import batch as batch
     from burmester import export as export
     from burmester import plot as plot
     from burmester import report as report
@@ -129,7 +131,7 @@ _ROOMS_BESIDE = {
     "odd_pose": "diagnosis.odd_pose",
     "ravani_roth": "dyads.image_space_fits",
 }
-_PACKAGES = ("export", "plot", "report")
+_PACKAGES = ("batch", "export", "plot", "report")
 
 __all__ = [
     "PP",

@@ -14,6 +14,7 @@ import click
 
 from burmester import __version__, signals
 from burmester.cli import streams
+from burmester.cli.batch import batch
 from burmester.cli.cases import cases
 from burmester.cli.check import check
 from burmester.cli.explain import explain
@@ -42,7 +43,10 @@ def burmester(context: click.Context) -> None:
         click.echo(context.get_help())
 
 
-for command in (new, check, synthesize, judge, report, export, studio, explain, cases, reproduce):
+COMMANDS = (
+    new, check, synthesize, judge, batch, report, export, studio, explain, cases, reproduce,
+)  # fmt: skip
+for command in COMMANDS:
     burmester.add_command(command)
 
 

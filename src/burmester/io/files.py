@@ -23,7 +23,7 @@ from burmester.errors import BurmesterError, InputError
 from burmester.printable import printable
 from burmester.signals import unfinished
 
-__all__ = ["atomic_file", "quoted", "require_writable", "write"]
+__all__ = ["atomic_file", "cannot_write", "quoted", "require_writable", "sweep", "write"]
 
 STALE_SECONDS = 3600.0  # age above which a temporary file was left by a killed process
 
@@ -38,14 +38,18 @@ _NO_LINKS = (errno.EPERM, errno.ENOSYS, errno.EOPNOTSUPP, errno.ENOTSUP, errno.E
 _NO_SYNC = (errno.EINVAL, errno.EACCES, errno.EBADF, errno.ENOSYS, errno.EOPNOTSUPP, errno.ENOTSUP)
 
 
-def write(path: str | os.PathLike[str], data: bytes | str, *, force: bool = False) -> None:
+def write(
+    path: str | os.PathLike[str], data: bytes | str, *, force: bool = False, swept: bool = False
+) -> None:
     """Write a whole file; text as UTF-8, its line ends as they are.  Errors: see `atomic_file`."""
-    with atomic_file(path, force=force) as temporary, open(temporary, "wb") as file:
+    with atomic_file(path, force=force, swept=swept) as temporary, open(temporary, "wb") as file:
         file.write(data.encode(errors="backslashreplace") if isinstance(data, str) else data)
 
 
 @contextmanager
-def atomic_file(path: str | os.PathLike[str], *, force: bool = False) -> Iterator[Path]:
+def atomic_file(
+    path: str | os.PathLike[str], *, force: bool = False, swept: bool = False
+) -> Iterator[Path]:
     """An empty file to write into, which becomes `path` when the block ends without an error.
 
     It lies in the folder of `path` and has its suffix.  A symbolic link is written through, and a
@@ -55,12 +59,14 @@ def atomic_file(path: str | os.PathLike[str], *, force: bool = False) -> Iterato
     leaves a file `.burmester-...` behind, which the next one to write to `path` sweeps away after
     an hour.  On a file system without hard links, a process that is killed in the moment between
     claiming a new name and filling it leaves an empty file there, and so may one that is
-    interrupted while it claims it.
+    interrupted while it claims it.  swept: whether that has been done already (`sweep`), by one
+    who writes so many files that to look through the folder for each would take long.
     Raises InputError E140 and E141.
     """
     given = os.fspath(path)
     target = _target(given, force)
-    _sweep(target)
+    if not swept:
+        _sweep(target)
     with _temporary(target) as temporary:
         try:
             _create(temporary)
@@ -75,7 +81,16 @@ def atomic_file(path: str | os.PathLike[str], *, force: bool = False) -> Iterato
                 os.unlink(temporary)
             if isinstance(refused, FileExistsError) and not force:
                 raise _exists(given) from None
-            raise _cannot(given, refused, target) from None
+            raise cannot_write(given, refused, target) from None
+
+
+def sweep(folder: str | os.PathLike[str]) -> None:
+    """Remove what killed processes left in a folder that nobody else writes to now."""
+    with suppress(OSError), os.scandir(folder) as entries:
+        for entry in entries:
+            if _TEMPORARY.match(entry.name):
+                with suppress(OSError):
+                    os.unlink(entry.path)
 
 
 def require_writable(
@@ -94,7 +109,7 @@ def require_writable(
         try:
             _create(temporary)
         except OSError as error:
-            raise _cannot(given, error, target) from None
+            raise cannot_write(given, error, target) from None
 
 
 def _require_other(given: str, source: str) -> None:
@@ -128,7 +143,7 @@ def _target(given: str, force: bool) -> Path:
             code = errno.ENOENT if folder is None else errno.ENOTDIR
             raise OSError(code, os.strerror(code))
     except (OSError, ValueError) as error:  # ValueError: a null character in the path
-        raise _cannot(given, error, target) from None
+        raise cannot_write(given, error, target) from None
     if known is None or stat.S_ISDIR(known.st_mode):
         why = "it is a folder" if known else "it ends like the name of a folder"
         inside = _plain(os.path.join(given, "NAME"))
@@ -281,8 +296,11 @@ def _refused(given: str, why: str, help: str) -> InputError:
     return InputError("E141", f"{_plain(given) or 'a file'} cannot be written", why=why, help=help)
 
 
-def _cannot(given: str, error: OSError | ValueError, target: Path) -> InputError:
-    """E141, with the system's words and a way out."""
+def cannot_write(given: str, error: OSError | ValueError, target: Path) -> InputError:
+    """E141 for a path as it was given, with the system's words and a way out.
+
+    target: the file that is meant, behind all links.
+    """
     why = getattr(error, "strerror", None) or str(error)
     code, folder = getattr(error, "errno", None), os.path.dirname(given) or os.curdir
     if code == errno.ENOENT and os.path.isdir(folder):  # a link into a folder that is not there

@@ -1,0 +1,251 @@
+"""Tasks in one long table, Parquet or CSV: a row a pose, the rows of a task together.
+
+The columns are `task`, `x`, `y`, `angle_deg` or `angle_rad`, and `weight` and `exact` if wanted.
+The table is read from front to back, a piece at a time; it may be larger than the memory.
+
+E101 not readable      E104 no numbers, or no names of tasks      E107 a column that is not known
+E102 no rows           E105 a column is missing                   E108 a task or a column twice
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from burmester.batch.parts import Part, TableTasks
+from burmester.errors import InputError
+from burmester.io.reading.pose_table import MARKS, shown
+from burmester.io.reading.trees.locations import close_match
+from burmester.printable import printable
+from burmester.wording import listed
+
+__all__ = ["COLUMNS", "is_parquet_file", "table_parts"]
+
+COLUMNS = ("task", "x", "y", "angle_deg", "angle_rad", "weight", "exact")
+EXAMPLE = "task,x,y,angle_deg"
+WHOLE = re.compile(r"[+-]?[0-9]{1,18}")  # a number that names a task
+PIECE_ROWS = 1 << 16  # rows that are taken from a Parquet file at a time
+PIECE_BYTES = 1 << 22  # bytes that are taken from a CSV file at a time
+
+
+class _Piece(NamedTuple):
+    """Some rows: their columns by name, and the share of the file up to their end."""
+
+    columns: dict[str, Any]
+    share: float
+
+
+def is_parquet_file(path: str) -> bool:
+    """Whether a file begins as Parquet files do."""
+    with open(path, "rb") as file:
+        return file.read(4) == b"PAR1"
+
+
+def table_parts(path: str, size: int) -> Iterator[Part]:
+    """The parts of a table, each of `size` tasks but for the last."""
+    label, number, row = printable(path), 0, 0
+    held: list[dict[str, Any]] = []
+    begun = 0  # tasks in what is held, at most: one may go on in the next piece
+    for piece in _pieces(path, label):
+        held.append(piece.columns)
+        begun += len(_starts(piece.columns["task"]))
+        if begun <= size:
+            continue
+        columns = _joined(held)
+        starts = _starts(columns["task"])
+        whole = (len(starts) - 1) // size * size
+        for first in range(0, whole, size):
+            one = _cut(columns, starts[first], starts[first + size])
+            yield Part(number, _tasks(one, label, row), piece.share)
+            number, row = number + 1, row + len(one["task"])
+        held, begun = [_cut(columns, starts[whole], None)], len(starts) - whole
+    columns = _joined(held)
+    if columns and len(columns["task"]):
+        yield Part(number, _tasks(columns, label, row), 1.0)
+    elif number == 0:
+        raise InputError("E102", "there are no tasks: the table has no rows", where=label)
+
+
+def _pieces(path: str, label: str) -> Iterator[_Piece]:
+    """The table, piece by piece, its columns checked."""
+    import pyarrow as pa  # noqa: PLC0415  an extra
+    import pyarrow.csv as pc  # noqa: PLC0415
+    import pyarrow.parquet as pq  # noqa: PLC0415
+
+    try:
+        if is_parquet_file(path):
+            with pq.ParquetFile(path) as file:
+                names = _required(file.schema_arrow.names, label)
+                total, read = max(1, file.metadata.num_rows), 0
+                for batch in file.iter_batches(PIECE_ROWS, columns=names):
+                    read += batch.num_rows
+                    yield _Piece(_columns(batch, label), read / total)
+            return
+        with open(path, "rb") as file:
+            names = _required(_cells(file), label)
+            first = dict(zip(names, _cells(file), strict=False)).get("task", "")
+            task = pa.int64() if WHOLE.fullmatch(first) else pa.string()
+            total = max(1, os.fstat(file.fileno()).st_size)
+            file.seek(0)
+            kinds = dict.fromkeys(("x", "y", "angle_deg", "angle_rad", "weight"), pa.float64())
+            reader = pc.open_csv(
+                file,
+                read_options=pc.ReadOptions(block_size=PIECE_BYTES, use_threads=False),
+                convert_options=pc.ConvertOptions(
+                    column_types={**kinds, "task": task, "exact": pa.string()},
+                    include_columns=names,
+                    strings_can_be_null=False,
+                ),
+            )
+            for batch in reader:
+                yield _Piece(_columns(batch, label), file.tell() / total)
+    except (pa.ArrowInvalid, pa.ArrowTypeError, UnicodeDecodeError) as error:
+        why = printable(str(error).partition("\n")[0][:200])
+        help = f"write a table with numbers below `{EXAMPLE}`, or save it as Parquet"
+        message = "the table of tasks cannot be read"
+        raise InputError("E101", message, where=label, why=why, help=help) from None
+
+
+def _cells(file: Any) -> list[str]:
+    """The cells of the next line of a CSV file."""
+    line = file.readline(1 << 16).decode("utf-8-sig").strip()
+    return [each.strip().strip('"') for each in line.split(",")] if line else []
+
+
+def _required(names: list[str], label: str) -> list[str]:
+    """The names of the columns, if a table of tasks may have these; raises E102 to E108."""
+    if not names:
+        help = f"write `{EXAMPLE}` on line 1, and a pose on each line below"
+        raise InputError("E102", "there are no tasks: the file is empty", where=label, help=help)
+    for name in names:
+        if name not in COLUMNS:
+            near = close_match(name, COLUMNS)
+            help = f"write {near} in its place" if near else "delete it"
+            message = f"the column {shown(name)} is not known"
+            why = f"a table of tasks has the columns {listed(COLUMNS)}"
+            raise InputError("E107", message, where=label, why=why, help=help)
+        if names.count(name) > 1:
+            message = f"the column {name} is given twice"
+            raise InputError("E108", message, where=label, help="leave one of the two out")
+    angles = {"angle_deg", "angle_rad"} & set(names)
+    if len(angles) == 2:
+        message = "the angles are given in degrees and in radians"
+        raise InputError("E108", message, where=label, help="leave one of the two columns out")
+    lacking = [each for each in ("task", "x", "y") if each not in names]
+    lacking += [] if angles else ["angle_deg"]
+    if lacking:
+        message = f"the column {lacking[0]} is missing"
+        why = "a table of tasks has a row for each pose, with the name of its task"
+        help = f"name the columns {EXAMPLE}; one task alone is for `burmester synthesize`"
+        raise InputError("E105", message, where=label, why=why, help=help)
+    return names
+
+
+def _columns(batch: Any, label: str) -> dict[str, Any]:
+    """The columns of some rows: names as Arrow or NumPy has them, the others as NumPy arrays."""
+    import pyarrow as pa  # noqa: PLC0415
+    from pyarrow import types  # noqa: PLC0415
+
+    out: dict[str, Any] = {}
+    for name in batch.schema.names:
+        column = batch.column(name)
+        kind = column.type
+        if name == "task":
+            if types.is_dictionary(kind):
+                column = column.dictionary_decode()
+                kind = column.type
+            text = types.is_string(kind) or types.is_large_string(kind)
+            if not (types.is_integer(kind) or text) or column.null_count:
+                why = "some have none" if column.null_count else f"the column holds {kind}"
+                help = "name each task by a whole number or a text"
+                message = "the rows do not all name their task"
+                raise InputError("E104", message, where=f"{label}, column task", why=why, help=help)
+            out[name] = column.cast(pa.string() if text else pa.int64())
+        elif name == "exact":
+            out[name] = _marks(column, label)
+        elif types.is_floating(kind) or types.is_integer(kind) or types.is_decimal(kind):
+            numbers = column.cast(pa.float64())
+            out[name] = numbers.to_numpy(zero_copy_only=False)
+        else:
+            message = f"the column {name} holds {kind}, not numbers"
+            where = f"{label}, column {name}"
+            raise InputError("E104", message, where=where, help="store it as float64")
+    return out
+
+
+def _marks(column: Any, label: str) -> Any:
+    """The column `exact` as an array of bool."""
+    from pyarrow import types  # noqa: PLC0415
+
+    if types.is_boolean(column.type):
+        return column.fill_null(False).to_numpy(zero_copy_only=False)
+    words = column.dictionary_encode()
+    texts = [
+        "" if each is None else str(each).strip().lower() for each in words.dictionary.to_pylist()
+    ]
+    for text in texts:
+        if text not in MARKS:
+            message = f"{shown(text)} stands where yes or no belongs"
+            help = "write yes for a pose to be met exactly, no for one to come near"
+            raise InputError("E104", message, where=f"{label}, column exact", help=help)
+    known = np.array([MARKS[text] for text in texts] + [False])
+    return known[words.indices.fill_null(len(texts)).to_numpy(zero_copy_only=False)]
+
+
+def _joined(pieces: list[dict[str, Any]]) -> dict[str, Any]:
+    import pyarrow as pa  # noqa: PLC0415
+
+    if len(pieces) < 2:
+        return pieces[0] if pieces else {}
+    return {
+        name: (pa.concat_arrays if name == "task" else np.concatenate)(
+            [piece[name] for piece in pieces]
+        )
+        for name in pieces[0]
+    }
+
+
+def _starts(names: Any) -> list[int]:
+    """The rows at which tasks begin."""
+    import pyarrow.compute as pc  # noqa: PLC0415
+
+    if not len(names):
+        return [0]
+    differ = pc.not_equal(names[1:], names[:-1]).to_numpy(zero_copy_only=False)
+    return [0, *(np.flatnonzero(differ) + 1).tolist()]
+
+
+def _cut(columns: dict[str, Any], first: int, end: int | None) -> dict[str, Any]:
+    return {name: column[first:end] for name, column in columns.items()}
+
+
+def _tasks(columns: dict[str, Any], label: str, row: int) -> TableTasks:
+    """The tasks in rows that hold whole ones; row: of the table, where they begin."""
+    from pyarrow import types  # noqa: PLC0415
+
+    names = columns["task"]
+    starts = _starts(names)
+    first = names.take(np.array(starts))
+    if len(first.unique()) < len(first):
+        seen: set[Any] = set()
+        for start, name in zip(starts, first.to_pylist(), strict=True):
+            if name in seen:
+                message = f"the rows of task {shown(str(name))} do not stand together"
+                help = "sort the table by its column task"
+                where = f"{label}, row {row + start + 1}"
+                raise InputError("E108", message, where=where, help=help)
+            seen.add(name)
+    angle = "angle_deg" if "angle_deg" in columns else "angle_rad"
+    return TableTasks(
+        first.to_numpy() if types.is_int64(first.type) else tuple(first.to_pylist()),
+        np.array([*starts, len(names)], dtype=np.int64),
+        np.stack([columns["x"], columns["y"], columns[angle]], axis=1),
+        columns.get("weight"),
+        columns.get("exact"),
+        angle == "angle_deg",
+        label,
+    )

@@ -1,0 +1,164 @@
+"""Options of a batch from a TOML file: how its tasks are solved, and what stands beside all poses.
+
+Keys at the top are the options of `burmester.synthesize` by their Python names; the others are
+those that a task file holds beside its poses, such as `limits` and `requirements`, and hold for
+every task.
+
+E107 a key that is not known      E108 a key that has no effect here
+E134 a value that makes no sense, and what readers of task files raise
+"""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import dataclass, fields, replace
+from functools import lru_cache
+from typing import Any, Final, Literal, TypeAlias, final
+
+from burmester.errors import InputError
+from burmester.io.reading.pose_table import PoseTable, Source
+from burmester.io.reading.poses import read_task
+from burmester.io.reading.specification import TOP_KEYS
+from burmester.io.reading.trees.documents import read_toml
+from burmester.io.reading.trees.locations import Document, close_match
+from burmester.tasks.motion_task import Task
+from burmester.tasks.options import SynthesisOptions
+from burmester.wording import listed
+
+__all__ = ["DEPTHS", "BatchOptions", "Depth", "as_task"]
+
+Depth: TypeAlias = Literal["pencil", "dyads", "linkages", "full"]
+DEPTHS: Final[tuple[Depth, ...]] = ("pencil", "dyads", "linkages", "full")
+
+# The keys of a task file that may stand here, and those that every depth takes account of.
+BESIDE: Final = tuple(key for key in TOP_KEYS if key != "poses")
+AT_EVERY_DEPTH: Final = ("angle_unit", "length_unit", "pose_sigma")
+OF_SYNTHESIS: Final = tuple(
+    each.name for each in fields(SynthesisOptions) if each.name != "time_limit"
+)
+# What the command calls otherwise.
+ALIASES: Final = {
+    "angle_weight": "length_per_radian",
+    "round": "rounding_step",
+    "stock": "stock_lengths",
+    "raw": "normalise = false",
+    "time_limit": "",
+    "poses": "",
+}
+# Poses without which no task is read; nobody sees them.
+_POSES: Final = "\n[[poses]]\nx = {}\ny = 0\nangle = {}\n"
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class BatchOptions:
+    """Options as a file states them; label: what messages call it.
+
+    Raises
+    ------
+    InputError
+        E107, E108, E109, E134, and what readers of limits and requirements raise.
+    """
+
+    text: str = ""
+    label: str = "the options"
+
+    def __post_init__(self) -> None:
+        document = Document(Source(self.label, self.text), "TOML")
+        for key in self.data:
+            if key not in BESIDE and key not in OF_SYNTHESIS:
+                raise _unknown(key, document)
+        _ = self.synthesis, self.beside
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """The keys and values; raises E109."""
+        return _parsed(self.text, self.label)
+
+    @property
+    def synthesis(self) -> SynthesisOptions:
+        """How each task is solved."""
+        given = {key: value for key, value in self.data.items() if key in OF_SYNTHESIS}
+        try:
+            return SynthesisOptions(**given)
+        except InputError as error:
+            error.where = error.where or self.label
+            raise
+
+    @property
+    def beside(self) -> PoseTable:
+        """What stands beside all poses."""
+        return _beside(self.text, self.label)
+
+    def require_depth(self, depth: Depth) -> None:
+        """Refuse what the depth takes no account of; raises E108."""
+        if depth == "full":
+            return
+        for key in self.data:
+            if key not in AT_EVERY_DEPTH:
+                raise InputError(
+                    "E108",
+                    f"{key} has no effect at the depth {depth}",
+                    where=self.label,
+                    why=f"stacks of tasks take account of {listed(AT_EVERY_DEPTH)} only",
+                    help=f"say --depth full, or delete {key}",
+                )
+
+
+@lru_cache(maxsize=4)
+def _parsed(text: str, label: str) -> dict[str, Any]:
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        help = 'write lines such as prefer = "size"'
+        message = "the options are no TOML"
+        raise InputError("E109", message, where=label, why=str(error), help=help) from None
+
+
+@lru_cache(maxsize=4)
+def _beside(text: str, label: str) -> PoseTable:
+    poses = "".join(_POSES.format(k, 10 * k) for k in range(5))
+    return read_toml(Source(label, text + poses))
+
+
+def _unknown(key: str, document: Document) -> InputError:
+    known = (*OF_SYNTHESIS, *BESIDE)
+    plain = key.replace("-", "_")
+    where = document.where(key, key=True)
+    if key == "time_limit":
+        message = "a batch has no time limit for its tasks"
+        why = "rows are the same on every machine, and a limit by the clock would change them"
+        help = "delete it; --part-limit ends what never does"
+        return InputError("E107", message, where=where, why=why, help=help)
+    if key == "poses":
+        help = "delete them: the tasks have their own"
+        return InputError("E107", "poses stand among the options", where=where, help=help)
+    near = ALIASES.get(plain) or close_match(plain, known)
+    help = f"write {near} in its place" if near else f"the keys are {listed(known, 'or')}"
+    return InputError("E107", f"{key} is not known", where=where, help=help)
+
+
+def as_task(options: BatchOptions, label: str, data: bytes) -> Task:
+    """A text as a task with what the options say of all tasks; raises what `read_task` does."""
+    beside, unit = options.beside, options.data.get("angle_unit")
+    try:
+        task = read_task(label, data=data, **_stated(beside))
+    except InputError as error:
+        if error.code != "E110" or unit is None:
+            raise
+        task = read_task(label, data=data, angle_unit=unit, **_stated(beside))
+    around = beside.surroundings.surroundings()
+    return replace(
+        task,
+        body=beside.body if task.body is None else task.body,
+        surroundings=around if task.surroundings is None else task.surroundings,
+        length_unit=task.length_unit or beside.length_unit,
+    )
+
+
+def _stated(beside: PoseTable) -> dict[str, Any]:
+    return {
+        "specification": beside.specification,
+        "tolerance": beside.tolerance,
+        "pose_sigma": beside.pose_sigma,
+    }

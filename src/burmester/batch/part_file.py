@@ -1,0 +1,271 @@
+"""A part worked off: its tasks in, the bytes of a Parquet file out.
+
+The bytes are a function of the tasks, the plan and the versions of the programs that make them;
+who works when, and on what else, does not change them.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from io import BytesIO
+from typing import Any, final
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from burmester import __version__
+from burmester.batch import schema
+from burmester.batch.answer_rows import Refusal, refused_rows, solved_rows, stacked_rows
+from burmester.batch.options import BatchOptions, Depth, as_task
+from burmester.batch.parts import DrawnTasks, Part, TableTasks, Tasks, TextTasks
+from burmester.batch.worker import within
+from burmester.errors import BurmesterError, InputError
+from burmester.io.result import synthesis_data
+from burmester.numerics.linear_algebra import one_thread
+from burmester.stacked import TaskStack, stacked_answers
+from burmester.synthesis.motion_generation import synthesize
+from burmester.tasks.motion_task import Task
+
+__all__ = ["Plan", "WorkedPart", "work"]
+
+TOLD = 20  # failed tasks of a part that the manifest names
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """What is to be done with every part.
+
+    run: the digest of what the rows depend on; version: of burmester; limit: seconds after which
+    a part is given up.
+    """
+
+    depth: Depth
+    options: BatchOptions
+    run: str
+    limit: float
+    version: str = __version__
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class WorkedPart:
+    """A Parquet file, how often each outcome stands in it, and the tasks that failed, with why."""
+
+    data: bytes
+    tasks: int
+    outcomes: dict[str, int]
+    failed: list[dict[str, Any]]
+
+
+def work(part: Part, plan: Plan, failed: Mapping[int, str]) -> WorkedPart:
+    """The rows of a part; failed: tasks that are not tried again, by their places, with why.
+
+    A computation that takes longer than the limit ends the process.
+    """
+    if plan.version != __version__:
+        raise InputError(
+            "E182",
+            "the workers have another version of burmester",
+            why=f"theirs is {__version__}, here it is {plan.version}",
+            help="install the same version on all machines",
+        )
+    with within(plan.limit), one_thread():
+        return _written(part, plan, _answered(part.tasks, plan, failed))
+
+
+def _answered(tasks: Tasks, plan: Plan, failed: Mapping[int, str]) -> tuple[pa.Table, list[int]]:
+    """The answers of all tasks in their order, and how many poses each has."""
+    refusals = [Refusal(index, "failed", None, why) for index, why in failed.items()]
+    wanted = [index for index in range(len(tasks)) if index not in failed]
+    poses = [0] * len(tasks)
+    if plan.depth == "full":
+        blocks = [_solved(tasks, plan, wanted, poses, refusals)]
+    else:
+        blocks = _stacked(tasks, plan, wanted, poses, refusals)
+    if refusals:
+        blocks.append(refused_rows(refusals))
+    table = pa.concat_tables(blocks)
+    order = np.argsort(table.column("index").to_numpy(), kind="stable")
+    return table.take(pa.array(order)), poses
+
+
+def _solved(
+    tasks: Tasks, plan: Plan, wanted: list[int], poses: list[int], refusals: list[Refusal]
+) -> pa.Table:
+    """Whole syntheses, a task after the other."""
+    found = {}
+    for index in wanted:
+        try:
+            task = _task(tasks, index, plan.options)
+            poses[index] = len(task.poses.angle)
+            found[index] = synthesis_data(synthesize(task, plan.options.synthesis))
+        except InputError as error:
+            refusals.append(_refusal(index, error))
+    return solved_rows(found)
+
+
+def _refusal(index: int, error: BurmesterError) -> Refusal:
+    where = f" ({error.where.splitlines()[0]})" if error.where else ""
+    why = f": {error.why}" if error.why else ""
+    return Refusal(index, "refused", error.code, f"{error.message}{where}{why}")
+
+
+def _task(tasks: Tasks, index: int, options: BatchOptions) -> Task:
+    """A task as `burmester synthesize` would read it from a file of its own."""
+    if isinstance(tasks, TextTasks):
+        return as_task(options, tasks.labels[index], tasks.data[index])
+    one = _table_of(tasks.only([index]))
+    angle = "angle_deg" if one.degrees else "angle_rad"
+    marks = "" if one.exact is None else ",exact"
+    lines = [f"x,y,{angle}{',weight' if one.weights is not None else ''}{marks}"]
+    for row, numbers in enumerate(one.poses.tolist()):
+        cells = [repr(number).removesuffix(".0") for number in numbers]
+        if one.weights is not None:
+            cells.append(repr(float(one.weights[row])))
+        if one.exact is not None:
+            cells.append("yes" if one.exact[row] else "no")
+        lines.append(",".join(cells))
+    label = f"{one.label}, task {one.names[0]}"
+    return as_task(options, label, "\n".join([*lines, ""]).encode())
+
+
+def _stacked(
+    tasks: Tasks, plan: Plan, wanted: list[int], poses: list[int], refusals: list[Refusal]
+) -> list[pa.Table]:
+    """Tasks in stacks, by their numbers of poses."""
+    if isinstance(tasks, TextTasks):
+        table, kept = _as_table(tasks, plan, wanted, poses, refusals)
+    else:
+        table, kept = _table_of(tasks.only(wanted)), np.array(wanted, dtype=np.intp)
+    if not len(kept):
+        return [refused_rows([])]
+    counts = table.counts
+    for index, count in zip(kept.tolist(), counts.tolist(), strict=True):
+        poses[index] = count
+    finite = np.isfinite(table.poses).all(axis=1)
+    if table.weights is not None:
+        finite &= np.isfinite(table.weights)
+    good = np.logical_and.reduceat(finite, table.starts[:-1])
+    for index in kept[~good].tolist():
+        help = "a pose has a number that is missing, or not finite"
+        refusals.append(Refusal(index, "refused", "E103", help))
+    assert plan.depth != "full"
+    sigma = plan.options.beside.pose_sigma
+    resolution = (0.0, 0.0) if sigma is None else (math.sqrt(3) * sigma[0], math.sqrt(3) * sigma[1])
+    blocks = []
+    for count in np.unique(counts[good]).tolist():
+        chosen = np.flatnonzero(good & (counts == count))
+        rows = table.rows(chosen).reshape(-1, count)
+        stack = TaskStack(
+            _radians(table)[rows],
+            None if table.weights is None else table.weights[rows],
+            None if table.exact is None else table.exact[rows],
+            resolution,
+        )
+        blocks.append(stacked_rows(stacked_answers(stack, plan.depth), kept[chosen]))
+    return blocks or [refused_rows([])]
+
+
+def _radians(table: TableTasks) -> np.ndarray:
+    if not table.degrees:
+        return table.poses
+    return np.concatenate([table.poses[:, :2], np.radians(table.poses[:, 2:])], axis=1)
+
+
+def _table_of(tasks: TableTasks | DrawnTasks) -> TableTasks:
+    if isinstance(tasks, TableTasks):
+        return tasks
+    raise NotImplementedError
+
+
+def _as_table(
+    tasks: TextTasks, plan: Plan, wanted: list[int], poses: list[int], refusals: list[Refusal]
+) -> tuple[TableTasks, np.ndarray]:
+    """Texts that state poses alone as a table; those that state more are not for this depth."""
+    read, kept = [], []
+    for index in wanted:
+        try:
+            task = _task(tasks, index, plan.options)
+        except InputError as error:
+            refusals.append(_refusal(index, error))
+            continue
+        poses[index] = len(task.poses.angle)
+        if states := _beyond_poses(task):
+            why = f"{states} of a task count at the depth full only"
+            refusals.append(Refusal(index, "not at this depth", None, why))
+            continue
+        read.append(task)
+        kept.append(index)
+    counts = np.array([len(task.poses.angle) for task in read], dtype=np.int64)
+    starts = np.concatenate([[0], np.cumsum(counts)])
+    rows = np.zeros((starts[-1], 3))
+    weights, exact = np.ones(len(rows)), np.zeros(len(rows), dtype=bool)
+    for task, first, end in zip(read, starts[:-1].tolist(), starts[1:].tolist(), strict=True):
+        rows[first:end] = np.column_stack([task.poses.translation, task.poses.angle])
+        weights[first:end] = 1.0 if task.weights is None else task.weights
+        exact[first:end] = False if task.exact is None else task.exact
+    table = TableTasks(
+        tuple(tasks.names[k] for k in kept),
+        starts,
+        rows,
+        weights if any(task.weights is not None for task in read) else None,
+        exact if any(task.exact is not None for task in read) else None,
+        degrees=False,
+        label="",
+    )
+    return table, np.array(kept, dtype=np.intp)
+
+
+def _beyond_poses(task: Task) -> str:
+    """What a task states that stacks take no account of, in words."""
+    stated = {
+        "limits": bool(task.limits),
+        "requirements": task.requirements.has_any,
+        "tolerances": task.tolerances is not None,
+        "surroundings": task.surroundings is not None,
+    }
+    return " and ".join(name for name, given in stated.items() if given)
+
+
+def _written(part: Part, plan: Plan, answered: tuple[pa.Table, list[int]]) -> WorkedPart:
+    """The file of a part."""
+    table, poses = answered
+    given = part.tasks.numbers if isinstance(part.tasks, DrawnTasks) else part.tasks.names
+    whole = schema.schema(
+        numbered=isinstance(part.tasks, DrawnTasks | TableTasks) and not isinstance(given, tuple)
+    )
+    names = pa.array(given, whole.field("task").type)
+    columns = [names, pa.array(poses, pa.int32())]
+    columns += [table.column(field.name) for field in list(whole)[2:]]
+    told = {"schema": schema.VERSION, "version": plan.version, "run": plan.run, "part": part.number}
+    metadata = {"burmester": json.dumps(told, sort_keys=True)}
+    rows = pa.Table.from_arrays(columns, schema=whole.with_metadata(metadata))
+    sink = BytesIO()
+    pq.write_table(
+        rows,
+        sink,
+        compression="zstd",
+        use_dictionary=["outcome", "code", "reason"],
+        write_statistics=["task", "outcome"],
+        store_schema=True,
+    )
+    outcomes = _counted(table.column("outcome"))
+    failed = table.column("outcome").to_pylist()
+    reasons = table.column("reason")
+    told_failed = [
+        {"task": names[k].as_py(), "reason": reasons[k].as_py()}
+        for k, each in enumerate(failed)
+        if each == "failed"
+    ][:TOLD]
+    return WorkedPart(sink.getvalue(), len(names), outcomes, told_failed)
+
+
+def _counted(outcomes: Any) -> dict[str, int]:
+    """How often each outcome is there, in the order of the schema."""
+    counted = {each["values"]: each["counts"] for each in outcomes.value_counts().to_pylist()}
+    return {name: counted[name] for name in schema.OUTCOMES if name in counted}

@@ -1,0 +1,74 @@
+"""The table that a batch makes: a row a task, with its dyads and linkages as lists.
+
+The schema has a version, which every part and the manifest name.  Columns may be added, none goes
+away and none changes its meaning under the same version.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Final
+
+import pyarrow as pa
+
+__all__ = ["DYAD", "LINKAGE", "OUTCOMES", "POSE", "SCHEMA", "VERSION", "schema"]
+
+VERSION: Final = "burmester.batch/1"
+
+# "refused": the task cannot be computed with; "failed": burmester could not compute it.
+OUTCOMES: Final = (
+    "solved",
+    "none usable",
+    "too few dyads",
+    "infinitely many",
+    "special motion",
+    "not determined",
+    "not at this depth",
+    "refused",
+    "failed",
+)
+
+_NUMBER = pa.float64()
+DYAD: Final = pa.struct(
+    [
+        ("kind", pa.string()),
+        ("status", pa.string()),
+        *((name, _NUMBER) for name in ("fixed_x", "fixed_y", "moving_x", "moving_y", "length")),
+        *((name, _NUMBER) for name in ("point_x", "point_y", "direction_deg")),
+        *((name, _NUMBER) for name in ("normal_deg", "offset", "angle_deg", "rms", "worst")),
+    ]
+)
+LINKAGE: Final = pa.struct(
+    [
+        ("first", pa.int32()),
+        ("second", pa.int32()),
+        ("verdict", pa.string()),
+        ("type", pa.string()),
+        *((name, _NUMBER) for name in ("rms", "worst", "angle_rms_deg", "angle_worst_deg")),
+        *((name, _NUMBER) for name in ("combined", "transmission_deg", "extent", "sensitivity")),
+        ("dyads", pa.list_(DYAD)),
+    ]
+)
+POSE: Final = pa.struct([("x", _NUMBER), ("y", _NUMBER), ("angle_deg", _NUMBER)])
+SCHEMA: Final = pa.schema(
+    [
+        ("task", pa.string()),
+        ("poses", pa.int32()),
+        ("outcome", pa.string()),
+        ("code", pa.string()),
+        ("reason", pa.string()),
+        ("dyads", pa.list_(DYAD)),
+        ("linkages", pa.list_(LINKAGE)),
+        ("warnings", pa.list_(pa.string())),
+    ]
+)
+
+
+def schema(numbered: bool, drawn: pa.Schema | None = None) -> Any:
+    """The schema of a batch whose tasks are named by numbers or by texts.
+
+    drawn: the columns of what was drawn, where the tasks are draws.
+    """
+    own = SCHEMA.set(0, pa.field("task", pa.int64())) if numbered else SCHEMA
+    for field in () if drawn is None else drawn:
+        own = own.append(field)
+    return own
