@@ -17,6 +17,7 @@ import shlex
 import sys
 import tempfile
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from functools import cache
 from importlib import import_module
 from pathlib import Path
@@ -219,6 +220,36 @@ def parquet():
     columns = {"x": [0.0, 3.0, 4.0], "y": [0.0, 1.0, 3.0], "angle_deg": [0.0, 40.0, 70.0]}
     import_module("pyarrow.parquet").write_table(arrow.table(columns), written)
     return written.getvalue()
+
+
+def batch(out="out", **given):
+    """A batch of two tasks."""
+    lines = [f"{task},{row}" for task in "ab" for row in ROWS.splitlines()]
+    Path("tasks.csv").write_text("\n".join(["task,x,y,angle_deg", *lines, ""]))
+    return api("batch.job.run")("tasks.csv", out, **{"depth": "pencil", "workers": 1, **given})
+
+
+def another_batch():
+    """One in a folder that holds another."""
+    with suppress(InputError):
+        batch(depth="dyads", part_tasks=10, dask="nowhere://host")
+    batch(part_tasks=10)
+
+
+def second_run():
+    """One while another works on its folder."""
+    with api("batch.out_folder.OutFolder")("out").held():
+        batch()
+
+
+def other_version(version):
+    """What a worker does with a part that comes from another version."""
+    plan = api("batch.part_file.Plan")
+    texts = api("batch.parts.TextTasks")((), (), ())
+    options = api("batch.options.BatchOptions")()
+    api("batch.part_file.work")(
+        api("batch.parts.Part")(0, texts, 1.0), plan("pencil", options, "", 60, version), {}
+    )
 
 
 def in_backticks(help):
@@ -813,6 +844,14 @@ CASES: dict[str, Case] = {
         f"{J} --linkage crank.toml",
         Write("crank.toml", CRANK),
         {**GOOD, "crank.toml": CRANK.replace("moving_pivot", "movingpivot", 1)},
+    ),
+    # --- many tasks
+    "a folder with another batch": Case("E180", another_batch, Call(lambda: batch("other"))),
+    "two runs on a folder": Case("E181", second_run, Call(batch)),
+    "a worker of another version": Case(
+        "E182",
+        lambda: other_version("0.0.9"),
+        Call(lambda: other_version(burmester.__version__)),
     ),
     "no such format": Case(
         "E161",

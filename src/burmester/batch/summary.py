@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, final
@@ -60,9 +61,9 @@ class Summary:
         }
 
 
-def read_summary(folder: str, notes: tuple[str, ...] = ()) -> Summary:
+def read_summary(folder: str | os.PathLike[str], notes: tuple[str, ...] = ()) -> Summary:
     """What the manifest of a folder says; raises E101."""
-    path = OutFolder(folder).manifest
+    path = OutFolder(os.fspath(folder)).manifest
     try:
         with open(path, "rb") as file:
             data = read_sealed(file.read())
@@ -76,4 +77,6 @@ def read_summary(folder: str, notes: tuple[str, ...] = ()) -> Summary:
         message = "the manifest of this batch is damaged"
         raise InputError("E101", message, where=printable(path), help=help)
     names = ("complete", "parts", "tasks", "outcomes", "failed", "identity")
-    return Summary(printable(folder), **{name: data[name] for name in names}, notes=notes)
+    return Summary(
+        printable(os.fspath(folder)), **{name: data[name] for name in names}, notes=notes
+    )
