@@ -8,6 +8,7 @@ from typing import Any, final
 
 import numpy as np
 import pyarrow as pa
+import pyarrow.compute as pc
 from numpy.typing import NDArray
 
 from burmester.batch.schema import DYAD, LINKAGE
@@ -41,7 +42,7 @@ def stacked_rows(answers: StackedAnswers, indices: NDArray[np.intp]) -> pa.Table
     return _table(
         indices,
         _words(StackedAnswers.OUTCOMES, answers.outcome),
-        pa.compute.if_else(pa.compute.equal(codes, ""), None, codes),
+        pc.if_else(pc.equal(codes, ""), None, codes),
         pa.nulls(count, pa.string()),
         _lists(answers.dyads.task, count, _dyads(answers.dyads)),
         _lists(linkages.task, count, _linkages(linkages))

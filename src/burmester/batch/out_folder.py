@@ -10,6 +10,7 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from time import monotonic
 from typing import final
 
 from burmester.errors import InputError
@@ -19,6 +20,7 @@ from burmester.printable import printable
 __all__ = ["OutFolder"]
 
 LOCK = ".lock"
+SYNC_S = 1.0  # between two times that lines are brought down to the disk
 
 
 @final
@@ -30,6 +32,7 @@ class OutFolder:
 
     def __init__(self, path: str) -> None:
         self.path = path
+        self._synced = 0.0
 
     @property
     def manifest(self) -> str:
@@ -62,16 +65,19 @@ class OutFolder:
         files.write(path, data, force=True, swept=True)
 
     def append(self, path: str, line: bytes) -> None:
-        """Write a line behind the others, down to the disk; raises E141.
+        """Write a line behind the others, and now and then all down to the disk; raises E141.
 
-        One that is killed meanwhile leaves a piece of a line.
+        One that is killed meanwhile leaves a piece of a line.  A power cut may take the lines of
+        the last second: what they tell of is done again.
         """
         try:
             descriptor = os.open(path, os.O_WRONLY | os.O_APPEND | os.O_CREAT, 0o666)
             try:
                 while line:
                     line = line[os.write(descriptor, line) :]
-                os.fsync(descriptor)
+                if (now := monotonic()) - self._synced > SYNC_S:
+                    os.fsync(descriptor)
+                    self._synced = now
             finally:
                 os.close(descriptor)
         except OSError as error:

@@ -11,11 +11,13 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from io import BytesIO
-from typing import Any, final
+from typing import Any, TypeAlias, final
 
 import numpy as np
 import pyarrow as pa
+import pyarrow.compute as pc
 import pyarrow.parquet as pq
+from numpy.typing import NDArray
 
 from burmester import __version__
 from burmester.batch import schema
@@ -25,6 +27,7 @@ from burmester.batch.parts import DrawnTasks, Part, TableTasks, Tasks, TextTasks
 from burmester.batch.worker import within
 from burmester.errors import BurmesterError, InputError
 from burmester.io.result import synthesis_data
+from burmester.numerics.arrays import FloatArray
 from burmester.numerics.linear_algebra import one_thread
 from burmester.stacked import TaskStack, stacked_answers
 from burmester.synthesis.motion_generation import synthesize
@@ -32,6 +35,17 @@ from burmester.tasks.motion_task import Task
 
 __all__ = ["Plan", "WorkedPart", "work"]
 
+Counts: TypeAlias = NDArray[np.int32]
+
+# Columns of a few words that are there many times.
+WORDS = [
+    "outcome",
+    "code",
+    "reason",
+    *(f"dyads.list.element.{name}" for name in ("kind", "status")),
+    *(f"linkages.list.element.{name}" for name in ("verdict", "type")),
+    *(f"linkages.list.element.dyads.list.element.{name}" for name in ("kind", "status")),
+]
 TOLD = 20  # failed tasks of a part that the manifest names
 
 
@@ -78,11 +92,11 @@ def work(part: Part, plan: Plan, failed: Mapping[int, str]) -> WorkedPart:
         return _written(part, plan, _answered(part.tasks, plan, failed))
 
 
-def _answered(tasks: Tasks, plan: Plan, failed: Mapping[int, str]) -> tuple[pa.Table, list[int]]:
-    """The answers of all tasks in their order, and how many poses each has."""
+def _answered(tasks: Tasks, plan: Plan, failed: Mapping[int, str]) -> tuple[pa.Table, Counts]:
+    """The answers of all tasks in their order, and how many poses each has; 0: nobody knows."""
     refusals = [Refusal(index, "failed", None, why) for index, why in failed.items()]
     wanted = [index for index in range(len(tasks)) if index not in failed]
-    poses = [0] * len(tasks)
+    poses = np.zeros(len(tasks), dtype=np.int32)
     if plan.depth == "full":
         blocks = [_solved(tasks, plan, wanted, poses, refusals)]
     else:
@@ -90,12 +104,14 @@ def _answered(tasks: Tasks, plan: Plan, failed: Mapping[int, str]) -> tuple[pa.T
     if refusals:
         blocks.append(refused_rows(refusals))
     table = pa.concat_tables(blocks)
-    order = np.argsort(table.column("index").to_numpy(), kind="stable")
-    return table.take(pa.array(order)), poses
+    index = table.column("index").to_numpy()
+    if (index[1:] >= index[:-1]).all():
+        return table, poses
+    return table.take(pa.array(np.argsort(index, kind="stable"))), poses
 
 
 def _solved(
-    tasks: Tasks, plan: Plan, wanted: list[int], poses: list[int], refusals: list[Refusal]
+    tasks: Tasks, plan: Plan, wanted: list[int], poses: Counts, refusals: list[Refusal]
 ) -> pa.Table:
     """Whole syntheses, a task after the other."""
     found = {}
@@ -135,18 +151,17 @@ def _task(tasks: Tasks, index: int, options: BatchOptions) -> Task:
 
 
 def _stacked(
-    tasks: Tasks, plan: Plan, wanted: list[int], poses: list[int], refusals: list[Refusal]
+    tasks: Tasks, plan: Plan, wanted: list[int], poses: Counts, refusals: list[Refusal]
 ) -> list[pa.Table]:
     """Tasks in stacks, by their numbers of poses."""
     if isinstance(tasks, TextTasks):
         table, kept = _as_table(tasks, plan, wanted, poses, refusals)
     else:
-        table, kept = _table_of(tasks.only(wanted)), np.array(wanted, dtype=np.intp)
+        some = tasks if len(wanted) == len(tasks) else tasks.only(wanted)
+        table, kept = _table_of(some), np.array(wanted, dtype=np.intp)
     if not len(kept):
         return [refused_rows([])]
-    counts = table.counts
-    for index, count in zip(kept.tolist(), counts.tolist(), strict=True):
-        poses[index] = count
+    poses[kept] = counts = table.counts
     finite = np.isfinite(table.poses).all(axis=1)
     if table.weights is not None:
         finite &= np.isfinite(table.weights)
@@ -157,12 +172,12 @@ def _stacked(
     assert plan.depth != "full"
     sigma = plan.options.beside.pose_sigma
     resolution = (0.0, 0.0) if sigma is None else (math.sqrt(3) * sigma[0], math.sqrt(3) * sigma[1])
-    blocks = []
+    blocks, numbers = [], _radians(table)
     for count in np.unique(counts[good]).tolist():
         chosen = np.flatnonzero(good & (counts == count))
         rows = table.rows(chosen).reshape(-1, count)
         stack = TaskStack(
-            _radians(table)[rows],
+            numbers[rows],
             None if table.weights is None else table.weights[rows],
             None if table.exact is None else table.exact[rows],
             resolution,
@@ -171,7 +186,7 @@ def _stacked(
     return blocks or [refused_rows([])]
 
 
-def _radians(table: TableTasks) -> np.ndarray:
+def _radians(table: TableTasks) -> FloatArray:
     if not table.degrees:
         return table.poses
     return np.concatenate([table.poses[:, :2], np.radians(table.poses[:, 2:])], axis=1)
@@ -184,8 +199,8 @@ def _table_of(tasks: TableTasks | DrawnTasks) -> TableTasks:
 
 
 def _as_table(
-    tasks: TextTasks, plan: Plan, wanted: list[int], poses: list[int], refusals: list[Refusal]
-) -> tuple[TableTasks, np.ndarray]:
+    tasks: TextTasks, plan: Plan, wanted: list[int], poses: Counts, refusals: list[Refusal]
+) -> tuple[TableTasks, NDArray[np.intp]]:
     """Texts that state poses alone as a table; those that state more are not for this depth."""
     read, kept = [], []
     for index in wanted:
@@ -232,7 +247,7 @@ def _beyond_poses(task: Task) -> str:
     return " and ".join(name for name, given in stated.items() if given)
 
 
-def _written(part: Part, plan: Plan, answered: tuple[pa.Table, list[int]]) -> WorkedPart:
+def _written(part: Part, plan: Plan, answered: tuple[pa.Table, Counts]) -> WorkedPart:
     """The file of a part."""
     table, poses = answered
     given = part.tasks.numbers if isinstance(part.tasks, DrawnTasks) else part.tasks.names
@@ -240,7 +255,7 @@ def _written(part: Part, plan: Plan, answered: tuple[pa.Table, list[int]]) -> Wo
         numbered=isinstance(part.tasks, DrawnTasks | TableTasks) and not isinstance(given, tuple)
     )
     names = pa.array(given, whole.field("task").type)
-    columns = [names, pa.array(poses, pa.int32())]
+    columns = [names, pa.array(poses, mask=poses == 0)]
     columns += [table.column(field.name) for field in list(whole)[2:]]
     told = {"schema": schema.VERSION, "version": plan.version, "run": plan.run, "part": part.number}
     metadata = {"burmester": json.dumps(told, sort_keys=True)}
@@ -250,19 +265,13 @@ def _written(part: Part, plan: Plan, answered: tuple[pa.Table, list[int]]) -> Wo
         rows,
         sink,
         compression="zstd",
-        use_dictionary=["outcome", "code", "reason"],
+        use_dictionary=WORDS,
         write_statistics=["task", "outcome"],
-        store_schema=True,
     )
     outcomes = _counted(table.column("outcome"))
-    failed = table.column("outcome").to_pylist()
-    reasons = table.column("reason")
-    told_failed = [
-        {"task": names[k].as_py(), "reason": reasons[k].as_py()}
-        for k, each in enumerate(failed)
-        if each == "failed"
-    ][:TOLD]
-    return WorkedPart(sink.getvalue(), len(names), outcomes, told_failed)
+    lost = rows.filter(pc.equal(rows.column("outcome"), "failed")).slice(0, TOLD)
+    failed = lost.select(["task", "reason"]).to_pylist()
+    return WorkedPart(sink.getvalue(), len(names), outcomes, failed)
 
 
 def _counted(outcomes: Any) -> dict[str, int]:
