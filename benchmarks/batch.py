@@ -7,7 +7,7 @@
 overhead: the processor time of a whole batch, of all its processes, beside that of the same stacks
 in a loop without files, in turn in one run; what starting and ending a batch takes is measured with
 one task and told apart.  memory: the greatest resident memory of the run and of a worker, for ten
-thousand tasks and for a million.  scheduler: parts that hold nothing, through processes, through a
+thousand tasks and for a million, in parts of the same size.  scheduler: parts that hold nothing, through processes, through a
 Dask cluster on this machine, and through the files of a folder.
 """
 
@@ -40,6 +40,7 @@ from burmester.batch.parts import Part
 USUAL = {"pencil": 200_000, "dyads": 2000, "linkages": 1000, "full": 20}
 DIFFERENT = 1000  # tasks; more are these again, moved
 ROUNDS = 3
+SMALL = 2000  # tasks of a part, so that ten thousand tasks are several of them
 
 
 def write_tasks(path: Path, count: int, poses: int) -> None:
@@ -58,9 +59,9 @@ BATCH = """
 import json, resource, sys, time
 from burmester.batch import run
 if __name__ == "__main__":
-    tasks, out, depth, workers = sys.argv[1:5]
+    tasks, out, depth, workers, size = sys.argv[1:6]
     begun = time.monotonic()
-    run(tasks, out, depth=depth, workers=int(workers))
+    run(tasks, out, depth=depth, workers=int(workers), part_tasks=int(size) or None)
     usage = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
     print(json.dumps({
         "seconds": time.monotonic() - begun,
@@ -124,8 +125,8 @@ def overhead(depth: str, count: int) -> None:
         )
         found = []
         for k in range(ROUNDS):
-            whole = told(BATCH, tasks, Path(here, f"out{k}"), depth, 1)
-            start = told(BATCH, one, Path(here, f"start{k}"), depth, 1)
+            whole = told(BATCH, tasks, Path(here, f"out{k}"), depth, 1, 0)
+            start = told(BATCH, one, Path(here, f"start{k}"), depth, 1, 0)
             alone = told(ALONE, texts) if depth == "full" else told(LOOP, tasks, depth)
             begun, used = sum(start["processor"]), sum(whole["processor"])
             found.append((used, begun, alone["processor"], whole["processor"][0]))
@@ -146,7 +147,7 @@ def memory(depth: str) -> None:
         with tempfile.TemporaryDirectory() as here:
             tasks = Path(here, "tasks.parquet")
             write_tasks(tasks, count, 6)
-            told_of = told(BATCH, tasks, Path(here, "out"), depth, 2)
+            told_of = told(BATCH, tasks, Path(here, "out"), depth, 2, SMALL)
         peaks.append(told_of["memory"])
         run, worker = peaks[-1]
         print(

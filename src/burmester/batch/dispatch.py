@@ -21,7 +21,7 @@ __all__ = ["Dispatch", "Work"]
 
 Work: TypeAlias = Callable[[Part, Any, Mapping[int, str]], Any]
 
-AHEAD = 2  # parts that are handed out, for each that is worked on
+AHEAD = 4  # for so many workers one more part is handed out than is worked on, and two at least
 PERIOD_S = 0.2  # between two looks whether to stop
 LAST_S = 20.0  # for the other futures of a broken pool to say so
 
@@ -88,7 +88,7 @@ class Dispatch:
 
     @property
     def _most(self) -> int:
-        return AHEAD * self._engine.size
+        return self._engine.size + max(2, self._engine.size // AHEAD)
 
     def _begin(self, part: Part, left_out: Mapping[int, str]) -> Future[Any]:
         return self._engine.submit(self._work, part, self._plan, left_out)

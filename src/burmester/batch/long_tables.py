@@ -81,9 +81,13 @@ def _pieces(path: str, label: str) -> Iterator[_Piece]:
             with pq.ParquetFile(path) as file:
                 names = _required(file.schema_arrow.names, label)
                 total, read = max(1, file.metadata.num_rows), 0
-                for batch in file.iter_batches(PIECE_ROWS, columns=names):
-                    read += batch.num_rows
-                    yield _Piece(_columns(batch, label), read / total)
+                # Group by group: the reader holds on to what it has read of those it is given.
+                for group in range(file.metadata.num_row_groups):
+                    for batch in file.iter_batches(
+                        PIECE_ROWS, row_groups=[group], columns=names, use_threads=False
+                    ):
+                        read += batch.num_rows
+                        yield _Piece(_columns(batch, label), read / total)
             return
         with open(path, "rb") as file:
             names = _required(_cells(file), label)
