@@ -25,7 +25,7 @@ def show_summary(summary: Summary, console: Console) -> None:
     """The numbers of tasks and parts, each outcome, what failed, and what the rows depend on."""
 
     def say(text: str) -> None:
-        console.print(text, markup=False)
+        console.print(text, markup=False, soft_wrap=True)  # so that a path stays in one piece
 
     state = "complete" if summary.complete else "not complete yet"
     parts = count(summary.parts, "part")
