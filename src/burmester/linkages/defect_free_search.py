@@ -19,6 +19,7 @@ from burmester.fourbar.foot_points import rows_of
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.nearest_places import on_circuits
 from burmester.geometry.displacement import Displacement
+from burmester.linkages.constrained_refinement import Selection
 from burmester.linkages.constraints import (
     CLEARANCE_ANGLE,
     SHORTEST_LINK,
@@ -121,17 +122,25 @@ def refined_on_branch(
     steps: int,
     transmission: FloatArray | None = None,
     metric: FloatArray | None = None,
+    selection: Selection = (),
 ) -> Refined:
     """Linkages (k,) refined under all constraints, on the branches of their places (k, N, 3).
 
     driver: (k,), the side that drives; transmission: (k,), a least angle for each, where more is
-    asked of it than the target does; metric: (k, 1, 3, 3), as in `refine`.  Of many poses few are
-    refined on, evenly thinned, and what is best then on more of them; the others do not meet the
-    constraints.
+    asked of it than the target does; metric: (k, 1, 3, 3), and selection, as in `refine`.  Of many
+    poses few are refined on, evenly thinned, and what is best then on more of them; the others do
+    not meet the constraints.
     """
     few, index = target.thinned(FEW_POSES), target.thin_numbers(FEW_POSES)
     refined = _on_branch(
-        batch, rows[:, index], few, driver, steps=steps, transmission=transmission, metric=metric
+        batch,
+        rows[:, index],
+        few,
+        driver,
+        steps=steps,
+        transmission=transmission,
+        metric=metric,
+        selection=selection,
     )
     if few is target:
         return refined
@@ -196,6 +205,7 @@ def _on_branch(
     steps: int,
     transmission: FloatArray | None,
     metric: FloatArray | None,
+    selection: Selection = (),
 ) -> Refined:
     """`refined_on_branch` on all poses of the target."""
     sine = signed_transmission_sine(batch, rows, target.length, driver)
@@ -209,6 +219,7 @@ def _on_branch(
         worst=target.worst,
         constrained_steps=steps,
         metric=metric,
+        selection=selection,
     )
 
 

@@ -23,6 +23,7 @@ __all__ = ["sound_linkages"]
 MOST_CLOSEST = 12  # number of linkages that are refined again
 STEEPEST = 85.0  # degrees; no more is asked of a transmission angle
 STEPS = 40  # number of steps of these refinements
+CHOICE = ((8, 4),)  # where few are asked for: steps, and the number of the best that go on
 
 
 def sound_linkages(
@@ -51,7 +52,14 @@ def sound_linkages(
     every, lead = np.repeat(np.arange(len(near)), len(sides)), np.tile(sides, len(near))
     batch = LinkageBatch.of([each.linkage for each in near]).to_canonical(target.frames)
     rows = np.stack([target.rows_at(each.error.places) for each in near])
-    refined = refined_on_branch(batch[every], rows[every], target, lead, steps=STEPS)
+    refined = refined_on_branch(
+        batch[every],
+        rows[every],
+        target,
+        lead,
+        steps=STEPS,
+        selection=CHOICE if transmission_deg else (),
+    )
     index = np.flatnonzero(refined.met)
     candidates = Candidates(
         refined.batch[index],

@@ -108,7 +108,10 @@ class _BoxProgram(NamedTuple):
         return np.asarray(self.b - matvec(self.root, (y[:, None] @ self.root)[:, 0]))
 
     def descended(self, y: FloatArray, steps: int) -> tuple[FloatArray, NDArray[np.bool_]]:
-        """The y (k, m) after steps of the projected Newton method, and which of them settled."""
+        """The y (k, m) after steps of the projected Newton method, and which of them settled.
+
+        Those stay unsettled where they are of which more are free than there are unknowns.
+        """
         run, settled = np.arange(len(y)), np.zeros(len(y), dtype=bool)
         for last in range(steps + 1):
             some, here = self.at(run), y[run]
@@ -117,6 +120,7 @@ class _BoxProgram(NamedTuple):
             terms = np.abs(np.where(free, some.b, here)).max(axis=1)
             going = np.where(free, np.abs(off), 0.0).max(axis=1) > SETTLED * terms
             settled[run[~going]] = True
+            going &= free.sum(axis=1) <= self.root.shape[2]  # no more than can be free at the end
             if last == steps or not going.any():
                 break
             some, run = some.at(np.flatnonzero(going)), run[going]
