@@ -29,7 +29,7 @@ from burmester.export.reference import (
 )
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.geometry.displacement import Displacement
-from burmester.io.linkage_data import poses_data
+from burmester.io.pose_data import poses_data
 from burmester.io.saved import SavedLinkage
 
 __all__ = ["SCHEMA", "check_csv", "check_json", "write_csv", "write_json"]

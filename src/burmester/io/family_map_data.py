@@ -16,7 +16,8 @@ from burmester.families.pair_verdicts import CLASS_WORDS, Ground
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.regions import Polygon
-from burmester.io.linkage_data import number, poses_data
+from burmester.io.linkage_data import number
+from burmester.io.pose_data import poses_data
 from burmester.numerics.arrays import FloatArray
 
 __all__ = ["family_map_data"]

@@ -16,6 +16,7 @@ from burmester.dyads.selection import FoundDyad
 from burmester.fourbar.defects import Defect, Driven
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.geometry.displacement import Displacement
+from burmester.io.pose_data import poses_data
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.linkages.tolerances import Spread
 from burmester.linkages.uncertainty import DyadUncertainty, PivotRegion
@@ -24,7 +25,7 @@ from burmester.tasks.pose_tolerances import COMPONENTS
 if TYPE_CHECKING:
     from burmester.clearance.least_clearance import Clearance
 
-__all__ = ["degrees_of", "dyad_data", "linkage_data", "number", "poses_data"]
+__all__ = ["dyad_data", "linkage_data", "number"]
 
 CONFIDENCE = 0.95
 
@@ -32,20 +33,6 @@ CONFIDENCE = 0.95
 def number(value: float) -> float | None:
     """The number, or None where there is none."""
     return float(value) if math.isfinite(value) else None
-
-
-def poses_data(poses: Displacement) -> list[dict[str, float]]:
-    """Poses (N,) as rows of a file; an angle given as 45.58 degrees is written as 45.58."""
-    shown = map(degrees_of, poses.angle.tolist())
-    rows = zip(poses.translation.tolist(), shown, strict=True)
-    return [{"x": x, "y": y, "angle_deg": angle} for (x, y), angle in rows]
-
-
-def degrees_of(angle: float) -> float:
-    """Radians as degrees; what was given as 45.58 degrees is 45.58."""
-    degrees = float(np.degrees(angle))
-    short = float(f"{degrees:.15g}")
-    return short if np.radians(short) == angle else degrees
 
 
 def dyad_data(found: FoundDyad, places: Displacement) -> dict[str, Any]:

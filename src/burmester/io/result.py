@@ -19,12 +19,11 @@ from burmester.dyads.selection import Fit
 from burmester.errors import Advice, BurmesterError
 from burmester.geometry.regions import Line, Point, Polygon, Segment
 from burmester.io.linkage_data import (
-    degrees_of,
     dyad_data,
     linkage_data,
     number,
-    poses_data,
 )
+from burmester.io.pose_data import poses_data, tolerances_data
 from burmester.io.reading.stated_requirements import requirements_data
 from burmester.io.reading.stated_surroundings import surroundings_data
 from burmester.linkages.found_linkage import FoundLinkage
@@ -34,7 +33,6 @@ from burmester.tasks.limits import KINDS, Limits
 from burmester.tasks.motion_class import MotionClass
 from burmester.tasks.motion_task import Task
 from burmester.tasks.options import Preference
-from burmester.tasks.pose_tolerances import COMPONENTS, PoseTolerances
 
 if TYPE_CHECKING:  # few results hold either
     from burmester.certificates.certificate import Certificate
@@ -141,21 +139,6 @@ def task_data(task: Task) -> dict[str, Any]:
     position, angle = (given / math.sqrt(3) for given in task.resolution)
     data["pose_sigma"] = {"position": position, "angle_deg": math.degrees(angle)}
     return data
-
-
-def tolerances_data(tolerances: PoseTolerances) -> list[dict[str, Any]]:
-    """The keys `tolerance` and `free` of each pose, as a file may hold them."""
-    out: list[dict[str, Any]] = []
-    for k, (x, y, angle) in enumerate(tolerances.bounds.tolist()):
-        bounds = {"x": x, "y": y, "angle_deg": degrees_of(angle)}
-        named = zip(COMPONENTS, bounds.values(), strict=True)
-        free = [component for component, bound in named if math.isinf(bound)]
-        tolerance: dict[str, Any] = {
-            key: bound for key, bound in bounds.items() if math.isfinite(bound)
-        }
-        data = {"tolerance": tolerance | {"axes": tolerances.axes[k]}}
-        out.append(data | ({"free": free} if free else {}))
-    return out
 
 
 def _limits(limits: Limits) -> dict[str, Any]:

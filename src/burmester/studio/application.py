@@ -49,7 +49,8 @@ def application(house: House, exchanged: Callable[[object], str | None]) -> Star
 
     async def start(request: Request) -> Response:
         saved = await asyncio.to_thread(autosave.last)
-        return Response(as_json({**house.start, "saved": saved}), media_type="application/json")
+        told = await house.beginning()
+        return Response(as_json({**told, "saved": saved}), media_type="application/json")
 
     async def template(request: Request) -> Response:
         body = as_json({"name": request.path_params["name"]})

@@ -17,12 +17,11 @@ import numpy as np
 
 from burmester.errors import InputError
 from burmester.geometry.regions import Line, Point, Polygon, Region, Segment, box
-from burmester.io.linkage_data import degrees_of
+from burmester.io.pose_data import degrees_of, tolerances_data
 from burmester.io.reading.outlines.outline_file import FROM_PAGE
 from burmester.io.reading.poses import read_task
 from burmester.io.reading.requirements_text import positive_length
 from burmester.io.reading.stated_requirements import requirements_data
-from burmester.io.result import tolerances_data
 from burmester.studio.parcel import plain
 from burmester.tasks.limits import KINDS, Limits
 from burmester.tasks.motion_task import Task

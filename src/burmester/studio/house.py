@@ -9,6 +9,7 @@ import os
 import traceback
 from collections import OrderedDict
 from collections.abc import Callable, Coroutine
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
@@ -69,27 +70,42 @@ class House:
         self.answers = Answers()
         self.start: dict[str, Any] = {}
         self._opening: tuple[str, asyncio.Task[None]] | None = None
+        self._formats: asyncio.Future[Any]
         self._background: set[asyncio.Task[Any]] = set()
+
+    async def begin(self) -> None:
+        """Start the worker of the opening task: it loads while this process loads the server."""
+        await self.workers.open(1, "opening")
 
     async def open(self, head: dict[str, Any], data: bytes = b"") -> None:
         """Read the task that the studio opens on, and begin to solve it; raises InputError."""
         async with self.workers.lent() as worker:
-            answer, body = await worker.ask({"do": "open", **head}, data)
+            answer, body = await worker.first(head, data)
         told = json.loads(body)
         if answer["kind"] == "failed":
             raise InputError(**told["messages"][0])
         self.start = told
         given = {"document": told["document"], "options": told["options"]}
         key = self.key_of(given)
-        self.later(self.workers.open(SPARE))
+        self._formats = asyncio.get_running_loop().create_future()
         self._opening = key, self.later(self._solve_opening(key, as_json(given)))
 
     async def _solve_opening(self, key: str, body: bytes) -> None:
         async with self.workers.lent() as worker:
-            try:
+            with suppress(WorkerEndedError):
+                self._formats.set_result(
+                    json.loads((await worker.ask({"do": "formats"}, b"{}"))[1])
+                )
+            with suppress(TimeoutError, WorkerEndedError):  # the page asks again, and is told
                 await self.solve(worker, key, body, lambda text: None)
-            except (TimeoutError, WorkerEndedError):
-                return  # the page asks again, and is told
+        await self.workers.open(SPARE)  # not before: the page is being loaded
+
+    async def beginning(self) -> dict[str, Any]:
+        """What a page is told first."""
+        assert self._opening is not None
+        await asyncio.wait([self._formats, self._opening[1]], return_when=asyncio.FIRST_COMPLETED)
+        formats = self._formats.result() if self._formats.done() else []
+        return {**self.start, "exports": formats}
 
     def is_opening(self, key: str) -> bool:
         """Whether this is the key of the opening task, and it is still being solved."""

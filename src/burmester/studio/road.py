@@ -10,15 +10,12 @@ import base64
 import binascii
 import json
 from collections.abc import Callable, Collection
-from pathlib import PurePath
 from typing import Any, Final, Protocol, TypeAlias
 
 from burmester.errors import BurmesterError, InputError
 from burmester.following.follow import follow
 from burmester.following.followed import Followed
-from burmester.io import templates
 from burmester.io.reading.outlines.outline_file import OutlineFile, read_outline
-from burmester.io.reading.poses import read_task
 from burmester.io.result import json_line, message_data, synthesis_data
 from burmester.io.saved import read_result
 from burmester.progress import shown
@@ -35,6 +32,7 @@ from burmester.studio.exports import exported, formats, report_page
 from burmester.studio.frames import Drawn, drawn_of, followed_frame
 from burmester.studio.identity import matched, standing
 from burmester.studio.names import plain_name
+from burmester.studio.opening import template
 from burmester.studio.parcel import as_json, plain
 from burmester.studio.placed import placed
 from burmester.synthesis.judgement import judge_linkage
@@ -75,8 +73,6 @@ class Road:
 
     def do(self, head: dict[str, Any], body: bytes, job: Job) -> Answer:
         """Do what a parcel says; the answer is a parcel, too."""
-        if head["do"] == "open":
-            return self.open(head, body)
         sizes = head.get("known")
         start = sum(sizes) if sizes else 0
         given = json.loads(body[start:])
@@ -84,22 +80,13 @@ class Road:
             given[KNOWN] = body[: sizes[0]], body[sizes[0] : start]
         return _DEEDS[head["do"]](self, head, given, job)
 
-    def open(self, head: dict[str, Any], data: bytes) -> Answer:
-        """The task that the studio opens on: a file of this machine, or a template."""
-        if (path := head["path"]) is None:
-            name = head["template"]
-            task = read_file(f"{name}.toml", templates.text(name).encode())
-        else:
-            name = PurePath(path.removeprefix("case:")).stem if path != "-" else "task"
-            task = read_task(path, data=data if path == "-" else None)
-        start = {"document": document_of(task), "options": {}, "name": name, "exports": formats()}
-        return _json(start)
+    def formats(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
+        """The formats of exports."""
+        return _json(formats())
 
     def template(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """A template as a document."""
-        name = given["name"]
-        task = read_file(f"{name}.toml", templates.text(name).encode())
-        return _json({"document": document_of(task), "options": {}, "name": name})
+        return _json(template(given["name"]))
 
     def read(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """A file that the page sent as a document, and how it was read."""
@@ -263,7 +250,18 @@ class Road:
 _DEEDS: dict[str, Callable[[Road, dict[str, Any], Any, Job], Answer]] = {
     name: getattr(Road, name)
     for name in (
-        *("template", "read", "outline", "check", "task", "export", "result", "report", "improve"),
+        *(
+            "formats",
+            "template",
+            "read",
+            "outline",
+            "check",
+            "task",
+            "export",
+            "result",
+            "report",
+            "improve",
+        ),
         *("solve", "again", "follow", "stand", "match", "place", "curve"),
     )
 }

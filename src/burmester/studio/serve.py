@@ -75,7 +75,7 @@ def _bound(host: str, port: int) -> socket.socket:
 async def _serve(opening: Opening, bound: socket.socket, say: Callable[[str], None]) -> None:
     host, limit_s = opening.host, opening.limit_s
     house = House(limit_s)
-    await house.workers.open(1)  # it loads while this process loads the server
+    await house.begin()
     try:
         import uvicorn  # noqa: PLC0415
 

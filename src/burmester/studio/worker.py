@@ -15,6 +15,7 @@ import threading
 import time
 import traceback
 import warnings
+from collections.abc import Callable
 from typing import Any, BinaryIO
 
 from burmester.studio.parcel import as_json, packed, read_parcel
@@ -46,8 +47,8 @@ class _Inbox:
         os._exit(0)  # the server is gone
 
 
-def main() -> None:
-    """Work until the server has gone."""
+def main(first: str | None = None) -> None:
+    """Work until the server has gone; first: "opening" where that is to be done before all else."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # a keyboard's is for the server, which ends us
     warnings.simplefilter("ignore")
     source = os.fdopen(os.dup(0), "rb")
@@ -56,6 +57,12 @@ def main() -> None:
     null = os.open(os.devnull, os.O_RDONLY)
     os.dup2(null, 0)
     inbox = _Inbox(source)
+    if first == "opening":
+        from burmester.studio.opening import opening  # noqa: PLC0415  half of what follows
+
+        _Job(0, inbox, sink).answer(
+            lambda: ({"kind": "json"}, as_json(opening(*inbox.parcels.get())))
+        )
 
     from burmester.studio.road import Road  # noqa: PLC0415  the reader looks for the end already
 
@@ -75,9 +82,13 @@ class _Job:
         self._told = 0.0
 
     def run(self, road: Any, head: dict[str, Any], body: bytes) -> None:
+        """Do what a parcel says."""
+        self.answer(lambda: road.do(head, body, self))
+
+    def answer(self, work: Callable[[], tuple[dict[str, Any], bytes]]) -> None:
         """Do it, and say that it is done, whatever comes of it."""
         try:
-            answer = road.do(head, body, self)
+            answer = work()
         except _CalledOffError:
             answer = {"kind": "cancelled"}, b""
         except Exception as error:
@@ -123,4 +134,4 @@ def _fault(error: Exception) -> dict[str, Any]:
 
 
 if __name__ == "__main__":
-    main()
+    main(*sys.argv[1:])

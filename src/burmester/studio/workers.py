@@ -49,10 +49,10 @@ class Worker:
         self.holder: object = None
 
     @classmethod
-    async def start(cls) -> Worker:
-        """A new process; it is not waited for until it is ready."""
+    async def start(cls, *words: str) -> Worker:
+        """A new process; it is not waited for until it is ready.  words: what it does first."""
         process = await asyncio.create_subprocess_exec(
-            *(sys.executable, "-P", "-m", "burmester.studio.worker"),
+            *(sys.executable, "-P", "-m", "burmester.studio.worker", *words),
             stdin=asyncio.subprocess.PIPE,
             stdout=asyncio.subprocess.PIPE,
             env={**os.environ, **ENVIRONMENT},
@@ -79,6 +79,11 @@ class Worker:
         if not self._loaded:
             await self._answer(None)
             self._loaded = True
+
+    async def first(self, head: dict[str, Any], body: bytes = b"") -> Parcel:
+        """The answer of a worker that was started with a word to what it does first."""
+        self._write(packed(head | {"do": "first", "job": 0}, body))
+        return await self._answer(None)
 
     async def ask(
         self, head: dict[str, Any], body: bytes = b"", piece: Callable[[Parcel], Any] | None = None
@@ -162,10 +167,10 @@ class Workers:
         """The numbers of all processes."""
         return [each.pid for each in (*self._idle, *self._lent)]
 
-    async def open(self, number: int) -> None:
-        """Start workers, so that there are so many at least."""
-        while self._size < min(number, self._most):
-            await self._start()
+    async def open(self, number: int, *words: str) -> None:
+        """Start workers, so that there are so many at least; words: what each does first."""
+        while not self._closed and self._size < min(number, self._most):
+            await self._start(*words)
 
     async def close(self) -> None:
         """End all of them."""
@@ -203,6 +208,8 @@ class Workers:
 
     async def _borrow(self, key: str | None) -> Worker:
         while True:
+            if self._closed:
+                raise WorkerEndedError
             if (worker := self._choice(key)) is not None:
                 self._idle.remove(worker)
                 self._lent.add(worker)
@@ -231,12 +238,15 @@ class Workers:
     def _size(self) -> int:
         return len(self._idle) + len(self._lent) + self._starting
 
-    async def _start(self) -> None:
+    async def _start(self, *words: str) -> None:
         self._starting += 1
         try:
-            worker = await Worker.start()
+            worker = await Worker.start(*words)
         finally:
             self._starting -= 1
+        if self._closed:
+            await worker.kill()
+            return
         self._idle.append(worker)
         self._wake()
 

@@ -19,7 +19,8 @@ from burmester.dyads.selection import FoundDyad
 from burmester.fourbar.dyad import Dyad
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.inner_point import inner_point
-from burmester.io.linkage_data import dyad_data, linkage_data, number, poses_data
+from burmester.io.linkage_data import dyad_data, linkage_data, number
+from burmester.io.pose_data import poses_data
 from burmester.io.result import message_data
 from burmester.linkages import explanation
 from burmester.linkages.evaluation import transmission_at_given_poses

@@ -1,0 +1,30 @@
+"""The task that the studio opens on: read by a worker before it loads all that solves it."""
+
+from __future__ import annotations
+
+from pathlib import PurePath
+from typing import Any
+
+from burmester.io import templates
+from burmester.io.reading.poses import read_task
+from burmester.studio.document import document_of, read_file
+
+__all__ = ["opening", "template"]
+
+
+def opening(head: dict[str, Any], data: bytes) -> dict[str, Any]:
+    """A file of this machine by its "path", or a "template"; data: of standard input ("-").
+
+    Raises what the readers raise.
+    """
+    if (path := head["path"]) is None:
+        return template(head["template"])
+    name = PurePath(path.removeprefix("case:")).stem if path != "-" else "task"
+    task = read_task(path, data=data if path == "-" else None)
+    return {"document": document_of(task), "options": {}, "name": name}
+
+
+def template(name: str) -> dict[str, Any]:
+    """A template as a document."""
+    task = read_file(f"{name}.toml", templates.text(name).encode())
+    return {"document": document_of(task), "options": {}, "name": name}
