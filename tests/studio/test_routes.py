@@ -323,11 +323,13 @@ def test_what_was_there_last_is_there_again(visitor, gripper):
     document = json.loads(json.dumps(gripper["document"]))
     document["poses"][1]["x"] = 0.75
     given = {"document": document, "options": {"method": "pencil"}, "name": "mine", "tab": "t1"}
+    given["settings"] = {"hole": 5}
     assert visitor.http.put("/autosave", json=given).status_code == 204
     saved = visitor.http.get("/start").json()["saved"]
     assert saved["name"] == "mine"
     assert saved["document"] == document
     assert saved["options"] == {"method": "pencil"}
+    assert saved["settings"] == {"hole": 5}
 
 
 def test_two_tabs_do_not_take_each_other_s_place(visitor):

@@ -42,6 +42,7 @@ def save(given: dict[str, Any]) -> None:
         "when": time.time(),
         "document": given.get("document"),
         "options": given.get("options") or {},
+        "settings": given.get("settings") or {},
     }
     place = folder()
     place.mkdir(mode=0o700, parents=True, exist_ok=True)

@@ -8,11 +8,20 @@ from burmester.studio.names import plain_name
 
 __all__ = ["commands"]
 
+# Options of `burmester export` by their names in the page.
+SETTINGS = {
+    **{each: f"--{each}" for each in ("unit", "hole", "pin", "width", "thickness", "gap", "pose")},
+    **{each: f"--{each}" for each in ("density", "up", "seconds")},
+    "frames_per_second": "--fps",
+    "width_px": "--pixels",
+}
+AXES = ("x", "y", "z", "-x", "-y", "-z")
 OPTIONS = ("method", "norm", "prefer", "angle-weight", "tolerance")
 
 
 def commands(given: dict[str, Any]) -> list[dict[str, str]]:
-    """The commands for a task, by "name", "options", "linkage", and "dyads" where some are placed.
+    """The commands for a task, by "name", "options", "linkage", "settings" of exports, and "dyads"
+    where some are placed.
 
     They are for a shell, in the folder into which task and result were saved.
     """
@@ -30,7 +39,10 @@ def commands(given: dict[str, Any]) -> list[dict[str, str]]:
     rows = [
         ("look the task over", f"burmester check {name}.toml"),
         ("find the linkages", f"burmester synthesize {name}.toml{how} -o {name}.json"),
-        ("draw the plates of a linkage", f"burmester export {name}.json{chosen} -o {file}.dxf"),
+        (
+            "draw the plates of a linkage",
+            f"burmester export {name}.json{chosen}{_settings(given.get('settings'))} -o {file}.dxf",
+        ),
         ("write the report", f"burmester report {name}.toml{how}"),
         ("open the task here again", f"burmester studio {name}.toml"),
     ]
@@ -45,6 +57,19 @@ def commands(given: dict[str, Any]) -> list[dict[str, str]]:
 def _is_plain(value: object) -> bool:
     number = isinstance(value, int | float) and not isinstance(value, bool)
     return number or (isinstance(value, str) and value.isascii() and value.isalpha())
+
+
+def _settings(given: Any) -> str:
+    """Options of an export; what cannot stand in a command is left out."""
+    asked = given if isinstance(given, dict) else {}
+    words = [
+        f" {flag}={asked[name]}"
+        for name, flag in SETTINGS.items()
+        if _is_plain(asked.get(name)) or (name == "up" and asked.get(name) in AXES)
+    ]
+    words += [" --no-dimensions"] if asked.get("dimensions") is False else []
+    words += [" --assembled"] if asked.get("assembled") is True else []
+    return "".join(words)
 
 
 def _dyads(given: Any) -> str | None:

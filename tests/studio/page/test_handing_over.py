@@ -109,6 +109,70 @@ def test_the_same_is_told_as_a_command(page):
     assert dialog.count() == 0
 
 
+def typed(page, name, text):
+    """Fill in a setting as a person does."""
+    box = page.locator(f"[data-setting={name}]")
+    box.fill(text)
+    box.press("Enter")
+
+
+def test_what_is_exported_with_settings_is_what_the_command_exports_with_them(page, tmp_path):
+    """Each setting is in the command that the page shows; that command writes the same bytes."""
+    page.locator("[data-section=export] > summary").click()
+    for name, text in (("hole", "5"), ("width", "1,8 cm"), ("pose", "3"), ("gap", "0.2"),
+                       ("thickness", "4 mm"), ("pin", "4.9")):  # fmt: skip
+        typed(page, name, text)
+    page.locator("[data-setting=dimensions]").uncheck()
+    typed(page, "density", "heavy")  # is no number, and stays out
+    assert "not a number" in page.locator("[data-section=export] .bs-fault:visible").inner_text()
+    typed(page, "density", "7850")
+    page.locator("[data-do=command]").click()
+    page.locator("dialog[open]").wait_for()
+    shown = page.locator("dialog[open] pre").all_inner_texts()
+    page.locator("dialog[open] [data-do=close]").click()
+    (command,) = [each for each in shown if "burmester export" in each]
+    words = command.split()
+    assert {"--hole=5", "--width=18", "--pose=3", "--gap=0.2", "--thickness=4", "--pin=4.9",
+            "--density=7850", "--no-dimensions"} <= set(words)  # fmt: skip
+    page.locator("[data-menu=export] > summary").click()
+    with page.expect_download() as result:
+        page.locator("[data-export=result]").click()
+    result.value.save_as(tmp_path / "lid-hinge.json")
+    page.locator("[data-menu=export] > summary").click()
+    with page.expect_download() as exported:
+        page.locator("[data-export=dxf]").click()
+    assert exported.value.suggested_filename == words[-1]
+    words[2] = str(tmp_path / words[2])
+    words[-1] = str(tmp_path / words[-1])
+    with pytest.raises(SystemExit) as ended:
+        main(words[1:])
+    assert not ended.value.code
+    assert exported.value.path().read_bytes() == (tmp_path / words[-1]).read_bytes()
+    # One entry of history each, and no new search.
+    page.keyboard.press("Control+z")
+    assert page.locator("[data-setting=density]").input_value() == ""
+    assert page.locator(".bs-status").get_attribute("data-state") == "resting"
+
+
+def test_how_well_the_poses_are_known_is_part_of_the_task(page, tmp_path, capsys):
+    page.locator("[data-section=sigma] > summary").click()
+    position, angle = (page.locator(f"[data-key=sigma-{key}]") for key in ("position", "angle_deg"))
+    position.fill("0.02")
+    position.press("Enter")
+    assert "Give both" in page.locator("[data-section=sigma]").inner_text()
+    angle.fill("0.05")
+    angle.press("Enter")
+    assert "Give both" not in page.locator("[data-section=sigma]").inner_text()
+    solved(page)
+    with page.expect_download() as saved:
+        page.keyboard.press("Control+s")
+    saved.value.save_as(tmp_path / "task.toml")
+    with pytest.raises(SystemExit):
+        main(["synthesize", "--json", str(tmp_path / "task.toml")])
+    sigma = json.loads(capsys.readouterr().out)["task"]["pose_sigma"]
+    assert sigma == {"position": pytest.approx(0.02), "angle_deg": pytest.approx(0.05)}
+
+
 def test_an_empty_task_is_filled_by_hand(page):
     page.locator("[data-do=new]").click()
     assert rows(page) == 0

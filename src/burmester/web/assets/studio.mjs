@@ -48,7 +48,7 @@ var Autosave = class {
     if (!this.isOpen) return;
     this.isOpen = false;
     clearTimeout(this.timer);
-    const { document: task, options, name, connection } = this.store, text = { document: task, options, name };
+    const { document: task, options, name, settings, connection } = this.store, text = { document: task, options, name, settings };
     document.documentElement.dataset.kept = "true";
     try {
       sessionStorage.setItem(KEY, JSON.stringify(text));
@@ -97,7 +97,7 @@ var DIGITS = 12;
 var GREATEST = 1e300;
 var tidy = (value) => Number(value.toPrecision(DIGITS));
 var written = (value) => value === void 0 || value === null ? "" : String(value).replace("-", "−").replace("e−", "e-");
-function quantity(text, { kind = "number", unit: unit2 = "", optional = false, least: least2 = -Infinity, above = -Infinity, most = Infinity } = {}) {
+function quantity(text, { kind = "number", unit: unit2 = "", optional = false, least: least2 = -Infinity, above = -Infinity, most = Infinity, whole = false } = {}) {
   const plain = text.normalize("NFKC").replace(/[−–]/g, "-").replace(/[\u00a0\u2009\u202f]/g, " ").trim();
   const example = { length: unit2 in LENGTHS ? `12.5 or 0.5 in` : "12.5", angle: "30 or 0.5 rad", number: "12.5" }[kind];
   if (!plain) return optional ? { value: void 0 } : { fault: `A number is missing here: write one such as ${example}.` };
@@ -109,6 +109,7 @@ function quantity(text, { kind = "number", unit: unit2 = "", optional = false, l
   const value = factor === 1 ? number : tidy(number * factor);
   if (!(Math.abs(value) <= GREATEST)) return { fault: `${text.trim()} is too large a number.` };
   const shown2 = kind === "angle" ? "°" : kind === "length" && unit2 ? ` ${unit2}` : "";
+  if (whole && !Number.isInteger(value)) return { fault: `This has to be a whole number, such as ${Math.max(1, Math.round(value))}.` };
   if (value < least2) return { fault: `This may not be less than ${least2}${shown2}.` };
   if (value <= above) return { fault: `This must be greater than ${above}${shown2}.` };
   if (value > most) return { fault: `This may not be more than ${most}${shown2}.` };
@@ -1892,6 +1893,100 @@ var Connection = class {
   }
 };
 
+// src/burmester/web/studio/export_settings.mjs
+var LENGTHS2 = [["hole", "holes"], ["pin", "pins"], ["width", "links are wide"], ["thickness", "plates are thick"], ["gap", "gap between plates"]];
+var NUMBERS = [
+  // name, words, what the command takes otherwise, what the value may be
+  ["pose", "drawn at pose", "1", { least: 1, whole: true }],
+  ["density", "density, kg/m³", "2700", { above: 0 }],
+  ["seconds", "film, seconds", "4", { above: 0 }],
+  ["frames_per_second", "pictures a second", "25", { above: 0 }],
+  ["width_px", "pixels wide", "800", { least: 1, whole: true }]
+];
+var AXES = ["y", "x", "z", "-x", "-y", "-z"];
+var UNITS = ["mm", "cm", "m", "in", "ft"];
+var SIGMA = [["position", "position", "length"], ["angle_deg", "angle", "angle"]];
+var section = (name, title, ...content) => h("details", { class: "bs-section", "data-section": name }, h("summary", {}, title), ...content);
+var ExportSettings = class {
+  constructor(store, scene) {
+    this.store = store;
+    const set = (name) => (value) => store.setting(name, value);
+    this.fields = /* @__PURE__ */ new Map();
+    const number = (name, placeholder, options) => {
+      const field = new NumberField({ label: name.replace(/_/g, " "), commit: set(name), options: () => ({ optional: true, unit: store.document.length_unit, ...options }), step: () => options.kind ? scene.step : 1, attributes: { "data-setting": name, placeholder } });
+      this.fields.set(name, field);
+      return field.element;
+    };
+    this.unit = choice("unit of what is exported", UNITS.map((unit2) => [unit2, unit2]), (value) => set("unit")(value === "mm" ? void 0 : value), { "data-setting": "unit" });
+    this.unitRow = labelled("unit of the lengths", this.unit);
+    this.up = choice("up", AXES.map((axis) => [axis, axis]), (value) => set("up")(value === "y" ? void 0 : value), { "data-setting": "up" });
+    this.dimensions = tick("drawings have dimension lines", (on) => set("dimensions")(on ? void 0 : false), { "data-setting": "dimensions" });
+    this.assembled = tick("STL: the parts in their places", (on) => set("assembled")(on || void 0), { "data-setting": "assembled" });
+    const rows = (all, placeholderOf, optionsOf) => all.map((each) => labelled(each[1], number(each[0], placeholderOf(each), optionsOf(each)), " "));
+    this.element = h(
+      "div",
+      {},
+      section(
+        "export",
+        "What is exported",
+        h("p", { class: "bs-hint" }, "Left empty: sizes that suit the linkage."),
+        h("div", { class: "bs-grid" }, this.unitRow, rows(LENGTHS2, () => "–", () => ({ kind: "length", above: 0 })), rows(NUMBERS, (each) => each[2], (each) => each[3]), labelled("up, in models", this.up)),
+        this.dimensions.element,
+        this.assembled.element
+      ),
+      this.makeSigma(scene)
+    );
+    store.on("document", () => this.draw());
+    this.draw();
+  }
+  /** The standard deviations of the poses: both or none. */
+  makeSigma(scene) {
+    const { store } = this;
+    this.wanted = {};
+    this.lack = h("p", { class: "bs-fault", hidden: true }, "Give both: how far positions are off, and how far angles.");
+    this.sigma = SIGMA.map(([key, name, kind]) => {
+      const field = new NumberField({
+        label: `standard deviation of the ${name}`,
+        options: () => ({ kind, unit: store.document.length_unit, optional: true, above: 0 }),
+        step: () => kind === "angle" ? 0.1 : scene.step / 10,
+        commit: (value) => this.setSigma(key, value),
+        attributes: { "data-key": `sigma-${key}`, placeholder: "–" }
+      });
+      return { key, name, field };
+    });
+    return section(
+      "sigma",
+      "How well the poses are known",
+      h("p", { class: "bs-hint" }, "Standard deviations of what was measured. Left empty: as well as their digits say."),
+      h("div", { class: "bs-grid" }, this.sigma.map(({ name, field }) => labelled(`${name} ±`, field.element, name === "angle" ? "°" : " "))),
+      this.lack
+    );
+  }
+  setSigma(key, value) {
+    this.wanted = withKeys({ ...this.store.document.pose_sigma, ...this.wanted }, { [key]: value });
+    const given = Object.keys(this.wanted).length;
+    give(this.lack, "hidden", given !== 1);
+    if (given === 1) return;
+    const pose_sigma = given ? this.wanted : void 0;
+    this.wanted = {};
+    this.store.edit((document2) => withKeys(document2, { pose_sigma }));
+  }
+  draw() {
+    const { settings, document: document2 } = this.store, { pose_sigma } = document2, isOther2 = pose_sigma !== this.shown;
+    for (const [name, field] of this.fields) field.show(settings[name]);
+    give(this.unit, "value", settings.unit ?? "mm");
+    give(this.unitRow, "hidden", Boolean(document2.length_unit) && !settings.unit);
+    give(this.up, "value", settings.up ?? "y");
+    give(this.dimensions.box, "checked", settings.dimensions !== false);
+    give(this.assembled.box, "checked", Boolean(settings.assembled));
+    if (!isOther2) return;
+    this.shown = pose_sigma;
+    this.wanted = {};
+    give(this.lack, "hidden", true);
+    for (const { key, field } of this.sigma) field.show(pose_sigma?.[key]);
+  }
+};
+
 // src/burmester/web/studio/files.mjs
 var DRAWINGS = /\.(svg|dxf)$/i;
 var TASKS = /\.(toml|json)$/i;
@@ -2039,7 +2134,7 @@ var Files = class {
   export(path2, what = {}) {
     return this.trying("Exporting", async () => {
       const linkage = this.store.chosen === "placed" ? null : this.store.chosen;
-      this.hand(await this.server.post(path2, { ...this.task, linkage, ...what }), "export");
+      this.hand(await this.server.post(path2, { ...this.task, linkage, settings: this.store.settings, ...what }), "export");
     });
   }
   async hand(response, otherwise) {
@@ -2048,7 +2143,7 @@ var Files = class {
   }
   commands() {
     return this.trying("Copying", async () => {
-      const { commands } = await (await this.server.post("/command", { ...this.task, linkage: this.store.chosen === "placed" ? null : this.store.chosen })).json();
+      const { commands } = await (await this.server.post("/command", { ...this.task, settings: this.store.settings, linkage: this.store.chosen === "placed" ? null : this.store.chosen })).json();
       const close = button("Close", () => this.dialog.close(), { "data-do": "close" });
       const said = h("p", { class: "bs-hint", role: "status" });
       const copy = async (command) => {
@@ -2178,7 +2273,7 @@ function listenToKeys(store, scene, files) {
 
 // src/burmester/web/studio/pose_table.mjs
 var PAGE = 60;
-var NUMBERS = [["x", "length"], ["y", "length"], ["angle", "angle"]];
+var NUMBERS2 = [["x", "length"], ["y", "length"], ["angle", "angle"]];
 var BOUNDS = [["x", "x", "length"], ["y", "y", "length"], ["angle", "angle_deg", "angle"]];
 var oneLine = (name) => (name ?? "").replace(/[\r\n\u2028\u2029]+/g, " ");
 var PoseTable = class {
@@ -2231,7 +2326,7 @@ var PoseTable = class {
     const change = (changes) => this.store.edit((document2) => setPose(document2, row.index, changes));
     row.number = h("button", { type: "button", class: "bs-index", onclick: () => this.store.select(row.index === this.selected ? null : { kind: "pose", index: row.index }) });
     row.name = textField("Name", (text) => change({ name: text.trim() || void 0 }), { class: "bs-text bs-name", placeholder: "–" });
-    const cells2 = NUMBERS.map(([key, kind]) => {
+    const cells2 = NUMBERS2.map(([key, kind]) => {
       const field = new NumberField({
         label: key,
         options: () => ({ kind, unit: this.store.document.length_unit, optional: this.isFree(row.index, key) }),
@@ -2260,7 +2355,7 @@ var PoseTable = class {
     put(row.number, "aria-pressed", selected);
     if (moved || document.activeElement !== row.name) give(row.name, "value", oneLine(pose.name));
     put(row.name, "aria-label", `Name of pose ${index + 1}`);
-    for (const [key] of NUMBERS) {
+    for (const [key] of NUMBERS2) {
       const { input } = row.fields[key], free = this.isFree(index, key);
       put(input, "aria-label", `${key} of pose ${index + 1}`);
       put(input, "placeholder", free ? "free" : "");
@@ -6455,14 +6550,15 @@ var MOST_FLYING = 1;
 var MOST_SHOWN = 6;
 var PLACED2 = "placed";
 var Store = class {
-  /** @param {{ connection: import("./connection.mjs").Connection, document: object, options?: object, name?: string }} start */
-  constructor({ connection, document: document2, options = {}, name = "task" }) {
+  /** @param {{ connection: import("./connection.mjs").Connection, document: object, options?: object, name?: string, settings?: object }} start */
+  constructor({ connection, document: document2, options = {}, name = "task", settings = {} }) {
     this.connection = connection;
     this.renamed = /* @__PURE__ */ new Map();
     this.moved = /* @__PURE__ */ new Map();
     this.document = document2;
     this.options = options;
     this.name = name;
+    this.settings = settings;
     this.history = new History();
     this.solved = null;
     this.solvedFor = null;
@@ -6522,6 +6618,12 @@ var Store = class {
     this.options = value === void 0 ? rest : { ...rest, [name]: value };
     this.changed();
   }
+  /** An option of `burmester export`; undefined takes it away. */
+  setting(name, value) {
+    this.history.record(this.version, null);
+    this.settings = withKeys(this.settings, { [name]: value });
+    this.emit("document");
+  }
   /** Another name for the task, and for its files. */
   rename(name) {
     this.history.record(this.version, null);
@@ -6529,9 +6631,9 @@ var Store = class {
     this.emit("document");
   }
   /** Another task in place of this one: one entry, too. */
-  replace({ document: document2, options = {}, name = this.name }) {
+  replace({ document: document2, options = {}, name = this.name, settings = this.settings }) {
     this.history.record(this.version, null);
-    Object.assign(this, { document: document2, options, name, selection: null, placed: null });
+    Object.assign(this, { document: document2, options, name, settings, selection: null, placed: null });
     this.changed();
     this.emit("selection", "placed");
   }
@@ -6546,12 +6648,14 @@ var Store = class {
     this.goTo(this.history.abandon(gesture));
   }
   get version() {
-    return { document: this.document, options: this.options, name: this.name };
+    return { document: this.document, options: this.options, name: this.name, settings: this.settings };
   }
   goTo(version) {
     if (!version) return;
+    const isSame = version.document === this.document && version.options === this.options;
     Object.assign(this, version);
-    this.changed();
+    if (isSame) this.emit("document");
+    else this.changed();
   }
   /** After any change: follow it, and solve when the hand rests. */
   changed() {
@@ -6808,8 +6912,8 @@ var DRIVERS = [["any", "either dyad"], ["crank", "one that turns fully"], ["firs
 var METHODS = [["auto", "chosen by the task"], ["complete", "complete: every locally best dyad"], ["pencil", "pencil: the two dyads of the paper"], ["exact", "exact: through five poses"]];
 var PREFERENCES = [["transmission", "transmission"], ["size", "size"], ["accuracy", "accuracy"]];
 var NORMS = [["rms", "the root mean square"], ["worst", "the worst pose"]];
-var UNITS = ["", "mm", "cm", "m", "in", "ft"];
-var section = (name, title, open, ...content) => h("details", { class: "bs-section", "data-section": name, open }, h("summary", {}, title), ...content);
+var UNITS2 = ["", "mm", "cm", "m", "in", "ft"];
+var section2 = (name, title, open, ...content) => h("details", { class: "bs-section", "data-section": name, open }, h("summary", {}, title), ...content);
 var TaskPanel = class {
   constructor(store, scene, regions, body, files) {
     Object.assign(this, { store, scene, regions, body, files });
@@ -6843,7 +6947,7 @@ var TaskPanel = class {
     this.apart = tick("another limit for each of the two dyads", (on) => this.edit((document2) => splitLimits(document2, on)), { "data-key": "limits-apart" });
     this.tables = h("div", {});
     this.madeTables = [];
-    return section("limits", "Limits of pivots and links", false, this.apart.element, this.tables);
+    return section2("limits", "Limits of pivots and links", false, this.apart.element, this.tables);
   }
   makeTable(k) {
     const { store, regions } = this, edit = (changes) => this.edit((document2) => setLimit(document2, k, changes));
@@ -6909,7 +7013,7 @@ var TaskPanel = class {
     this.linkWidth = this.length("width of the links", (value) => this.edit((document2) => setSurrounding(document2, "link_width", value)), { least: 0 }, { "data-key": "link_width", placeholder: "0" });
     this.margin = this.length("least clearance", (value) => this.edit((document2) => setSurrounding(document2, "margin", value)), { least: 0 }, { "data-key": "margin", placeholder: "0" });
     this.inPlane = tick("links that stand on the ground must not touch the body either", (on) => this.edit((document2) => setSurrounding(document2, "body_in_plane", on || void 0)), { "data-key": "body_in_plane" });
-    return section(
+    return section2(
       "keep-out",
       "Regions to keep out of",
       false,
@@ -6966,7 +7070,7 @@ var TaskPanel = class {
     this.bodyCount = h("summary", {});
     this.bodyBox = h("details", {}, this.bodyCount, this.bodyNumbers.element);
     this.noBody = button("Delete the outline", () => this.edit((document2) => setBody(document2, [])), { "data-do": "delete-body" });
-    return section(
+    return section2(
       "body",
       "Outline of the body",
       false,
@@ -6997,7 +7101,7 @@ var TaskPanel = class {
     this.anyOrder = tick("the poses may be met in any order", (on) => set("any_order")(on || void 0), { "data-key": "any_order" });
     this.types = TYPES.map((type) => ({ type, ...tick(type, () => set("types")(typesOf(this.types)), { "data-key": `type-${type}` }) }));
     this.noFootprint = button("Delete", () => set("footprint")(void 0), { "data-do": "delete-footprint", "aria-label": "Delete the footprint" });
-    return section(
+    return section2(
       "requirements",
       "What the linkage must be",
       true,
@@ -7025,13 +7129,13 @@ var TaskPanel = class {
   }
   makeOptions() {
     const { store } = this;
-    this.unit = choice("unit of length", UNITS.map((unit2) => [unit2, unit2 || "not stated"]), (value) => this.edit((document2) => withKeys(document2, { length_unit: value || void 0 })), { "data-key": "length_unit" });
+    this.unit = choice("unit of length", UNITS2.map((unit2) => [unit2, unit2 || "not stated"]), (value) => this.edit((document2) => withKeys(document2, { length_unit: value || void 0 })), { "data-key": "length_unit" });
     this.method = choice("method", METHODS, (value) => store.option("method", value === "auto" ? void 0 : value), { "data-key": "method" });
     this.norm = choice("norm", NORMS, (value) => store.option("norm", value === "rms" ? void 0 : value), { "data-key": "norm" });
     this.prefer = choice("best at", PREFERENCES, (value) => store.option("prefer", value === "transmission" ? void 0 : value), { "data-key": "prefer" });
     this.lengths = ["angle-weight", "tolerance"].map((name) => ({ name, field: this.length(name, (value) => store.option(name, value), { above: 0 }, { "data-key": name, placeholder: "–" }) }));
     const [weight, made2] = this.lengths.map(({ field }) => field.element);
-    return section(
+    return section2(
       "options",
       "Unit and method",
       false,
@@ -7115,7 +7219,7 @@ function layOut(root, store, start) {
     h(
       "main",
       { class: "bs-main" },
-      h("section", { class: "bs-left", "aria-label": "The task" }, h("div", { class: "bm-card" }, h("h2", {}, "Poses"), table3.element), h("div", { class: "bm-card" }, panel2.element)),
+      h("section", { class: "bs-left", "aria-label": "The task" }, h("div", { class: "bm-card" }, h("h2", {}, "Poses"), table3.element), h("div", { class: "bm-card" }, panel2.element, new ExportSettings(store, scene).element)),
       h("section", { class: "bs-stage bm-card", "aria-label": "The plane" }, stageBar(store, scene), scene.element, player),
       results,
       panels

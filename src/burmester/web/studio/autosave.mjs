@@ -23,7 +23,7 @@ export class Autosave {
     if (!this.isOpen) return;
     this.isOpen = false;
     clearTimeout(this.timer);
-    const { document: task, options, name, connection } = this.store, text = { document: task, options, name };
+    const { document: task, options, name, settings, connection } = this.store, text = { document: task, options, name, settings };
     document.documentElement.dataset.kept = "true";
     try {
       sessionStorage.setItem(KEY, JSON.stringify(text));

@@ -172,7 +172,7 @@ export class Files {
   export(path, what = {}) {
     return this.trying("Exporting", async () => {
       const linkage = this.store.chosen === "placed" ? null : this.store.chosen;
-      this.hand(await this.server.post(path, { ...this.task, linkage, ...what }), "export");
+      this.hand(await this.server.post(path, { ...this.task, linkage, settings: this.store.settings, ...what }), "export");
     });
   }
 
@@ -183,7 +183,7 @@ export class Files {
 
   commands() {
     return this.trying("Copying", async () => {
-      const { commands } = await (await this.server.post("/command", { ...this.task, linkage: this.store.chosen === "placed" ? null : this.store.chosen })).json();
+      const { commands } = await (await this.server.post("/command", { ...this.task, settings: this.store.settings, linkage: this.store.chosen === "placed" ? null : this.store.chosen })).json();
       const close = button("Close", () => this.dialog.close(), { "data-do": "close" });
       const said = h("p", { class: "bs-hint", role: "status" });
       const copy = async (command) => {

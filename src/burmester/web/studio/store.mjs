@@ -4,6 +4,7 @@
 // free, so that it never waits for a page that is drawing.  When the hand has
 // rested, the whole road runs.  Every part draws from here and listens for what it draws.
 
+import { withKeys } from "./document.mjs";
 import { History } from "./history.mjs";
 
 const REST = 150; // milliseconds without an edit before the whole road runs
@@ -14,14 +15,15 @@ const PLACED = "placed"; // chosen: the linkage whose pivots were put down by ha
 
 /** Events: document, solved, followed, state, chosen, pinned, placed, improved, selection, messages. */
 export class Store {
-  /** @param {{ connection: import("./connection.mjs").Connection, document: object, options?: object, name?: string }} start */
-  constructor({ connection, document, options = {}, name = "task" }) {
+  /** @param {{ connection: import("./connection.mjs").Connection, document: object, options?: object, name?: string, settings?: object }} start */
+  constructor({ connection, document, options = {}, name = "task", settings = {} }) {
     this.connection = connection;
     this.renamed = new Map(); // of the last whole answer: old id, new id
     this.moved = new Map(); // of it, too: new id, how far the search moved that linkage
     this.document = document;
     this.options = options;
     this.name = name;
+    this.settings = settings; // of exports: options of `burmester export`
     this.history = new History();
     this.solved = null;
     this.solvedFor = null;
@@ -88,6 +90,13 @@ export class Store {
     this.changed();
   }
 
+  /** An option of `burmester export`; undefined takes it away. */
+  setting(name, value) {
+    this.history.record(this.version, null);
+    this.settings = withKeys(this.settings, { [name]: value });
+    this.emit("document");
+  }
+
   /** Another name for the task, and for its files. */
   rename(name) {
     this.history.record(this.version, null);
@@ -96,9 +105,9 @@ export class Store {
   }
 
   /** Another task in place of this one: one entry, too. */
-  replace({ document, options = {}, name = this.name }) {
+  replace({ document, options = {}, name = this.name, settings = this.settings }) {
     this.history.record(this.version, null);
-    Object.assign(this, { document, options, name, selection: null, placed: null });
+    Object.assign(this, { document, options, name, settings, selection: null, placed: null });
     this.changed();
     this.emit("selection", "placed");
   }
@@ -117,13 +126,15 @@ export class Store {
   }
 
   get version() {
-    return { document: this.document, options: this.options, name: this.name };
+    return { document: this.document, options: this.options, name: this.name, settings: this.settings };
   }
 
   goTo(version) {
     if (!version) return;
+    const isSame = version.document === this.document && version.options === this.options;
     Object.assign(this, version);
-    this.changed();
+    if (isSame) this.emit("document"); // another name, or another setting: the answers stay
+    else this.changed();
   }
 
   /** After any change: follow it, and solve when the hand rests. */

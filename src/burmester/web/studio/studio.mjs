@@ -7,6 +7,7 @@ import { Banners } from "./banners.mjs";
 import { BodyEditor } from "./body_editor.mjs";
 import { currentLinkage } from "./conditions.mjs";
 import { Connection, Refused } from "./connection.mjs";
+import { ExportSettings } from "./export_settings.mjs";
 import { button } from "./fields.mjs";
 import { Files } from "./files.mjs";
 import { decodeFrame } from "./frames.mjs";
@@ -42,7 +43,7 @@ function layOut(root, store, start) {
     h("header", { class: "bs-head" }, h("h1", {}, "burmester studio"), name, h("div", { class: "bs-row" }, undo, redo), files.element, banners.status, banners.live),
     banners.element,
     h("main", { class: "bs-main" },
-      h("section", { class: "bs-left", "aria-label": "The task" }, h("div", { class: "bm-card" }, h("h2", {}, "Poses"), table.element), h("div", { class: "bm-card" }, panel.element)),
+      h("section", { class: "bs-left", "aria-label": "The task" }, h("div", { class: "bm-card" }, h("h2", {}, "Poses"), table.element), h("div", { class: "bm-card" }, panel.element, new ExportSettings(store, scene).element)),
       h("section", { class: "bs-stage bm-card", "aria-label": "The plane" }, stageBar(store, scene), scene.element, player),
       results, panels),
   );
