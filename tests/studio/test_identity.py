@@ -67,6 +67,15 @@ def test_how_far_a_search_moved_a_linkage_is_told_in_its_size():
     assert told["moved"] == pytest.approx(0.01 * size(one) / size(near), abs=6e-5)
 
 
+def test_where_it_was_seen_last_counts_for_what_is_told():
+    """It goes on by where it stands, and tells how far that is from what the card said."""
+    found = answer("case:ge2012-exact")
+    one, by = found.linkages[0], np.array([0.01 * scene_of(found), 0.0])
+    seen = replace(elsewhere(one, 5 * by), id="B")
+    told = matched(standing([replace(one, id="B")], {"B": seen}), found)
+    assert told == {one.id: {"id": "B", "moved": pytest.approx(5 * 0.01, rel=0.5)}}
+
+
 def test_a_linkage_with_two_candidates_goes_on_as_neither():
     found = answer("case:ge2012-exact")
     size, one = scene_of(found), found.linkages[0]

@@ -5,7 +5,8 @@ This is the one place where that is decided; the page does what it is told.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import Any, Final
 
 import numpy as np
@@ -25,13 +26,20 @@ SAME: Final = 0.02
 UNTOLD: Final = 1e-3  # of it: a linkage that a search moved by less is where it was
 
 
-def standing(linkages: Sequence[FoundLinkage]) -> list[dict[str, Any]]:
-    """The dyads of linkages, by their ids, as `matched` takes them."""
+def standing(
+    linkages: Sequence[FoundLinkage], seen: Mapping[str, FoundLinkage] = MappingProxyType({})
+) -> list[dict[str, Any]]:
+    """The dyads of linkages, by their ids, as `matched` takes them.
+
+    seen: how some of them were drawn last for the same task, by their ids, where that is not how
+    they are: a hand leaves less time to settle than there is when it rests.
+    """
     return [
         {
             "id": each.id,
             "kinds": [type(found.dyad).__name__ for found in each.dyads],
             "numbers": [_numbers(found.dyad) for found in each.dyads],
+            "seen": [_numbers(found.dyad) for found in seen.get(each.id, each).dyads],
         }
         for each in linkages
     ]
@@ -40,7 +48,7 @@ def standing(linkages: Sequence[FoundLinkage]) -> list[dict[str, Any]]:
 def matched(before: Sequence[dict[str, Any]], synthesis: Synthesis) -> dict[str, dict[str, Any]]:
     """For linkages of a synthesis the "id" that each had before, where it is the same linkage.
 
-    "moved" says how far the search moved it, in its size; 0 for less than can be told.
+    "moved" says how far it is from where it was seen last, in its size; 0 for less than is told.
     before: what `standing` said of the linkages at the same task.  None is taken twice: of several
     that are near each other the nearest pair counts first.  Where another one is about as near,
     neither is surely the one, and none is taken.
@@ -49,13 +57,13 @@ def matched(before: Sequence[dict[str, Any]], synthesis: Synthesis) -> dict[str,
     if not new or not before:
         return {}
     scene = scene_of(synthesis)
-    away = np.minimum(_away(new, before, scene, (0, 1)), _away(new, before, scene, (1, 0)))
+    away, seen = (_away(new, before, scene, key) for key in ("numbers", "seen"))
     out: dict[str, dict[str, Any]] = {}
     while (least := float(away.min())) < SAME:
         i, j = divmod(int(away.argmin()), len(before))
         away[i, j] = np.inf
         if least < UNTOLD or min(away[i].min(), away[:, j].min()) > AS_NEAR * least:
-            moved = round(least, 4) if least >= UNTOLD else 0
+            moved = round(float(seen[i, j]), 4) if seen[i, j] >= UNTOLD else 0
             out[new[i]["id"]] = {"id": before[j]["id"], "moved": moved}
         away[i, :] = away[:, j] = np.inf
     return out
@@ -79,19 +87,20 @@ def _numbers(dyad: Dyad) -> list[float]:
 
 
 def _away(
-    new: Sequence[dict[str, Any]],
-    old: Sequence[dict[str, Any]],
-    scene: float,
-    order: tuple[int, int],
+    new: Sequence[dict[str, Any]], old: Sequence[dict[str, Any]], scene: float, key: str
 ) -> FloatArray:
     """How far new linkages (n,) are from old ones (m,), in their sizes: (n, m).
 
-    order: which dyads of the old ones are compared with the first and the second of the new ones.
+    key: of the numbers of the old ones that count.
     """
-    alike = [[one["kinds"] == [other["kinds"][k] for k in order] for other in old] for one in new]
     unit = np.array([scene, scene, 1, 1, 1, 1, 1])
     one = unit * np.array([each["numbers"] for each in new])
-    other = unit * np.array([each["numbers"] for each in old])[:, order]
-    size = np.maximum(scene, np.abs(other).max(axis=(1, 2)))
-    gap = np.abs(one[:, None] - other).max(axis=(2, 3)) / size
-    return np.where(alike, gap, np.inf)
+    both = unit * np.array([each[key] for each in old])
+    gaps = []
+    for order in ((0, 1), (1, 0)):  # whichever dyad comes first
+        alike = [[a["kinds"] == [b["kinds"][k] for k in order] for b in old] for a in new]
+        other = both[:, order]
+        size = np.maximum(scene, np.abs(other).max(axis=(1, 2)))
+        gap = np.abs(one[:, None] - other).max(axis=(2, 3)) / size
+        gaps.append(np.where(alike, gap, np.inf))
+    return np.minimum(*gaps)

@@ -18,6 +18,7 @@ from burmester.following.followed import Followed
 from burmester.io.reading.outlines.outline_file import OutlineFile, read_outline
 from burmester.io.result import json_line, message_data, synthesis_data
 from burmester.io.saved import read_result
+from burmester.linkages.found_linkage import FoundLinkage
 from burmester.progress import shown
 from burmester.studio.curves import curves
 from burmester.studio.document import (
@@ -68,6 +69,7 @@ class Road:
         self._synthesis: Synthesis | None = None
         self._answers: Synthesis | Followed | None = None
         self._drawn: dict[str, Drawn] = {}
+        self._seen: tuple[Any, dict[str, FoundLinkage]] = None, {}  # drawn last, for a document
         self._reader = TaskReader()
         self._turn = 0
 
@@ -172,6 +174,7 @@ class Road:
     def _begin_at(self, synthesis: Synthesis) -> None:
         """Follow from here."""
         self._synthesis = self._answers = synthesis
+        self._seen = None, {}
         self._drawn = drawn_of(synthesis.problem, synthesis.linkages)
 
     def follow(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
@@ -193,9 +196,17 @@ class Road:
             for each in followed.linkages
             if each.id in shown
         }
+        before = self._drawn
         answer, self._drawn = followed_frame(
-            given["n"], followed, motion, self._drawn, start=head.get("from")
+            given["n"], followed, motion, before, start=head.get("from")
         )
+        now = {key: each.found for key, each in self._drawn.items()}
+        fresh = {
+            key: each
+            for key, each in now.items()
+            if key not in before or before[key].found is not each
+        }
+        self._seen = given.get("document"), fresh
         return {"kind": "frame"}, answer
 
     def _judged(self, shown: Collection[str]) -> Collection[str]:
@@ -225,10 +236,12 @@ class Road:
 
         What cannot be followed there stands where it stood last.
         """
-        found: Synthesis | Followed | str | None = self._followed(task_of(given.get("document")))
+        document = given.get("document")
+        found: Synthesis | Followed | str | None = self._followed(task_of(document))
         if isinstance(found, str):
             found = self._answers
-        return _json([] if found is None else standing(found.linkages))
+        seen = self._seen[1] if self._seen[0] == document else {}
+        return _json([] if found is None else standing(found.linkages, seen))
 
     def match(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """Which linkages of this task are those that stood elsewhere."""

@@ -1,5954 +1,1283 @@
 // Made by scripts/bundle from src/burmester/web/studio: change those files, not this one.
-
-// src/burmester/web/widget/dom.mjs
-var SVG = "http://www.w3.org/2000/svg";
-function furnish(node, attributes, children) {
-  for (const [name, value] of Object.entries(attributes ?? {})) {
-    if (value === null || value === void 0 || value === false) continue;
-    if (name.startsWith("on")) node.addEventListener(name.slice(2), value);
-    else node.setAttribute(name, value === true ? "" : value);
-  }
-  node.append(...children.flat(Infinity).filter((child) => child !== null && child !== void 0));
-  return node;
-}
-var h = (tag, attributes, ...children) => furnish(document.createElement(tag), attributes, children);
-var s = (tag, attributes, ...children) => furnish(document.createElementNS(SVG, tag), attributes, children);
-function put(node, name, value) {
-  const text = String(value);
-  if (node.getAttribute(name) !== text) node.setAttribute(name, text);
-}
-function give(node, name, value) {
-  const next = typeof node[name] === "boolean" ? Boolean(value) : String(value);
-  if (node[name] !== next) node[name] = next;
-}
-function rgb(text) {
-  const hex = text.trim().replace("#", "");
-  return [0, 2, 4].map((k) => parseInt(hex.slice(k, k + 2), 16));
-}
-
-// src/burmester/web/studio/autosave.mjs
-var KEY = "burmester.studio";
-var TAB = "burmester.studio.tab";
-var SOON = 400;
-var Autosave = class {
-  constructor(store) {
-    this.store = store;
-    store.on("document", () => this.soon());
-    store.connection.on("open", () => this.isOpen && this.soon());
-    addEventListener("pagehide", () => this.keep());
-    document.addEventListener("visibilitychange", () => document.visibilityState === "hidden" && this.keep());
-  }
-  soon() {
-    clearTimeout(this.timer);
-    this.isOpen = true;
-    document.documentElement.dataset.kept = "false";
-    this.timer = setTimeout(() => this.keep(), SOON);
-  }
-  keep() {
-    if (!this.isOpen) return;
-    this.isOpen = false;
-    clearTimeout(this.timer);
-    const { document: task, options, name, settings, connection } = this.store, text = { document: task, options, name, settings };
-    document.documentElement.dataset.kept = "true";
-    try {
-      sessionStorage.setItem(KEY, JSON.stringify(text));
-    } catch {
-    }
-    connection.post("/autosave", { ...text, tab: tabName() }, "PUT").catch(() => this.isOpen = true);
-  }
-};
-function tabName() {
-  try {
-    const name = sessionStorage.getItem(TAB) ?? crypto.randomUUID();
-    sessionStorage.setItem(TAB, name);
-    return name;
-  } catch {
-    return "tab";
-  }
-}
-function keptHere() {
-  try {
-    const kept = JSON.parse(sessionStorage.getItem(KEY));
-    return Array.isArray(kept?.document?.poses) ? kept : null;
-  } catch {
-    return null;
-  }
-}
-
-// src/burmester/web/studio/quantities.mjs
-var LENGTHS = {
-  // in metres
-  µm: 1e-6,
-  um: 1e-6,
-  mm: 1e-3,
-  cm: 0.01,
-  m: 1,
-  in: 0.0254,
-  inch: 0.0254,
-  '"': 0.0254,
-  "″": 0.0254,
-  ft: 0.3048,
-  "'": 0.3048,
-  "′": 0.3048
-};
-var ANGLES = { "°": 1, deg: 1, degree: 1, degrees: 1, rad: 180 / Math.PI, mrad: 0.18 / Math.PI };
-var WRITTEN = /^([+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:e[+-]?\d+)?)\s*(.*)$/i;
-var DIGITS = 12;
-var GREATEST = 1e300;
-var tidy = (value) => Number(value.toPrecision(DIGITS));
-var written = (value) => value === void 0 || value === null ? "" : String(value).replace("-", "−").replace("e−", "e-");
-function quantity(text, { kind = "number", unit: unit2 = "", optional = false, least: least2 = -Infinity, above = -Infinity, most = Infinity, whole = false } = {}) {
-  const plain = text.normalize("NFKC").replace(/[−–]/g, "-").replace(/[\u00a0\u2009\u202f]/g, " ").trim();
-  const example = { length: unit2 in LENGTHS ? `12.5 or 0.5 in` : "12.5", angle: "30 or 0.5 rad", number: "12.5" }[kind];
-  if (!plain) return optional ? { value: void 0 } : { fault: `A number is missing here: write one such as ${example}.` };
-  const found = WRITTEN.exec(plain);
-  if (!found) return { fault: `“${text.trim()}” is not a number: write one such as ${example}.` };
-  const number = Number(found[1].replace(",", ".")), name = found[2].trim().replace(/^μm$/, "µm");
-  const factor = factorOf(name, kind, unit2);
-  if (typeof factor === "string") return { fault: factor };
-  const value = factor === 1 ? number : tidy(number * factor);
-  if (!(Math.abs(value) <= GREATEST)) return { fault: `${text.trim()} is too large a number.` };
-  const shown2 = kind === "angle" ? "°" : kind === "length" && unit2 ? ` ${unit2}` : "";
-  if (whole && !Number.isInteger(value)) return { fault: `This has to be a whole number, such as ${Math.max(1, Math.round(value))}.` };
-  if (value < least2) return { fault: `This may not be less than ${least2}${shown2}.` };
-  if (value <= above) return { fault: `This must be greater than ${above}${shown2}.` };
-  if (value > most) return { fault: `This may not be more than ${most}${shown2}.` };
-  return { value };
-}
-function factorOf(name, kind, unit2) {
-  if (!name || kind === "length" && name === unit2) return 1;
-  if (kind === "number") return `“${name}” is not needed here: write the number alone.`;
-  const units = kind === "angle" ? ANGLES : LENGTHS, known = name in units ? name : name.toLowerCase();
-  if (!Object.hasOwn(units, known)) {
-    const usual = kind === "angle" ? "° or rad" : "mm, cm, m, in or ft";
-    return `“${name}” is not a unit of ${kind} known here: write ${usual}, or the number alone.`;
-  }
-  if (kind === "angle") return units[known];
-  if (!Object.hasOwn(LENGTHS, unit2)) return `This task has ${unit2 ? `the unit ${unit2}` : "no unit of length"}: write the number alone.`;
-  return units[known] / LENGTHS[unit2];
-}
-
-// src/burmester/web/studio/fields.mjs
-var made = 0;
-var NumberField = class {
-  constructor({ label, options, commit, step = () => 1, attributes = {} }) {
-    made += 1;
-    this.options = options;
-    this.commit = commit;
-    this.value = void 0;
-    this.drafts = /* @__PURE__ */ new Map();
-    this.fault = h("p", { class: "bs-fault", id: `bs-fault-${made}`, hidden: true });
-    this.input = h("input", {
-      class: "bs-number",
-      type: "text",
-      inputmode: "text",
-      autocomplete: "off",
-      spellcheck: "false",
-      "aria-label": label,
-      ...attributes,
-      onchange: () => this.read(),
-      oninput: () => this.fault.hidden || this.read(),
-      onkeydown: (event) => this.nudge(event, step())
-    });
-    this.element = h("span", { class: "bs-field" }, this.input, this.fault);
-  }
-  /** Show a value of the task; text that could not be read stays. */
-  show(value) {
-    const changed = value !== this.value;
-    this.value = value;
-    if (changed || this.fault.hidden) {
-      const text = written(value);
-      if (this.input.value !== text && !(this.isEdited && !changed)) this.input.value = text;
-      if (changed) this.say(null);
-    }
-  }
-  /** Show the value of another thing; what could not be read waits for its own thing to come back. */
-  turnTo(id, value) {
-    if (id === this.id) return;
-    if (this.fault.hidden) this.drafts.delete(this.id);
-    else this.drafts.set(this.id, this.input.value);
-    const draft = this.drafts.get(id);
-    Object.assign(this, { id, value });
-    this.input.value = draft ?? written(value);
-    this.say(draft === void 0 ? null : quantity(draft, this.options()).fault ?? null);
-  }
-  get isEdited() {
-    return document.activeElement === this.input && this.input.value !== written(this.value);
-  }
-  read() {
-    const { value, fault } = quantity(this.input.value, this.options());
-    this.say(fault ?? null);
-    if (fault) return;
-    const isNew = value !== this.value;
-    this.value = value;
-    if (document.activeElement !== this.input || !isNew) this.input.value = written(value);
-    if (isNew) this.commit(value);
-    this.input.value = written(this.value);
-  }
-  /** The arrow keys: a step, ten with Shift, a tenth with Alt. */
-  nudge(event, step) {
-    if (event.key === "Enter") this.read();
-    const sense = { ArrowUp: 1, ArrowDown: -1 }[event.key];
-    if (!sense || event.ctrlKey || event.metaKey) return;
-    const { value, fault } = quantity(this.input.value, this.options());
-    if (fault || value === void 0) return;
-    event.preventDefault();
-    this.input.value = written(stepped(value, sense * stepOf(event, step)));
-    this.read();
-  }
-  say(sentence2) {
-    give(this.fault, "hidden", sentence2 === null);
-    this.fault.textContent = sentence2 ?? "";
-    if (sentence2 === null) {
-      this.input.removeAttribute("aria-invalid");
-      this.input.removeAttribute("aria-describedby");
-    } else {
-      put(this.input, "aria-invalid", "true");
-      put(this.input, "aria-describedby", this.fault.id);
-    }
-  }
-};
-var stepOf = (event, step) => step * (event.shiftKey ? 10 : event.altKey ? 0.1 : 1);
-var stepped = (value, by) => Number((value + by).toPrecision(12));
-var labelled = (text, control, hint) => h("label", { class: "bs-labelled" }, h("span", { class: "bs-label" }, text), control, hint ? h("span", { class: "bs-hint" }, hint) : null);
-function textField(label, commit, attributes = {}) {
-  return h("input", { class: "bs-text", type: "text", autocomplete: "off", spellcheck: "false", "aria-label": label, ...attributes, onchange: (event) => commit(event.target.value) });
-}
-function tick(text, commit, attributes = {}) {
-  const box = h("input", { type: "checkbox", ...attributes, onchange: (event) => commit(event.target.checked) });
-  return { box, element: h("label", { class: "bs-tick" }, box, " ", text) };
-}
-function choice(label, pairs, commit, attributes = {}) {
-  return h(
-    "select",
-    { class: "bs-choice", "aria-label": label, ...attributes, onchange: (event) => commit(event.target.value) },
-    pairs.map(([value, text]) => h("option", { value }, text))
-  );
-}
-var button = (text, onclick, attributes = {}) => h("button", { type: "button", class: "bm-button", onclick, ...attributes }, text);
-
-// src/burmester/web/studio/banners.mjs
-var ROLES = { refused: "alert", offline: "alert", limit: "alert", expired: "alert" };
-var NO_FILE = "task.json";
-function sentenceOf({ code, message, where, why, help }) {
-  return h(
-    "li",
-    {},
-    code ? h("span", { class: "bm-code" }, code) : null,
-    " ",
-    h("span", {}, message),
-    where && !where.startsWith(NO_FILE) ? h("pre", { class: "bs-where" }, where) : null,
-    why ? h("p", { class: "bs-why" }, `Why: ${why}.`) : null,
-    help ? h("p", { class: "bs-help" }, `What to do: ${help}.`) : null
-  );
-}
-var Banners = class {
-  constructor(store) {
-    this.store = store;
-    this.shown = /* @__PURE__ */ new Map();
-    this.element = h("div", { class: "bs-banners" });
-    this.status = h("p", { class: "bs-status" });
-    this.live = h("p", { class: "bs-unseen", role: "status" });
-    store.on("messages", () => this.messages());
-    store.on("state solved messages", () => this.state());
-  }
-  /** Show a banner of a kind in place of the one before; actions: buttons. */
-  say(kind, title, messages = [], { undo = false, actions = [] } = {}) {
-    const close = button("✕", () => this.close(kind), { "aria-label": "Close", class: "bs-close" });
-    const all = [...actions, ...undo ? [button("Undo", () => (this.close(kind), this.store.undo()))] : []];
-    const banner = h(
-      "section",
-      { class: `bs-banner bs-${kind}`, role: ROLES[kind] ?? "status", "data-banner": kind },
-      h("p", { class: "bs-banner-title" }, title),
-      messages.length ? h("ul", {}, messages.map(sentenceOf)) : null,
-      all.length ? h("div", { class: "bs-row" }, all) : null,
-      kind === "offline" ? null : close
-    );
-    this.shown.get(kind)?.remove();
-    this.shown.set(kind, banner);
-    this.element.append(banner);
-  }
-  close(kind) {
-    this.shown.get(kind)?.remove();
-    this.shown.delete(kind);
-  }
-  /** What the server said of the task, by its kind. */
-  messages() {
-    const { store } = this, { messages } = store, [first] = messages;
-    this.close("limit");
-    this.close("refused");
-    if (!first || store.document.poses.length < 2) return;
-    if (first.tone === "cancelled") this.say("note", "Solving was stopped. What is shown was followed from the answer before.", [], { actions: [this.again()] });
-    else if (first.tone === "limit") this.say("limit", "Solving took too long and was stopped. Nothing is lost: what is shown was followed from the answer before.", messages, { actions: [this.again()] });
-    else this.say("refused", "The task cannot be solved as it is.", messages);
-  }
-  again() {
-    return button("Solve again", () => {
-      this.close("note");
-      this.close("limit");
-      this.store.solve();
-    }, { "data-do": "solve-again" });
-  }
-  state() {
-    const { store } = this, solving = store.state === "solving";
-    if (store.state === "offline") this.offline();
-    else this.close("offline");
-    this.status.dataset.state = store.state;
-    if (store.state === "dragging") return;
-    const said = store.state === "offline" ? "Not connected" : this.summary();
-    this.status.textContent = solving ? `Solving${store.progress ? `: ${store.progress}` : "…"}` : said;
-    if (!solving && said && this.live.textContent !== said) this.live.textContent = said;
-  }
-  summary() {
-    const { solved, solvedFor, document: document2, messages } = this.store;
-    if (document2.poses.length < 2) return "Two poses or more make a task";
-    if (messages.length) return "Not solved";
-    if (!solved || solvedFor !== document2) return "";
-    const count = solved.linkages.length, usable = solved.linkages.filter((each) => each.usable).length;
-    return count ? `${count} linkage${count === 1 ? "" : "s"}, ${usable} usable` : "No linkage";
-  }
-  offline() {
-    if (this.shown.has("offline")) return;
-    this.say("offline", "The server does not answer. Nothing is lost: the task is in this page, and can still be changed and saved.", [], {
-      actions: [
-        button("Save the task (JSON)", () => this.files.saveWithoutServer(), { "data-do": "save-json" }),
-        h("span", { class: "bs-hint" }, "The page tries again by itself. If the server has ended, start burmester studio with that file, or drop the file on the new page.")
-      ]
-    });
-  }
-  /** Another server answers at this address, which asks for its own token. */
-  expired() {
-    this.close("offline");
-    this.say("expired", "The server was started anew. Nothing is lost: open the address that it printed in this tab, and go on here.", [], {
-      actions: [button("Save the task (JSON)", () => this.files.saveWithoutServer())]
-    });
-  }
-};
-
-// src/burmester/web/widget/numbers.mjs
-var clamp = (value, low, high) => Math.min(Math.max(value, low), high);
-var degrees = (angle) => angle * 180 / Math.PI;
-var radians = (angle) => angle * Math.PI / 180;
-var px = (value) => Math.abs(value) < 1e7 ? +value.toFixed(5) : Math.sign(value) * 1e7;
-function fixed(value, digits) {
-  if (value === null || value === void 0 || !Number.isFinite(value)) return "–";
-  const text = value.toFixed(digits);
-  return Number(text) === 0 ? text.replace("-", "") : text;
-}
-function figure(value) {
-  if (value === null || !Number.isFinite(value)) return "–";
-  if (value === 0) return "0";
-  if (Math.abs(value) >= 99.5 && Math.abs(value) < 1e6) return value.toFixed(0);
-  const rounded = value.toExponential(1), [digits, power] = rounded.split("e");
-  if (power >= -4 && power < 2) return String(Number(rounded));
-  if (power > 0) return `${Number(digits)}e${Number(power)}`;
-  return `${Number(digits)}e-${String(-power).padStart(2, "0")}`;
-}
-function ticks(low, high, about) {
-  const rough = (high - low) / Math.max(1, about);
-  const power = 10 ** Math.floor(Math.log10(rough));
-  const step = [1, 2, 5, 10].map((k) => k * power).find((each) => each >= rough * 0.999);
-  const digits = Math.max(0, -Math.floor(Math.log10(step * 1.0001)));
-  const marks = [];
-  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + step * 1e-9; k += 1) {
-    marks.push({ at: k * step, text: fixed(k * step, digits) });
-  }
-  return marks;
-}
-function angleTicks(low, high, about) {
-  const step = [5, 10, 15, 30, 45, 60, 90, 180].find((each) => (high - low) / each <= about) ?? 360;
-  const marks = [];
-  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-6; k += 1) {
-    marks.push({ at: k * step, text: `${fixed(k * step, 0)}°` });
-  }
-  return marks.length > 1 ? marks : ticks(low, high, about).map((t) => ({ ...t, text: `${t.text}°` }));
-}
-function listed(words) {
-  if (words.length < 2) return words.join("");
-  return `${words.slice(0, -1).join(", ")} and ${words[words.length - 1]}`;
-}
-function runs(numbers, names) {
-  const parts = [];
-  for (let k = 0; k < numbers.length; ) {
-    let end = k;
-    while (end + 1 < numbers.length && numbers[end + 1] === numbers[end] + 1) end += 1;
-    if (end - k >= 2) parts.push(`${names[numbers[k] - 1]}–${names[numbers[end] - 1]}`);
-    else for (let i = k; i <= end; i += 1) parts.push(names[numbers[i] - 1]);
-    k = end + 1;
-  }
-  return listed(parts);
-}
-
-// src/burmester/web/widget/kinematics.mjs
-function act(place, [x, y]) {
-  const c = Math.cos(place.a), d = Math.sin(place.a);
-  return [place.x + c * x - d * y, place.y + d * x + c * y];
-}
-function back(place, [x, y]) {
-  const c = Math.cos(place.a), d = Math.sin(place.a);
-  return [c * (x - place.x) + d * (y - place.y), -d * (x - place.x) + c * (y - place.y)];
-}
-var normalOf = (dyad) => {
-  const angle = radians(dyad.line.normal_deg);
-  return [Math.cos(angle), Math.sin(angle)];
-};
-function constraint(dyad, place) {
-  if (dyad.kind === "PP") {
-    const away = place.a - radians(dyad.angle_deg);
-    return [away - 2 * Math.PI * Math.round(away / (2 * Math.PI)), 0, 0, 1];
-  }
-  if (dyad.kind === "RP") {
-    const [nx2, ny2] = normalOf(dyad);
-    const c = Math.cos(place.a), d = Math.sin(place.a);
-    const tx = c * nx2 - d * ny2, ty = d * nx2 + c * ny2;
-    const ax = dyad.fixed_pivot[0] - place.x, ay = dyad.fixed_pivot[1] - place.y;
-    return [tx * ax + ty * ay - dyad.line.offset, -tx, -ty, tx * ay - ty * ax];
-  }
-  const [x, y] = act(place, dyad.moving_pivot);
-  let nx, ny, residual;
-  if (dyad.kind === "RR") {
-    const ax = x - dyad.fixed_pivot[0], ay = y - dyad.fixed_pivot[1];
-    const size2 = Math.hypot(ax, ay) || 1;
-    [nx, ny, residual] = [ax / size2, ay / size2, size2 - dyad.radius];
-  } else {
-    [nx, ny] = normalOf(dyad);
-    residual = nx * x + ny * y - dyad.line.offset;
-  }
-  return [residual, nx, ny, (x - place.x) * ny - (y - place.y) * nx];
-}
-var gradient = (dyad, place) => constraint(dyad, place).slice(1);
-function project(dyads, place, length) {
-  let { x, y, a } = place;
-  for (let step = 0; step < 4; step += 1) {
-    const [f, ...p] = constraint(dyads[0], { x, y, a });
-    const [g, ...q] = constraint(dyads[1], { x, y, a });
-    p[2] /= length;
-    q[2] /= length;
-    const pp = p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
-    const pq = p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
-    const qq = q[0] * q[0] + q[1] * q[1] + q[2] * q[2];
-    const det = pp * qq - pq * pq;
-    if (!(det > 1e-9 * pp * qq)) return { x, y, a };
-    const u = (f * qq - g * pq) / det, v = (g * pp - f * pq) / det;
-    x -= u * p[0] + v * q[0];
-    y -= u * p[1] + v * q[1];
-    a -= (u * p[2] + v * q[2]) / length;
-    if (Math.abs(f) + Math.abs(g) < 1e-14 * length) break;
-  }
-  return { x, y, a };
-}
-function catmullRom(values, i, share, round) {
-  const last = values.length - 1;
-  const at = (k) => {
-    if (k >= 0 && k <= last) return values[k];
-    if (!round) return k < 0 ? 2 * values[0] - values[-k] : 2 * values[last] - values[2 * last - k];
-    const wrap = k < 0 ? k + last : k - last;
-    return values[wrap] + (k < 0 ? -1 : 1) * (values[last] - values[0]);
-  };
-  const [p, q, r, t] = [at(i - 1), at(i), at(i + 1), at(i + 2)];
-  return q + share / 2 * (r - p + share * (2 * p - 5 * q + 4 * r - t + share * (3 * (q - r) + t - p)));
-}
-function placeAt(linkage, way, u, length) {
-  const stop = linkage.pose_errors.find((row) => row.at === way && Math.abs(row.frame - u) < 1e-6);
-  if (stop) return { x: stop.x, y: stop.y, a: radians(stop.angle_deg) };
-  const i = clamp(Math.floor(u), 0, way.x.length - 2), share = u - i;
-  const place = {
-    x: catmullRom(way.x, i, share, way.round),
-    y: catmullRom(way.y, i, share, way.round),
-    a: catmullRom(way.angle, i, share, way.round)
-  };
-  return project(linkage.led, place, length);
-}
-function linear(values, u) {
-  const i = clamp(Math.floor(u), 0, values.length - 2), share = u - i;
-  if (values[i] === null || values[i + 1] === null) return null;
-  const value = values[i] + share * (values[i + 1] - values[i]);
-  return Number.isNaN(value) ? null : value;
-}
-function frameAt(values, wanted) {
-  let low = 0, high = values.length - 1;
-  if (wanted <= values[low]) return low;
-  if (wanted >= values[high]) return high;
-  while (high - low > 1) {
-    const middle2 = low + high >> 1;
-    if (values[middle2] <= wanted) low = middle2;
-    else high = middle2;
-  }
-  const step = values[high] - values[low];
-  return low + (step > 0 ? (wanted - values[low]) / step : 0);
-}
-
-// src/burmester/web/widget/travel.mjs
-var LONGEST_STEP = 0.015;
-var MOST_BETWEEN = 40;
-function placesOf(data, linkage, way, { low, high }) {
-  const at = (u) => Number.isInteger(u) ? { x: way.x[u], y: way.y[u], a: way.angle[u] } : placeAt(linkage, way, u, data.chart.length);
-  const places = [at(low)];
-  let before = low;
-  const goTo = (u) => {
-    const next = at(u), last = places[places.length - 1];
-    const count = Math.min(MOST_BETWEEN, Math.floor(Math.hypot(next.x - last.x, next.y - last.y) / (LONGEST_STEP * data.scene)));
-    for (let k = 1; k <= count; k += 1) places.push(at(before + k / (count + 1) * (u - before)));
-    places.push(next);
-    before = u;
-  };
-  for (let k = Math.floor(low) + 1; k < high; k += 1) goTo(k);
-  goTo(high);
-  return places;
-}
-function alongLine(dyad, place) {
-  const [nx, ny] = normalOf(dyad);
-  const [x, y] = dyad.kind === "PR" ? act(place, dyad.moving_pivot) : back(place, dyad.fixed_pivot);
-  return nx * y - ny * x;
-}
-function travelOf(dyad, places) {
-  const along = places.map((place) => alongLine(dyad, place));
-  return [along.reduce((a, b) => Math.min(a, b)), along.reduce((a, b) => Math.max(a, b))];
-}
-function pointOnLine(dyad, along) {
-  const [nx, ny] = normalOf(dyad), { offset } = dyad.line;
-  return [offset * nx - along * ny, offset * ny + along * nx];
-}
-
-// src/burmester/web/widget/drawing.mjs
-var AXIS = 26;
-var BLOCK = [22, 14];
-var WIDEST = 4;
-function farFrom(data) {
-  const [x, y] = ["x", "y"].map((k) => {
-    const [low, high] = data.poses.reduce(([a, b], pose) => [Math.min(a, pose[k]), Math.max(b, pose[k])], [Infinity, -Infinity]);
-    return (low + high) / 2;
-  });
-  return (point2) => !(Math.hypot(point2[0] - x, point2[1] - y) < WIDEST * data.scene);
-}
-function pivotsAt(linkage, places) {
-  const found = [];
-  for (const dyad of linkage.led) {
-    if (dyad.fixed_pivot) found.push({ dyad, fixed: true, at: dyad.fixed_pivot });
-    const own = dyad.moving_pivot ? [dyad.moving_pivot] : dyad.kind === "RP" && places.length ? travelOf(dyad, places).map((end) => pointOnLine(dyad, end)) : [];
-    for (const point2 of own) for (const place of places) found.push({ dyad, fixed: false, at: act(place, point2) });
-  }
-  return found;
-}
-function boundsOf(data, linkage, places, far) {
-  const isFar = farFrom(data), box = [Infinity, Infinity, -Infinity, -Infinity];
-  const include = ([x, y]) => {
-    if (!Number.isFinite(x + y) || !far && isFar([x, y])) return;
-    box[0] = Math.min(box[0], x);
-    box[1] = Math.min(box[1], y);
-    box[2] = Math.max(box[2], x);
-    box[3] = Math.max(box[3], y);
-  };
-  for (const pose of data.poses) include([pose.x, pose.y]);
-  if (linkage) {
-    for (const row of linkage.pose_errors) if (row.x !== null) include([row.x, row.y]);
-    for (const place of places) include([place.x, place.y]);
-    for (const { at } of pivotsAt(linkage, places)) include(at);
-  }
-  const least2 = 0.25 * data.scene;
-  for (const k of [0, 1]) {
-    const lack = least2 - (box[k + 2] - box[k]);
-    if (lack > 0) {
-      box[k] -= lack / 2;
-      box[k + 2] += lack / 2;
-    }
-  }
-  return box;
-}
-function viewOf(box, width, height, margin) {
-  const scale = Math.min(
-    (width - 2 * margin) / (box[2] - box[0]),
-    (height - 2 * margin) / (box[3] - box[1])
-  );
-  const left = width / 2 - scale * (box[0] + box[2]) / 2;
-  const top = height / 2 + scale * (box[1] + box[3]) / 2;
-  return { scale, left, top, width, height, X: (x) => left + scale * x, Y: (y) => top - scale * y };
-}
-var transform = (x, y, angle) => `translate(${px(x)} ${px(y)}) rotate(${px(degrees(-angle))})`;
-function foot() {
-  let hatch = "";
-  for (let k = -2; k <= 2; k += 1) hatch += `M${5.5 * k + 3} 16l-6 7`;
-  return s(
-    "g",
-    { class: "bm-foot" },
-    s("path", { class: "bm-solid", d: "M0 0L-10 16H10Z" }),
-    s("path", { class: "bm-ground", d: `M-16 16H16${hatch}` })
-  );
-}
-function axes(length) {
-  const l = length, head = Math.max(4, 0.22 * length);
-  return `M0 0H${l}m${-head} ${-head / 2}l${head} ${head / 2}l${-head} ${head / 2}M0 0V${-0.6 * l}`;
-}
-function polyline(points, view) {
-  let path2 = "", pen = "M";
-  for (const [x, y] of points) {
-    if (!Number.isFinite(x) || !Number.isFinite(y)) {
-      pen = "M";
-      continue;
-    }
-    path2 += `${pen}${px(view.X(x))} ${px(view.Y(y))}`;
-    pen = "L";
-  }
-  return path2;
-}
-function hull(points) {
-  const sorted = [...points].sort((p, q) => p[0] - q[0] || p[1] - q[1]);
-  const half = (list) => {
-    const kept = [];
-    for (const point2 of list) {
-      while (kept.length > 1) {
-        const [a, b] = kept.slice(-2);
-        if ((b[0] - a[0]) * (point2[1] - a[1]) - (b[1] - a[1]) * (point2[0] - a[0]) > 0) break;
-        kept.pop();
-      }
-      kept.push(point2);
-    }
-    return kept.slice(0, -1);
-  };
-  const corners = [...half(sorted), ...half(sorted.reverse())];
-  return corners.length ? corners : sorted.slice(0, 1);
-}
-
-// src/burmester/web/studio/document.mjs
-function withKeys(object, changes) {
-  const copy = { ...object, ...changes };
-  for (const [key, value] of Object.entries(changes)) if (value === void 0) delete copy[key];
-  return copy;
-}
-var replaced = (list, index, value) => list.map((each, k) => k === index ? value : each);
-var without = (list, index) => list.filter((_, k) => k !== index);
-var inserted = (list, index, value) => [...list.slice(0, index), value, ...list.slice(index)];
-var withList = (document2, key, list) => withKeys(document2, { [key]: list.length ? list : void 0 });
-var filled = (table3) => Object.keys(table3).length ? table3 : void 0;
-var setPose = (document2, index, changes) => withKeys(document2, { poses: replaced(document2.poses, index, withKeys(document2.poses[index], changes)) });
-var addPose = (document2, pose, index = document2.poses.length) => withKeys(document2, { poses: inserted(document2.poses, index, pose) });
-var removePose = (document2, index) => withKeys(document2, { poses: without(document2.poses, index) });
-var duplicatePose = (document2, index) => addPose(document2, withKeys(document2.poses[index], { name: void 0 }), index + 1);
-function movePose(document2, from, to) {
-  const poses = without(document2.poses, from);
-  return withKeys(document2, { poses: inserted(poses, to, document2.poses[from]) });
-}
-function setFree(document2, index, component2, free) {
-  const pose = document2.poses[index], others = (pose.free ?? []).filter((each) => each !== component2);
-  const list = free ? [...others, component2] : others;
-  const { [component2]: bound, ...bounds2 } = pose.tolerance ?? {};
-  return setPose(document2, index, { free: list.length ? list : void 0, tolerance: free ? filled(bounds2) : pose.tolerance });
-}
-var setTolerance = (document2, index, key, bound) => setPose(document2, index, { tolerance: filled(withKeys(document2.poses[index].tolerance ?? {}, { [key]: bound })) });
-var setBody = (document2, corners) => withList(document2, "body", corners);
-var bodyOf = (document2) => Array.isArray(document2.body) ? document2.body : [];
-var regionsOf = (document2) => document2.keep_out === void 0 ? [] : [document2.keep_out].flat();
-var addRegion = (document2, region) => withList(document2, "keep_out", [...regionsOf(document2), region]);
-var setRegion = (document2, index, changes) => withList(document2, "keep_out", replaced(regionsOf(document2), index, withKeys(regionsOf(document2)[index], changes)));
-var removeRegion = (document2, index) => withList(document2, "keep_out", without(regionsOf(document2), index));
-var setSurrounding = (document2, key, value) => withKeys(document2, { surroundings: filled(withKeys(document2.surroundings ?? {}, { [key]: value })) });
-var limitsOf = (document2) => document2.limits === void 0 ? [] : [document2.limits].flat();
-function setLimit(document2, index, changes) {
-  const tables = limitsOf(document2), changed = withKeys(tables[index] ?? {}, changes);
-  const all = index < tables.length ? replaced(tables, index, changed) : [...tables, changed];
-  const kept = all.length > 1 || filled(changed) ? all : [];
-  return withKeys(document2, { limits: kept.length > 1 ? kept : kept[0] });
-}
-function splitLimits(document2, apart) {
-  const tables = limitsOf(document2);
-  if (!apart) return withKeys(document2, { limits: tables[0] && filled(tables[0]) });
-  return tables.length > 1 ? document2 : withKeys(document2, { limits: [tables[0] ?? {}, tables[0] ?? {}] });
-}
-var limitRegions = (document2) => limitsOf(document2).flatMap(
-  (table3, index) => ["fixed_pivot", "moving_pivot"].filter((key) => table3[key]).map((key) => {
-    const [[shape, points]] = Object.entries(table3[key]);
-    return { table: index, key, shape, points: shape === "point" ? [points] : points };
-  })
-);
-var shapeOf = (shape, points) => ({ [shape]: shape === "point" ? points[0] : points });
-var setRequirement = (document2, key, value) => withKeys(document2, { requirements: filled(withKeys(document2.requirements ?? {}, { [key]: value })) });
-function component(poses, index, key) {
-  if (Number.isFinite(poses[index][key])) return poses[index][key];
-  const before = poses.slice(0, index).findLastIndex((pose) => Number.isFinite(pose[key]));
-  const behind = poses.slice(index + 1).findIndex((pose) => Number.isFinite(pose[key])) + index + 1;
-  const [a, b] = [poses[before]?.[key], behind > index ? poses[behind][key] : void 0];
-  if (a === void 0 || b === void 0) return a ?? b ?? 0;
-  return a + (index - before) / (behind - before) * (b - a);
-}
-function standing({ poses }, index) {
-  const { x, y, angle } = poses[index];
-  if (Number.isFinite(x) && Number.isFinite(y) && Number.isFinite(angle)) return { x, y, angle };
-  return { x: component(poses, index, "x"), y: component(poses, index, "y"), angle: component(poses, index, "angle") };
-}
-var poseName = ({ poses }, index) => poses[index]?.name ?? String(index + 1);
-var statedOf = (pose, changes) => Object.fromEntries(Object.entries(changes).filter(([key]) => Number.isFinite(pose[key])));
-
-// src/burmester/web/studio/pacing.mjs
-var LEAST = 120;
-var SHARE = 8;
-var Pace = class {
-  /** @param {() => void} work @param {() => boolean} [wanted] asked before the work; what is not wanted is not done */
-  constructor(work, wanted = () => true) {
-    this.work = work;
-    this.wanted = wanted;
-    this.free = 0;
-    this.timer = null;
-    paces.add(this);
-  }
-  ask() {
-    if (this.timer !== null || !this.wanted()) return;
-    this.timer = setTimeout(() => this.now(), Math.max(0, this.free - performance.now()));
-  }
-  /** Do at once what was asked for. */
-  catchUp() {
-    if (this.timer !== null) this.now();
-  }
-  now() {
-    clearTimeout(this.timer);
-    this.timer = null;
-    const start = performance.now();
-    this.work();
-    const end = performance.now();
-    this.free = end + Math.max(LEAST, SHARE * (end - start));
-  }
-};
-var shown = /* @__PURE__ */ new WeakMap();
-function isOther(element, facts) {
-  const before = shown.get(element);
-  shown.set(element, facts);
-  return before?.length !== facts.length || facts.some((fact, k) => !Object.is(fact, before[k]));
-}
-var sights = /* @__PURE__ */ new WeakMap();
-var callers = /* @__PURE__ */ new WeakMap();
-var observer = null;
-function watch(element, fn) {
-  observer ??= new IntersectionObserver((entries) => {
-    for (const { target, isIntersecting } of entries) {
-      sights.set(target, isIntersecting);
-      if (isIntersecting) callers.get(target)();
-    }
-  });
-  callers.set(element, fn);
-  observer.observe(element);
-}
-var isSeen = (element) => printing || sights.get(element) === true;
-var paces = /* @__PURE__ */ new Set();
-var printing = false;
-function catchUpForPrint() {
-  addEventListener("beforeprint", () => {
-    printing = true;
-    for (const pace of paces) if (pace.wanted()) pace.now();
-  });
-  addEventListener("afterprint", () => printing = false);
-}
-
-// src/burmester/web/widget/tables.mjs
-var NONE = "–";
-function table(caption, heads, rows, attributes) {
-  return h(
-    "div",
-    { class: "bm-scroll", tabindex: "0", role: "region", "aria-label": caption },
-    h(
-      "table",
-      attributes,
-      h("caption", {}, caption),
-      h("thead", {}, h("tr", {}, heads.map((head) => h("th", { scope: "col", class: head.text ? "bm-words" : null }, head.name ?? head)))),
-      h("tbody", {}, rows)
-    )
-  );
-}
-var cells = (values, words = [], heads = []) => values.map(
-  (value, k) => k === 0 ? h("th", { scope: "row" }, value) : h("td", { class: classes(words.includes(k) && "bm-words", (value ?? NONE) === NONE && "bm-none"), "data-head": heads[k]?.name ?? heads[k] }, value ?? NONE)
-);
-var classes = (...names) => names.filter(Boolean).join(" ") || null;
-var unitOf = (data) => data.unit ? ` (${data.unit})` : "";
-var decimalsOf = (data) => clamp(4 - Math.ceil(Math.log10(data.scene)), 0, 12);
-var poseName2 = (pose) => pose.label === pose.name ? pose.name : `${pose.label}: ${pose.name}`;
-var shortened = (text, most) => text.length > most ? `${text.slice(0, most - 1).trimEnd()}…` : text;
-function missOf(position, angle, unit2) {
-  if (position === "exact" && angle === "exact") return "exact";
-  if (position === "-") return "–";
-  return `${position}${position === "exact" ? "" : unit2} and ${angle}`;
-}
-function verdictOf(linkage) {
-  return linkage.usable ? "✓ usable" : "✕ not usable";
-}
-function dyadTable(data) {
-  const heads = ["", { name: "kind", text: true }, "on the ground (F)", "on the body (M)", `length${unitOf(data)}`, "rms miss", "worst miss"];
-  const rows = data.dyads.map(
-    (dyad) => h("tr", {}, cells([dyad.id, dyad.kind, dyad.said.ground, dyad.said.body, dyad.said.length, dyad.said.rms, dyad.said.worst], [1], heads))
-  );
-  return table(data.dyads_title, heads, rows, { class: "bm-stacks" });
-}
-function linkageTable(data) {
-  const names = ["ground", "driver", "coupler", "follower"];
-  const heads = [
-    "",
-    { name: "verdict", text: true },
-    { name: "type", text: true },
-    { name: "dyads", text: true },
-    { name: "driver", text: true },
-    ...names.map((name) => `${name} link`),
-    "worst miss",
-    "worst angle",
-    "least transm.",
-    "extent",
-    "sens.",
-    { name: "why not", text: true }
-  ];
-  const rows = data.linkages.map(
-    (each) => h(
-      "tr",
-      {},
-      cells(
-        [
-          each.id,
-          verdictOf(each),
-          each.type,
-          each.dyads.map((dyad) => dyad.id).join(" "),
-          each.led[0].id,
-          ...names.map((name) => each.said.links?.[name] ?? "–"),
-          each.said.worst,
-          each.said.angle,
-          each.said.transmission,
-          each.said.quality.extent?.split(" ")[0] ?? "–",
-          each.said.quality.sensitivity ?? "–",
-          each.said.reasons.join("; ") || "–"
-        ],
-        [1, 2, 3, 4, 14],
-        heads
-      )
-    )
-  );
-  return table(`All linkages${unitOf(data)}`, heads, rows, { class: "bm-linkages bm-stacks" });
-}
-function dimensionRows(linkage) {
-  const uncertain = linkage.said.dimensions.some((row) => row.give);
-  let last = null;
-  return linkage.said.dimensions.map((row) => {
-    const name = row.dyad === last ? "" : row.dyad;
-    last = row.dyad;
-    const side = linkage.led.findIndex((dyad) => dyad.id === row.dyad);
-    return h(
-      "tr",
-      {},
-      h("th", { scope: "row", class: name ? `bm-side${side}` : null }, name),
-      h("td", { class: "bm-words" }, row.what),
-      h("td", {}, row.value),
-      uncertain ? h("td", {}, row.give) : null
-    );
-  });
-}
-function dimensionTable(data, linkage) {
-  return table(
-    `Dimensions of ${linkage.id}${data.unit ? `, in ${data.unit}` : ""}`,
-    ["", { name: "", text: true }, "value", ...linkage.said.dimensions.some((row) => row.give) ? ["± (95 %)"] : []],
-    dimensionRows(linkage),
-    { class: "bm-dimensions" }
-  );
-}
-function poseTable(data, linkage) {
-  const digits = decimalsOf(data), unit2 = unitOf(data);
-  const heads = ["pose", `wanted x`, `y${unit2}`, "angle"];
-  if (linkage) heads.push("coupler x", `y${unit2}`, "angle", "off by", "turned by", "transm.", { name: "where", text: true });
-  const rows = data.poses.map((pose, k) => {
-    const values = [
-      poseName2(pose) + (pose.exact ? " (exact)" : ""),
-      fixed(pose.x, digits),
-      fixed(pose.y, digits),
-      `${fixed(pose.angle_deg, 2)}°`
-    ];
-    if (linkage) {
-      const row = linkage.pose_errors[k];
-      values.push(
-        fixed(row.x, digits),
-        fixed(row.y, digits),
-        row.angle_deg === null ? "–" : `${fixed(row.angle_deg, 2)}°`,
-        row.said.position,
-        row.said.turned,
-        row.said.transmission,
-        row.way === null ? "–" : wayName(linkage.ways[row.way], linkage)
-      );
-    }
-    return h("tr", { "data-pose": k + 1 }, cells(values, [10]));
-  });
-  return table(linkage ? `Poses, and where ${linkage.id} takes the body` : "Poses", heads, rows, { class: data.poses.some((pose) => pose.label !== pose.name) ? "bm-pose-table bm-named" : "bm-pose-table" });
-}
-function imageTables(data, linkage) {
-  const digits = decimalsOf(data);
-  const rows = data.poses.map((pose) => {
-    const c = Math.cos(pose.angle_deg * Math.PI / 360), d = Math.sin(pose.angle_deg * Math.PI / 360);
-    const z = [(pose.x * d - pose.y * c) / 2, (pose.x * c + pose.y * d) / 2, d, c];
-    return h("tr", {}, cells([pose.label, ...z.map((value, k) => fixed(value, k < 2 ? digits : 5))]));
-  });
-  const points = table(`Image points of the poses${unitOf(data)}, Z3² + Z4² = 1`, ["pose", "Z1", "Z2", "Z3", "Z4"], rows);
-  if (!linkage) return [points];
-  const surfaces = linkage.led.map((dyad, k) => h("tr", {}, cells([dyad.id, ...linkage.said.manifolds[k]])));
-  const heads = ["", ...[1, 2, 3, 4, 5, 6, 7, 8].map((k) => `p${k}`)];
-  const caption = "Surfaces: p1 (Z1² + Z2²) + p2 Z3² + p3 Z1 Z3 + p4 Z2 Z3 + p5 Z1 Z4 + p6 Z2 Z4 + p7 Z3 Z4 + p8 Z4² = 0";
-  return [points, table(caption, heads, surfaces)];
-}
-function wayName(way, linkage) {
-  const circuits = new Set(linkage.ways.map((each) => each.circuit)).size;
-  const parts = [];
-  if (circuits > 1 || way.branches < 2) parts.push(`assembly ${way.circuit}`);
-  if (way.branches > 1) parts.push(`branch ${way.branch}`);
-  return parts.join(", ");
-}
-
-// src/burmester/web/studio/scene.mjs
-var LAYERS = ["grid", "regions", "ghosts", "map", "curves", "paths", "mechanism", "limits", "pivots", "poses", "labels", "tool"];
-var MARGIN = 46;
-var ZOOM = 1.0018;
-var WIDEST2 = 1e6;
-var CLICK = 4;
-var SPARE = 0.5;
-var Scene = class {
-  constructor(store) {
-    this.store = store;
-    this.listeners = { view: [], click: [], tool: [], dropped: [] };
-    this.tool = null;
-    this.dragged = null;
-    this.layers = new Map(LAYERS.map((name) => [name, s("g", { class: `bs-layer bs-layer-${name}` })]));
-    this.layers.get("grid").setAttribute("aria-hidden", "true");
-    this.svg = s("svg", { class: "bs-scene", tabindex: 0, role: "group", "aria-label": "The plane: poses, linkage and limits. Arrow keys pan, plus and minus zoom, 0 fits." }, ...this.layers.values());
-    this.element = h("div", { class: "bs-plane" }, this.svg);
-    this.size = { width: 640, height: 480 };
-    this.origin = { scale: 1, left: 320, top: 240 };
-    this.isFitted = true;
-    this.pointers = /* @__PURE__ */ new Map();
-    this.boxes = [];
-    this.update();
-    this.listen();
-    store.on("document", () => this.unit === store.document.length_unit || this.grid());
-    new ResizeObserver(() => this.resize()).observe(this.element);
-  }
-  layer(name) {
-    return this.layers.get(name);
-  }
-  /** "view": after it changes; "click": on the empty plane, with a point and the event; "tool": another tool, or none; "dropped": a hand let go. */
-  on(name, fn) {
-    this.listeners[name].push(fn);
-  }
-  emit(name, ...values) {
-    return this.listeners[name].map((fn) => fn(...values)).some(Boolean);
-  }
-  /** `fn` returns points of F that a fit has to hold; far: as far as they leave room for handles. */
-  hold(fn, far = false) {
-    this.boxes.push({ fn, far });
-  }
-  // The view
-  update() {
-    const { width, height } = this.size, { scale, left, top } = this.origin;
-    this.view = {
-      scale,
-      left,
-      top,
-      width,
-      height,
-      X: (x) => left + scale * x,
-      Y: (y) => top - scale * y,
-      x: (X) => (X - left) / scale,
-      y: (Y) => (top - Y) / scale
-    };
-    Object.assign(this.svg.dataset, { scale, left, top, fit: this.isFitted ? this.isWhole ? "all" : "near" : "" });
-    this.grid();
-    this.emit("view", this.view);
-  }
-  resize() {
-    const { width, height } = this.svg.getBoundingClientRect();
-    if (!width || !height || width === this.size.width && height === this.size.height) return;
-    this.origin = { ...this.origin, left: this.origin.left + (width - this.size.width) / 2, top: this.origin.top + (height - this.size.height) / 2 };
-    this.size = { width, height };
-    put(this.svg, "viewBox", `0 0 ${width} ${height}`);
-    if (this.isFitted) this.fit(this.isWhole);
-    else this.update();
-  }
-  pan(dx, dy) {
-    this.isFitted = false;
-    this.origin = { ...this.origin, left: this.origin.left + dx, top: this.origin.top + dy };
-    this.update();
-  }
-  /** Zoom about a point in pixels, which stays where it is. */
-  zoom(factor, X, Y) {
-    const fitted = this.fittedScale ?? this.origin.scale;
-    const scale = clamp(this.origin.scale * factor, fitted / WIDEST2, fitted * WIDEST2), by = scale / this.origin.scale;
-    this.isFitted = false;
-    this.origin = { scale, left: X + by * (this.origin.left - X), top: Y + by * (this.origin.top - Y) };
-    this.update();
-  }
-  /** Show what is held; what is far as well where all of it is wanted. */
-  fit(whole = false) {
-    const pointsOf = (isFar) => this.boxes.filter(({ far: far2 }) => far2 === isFar).flatMap(({ fn }) => fn());
-    const near2 = pointsOf(false), far = pointsOf(true), all = bounds([...near2, ...far]);
-    let [x, y, u, v] = near2.length && !whole ? bounds(near2) : Number.isFinite(all[0]) ? all : [-50, -50, 50, 50];
-    const size2 = Math.max(u - x, v - y) || Math.max(1, Math.abs(u), Math.abs(v));
-    if (near2.length && far.length && !whole) {
-      const reach = SPARE * size2;
-      [x, y, u, v] = [Math.max(all[0], x - reach), Math.max(all[1], y - reach), Math.min(all[2], u + reach), Math.min(all[3], v + reach)];
-    }
-    this.isWhole = whole;
-    const { width, height } = this.size, margin = Math.min(MARGIN, width / 8);
-    const scale = Math.min((width - 2 * margin) / Math.max(u - x, 0.1 * size2), (height - 2 * margin) / Math.max(v - y, 0.1 * size2));
-    this.fittedScale = scale;
-    this.origin = { scale, left: width / 2 - scale * (x + u) / 2, top: height / 2 + scale * (y + v) / 2 };
-    this.isFitted = true;
-    this.update();
-  }
-  /** Fit; and where that is done already, all or not all. */
-  fitAgain() {
-    this.fit(this.isFitted && !this.isWhole);
-  }
-  grid() {
-    const { view } = this, { width, height } = view, group = this.layer("grid");
-    const name = this.unit = this.store.document.length_unit, unit2 = name ? ` ${name}` : "";
-    const across = ticks(view.x(0), view.x(width), width / 110), up = ticks(view.y(height), view.y(0), height / 80);
-    const lines = [...across.map(({ at }) => `M${px(view.X(at))} 0V${height}`), ...up.map(({ at }) => `M0 ${px(view.Y(at))}H${width}`)];
-    const origin = `M${px(clamp(view.X(0), -9, width + 9))} 0V${height}M0 ${px(clamp(view.Y(0), -9, height + 9))}H${width}`;
-    group.replaceChildren(
-      s("path", { class: "bs-grid-line", d: lines.join("") }),
-      s("path", { class: "bs-grid-axis", d: origin }),
-      ...across.filter(({ at }) => view.X(at) > 46 && view.X(at) < width - (unit2 ? 54 : 30)).map(({ at, text }) => s("text", { x: px(view.X(at)), y: height - 6, "text-anchor": "middle" }, text)),
-      ...up.filter(({ at }) => view.Y(at) > 30 && view.Y(at) < height - 24).map(({ at, text }) => s("text", { x: 6, y: px(view.Y(at) - 4) }, text)),
-      s("text", { x: 6, y: 14 }, `y${unit2}`),
-      s("text", { x: width - 6, y: height - 6, "text-anchor": "end" }, `x${unit2}`)
-    );
-  }
-  /** The finest number that a pixel tells, a power of ten. */
-  get grain() {
-    return 10 ** Math.floor(Math.log10(0.35 / this.view.scale));
-  }
-  /** A length as a hand sets it: to a fraction of a pixel. */
-  rounded(value) {
-    const { grain } = this, digits = clamp(-Math.round(Math.log10(grain)), 0, 12);
-    return Number((Math.round(value / grain) * grain).toFixed(digits)) + 0;
-  }
-  /** A step of the arrow keys: a power of ten, about a hundredth of what the poses span. */
-  get step() {
-    const [x, y, u, v] = bounds(this.store.document.poses.map((pose) => [pose.x ?? 0, pose.y ?? 0]));
-    const span = Math.hypot(u - x, v - y);
-    return Number.isFinite(span) && span > 0 ? 10 ** Math.floor(Math.log10(span / 50)) : 1;
-  }
-  // Gestures
-  /** The point of an event: in F, and in pixels of the picture. */
-  at(event) {
-    if (!this.box) {
-      this.box = this.svg.getBoundingClientRect();
-      requestAnimationFrame(() => this.box = null);
-    }
-    const { left, top } = this.box, X = event.clientX - left, Y = event.clientY - top;
-    return { X, Y, x: this.view.x(X), y: this.view.y(Y) };
-  }
-  /** Drag an element: start(point, event) may return false; move(point, event); end(point); cancel() at Escape.
-   *
-   * A press that does not move is a click: click(event), and nothing is dragged.
-   */
-  drag(element, { start = () => true, move, end = () => {
-  }, cancel = () => {
-  }, click = () => {
-  } }) {
-    element.addEventListener("pointerdown", (event) => {
-      if (event.button !== 0 || this.tool || this.dragged) return;
-      event.preventDefault();
-      event.stopPropagation();
-      element.focus?.({ preventScroll: true });
-      const from = this.at(event), ended = new AbortController(), { signal } = ended;
-      let begun = false;
-      const stop = (finish) => {
-        ended.abort();
-        this.dragged = null;
-        this.svg.classList.remove("bs-grasped");
-        if (this.svg.hasPointerCapture?.(event.pointerId)) this.svg.releasePointerCapture(event.pointerId);
-        finish();
-        this.emit("dropped");
-      };
-      this.dragged = { cancel: () => stop(() => begun && cancel()) };
-      this.capture(event);
-      const on = (name, fn) => this.svg.addEventListener(name, (each) => each.pointerId === event.pointerId && fn(each), { signal });
-      on("pointermove", (each) => {
-        const point2 = this.at(each);
-        if (!begun) {
-          if (Math.hypot(point2.X - from.X, point2.Y - from.Y) < CLICK) return;
-          begun = start(from, event) !== false;
-          if (!begun) return stop(() => {
-          });
-          this.svg.classList.add("bs-grasped");
-        }
-        move(point2, each);
-      });
-      on("pointerup", (each) => stop(() => begun ? end(this.at(each)) : click(event)));
-      on("pointercancel", () => stop(() => begun && cancel()));
-    });
-  }
-  /** Draw with a tool, or with none: { name, click(point), hover(point), drag(point, held), release(point, held), key(event), end() }. */
-  use(tool) {
-    const before = this.tool;
-    this.tool = tool ?? null;
-    before?.end?.();
-    this.svg.classList.toggle("bs-drawing", Boolean(tool));
-    this.emit("tool", this.tool);
-    if (tool) this.svg.focus({ preventScroll: true });
-  }
-  listen() {
-    const { svg } = this;
-    svg.addEventListener("wheel", (event) => {
-      event.preventDefault();
-      const { X, Y } = this.at(event), unit2 = event.deltaMode === 1 ? 16 : 1;
-      this.zoom(ZOOM ** (-event.deltaY * unit2 * (event.ctrlKey ? 4 : 1)), X, Y);
-    }, { passive: false });
-    svg.addEventListener("pointerdown", (event) => this.press(event));
-    svg.addEventListener("pointermove", (event) => this.moved(event));
-    for (const name of ["pointerup", "pointercancel"]) svg.addEventListener(name, (event) => this.released(event));
-    svg.addEventListener("keydown", (event) => this.key(event));
-  }
-  /** Hear of a pointer wherever it goes. */
-  capture({ pointerId }) {
-    try {
-      this.svg.setPointerCapture(pointerId);
-    } catch {
-    }
-  }
-  press(event) {
-    if (event.button !== 0 && event.button !== 1) return;
-    const { X, Y } = this.at(event);
-    this.pointers.set(event.pointerId, { X, Y, from: { X, Y }, button: event.button });
-    if (this.pointers.size > 1) for (const each of this.pointers.values()) each.panned = true;
-    this.capture(event);
-  }
-  moved(event) {
-    const point2 = this.at(event), held = this.pointers.get(event.pointerId);
-    if (!held) {
-      if (!this.dragged) this.tool?.hover?.(point2);
-      return;
-    }
-    const before = { X: held.X, Y: held.Y };
-    Object.assign(held, { X: point2.X, Y: point2.Y });
-    if (this.pointers.size === 2) {
-      const [one, other] = this.pointers.values(), still = held === one ? other : one;
-      const [now, then] = [point2, before].map(({ X, Y }) => Math.hypot(X - still.X, Y - still.Y));
-      if (then > 0) this.zoom(now / then, (point2.X + still.X) / 2, (point2.Y + still.Y) / 2);
-      return;
-    }
-    held.panned ||= Math.hypot(point2.X - held.from.X, point2.Y - held.from.Y) > CLICK;
-    if (!held.panned) return;
-    if (this.tool?.drag?.(point2, held)) return;
-    this.svg.classList.add("bs-grasped");
-    this.pan(point2.X - before.X, point2.Y - before.Y);
-  }
-  released(event) {
-    const held = this.pointers.get(event.pointerId);
-    if (!held) return;
-    this.pointers.delete(event.pointerId);
-    this.svg.classList.remove("bs-grasped");
-    const point2 = this.at(event);
-    if (event.type === "pointercancel") this.tool?.hover?.(null);
-    else if (held.panned) this.tool?.release?.(point2, held);
-    else if (held.button === 0) this.tool ? this.tool.click(point2, event) : this.emit("click", point2, event);
-  }
-  key(event) {
-    if (event.target !== this.svg || event.ctrlKey || event.metaKey || event.altKey) return;
-    const by = event.shiftKey ? 160 : 40, { width, height } = this.size;
-    const steps = { ArrowLeft: [by, 0], ArrowRight: [-by, 0], ArrowUp: [0, by], ArrowDown: [0, -by] };
-    if (steps[event.key]) this.pan(...steps[event.key]);
-    else if (event.key === "+" || event.key === "=") this.zoom(1.25, width / 2, height / 2);
-    else if (event.key === "-") this.zoom(0.8, width / 2, height / 2);
-    else if (event.key === "0") this.fitAgain();
-    else return;
-    event.preventDefault();
-  }
-};
-var bounds = (points) => points.reduce(([x, y, u, v], [a, b]) => Number.isFinite(a + b) ? [Math.min(x, a), Math.min(y, b), Math.max(u, a), Math.max(v, b)] : [x, y, u, v], [Infinity, Infinity, -Infinity, -Infinity]);
-var Kept = class {
-  constructor(group, make, show) {
-    Object.assign(this, { group, make, show, elements: /* @__PURE__ */ new Map() });
-  }
-  draw(items) {
-    const kept = /* @__PURE__ */ new Map();
-    for (const [key, item] of items) {
-      const element = this.elements.get(key) ?? this.make(key, item);
-      kept.set(key, element);
-      this.show(element, item);
-    }
-    for (const [key, element] of this.elements) if (!kept.has(key)) element.remove();
-    let before = null;
-    for (const element of kept.values()) {
-      const next = before ? before.nextSibling : this.group.firstChild;
-      if (element !== next || element.parentNode !== this.group) this.group.insertBefore(element, next);
-      before = element;
-    }
-    this.elements = kept;
-  }
-};
-
-// src/burmester/web/studio/pose_handles.mjs
-var LONGEST_ARM = 46;
-var SHORTEST_ARM = 27;
-var FEW = 24;
-var MOST = 240;
-var ROOM = 14;
-var LONGEST_NAME = 18;
-var ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
-var tenths = (angle) => Number(angle.toFixed(1)) + 0;
-var unwrapped = (angle, near2) => angle + 360 * Math.round((near2 - angle) / 360);
-function drawnPoses({ document: document2, selection }, scale) {
-  const { poses } = document2, count = poses.length, all = [...poses.keys()];
-  if (count <= FEW) return all;
-  const length = poses.slice(1).reduce((sum, { x, y }, k) => sum + (Math.hypot(x - poses[k].x, y - poses[k].y) || 0), 0);
-  const stride = Math.ceil(count / clamp(scale * length / ROOM, FEW, MOST)), chosen = selection?.kind === "pose" ? selection.index : -1;
-  return all.filter((k) => k % stride === 0 || k === count - 1 || k === chosen);
-}
-var PoseHandles = class {
-  constructor(store, scene) {
-    this.store = store;
-    this.scene = scene;
-    this.element = scene.layer("poses");
-    this.names = scene.layer("labels");
-    this.kept = new Kept(this.element, (k) => this.make(k), (group, k) => this.show(group, k));
-    this.labels = new Kept(this.names, () => s("text", { class: "bs-pose-name" }), (text, k) => this.showName(text, k));
-    store.on("document selection", () => this.draw());
-    scene.on("view", () => this.draw());
-    scene.hold(() => store.document.poses.map((_, k) => standing(store.document, k)).map(({ x, y }) => [x, y]));
-    scene.on("click", () => store.select(null));
-    this.draw();
-  }
-  /** Arms are shorter where poses are crowded: about the distance from one to the next. */
-  get arm() {
-    const { document: document2 } = this.store, { scale } = this.scene.view, places = drawnPoses(this.store, scale).map((k) => standing(document2, k));
-    const away = places.slice(1).map(({ x, y }, k) => scale * Math.hypot(x - places[k].x, y - places[k].y)).sort((a, b) => a - b);
-    return away.length ? clamp(1.2 * away[away.length >> 1], SHORTEST_ARM, LONGEST_ARM) : LONGEST_ARM;
-  }
-  draw() {
-    this.length = this.scene.dragged ? this.length ?? this.arm : this.arm;
-    const poses = drawnPoses(this.store, this.scene.view.scale).map((k) => [k, k]);
-    this.kept.draw(poses);
-    this.labels.draw(poses);
-  }
-  make(k) {
-    const origin = s("g", { class: "bs-origin", "data-pose": k + 1, tabindex: 0, role: "button" }, s("circle", { class: "bs-hold", r: 12 }), s("circle", { class: "bs-dot", r: 5.5 }));
-    const turn = s(
-      "g",
-      { class: "bs-turn", "data-turn": k + 1, tabindex: 0, role: "slider", "aria-valuemin": -360, "aria-valuemax": 360 },
-      s("circle", { class: "bs-hold", r: 12 }),
-      s("circle", { class: "bs-tip", r: 5 })
-    );
-    const group = s("g", { class: "bs-pose" }, s("path", { class: "bs-axes" }), origin, turn);
-    this.dragOrigin(origin, k);
-    this.dragTurn(turn, k);
-    for (const part of [origin, turn]) part.addEventListener("focus", () => this.store.select({ kind: "pose", index: k }));
-    origin.addEventListener("keydown", (event) => this.key(event, k, false));
-    turn.addEventListener("keydown", (event) => this.key(event, k, true));
-    return group;
-  }
-  show(group, k) {
-    const { store, scene: { view } } = this, { x, y, angle } = standing(store.document, k), pose = store.document.poses[k];
-    const selected = store.selection?.kind === "pose" && store.selection.index === k, unit2 = store.document.length_unit ?? "", name = poseName(store.document, k);
-    if (!isOther(group, [view, this.length, x, y, angle, Boolean(pose.exact), pose.name, name, unit2, selected])) return;
-    const [arrow2, origin, turn] = group.children;
-    put(group, "transform", transform(view.X(x), view.Y(y), radians(angle)));
-    put(arrow2, "d", axes(this.length - 8));
-    put(turn, "transform", `translate(${px(this.length)} 0)`);
-    group.classList.toggle("bs-selected", selected);
-    group.classList.toggle("bs-exact", Boolean(pose.exact));
-    const called = pose.name ? `Pose ${k + 1}, ${name}` : `Pose ${k + 1}`;
-    put(origin, "aria-label", `${called}: x ${x} ${unit2}, y ${y} ${unit2}, angle ${angle}°. Drag, or use the arrow keys; Delete removes it.`);
-    put(origin, "aria-pressed", selected);
-    put(turn, "aria-label", `Turn ${called}`);
-    put(turn, "aria-valuenow", angle);
-    put(turn, "aria-valuetext", `${angle}°`);
-  }
-  /** Names stand behind the origin, away from the x axis. */
-  showName(text, k) {
-    const { store, scene: { view } } = this, { x, y, angle } = standing(store.document, k), a = radians(angle + 215);
-    if (!isOther(text, [view, x, y, angle, poseName(store.document, k)])) return;
-    const name = shortened(poseName(store.document, k), LONGEST_NAME);
-    if (text.textContent !== name) text.textContent = name;
-    put(text, "text-anchor", Math.cos(a) < -0.3 ? "end" : Math.cos(a) > 0.3 ? "start" : "middle");
-    put(text, "x", px(view.X(x) + 13 * Math.cos(a)));
-    put(text, "y", px(view.Y(y) - 13 * Math.sin(a) + 4));
-  }
-  /** A change of one pose; what is free and not stated stays free. */
-  set(k, changes, gesture) {
-    this.store.edit((document2) => setPose(document2, k, statedOf(document2.poses[k], changes)), { gesture });
-  }
-  dragOrigin(element, k) {
-    const { store, scene } = this;
-    let gesture, off;
-    scene.drag(element, {
-      start: (from) => {
-        const { x, y } = standing(store.document, k);
-        gesture = /* @__PURE__ */ Symbol("move a pose");
-        off = [x - from.x, y - from.y];
-      },
-      move: (point2) => this.set(k, { x: scene.rounded(point2.x + off[0]), y: scene.rounded(point2.y + off[1]) }, gesture),
-      cancel: () => store.abandon(gesture)
-    });
-  }
-  dragTurn(element, k) {
-    const { store, scene } = this;
-    let gesture, off;
-    const angleTo = (point2) => {
-      const { x, y } = standing(store.document, k);
-      return degrees(Math.atan2(point2.y - y, point2.x - x));
-    };
-    scene.drag(element, {
-      start: (from) => {
-        gesture = /* @__PURE__ */ Symbol("turn a pose");
-        off = standing(store.document, k).angle - angleTo(from);
-      },
-      move: (point2) => this.set(k, { angle: tenths(unwrapped(angleTo(point2) + off, standing(store.document, k).angle)) }, gesture),
-      cancel: () => store.abandon(gesture)
-    });
-  }
-  key(event, k, turning) {
-    const { store, scene } = this, arrow2 = ARROWS[event.key];
-    if (event.ctrlKey || event.metaKey) return;
-    if (arrow2) {
-      if (!event.repeat) this.keyed = /* @__PURE__ */ Symbol("keys");
-      const { x, y, angle } = standing(store.document, k), by = stepOf(event, turning ? 1 : scene.step);
-      if (turning) this.set(k, { angle: stepped(angle, by * (arrow2[0] === 0 ? arrow2[1] : -arrow2[0])) }, this.keyed);
-      else this.set(k, { x: stepped(x, by * arrow2[0]), y: stepped(y, by * arrow2[1]) }, this.keyed);
-    } else if (event.key === "Delete" || event.key === "Backspace") {
-      store.edit((document2) => removePose(document2, k));
-      const left = store.document.poses.length;
-      store.select(left ? { kind: "pose", index: Math.min(k, left - 1) } : null);
-      this.focus(Math.min(k, left - 1));
-    } else {
-      return;
-    }
-    event.preventDefault();
-  }
-  focus(k) {
-    this.element.querySelector(`[data-pose="${k + 1}"]`)?.focus({ preventScroll: true });
-  }
-};
-var PoseTool = class {
-  constructor(store, scene) {
-    Object.assign(this, { store, scene, name: "pose", gesture: null });
-    this.hint = "Click where the pose is to stand, and click again to turn it. Escape ends.";
-  }
-  click(point2) {
-    const { store, scene } = this;
-    if (this.gesture) {
-      this.turn(point2);
-      this.gesture = null;
-      return;
-    }
-    this.gesture = /* @__PURE__ */ Symbol("add a pose");
-    const angle = store.document.poses.at(-1)?.angle ?? 0;
-    store.edit((document2) => addPose(document2, { x: scene.rounded(point2.x), y: scene.rounded(point2.y), angle }), { gesture: this.gesture });
-    store.select({ kind: "pose", index: store.document.poses.length - 1 });
-  }
-  hover(point2) {
-    if (this.gesture && point2) this.turn(point2);
-  }
-  turn(point2) {
-    const { store, gesture } = this, k = store.document.poses.length - 1, { x, y, angle } = standing(store.document, k);
-    const away = Math.hypot(point2.x - x, point2.y - y) * this.scene.view.scale;
-    if (away < 6) return;
-    const next = tenths(unwrapped(degrees(Math.atan2(point2.y - y, point2.x - x)), angle));
-    store.edit((document2) => setPose(document2, k, { angle: next }), { gesture });
-  }
-  key(event) {
-    if (event.key !== "Escape") return false;
-    if (this.gesture) this.store.abandon(this.gesture);
-    this.gesture = null;
-    this.scene.use(null);
-    return true;
-  }
-};
-
-// src/burmester/web/studio/region_geometry.mjs
-var cross = ([a, b], [c, d]) => a * d - b * c;
-var minus = ([a, b], [c, d]) => [a - c, b - d];
-var size = ([a, b]) => Math.hypot(a, b);
-function fromSegment(point2, start, end) {
-  const along = minus(end, start), away = minus(point2, start), square = along[0] ** 2 + along[1] ** 2;
-  const share = square > 0 ? Math.min(1, Math.max(0, (along[0] * away[0] + along[1] * away[1]) / square)) : 0;
-  return size(minus(away, [share * along[0], share * along[1]]));
-}
-var boxCorners = ([[a, b], [c, d]]) => [[a, b], [c, b], [c, d], [a, d]];
-var outlineOf = (shape, points) => shape === "box" ? boxCorners(points) : points;
-function isInside([x, y], corners) {
-  let inside2 = false;
-  corners.forEach(([a, b], k) => {
-    const [c, d] = corners[(k + 1) % corners.length];
-    if (b > y !== d > y && x < a + (y - b) / (d - b) * (c - a)) inside2 = !inside2;
-  });
-  return inside2;
-}
-function distanceTo(point2, shape, points) {
-  if (shape === "point") return size(minus(point2, points[0]));
-  if (shape === "segment") return fromSegment(point2, ...points);
-  if (shape === "line") {
-    const along = minus(points[1], points[0]);
-    return Math.abs(cross(along, minus(point2, points[0]))) / size(along);
-  }
-  const corners = outlineOf(shape, points);
-  if (isInside(point2, corners)) return 0;
-  return Math.min(...corners.map((corner, k) => fromSegment(point2, corner, corners[(k + 1) % corners.length])));
-}
-var crosses = (a, b, c, d) => {
-  const turn = (p, q, r) => Math.sign(cross(minus(q, p), minus(r, p)));
-  return turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0;
-};
-var edges = (corners) => corners.map((corner, k) => [corner, corners[(k + 1) % corners.length]]);
-function overlap(one, other) {
-  if (isInside(one[0], other) || isInside(other[0], one)) return true;
-  return edges(one).some(([a, b]) => edges(other).some(([c, d]) => crosses(a, b, c, d)));
-}
-function segmentFromPolygon([start, end], corners) {
-  if (isInside(start, corners) || edges(corners).some(([c, d]) => crosses(start, end, c, d))) return 0;
-  return Math.min(
-    ...edges(corners).map(([c, d]) => Math.min(fromSegment(start, c, d), fromSegment(end, c, d), fromSegment(c, start, end), fromSegment(d, start, end)))
-  );
-}
-
-// src/burmester/web/studio/shape_handles.mjs
-var ARROWS2 = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
-var LEAST_CORNERS = 3;
-var CLOSED = /* @__PURE__ */ new Set(["box", "polygon"]);
-var GROUND = { x: 0, y: 0, a: 0 };
-function pathOf(shape, points, place, view) {
-  const seen2 = outlineOf(shape, points).map((point2) => act(place, point2)).map(([x, y]) => [view.X(x), view.Y(y)]);
-  if (shape === "point") return `M${px(seen2[0][0] - 7)} ${px(seen2[0][1])}h14m-7 -7v14`;
-  if (shape === "line") {
-    const [[a, b], [c, d]] = seen2, size2 = Math.hypot(c - a, d - b) || 1, far = view.width + view.height + Math.hypot(a, b);
-    const [u, v] = [far * (c - a) / size2, far * (d - b) / size2];
-    return `M${px(a - u)} ${px(b - v)}L${px(c + u)} ${px(d + v)}`;
-  }
-  return `M${seen2.map((point2) => point2.map(px).join(" ")).join("L")}${CLOSED.has(shape) ? "Z" : ""}`;
-}
-function withCorner(shape, points, k, to) {
-  if (shape !== "box") return points.map((point2, i) => i === k ? to : point2);
-  const opposite = boxCorners(points)[(k + 2) % 4];
-  return [[Math.min(to[0], opposite[0]), Math.min(to[1], opposite[1])], [Math.max(to[0], opposite[0]), Math.max(to[1], opposite[1])]];
-}
-var ShapeHandles = class {
-  constructor(scene, { what, set, remove, select, abandon, className = "" }) {
-    Object.assign(this, { scene, what, set, remove, select, abandon });
-    this.title = s("title");
-    this.area = s("path", { class: "bs-shape-area", tabindex: 0, role: "button" }, this.title);
-    this.line = s("path", { class: "bs-shape-line" });
-    this.element = s("g", { class: `bs-shape ${className}` }, this.line, this.area);
-    this.middles = new Kept(s("g"), (key, k) => this.makeMiddle(k), (element, k) => this.showMiddle(element, k));
-    this.corners = new Kept(s("g"), (key, k) => this.makeCorner(k), (element, k) => this.showCorner(element, k));
-    this.handles = s("g", { class: "bs-corners" }, this.middles.group, this.corners.group);
-    this.dragWhole();
-    this.area.addEventListener("focus", () => this.select());
-    this.area.addEventListener("keydown", (event) => this.keys(event, (points, by) => points.map(([x, y]) => [stepped(x, by[0]), stepped(y, by[1])]), () => this.remove()));
-  }
-  draw() {
-    const { shape, points, place, name, selected, state, data } = this.now = this.what();
-    const d = pathOf(shape, points, place, this.scene.view);
-    put(this.line, "d", d);
-    put(this.area, "d", d);
-    this.area.classList.toggle("bs-open", !CLOSED.has(shape));
-    put(this.area, "aria-label", `${name}${state ? `, ${state} by the chosen linkage` : ""}. Drag, or use the arrow keys; Delete removes it.`);
-    put(this.area, "aria-pressed", Boolean(selected));
-    this.title.textContent = name;
-    for (const [key2, value2] of Object.entries(data)) this.element.dataset[key2] = value2;
-    this.element.dataset.shape = shape;
-    this.element.classList.toggle("bs-selected", Boolean(selected));
-    this.element.classList.toggle("bs-met", state === "met");
-    this.element.classList.toggle("bs-broken", state === "broken");
-    const [[key, value]] = Object.entries(data);
-    this.handles.dataset.handles = `${key} ${value}`.trim();
-    if (!this.handles.parentNode) this.scene.layer("tool").append(this.handles);
-    const count = selected ? outlineOf(shape, points).length : 0, edges2 = shape === "polygon" ? count : 0;
-    this.corners.draw([...Array(count).keys()].map((k) => [k, k]));
-    this.middles.draw([...Array(edges2).keys()].map((k) => [k, k]));
-  }
-  /** Where the shape is no more. */
-  clear() {
-    this.element.remove();
-    this.handles.remove();
-  }
-  at([x, y]) {
-    const [u, v] = act(this.now.place, [x, y]);
-    return { cx: px(this.scene.view.X(u)), cy: px(this.scene.view.Y(v)) };
-  }
-  /** A point of an event in the frame of the shape, as a hand sets it. */
-  point({ x, y }) {
-    return back(this.now.place, [x, y]).map((each) => this.scene.rounded(each));
-  }
-  dragWhole() {
-    let gesture, from, before;
-    this.scene.drag(this.area, {
-      start: (point2) => {
-        gesture = /* @__PURE__ */ Symbol("move a shape");
-        from = back(this.now.place, [point2.x, point2.y]);
-        before = this.now.points;
-      },
-      move: (point2) => {
-        const to = back(this.now.place, [point2.x, point2.y]), by = [to[0] - from[0], to[1] - from[1]];
-        this.set(before.map(([x, y]) => [this.scene.rounded(x + by[0]), this.scene.rounded(y + by[1])]), gesture);
-      },
-      cancel: () => this.abandon(gesture),
-      click: () => this.select()
-    });
-  }
-  makeCorner(k) {
-    const circle = s("circle", { class: "bs-corner", r: 6, tabindex: 0, role: "button", "data-corner": k + 1 });
-    let gesture;
-    this.scene.drag(circle, {
-      start: () => (gesture = /* @__PURE__ */ Symbol("move a corner")) && true,
-      move: (point2) => this.set(withCorner(this.now.shape, this.now.points, k, this.point(point2)), gesture),
-      cancel: () => this.abandon(gesture)
-    });
-    circle.addEventListener("keydown", (event) => this.keys(event, (points, by) => {
-      const [x, y] = outlineOf(this.now.shape, points)[k];
-      return withCorner(this.now.shape, points, k, [stepped(x, by[0]), stepped(y, by[1])]);
-    }, () => this.removeCorner(k)));
-    return circle;
-  }
-  removeCorner(k) {
-    const { shape, points } = this.now;
-    if (shape !== "polygon" || points.length <= LEAST_CORNERS) return;
-    this.set(points.filter((_, i) => i !== k), null);
-  }
-  /** The middle of an edge makes a corner when it is dragged. */
-  makeMiddle(k) {
-    const circle = s("circle", { class: "bs-middle", r: 4.5, "data-edge": k + 1 });
-    let gesture;
-    this.scene.drag(circle, {
-      start: () => {
-        gesture = /* @__PURE__ */ Symbol("add a corner");
-        this.set([...this.now.points.slice(0, k + 1), this.now.points[k], ...this.now.points.slice(k + 1)], gesture);
-      },
-      move: (point2) => this.set(withCorner("polygon", this.now.points, k + 1, this.point(point2)), gesture),
-      cancel: () => this.abandon(gesture)
-    });
-    return circle;
-  }
-  showCorner(element, k) {
-    const corner = outlineOf(this.now.shape, this.now.points)[k];
-    for (const [name, value] of Object.entries(this.at(corner))) put(element, name, value);
-    put(element, "aria-label", `Corner ${k + 1} of ${this.now.name}: ${corner.join(", ")}`);
-  }
-  showMiddle(element, k) {
-    const { points } = this.now, next = points[(k + 1) % points.length];
-    const middle2 = this.at([(points[k][0] + next[0]) / 2, (points[k][1] + next[1]) / 2]);
-    for (const [name, value] of Object.entries(middle2)) put(element, name, value);
-  }
-  keys(event, moved, remove) {
-    if (event.ctrlKey || event.metaKey) return;
-    const arrow2 = ARROWS2[event.key];
-    if (arrow2) {
-      if (!event.repeat) this.keyed = /* @__PURE__ */ Symbol("keys");
-      const by = stepOf(event, this.scene.step);
-      this.set(moved(this.now.points, [by * arrow2[0], by * arrow2[1]]), this.keyed);
-    } else if (event.key === "Delete" || event.key === "Backspace") {
-      remove();
-    } else {
-      return;
-    }
-    event.preventDefault();
-    event.stopPropagation();
-  }
-};
-
-// src/burmester/web/studio/shape_tool.mjs
-var CLOSE = 12;
-var PAIRS = /* @__PURE__ */ new Set(["segment", "line", "box"]);
-var HINTS = {
-  point: "Click the point. Enter puts it in the middle, Escape gives up.",
-  segment: "Click both ends. Enter puts one in the middle, Escape gives up.",
-  line: "Click two points of the line. Enter puts one in the middle, Escape gives up.",
-  box: "Drag from corner to corner, or click both. Enter puts one in the middle, Escape gives up.",
-  polygon: "Click the corners; Enter or a click on the first one closes. Backspace takes the last one back, Escape gives up."
-};
-var MIDDLE = { point: [[0, 0]], segment: [[-1, 0], [1, 0]], line: [[-1, 0], [1, 0]], box: [[-1, -1], [1, 1]], polygon: [[-1, -1], [1, -1], [0, 1]] };
-var SHARE2 = 0.12;
-var ordered = ([[a, b], [c, d]]) => [[Math.min(a, c), Math.min(b, d)], [Math.max(a, c), Math.max(b, d)]];
-var isFlat = ([[a, b], [c, d]]) => a === c && b === d;
-var ShapeTool = class {
-  constructor(scene, { shape, place, done, name }) {
-    Object.assign(this, { scene, shape, place, done, name, points: [], next: null });
-    this.hint = HINTS[shape];
-    this.path = s("path", { class: "bs-draft" });
-    this.dots = s("g");
-    this.element = s("g", {}, this.path, this.dots);
-    scene.layer("tool").append(this.element);
-  }
-  point({ x, y }) {
-    return back(this.place(), [x, y]).map((each) => this.scene.rounded(each));
-  }
-  click(point2, event) {
-    const next = this.point(point2);
-    if (this.shape === "polygon") {
-      if (this.points.length > 2 && (this.isFirst(point2) || event?.detail > 1)) return this.finish(this.points);
-      if (this.points.length && isFlat([this.points.at(-1), next])) return void 0;
-    }
-    this.points.push(next);
-    if (this.shape === "point" || PAIRS.has(this.shape) && this.points.length === 2) return this.finish(this.points);
-    return this.draw();
-  }
-  isFirst({ X, Y }) {
-    const [x, y] = act(this.place(), this.points[0]), { view } = this.scene;
-    return Math.hypot(view.X(x) - X, view.Y(y) - Y) < CLOSE;
-  }
-  hover(point2) {
-    this.next = point2 && this.point(point2);
-    this.draw();
-  }
-  /** Two points are drawn by a drag as well; of a polygon a drag moves the plane. */
-  drag(point2, held) {
-    if (!PAIRS.has(this.shape) || this.points.length) return false;
-    this.dragging = [this.point(this.inPlane(held.from)), this.point(point2)];
-    this.draw();
-    return true;
-  }
-  inPlane({ X, Y }) {
-    return { x: this.scene.view.x(X), y: this.scene.view.y(Y) };
-  }
-  /** A shape in the middle of the picture, to be moved by keys. */
-  inMiddle() {
-    const { width, height } = this.scene.size, half = SHARE2 * Math.min(width, height);
-    return MIDDLE[this.shape].map(([x, y]) => this.point(this.inPlane({ X: width / 2 + half * x, Y: height / 2 - half * y })));
-  }
-  release() {
-    if (!this.dragging) return;
-    const pair = this.dragging;
-    this.dragging = null;
-    this.finish(pair);
-  }
-  finish(points) {
-    if (PAIRS.has(this.shape) && isFlat(points)) {
-      this.points = points.slice(0, 1);
-      return this.draw();
-    }
-    this.scene.use(null);
-    return this.done(this.shape === "box" ? ordered(points) : points);
-  }
-  key(event) {
-    if (event.key === "Escape") this.scene.use(null);
-    else if (event.key === "Backspace") this.points.pop();
-    else if (event.key === "Enter" && !this.points.length) this.finish(this.inMiddle());
-    else if (event.key === "Enter" && this.points.length > 2) this.finish(this.points);
-    else return false;
-    this.draw();
-    return true;
-  }
-  draw() {
-    const { scene: { view }, shape } = this, shown2 = this.dragging ?? [...this.points, ...this.next ? [this.next] : []];
-    const place = this.place(), whole = shape === "polygon" ? "open polygon" : shape;
-    const complete = shown2.length > 1 || shape === "point";
-    put(this.path, "d", complete && shown2.length ? pathOf(whole, shown2, place, view) : "");
-    this.dots.replaceChildren(
-      ...(this.dragging ?? this.points).map((point2) => act(place, point2)).map(([x, y], k) => s("circle", { class: k ? "bs-draft-dot" : "bs-draft-dot bs-first", r: 4, cx: px(view.X(x)), cy: px(view.Y(y)) }))
-    );
-  }
-  end() {
-    this.element.remove();
-  }
-};
-
-// src/burmester/web/studio/body_editor.mjs
-var MOST_GHOSTS = 60;
-var PALEST = 0.4;
-function referenceIndex(store) {
-  const { selection, document: document2 } = store;
-  if (selection?.kind === "pose" && selection.index < document2.poses.length) store.reference = selection.index;
-  return Math.min(store.reference ?? 0, document2.poses.length - 1);
-}
-function referencePlace(store) {
-  const k = referenceIndex(store);
-  if (k < 0) return { x: 0, y: 0, a: 0 };
-  const { x, y, angle } = standing(store.document, k);
-  return { x, y, a: radians(angle) };
-}
-var BodyEditor = class {
-  constructor(store, scene) {
-    this.store = store;
-    this.scene = scene;
-    this.ghosts = new Kept(s("g", { class: "bs-ghosts", "aria-hidden": "true" }), () => s("path", { class: "bs-ghost" }), (path2, item) => this.showGhost(path2, item));
-    scene.layer("ghosts").append(this.ghosts.group);
-    this.handles = new ShapeHandles(scene, {
-      className: "bs-body-shape",
-      what: () => ({ shape: "polygon", points: bodyOf(store.document), place: referencePlace(store), name: "Outline of the body", selected: store.selection?.kind === "body", data: { body: "" } }),
-      set: (points, gesture) => store.edit((document2) => setBody(document2, points), { gesture }),
-      remove: () => store.edit((document2) => setBody(document2, [])),
-      select: () => store.select({ kind: "body", index: 0 }),
-      abandon: (gesture) => store.abandon(gesture)
-    });
-    store.on("document selection", () => this.draw());
-    scene.on("view", () => this.draw());
-    scene.hold(() => this.corners(), true);
-    this.draw();
-  }
-  corners() {
-    const body = bodyOf(this.store.document);
-    return this.indices().flatMap((k) => {
-      const { x, y, angle } = standing(this.store.document, k);
-      return body.map((corner) => act({ x, y, a: radians(angle) }, corner));
-    });
-  }
-  indices() {
-    const drawn = drawnPoses(this.store, this.scene.view.scale), stride = Math.ceil(drawn.length / MOST_GHOSTS);
-    return drawn.filter((_, i) => i % stride === 0 || i === drawn.length - 1);
-  }
-  draw() {
-    const body = bodyOf(this.store.document), { scale } = this.scene.view;
-    this.path = body.length ? `M${body.map(([x, y]) => `${px(scale * x)} ${px(-scale * y)}`).join("L")}Z` : "";
-    this.ghosts.draw(body.length ? this.indices().map((k) => [k, k]) : []);
-    if (!body.length || !this.store.document.poses.length) return this.handles.clear();
-    if (!this.handles.element.parentNode) this.scene.layer("ghosts").append(this.handles.element);
-    return this.handles.draw();
-  }
-  showGhost(path2, k) {
-    const { view } = this.scene, { x, y, angle } = standing(this.store.document, k), last = Math.max(1, this.store.document.poses.length - 1);
-    if (!isOther(path2, [view, x, y, angle, k / last, this.path])) return;
-    put(path2, "d", this.path);
-    put(path2, "opacity", (PALEST + (1 - PALEST) * k / last).toFixed(3));
-    put(path2, "transform", transform(view.X(x), view.Y(y), radians(angle)));
-  }
-  /** Draw an outline by clicks, at the pose that is selected or the first one. */
-  tool() {
-    return new ShapeTool(this.scene, {
-      shape: "polygon",
-      name: "body",
-      place: () => referencePlace(this.store),
-      done: (points) => {
-        this.store.edit((document2) => setBody(document2, points));
-        this.store.select({ kind: "body", index: 0 });
-      }
-    });
-  }
-};
-
-// src/burmester/web/studio/conditions.mjs
-var ROUNDING = 1e-6;
-var MOST_PLACES = 90;
-var KEYS = ["fixed_pivot", "moving_pivot"];
-function currentLinkage(store) {
-  if (store.chosen === "placed") return store.placed?.linkage ?? null;
-  const followed = store.followed?.linkages.find(({ id }) => id === store.chosen);
-  if (followed?.led) return followed;
-  if (store.followed?.vanished?.some(({ id }) => id === store.chosen)) return null;
-  return store.solved?.linkages.find(({ id }) => id === store.chosen) ?? null;
-}
-var PIVOT = { fixed_pivot: "fixed pivot", moving_pivot: "moving pivot" };
-function missed(table3, dyad, slack) {
-  const found = [];
-  for (const key of KEYS) {
-    if (!table3[key]) continue;
-    const [[shape, stated]] = Object.entries(table3[key]), points = shape === "point" ? [stated] : stated;
-    const away = dyad[key] ? distanceTo(dyad[key], shape, points) : Infinity;
-    if (away > slack) found.push({ key, dyad: dyad.id, away });
-  }
-  const { least: least2 = 0, most = Infinity } = table3.length ?? {};
-  if (table3.length && dyad.kind === "RR" && (dyad.radius < least2 - slack || dyad.radius > most + slack)) {
-    found.push({ key: "length", dyad: dyad.id, away: Math.max(least2 - dyad.radius, dyad.radius - most) });
-  }
-  if (table3.kinds && !table3.kinds.includes(dyad.kind)) found.push({ key: "kinds", dyad: dyad.id, away: Infinity });
-  return found;
-}
-function limitsMissed(document2, linkage, size2) {
-  const tables = limitsOf(document2), slack = ROUNDING * size2, [one, other] = linkage.led;
-  if (tables.length < 2) return tables.map((table3) => [...missed(table3, one, slack), ...missed(table3, other, slack)]);
-  const pairings = [[one, other], [other, one]].map((dyads) => dyads.map((dyad, k) => missed(tables[k], dyad, slack)));
-  const total = (lists) => lists.flat().length;
-  return total(pairings[1]) < total(pairings[0]) ? pairings[1] : pairings[0];
-}
-function missedSentence({ key, dyad, away }, unit2) {
-  const by = `${Number(away.toPrecision(2))}${unit2 ? ` ${unit2}` : ""}`;
-  if (key === "kinds") return `${dyad} is of another kind.`;
-  if (key === "length") return `The link of ${dyad} is ${by} beyond its range.`;
-  return away === Infinity ? `${dyad} has no ${PIVOT[key]}.` : `The ${PIVOT[key]} of ${dyad} is ${by} outside.`;
-}
-function usedPlaces(linkage) {
-  const rows = (linkage.pose_errors ?? []).filter((row) => row.way !== null && row.frame !== null);
-  if (!rows.length || !linkage.ways?.length) return [];
-  const counts = /* @__PURE__ */ new Map();
-  for (const { way: way2 } of rows) counts.set(way2, (counts.get(way2) ?? 0) + 1);
-  const [best] = [...counts].sort((a, b) => b[1] - a[1])[0], way = linkage.ways[best];
-  const frames = rows.filter((row) => row.way === best).map(({ frame }) => frame);
-  const low = Math.floor(Math.min(...frames)), high = Math.ceil(Math.max(...frames)), stride = Math.max(1, Math.ceil((high - low) / MOST_PLACES));
-  const places = [];
-  for (let k = low; k <= high && k < way.x.length; k += stride) places.push({ x: way.x[k], y: way.y[k], a: way.angle[k] });
-  return places;
-}
-var regionCorners = (region) => region.polygon ?? (region.box ? boxCorners(region.box) : null);
-var seen = (body, place) => body.map((corner) => act(place, corner));
-function posePlace(document2, k) {
-  const { x, y, angle } = standing(document2, k);
-  return { x, y, a: radians(angle) };
-}
-function regionsTouched(document2, linkage, body) {
-  const places = usedPlaces(linkage), width = document2.surroundings?.link_width ?? 0, margin = document2.surroundings?.margin ?? 0;
-  const apart = Math.ceil(document2.poses.length / MOST_PLACES), some = [...document2.poses.keys()].filter((k) => k % apart === 0);
-  return regionsOf(document2).map((region) => {
-    const corners = regionCorners(region);
-    if (!corners) return "";
-    const pose = body.length > 2 ? some.find((k) => overlap(seen(body, posePlace(document2, k)), corners)) : void 0;
-    if (pose !== void 0) return `The body touches it at pose ${poseName(document2, pose)}.`;
-    if (!places.length) return "";
-    if (body.length > 2 && places.some((place) => overlap(seen(body, place), corners))) return "The body touches it.";
-    for (const dyad of linkage.led) {
-      if (dyad.kind !== "RR") continue;
-      const near2 = Math.min(...places.map((place) => segmentFromPolygon([dyad.fixed_pivot, act(place, dyad.moving_pivot)], corners)));
-      if (near2 === 0 || near2 < width / 2) return `The link of ${dyad.id} touches it.`;
-      if (near2 < width / 2 + margin) return `The link of ${dyad.id} comes nearer than the margin.`;
-    }
-    return "";
-  });
-}
-
-// src/burmester/web/studio/connection.mjs
-var AGAIN = [250, 500, 1e3, 2e3, 4e3];
-var UNFINISHED = /* @__PURE__ */ new Set(["solving", "progress", "waiting"]);
-var Refused = class extends Error {
-  constructor(status, messages) {
-    super(messages.map((each) => each.message).join(" ") || `the server answered ${status}`);
-    this.status = status;
-    this.messages = messages;
-  }
-};
-async function messagesOf(response) {
-  try {
-    return (await response.json()).messages ?? [];
-  } catch {
-    return [];
-  }
-}
-var Connection = class {
-  /** @param {(frame: ArrayBuffer) => object} decode */
-  constructor(decode) {
-    this.decode = decode;
-    this.listeners = { message: [], open: [], closed: [] };
-    this.asked = /* @__PURE__ */ new Map();
-    this.n = 0;
-    this.tries = 0;
-    this.socket = null;
-  }
-  on(name, fn) {
-    this.listeners[name].push(fn);
-  }
-  emit(name, value) {
-    for (const fn of this.listeners[name]) fn(value);
-  }
-  get isOpen() {
-    return this.socket?.readyState === 1;
-  }
-  /** Exchange the token in the address for a cookie, and take it out of the address. */
-  async session() {
-    const token = decodeURIComponent(location.hash.slice(1)).replace(/^token=/, "");
-    if (!token) return;
-    await this.post("/session", { token });
-    history.replaceState(null, "", location.pathname);
-  }
-  async get(path2) {
-    return (await this.request(path2, {})).json();
-  }
-  /** The answer as a Response: JSON or a file. */
-  post(path2, body, method = "POST") {
-    return this.request(path2, { method, headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) });
-  }
-  /** Raises Refused with the server's messages; a TypeError where there is no server. */
-  async request(path2, options) {
-    const response = await fetch(path2, { credentials: "same-origin", ...options });
-    if (!response.ok) throw new Refused(response.status, await messagesOf(response));
-    return response;
-  }
-  /** Open the websocket, and open it again whenever it ends. */
-  open() {
-    clearTimeout(this.timer);
-    this.socket?.close();
-    const socket = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/live`);
-    socket.binaryType = "arraybuffer";
-    this.socket = socket;
-    socket.onopen = () => {
-      this.tries = 0;
-      this.emit("open");
-    };
-    socket.onmessage = ({ data }) => {
-      if (socket === this.socket) this.take(typeof data === "string" ? JSON.parse(data) : this.decode(data));
-    };
-    socket.onclose = () => {
-      if (socket !== this.socket) return;
-      for (const { reject } of this.asked.values()) reject(new Error("the connection ended"));
-      this.asked.clear();
-      this.emit("closed", this.tries);
-      this.timer = setTimeout(() => this.open(), AGAIN[Math.min(this.tries, AGAIN.length - 1)]);
-      this.tries += 1;
-    };
-  }
-  take(message) {
-    const waiting = this.asked.get(message.n);
-    if (waiting && !UNFINISHED.has(message.kind)) {
-      this.asked.delete(message.n);
-      waiting.resolve(message);
-    }
-    this.emit("message", message);
-  }
-  /** Send a message; returns its number, or null where the connection is closed. */
-  send(message) {
-    if (!this.isOpen) return null;
-    this.n += 1;
-    this.socket.send(JSON.stringify({ n: this.n, ...message }));
-    return this.n;
-  }
-  /** Send a message and wait for its last answer. */
-  ask(message) {
-    return new Promise((resolve, reject) => {
-      const n = this.send(message);
-      if (n === null) reject(new Error("the connection is closed"));
-      else this.asked.set(n, { resolve, reject });
-    });
-  }
-};
-
-// src/burmester/web/studio/export_settings.mjs
-var LENGTHS2 = [["hole", "holes"], ["pin", "pins"], ["width", "links are wide"], ["thickness", "plates are thick"], ["gap", "gap between plates"]];
-var NUMBERS = [
-  // name, words, what the command takes otherwise, what the value may be
-  ["pose", "drawn at pose", "1", { least: 1, whole: true }],
-  ["density", "density, kg/m³", "2700", { above: 0 }],
-  ["seconds", "film, seconds", "4", { above: 0 }],
-  ["frames_per_second", "pictures a second", "25", { above: 0 }],
-  ["width_px", "pixels wide", "800", { least: 1, whole: true }]
-];
-var AXES = ["y", "x", "z", "-x", "-y", "-z"];
-var UNITS = ["mm", "cm", "m", "in", "ft"];
-var SIGMA = [["position", "position", "length"], ["angle_deg", "angle", "angle"]];
-var section = (name, title, ...content) => h("details", { class: "bs-section", "data-section": name }, h("summary", {}, title), ...content);
-var ExportSettings = class {
-  constructor(store, scene) {
-    this.store = store;
-    const set = (name) => (value) => store.setting(name, value);
-    this.fields = /* @__PURE__ */ new Map();
-    const number = (name, placeholder, options) => {
-      const field = new NumberField({ label: name.replace(/_/g, " "), commit: set(name), options: () => ({ optional: true, unit: store.document.length_unit, ...options }), step: () => options.kind ? scene.step : 1, attributes: { "data-setting": name, placeholder } });
-      this.fields.set(name, field);
-      return field.element;
-    };
-    this.unit = choice("unit of what is exported", UNITS.map((unit2) => [unit2, unit2]), (value) => set("unit")(value === "mm" ? void 0 : value), { "data-setting": "unit" });
-    this.unitRow = labelled("unit of the lengths", this.unit);
-    this.up = choice("up", AXES.map((axis) => [axis, axis]), (value) => set("up")(value === "y" ? void 0 : value), { "data-setting": "up" });
-    this.dimensions = tick("drawings have dimension lines", (on) => set("dimensions")(on ? void 0 : false), { "data-setting": "dimensions" });
-    this.assembled = tick("STL: the parts in their places", (on) => set("assembled")(on || void 0), { "data-setting": "assembled" });
-    const rows = (all, placeholderOf, optionsOf) => all.map((each) => labelled(each[1], number(each[0], placeholderOf(each), optionsOf(each)), " "));
-    this.element = h(
-      "div",
-      {},
-      section(
-        "export",
-        "What is exported",
-        h("p", { class: "bs-hint" }, "Left empty: sizes that suit the linkage."),
-        h("div", { class: "bs-grid" }, this.unitRow, rows(LENGTHS2, () => "–", () => ({ kind: "length", above: 0 })), rows(NUMBERS, (each) => each[2], (each) => each[3]), labelled("up, in models", this.up)),
-        this.dimensions.element,
-        this.assembled.element
-      ),
-      this.makeSigma(scene)
-    );
-    store.on("document", () => this.draw());
-    this.draw();
-  }
-  /** The standard deviations of the poses: both or none. */
-  makeSigma(scene) {
-    const { store } = this;
-    this.wanted = {};
-    this.lack = h("p", { class: "bs-fault", hidden: true }, "Give both: how far positions are off, and how far angles.");
-    this.sigma = SIGMA.map(([key, name, kind]) => {
-      const field = new NumberField({
-        label: `standard deviation of the ${name}`,
-        options: () => ({ kind, unit: store.document.length_unit, optional: true, above: 0 }),
-        step: () => kind === "angle" ? 0.1 : scene.step / 10,
-        commit: (value) => this.setSigma(key, value),
-        attributes: { "data-key": `sigma-${key}`, placeholder: "–" }
-      });
-      return { key, name, field };
-    });
-    return section(
-      "sigma",
-      "How well the poses are known",
-      h("p", { class: "bs-hint" }, "Standard deviations of what was measured. Left empty: as well as their digits say."),
-      h("div", { class: "bs-grid" }, this.sigma.map(({ name, field }) => labelled(`${name} ±`, field.element, name === "angle" ? "°" : " "))),
-      this.lack
-    );
-  }
-  setSigma(key, value) {
-    this.wanted = withKeys({ ...this.store.document.pose_sigma, ...this.wanted }, { [key]: value });
-    const given = Object.keys(this.wanted).length;
-    give(this.lack, "hidden", given !== 1);
-    if (given === 1) return;
-    const pose_sigma = given ? this.wanted : void 0;
-    this.wanted = {};
-    this.store.edit((document2) => withKeys(document2, { pose_sigma }));
-  }
-  draw() {
-    const { settings, document: document2 } = this.store, { pose_sigma } = document2, isOther2 = pose_sigma !== this.shown;
-    for (const [name, field] of this.fields) field.show(settings[name]);
-    give(this.unit, "value", settings.unit ?? "mm");
-    give(this.unitRow, "hidden", Boolean(document2.length_unit) && !settings.unit);
-    give(this.up, "value", settings.up ?? "y");
-    give(this.dimensions.box, "checked", settings.dimensions !== false);
-    give(this.assembled.box, "checked", Boolean(settings.assembled));
-    if (!isOther2) return;
-    this.shown = pose_sigma;
-    this.wanted = {};
-    give(this.lack, "hidden", true);
-    for (const { key, field } of this.sigma) field.show(pose_sigma?.[key]);
-  }
-};
-
-// src/burmester/web/studio/files.mjs
-var DRAWINGS = /\.(svg|dxf)$/i;
-var TASKS = /\.(toml|json)$/i;
-var KINDS = ".toml,.json,.csv,.tsv,.txt,.xlsx,.parquet,.trc,.svg,.dxf";
-var LARGEST = 14e5;
-async function base64Of(file) {
-  const bytes = new Uint8Array(await file.arrayBuffer());
-  let text = "";
-  for (let k = 0; k < bytes.length; k += 32768) text += String.fromCharCode(...bytes.subarray(k, k + 32768));
-  return btoa(text);
-}
-var isTable = (text) => /\d/.test(text) && (/\t/.test(text) || /\n\s*\S/.test(text.trim()));
-function download(blob, name) {
-  const address = URL.createObjectURL(blob), link = h("a", { href: address, download: name });
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(address), 1e4);
-}
-function menu(text, items, attributes = {}) {
-  const list = h("div", { class: "bs-menu-list", role: "menu" });
-  const summary = h("summary", { class: "bm-button" }, text), element = h("details", { class: "bs-menu", ...attributes }, summary, list);
-  const close = () => {
-    if (!element.open) return;
-    element.open = false;
-    summary.focus();
-  };
-  element.addEventListener("toggle", () => {
-    if (element.open) list.replaceChildren(...items().map(({ title, note, act: act2, data }) => h("button", { type: "button", role: "menuitem", class: "bs-menu-item", ...data, onclick: () => (close(), act2()) }, h("b", {}, title), note ? h("span", {}, note) : null)));
-  });
-  element.addEventListener("keydown", (event) => {
-    const all = [...list.children], at = all.indexOf(document.activeElement);
-    if (event.key === "Escape") close();
-    else if (event.key === "ArrowDown") all[(at + 1) % all.length]?.focus();
-    else if (event.key === "ArrowUp") all[(at + all.length - 1) % all.length]?.focus();
-    else return;
-    event.preventDefault();
-    event.stopPropagation();
-  });
-  document.addEventListener("pointerdown", (event) => element.contains(event.target) || (element.open = false));
-  return element;
-}
-var Files = class {
-  /** start: what the server said of templates and exports; banners: where is told what happened. */
-  constructor(store, start, banners) {
-    Object.assign(this, { store, start, banners, server: store.connection });
-    this.chooser = h("input", { type: "file", hidden: true, accept: KINDS, "data-file": "open", onchange: () => this.chosen(this.chooser) });
-    this.outlines = h("input", { type: "file", hidden: true, accept: ".svg,.dxf", "data-file": "outline", onchange: () => this.chosen(this.outlines) });
-    this.dropping = h("div", { class: "bs-dropping", hidden: true, "aria-hidden": "true" }, h("p", {}, "Drop a task, a table of poses, or the outline of the body"));
-    this.dialog = h("dialog", { class: "bs-dialog", "aria-label": "The same from the command line" });
-    this.element = h("div", { class: "bs-files" }, ...this.buttons(), this.chooser, this.outlines, this.dropping, this.dialog);
-    this.listen();
-  }
-  buttons() {
-    const { start } = this;
-    return [
-      menu("Templates", () => (start.templates ?? []).map(({ name, summary }) => ({ title: name, note: summary, act: () => this.template(name), data: { "data-template": name } })), { "data-menu": "templates" }),
-      button("New", () => this.fresh(), { "data-do": "new", title: "An empty task" }),
-      button("Open…", () => this.chooser.click(), { "data-do": "open", title: "A task, or a table of poses (Ctrl+O)" }),
-      button("Save task", () => this.save(), { "data-do": "save", title: "The file that the command reads (Ctrl+S)" }),
-      menu("Export", () => [
-        ...(start.exports ?? []).map(({ format, title, suffix }) => ({ title, note: suffix, act: () => this.export("/export", { format }), data: { "data-export": format } })),
-        { title: "Report", note: ".html", act: () => this.export("/report"), data: { "data-export": "report" } },
-        { title: "Result", note: ".json", act: () => this.export("/result"), data: { "data-export": "result" } }
-      ], { "data-menu": "export" }),
-      button("Copy as command", () => this.commands(), { "data-do": "command", title: "The same from the command line" })
-    ];
-  }
-  get task() {
-    const { document: document2, options, name } = this.store;
-    return { document: document2, options, name };
-  }
-  /** Do what asks the server; what it refuses is told, and so is that it is not there. */
-  async trying(what, then) {
-    try {
-      return await then();
-    } catch (error) {
-      if (error instanceof Refused && error.messages.length) this.banners.say("refused", `${what} was not done.`, error.messages);
-      else this.banners.say("refused", `${what} was not done: ${error instanceof Refused ? error.message : "the server does not answer"}.`);
-      return null;
-    }
-  }
-  fresh() {
-    this.store.replace({ document: { length_unit: "mm", angle_unit: "deg", poses: [] }, options: {}, name: "task" });
-  }
-  template(name) {
-    return this.trying(`Opening ${name}`, async () => {
-      const made2 = await this.server.get(`/template/${encodeURIComponent(name)}`);
-      this.store.replace({ name, ...made2 });
-      this.opened?.();
-    });
-  }
-  async chosen(input) {
-    for (const file of input.files) await this.take(file, input === this.outlines);
-    input.value = "";
-  }
-  chooseOutline() {
-    this.outlines.click();
-  }
-  /** A file that was chosen or dropped: an outline, a task, or a table of poses. */
-  take(file, asOutline = DRAWINGS.test(file.name)) {
-    return this.trying(`Reading ${file.name}`, async () => {
-      if (file.size > LARGEST) throw new Refused(413, [{ message: `${file.name} has ${Math.round(file.size / 1e3)} kB, and the page takes ${LARGEST / 1e3}.`, help: "give it to the command: burmester studio FILE" }]);
-      const body = { name: file.name, base64: await base64Of(file), length_unit: this.store.document.length_unit };
-      if (asOutline) return this.outline(await (await this.server.post("/outline", body)).json(), file.name);
-      const { document: document2, options = {}, notes = [] } = await (await this.server.post("/read", body)).json();
-      const name = file.name.replace(/\.[^.]*$/, "");
-      const whole = TASKS.test(file.name);
-      this.store.replace(whole ? { document: document2, options, name } : { document: document2, options: this.store.options, name });
-      this.opened?.();
-      return this.banners.say("note", `${file.name} is open.`, notes, { undo: true });
-    });
-  }
-  outline({ outline: corners, notes = [] }, name) {
-    this.store.edit((document2) => setBody(document2, corners));
-    this.store.select({ kind: "body", index: 0 });
-    this.banners.say("note", `The outline of the body is that in ${name}: ${corners.length} corners.`, notes, { undo: true });
-  }
-  /** Rows of a spreadsheet: the poses are theirs, the rest of the task stays. */
-  paste(text) {
-    return this.trying("Pasting", async () => {
-      const { document: document2, notes = [] } = await (await this.server.post("/read", { name: "pasted", text, length_unit: this.store.document.length_unit, angle_unit: "deg" })).json();
-      const { poses, length_unit } = document2;
-      this.store.edit((old) => withKeys(old, { poses, length_unit: length_unit ?? old.length_unit }));
-      this.store.select(null);
-      this.opened?.();
-      this.banners.say("note", `${poses.length} poses were pasted.`, notes, { undo: true });
-    });
-  }
-  /** As a task file in TOML; where there is no server, as the same in JSON. */
-  save() {
-    return this.trying("Saving", async () => {
-      try {
-        await this.hand(await this.server.post("/task", this.task), `${this.store.name}.toml`);
-      } catch (error) {
-        if (error instanceof Refused) throw error;
-        this.saveWithoutServer();
-        this.banners.say("note", "The server does not answer: the task was saved as JSON, which the command reads as well.");
-      }
-    });
-  }
-  /** The task as JSON, made by the page: what the command reads, where there is no server. */
-  saveWithoutServer() {
-    download(new Blob([`${JSON.stringify(this.store.document, null, 2)}
-`], { type: "application/json" }), `${this.store.name.replace(/[^\w.-]+/g, "-") || "task"}.json`);
-  }
-  export(path2, what = {}) {
-    return this.trying("Exporting", async () => {
-      const linkage = this.store.chosen === "placed" ? null : this.store.chosen;
-      this.hand(await this.server.post(path2, { ...this.task, linkage, settings: this.store.settings, ...what }), "export");
-    });
-  }
-  async hand(response, otherwise) {
-    const name = /filename="([^"]+)"/.exec(response.headers.get("Content-Disposition") ?? "")?.[1] ?? otherwise;
-    download(await response.blob(), name);
-  }
-  commands() {
-    return this.trying("Copying", async () => {
-      const { commands } = await (await this.server.post("/command", { ...this.task, settings: this.store.settings, linkage: this.store.chosen === "placed" ? null : this.store.chosen })).json();
-      const close = button("Close", () => this.dialog.close(), { "data-do": "close" });
-      const said = h("p", { class: "bs-hint", role: "status" });
-      const copy = async (command) => {
-        try {
-          await navigator.clipboard.writeText(command);
-          said.textContent = "Copied.";
-        } catch {
-          said.textContent = "The browser does not let this page copy: select the text.";
-        }
-      };
-      this.dialog.replaceChildren(
-        h("h2", {}, "The same from the command line"),
-        h("p", { class: "bs-hint" }, "Save the task first; the commands read that file."),
-        ...commands.map(({ title, command }) => h("div", { class: "bs-command" }, h("h3", {}, title), h("pre", { tabindex: 0 }, command), button("Copy", () => copy(command), { "aria-label": `Copy: ${title}` }))),
-        h("div", { class: "bs-row" }, close, said)
-      );
-      this.dialog.showModal();
-    });
-  }
-  listen() {
-    let inside2 = 0;
-    const hasFiles = (event) => [...event.dataTransfer?.types ?? []].includes("Files");
-    const show = (by) => {
-      inside2 = Math.max(0, inside2 + by);
-      give(this.dropping, "hidden", inside2 === 0);
-    };
-    document.addEventListener("dragenter", (event) => hasFiles(event) && (event.preventDefault(), show(1)));
-    document.addEventListener("dragover", (event) => hasFiles(event) && event.preventDefault());
-    document.addEventListener("dragleave", (event) => hasFiles(event) && show(-1));
-    document.addEventListener("drop", async (event) => {
-      if (!hasFiles(event)) return;
-      event.preventDefault();
-      show(-Infinity);
-      inside2 = 0;
-      for (const file of event.dataTransfer.files) await this.take(file);
-    });
-    document.addEventListener("paste", (event) => {
-      const text = event.clipboardData?.getData("text/plain") ?? "", [file] = event.clipboardData?.files ?? [];
-      const typing = event.target.closest?.("input, textarea, select");
-      if (file) this.take(file);
-      else if (isTable(text)) this.paste(text);
-      else return;
-      event.preventDefault();
-      if (typing) typing.blur();
-    });
-  }
-};
-
-// src/burmester/web/studio/frames.mjs
-var WAY = ["x", "y", "angle", "drive", "transmission"];
-var POSE = ["x", "y", "angle_deg", "position", "turned_deg", "transmission_deg"];
-function decodeFrame(buffer) {
-  const length = new DataView(buffer).getUint32(0, true);
-  const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
-  const numbers = floats(buffer, 4 + length);
-  for (const linkage of header.linkages ?? []) {
-    if (linkage.ways) linkage.ways = linkage.ways.map((way) => ({ ...way, ...pieces(numbers, way, WAY) }));
-    if (!linkage.poses) continue;
-    const { count } = linkage.poses;
-    const columns = pieces(numbers, linkage.poses, POSE);
-    linkage.pose_errors = Array.from({ length: count }, (_, pose) => {
-      const at = linkage.at?.[pose] ?? null;
-      const row = { way: at ? at[0] : null, frame: at ? at[1] : null };
-      for (const name of POSE) {
-        const value = columns[name][pose];
-        row[name] = Number.isNaN(value) ? null : value;
-      }
-      return row;
-    });
-  }
-  return header;
-}
-function floats(buffer, start) {
-  if (new Uint8Array(new Uint16Array([1]).buffer)[0] === 1) return new Float32Array(buffer, start);
-  const view = new DataView(buffer, start);
-  return Float32Array.from({ length: view.byteLength / 4 }, (_, k) => view.getFloat32(4 * k, true));
-}
-function pieces(numbers, { start, count }, names) {
-  return Object.fromEntries(names.map((name, k) => [name, numbers.subarray(start + k * count, start + (k + 1) * count)]));
-}
-
-// src/burmester/web/studio/keyboard.mjs
-var KEYS2 = [
-  ["Tab", "from handle to handle, field to field"],
-  ["arrow keys", "move what has the focus by a step: a pose, the tip that turns it, a corner, a shape, a number; Shift: ten steps, Alt: a tenth"],
-  ["Delete", "removes the pose, the corner or the shape"],
-  ["Enter", "closes an outline; puts a shape in the middle while it is drawn"],
-  ["Escape", "gives up what is under way: a drag, a drawing, a selection"],
-  ["+ − 0", "on the plane: zoom and fit; arrow keys pan it"],
-  ["space", "plays and stops"],
-  ["Ctrl+Z, Ctrl+Shift+Z", "undo and redo"],
-  ["Ctrl+S, Ctrl+O, Ctrl+V", "save the task, open a file, paste rows of a spreadsheet"]
-];
-function keyList() {
-  const close = button("Close", () => dialog.close());
-  const dialog = h(
-    "dialog",
-    { class: "bs-dialog", "aria-label": "Keys" },
-    h("h2", {}, "Keys"),
-    h("dl", { class: "bs-keys" }, KEYS2.map(([key, what]) => h("div", {}, h("dt", {}, key), h("dd", {}, what)))),
-    close
-  );
-  return [button("Keys", () => dialog.showModal(), { "data-do": "keys" }), dialog];
-}
-var written2 = (element) => element?.matches?.("input:not([type=checkbox]):not([type=radio]):not([type=range]), textarea");
-function listenToKeys(store, scene, files) {
-  document.addEventListener("keydown", (event) => {
-    const { key, target } = event, control = (event.ctrlKey || event.metaKey) && !event.altKey;
-    if (control) {
-      const act2 = { z: () => event.shiftKey ? store.redo() : store.undo(), y: () => store.redo(), s: () => files.save(), o: () => files.chooser.click() }[key.toLowerCase()];
-      if (!act2 || written2(target) && target.dataset.typing === "true" && /^[zy]$/i.test(key)) return;
-      event.preventDefault();
-      act2();
-    } else if (scene.dragged && key === "Escape") {
-      event.preventDefault();
-      scene.dragged.cancel();
-    } else if (scene.tool && !written2(target) && scene.tool.key(event)) {
-      event.preventDefault();
-      event.stopPropagation();
-    } else if (key === "Escape" && !written2(target) && store.selection) {
-      store.select(null);
-    }
-  }, true);
-  document.addEventListener("input", ({ target }) => target.dataset && (target.dataset.typing = "true"));
-  for (const name of ["change", "focusout"]) document.addEventListener(name, ({ target }) => target.dataset && delete target.dataset.typing);
-}
-
-// src/burmester/web/studio/pose_table.mjs
-var PAGE = 60;
-var NUMBERS2 = [["x", "length"], ["y", "length"], ["angle", "angle"]];
-var BOUNDS = [["x", "x", "length"], ["y", "y", "length"], ["angle", "angle_deg", "angle"]];
-var oneLine = (name) => (name ?? "").replace(/[\r\n\u2028\u2029]+/g, " ");
-var PoseTable = class {
-  constructor(store, scene) {
-    this.store = store;
-    this.scene = scene;
-    this.page = 0;
-    this.rows = [];
-    this.body = h("tbody", {});
-    this.unit = h("span", { class: "bs-unit" });
-    this.pages = h("div", { class: "bs-pages", hidden: true });
-    this.details = h("div", { class: "bs-details", "data-details": "pose" });
-    this.table = h(
-      "table",
-      { class: "bs-poses", "aria-label": "Poses" },
-      h("thead", {}, h("tr", {}, h("th", { scope: "col" }, "#"), h("th", { scope: "col" }, "name"), h("th", { scope: "col" }, "x"), h("th", { scope: "col" }, "y"), h("th", { scope: "col" }, "angle °"))),
-      this.body
-    );
-    const add = button("Add a pose", () => this.add(), { "data-do": "add-pose-row" });
-    this.element = h("div", { class: "bs-table-box" }, this.table, this.pages, h("div", { class: "bs-row" }, add, this.unit), this.details);
-    this.makeDetails();
-    this.pace = new Pace(() => this.draw());
-    store.on("document selection", () => scene.dragged ? this.pace.ask() : this.draw());
-    scene.on("dropped", () => this.pace.catchUp());
-    this.draw();
-  }
-  get selected() {
-    const { selection, document: document2 } = this.store;
-    return selection?.kind === "pose" && selection.index < document2.poses.length ? selection.index : null;
-  }
-  draw() {
-    const { document: document2 } = this.store, count = document2.poses.length, pages = Math.max(1, Math.ceil(count / PAGE));
-    if (this.selected !== null && this.selected !== this.shownSelection) this.page = Math.floor(this.selected / PAGE);
-    this.shownSelection = this.selected;
-    this.page = Math.min(this.page, pages - 1);
-    const first = this.page * PAGE, shown2 = Math.min(PAGE, count - first);
-    while (this.rows.length < shown2) this.rows.push(this.makeRow(this.rows.length));
-    while (this.body.children.length > shown2) this.body.lastChild.remove();
-    for (let k = 0; k < shown2; k += 1) {
-      if (!this.rows[k].tr.isConnected || this.body.children[k] !== this.rows[k].tr) this.body.append(this.rows[k].tr);
-      this.showRow(this.rows[k], first + k);
-    }
-    this.unit.textContent = document2.length_unit ? `x and y in ${document2.length_unit}` : "";
-    this.showPages(pages, count);
-    this.showDetails();
-  }
-  /** One row of the table, at a place of the page; which pose it shows changes. */
-  makeRow(place) {
-    const row = { index: place, fields: {} };
-    const change = (changes) => this.store.edit((document2) => setPose(document2, row.index, changes));
-    row.number = h("button", { type: "button", class: "bs-index", onclick: () => this.store.select(row.index === this.selected ? null : { kind: "pose", index: row.index }) });
-    row.name = textField("Name", (text) => change({ name: text.trim() || void 0 }), { class: "bs-text bs-name", placeholder: "–" });
-    const cells2 = NUMBERS2.map(([key, kind]) => {
-      const field = new NumberField({
-        label: key,
-        options: () => ({ kind, unit: this.store.document.length_unit, optional: this.isFree(row.index, key) }),
-        step: () => kind === "angle" ? 1 : this.scene.step,
-        commit: (value) => change({ [key]: value }),
-        attributes: { "data-key": key }
-      });
-      row.fields[key] = field;
-      return h("td", {}, field.element);
-    });
-    row.tr = h("tr", { class: "bs-pose-row" }, h("th", { scope: "row" }, row.number), h("td", {}, row.name), cells2);
-    row.tr.addEventListener("focusin", (event) => event.target !== row.number && this.store.select({ kind: "pose", index: row.index }));
-    return row;
-  }
-  isFree(index, key) {
-    return Boolean(this.store.document.poses[index]?.free?.includes(key));
-  }
-  showRow(row, index) {
-    const pose = this.store.document.poses[index], moved = row.index !== index, selected = index === this.selected;
-    row.index = index;
-    if (!isOther(row.tr, [index, pose, selected]) && document.activeElement?.closest("tr") !== row.tr) return;
-    row.tr.dataset.row = index + 1;
-    row.tr.classList.toggle("bs-selected", selected);
-    row.number.textContent = index + 1;
-    put(row.number, "aria-label", `Pose ${index + 1}`);
-    put(row.number, "aria-pressed", selected);
-    if (moved || document.activeElement !== row.name) give(row.name, "value", oneLine(pose.name));
-    put(row.name, "aria-label", `Name of pose ${index + 1}`);
-    for (const [key] of NUMBERS2) {
-      const { input } = row.fields[key], free = this.isFree(index, key);
-      put(input, "aria-label", `${key} of pose ${index + 1}`);
-      put(input, "placeholder", free ? "free" : "");
-      row.fields[key].turnTo(index, pose[key]);
-      row.fields[key].show(pose[key]);
-    }
-  }
-  showPages(pages, count) {
-    give(this.pages, "hidden", pages < 2);
-    if (pages < 2) return;
-    const go = (page) => {
-      this.page = page;
-      this.draw();
-    };
-    this.pages.replaceChildren(
-      button("‹", () => go(Math.max(0, this.page - 1)), { "aria-label": "Earlier poses", disabled: this.page === 0 }),
-      h("span", {}, `${this.page * PAGE + 1}–${Math.min(count, (this.page + 1) * PAGE)} of ${count}`),
-      button("›", () => go(Math.min(pages - 1, this.page + 1)), { "aria-label": "Later poses", disabled: this.page === pages - 1 })
-    );
-  }
-  /** A copy of the last pose, a step beside it, and its x ready to be typed over. */
-  add() {
-    const { store, scene } = this, count = store.document.poses.length;
-    const last = count ? standing(store.document, count - 1) : { x: 0, y: 0, angle: 0 };
-    store.edit((document2) => addPose(document2, count ? { ...last, x: scene.rounded(last.x + 10 * scene.step) } : last));
-    store.select({ kind: "pose", index: count });
-    const field = this.rows.find((row) => row.index === count && row.tr.isConnected)?.fields.x.input;
-    field?.focus();
-    field?.select();
-  }
-  // What else a pose says: shown for the selected one
-  makeDetails() {
-    const { store } = this;
-    const at = () => this.selected;
-    const edit = (change) => store.edit((document2) => change(document2, at()));
-    this.title = h("h3", { class: "bs-pose-title" });
-    this.exact = tick("met exactly", (on) => edit((document2, k) => setPose(document2, k, { exact: on || void 0 })), { "data-key": "exact" });
-    this.weight = new NumberField({
-      label: "weight",
-      options: () => ({ optional: true, above: 0 }),
-      commit: (value) => edit((document2, k) => setPose(document2, k, { weight: value })),
-      attributes: { "data-key": "weight", placeholder: "1" }
-    });
-    this.bounds = BOUNDS.map(([component2, key, kind]) => {
-      const field = new NumberField({
-        label: `tolerance of ${component2}`,
-        options: () => ({ kind, unit: store.document.length_unit, optional: true, least: 0 }),
-        step: () => kind === "angle" ? 1 : this.scene.step,
-        commit: (value) => edit((document2, k) => setTolerance(document2, k, key, value)),
-        attributes: { "data-key": `tolerance-${component2}`, placeholder: "–" }
-      });
-      const free = tick("free", (on) => edit((document2, k) => setFree(document2, k, component2, on)), { "data-key": `free-${component2}`, "aria-label": `${component2} is free` });
-      return { component: component2, key, field, free };
-    });
-    this.axes = choice("Axes of the tolerance", [["fixed", "along the axes of the ground"], ["body", "along the axes of the body"]], (value) => edit((document2, k) => setTolerance(document2, k, "axes", value === "body" ? value : void 0)), { "data-key": "tolerance-axes" });
-    const act2 = (text, name, change, then) => button(text, () => {
-      const k = at();
-      edit(change);
-      store.select(then(k) === null ? null : { kind: "pose", index: then(k) });
-    }, { "data-do": name });
-    const last = () => store.document.poses.length - 1;
-    this.up = act2("Earlier", "earlier", (document2, k) => movePose(document2, k, k - 1), (k) => k - 1);
-    this.down = act2("Later", "later", (document2, k) => movePose(document2, k, k + 1), (k) => k + 1);
-    this.details.append(
-      this.title,
-      h("div", { class: "bs-row" }, this.exact.element, labelled("weight", this.weight.element)),
-      h("p", { class: "bs-hint" }, "Tolerance: how far from it the body may be, to either side"),
-      h(
-        "table",
-        { class: "bs-tolerances", "aria-label": "Tolerance" },
-        h("tbody", {}, this.bounds.map(({ component: component2, field, free }) => h("tr", {}, h("th", { scope: "row" }, component2 === "angle" ? "angle °" : component2), h("td", {}, field.element), h("td", {}, free.element))))
-      ),
-      this.axes,
-      h(
-        "div",
-        { class: "bs-row" },
-        this.up,
-        this.down,
-        act2("Duplicate", "duplicate", duplicatePose, (k) => k + 1),
-        act2("Delete", "delete-pose", removePose, (k) => last() < 0 ? null : Math.min(k, last()))
-      )
-    );
-  }
-  showDetails() {
-    const k = this.selected;
-    give(this.details, "hidden", k === null);
-    if (k === null) return;
-    const { poses } = this.store.document, pose = poses[k];
-    if (!isOther(this.details, [k, pose, poses.length]) && !this.details.contains(document.activeElement)) return;
-    this.title.replaceChildren(`Pose ${k + 1}`, ...pose.name ? [": ", h("bdi", {}, oneLine(pose.name))] : []);
-    give(this.exact.box, "checked", Boolean(pose.exact));
-    this.weight.turnTo(k, pose.weight);
-    this.weight.show(pose.weight);
-    for (const { component: component2, key, field, free } of this.bounds) {
-      const isFree = this.isFree(k, component2) || pose.tolerance?.[component2] === "free";
-      give(free.box, "checked", isFree);
-      give(field.input, "disabled", isFree);
-      const stated = pose.tolerance?.[key], bound = typeof stated === "number" ? stated : void 0;
-      field.turnTo(k, bound);
-      field.show(bound);
-    }
-    give(this.axes, "hidden", !pose.tolerance);
-    give(this.axes, "value", pose.tolerance?.axes ?? "fixed");
-    give(this.up, "disabled", k === 0);
-    give(this.down, "disabled", k === poses.length - 1);
-  }
-};
-
-// src/burmester/web/studio/regions.mjs
-var LONGEST_NAME2 = 22;
-var HATCH = 9;
-var PIVOT2 = { fixed_pivot: "Fixed pivot", moving_pivot: "Moving pivot" };
-function limitName(document2, { table: table3, key }) {
-  return `${PIVOT2[key]}${limitsOf(document2).length > 1 ? ` of dyad ${table3 + 1}` : ""}`;
-}
-function regionShape(region) {
-  if (region.box) return { shape: "box", points: region.box };
-  return region.polygon ? { shape: "polygon", points: region.polygon } : null;
-}
-var Regions = class {
-  constructor(store, scene) {
-    this.store = store;
-    this.scene = scene;
-    this.shapes = /* @__PURE__ */ new Map();
-    scene.layer("regions").append(s("defs", {}, s("pattern", { id: "bs-hatch", width: HATCH, height: HATCH, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" }, s("path", { class: "bm-hatch", d: `M0 0V${HATCH}` }))));
-    this.regions = new Kept(s("g"), (key, k) => this.makeRegion(k), (element) => this.shapes.get(element).draw());
-    this.footprint = new Kept(s("g"), () => this.makeFootprint(), (element) => this.shapes.get(element).draw());
-    this.limits = new Kept(s("g"), (key, limit) => this.makeLimit(limit), (element) => this.shapes.get(element).draw());
-    this.names = new Kept(s("g", { class: "bs-region-names", "aria-hidden": "true" }), () => s("text", {}), (text, name) => this.showName(text, name));
-    scene.layer("regions").append(this.regions.group, this.footprint.group);
-    scene.layer("limits").append(this.limits.group);
-    scene.layer("labels").append(this.names.group);
-    store.on("document", () => this.judge(store.state === "dragging" && !this.isOther()));
-    store.on("selection", () => this.draw());
-    store.on("solved followed chosen placed", () => this.judge());
-    scene.on("view", () => this.draw());
-    scene.hold(() => limitRegions(store.document).filter(({ shape }) => shape !== "line").flatMap((each) => this.corners(each)));
-    scene.hold(() => regionsOf(store.document).map(regionShape).filter(Boolean).flatMap(({ shape, points }) => outlineOf(shape, points)), true);
-    this.judge();
-  }
-  place({ key }) {
-    return key === "moving_pivot" ? referencePlace(this.store) : GROUND;
-  }
-  corners(limit) {
-    return outlineOf(limit.shape, limit.points).map((point2) => act(this.place(limit), point2));
-  }
-  /** Whether what must not be touched, or what touches, is another than when it was judged. */
-  isOther() {
-    const { body, keep_out, surroundings } = this.store.document, now = [body, keep_out, surroundings];
-    return now.some((each, k) => each !== this.judged?.[k]);
-  }
-  /** What the chosen linkage meets and breaks; it is drawn, and said in the lists.
-   *
-   * pivots: of limits only, for what is touched follows with the linkage.
-   */
-  judge(pivots = false) {
-    const { document: document2, solved } = this.store, linkage = currentLinkage(this.store);
-    this.broken = linkage?.led ? limitsMissed(document2, linkage, solved?.scene ?? 1) : null;
-    if (!pivots) {
-      this.judged = [document2.body, document2.keep_out, document2.surroundings];
-      this.touched = linkage?.led ? regionsTouched(document2, linkage, bodyOf(document2)) : null;
-    }
-    this.draw();
-    this.onjudged?.();
-  }
-  /** Sentences on a limit, by its table and key; null where no linkage is there. */
-  said(table3, key) {
-    return this.broken?.[table3]?.filter((each) => each.key === key).map((each) => missedSentence(each, this.store.document.length_unit)) ?? null;
-  }
-  draw() {
-    const { document: document2 } = this.store, regions = regionsOf(document2), limits = limitRegions(document2), { footprint } = document2.requirements ?? {};
-    this.regions.draw(regions.map((region, k) => [k, k]).filter(([k]) => regionShape(regions[k])));
-    this.limits.draw(limits.map((limit) => [`${limit.table} ${limit.key}`, limit]));
-    this.footprint.draw(footprint ? [["footprint", footprint]] : []);
-    for (const [element, handles] of this.shapes) {
-      if (element.parentNode) continue;
-      handles.clear();
-      this.shapes.delete(element);
-    }
-    this.names.draw([
-      ...regions.map((region, k) => [`region ${k}`, region.name && regionShape(region) ? { text: region.name, at: middle(outlineOf(...Object.values(regionShape(region)))) } : null]),
-      ...limits.map((limit) => [`limit ${limit.table} ${limit.key}`, { text: limitName(document2, limit), at: middleOf(this.corners(limit), limit.key === "moving_pivot"), off: limit.key === "moving_pivot" ? -5 : 14 }]),
-      ["footprint", footprint ? { text: "Footprint", at: middleOf(footprint.polygon ?? outlineOf("box", footprint.box), true), off: -5 } : null]
-    ].filter(([, name]) => name));
-  }
-  kept(handles) {
-    this.shapes.set(handles.element, handles);
-    return handles.element;
-  }
-  makeRegion(k) {
-    const { store } = this;
-    const handles = new ShapeHandles(this.scene, {
-      className: "bs-region",
-      what: () => {
-        const region = regionsOf(store.document)[k];
-        return {
-          ...regionShape(region),
-          place: GROUND,
-          name: region.name ? `Keep out: ${region.name}` : `Region ${k + 1} to keep out of`,
-          selected: store.selection?.kind === "region" && store.selection.index === k,
-          state: this.touched ? this.touched[k] ? "broken" : "met" : "",
-          data: { region: k }
-        };
-      },
-      set: (points, gesture) => store.edit((document2) => setRegion(document2, k, shapeOf(regionShape(regionsOf(document2)[k]).shape, points)), { gesture }),
-      remove: () => this.removeRegion(k),
-      select: () => store.select({ kind: "region", index: k }),
-      abandon: (gesture) => store.abandon(gesture)
-    });
-    handles.element.insertBefore(s("path", { class: "bs-hatched", fill: "url(#bs-hatch)" }), handles.area);
-    const draw = handles.draw.bind(handles);
-    handles.draw = () => {
-      draw();
-      handles.element.querySelector(".bs-hatched").setAttribute("d", handles.line.getAttribute("d"));
-    };
-    return this.kept(handles);
-  }
-  removeRegion(k) {
-    this.store.edit((document2) => removeRegion(document2, k));
-    this.store.select(null);
-    this.scene.svg.focus({ preventScroll: true });
-  }
-  makeLimit({ table: table3, key }) {
-    const { store } = this, place = () => this.place({ key });
-    const at = () => limitRegions(store.document).findIndex((each) => each.table === table3 && each.key === key);
-    return this.kept(new ShapeHandles(this.scene, {
-      className: `bs-limit bs-${key.replace("_", "-")}`,
-      what: () => {
-        const index = at(), limit = limitRegions(store.document)[index], said = this.said(table3, key);
-        return {
-          ...limit,
-          place: place(),
-          name: `Limit: ${limitName(store.document, limit)}`,
-          selected: store.selection?.kind === "limit" && store.selection.index === index,
-          state: said ? said.length ? "broken" : "met" : "",
-          data: { limit: index, plane: key === "moving_pivot" ? "M" : "F" }
-        };
-      },
-      set: (points, gesture) => store.edit((document2) => setLimit(document2, table3, { [key]: shapeOf(Object.keys(limitsOf(document2)[table3][key])[0], points) }), { gesture }),
-      remove: () => this.removeLimit(table3, key),
-      select: () => store.select({ kind: "limit", index: at() }),
-      abandon: (gesture) => store.abandon(gesture)
-    }));
-  }
-  removeLimit(table3, key) {
-    this.store.edit((document2) => setLimit(document2, table3, { [key]: void 0 }));
-    this.store.select(null);
-    this.scene.svg.focus({ preventScroll: true });
-  }
-  makeFootprint() {
-    const { store } = this, shape = () => Object.keys(store.document.requirements.footprint)[0];
-    return this.kept(new ShapeHandles(this.scene, {
-      className: "bs-footprint",
-      what: () => ({ shape: shape(), points: store.document.requirements.footprint[shape()], place: GROUND, name: "Footprint: holds all pivots", selected: store.selection?.kind === "footprint", data: { footprint: "" } }),
-      set: (points, gesture) => store.edit((document2) => setRequirement(document2, "footprint", { [shape()]: points }), { gesture }),
-      remove: () => {
-        store.edit((document2) => setRequirement(document2, "footprint", void 0));
-        store.select(null);
-      },
-      select: () => store.select({ kind: "footprint", index: 0 }),
-      abandon: (gesture) => store.abandon(gesture)
-    }));
-  }
-  showName(text, { text: name, at: [x, y], off }) {
-    const { view } = this.scene, shown2 = shortened(name, LONGEST_NAME2);
-    if (text.textContent !== shown2) text.textContent = shown2;
-    put(text, "class", off ? "bs-limit-name" : "bs-region-name");
-    put(text, "text-anchor", "middle");
-    put(text, "x", px(view.X(x)));
-    put(text, "y", px(view.Y(y) + (off ?? 4)));
-  }
-  // Tools that draw a new one
-  regionTool(shape) {
-    const { store } = this;
-    return new ShapeTool(this.scene, {
-      shape,
-      name: `region ${shape}`,
-      place: () => GROUND,
-      done: (points) => {
-        store.edit((document2) => addRegion(document2, { [shape]: points }));
-        store.select({ kind: "region", index: regionsOf(store.document).length - 1 });
-      }
-    });
-  }
-  limitTool(table3, key, shape) {
-    const { store } = this;
-    return new ShapeTool(this.scene, {
-      shape,
-      name: `limit ${table3} ${key} ${shape}`,
-      place: () => this.place({ key }),
-      done: (points) => {
-        store.edit((document2) => setLimit(document2, table3, { [key]: shapeOf(shape, points) }));
-        store.select({ kind: "limit", index: limitRegions(store.document).findIndex((each) => each.table === table3 && each.key === key) });
-      }
-    });
-  }
-  footprintTool(shape) {
-    const { store } = this;
-    return new ShapeTool(this.scene, {
-      shape,
-      name: `footprint ${shape}`,
-      place: () => GROUND,
-      done: (points) => {
-        store.edit((document2) => setRequirement(document2, "footprint", { [shape]: points }));
-        store.select({ kind: "footprint", index: 0 });
-      }
-    });
-  }
-};
-function middle(points) {
-  const [x, y, u, v] = bounds(points);
-  return [(x + u) / 2, (y + v) / 2];
-}
-function middleOf(points, upper) {
-  const [x, y, u, v] = bounds(points);
-  return [(x + u) / 2, upper ? v : y];
-}
-
-// src/burmester/web/widget/printing.mjs
-function unfoldForPrint(root, signal) {
-  window.addEventListener("beforeprint", () => {
-    for (const part of root.querySelectorAll("details:not([open])")) {
-      part.open = true;
-      part.dataset.opened = "";
-    }
-  }, { signal });
-  window.addEventListener("afterprint", () => {
-    for (const part of root.querySelectorAll("details[data-opened]")) {
-      part.open = false;
-      delete part.dataset.opened;
-    }
-  }, { signal });
-}
-
-// src/burmester/web/studio/events.mjs
-var Events = class {
-  /** Call `fn` after any of the events whose names stand in `names`, blanks between them. */
-  on(names, fn) {
-    this.heard ??= /* @__PURE__ */ new Map();
-    for (const name of names.split(" ")) this.heard.set(name, [...this.heard.get(name) ?? [], fn]);
-  }
-  emit(name, ...values) {
-    for (const fn of this.heard?.get(name) ?? []) fn(...values);
-  }
-};
-
-// src/burmester/web/studio/answers.mjs
-var LONGEST_NAME3 = 5;
-var FOLLOWED = 1e-7;
-var EXACT_TURN = 1e-5;
-var UNSEEN = 1e-6;
-var PLACED = "placed";
-var NOTHING = {
-  poses: [],
-  body: null,
-  keep_out: [],
-  scene: 1,
-  unit: null,
-  dyads: [],
-  linkages: [],
-  dyads_title: "Dyads",
-  chart: { origin: [0, 0], angle: 0, length: 1 },
-  space: { centre: [0, 0, 0], half: [1, 1, 1], quadrics: [] },
-  pivot_map: null,
-  family_map: null,
-  asked_transmission_deg: null,
-  best: [],
-  warnings: [],
-  footnotes: ""
-};
-var Answers = class extends Events {
-  /** @param {object} store */
-  constructor(store) {
-    super();
-    this.store = store;
-    this.data = { ...NOTHING };
-    this.linkages = [];
-    this.gone = [];
-    this.byId = /* @__PURE__ */ new Map();
-    this.placed = null;
-    store.on("solved", () => this.takeSolved());
-    store.on("followed", () => this.takeFollowed());
-    store.on("document", () => this.takePoses());
-    store.on("chosen", () => this.emit("shown"));
-    store.on("placed", () => this.takePlaced());
-    this.takePoses();
-    if (store.solved) this.takeSolved();
-  }
-  /** The linkage that is drawn, or undefined. */
-  get shown() {
-    return this.get(this.store.chosen) ?? (this.store.chosen === PLACED ? void 0 : this.linkages[0]);
-  }
-  /** @param {string | null} id */
-  get(id) {
-    return id === PLACED ? this.placed ?? void 0 : this.byId.get(id);
-  }
-  /** Whether what only the whole road knows belongs to an older task. */
-  get isOld() {
-    return this.store.solvedFor !== this.store.document;
-  }
-  takePoses() {
-    const poses = posesOf(this.store.document);
-    Object.assign(this.data, { poses, ...surroundingsOf(this.store.document, this.data) });
-    this.emit("poses");
-  }
-  takeSolved() {
-    const { solved, document: document2 } = this.store, before = this.linkages.filter((each) => !each.gone);
-    const { renamed: names, moved } = this.store;
-    const was = new Map([...names].map(([old, id]) => [id, this.byId.get(old)]));
-    const { poses, body, keep_out, ...rest } = solved;
-    Object.assign(this.data, { body, keep_out, ...rest, poses: posesOf(document2) });
-    this.gone = before.filter((each) => !names.has(each.id)).map((each) => each.id);
-    this.byId = /* @__PURE__ */ new Map();
-    this.linkages = solved.linkages.map((fresh) => {
-      const kept = was.get(fresh.id), now = kept ?? {};
-      const stood = kept && kept.rank !== Infinity;
-      const before2 = stood && kept.id !== fresh.id ? kept.id : null;
-      for (const key of Object.keys(now)) delete now[key];
-      Object.assign(now, figured(linked(fresh)), { was: before2, shift: moved.get(fresh.id) ?? 0, isNew: this.known && !stood, followed: false, gone: null, change: null });
-      this.byId.set(now.id, now);
-      return now;
-    });
-    this.known = true;
-    this.emit("answers");
-  }
-  takeFollowed() {
-    const frame = this.store.followed;
-    if (!frame) return;
-    for (const each of frame.linkages) {
-      let now = this.byId.get(each.id);
-      if (now && each.fresh === false) continue;
-      if (!now) {
-        now = appeared(each);
-        this.byId.set(each.id, now);
-        this.linkages.push(now);
-        this.hasNew = true;
-      }
-      follow(now, each, this.data);
-    }
-    for (const { id, message } of frame.vanished ?? []) {
-      const now = this.byId.get(id);
-      if (now) Object.assign(now, { gone: message, usable: false });
-    }
-    for (const { id, kind, message } of frame.changes ?? []) {
-      const now = this.byId.get(id);
-      if (now && kind !== "vanished") now.change = message;
-    }
-    if (this.hasNew) {
-      this.hasNew = false;
-      this.emit("answers");
-    } else {
-      this.emit("moved");
-    }
-  }
-  takePlaced() {
-    const placed = this.store.placed?.linkage;
-    const before = this.placed;
-    this.placed = placed ? Object.assign(before ?? {}, figured(renamed(linked(placed))), { id: PLACED, gone: null, followed: false }) : null;
-    this.emit("placed");
-    if (this.store.chosen === PLACED) this.emit(before && placed ? "moved" : "shown");
-  }
-};
-var linked = (linkage) => ({
-  ...linkage,
-  pose_errors: linkage.pose_errors.map((row) => ({ ...row, at: row.way === null ? null : linkage.ways[row.way] }))
-});
-var figured = (linkage) => Object.assign(linkage, { worst: linkage.position_error.max, least: linkage.min_transmission_angle_deg.range });
-function renamed(linkage) {
-  const names = new Map(linkage.dyads.map((dyad, k) => [dyad.id, `P${k + 1}`]));
-  const named = (dyad) => ({ ...dyad, id: names.get(dyad.id) ?? dyad.id });
-  const dimensions = linkage.said.dimensions.map((row) => ({ ...row, dyad: names.get(row.dyad) ?? row.dyad }));
-  return { ...linkage, dyads: linkage.dyads.map(named), led: linkage.led.map(named), said: { ...linkage.said, dimensions } };
-}
-function posesOf({ poses = [] }) {
-  const names = poses.map((pose, k) => pose.name || String(k + 1));
-  const short = names.every((name) => name.length <= LONGEST_NAME3);
-  return poses.map((pose, k) => ({ ...pose, angle_deg: pose.angle, name: names[k], label: short ? names[k] : String(k + 1) }));
-}
-var surroundingsOf = (document2, data) => ({ body: Array.isArray(document2.body) ? document2.body : document2.body === void 0 ? null : data.body });
-function follow(now, each, data) {
-  now.usable = each.usable;
-  now.led = each.led;
-  now.worst = each.worst;
-  now.least = each.transmission_deg;
-  now.reason = each.reason;
-  now.followed = true;
-  now.gone = null;
-  if (each.type) now.type = each.type;
-  if (!each.ways?.length) {
-    now.ways = now.ways ?? [];
-    return;
-  }
-  now.ways = each.ways;
-  now.pose_errors = each.pose_errors.map((row) => ({
-    ...row,
-    at: row.way === null ? null : each.ways[row.way],
-    said: row.x === null ? { position: "-", turned: "-", transmission: "-" } : {
-      position: row.position < FOLLOWED * data.scene ? "exact" : figure(row.position),
-      turned: row.turned_deg < EXACT_TURN ? "exact" : `${figure(row.turned_deg)}°`,
-      transmission: row.transmission_deg === null ? "-" : `${fixed(row.transmission_deg, 1)}°`
-    }
-  }));
-}
-var appeared = (each) => ({
-  id: each.id,
-  type: each.type ?? "linkage",
-  rank: Infinity,
-  dyads: each.led,
-  ways: [],
-  pose_errors: [],
-  isNew: true,
-  followed: true,
-  said: { met: "", in_short: each.reason ?? "", reasons: [], quality: {}, dimensions: [], notes: [], links: null, manifolds: [[], []], turns_fully: false, freedom: null, worst: "–", angle: "–", rms: "–", rms_angle: "–", transmission: "-" },
-  space: null,
-  shortcomings: [],
-  defects: [],
-  unmet: []
-});
-function worstOf(linkage, data) {
-  if (linkage.worst === null || linkage.worst === void 0) return "–";
-  if (!linkage.followed) return linkage.said.worst === "-" ? "–" : linkage.said.worst === "exact" ? "exact" : `${linkage.said.worst}${data.unit ? ` ${data.unit}` : ""}`;
-  return linkage.worst < FOLLOWED * data.scene ? "exact" : `${figure(linkage.worst)}${data.unit ? ` ${data.unit}` : ""}`;
-}
-function leastOf(linkage) {
-  if (!linkage.followed) return linkage.said.transmission === "-" ? "–" : linkage.said.transmission;
-  return linkage.least === null || linkage.least === void 0 ? "–" : `${Math.floor(10 * linkage.least + 1e-6) / 10}°`;
-}
-function dimensionsOf(linkage, data) {
-  const digits = decimalsOf(data), point2 = (p) => `(${p.map((value) => fixed(value, digits)).join(", ")})`;
-  return linkage.led.flatMap((dyad) => [
-    ...dyad.fixed_pivot ? [{ dyad: dyad.id, what: "fixed pivot in F", value: point2(dyad.fixed_pivot) }] : [],
-    ...dyad.moving_pivot ? [{ dyad: dyad.id, what: "moving pivot in M", value: point2(dyad.moving_pivot) }] : [],
-    ...dyad.radius !== void 0 ? [{ dyad: dyad.id, what: "length", value: fixed(dyad.radius, digits) }] : [],
-    ...dyad.line ? [{ dyad: dyad.id, what: `line in ${dyad.kind === "PR" ? "F" : "M"}, normal and offset`, value: `${fixed(dyad.line.normal_deg, 2)}°, ${fixed(dyad.line.offset, digits)}` }] : []
-  ]);
-}
-var placeOf = (row) => ({ x: row.x, y: row.y, a: radians(row.angle_deg) });
-
-// src/burmester/web/widget/vectors.mjs
-var dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-var scaled = (a, k) => [a[0] * k, a[1] * k, a[2] * k];
-var plus = (a, b) => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
-var cross2 = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-var unit = (a) => scaled(a, 1 / Math.hypot(...a));
-var times = (c, p, w) => [0, 4, 8, 12].map((r) => c[r] * p[0] + c[r + 1] * p[1] + c[r + 2] * p[2] + c[r + 3] * w);
-function intersections(c, o, d) {
-  const cd = times(c, d, 0), co = times(c, o, 1);
-  const a = dot(d, cd), b = dot(o, cd) + cd[3], e = dot(o, co) + co[3];
-  const root = b * b - a * e;
-  if (root < 0) return [];
-  const q = -(b + (b < 0 ? -1 : 1) * Math.sqrt(root));
-  const roots = [];
-  if (Math.abs(a) > 1e-12 * Math.abs(q)) roots.push(q / a);
-  if (q !== 0) roots.push(e / q);
-  return roots;
-}
-
-// src/burmester/web/widget/instantaneous.mjs
-function instantCentre(dyads, place) {
-  const [u, v, omega] = cross2(gradient(dyads[0], place), gradient(dyads[1], place));
-  const centre = [place.x - v / omega, place.y + u / omega];
-  return Number.isFinite(centre[0]) && Number.isFinite(centre[1]) ? centre : null;
-}
-function centrodePoint(dyads, place) {
-  const fixed2 = instantCentre(dyads, place);
-  return fixed2 && { fixed: fixed2, moving: back(place, fixed2) };
-}
-function driveOf(dyad, place) {
-  if (dyad.kind === "PR") return alongLine(dyad, place);
-  if (dyad.kind === "RP") return place.a + radians(dyad.line.normal_deg);
-  const [x, y] = act(place, dyad.moving_pivot);
-  return Math.atan2(y - dyad.fixed_pivot[1], x - dyad.fixed_pivot[0]);
-}
-function transmissionOf(driver, follower, place) {
-  if (driver.kind === "PP" || follower.kind === "PP") return null;
-  const slot = (dyad) => {
-    const [nx, ny] = normalOf(dyad), c = Math.cos(place.a), d = Math.sin(place.a);
-    return [c * nx - d * ny, d * nx + c * ny];
-  };
-  if (driver.kind === "RP" && follower.kind === "RP") return 90;
-  if (follower.kind === "RP") {
-    const pin = act(place, driver.moving_pivot), [x, y] = follower.fixed_pivot;
-    return between(slot(follower), [x - pin[0], y - pin[1]]);
-  }
-  const end = act(place, follower.moving_pivot);
-  const lever = follower.kind === "PR" ? normalOf(follower) : [end[0] - follower.fixed_pivot[0], end[1] - follower.fixed_pivot[1]];
-  if (driver.kind === "RP") return between(slot(driver), lever);
-  const start = act(place, driver.moving_pivot);
-  return between([end[0] - start[0], end[1] - start[1]], lever);
-}
-var between = (a, b) => Math.atan2(Math.abs(a[0] * b[1] - a[1] * b[0]), Math.abs(a[0] * b[0] + a[1] * b[1])) * 180 / Math.PI;
-
-// src/burmester/web/widget/outlines.mjs
-var HATCH2 = 9;
-var PALEST2 = 0.45;
-var LONGEST_NAME4 = 28;
-var LEAST_LINKAGE = 110;
-var MOST_PLACES2 = 400;
-var patterns = 0;
-var closed = (points, view, [x, y]) => `M${points.map((each) => `${px(x + view.scale * each[0])} ${px(y - view.scale * each[1])}`).join("L")}Z`;
-var bodyOutline = (data, view) => closed(data.body, view, [0, 0]);
-var placesAtPoses = (data, linkage) => data.poses.map((pose, k) => {
-  const row = linkage?.pose_errors[k], at = row && row.x !== null ? row : pose;
-  return { x: at.x, y: at.y, a: radians(at.angle_deg) };
-});
-function ghosts(data, linkage, view) {
-  const group = s("g", { class: "bm-ghosts" });
-  if (!data.body) return group;
-  const places = placesAtPoses(data, linkage), last = Math.max(1, places.length - 1);
-  places.forEach(({ x, y, a }, k) => {
-    const opacity = (PALEST2 + (1 - PALEST2) * k / last).toFixed(3);
-    group.append(s("path", { class: "bm-ghost", d: bodyOutline(data, view), "data-pose": k + 1, opacity, transform: transform(view.X(x), view.Y(y), a) }));
-  });
-  return group;
-}
-function keepOut(data, view) {
-  const group = s("g", { class: "bm-keep-out" });
-  if (!data.keep_out.length) return group;
-  const id = `bm-hatch-${patterns += 1}`;
-  group.append(
-    s(
-      "defs",
-      {},
-      s(
-        "pattern",
-        { id, width: HATCH2, height: HATCH2, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" },
-        s("path", { class: "bm-hatch", d: `M0 0V${HATCH2}` })
-      )
-    )
-  );
-  for (const region of data.keep_out) {
-    const d = closed(region.outline, view, [view.left, view.top]);
-    group.append(s("g", { class: "bm-region" }, s("title", {}, region.name || "keep out"), s("path", { class: "bm-region-plain", d }), s("path", { class: "bm-region-edge", d, fill: `url(#${id})` })));
-  }
-  return group;
-}
-function keepOutNames(data, view, labels) {
-  return data.keep_out.filter(({ name }) => name).map(({ name, at: [x, y] }) => {
-    const text = shortened(name, LONGEST_NAME4);
-    labels.block(view.X(x), view.Y(y), 7.2 * text.length, 14);
-    return s("text", { class: "bm-region-name", x: px(view.X(x)), y: px(view.Y(y) + 4), "text-anchor": "middle" }, text);
-  });
-}
-function bodyCorners(data, linkage, places) {
-  if (!data.body) return [];
-  const some = places.filter((_, k) => k % Math.ceil(places.length / MOST_PLACES2) === 0);
-  return [...placesAtPoses(data, linkage), ...some].flatMap((place) => data.body.map((corner) => act(place, corner)));
-}
-var sizeOf = ([x, y, u, v]) => Math.max(u - x, v - y);
-var including = (box, points) => points.reduce(([x, y, u, v], [a, b]) => [Math.min(x, a), Math.min(y, b), Math.max(u, a), Math.max(v, b)], box);
-function widened(box, data, linkage, places, width, all) {
-  const withBody = including(box, bodyCorners(data, linkage, places));
-  const whole = including(withBody, data.keep_out.flatMap((region) => region.outline));
-  const most = Math.max(2, width / LEAST_LINKAGE) * sizeOf(box);
-  if (all || !linkage || sizeOf(whole) <= most) return whole;
-  const inner = sizeOf(withBody) <= most ? withBody : box, reach = (most - sizeOf(inner)) / 2;
-  return whole.map((each, k) => k < 2 ? Math.max(each, inner[k] - reach) : Math.min(each, inner[k] + reach));
-}
-
-// src/burmester/web/widget/mechanism.mjs
-var BODY_AXIS = AXIS + 10;
-var LETTER = 14;
-var BLOCK_IN_SLOT = [18, 10];
-var SPARE2 = 5;
-var ARROW = 24;
-function mechanism(data, linkage, view, places) {
-  const drawn = new Mechanism(linkage);
-  drawn.shape(data, linkage, view, places);
-  return drawn;
-}
-var Mechanism = class {
-  constructor({ led }) {
-    this.kinds = kindsOf(led);
-    this.outline = s("path", { class: "bm-body-outline" });
-    this.links = s("g");
-    this.blocks = s("g");
-    this.pins = s("g");
-    this.coupler = s("g", { class: "bm-coupler" });
-    this.arrow = s("path", { class: "bm-drive-mark bm-side0" });
-    this.letter = s("text", { class: "bm-letter", "text-anchor": "middle" }, "M");
-    this.plates = [s("path", { class: "bm-plate-rim" }), s("path", { class: "bm-plate" })];
-    this.coupler.append(...this.plates);
-    this.parts = led.map((dyad, side) => new PARTS[dyad.kind](this, side));
-    this.coupler.append(s("path", { class: "bm-body-frame", d: axes(BODY_AXIS) }), s("circle", { class: "bm-origin", r: 4 }));
-    for (const part of this.parts) if (part.pin) this.coupler.append(part.pin);
-    this.group = s("g", { class: "bm-linkage" }, this.arrow, this.links, this.coupler, this.blocks, this.pins, this.letter);
-  }
-  /** Whether it can be given the dimensions of a linkage. */
-  fits({ led }) {
-    return kindsOf(led) === this.kinds;
-  }
-  /** The dimensions of a linkage in a picture; slots are as long as the places need. */
-  shape(data, linkage, view, places) {
-    this.view = view;
-    this.led = linkage.led;
-    this.hasBody = Boolean(data.body);
-    if (this.hasBody) {
-      put(this.outline, "d", bodyOutline(data, view));
-      if (!this.outline.parentNode) this.group.prepend(this.outline);
-    } else {
-      this.outline.remove();
-    }
-    const corners = [[0, 0]];
-    linkage.led.forEach((dyad, side) => {
-      if (dyad.moving_pivot) corners.push(inBody(dyad.moving_pivot, view));
-      const more = this.parts[side].shape(dyad, view, places);
-      if (more) corners.push(more);
-    });
-    const d = `M${hull(corners).map((corner) => corner.map(px).join(" ")).join("L")}Z`;
-    for (const plate of this.plates) put(plate, "d", d);
-    this.shapeArrow();
-  }
-  show(place) {
-    const { view } = this, at = transform(view.X(place.x), view.Y(place.y), place.a);
-    put(this.coupler, "transform", at);
-    if (this.hasBody) put(this.outline, "transform", at);
-    for (const part of this.parts) part.show(place);
-    const [x, y] = act(place, [-LETTER / view.scale, -LETTER / view.scale]);
-    put(this.letter, "x", px(view.X(x)));
-    put(this.letter, "y", px(view.Y(y) + 4));
-    const [driver] = this.led;
-    if (driver.kind === "PR") put(this.arrow, "transform", `${onRail(driver, place, view)} translate(0 ${-ARROW})`);
-  }
-  /** A turning or sliding arrow at the driver, for eyes that tell no colours apart. */
-  shapeArrow() {
-    const { arrow: arrow2, view } = this, [driver] = this.led;
-    if (driver.kind === "PR") put(arrow2, "d", "M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6 5");
-    if (!driver.fixed_pivot) return;
-    const [x, y] = driver.fixed_pivot;
-    put(arrow2, "d", "M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9");
-    put(arrow2, "transform", `translate(${px(view.X(x))} ${px(view.Y(y))}) rotate(-90)`);
-  }
-};
-var kindsOf = (led) => led.map((dyad) => dyad.kind).join();
-var inBody = ([x, y], view) => [view.scale * x, -view.scale * y];
-function onRail(dyad, place, view) {
-  const [x, y] = act(place, dyad.moving_pivot), [nx, ny] = normalOf(dyad);
-  return transform(view.X(x), view.Y(y), Math.atan2(nx, -ny));
-}
-var block = (side, width, height) => s("g", { class: `bm-block bm-side${side}` }, s("rect", { x: -width / 2, y: -height / 2, width, height, rx: 2 }));
-function setPin(pin, [x, y], dyad) {
-  put(pin, "cx", px(x));
-  put(pin, "cy", px(y));
-  pin.dataset.dyad = dyad.id;
-}
-var inGround = ([x, y], view) => [view.X(x), view.Y(y)];
-var Bar = class {
-  constructor({ links, pins }, side) {
-    this.strokes = [s("path", { class: "bm-bar" }), s("path", { class: "bm-core" })];
-    this.bar = s("g", { class: `bm-link bm-side${side}` }, this.strokes);
-    this.ground = s("circle", { class: "bm-pin bm-fixed-pin", r: 4.5 });
-    this.pin = s("circle", { class: "bm-pin", r: 4.5 });
-    links.append(this.bar);
-    pins.append(this.ground);
-  }
-  shape(dyad, view) {
-    this.dyad = dyad;
-    this.view = view;
-    for (const stroke of this.strokes) put(stroke, "d", `M0 0H${px(view.scale * dyad.radius)}`);
-    setPin(this.ground, inGround(dyad.fixed_pivot, view), dyad);
-    setPin(this.pin, inBody(dyad.moving_pivot, view), dyad);
-  }
-  show(place) {
-    const { dyad, view } = this, [cx, cy] = dyad.fixed_pivot, [x, y] = act(place, dyad.moving_pivot);
-    put(this.bar, "transform", transform(view.X(cx), view.Y(cy), Math.atan2(y - cy, x - cx)));
-  }
-};
-var BlockOnRail = class {
-  constructor({ blocks }, side) {
-    this.block = block(side, ...BLOCK);
-    this.pin = s("circle", { class: "bm-pin", r: 4.5 });
-    blocks.append(this.block);
-  }
-  shape(dyad, view) {
-    this.dyad = dyad;
-    this.view = view;
-    this.block.dataset.dyad = dyad.id;
-    setPin(this.pin, inBody(dyad.moving_pivot, view), dyad);
-  }
-  show(place) {
-    put(this.block, "transform", onRail(this.dyad, place, this.view));
-  }
-};
-var Slot = class {
-  constructor({ blocks, pins, coupler }, side) {
-    this.strokes = ["rim", "plate", "edge"].map((name) => s("path", { class: `bm-slot-${name}` }));
-    this.strokes.push(s("path", { class: "bm-slot" }));
-    this.block = block(side, ...BLOCK_IN_SLOT);
-    this.ground = s("circle", { class: "bm-pin bm-fixed-pin", r: 4 });
-    coupler.append(...this.strokes);
-    blocks.append(this.block);
-    pins.append(this.ground);
-  }
-  /** Returns the middle of the slot, for the body's plate. */
-  shape(dyad, view, places) {
-    this.dyad = dyad;
-    this.view = view;
-    const [low, high] = places.length ? travelOf(dyad, places) : [0, 0], end = (BLOCK_IN_SLOT[0] / 2 + SPARE2) / view.scale;
-    const seen2 = (along) => inBody(pointOnLine(dyad, along), view);
-    const d = `M${[seen2(low - end), seen2(high + end)].map((each) => each.map(px).join(" ")).join("L")}`;
-    for (const stroke of this.strokes) put(stroke, "d", d);
-    this.strokes[3].dataset.dyad = this.block.dataset.dyad = dyad.id;
-    setPin(this.ground, inGround(dyad.fixed_pivot, view), dyad);
-    return seen2((low + high) / 2);
-  }
-  show(place) {
-    const { dyad, view } = this, [nx, ny] = normalOf(dyad), [cx, cy] = dyad.fixed_pivot;
-    put(this.block, "transform", transform(view.X(cx), view.Y(cy), place.a + Math.atan2(nx, -ny)));
-  }
-};
-var Nothing = class {
-  shape() {
-  }
-  show() {
-  }
-};
-var PARTS = { RR: Bar, PR: BlockOnRail, RP: Slot, PP: Nothing };
-
-// src/burmester/web/widget/labels.mjs
-var Labels = class {
-  constructor(view) {
-    this.view = view;
-    this.taken = [];
-  }
-  block(x, y, width, height) {
-    this.taken.push([x - width / 2, y - height / 2, x + width / 2, y + height / 2]);
-  }
-  put(x, y, text, distance, attributes) {
-    const width = 7.2 * text.length + 4, height = 14;
-    let best = null;
-    for (let ring = 0; ring < 3; ring += 1) {
-      for (let k = 0; k < 16; k += 1) {
-        const angle = Math.PI / 8 * k + Math.PI / 4;
-        const away = distance + 9 * ring;
-        const cx = x + (away + width / 2 - 6) * Math.cos(angle);
-        const cy = y - away * Math.sin(angle);
-        const box = [cx - width / 2, cy - height / 2, cx + width / 2, cy + height / 2];
-        let cost = 0.02 * k + 6 * ring;
-        for (const other of this.taken) {
-          const across = Math.min(box[2], other[2]) - Math.max(box[0], other[0]);
-          const down = Math.min(box[3], other[3]) - Math.max(box[1], other[1]);
-          if (across > 0 && down > 0) cost += across * down;
-        }
-        if (box[0] < 2 || box[2] > this.view.width - 2) cost += 500;
-        if (box[1] < 2 || box[3] > this.view.height - 2) cost += 500;
-        if (!best || cost < best.cost) best = { cost, cx, cy, box };
-      }
-    }
-    this.taken.push(best.box);
-    return s(
-      "text",
-      { x: px(best.cx), y: px(best.cy + 4), "text-anchor": "middle", ...attributes },
-      text
-    );
-  }
-};
-
-// src/burmester/web/widget/rail.mjs
-var LONGEST = 4e3;
-function railOf(dyad, places, view) {
-  const [nx, ny] = normalOf(dyad), [low, high] = travelOf(dyad, places);
-  const half = view.scale * (high - low) / 2 + BLOCK[0], edge = BLOCK[1] / 2 + 1;
-  const [x, y] = ((at) => [view.X(at[0]), view.Y(at[1])])(pointOnLine(dyad, (low + high) / 2));
-  const bodySide = places.reduce((sum, place) => sum + nx * place.x + ny * place.y - dyad.line.offset, 0);
-  const turned = Math.atan2(nx, -ny) + (bodySide > 0 ? Math.PI : 0);
-  const drawn = Math.min(half, LONGEST);
-  let hatch = "";
-  for (let k = -drawn + 4; k < drawn - 2; k += 8) hatch += `M${px(k + 4)} ${edge}l-6 7`;
-  return { x, y, half, drawn, turned, paths: [`M${px(-half)} ${edge}H${px(half)}${hatch}`, `M${px(-half)} ${-edge}H${px(half)}`] };
-}
-
-// src/burmester/web/widget/plane.mjs
-var FACTORS = [0, 1, 10, 100, 1e3, 1e4, 1e5];
-function factorFor(data, linkage) {
-  const worst = Math.max(0, ...linkage.pose_errors.map((row) => row.position ?? 0));
-  if (!(worst > 1e-9 * data.scene)) return 0;
-  const fits = FACTORS.filter((factor) => factor >= 1 && factor * worst < 0.3 * data.scene);
-  return fits.length ? fits[fits.length - 1] : 1;
-}
-var standing2 = (dyad, places) => dyad.fixed_pivot ?? (dyad.kind === "PR" && places.length ? pointOnLine(dyad, travelOf(dyad, places).reduce((a, b) => (a + b) / 2)) : null);
-var Plane = class {
-  constructor(data, parent) {
-    this.data = data;
-    this.svg = s("svg", { class: "bm-plane", role: "img", tabindex: "0" });
-    this.parent = parent;
-    parent.append(this.svg);
-  }
-  /** Draw what stands still.
-   *
-   * stretch: the part of the way that is shown; factor: of the error arrows; fill: the height to
-   * fill, 0 for the picture's own; far: whether the picture is to hold pivots far from the poses.
-   */
-  build(linkage, way, stretch, { factor, fill, far }) {
-    const { data, svg } = this, path2 = linkage?.ways[way];
-    this.places = path2 ? placesOf(data, linkage, path2, stretch) : [];
-    const bare = boundsOf(data, linkage, this.places, far);
-    const width = Math.max(260, this.parent.clientWidth);
-    const box = widened(bare, data, linkage, this.places, width, far);
-    this.cut = !far && widened(bare, data, linkage, this.places, width, true).some((each, k) => each !== box[k]);
-    const shape = (box[3] - box[1]) / (box[2] - box[0]);
-    const own = clamp(width * clamp(shape, 0.45, 1), 260, clamp(0.62 * window.innerHeight, 340, 680));
-    const height = Math.round(fill ? clamp(fill, own, 1.15 * width) : own);
-    const view = viewOf(box, width, height, width < 500 ? 34 : 42);
-    this.view = view;
-    this.linkage = linkage;
-    this.way = way;
-    svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    svg.setAttribute("height", height);
-    svg.dataset.scale = view.scale;
-    svg.dataset.left = view.left;
-    svg.dataset.top = view.top;
-    svg.replaceChildren();
-    svg.append(this.grid(), keepOut(data, view), ghosts(data, linkage, view));
-    if (linkage) svg.append(this.paths());
-    const labels = new Labels(view);
-    this.names = s("g", { class: "bm-names" }, keepOutNames(data, view, labels));
-    if (linkage) svg.append(this.ground(labels));
-    for (const pose of data.poses) {
-      const x = view.X(pose.x), y = view.Y(pose.y), angle = radians(pose.angle_deg);
-      const c = AXIS * Math.cos(angle), d = AXIS * Math.sin(angle);
-      labels.block(x, y, 12, 12);
-      for (const share of [0.35, 0.65, 1]) {
-        labels.block(x + share * c, y - share * d, 6, 6);
-        labels.block(x - 0.6 * share * d, y - 0.6 * share * c, 6, 6);
-      }
-    }
-    svg.append(this.poses(linkage, factor, labels));
-    this.moving = path2 ? mechanism(data, linkage, view, this.places) : null;
-    if (this.moving) svg.append(this.moving.group);
-    if (linkage && !far) this.farPivots(labels);
-    svg.append(this.names);
-  }
-  grid() {
-    const { view } = this, group = s("g", { class: "bm-grid", "aria-hidden": "true" });
-    const unit2 = this.data.unit ? ` ${this.data.unit}` : "";
-    const across = ticks(-view.left / view.scale, (view.width - view.left) / view.scale, view.width / 110);
-    const up = ticks((view.top - view.height) / view.scale, view.top / view.scale, view.height / 80);
-    for (const { at, text } of across) {
-      const x = px(view.X(at));
-      group.append(s("path", { d: `M${x} 0V${view.height}` }));
-      if (x > 46 && x < view.width - (unit2 ? 54 : 30)) {
-        group.append(s("text", { x, y: view.height - 6, "text-anchor": "middle" }, text));
-      }
-    }
-    for (const { at, text } of up) {
-      const y = px(view.Y(at));
-      group.append(s("path", { d: `M0 ${y}H${view.width}` }));
-      if (y > 26 && y < view.height - 24) group.append(s("text", { x: 6, y: y - 4 }, text));
-    }
-    group.append(
-      s("text", { x: 6, y: 14 }, `y${unit2}`),
-      s("text", { x: view.width - 6, y: view.height - 6, "text-anchor": "end" }, `x${unit2}`)
-    );
-    return group;
-  }
-  /** Paths of the body's origin and of its pivots: full along the stretch that is shown. */
-  paths() {
-    const { view, linkage, places } = this, group = s("g", { class: "bm-paths" });
-    linkage.ways.forEach((way, k) => {
-      const same = way.circuit === linkage.ways[this.way]?.circuit;
-      const kind = k === this.way ? "bm-beyond" : same ? "bm-same" : "bm-other";
-      const whole = placesOf(this.data, linkage, way, { low: 0, high: way.x.length - 1 });
-      const d2 = polyline(whole.map(({ x, y }) => [x, y]), view);
-      group.append(s("path", { class: `bm-curve ${kind}`, d: d2 }));
-    });
-    for (const [side, dyad] of linkage.led.entries()) {
-      if (!dyad.moving_pivot || dyad.kind === "PR") continue;
-      const d2 = polyline(places.map((place) => act(place, dyad.moving_pivot)), view);
-      group.append(s("path", { class: `bm-pivot-path bm-side${side}`, d: d2 }));
-    }
-    const d = polyline(places.map(({ x, y }) => [x, y]), view);
-    group.append(s("path", { class: "bm-curve bm-here", d }));
-    return group;
-  }
-  /** Feet of fixed pivots and rails of sliders, with the names of their dyads. */
-  ground(labels) {
-    const group = s("g", { class: "bm-grounds" });
-    this.linkage.led.forEach((dyad, side) => {
-      if (dyad.kind === "PR") this.rail(group, labels, dyad, side);
-      else if (dyad.fixed_pivot) this.fixedPivot(group, labels, dyad, side);
-    });
-    return group;
-  }
-  /** A rail as long as the travel of its block. */
-  rail(group, labels, dyad, side) {
-    if (!this.places.length) return;
-    const { x, y, drawn, turned, paths } = railOf(dyad, this.places, this.view), [nx, ny] = normalOf(dyad);
-    group.append(
-      s(
-        "g",
-        { class: `bm-rail bm-side${side}`, "data-dyad": dyad.id, transform: transform(x, y, turned) },
-        s("path", { class: "bm-ground", d: paths[0] }),
-        s("path", { class: "bm-ground bm-thin", d: paths[1] })
-      )
-    );
-    for (let k = -drawn; k <= drawn; k += 14) labels.block(x - k * ny, y - k * nx, 22, 22);
-    this.names.append(labels.put(x, y, dyad.id, 26, { class: `bm-name bm-side${side}` }));
-  }
-  fixedPivot(group, labels, dyad, side) {
-    const x = this.view.X(dyad.fixed_pivot[0]), y = this.view.Y(dyad.fixed_pivot[1]);
-    labels.block(x, y + 10, 32, 34);
-    if (!side) labels.block(x, y, 40, 40);
-    const at = foot();
-    at.setAttribute("transform", `translate(${px(x)} ${px(y)})`);
-    group.append(at);
-    this.names.append(labels.put(x, y + 4, dyad.id, 27, { class: `bm-name bm-side${side}` }));
-  }
-  /** At the edge of the picture, in their direction, the names of what stands too far away for it. */
-  farPivots(labels) {
-    const { data, view } = this, isFar = farFrom(data), digits = decimalsOf(data);
-    this.linkage.led.forEach((dyad, side) => {
-      const at = standing2(dyad, this.places);
-      if (!at || !isFar(at)) return;
-      const [x, y] = [view.X(at[0]), view.Y(at[1])];
-      const cx = view.width / 2, cy = view.height / 2, size2 = Math.hypot(x - cx, y - cy);
-      const u = (x - cx) / size2, v = (y - cy) / size2;
-      const reach = Math.min((cx - 12) / Math.abs(u), (cy - 12) / Math.abs(v));
-      const ex = cx + reach * u, ey = cy + reach * v;
-      const text = `${dyad.id}: ${dyad.fixed_pivot ? "fixed pivot" : "rail"} at (${at.map((each) => fixed(each, digits)).join(", ")})`;
-      labels.block(ex, ey, 20, 20);
-      this.names.append(
-        s("path", { class: `bm-far-mark bm-side${side}`, d: "M-9 -6L3 0L-9 6", transform: transform(ex, ey, Math.atan2(-v, u)) }),
-        labels.put(ex, ey, text, 14, { class: `bm-name bm-far-name bm-side${side}` })
-      );
-    });
-  }
-  /** Wanted poses, the places that the linkage takes instead, and the errors between them, enlarged. */
-  poses(linkage, factor, labels) {
-    const { data, view } = this, group = s("g", { class: "bm-poses" });
-    const small = data.poses.length > 24 ? 0.6 : 1;
-    const arrows = this.errors(linkage, factor, labels);
-    const names = s("g", { class: "bm-pose-names" });
-    data.poses.forEach((pose, k) => {
-      const x = view.X(pose.x), y = view.Y(pose.y);
-      group.append(
-        s(
-          "g",
-          { class: "bm-wanted", transform: transform(x, y, radians(pose.angle_deg)), "data-pose": k + 1 },
-          s("path", { d: axes(AXIS * small) }),
-          s("circle", { r: 4.5 * small })
-        )
-      );
-      if (data.poses.length <= 60) names.append(labels.put(x, y, pose.label, 13, {}));
-      const row = linkage?.pose_errors[k];
-      if (!row || row.x === null) return;
-      const elsewhere = row.way === this.way ? "" : " bm-elsewhere";
-      group.append(
-        s(
-          "g",
-          { class: `bm-achieved${elsewhere}`, transform: transform(view.X(row.x), view.Y(row.y), radians(row.angle_deg)) },
-          s("path", { d: axes(0.72 * AXIS * small) }),
-          s("circle", { r: 2.2 * small })
-        )
-      );
-    });
-    group.append(arrows, names);
-    return group;
-  }
-  errors(linkage, factor, labels) {
-    const { data, view } = this, arrows = s("g", { class: "bm-errors" });
-    if (!linkage || !factor) return arrows;
-    linkage.pose_errors.forEach((row, k) => {
-      if (row.x === null) return;
-      const pose = data.poses[k], x = view.X(pose.x), y = view.Y(pose.y);
-      const dx = factor * view.scale * (row.x - pose.x), dy = -factor * view.scale * (row.y - pose.y);
-      const size2 = Math.hypot(dx, dy);
-      if (size2 < 1.5) return;
-      const head = Math.min(7, 0.5 * size2), ux = dx / size2, uy = dy / size2;
-      const tip = `${px(x + dx)} ${px(y + dy)}`;
-      const barb = (sign) => `L${px(x + dx - head * (ux - sign * 0.5 * uy))} ${px(y + dy - head * (uy + sign * 0.5 * ux))}`;
-      arrows.append(s("path", { d: `M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}` }));
-      for (let share = 0; share <= 1; share += 0.2) labels.block(x + share * dx, y + share * dy, 8, 8);
-    });
-    return arrows;
-  }
-  show(place) {
-    this.moving?.show(place);
-  }
-};
-
-// src/burmester/web/widget/smooth_path.mjs
-var hundredths = (value) => Math.round(Math.min(Math.max(value, -1e6), 1e6) * 100) / 100;
-function smoothPath(X, Y, closed2) {
-  const last = X.length - 1;
-  if (last < 1) return "";
-  const ahead = (values, k) => k < last ? values[k + 1] : closed2 ? values[1] : 2 * values[last] - values[last - 1];
-  const behind = (values, k) => k > 0 ? values[k - 1] : closed2 ? values[last - 1] : 2 * values[0] - values[1];
-  let d = `M${hundredths(X[0])} ${hundredths(Y[0])}`;
-  let [u, v] = [(ahead(X, 0) - behind(X, 0)) / 6, (ahead(Y, 0) - behind(Y, 0)) / 6];
-  for (let k = 0; k < last; k += 1) {
-    const p = (ahead(X, k + 1) - X[k]) / 6, q = (ahead(Y, k + 1) - Y[k]) / 6;
-    d += `C${hundredths(X[k] + u)} ${hundredths(Y[k] + v)} ${hundredths(X[k + 1] - p)} ${hundredths(Y[k + 1] - q)} ${hundredths(X[k + 1])} ${hundredths(Y[k + 1])}`;
-    [u, v] = [p, q];
-  }
-  return d;
-}
-
-// src/burmester/web/studio/live_linkage.mjs
-var MOST_ACHIEVED = 240;
-var BELOW = 38;
-var LEAST_ARROW = 1.5;
-var LiveLinkage = class {
-  constructor(answers, playing, scene) {
-    Object.assign(this, { answers, playing, scene, factor: 0 });
-    this.beyond = s("path", { class: "bm-curve bm-beyond" });
-    this.others = s("path", { class: "bm-curve bm-other" });
-    this.here = s("path", { class: "bm-curve bm-here" });
-    this.pivotPaths = [0, 1].map((side) => s("path", { class: `bm-pivot-path bm-side${side}` }));
-    this.paths = s("g", { class: "bs-paths", "aria-hidden": "true" }, this.others, this.beyond, ...this.pivotPaths, this.here);
-    this.feet = [0, 1].map((side) => {
-      const at = foot();
-      at.classList.add(`bm-side${side}`);
-      return at;
-    });
-    this.rails = [0, 1].map((side) => s("g", { class: `bm-rail bm-side${side}` }, s("path", { class: "bm-ground" }), s("path", { class: "bm-ground bm-thin" })));
-    this.achieved = s("g", { class: "bs-achieved" });
-    this.arrows = s("path", {});
-    this.names = [0, 1].map((side) => s("text", { class: `bm-name bm-side${side}`, "text-anchor": "middle" }));
-    this.mechanism = null;
-    this.holder = s("g", { class: "bs-mechanism" }, ...this.rails, ...this.feet, this.achieved, s("g", { class: "bm-errors" }, this.arrows));
-    this.labels = s("g", { class: "bs-dyad-names" }, this.names);
-    scene.layer("paths").append(this.paths);
-    scene.layer("mechanism").append(this.holder);
-    scene.layer("labels").append(this.labels);
-    scene.hold?.(() => this.points());
-    playing.on("shape", () => this.shape());
-    playing.on("place", ({ place }) => this.mechanism?.show(place));
-    scene.on("view", () => this.redraw());
-    this.redraw();
-  }
-  /** Points that a fit has to hold: the places at the poses and near pivots. */
-  points() {
-    const { linkage } = this.playing, { data } = this.answers;
-    if (!linkage) return [];
-    const [pose] = data.poses, near2 = ([x, y]) => pose && Math.hypot(x - pose.x, y - pose.y) < 3 * data.scene;
-    const pins = linkage.led.flatMap((dyad) => dyad.fixed_pivot ? [dyad.fixed_pivot] : []);
-    const moving = linkage.pose_errors.filter((row) => row.x !== null).flatMap((row) => linkage.led.filter((dyad) => dyad.moving_pivot).map((dyad) => act({ x: row.x, y: row.y, a: radians(row.angle_deg) }, dyad.moving_pivot)));
-    return [...pins, ...moving].filter(near2);
-  }
-  /** How errors are enlarged: while a hand drags never more than before, so that arrows do not flicker. */
-  enlarge() {
-    const { linkage } = this.playing, { data } = this.answers;
-    const seen2 = linkage?.pose_errors.length && !(linkage.followed && linkage.worst < UNSEEN * data.scene);
-    const fits = seen2 ? factorFor(data, linkage) : 0;
-    this.factor = this.answers.isOld && this.factor && fits ? Math.min(this.factor, fits) : fits;
-  }
-  redraw() {
-    this.shape();
-    if (this.playing.here && this.playing.path) this.mechanism?.show(this.playing.here.place);
-  }
-  /** Everything but the place along the way. */
-  shape() {
-    const { playing, answers, scene } = this, { linkage, path: path2 } = playing, { view } = scene;
-    const there = Boolean(linkage) && !linkage.gone;
-    for (const part of [this.paths, this.holder, this.labels]) put(part, "visibility", there ? "visible" : "hidden");
-    if (!there) return;
-    const places = path2 ? framesOf(path2) : [];
-    this.enlarge();
-    this.curves(linkage, path2, places, view);
-    this.ground(linkage, places, view);
-    this.atPoses(linkage, view);
-    if (!path2) {
-      this.mechanism?.group.remove();
-      this.mechanism = null;
-      return;
-    }
-    if (!this.mechanism?.fits(linkage)) {
-      this.mechanism?.group.remove();
-      this.mechanism = new Mechanism(linkage);
-      this.holder.append(this.mechanism.group);
-    }
-    this.mechanism.shape(answers.data, linkage, view, places);
-  }
-  curves(linkage, path2, places, view) {
-    const set = (element, list2, closed2) => put(element, "d", smoothPath(list2.map(([x]) => view.X(x)), list2.map(([, y]) => view.Y(y)), closed2));
-    const others = linkage.ways.filter((way) => way !== path2);
-    put(this.others, "d", others.map((way) => pathOf2(way, view)).join(""));
-    put(this.beyond, "d", path2 ? pathOf2(path2, view) : "");
-    this.pivotPaths.forEach((element, side) => {
-      const dyad = linkage.led[side];
-      if (!path2 || !dyad.moving_pivot || dyad.kind === "PR") put(element, "d", "");
-      else set(element, places.map((place) => act(place, dyad.moving_pivot)), path2.round);
-    });
-    if (!path2) {
-      put(this.here, "d", "");
-      return;
-    }
-    const { low, high } = this.playing.player.stretch, { length } = this.answers.data.chart, list = [];
-    const end = (u) => ((place) => [place.x, place.y])(placeAt(linkage, path2, u, length));
-    list.push(end(low));
-    for (let k = Math.floor(low) + 1; k < high; k += 1) list.push([path2.x[k], path2.y[k]]);
-    list.push(end(high));
-    set(this.here, list, path2.round && high - low > path2.x.length - 1 - 1e-6);
-  }
-  ground(linkage, places, view) {
-    linkage.led.forEach((dyad, side) => {
-      const [rail, at, name] = [this.rails[side], this.feet[side], this.names[side]];
-      const slides = dyad.kind === "PR" && places.length > 0;
-      put(rail, "display", slides ? "inline" : "none");
-      put(at, "display", dyad.fixed_pivot ? "inline" : "none");
-      put(name, "display", slides || dyad.fixed_pivot ? "inline" : "none");
-      if (name.textContent !== dyad.id) name.textContent = dyad.id;
-      let x, y;
-      if (slides) {
-        const drawn = railOf(dyad, places, view);
-        ({ x, y } = drawn);
-        put(rail, "transform", transform(x, y, drawn.turned));
-        drawn.paths.forEach((d, k) => put(rail.children[k], "d", d));
-        rail.dataset.dyad = dyad.id;
-      } else if (dyad.fixed_pivot) {
-        [x, y] = [view.X(dyad.fixed_pivot[0]), view.Y(dyad.fixed_pivot[1])];
-        put(at, "transform", `translate(${px(x)} ${px(y)})`);
-      } else {
-        return;
-      }
-      put(name, "x", px(x));
-      put(name, "y", px(y + BELOW));
-    });
-  }
-  /** Where the linkage takes the body instead of the poses, and the errors between them, enlarged. */
-  atPoses(linkage, view) {
-    const { achieved, answers: { data } } = this, rows = linkage.pose_errors;
-    const count = Math.min(rows.length, MOST_ACHIEVED), small = count > 24 ? 0.6 : 1;
-    while (achieved.children.length > count) achieved.lastChild.remove();
-    while (achieved.children.length < count) achieved.append(s("g", { class: "bm-achieved" }, s("path", {}), s("circle", {})));
-    let arrows = "";
-    for (let k = 0; k < count; k += 1) {
-      const row = rows[k], group = achieved.children[k];
-      if (group.dataset.size !== String(small)) {
-        group.dataset.size = small;
-        put(group.children[0], "d", axes(0.72 * AXIS * small));
-        put(group.children[1], "r", 2.2 * small);
-      }
-      if (row.x === null) {
-        put(group, "display", "none");
-        continue;
-      }
-      put(group, "display", "inline");
-      put(group, "transform", transform(view.X(row.x), view.Y(row.y), radians(row.angle_deg)));
-      group.classList.toggle("bm-elsewhere", row.at !== this.playing.path);
-      if (this.factor && data.poses[k]) arrows += arrow(view, data.poses[k], row, this.factor);
-    }
-    put(this.arrows, "d", arrows);
-  }
-};
-var framesOf = (way) => Array.from(way.x, (x, k) => ({ x, y: way.y[k], a: way.angle[k] }));
-var pathOf2 = (way, view) => smoothPath(Array.from(way.x, view.X), Array.from(way.y, view.Y), way.round);
-function arrow(view, pose, row, factor) {
-  const x = view.X(pose.x), y = view.Y(pose.y), by = factor * view.scale;
-  const dx = by * (row.x - pose.x), dy = -by * (row.y - pose.y), size2 = Math.hypot(dx, dy);
-  if (!(size2 >= LEAST_ARROW)) return "";
-  const head = Math.min(7, 0.5 * size2), ux = dx / size2, uy = dy / size2, tip = `${px(x + dx)} ${px(y + dy)}`;
-  const barb = (sign) => `L${px(x + dx - head * (ux - sign * 0.5 * uy))} ${px(y + dy - head * (uy + sign * 0.5 * ux))}`;
-  return `M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}`;
-}
-
-// src/burmester/web/studio/centrodes.mjs
-var FARTHEST = 30;
-var JUMP = 2;
-function centrodesOf(linkage, way, scene, near2) {
-  let before = null;
-  const points = framesOf(way).map((place) => {
-    const point2 = centrodePoint(linkage.led, place);
-    const far = !point2 || Math.hypot(point2.fixed[0] - near2[0], point2.fixed[1] - near2[1]) > FARTHEST * scene;
-    const cut = far || before && Math.hypot(point2.fixed[0] - before[0], point2.fixed[1] - before[1]) > JUMP * scene;
-    before = far ? null : point2.fixed;
-    return { point: far ? null : point2, cut };
-  });
-  const pieces2 = (key) => points.flatMap(({ point: point2, cut }) => cut ? [null, point2 && point2[key]] : [point2[key]]);
-  return { fixed: pieces2("fixed"), moving: pieces2("moving") };
-}
-var path = (points, X, Y) => {
-  let d = "", pen = "M";
-  for (const point2 of points) {
-    if (point2) d += `${pen}${px(X(point2[0]))} ${px(Y(point2[1]))}`;
-    pen = point2 ? "L" : "M";
-  }
-  return d;
-};
-var Centrodes = class {
-  constructor(answers, playing, scene) {
-    Object.assign(this, { answers, playing, scene });
-    this.fixed = s("path", { class: "bs-centrode bs-fixed-centrode" });
-    this.moving = s("path", { class: "bs-centrode bs-moving-centrode" });
-    this.mark = s("g", { class: "bs-instant-centre" }, s("circle", { r: 5 }), s("path", { d: "M-9 0H9M0 -9V9" }));
-    this.rays = s("path", { class: "bs-rays" });
-    this.group = s("g", { class: "bs-centrodes", visibility: "hidden", "aria-hidden": "true" }, this.fixed, this.moving, this.rays, this.mark);
-    scene.layer("curves").append(this.group);
-    this.box = h("input", { type: "checkbox", "data-tool": "centrodes", onchange: () => this.shape() });
-    this.readout = h("output", { class: "bs-quiet" });
-    this.element = h("div", { class: "bs-tool" }, h("label", {}, this.box, " Instant centre and centrodes"), " ", this.readout);
-    playing.on("shape", () => this.shape());
-    playing.on("place", ({ place }) => this.show(place));
-    scene.on("view", () => this.shape());
-  }
-  get on() {
-    return this.box.checked && Boolean(this.playing.path) && !this.playing.linkage.gone;
-  }
-  shape() {
-    put(this.group, "visibility", this.on ? "visible" : "hidden");
-    if (!this.on) {
-      this.readout.textContent = "";
-      return;
-    }
-    const { data } = this.answers, { linkage, path: way } = this.playing, { view } = this.scene;
-    const [pose] = data.poses, both = centrodesOf(linkage, way, data.scene, pose ? [pose.x, pose.y] : [0, 0]);
-    put(this.fixed, "d", path(both.fixed, view.X, view.Y));
-    put(this.moving, "d", path(both.moving, (x) => view.scale * x, (y) => -view.scale * y));
-    if (this.playing.here) this.show(this.playing.here.place);
-  }
-  show(place) {
-    if (!this.on) return;
-    const { view } = this.scene, { led } = this.playing.linkage, centre = instantCentre(led, place);
-    put(this.moving, "transform", transform(view.X(place.x), view.Y(place.y), place.a));
-    const there = centre && Math.hypot(centre[0] - place.x, centre[1] - place.y) < FARTHEST * this.answers.data.scene;
-    put(this.mark, "visibility", there ? "inherit" : "hidden");
-    put(this.rays, "visibility", there ? "inherit" : "hidden");
-    const digits = decimalsOf(this.answers.data), unit2 = this.answers.data.unit ? ` ${this.answers.data.unit}` : "";
-    this.readout.textContent = centre ? `at (${centre.map((value) => fixed(value, digits)).join(", ")})${unit2}` : "at infinity: the body only shifts";
-    if (!there) return;
-    const [x, y] = [view.X(centre[0]), view.Y(centre[1])];
-    put(this.mark, "transform", `translate(${px(x)} ${px(y)})`);
-    const ends = led.filter((dyad) => dyad.fixed_pivot).map((dyad) => `M${px(view.X(dyad.fixed_pivot[0]))} ${px(view.Y(dyad.fixed_pivot[1]))}L${px(x)} ${px(y)}`);
-    put(this.rays, "d", ends.join(""));
-  }
-};
-
-// src/burmester/web/widget/plots.mjs
-var LEFT = 62;
-var RIGHT = 14;
-var TOP = 22;
-var BOTTOM = 44;
-var PANEL = 84;
-var GAP = 28;
-var USUAL_LIMIT = 40;
-var MANY_POSES = 40;
-var HEADROOM = 1.32;
-var INSET = 8;
-var LONGEST_NAME5 = 16;
-var NAME_WIDTH = 11;
-var Plots = class {
-  constructor(data, parent, scrub) {
-    this.data = data;
-    this.parent = parent;
-    this.svg = s("svg", { class: "bm-plots", role: "img", "aria-label": "Errors and transmission angle" });
-    parent.append(this.svg);
-    const go = (event) => {
-      if (!this.way) return;
-      const box = this.svg.getBoundingClientRect();
-      const at = (event.clientX - box.left - LEFT - INSET) / (this.width - LEFT - RIGHT - 2 * INSET);
-      scrub(frameAt(this.way.drive, this.low + clamp(at, 0, 1) * (this.high - this.low)));
-    };
-    this.svg.addEventListener("pointerdown", (event) => {
-      this.svg.setPointerCapture(event.pointerId);
-      go(event);
-    });
-    this.svg.addEventListener("pointermove", (event) => event.buttons & 1 && go(event));
-  }
-  /** Draw the panels of a linkage over a stretch of its way `index`. */
-  build(linkage, index, stretch) {
-    const { data, svg } = this, way = linkage.ways[index];
-    this.way = way;
-    svg.replaceChildren();
-    this.cursor = null;
-    if (!way) return;
-    svg.setAttribute("aria-label", `${linkage.id}: errors at its poses, and its transmission angle along the driver`);
-    const width = this.width = Math.max(260, this.parent.clientWidth);
-    const poses = linkage.pose_errors.map((row, k) => ({ ...row, pose: data.poses[k] })).filter((row) => row.way === index && row.pose);
-    const upright = poses.some(({ pose }) => pose.label !== pose.name);
-    const longest = Math.max(0, ...poses.map(({ pose }) => shortened(poseName2(pose), LONGEST_NAME5).length));
-    this.top = TOP + (upright ? 6.2 * longest + 6 : 0);
-    const height = this.top + 3 * PANEL + 2 * GAP + BOTTOM;
-    svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    svg.setAttribute("height", height);
-    const [driver] = linkage.led, slides = driver.kind === "PR";
-    this.stretch = stretch;
-    this.low = linear(way.drive, stretch.low);
-    this.high = linear(way.drive, stretch.high);
-    this.X = (drive) => LEFT + INSET + (drive - this.low) / (this.high - this.low) * (width - LEFT - RIGHT - 2 * INSET);
-    this.across = slides ? ticks(this.low, this.high, width / 90) : angleTicks(this.low, this.high, Math.max(3, width / 70));
-    const rows = poses.map((row) => ({ ...row, drive: linear(way.drive, row.frame) }));
-    const unit2 = data.unit ?? "unit of the poses";
-    this.errors(0, `position error (${unit2})`, rows, (row) => row.position, 1e-11 * data.scene);
-    this.errors(1, "angle error (°)", rows, (row) => row.turned_deg, 1e-9);
-    const base = this.transmission(2, rows);
-    if (upright) this.uprightNames(rows);
-    const title = slides ? `place of ${driver.id} on its line (${unit2})` : `driver angle (${driver.id})`;
-    svg.append(s("text", { class: "bm-title", x: (LEFT + width - RIGHT) / 2, y: height - 6, "text-anchor": "middle" }, title));
-    this.cursor = s("g", { class: "bm-cursor" }, s("path", { d: `M0 ${this.top}V${base}` }));
-    this.mark = s("circle", { r: 4.5 });
-    this.cursor.append(this.mark);
-    svg.append(this.cursor);
-  }
-  /** The errors of the poses as stems; below `rounding` they are zero. */
-  errors(k, title, rows, value, rounding) {
-    const { svg, X } = this, y0 = this.top + k * (PANEL + GAP), base = y0 + PANEL;
-    const greatest = Math.max(1e-300, ...rows.map((row) => value(row) ?? 0));
-    const visible = greatest > rounding;
-    const high = visible ? HEADROOM * greatest : 1;
-    const Y = (v) => base - v / high * PANEL;
-    this.panel(title, y0, base);
-    if (!visible) {
-      svg.append(s("text", { class: "bm-note", x: LEFT + 8, y: y0 + PANEL / 2 }, rows.length ? "exact, up to rounding" : "no pose is on this assembly"));
-    } else {
-      for (const { at } of ticks(0, high, 3).slice(1)) this.rule(Y(at), figure(at));
-      svg.append(s("text", { class: "bm-tick", x: LEFT - 6, y: base + 4, "text-anchor": "end" }, "0"));
-    }
-    const greatestThree = new Set([...rows].sort((a, b) => value(b) - value(a)).slice(0, 3));
-    let last = -99;
-    for (const row of [...rows].sort((a, b) => a.drive - b.drive)) {
-      const x = px(X(row.drive)), y = px(visible ? Y(value(row)) : base);
-      svg.append(
-        s("path", { class: "bm-stem", d: `M${x} ${base}V${y}` }),
-        s("circle", { class: "bm-dot", cx: x, cy: y, r: 3.5 }, s("title", {}, `pose ${poseName2(row.pose)}: ${figure(value(row))}`))
-      );
-      const { label } = row.pose;
-      if (x - last > 6 + 6.5 * label.length && (rows.length <= MANY_POSES || greatestThree.has(row))) {
-        svg.append(s("text", { class: "bm-dot-name", x, y: y - 7, "text-anchor": "middle" }, label));
-        last = x;
-      }
-    }
-  }
-  /** The transmission angle along the way, and at its poses.  Returns the panel's base. */
-  transmission(k, rows) {
-    const { svg, way, width, X } = this, y0 = this.top + k * (PANEL + GAP), base = y0 + PANEL;
-    const Y = this.Y = (v) => base - v / 90 * PANEL;
-    this.panel("transmission angle (°)", y0, base, true);
-    for (const at of [0, 30, 60, 90]) this.rule(Y(at), at);
-    const asked = this.data.asked_transmission_deg, limit = asked ?? USUAL_LIMIT;
-    svg.append(s("path", { class: "bm-usual", d: `M${LEFT} ${px(Y(limit))}H${width - RIGHT}` }));
-    const below = limit > 15 && (linear(way.transmission, this.stretch.high) ?? 90) > limit;
-    const limitName2 = s("text", { class: "bm-tick bm-halo", x: width - RIGHT - 4, y: px(Y(limit)) + (below ? 12 : -4), "text-anchor": "end" }, `${figure(limit)}°, ${asked ? "asked" : "a usual limit"}`);
-    const { low, high } = this.stretch, frames = [low];
-    for (let i = Math.floor(low) + 1; i < high; i += 1) frames.push(i);
-    frames.push(high);
-    let line2 = "", pen = "M";
-    for (const u of frames) {
-      const angle = linear(way.transmission, u);
-      if (angle === null) continue;
-      line2 += `${pen}${px(X(linear(way.drive, u)))} ${px(Y(angle))}`;
-      pen = "L";
-    }
-    svg.append(s("path", { class: "bm-line", d: line2 }));
-    for (const row of rows) {
-      if (row.transmission_deg === null) continue;
-      svg.append(s("circle", { class: "bm-dot", cx: px(X(row.drive)), cy: px(Y(row.transmission_deg)), r: 3 }));
-    }
-    svg.append(limitName2);
-    return base;
-  }
-  /** Names of the poses over their stems, those that have room. */
-  uprightNames(rows) {
-    let last = -99;
-    for (const row of [...rows].sort((a, b) => a.drive - b.drive)) {
-      const x = this.X(row.drive), y = this.top - 20;
-      if (x - last < NAME_WIDTH) continue;
-      last = x;
-      const text = s("text", { class: "bm-dot-name bm-upright", transform: `translate(${px(x + 4)} ${px(y)}) rotate(-90)` });
-      text.append(shortened(poseName2(row.pose), LONGEST_NAME5));
-      this.svg.append(s("g", {}, s("title", {}, poseName2(row.pose)), text));
-    }
-  }
-  /** An empty panel with its title and the lines of the drive. */
-  panel(title, y0, base, labelled3 = false) {
-    const { svg, width } = this;
-    svg.append(
-      s("rect", { class: "bm-panel", x: LEFT, y: y0, width: width - LEFT - RIGHT, height: base - y0 }),
-      s("text", { class: "bm-title", x: LEFT, y: y0 - 7 }, title)
-    );
-    let last = -99;
-    for (const { at, text } of this.across) {
-      const x = px(this.X(at));
-      svg.append(s("path", { class: "bm-rule", d: `M${x} ${y0}V${base}` }));
-      if (labelled3 && x - last > 34) {
-        svg.append(s("text", { class: "bm-tick", x, y: base + 15, "text-anchor": "middle" }, text));
-        last = x;
-      }
-    }
-  }
-  rule(y, text) {
-    this.svg.append(
-      s("path", { class: "bm-rule", d: `M${LEFT} ${px(y)}H${this.width - RIGHT}` }),
-      s("text", { class: "bm-tick", x: LEFT - 6, y: px(y) + 4, "text-anchor": "end" }, text)
-    );
-  }
-  show(drive, transmission) {
-    if (!this.cursor) return;
-    this.cursor.setAttribute("transform", `translate(${px(this.X(drive))} 0)`);
-    if (transmission !== null) this.mark.setAttribute("cy", px(this.Y(transmission)));
-  }
-};
-
-// src/burmester/web/studio/charts.mjs
-var Charts = class {
-  constructor(answers, playing) {
-    this.playing = playing;
-    const fill = h("div", { class: "bm-fill" });
-    this.plots = new Plots(answers.data, fill, (u) => playing.player.go(u));
-    this.element = fill;
-    this.pace = new Pace(() => this.build(), () => isSeen(fill));
-    playing.on("shape", () => this.pace.ask());
-    playing.on("place", ({ drive, transmission }) => {
-      if (this.isFresh && isSeen(fill)) this.plots.show(drive, transmission);
-    });
-    answers.on("poses", () => this.isFresh = false);
-    new ResizeObserver(() => this.pace.ask()).observe(fill);
-    watch(fill, () => this.pace.ask());
-  }
-  build() {
-    const { playing, plots } = this, { linkage, path: path2, player } = playing;
-    if (!linkage || !path2 || linkage.gone || linkage.pose_errors.length !== plots.data.poses.length) {
-      plots.svg.replaceChildren();
-      plots.way = plots.cursor = null;
-      return;
-    }
-    plots.build(linkage, player.way, player.stretch);
-    this.isFresh = true;
-    if (playing.here) plots.show(playing.here.drive, playing.here.transmission);
-  }
-};
-
-// src/burmester/web/studio/together.mjs
-var stopsOf = (linkage, index) => linkage.pose_errors.map((row, k) => ({ k, way: row.way, frame: row.frame })).filter((stop) => stop.way === index).sort((a, b) => a.frame - b.frame);
-function stageOf(linkage, index, u) {
-  const stops = stopsOf(linkage, index);
-  if (!stops.length) return null;
-  if (stops.length === 1) return { from: stops[0].k, to: stops[0].k, share: 0 };
-  let at = 0;
-  while (at + 2 < stops.length && stops[at + 1].frame <= u) at += 1;
-  const [a, b] = [stops[at], stops[at + 1]], step = b.frame - a.frame;
-  const share = step > 0 ? (u - a.frame) / step : 0;
-  return { from: a.k, to: b.k, share: Math.min(Math.max(share, -1), 2) };
-}
-function frameAtStage(linkage, stage) {
-  if (!stage) return null;
-  const [a, b] = [stage.from, stage.to].map((k) => linkage.pose_errors[k]);
-  const there = (row) => Boolean(row) && row.way !== null;
-  if (!there(a) || !there(b) || a.way !== b.way) {
-    const [near2, other] = stage.share < 0.5 ? [a, b] : [b, a];
-    const row = there(near2) ? near2 : there(other) ? other : null;
-    return row && { way: row.way, u: row.frame };
-  }
-  const way = linkage.ways[a.way], last = way.x.length - 1;
-  let step = b.frame - a.frame;
-  if (way.round && Math.abs(step) > last / 2) step -= Math.sign(step) * last;
-  const u = a.frame + stage.share * step;
-  return { way: a.way, u: way.round ? (u % last + last) % last : Math.min(Math.max(u, 0), last) };
-}
-
-// src/burmester/web/studio/compare.mjs
-function comparison(one, other, data) {
-  const unit2 = data.unit ? ` ${data.unit}` : "", both = [one, other];
-  const least2 = (values) => values.every(Number.isFinite) && values[0] !== values[1] ? values[0] < values[1] ? 0 : 1 : null;
-  const row = (name, text, value, sign = 1) => ({ name, texts: both.map(text), better: value ? least2(both.map((each) => sign * (value(each) ?? NaN))) : null });
-  const links = ["ground", "driver", "coupler", "follower"];
-  return [
-    row("verdict", (each) => each.gone ? "gone" : each.usable ? "usable" : "not usable", (each) => each.usable ? 0 : 1),
-    row("type", (each) => each.type),
-    row("worst miss", (each) => worstOf(each, data), (each) => each.worst),
-    row("least transmission angle", (each) => leastOf(each), (each) => each.least, -1),
-    row("size", (each) => each.quality ? `${figure(each.quality.extent)} spans` : "–", (each) => each.quality?.extent),
-    row("sensitivity", (each) => each.quality ? figure(each.quality.sensitivity) : "–", (each) => each.quality?.sensitivity),
-    row("driver", (each) => each.led[0].id),
-    ...links.map((name) => row(`${name} link`, (each) => each.said.links?.[name] ? `${each.said.links[name]}${unit2}` : "–")),
-    row("reason", (each) => each.usable ? "–" : (each.followed ? each.reason : each.said.reasons.join("; ")) || "–")
-  ];
-}
-var Compare = class {
-  constructor(store, answers, playing) {
-    Object.assign(this, { store, answers, playing });
-    this.pictures = [0, 1].map(() => h("div", { class: "bm-drawing" }));
-    this.planes = this.pictures.map((parent) => new Plane(answers.data, parent));
-    this.names = [0, 1].map(() => h("h3", {}));
-    this.places = [0, 1].map(() => h("p", { class: "bs-quiet" }));
-    this.table = h("div", { class: "bm-scroll", tabindex: 0, role: "region", "aria-label": "Both linkages in numbers" });
-    this.button = h("button", { type: "button", class: "bm-button", onclick: () => playing.player.play(!playing.player.playing) }, "Play both");
-    this.close = h("button", { type: "button", class: "bs-small", onclick: () => store.compared && store.compare(store.compared) }, "End the comparison");
-    this.pairs = h("div", { class: "bs-beside" }, [0, 1].map((k) => h("div", {}, this.names[k], this.pictures[k], this.places[k])));
-    this.empty = h("p", { class: "bm-story" }, "Press “Compare” on a card: that linkage moves beside the chosen one.");
-    this.full = h("div", { hidden: true }, this.pairs, h("div", { class: "bs-tool" }, this.button, " ", this.close), this.table);
-    this.element = h("div", { class: "bs-compare" }, this.empty, this.full);
-    this.pace = new Pace(() => this.build(), () => this.on && isSeen(this.element));
-    answers.on("answers shown", () => this.start());
-    playing.on("shape", () => this.pace.ask());
-    playing.on("place", (here) => this.show(here));
-    new ResizeObserver(() => this.pace.ask()).observe(this.element);
-    watch(this.element, () => this.pace.ask());
-  }
-  get other() {
-    return this.answers.get(this.store.compared);
-  }
-  get on() {
-    return Boolean(this.other && this.playing.linkage && this.other !== this.answers.shown);
-  }
-  start() {
-    give(this.full, "hidden", !this.on);
-    give(this.empty, "hidden", this.on);
-    if (this.on) {
-      for (let part = this.element.parentElement; part; part = part.parentElement) if (part.tagName === "DETAILS") part.open = true;
-      this.build();
-    }
-  }
-  build() {
-    if (!this.on) return;
-    const { answers, playing, other } = this, mine = playing.linkage;
-    const options = { factor: 0, fill: 0, far: false };
-    this.names.forEach((name, k) => name.textContent = [mine, other][k].id === "placed" ? "By hand" : `${[mine, other][k].id}: ${[mine, other][k].type}`);
-    this.planes[0].build(mine, playing.player.way, playing.player.stretch, options);
-    this.way = null;
-    this.buildTable(comparison(mine, other, answers.data));
-    if (playing.here) this.show(playing.here);
-  }
-  buildTable(rows) {
-    const old = this.answers.isOld ? "bs-old" : null;
-    this.table.replaceChildren(
-      h(
-        "table",
-        { class: "bs-compared" },
-        h("caption", {}, "Both linkages in numbers; the better one of each row is bold"),
-        h("thead", {}, h("tr", {}, h("th", { scope: "col" }, ""), this.names.map((name) => h("th", { scope: "col" }, name.textContent)))),
-        h("tbody", {}, rows.map(({ name, texts, better }) => h("tr", { class: /size|sensitivity|link/.test(name) ? old : null }, h("th", { scope: "row" }, name), texts.map((text, k) => h("td", { class: "bm-words" }, better === k ? h("b", {}, text) : text)))))
-      )
-    );
-  }
-  /** Both at the same stage. */
-  show({ place, transmission }) {
-    if (!this.on || !isSeen(this.element)) return;
-    const { playing, other, answers: { data } } = this, { player } = playing;
-    this.planes[0].show(place);
-    this.tell(0, transmission);
-    const at = frameAtStage(other, stageOf(playing.linkage, player.way, player.u));
-    this.pictures[1].classList.toggle("bs-old", !at);
-    if (!at) {
-      this.planes[1].build(other, 0, { low: 0, high: (other.ways[0]?.x.length ?? 2) - 1 }, { factor: 0, fill: 0, far: false });
-      this.places[1].textContent = "It does not reach this pose.";
-      return;
-    }
-    if (this.way !== at.way) {
-      this.way = at.way;
-      const stops = other.pose_errors.filter((row) => row.way === at.way).map((row) => row.frame);
-      const [low, high] = [Math.min(...stops), Math.max(...stops)];
-      this.planes[1].build(other, at.way, high > low ? { low, high } : { low: 0, high: other.ways[at.way].x.length - 1 }, { factor: 0, fill: 0, far: false });
-    }
-    const way = other.ways[at.way];
-    this.planes[1].show(placeAt(other, way, at.u, data.chart.length));
-    this.tell(1, way.transmission[Math.round(at.u)]);
-  }
-  tell(k, transmission) {
-    const text = `transmission angle ${transmission === null || !Number.isFinite(transmission) ? "–" : `${fixed(transmission, 1)}°`}`;
-    if (this.places[k].textContent !== text) this.places[k].textContent = text;
-  }
-};
-
-// src/burmester/web/studio/coupler_curve.mjs
-var MOST2 = 8;
-var ARROWS3 = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
-var curveOf = (way, point2) => framesOf(way).map((place) => act(place, point2));
-var CouplerCurves = class {
-  constructor(answers, playing, scene) {
-    Object.assign(this, { answers, playing, scene, points: [] });
-    this.group = s("g", { class: "bs-coupler-curves" });
-    this.handles = s("g", { class: "bs-coupler-points" });
-    scene.layer("paths").append(this.group);
-    scene.layer("pivots").append(this.handles);
-    this.button = h("button", { type: "button", class: "bs-small", "aria-pressed": "false", "data-tool": "coupler-point", onclick: () => this.pick() }, "Pick a point on the body");
-    this.list = h("ul", { class: "bs-points" });
-    this.readout = h("output", { class: "bs-quiet" });
-    this.element = h("div", { class: "bs-tool" }, this.button, " ", this.readout, this.list);
-    this.tool = {
-      name: "coupler-point",
-      hint: "Click on the body: the curve of that point is drawn. Escape ends.",
-      click: ({ x, y }) => this.add([x, y]),
-      key: (event) => {
-        if (event.key !== "Escape") return false;
-        scene.use?.(null);
-        return true;
-      },
-      end: () => put(this.button, "aria-pressed", "false")
-    };
-    playing.on("shape", () => this.shape());
-    playing.on("place", ({ place }) => this.show(place));
-    scene.on("view", () => this.shape());
-    this.tell();
-  }
-  pick() {
-    const on = this.scene.tool !== this.tool;
-    this.scene.use?.(on ? this.tool : null);
-    put(this.button, "aria-pressed", String(on));
-  }
-  /** A point of F where the body is now, or a point of M. */
-  add(at, inBody2 = false) {
-    const place = this.playing.here?.place;
-    if (!place && !inBody2 || this.points.length >= MOST2) return;
-    const point2 = { at: inBody2 ? at : this.rounded(back(place, at)), path: s("path", { class: "bm-curve bs-coupler-curve" }) };
-    point2.handle = s(
-      "g",
-      { class: "bs-coupler-point", tabindex: 0, role: "button", "data-point": this.points.length + 1 },
-      s("circle", { class: "bs-hold", r: 13 }),
-      s("circle", { class: "bs-coupler-dot", r: 4.5 })
-    );
-    this.drag(point2);
-    this.points.push(point2);
-    this.group.append(point2.path);
-    this.handles.append(point2.handle);
-    this.number();
-    this.shape();
-  }
-  remove(point2) {
-    this.points = this.points.filter((each) => each !== point2);
-    point2.path.remove();
-    point2.handle.remove();
-    this.number();
-    this.shape();
-  }
-  number() {
-    this.points.forEach((point2, k) => point2.handle.dataset.point = k + 1);
-  }
-  rounded(point2) {
-    return point2.map((value) => Number(value.toFixed(clamp(decimalsOf(this.answers.data), 0, 12))));
-  }
-  drag(point2) {
-    let before;
-    this.scene.drag?.(point2.handle, {
-      start: () => {
-        before = point2.at;
-        this.playing.player.play(false);
-      },
-      move: ({ x, y }) => this.put(point2, back(this.playing.here.place, [x, y])),
-      cancel: () => this.put(point2, before)
-    });
-    point2.handle.addEventListener("keydown", (event) => {
-      const arrow2 = ARROWS3[event.key];
-      if (event.ctrlKey || event.metaKey) return;
-      if (arrow2) {
-        const step = (this.scene.step ?? this.answers.data.scene / 100) * (event.shiftKey ? 10 : event.altKey ? 0.1 : 1);
-        this.put(point2, point2.at.map((value, k) => value + step * arrow2[k]));
-      } else if (event.key === "Delete" || event.key === "Backspace") {
-        this.remove(point2);
-      } else {
-        return;
-      }
-      event.preventDefault();
-    });
-  }
-  put(point2, at) {
-    point2.at = this.rounded(at);
-    this.shape();
-  }
-  shape() {
-    const { path: path2, linkage } = this.playing, { view } = this.scene, there = path2 && !linkage.gone;
-    for (const point2 of this.points) {
-      const list = there ? curveOf(path2, point2.at) : [];
-      put(point2.path, "d", smoothPath(list.map(([x]) => view.X(x)), list.map(([, y]) => view.Y(y)), path2?.round));
-      put(point2.handle, "visibility", there ? "visible" : "hidden");
-    }
-    if (there && this.playing.here) this.show(this.playing.here.place);
-    this.tell();
-  }
-  show(place) {
-    const { view } = this.scene;
-    for (const point2 of this.points) {
-      const [x, y] = act(place, point2.at);
-      put(point2.handle, "transform", transform(view.X(x), view.Y(y), 0));
-    }
-  }
-  /** The points in words, each with a button that takes it away. */
-  tell() {
-    const digits = decimalsOf(this.answers.data), key = `${this.points.map(({ at }) => at.join()).join(" ")} ${digits}`;
-    if (key === this.told) return;
-    this.told = key;
-    this.readout.textContent = this.points.length ? "" : "Its curve is drawn, and goes along with every change.";
-    this.list.replaceChildren(
-      ...this.points.map((point2, k) => {
-        const name = `Point ${k + 1} at (${point2.at.map((value) => fixed(value, digits)).join(", ")}) of the body`;
-        put(point2.handle, "aria-label", `${name}. Drag it, or use the arrow keys; Delete removes it.`);
-        return h("li", {}, name, " ", h("button", { type: "button", class: "bs-small", "aria-label": `Remove point ${k + 1}`, onclick: () => this.remove(point2) }, "Remove"));
-      })
-    );
-  }
-};
-
-// src/burmester/web/widget/words.mjs
-function storyOf(linkage) {
-  const { said } = linkage;
-  const met = `${linkage.usable ? "Usable" : "Not usable"}: it ${said.met}`;
-  if (!linkage.ways.length) return `${met}. It cannot be shown moving: ${said.reasons.join("; ") || "its motion is not known"}.`;
-  if (linkage.type === "change-point") {
-    return `${met}, driven by ${linkage.led[0].id}. At a change point, where all links lie in one line, it may go on either way.`;
-  }
-  return linkage.usable ? `${met}, driven by ${linkage.led[0].id}.` : `Not usable: it ${said.in_short}.`;
-}
-function wayStory(way, poses) {
-  const names = poses.map((pose) => pose.label);
-  const all = way.poses.length === names.length;
-  const here = all ? "all poses" : way.poses.length ? `pose${way.poses.length > 1 ? "s" : ""} ${runs(way.poses, names)}` : "no pose";
-  const dead = way.dead.filter(Boolean).length;
-  const ends = way.round ? "turns round" : dead === 2 ? "between two dead points" : dead ? "up to a dead point" : "open";
-  return `${here}; ${ends}`;
-}
-function factsOf(data, linkage) {
-  const { said } = linkage, unit2 = data.unit ? ` ${data.unit}` : "";
-  const rows = [
-    ["verdict", verdictOf(linkage)],
-    ...Object.entries(said.links ?? {}).map(([name, value]) => [`${name} link`, `${value}${unit2}`]),
-    ["worst miss", missOf(said.worst, said.angle, unit2)],
-    ["rms miss", missOf(said.rms, said.rms_angle, unit2)],
-    ["least transmission angle", said.transmission === "-" ? "–" : said.transmission],
-    ...Object.entries(said.quality),
-    ["driver", `${linkage.led[0].id}${said.turns_fully ? ", turns fully" : ""}`],
-    ...said.freedom ? [["pivots", said.freedom.replace("pivots ", "")]] : []
-  ];
-  return h("dl", { class: "bm-facts" }, rows.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value))));
-}
-function spaceStory(linkage) {
-  const plain = "Every place of the body is one point of this space; numbered points are the poses.";
-  if (!linkage) return [plain];
-  const surface = (side) => h("b", { class: `bm-side${side}` }, linkage.led[side].id);
-  return [plain, " The surfaces are all places that dyad ", surface(0), " (driver) and dyad ", surface(1), " (follower) allow; where they meet, the line, the coupler moves."];
-}
-
-// src/burmester/web/studio/facts_table.mjs
-function table2(caption, heads, rows) {
-  return h(
-    "div",
-    { class: "bm-scroll", tabindex: 0, role: "region", "aria-label": caption },
-    h(
-      "table",
-      {},
-      h("caption", {}, caption),
-      h("thead", {}, h("tr", {}, heads.map((head) => h("th", { scope: "col" }, head)))),
-      h("tbody", {}, rows.map((row) => h("tr", {}, row.map((text, k) => k ? h("td", {}, text) : h("th", { scope: "row" }, text)))))
-    )
-  );
-}
-var point = (at, digits) => `(${at.map((value) => fixed(value, digits)).join(", ")})`;
-function poseFacts(linkage, data, points) {
-  const digits = decimalsOf(data);
-  return linkage.pose_errors.map((row, k) => {
-    const name = data.poses[k] ? poseName2(data.poses[k]) : String(k + 1);
-    if (row.x === null) return [name, "–", ...points.map(() => "–")];
-    const place = placeOf(row), centre = instantCentre(linkage.led, place);
-    return [name, centre ? point(centre, digits) : "at infinity", ...points.map((each) => point(act(place, each.at), digits))];
-  });
-}
-var FactsTable = class {
-  constructor(store, answers, playing, curves) {
-    Object.assign(this, { store, answers, playing, curves });
-    this.element = h("div", { class: "bs-facts" });
-    this.pace = new Pace(() => this.build(), () => isSeen(this.element));
-    playing.on("shape", () => this.pace.ask());
-    answers.on("answers poses placed", () => this.pace.ask());
-    watch(this.element, () => this.pace.ask());
-    this.element.append(h("p", { class: "bm-story" }, "Nothing is known yet."));
-  }
-  build() {
-    const { answers, playing } = this, { data, isOld } = answers, { linkage } = playing;
-    const parts = [];
-    const part = (title, old, ...content) => parts.push(h("section", { class: old ? "bs-old" : null, "aria-label": title }, h("h3", {}, title), old ? h("p", { class: "bs-quiet" }, "As of the last whole answer.") : null, content));
-    const fits = linkage && linkage.pose_errors.length === data.poses.length;
-    if (linkage) {
-      const name = linkage.id === PLACED ? "Pivots put down by hand" : `${linkage.id}: ${linkage.type}`;
-      const live = linkage.followed || playing.isOther;
-      part(name, false, live ? this.followedFacts(linkage) : [h("p", { class: "bm-story" }, storyOf(linkage)), dimensionTable(data, { ...linkage, id: linkage.id === PLACED ? "the linkage by hand" : linkage.id }), factsOf(data, linkage)]);
-    }
-    part("Pose by pose", false, poseTable(data, fits ? linkage : void 0));
-    if (fits) {
-      const points = this.curves?.points ?? [];
-      part("Instant centre and picked points", false, table2("At each pose, in F", ["pose", "instant centre", ...points.map((each, k) => `point ${k + 1}`)], poseFacts(linkage, data, points)));
-    }
-    if (this.store.placed) part("Pivots put down by hand", false, this.placedTable());
-    if (data.linkages.length) part("All linkages", isOld, this.linkages());
-    if (data.dyads.length) part("Dyads", isOld, dyadTable(data));
-    if (linkage && !linkage.followed && linkage.said.manifolds?.[0].length && !playing.isOther) part("Image space", isOld, imageTables(data, linkage));
-    this.element.replaceChildren(...parts);
-  }
-  followedFacts(linkage) {
-    const { data } = this.answers;
-    return [
-      table2(`Dimensions of ${linkage.id}${data.unit ? `, in ${data.unit}` : ""}`, ["", "", "value"], dimensionsOf(linkage, data).map(({ dyad, what, value }) => [dyad, what, value])),
-      table2("Verdict", ["", "value"], [
-        ["verdict", linkage.gone ?? (linkage.usable ? "usable" : `not usable: ${linkage.reason ?? linkage.said.reasons.join("; ")}`)],
-        ["worst miss", worstOf(linkage, data)],
-        ["least transmission angle", leastOf(linkage)],
-        ["driver", linkage.led[0].id]
-      ])
-    ];
-  }
-  /** All linkages: as the report has them, or what was followed of them. */
-  linkages() {
-    const { answers } = this, { data } = answers;
-    if (!answers.linkages.some((each) => each.followed)) return linkageTable(data);
-    return table2("All linkages, followed", ["", "verdict", "type", "worst miss", "least transmission"], answers.linkages.map((each) => [each.id, each.gone ? "gone" : each.usable ? "usable" : "not usable", each.type, worstOf(each, data), leastOf(each)]));
-  }
-  placedTable() {
-    const { placed } = this.store, unit2 = this.answers.data.unit ? `, in ${this.answers.data.unit}` : "";
-    return table2(`Their dyads${unit2}`, ["", "on the ground (F)", "on the body (M)", "length", "rms miss", "worst miss"], placed.dyads.map((dyad) => [dyad.id, dyad.said.ground, dyad.said.body, dyad.said.length, dyad.said.rms, dyad.said.worst]));
-  }
-};
-
-// src/burmester/web/widget/family_pairs.mjs
-var CLASSES = 7;
-var OUTSIDE = 2;
-var FamilyPairs = class {
-  constructor(data) {
-    this.data = data;
-    this.map = data.family_map;
-    this.isCurve = this.map.kind === "curve";
-    this.columns = this.isCurve ? this.map.fixed.length : this.map.columns;
-    this.rows = this.isCurve ? this.columns : this.map.rows;
-    this.starts = [];
-    (this.map.loops ?? []).reduce((start, size2) => (this.starts.push(start), start + size2), 0);
-  }
-  /** The letter of a loop, where there are several. */
-  letter(loop) {
-    return this.starts.length > 1 ? `${"ABCDEFGH"[loop]} ` : "";
-  }
-  /** The pair at column i and row j: its class, its driver (0 or 1) and whole degrees. */
-  pair([i, j]) {
-    const { cells: cells2 } = this.map;
-    if (!this.isCurve) return this.decoded(cells2[j * this.columns + i]);
-    if (i === j) return { kind: CLASSES - 1, driver: 0, degrees: 0 };
-    const [a, b] = [Math.min(i, j), Math.max(i, j)], n = this.columns;
-    const pair = this.decoded(cells2[a * n - a * (a + 1) / 2 + b - a - 1]);
-    return i < j ? pair : { ...pair, driver: 1 - pair.driver };
-  }
-  decoded(code) {
-    const rest = Math.floor(code / CLASSES);
-    return { kind: code % CLASSES, driver: rest % 2, degrees: Math.floor(rest / 2) };
-  }
-  /** The best pair that a dyad of the curve makes. */
-  bestPartner(i) {
-    let best = { kind: CLASSES - 1, degrees: 0 };
-    for (let j = 0; j < this.columns; j += 1) {
-      const pair = this.pair([i, j]);
-      if (pair.kind < best.kind || pair.kind === best.kind && pair.degrees > best.degrees) best = pair;
-    }
-    return best;
-  }
-  /** The name of a place along the curve: its share of its loop, after the loop's letter. */
-  placeName(k) {
-    const loop = this.starts.findLastIndex((start) => start <= k), size2 = this.map.loops[loop];
-    return `${this.letter(loop)}${((k - this.starts[loop] + 0.5) / size2).toFixed(2)}`;
-  }
-  /** The cell of a fixed pivot in the plane of three poses. */
-  cellOf(pivot) {
-    if (!pivot) return null;
-    const { low, high } = this.map, many = [this.columns, this.rows];
-    const at = pivot.map((v, k) => Math.round((v - low[k]) / (high[k] - low[k]) * (many[k] - 1)));
-    return at.every((v, k) => v >= 0 && v < many[k]) ? at : null;
-  }
-  /** The fixed pivot of a cell in the plane of three poses. */
-  pivotOf(cell) {
-    const { low, high } = this.map, many = [this.columns, this.rows];
-    return cell.map((v, k) => low[k] + v / (many[k] - 1) * (high[k] - low[k]));
-  }
-  /** Both dyads of a pair: fixed pivots in F, moving ones in M, lengths. */
-  dyadsOf(cell) {
-    const { map } = this;
-    if (this.isCurve) return cell.map((k) => ({ fixed: map.fixed[k], moving: map.moving[k], length: map.length[k] }));
-    return [map.chosen, dyadOfThree(this.data.poses, this.pivotOf(cell))];
-  }
-  /** The pivots of a pair in F, at pose 1. */
-  pinsOf(cell) {
-    if (!cell) return [];
-    return this.dyadsOf(cell).flatMap((each) => [...each.fixed ? [each.fixed] : [], ...each.moving ? [this.seen(each.moving)] : []]);
-  }
-  /** A point of the body in F, at pose 1. */
-  seen([x, y]) {
-    const [pose] = this.data.poses, turn = pose.angle_deg * Math.PI / 180, [cos, sin] = [Math.cos(turn), Math.sin(turn)];
-    return [pose.x + cos * x - sin * y, pose.y + sin * x + cos * y];
-  }
-};
-function dyadOfThree(poses, pivot) {
-  const [a, b, c] = poses.map((pose) => {
-    const turn = -pose.angle_deg * Math.PI / 180, [x, y] = [pivot[0] - pose.x, pivot[1] - pose.y];
-    return [Math.cos(turn) * x - Math.sin(turn) * y, Math.sin(turn) * x + Math.cos(turn) * y];
-  });
-  const u = [b[0] - a[0], b[1] - a[1]], v = [c[0] - a[0], c[1] - a[1]];
-  const cross3 = 2 * (u[0] * v[1] - u[1] * v[0]), uu = u[0] ** 2 + u[1] ** 2, vv = v[0] ** 2 + v[1] ** 2;
-  const arm = [(uu * v[1] - vv * u[1]) / cross3, (vv * u[0] - uu * v[0]) / cross3];
-  return { fixed: pivot, moving: [a[0] + arm[0], a[1] + arm[1]], length: Math.hypot(...arm) };
-}
-
-// src/burmester/web/studio/burmester_curves.mjs
-var NEWTON_STEPS = 6;
-var FARTHEST_STEP = 0.1;
-function nearestOnCurve(points, loops, wanted, widest) {
-  let best = null, start = 0;
-  for (const size2 of loops) {
-    for (let i = 0; i < size2; i += 1) {
-      const j = (i + 1) % size2, a = points[start + i], b = points[start + j];
-      const d = [b[0] - a[0], b[1] - a[1]], squared = d[0] * d[0] + d[1] * d[1];
-      if (squared > widest * widest) continue;
-      const t = squared > 0 ? Math.min(1, Math.max(0, ((wanted[0] - a[0]) * d[0] + (wanted[1] - a[1]) * d[1]) / squared)) : 0;
-      const at = [a[0] + t * d[0], a[1] + t * d[1]], away = Math.hypot(at[0] - wanted[0], at[1] - wanted[1]);
-      if (!best || away < best.away) best = { k: start + i, next: start + j, share: t, at, away };
-    }
-    start += size2;
-  }
-  return best;
-}
-function circleDeterminant([o, ...others]) {
-  const [a, b, c] = others.map(([x, y]) => [x - o[0], y - o[1]]).map(([x, y]) => [x, y, x * x + y * y]);
-  return a[2] * (b[0] * c[1] - b[1] * c[0]) - b[2] * (a[0] * c[1] - a[1] * c[0]) + c[2] * (a[0] * b[1] - a[1] * b[0]);
-}
-function ontoCurve(poses, plane, point2, scene) {
-  const places = poses.map((pose) => ({ x: pose.x, y: pose.y, a: radians(pose.angle_deg) }));
-  const value = (at2) => circleDeterminant(places.map((place) => plane === "F" ? back(place, at2) : act(place, at2)));
-  const step = 1e-6 * scene;
-  let at = point2;
-  for (let k = 0; k < NEWTON_STEPS; k += 1) {
-    const slope = [0, 1].map((axis) => {
-      const [up, down] = [1, -1].map((sense) => value(at.map((each, n) => each + (n === axis ? sense * step : 0))));
-      return (up - down) / (2 * step);
-    });
-    const squared = slope[0] ** 2 + slope[1] ** 2, here = value(at);
-    if (!(squared > 0)) return at;
-    at = at.map((each, n) => each - here * slope[n] / squared);
-  }
-  return Math.hypot(at[0] - point2[0], at[1] - point2[1]) < FARTHEST_STEP * scene ? at : point2;
-}
-var worthOf = (pairs) => Array.from({ length: pairs.columns }, (_, k) => worth(pairs.bestPartner(k).kind));
-var worth = (kind) => kind < OUTSIDE ? "works" : kind === OUTSIDE ? "outside" : "fails";
-function curvesOf({ loops }) {
-  const curves = { fixed: [], moving: [], loops: [], worth: [] };
-  for (const loop of loops) {
-    const kept = loop.fixed.map((_, k) => k).filter((k) => [...loop.fixed[k], ...loop.moving[k]].every(Number.isFinite));
-    curves.loops.push(kept.length);
-    for (const k of kept) {
-      curves.fixed.push(loop.fixed[k]);
-      curves.moving.push(loop.moving[k]);
-      curves.worth.push(loop.class ? worth(loop.class[k]) : "plain");
-    }
-  }
-  return curves;
-}
-function curvePaths(points, loops, worth2, X, Y, widest) {
-  const paths = { works: "", outside: "", fails: "", plain: "" };
-  const near2 = (p, q) => Math.hypot(p[0] - q[0], p[1] - q[1]) <= widest;
-  const text = ([x, y]) => `${Math.round(X(x) * 100) / 100} ${Math.round(Y(y) * 100) / 100}`;
-  const between2 = (p, q) => [(p[0] + q[0]) / 2, (p[1] + q[1]) / 2];
-  let start = 0;
-  for (const size2 of loops) {
-    for (let i = 0; i < size2; i += 1) {
-      const [a, b, c] = [-1, 0, 1].map((step) => points[start + (i + step + size2) % size2]);
-      const list = [...near2(a, b) ? [between2(a, b)] : [], b, ...near2(b, c) ? [between2(b, c)] : []];
-      if (list.length > 1) paths[worth2[start + i]] += `M${list.map(text).join("L")}`;
-    }
-    start += size2;
-  }
-  return paths;
-}
-
-// src/burmester/web/studio/family_curves.mjs
-var LONGEST_STEP2 = 0.5;
-var STROKES = ["plain", "fails", "outside", "works"];
-var FamilyCurves = class {
-  constructor(store, answers, playing, scene) {
-    Object.assign(this, { store, answers, playing, scene, known: null, live: null, asking: false });
-    this.curves = ["F", "M"].map((plane) => s("g", { class: `bs-curve bs-curve-${plane}` }, STROKES.map((name) => s("path", { class: `bs-curve-${name}` }))));
-    this.group = s("g", { class: "bs-burmester", visibility: "hidden", "aria-hidden": "true" }, this.curves);
-    scene.layer("curves").append(this.group);
-    this.box = h("input", { type: "checkbox", checked: true, "data-tool": "burmester-curves", onchange: () => this.draw() });
-    this.label = h("label", { hidden: true }, this.box, " Burmester curves of the four poses, in the drawing");
-    this.legend = h("p", { class: "bm-legend", hidden: true }, h("span", { class: "bs-key-works" }), " works with a partner; ", h("span", { class: "bs-key-outside" }), " works outside limits or standard; ", h("span", { class: "bs-key-fails" }), " no partner works. Solid: centre points in F; dashed: circle points in M, where the body is now.");
-    answers.on("poses", () => this.ask());
-    playing.on("place", () => this.move());
-    scene.on("view", () => this.draw());
-  }
-  /** The curves of the four poses as they are now: { fixed, moving, loops, worth }, or null. */
-  get family() {
-    const { data, isOld } = this.answers;
-    if (data.poses.length !== 4) return null;
-    if (this.live && (isOld || !this.known)) return this.live;
-    return this.known;
-  }
-  /** The curves that the whole road brought, where the task has some. */
-  renew() {
-    const { data } = this.answers, map = data.family_map;
-    this.known = map?.kind === "curve" ? { ...map, worth: worthOf(new FamilyPairs(data)) } : null;
-    this.live = null;
-    if (!this.known) this.ask();
-    give(this.label, "hidden", data.poses.length !== 4);
-    this.draw();
-  }
-  /** The curves go along with the poses: one question at a time, the newest wins. */
-  async ask() {
-    const { store, answers } = this, { document: document2, options } = store;
-    if (document2.poses.length !== 4 || !this.box.checked || this.asking || !store.connection?.isOpen) return;
-    this.asking = true;
-    try {
-      const answer = await store.connection.ask({ do: "curve", document: document2, options, judged: store.state !== "dragging" });
-      if (answer.kind === "curve" && store.document.poses.length === 4) {
-        this.live = curvesOf(answer);
-        this.draw();
-      }
-    } catch {
-    }
-    this.asking = false;
-    if (store.document !== document2 && answers.isOld) this.ask();
-  }
-  get widest() {
-    return LONGEST_STEP2 * this.answers.data.scene;
-  }
-  /** The place on the curve of a plane that is nearest to a point; null where pivots have no curve to slide along. */
-  onto(plane, point2) {
-    const map = this.family, { poses, scene } = this.answers.data;
-    if (!map || !this.box.checked) return null;
-    const near2 = nearestOnCurve(plane === "F" ? map.fixed : map.moving, map.loops, point2, this.widest);
-    return near2 ? ontoCurve(poses, plane, near2.at, scene) : point2;
-  }
-  draw() {
-    const map = this.family, on = Boolean(map) && this.box.checked;
-    put(this.group, "visibility", on ? "visible" : "hidden");
-    give(this.legend, "hidden", !on);
-    if (!on) return;
-    const { view } = this.scene, planes = [[map.fixed, view.X, view.Y], [map.moving, (x) => view.scale * x, (y) => -view.scale * y]];
-    planes.forEach(([points, X, Y], n) => {
-      const paths = curvePaths(points, map.loops, map.worth, X, Y, this.widest);
-      [...this.curves[n].children].forEach((path2, k) => put(path2, "d", paths[STROKES[k]]));
-    });
-    this.move();
-  }
-  /** Circle points are on the body, and go along with it. */
-  move() {
-    const { view } = this.scene, place = this.playing.here?.place;
-    if (place && this.family) put(this.curves[1], "transform", transform(view.X(place.x), view.Y(place.y), place.a));
-  }
-};
-
-// src/burmester/web/widget/pivot_map.mjs
-var MAX_BANDS = 12;
-var PivotMap = class {
-  constructor(data, parent) {
-    this.data = data;
-    this.parent = parent;
-    this.canvas = h("canvas", { "aria-hidden": "true" });
-    const name = `bm-map-${Math.random().toString(36).slice(2)}`;
-    this.svg = s("svg", {
-      class: "bm-map-picture",
-      role: "application",
-      tabindex: "0",
-      "aria-roledescription": "map",
-      "aria-describedby": name,
-      "aria-label": "Pivot map: the error of the best link for every fixed pivot. Arrow keys move a cursor, with Shift by ten steps; the error there is told."
-    });
-    this.readout = h("output", { class: "bm-readout", id: name });
-    this.cursor = null;
-    this.legend = h("p", { class: "bm-legend" });
-    parent.append(h("div", { class: "bm-map" }, this.canvas, this.svg), this.legend, this.readout);
-    this.svg.addEventListener("pointermove", (event) => this.read(event));
-    this.svg.addEventListener("pointerleave", () => this.tell());
-    this.svg.addEventListener("keydown", (event) => this.move(event));
-    const { log10_rms: levels } = data.pivot_map;
-    const known = levels.filter((level) => level !== null).sort((a, b) => a - b);
-    const low = known[Math.floor(2e-3 * known.length)], high = known[Math.floor(0.98 * known.length)];
-    this.step = [1 / 24, 1 / 12, 1 / 6, 1 / 3, 1 / 2, 1, 2].find((step) => (high - low) / step < MAX_BANDS - 1) ?? 3;
-    this.low = Math.floor(low / this.step) * this.step;
-    this.high = Math.ceil(high / this.step) * this.step;
-    this.count = Math.max(1, Math.round((this.high - this.low) / this.step));
-    this.invitation = "Point at the map to read it, or move over it by arrow keys.";
-    this.readout.append(this.invitation);
-  }
-  /** log10 of the error at column u and row v of the grid, bilinear between four of its points. */
-  level(u, v) {
-    const { columns, rows, log10_rms: levels } = this.data.pivot_map;
-    const i = clamp(Math.floor(u), 0, columns - 2), j = clamp(Math.floor(v), 0, rows - 2);
-    const a = u - i, b = v - j, at = j * columns + i;
-    const [p, q, r, t] = [levels[at], levels[at + 1], levels[at + columns], levels[at + columns + 1]];
-    const shares = [(1 - a) * (1 - b), a * (1 - b), (1 - a) * b, a * b];
-    if ([p, q, r, t].some((level, k) => level === null && shares[k] > 0)) return null;
-    return shares[0] * p + shares[1] * q + shares[2] * r + shares[3] * t;
-  }
-  build(linkage) {
-    const { svg } = this, map = this.data.pivot_map;
-    const width = Math.max(240, this.parent.clientWidth);
-    const height = Math.round(width * (map.high[1] - map.low[1]) / (map.high[0] - map.low[0]));
-    this.paint(width, height);
-    svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    svg.replaceChildren();
-    const scale = width / (map.high[0] - map.low[0]);
-    const view = { width, height, X: (x) => (x - map.low[0]) * scale, Y: (y) => height - (y - map.low[1]) * scale };
-    this.linkage = linkage;
-    this.view = view;
-    this.explain(this.pivots(linkage, view));
-    this.mark = s("path", { class: "bm-map-cursor", d: "M-11 0H-4M4 0H11M0 -11V-4M0 4V11" });
-    svg.append(this.mark);
-    this.tell();
-  }
-  /** The shades, painted again only where their size or the colours have changed. */
-  paint(width, height) {
-    const { canvas } = this, map = this.data.pivot_map;
-    const dense = Math.min(2, window.devicePixelRatio || 1);
-    const style = getComputedStyle(this.parent);
-    const near2 = rgb(style.getPropertyValue("--bm-map-near"));
-    const far = rgb(style.getPropertyValue("--bm-map-far"));
-    const w = Math.round(width * dense), t = Math.round(height * dense);
-    if (canvas.width === w && this.paintedIn === near2.join()) return;
-    this.paintedIn = near2.join();
-    canvas.width = w;
-    canvas.height = t;
-    const context = canvas.getContext("2d"), image = context.createImageData(w, t);
-    const band = new Int16Array(w * t);
-    for (let j = 0; j < t; j += 1) {
-      for (let i = 0; i < w; i += 1) {
-        const level = this.level(i / (w - 1) * (map.columns - 1), (1 - j / (t - 1)) * (map.rows - 1));
-        band[j * w + i] = level === null ? -1 : clamp(Math.floor((level - this.low) / this.step), 0, this.count - 1);
-      }
-    }
-    for (let k = 0; k < w * t; k += 1) {
-      const own = band[k];
-      const edge = k % w && band[k - 1] !== own || k >= w && band[k - w] !== own;
-      const share = own < 0 ? 1 : own / Math.max(1, this.count - 1);
-      const shade = edge ? 0.84 : 1;
-      for (let c = 0; c < 3; c += 1) image.data[4 * k + c] = shade * (near2[c] + share * (far[c] - near2[c]));
-      image.data[4 * k + 3] = 255;
-    }
-    context.putImageData(image, 0, 0);
-  }
-  /** Marks of poses and of all fixed pivots.  Returns sentences on those of the linkage that lie outside. */
-  pivots(linkage, view) {
-    const { data, svg } = this, map = data.pivot_map;
-    const labels = new Labels(view);
-    for (const pose of data.poses) {
-      const x = px(view.X(pose.x)), y = px(view.Y(pose.y));
-      svg.append(s("path", { class: "bm-cross", d: `M${x - 3} ${y}h6M${x} ${y - 3}v6` }));
-    }
-    const every = /* @__PURE__ */ new Map();
-    for (const each of data.linkages) for (const dyad of each.led) if (dyad.fixed_pivot) every.set(dyad.fixed_pivot.join(), dyad);
-    for (const dyad of data.dyads) if (dyad.fixed_pivot) every.set(dyad.fixed_pivot.join(), dyad);
-    const inside2 = ([x, y]) => x >= map.low[0] && x <= map.high[0] && y >= map.low[1] && y <= map.high[1];
-    for (const dyad of every.values()) {
-      if (!inside2(dyad.fixed_pivot)) continue;
-      const [x, y] = [view.X(dyad.fixed_pivot[0]), view.Y(dyad.fixed_pivot[1])];
-      svg.append(s("circle", { class: "bm-some-pivot", cx: px(x), cy: px(y), r: 2.5 }));
-    }
-    const outside = [];
-    (linkage?.led ?? []).forEach((dyad, side) => {
-      if (!dyad.fixed_pivot) return;
-      if (!inside2(dyad.fixed_pivot)) {
-        outside.push(`the fixed pivot of ${dyad.id} lies outside`);
-        return;
-      }
-      const [x, y] = [view.X(dyad.fixed_pivot[0]), view.Y(dyad.fixed_pivot[1])];
-      labels.block(x, y, 12, 12);
-      svg.append(
-        s("circle", { class: `bm-its-pivot bm-side${side}`, cx: px(x), cy: px(y), r: 6 }),
-        labels.put(x, y, dyad.id, 16, { class: "bm-map-name" })
-      );
-    });
-    return outside;
-  }
-  explain(outside) {
-    const unit2 = this.data.unit ? ` ${this.data.unit}` : "";
-    this.legend.replaceChildren(
-      h("span", { class: "bm-swatch bm-near" }),
-      ` ${figure(10 ** this.low)}${unit2} or less`,
-      h("span", { class: "bm-swatch bm-far" }),
-      ` ${figure(10 ** this.high)}${unit2} or more; each line is a factor of ${figure(10 ** this.step)}. `,
-      "Small dots: fixed pivots of all dyads; crosses: the poses.",
-      outside.length ? ` Of this linkage, ${listed(outside)}.` : ""
-    );
-  }
-  /** A place of the grid, by its column and row, in the plane. */
-  placeAt([u, v]) {
-    const { low, high, columns, rows } = this.data.pivot_map;
-    return [low[0] + u / (columns - 1) * (high[0] - low[0]), low[1] + v / (rows - 1) * (high[1] - low[1])];
-  }
-  /** Move the cursor by a key, from one place of the grid to the next; it starts at the driver's pivot. */
-  move(event) {
-    const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] }[event.key];
-    if (!step || event.ctrlKey || event.metaKey || event.altKey) return;
-    event.preventDefault();
-    const { low, high, columns, rows } = this.data.pivot_map, many = event.shiftKey ? 10 : 1;
-    const pivot = this.linkage?.led.map((dyad) => dyad.fixed_pivot).find(Boolean) ?? this.placeAt([(columns - 1) / 2, (rows - 1) / 2]);
-    const [u, v] = this.cursor ?? [
-      Math.round((pivot[0] - low[0]) / (high[0] - low[0]) * (columns - 1)),
-      Math.round((pivot[1] - low[1]) / (high[1] - low[1]) * (rows - 1))
-    ];
-    this.cursor = [clamp(u + many * step[0], 0, columns - 1), clamp(v + many * step[1], 0, rows - 1)];
-    this.tell();
-  }
-  /** The cursor, and the error there; without a cursor how to get one. */
-  tell() {
-    const { cursor, mark, view } = this;
-    mark?.setAttribute("visibility", cursor ? "visible" : "hidden");
-    if (!cursor) {
-      this.readout.textContent = this.invitation;
-      return;
-    }
-    const [x, y] = this.placeAt(cursor);
-    mark?.setAttribute("transform", `translate(${px(view.X(x))} ${px(view.Y(y))})`);
-    this.say(cursor);
-  }
-  /** The error at the pointer. */
-  read(event) {
-    const box = this.svg.getBoundingClientRect(), { columns, rows } = this.data.pivot_map;
-    this.say([(event.clientX - box.left) / box.width * (columns - 1), (1 - (event.clientY - box.top) / box.height) * (rows - 1)]);
-  }
-  /** The error at a column and a row of the grid, which may be fractions. */
-  say(at) {
-    const [x, y] = this.placeAt(at), level = this.level(...at);
-    const digits = Math.max(0, 2 - Math.floor(Math.log10(this.data.scene)));
-    const unit2 = this.data.unit ? ` ${this.data.unit}` : "";
-    this.readout.textContent = `Fixed pivot (${fixed(x, digits)}, ${fixed(y, digits)}): the best link misses by ` + (level === null ? "an unknown error." : `${figure(10 ** level)}${unit2} (rms).`);
-  }
-};
-
-// src/burmester/web/studio/pivot_map_panel.mjs
-var GRASP = 26;
-var STILL = 3;
-var PivotMapPanel = class {
-  /** hand: the pivots that can be taken hold of: pivot, take, put, drop and release, as PivotSurface has them. */
-  constructor(answers, playing, hand) {
-    Object.assign(this, { answers, playing, hand, map: null, handles: null });
-    this.element = h("div", { class: "bm-fill" });
-    this.pace = new Pace(() => this.build(), () => isSeen(this.element));
-    playing.on("shape", () => this.pace.ask());
-    new ResizeObserver(() => this.pace.ask()).observe(this.element);
-    watch(this.element, () => this.pace.ask());
-  }
-  /** The map that the whole road brought, if it is another one. */
-  renew() {
-    const { data } = this.answers;
-    if (this.shown === data.pivot_map) return;
-    this.shown = data.pivot_map;
-    this.element.replaceChildren();
-    this.map = data.pivot_map ? new PivotMap(data, this.element) : null;
-    if (this.map) this.listen();
-    this.pace.ask();
-  }
-  build() {
-    if (!this.map) return;
-    this.map.build(this.answers.shown);
-    this.handles = [0, 1].map((k) => s("g", { class: `bs-pivot bs-map-pivot bm-side${k}` }, s("circle", { class: "bs-pivot-ring", r: 8 })));
-    this.map.svg.append(...this.handles);
-    this.drawHandles();
-  }
-  drawHandles() {
-    if (!this.handles || !this.map?.view) return;
-    const { view } = this.map;
-    this.handles.forEach((element, k) => {
-      const pivot = this.hand.pivot(k, "F");
-      put(element, "display", pivot ? "inline" : "none");
-      if (!pivot) return;
-      put(element, "transform", `translate(${px(view.X(pivot.at[0]))} ${px(view.Y(pivot.at[1]))})`);
-      element.dataset.mapPivot = pivot.id;
-    });
-  }
-  /** The fixed pivot nearest to a point: { k, away } in pixels of the map; Infinity where there is none. */
-  nearest([x, y]) {
-    const { view } = this.map;
-    const away = [0, 1].map((k2) => {
-      const pivot = this.hand.pivot(k2, "F");
-      return pivot ? Math.hypot(view.X(pivot.at[0]) - view.X(x), view.Y(pivot.at[1]) - view.Y(y)) : Infinity;
-    });
-    const k = away[1] < away[0] ? 1 : 0;
-    return { k, away: away[k] };
-  }
-  /** A press takes the nearest fixed pivot, and puts it where the pointer is; Enter puts it to the cursor of the keys. */
-  listen() {
-    const { hand } = this, { svg } = this.map;
-    const at = (event) => {
-      const box = svg.getBoundingClientRect(), { low, high } = this.answers.data.pivot_map;
-      const u = (event.clientX - box.left) / box.width, v = 1 - (event.clientY - box.top) / box.height;
-      return [low[0] + u * (high[0] - low[0]), low[1] + v * (high[1] - low[1])];
-    };
-    let pointer = null, start = null;
-    const end = (event) => {
-      if (event.pointerId !== pointer) return;
-      pointer = null;
-      hand.drop();
-    };
-    svg.addEventListener("pointerdown", (event) => {
-      if (event.button !== 0) return;
-      const point2 = at(event), { k, away } = this.nearest(point2);
-      if (!Number.isFinite(away) || !hand.take(k, "F")) return;
-      event.preventDefault();
-      pointer = event.pointerId;
-      start = { near: away <= GRASP, X: event.clientX, Y: event.clientY };
-      svg.setPointerCapture(pointer);
-      this.playing.player.play(false);
-      if (!start.near) hand.put(point2);
-    });
-    svg.addEventListener("pointermove", (event) => {
-      if (event.pointerId !== pointer) return;
-      if (start.near && Math.hypot(event.clientX - start.X, event.clientY - start.Y) < STILL) return;
-      start.near = false;
-      hand.put(at(event));
-    });
-    svg.addEventListener("pointerup", end);
-    svg.addEventListener("pointercancel", end);
-    svg.addEventListener("keydown", (event) => {
-      if (event.key === "Escape" && hand.pivots) hand.release();
-      if (event.key !== "Enter" || !this.map.cursor) return;
-      const point2 = this.map.placeAt(this.map.cursor), { k } = this.nearest(point2);
-      if (!hand.take(k, "F")) return;
-      event.preventDefault();
-      hand.put(point2);
-      hand.drop();
-    });
-  }
-};
-
-// src/burmester/web/studio/pivot_surface.mjs
-var ARROWS4 = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
-var PivotSurface = class {
-  constructor(store, answers, playing, scene) {
-    Object.assign(this, { store, answers, playing, scene, pivots: null, held: null });
-    this.handles = s("g", { class: "bs-pivots" });
-    scene.layer("pivots").append(this.handles);
-    this.parts = [0, 1].map((k) => ["F", "M"].map((plane) => this.handle(k, plane)));
-    this.story = h("p", { class: "bm-story" });
-    this.readout = h("output", { class: "bs-placed-readout", "aria-live": "polite" });
-    this.letGo = h("button", { type: "button", class: "bs-small", hidden: true, onclick: () => this.release() }, "Let go of the pivots");
-    this.curves = new FamilyCurves(store, answers, playing, scene);
-    this.map = new PivotMapPanel(answers, playing, this);
-    this.element = h("div", { class: "bs-surface" }, this.story, h("div", { class: "bs-tool" }, this.curves.label), this.curves.legend, this.map.element, this.readout, h("div", { class: "bs-tool" }, this.letGo));
-    answers.on("answers", () => this.renew());
-    answers.on("poses", () => {
-      this.explain();
-      if (this.pivots) store.place(this.pivots);
-    });
-    answers.on("placed", () => this.tell());
-    playing.on("shape", () => this.show());
-    playing.on("place", () => this.move());
-    scene.on("view", () => this.show());
-    store.on("state document", () => this.element.classList.toggle("bs-stale", answers.isOld));
-    this.renew();
-  }
-  /** The dyads whose pivots can be taken: those put down by hand, or those of the linkage. */
-  get dyads() {
-    const placed = this.store.placed?.dyads;
-    if (this.pivots && placed?.length) return placed;
-    return this.answers.shown?.led ?? [];
-  }
-  /** A pivot of dyad k in a plane: { plane, at, id }, or null where it has none. */
-  pivot(k, plane) {
-    const dyad = this.dyads[k];
-    if (!dyad) return null;
-    const wanted = this.pivots?.[k];
-    const at = wanted?.plane === plane ? wanted.at : plane === "F" ? dyad.fixed_pivot : dyad.moving_pivot;
-    return at ? { plane, at, id: dyad.id } : null;
-  }
-  // Handles in the scene
-  handle(k, plane) {
-    const name = plane === "F" ? "fixed" : "moving";
-    const element = s("g", { class: `bs-pivot bs-pivot-${name} bm-side${k}`, "data-plane": plane, tabindex: 0, role: "button" }, s("circle", { class: "bs-hold", r: 13 }), s("circle", { class: "bs-pivot-ring", r: 8 }));
-    let before;
-    this.scene.drag?.(element, {
-      start: () => {
-        before = this.pivots;
-        this.playing.player.play(false);
-        this.place = this.playing.here?.place ?? null;
-        return this.take(k, plane);
-      },
-      move: ({ x, y }) => this.put(plane === "F" ? [x, y] : back(this.place, [x, y])),
-      end: () => this.drop(),
-      cancel: () => {
-        this.drop();
-        if (before) this.ask(before);
-        else this.release();
-      }
-    });
-    element.addEventListener("keydown", (event) => this.key(event, k, plane));
-    this.handles.append(element);
-    return element;
-  }
-  key(event, k, plane) {
-    if (event.ctrlKey || event.metaKey) return;
-    const arrow2 = ARROWS4[event.key];
-    if (event.key === "Escape" && this.pivots) {
-      this.release();
-    } else if (arrow2) {
-      const { at } = this.pivot(k, plane), step = (this.scene.step ?? this.answers.data.scene / 100) * (event.shiftKey ? 10 : event.altKey ? 0.1 : 1);
-      if (!this.take(k, plane)) return;
-      this.put(at.map((value, axis) => value + step * arrow2[axis]), step);
-      this.drop();
-    } else {
-      return;
-    }
-    event.preventDefault();
-  }
-  /** Take hold of a pivot; the other dyad keeps one of its own. */
-  take(k, plane) {
-    const start = this.pivot(k, plane);
-    if (!start || plane === "M" && !this.playing.here) return false;
-    const other = this.pivots?.[1 - k] ?? this.pivot(1 - k, "F") ?? this.pivot(1 - k, "M");
-    const next = [];
-    next[k] = { plane, at: start.at };
-    if (other) next[1 - k] = { plane: other.plane, at: other.at };
-    this.pivots = next;
-    this.held = { k, plane };
-    this.keepHeight();
-    return true;
-  }
-  /** What stands above does not shrink, so that nothing moves away under the hand. */
-  keepHeight() {
-    const { element } = this.playing;
-    element.style.minHeight = `${element.offsetHeight}px`;
-  }
-  /** The held pivot goes to a point of its plane, or to the nearest one of its curve. */
-  put(point2, step = 0) {
-    const { k, plane } = this.held, digits = decimalsOf(this.answers.data);
-    let at = this.curves.onto(plane, point2);
-    if (!at) at = point2.map((value) => step ? Number(value.toFixed(digits)) : this.scene.rounded(value));
-    this.ask(this.pivots.map((each, n) => n === k ? { plane, at } : each));
-  }
-  drop() {
-    this.held = null;
-  }
-  /** Ask for the best dyads with these pivots. */
-  ask(pivots) {
-    this.pivots = pivots;
-    this.store.place(pivots.map(({ plane, at }) => ({ plane, at })));
-    this.show();
-    this.tell();
-  }
-  /** The pivots are no longer put down: the linkage that was chosen before is back. */
-  release() {
-    this.pivots = null;
-    this.held = null;
-    this.playing.element.style.minHeight = "";
-    this.store.place([]);
-    if (this.store.chosen === PLACED) this.store.choose(this.before ?? this.answers.linkages[0]?.id ?? null);
-    this.tell();
-    this.show();
-  }
-  // Drawing
-  /** Everything that the answer brings. */
-  renew() {
-    const { data } = this.answers;
-    if (!this.pivots && this.store.chosen !== PLACED) this.before = this.store.chosen;
-    this.curves.renew();
-    this.map.renew();
-    this.explain();
-    this.show();
-  }
-  explain() {
-    const count = this.answers.data.poses.length;
-    const text = count === 4 && this.curves.family ? "Four poses leave a curve of dyads. Drag a pivot in the drawing: it slides along its curve." : count === 3 ? "Three poses leave every pivot free. Drag a fixed pivot anywhere in F, or a moving pivot anywhere on the body." : count === 2 ? "Two poses leave much open. Drag a pivot: its best dyad follows." : "Drag a pivot in the drawing or on the map: the best dyad there is shown with what it costs.";
-    if (this.story.textContent !== text) this.story.textContent = text;
-  }
-  /** Handles where the pivots are. */
-  show() {
-    const { view } = this.scene, place = this.playing.here?.place, there = this.answers.shown && !this.answers.shown.gone;
-    this.parts.forEach((planes, k) => {
-      planes.forEach((element, n) => {
-        const plane = "FM"[n], pivot = there || this.pivots ? this.pivot(k, plane) : null;
-        const seen2 = pivot && (plane === "F" || place);
-        put(element, "display", seen2 ? "inline" : "none");
-        if (!seen2) return;
-        if (element.dataset.pivot !== pivot.id) element.dataset.pivot = pivot.id;
-        element.classList.toggle("bs-put", this.pivots?.[k]?.plane === plane);
-        if (plane === "F") put(element, "transform", `translate(${px(view.X(pivot.at[0]))} ${px(view.Y(pivot.at[1]))})`);
-      });
-    });
-    this.name();
-    this.move();
-    this.map.drawHandles();
-  }
-  /** What is on the body goes along with it. */
-  move() {
-    const { view } = this.scene, place = this.playing.here?.place;
-    if (!place) return;
-    this.parts.forEach(([, element], k) => {
-      const pivot = element.getAttribute("display") === "none" ? null : this.pivot(k, "M");
-      if (!pivot) return;
-      const [x, y] = act(this.held?.k === k && this.held.plane === "M" && this.place ? this.place : place, pivot.at);
-      put(element, "transform", `translate(${px(view.X(x))} ${px(view.Y(y))})`);
-    });
-  }
-  /** Names for those who do not see them; not while a hand drags. */
-  name() {
-    if (this.held || this.store.state === "dragging") return;
-    const digits = decimalsOf(this.answers.data);
-    this.parts.forEach((planes, k) => planes.forEach((element, n) => {
-      const pivot = this.pivot(k, "FM"[n]);
-      if (!pivot) return;
-      const text = `${n ? "Moving" : "Fixed"} pivot of ${pivot.id} at (${pivot.at.map((value) => fixed(value, digits)).join(", ")}) in ${"FM"[n]}. Drag it, or use the arrow keys; the best dyad there is shown.`;
-      put(element, "aria-label", text);
-    }));
-  }
-  /** What the pivots cost, in words. */
-  tell() {
-    const { store, answers } = this, { placed } = store;
-    give(this.letGo, "hidden", !this.pivots);
-    if (!this.pivots || !placed) {
-      this.readout.textContent = "";
-      if (!placed && this.pivots && !this.held && store.placeWanted === null) this.pivots = null;
-      return;
-    }
-    put(this.readout, "aria-live", this.held ? "off" : "polite");
-    this.readout.textContent = placedInWords(placed, answers.data);
-    if (placed.linkage && store.chosen !== PLACED && this.pivots) {
-      this.before = store.chosen;
-      store.choose(PLACED);
-    }
-    this.show();
-  }
-};
-function placedInWords(placed, data) {
-  const unit2 = data.unit ? ` ${data.unit}` : "", digits = decimalsOf(data);
-  const miss = (value) => value === null ? "an unknown error" : value < 1e-9 * data.scene ? "nothing" : `${figure(value)}${unit2}`;
-  const dyads = placed.dyads.map((dyad) => `${dyad.id}: fixed pivot (${dyad.fixed_pivot.map((v) => fixed(v, digits)).join(", ")}), moving pivot (${dyad.moving_pivot.map((v) => fixed(v, digits)).join(", ")}), misses by ${miss(dyad.max_error)} at most.`);
-  const { linkage } = placed;
-  if (!linkage) return [...dyads, ...(placed.messages ?? []).map(({ message }) => `${message[0].toUpperCase()}${message.slice(1)}.`)].join(" ");
-  const both = linkage.usable ? `usable, ${linkage.said.met}` : `not usable: ${linkage.said.reasons.join("; ")}`;
-  return `${dyads.join(" ")} Together a ${linkage.type}: ${both}.`;
-}
-
-// src/burmester/web/widget/assemblies.mjs
-var Assemblies = class {
-  constructor(data, take) {
-    this.data = data;
-    this.take = take;
-    this.name = `bm-way-${Math.random().toString(36).slice(2)}`;
-    this.element = h("fieldset", { class: "bm-ways" });
-  }
-  build(linkage, index) {
-    const one = (way, k) => h(
-      "label",
-      {},
-      h("input", { type: "radio", name: this.name, value: k, checked: k === index, onchange: () => this.take(k) }),
-      h("span", {}, h("b", {}, wayName(way, linkage).replace("assembly ", "")), ` ${wayStory(way, this.data.poses)}`)
-    );
-    this.element.replaceChildren(h("legend", {}, "Assembly"), ...linkage.ways.map(one));
-    give(this.element, "hidden", !linkage.ways.length);
-  }
-};
-
-// src/burmester/web/widget/player.mjs
-var TURN_SECONDS = 7;
-var LEAST_STRETCH = 1e-6;
-var NAME_ROWS = 5;
-var NUMBER_ROWS = 2;
-var MANY_POSES2 = 100;
-var ROW = 13;
-var LONGEST_TICK = 18;
-var STEPS = 360;
-var Player = class {
-  constructor(data, show, rebuild) {
-    this.data = data;
-    this.draw = { show, rebuild };
-    this.linkage = null;
-    this.way = 0;
-    this.u = 0;
-    this.heading = 1;
-    this.whole = false;
-    this.stretch = { low: 0, high: 1 };
-    this.playing = false;
-    this.remaining = null;
-    this.element = this.controls();
-  }
-  /** The way as frames; undefined where the linkage has none. */
-  get path() {
-    return this.linkage?.ways[this.way];
-  }
-  controls() {
-    const button2 = (name, text, label, onclick) => h("button", { type: "button", class: `bm-button ${name}`, "aria-label": label, title: label, onclick }, text);
-    this.button = button2("bm-play", "", "Play", () => this.play(!this.playing));
-    this.slider = h("input", { type: "range", class: "bm-slider", min: 0, step: "any", "aria-label": "Driver", oninput: () => this.go(Number(this.slider.value)) });
-    this.box = h("input", { type: "checkbox", onchange: () => this.playWhole(this.box.checked) });
-    this.boxName = h("span", {}, "Whole branch");
-    this.stops = s("svg", { class: "bm-stops", "aria-hidden": "true" });
-    this.parts = ["", "", "", ""].map((text) => h("span", {}, text));
-    this.readout = h("output", { class: "bm-now" }, this.parts.flatMap((part, k) => k ? [" ", part] : [part]));
-    this.slider.addEventListener("keydown", (event) => {
-      const step = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 }[event.key];
-      if (!step) return;
-      event.preventDefault();
-      this.step(event.shiftKey ? 10 * step : step);
-    });
-    return h(
-      "div",
-      { class: "bm-controls" },
-      h("div", { class: "bm-track" }, this.slider, this.stops),
-      h(
-        "div",
-        { class: "bm-row" },
-        this.button,
-        button2("bm-back", "◀ Pose", "Previous pose", () => this.toPose(-1)),
-        button2("bm-next", "Pose ▶", "Next pose", () => this.toPose(1)),
-        h("label", { class: "bm-whole", title: "Play all that the driver reaches, not only from the first pose to the last" }, this.box, this.boxName)
-      ),
-      this.readout
-    );
-  }
-  /** Another linkage, on the way with most poses, at the first of them. */
-  load(linkage) {
-    this.linkage = linkage;
-    const counts = linkage.ways.map((way) => way.poses.length);
-    this.take(Math.max(0, counts.indexOf(Math.max(...counts))));
-  }
-  /** Another way, at its first pose. */
-  take(index) {
-    this.way = index;
-    this.u = this.firstStop();
-    this.draw.rebuild();
-  }
-  /** Poses on this way, in their order: the rows of their errors, with k, the pose's index. */
-  get stopsOnWay() {
-    return this.linkage.pose_errors.map((row, k) => ({ ...row, k })).filter((row) => row.way === this.way);
-  }
-  firstStop() {
-    return this.stopsOnWay[0]?.frame ?? 0;
-  }
-  /** The slider and what it runs over, for the way as it is now. */
-  rebuild() {
-    const { path: path2, slider } = this;
-    if (!path2) this.play(false);
-    for (const each of [slider, this.button]) give(each, "disabled", !path2);
-    const last = path2 ? path2.x.length - 1 : 1;
-    const frames = path2 ? this.stopsOnWay.map((row) => row.frame) : [];
-    const [low, high] = [frames.reduce((a, b) => Math.min(a, b), last), frames.reduce((a, b) => Math.max(a, b), 0)];
-    const apart = high - low > LEAST_STRETCH;
-    this.stretch = apart && !this.whole ? { low, high } : { low: 0, high: last };
-    give(this.box, "disabled", !apart);
-    this.boxName.textContent = path2?.round ? "Whole turn" : "Whole branch";
-    this.heading = 1;
-    this.u = clamp(this.u, this.stretch.low, this.stretch.high);
-  }
-  /** Play all of a way, or only from its first pose to its last; so it stays for other linkages. */
-  playWhole(on) {
-    this.whole = on;
-    this.draw.rebuild();
-  }
-  /** Marks under the slider where the poses are, with as many of their names as there is room for. */
-  drawStops() {
-    const { stops, path: path2 } = this, { low, high } = this.stretch;
-    stops.replaceChildren();
-    if (!path2) return;
-    const width = Math.max(60, this.slider.clientWidth), inset = 9;
-    const X = (u) => inset + (u - low) / (high - low) * (width - 2 * inset);
-    const known = this.stopsOnWay.filter((row) => this.data.poses[row.k]);
-    const rows = known.sort((a, b) => a.frame - b.frame).map((row) => ({ ...row, x: X(row.frame), pose: this.data.poses[row.k] }));
-    const named = laidOut(rows.map(({ x, pose }) => ({ x, text: shortened(poseName2(pose), LONGEST_TICK) })), width, NAME_ROWS);
-    const texts = named.every(({ at }) => at >= 0) ? named : laidOut(rows.map(({ x, pose }) => ({ x, text: pose.label })), width, rows.length > MANY_POSES2 ? 1 : NUMBER_ROWS);
-    const deepest = Math.max(0, ...texts.map(({ at }) => at));
-    const one = (k, pose, ...parts) => s("g", { "data-pose": k + 1 }, s("title", {}, `pose ${poseName2(pose)}`), ...parts);
-    rows.forEach(({ k, x, pose }, i) => stops.append(one(k, pose, s("path", { d: `M${px(x)} 0V${4 + ROW * Math.max(0, texts[i].at)}` }))));
-    rows.forEach(({ k, pose }, i) => {
-      const { at, middle: middle2, text } = texts[i];
-      if (at >= 0) stops.append(one(k, pose, s("text", { x: px(middle2), y: 14 + ROW * at, "text-anchor": "middle" }, text)));
-    });
-    put(stops, "viewBox", `0 0 ${width} ${16 + ROW * deepest}`);
-    put(stops, "height", 16 + ROW * deepest);
-  }
-  play(on) {
-    if (on && !this.path) return;
-    this.remaining = null;
-    if (on === this.playing && this.button.firstChild) return;
-    this.playing = on;
-    put(this.readout, "aria-live", on ? "off" : "polite");
-    this.button.replaceChildren(icon(on), on ? "Pause" : "Play");
-    put(this.button, "aria-label", on ? "Pause" : "Play");
-    this.button.title = on ? "Pause (space)" : "Play (space)";
-    cancelAnimationFrame(this.tick);
-    if (!on) return;
-    let before = null;
-    const run = (now) => {
-      if (!this.playing) return;
-      if (before !== null) this.advance(Math.min(0.1, (now - before) / 1e3));
-      before = now;
-      if (this.playing) this.tick = requestAnimationFrame(run);
-    };
-    this.tick = requestAnimationFrame(run);
-  }
-  /** Play once there and back, or once round; then rest until someone asks. */
-  playOnce() {
-    if (!this.path) return;
-    const { low, high } = this.stretch;
-    this.play(true);
-    this.remaining = (this.goesRound ? 1 : 2) * (high - low);
-  }
-  /** Whether what is played ends where it begins. */
-  get goesRound() {
-    return this.path.round && this.stretch.high - this.stretch.low > this.path.x.length - 1 - LEAST_STRETCH;
-  }
-  advance(seconds) {
-    const { low, high } = this.stretch;
-    const step = seconds * (high - low) / (this.goesRound ? TURN_SECONDS : TURN_SECONDS / 2);
-    if (this.remaining !== null) {
-      this.remaining -= step;
-      if (this.remaining <= 0) {
-        this.play(false);
-        this.u = this.firstStop();
-        this.show();
-        return;
-      }
-    }
-    this.u += this.heading * step;
-    if (this.goesRound) this.u = around(this.u, high);
-    else if (this.u >= high || this.u <= low) {
-      this.heading = this.u >= high ? -1 : 1;
-      this.u = clamp(this.u, low, high);
-    }
-    this.show();
-  }
-  step(steps) {
-    if (!this.path) return;
-    const { low, high } = this.stretch;
-    const u = this.u + steps * Math.max(1e-3, (high - low) / STEPS);
-    this.go(this.goesRound ? around(u, high) : u);
-  }
-  go(u) {
-    if (!this.path) return;
-    this.play(false);
-    this.u = clamp(u, this.stretch.low, this.stretch.high);
-    this.show();
-  }
-  /** The next pose (sense 1) or the one before (-1) that the linkage reaches, on whichever way. */
-  toPose(sense) {
-    const all = this.linkage.pose_errors.map((row, k) => ({ ...row, k })).filter((row) => row.way !== null);
-    if (!all.length) return;
-    const here = this.atPose ?? (sense > 0 ? -1 : this.data.poses.length);
-    const next = sense > 0 ? all.find((row) => row.k > here) ?? all[0] : [...all].reverse().find((row) => row.k < here) ?? all[all.length - 1];
-    this.play(false);
-    if (next.way !== this.way) {
-      this.way = next.way;
-      this.u = next.frame;
-      this.draw.rebuild();
-    }
-    this.go(next.frame);
-    this.atPose = next.k;
-  }
-  /** The pose nearest to a place, the angle weighed as the errors weigh it. */
-  nearest(place) {
-    let near2 = 0, least2 = Infinity;
-    this.data.poses.forEach((pose, k) => {
-      const turn = place.a - radians(pose.angle_deg);
-      const away = Math.hypot(place.x - pose.x, place.y - pose.y, this.data.chart.length * (turn - 2 * Math.PI * Math.round(turn / (2 * Math.PI))));
-      if (away < least2) [near2, least2] = [k, away];
-    });
-    return near2;
-  }
-  /** Draw where it is; told: also with the slider and in words, which may lag behind a hand. */
-  show(told = true) {
-    const { path: path2, linkage, data } = this;
-    if (!path2) {
-      for (const part of this.parts) part.textContent = "";
-      return;
-    }
-    const place = placeAt(linkage, path2, this.u, data.chart.length);
-    const drive = linear(path2.drive, this.u), transmission = linear(path2.transmission, this.u);
-    const near2 = this.atPose = this.nearest(place);
-    if (told) {
-      give(this.slider, "min", this.stretch.low);
-      give(this.slider, "max", this.stretch.high);
-      give(this.slider, "value", this.u);
-      this.tell(place, drive, transmission, near2);
-    }
-    this.draw.show(place, drive, transmission, near2);
-  }
-  /** The readout: driver, body, transmission angle, and the nearest pose. */
-  tell(place, drive, transmission, near2) {
-    const { data, linkage } = this;
-    const unit2 = data.unit ? ` ${data.unit}` : "", digits = decimalsOf(data);
-    const driver = linkage.led[0].kind === "PR" ? `${fixed(drive, digits)}${unit2}` : `${fixed(drive, 1)}°`;
-    const pose = data.poses[near2], row = linkage.pose_errors[near2];
-    const at = row?.at === this.path && Math.abs(row.frame - this.u) < 1e-6;
-    const away = () => `${figure(Math.hypot(place.x - pose.x, place.y - pose.y))}${unit2} from pose ${poseName2(pose)}`;
-    const missed2 = () => `at pose ${poseName2(pose)}, ${row.said.position === "exact" ? "" : "off by "}${missOf(row.said.position, row.said.turned, unit2)}`;
-    const said = !pose ? "between the poses" : at ? missed2() : away();
-    const texts = [
-      `driver ${driver}`,
-      `body (${fixed(place.x, digits)}, ${fixed(place.y, digits)})${unit2}, ${fixed(((degrees(place.a) + 180) % 360 + 360) % 360 - 180, 2)}°`,
-      `transmission ${transmission === null ? "–" : `${fixed(transmission, 1)}°`}`,
-      said
-    ];
-    texts.forEach((text, k) => {
-      const whole = k + 1 < texts.length ? `${text} ·` : text;
-      if (this.parts[k].textContent !== whole) this.parts[k].textContent = whole;
-    });
-    put(this.slider, "aria-valuetext", `driver ${driver}, ${texts[3]}`);
-  }
-};
-function laidOut(texts, width, count) {
-  const ends = Array(count).fill(-99);
-  return texts.map(({ x, text }) => {
-    const size2 = 6.4 * text.length, left = clamp(x - size2 / 2, 0, Math.max(0, width - size2));
-    const at = ends.findIndex((end) => left > end + 4);
-    if (at >= 0) ends[at] = left + size2;
-    return { text, at, middle: left + size2 / 2 };
-  });
-}
-var around = (u, turn) => (u % turn + turn) % turn;
-function icon(pause) {
-  return s(
-    "svg",
-    { width: 12, height: 12, viewBox: "0 0 12 12", "aria-hidden": "true" },
-    s("path", { d: pause ? "M1 0h3.5v12H1zM7.5 0H11v12H7.5z" : "M1 0l11 6l-11 6z" })
-  );
-}
-
-// src/burmester/web/studio/other_driver.mjs
-var APART = 3;
-var GOLDEN = 0.381966011250105;
-var HALVINGS = 24;
-function drivenByOther(linkage, length) {
-  const led = [linkage.led[1], linkage.led[0]];
-  if (led[0].kind === "PP" || !linkage.ways.length) return { ...linkage, led, ways: [], pose_errors: linkage.pose_errors.map((row) => ({ ...row, way: null, frame: null, at: null })) };
-  const ways = [], places = linkage.pose_errors.map(() => null);
-  for (const chain of chainsOf(linkage.ways)) {
-    for (const piece of piecesOf(linkage, led[0], chain, length)) {
-      const way = wayOf(linkage, led, piece, chain, length);
-      const number = ways.push(way) - 1;
-      linkage.pose_errors.forEach((row, k) => {
-        const frame = places[k] || row.way === null ? null : frameIn(piece, row, linkage.ways[row.way].x.length - 1);
-        if (frame === null) return;
-        places[k] = [number, way.falls ? piece.stations.length - 1 - frame : frame];
-        way.poses.push(k + 1);
-      });
-    }
-  }
-  const named = /* @__PURE__ */ new Map();
-  for (const way of ways) {
-    way.branches = ways.filter((each) => each.circuit === way.circuit).length;
-    named.set(way.circuit, (named.get(way.circuit) ?? 0) + 1);
-    way.branch = named.get(way.circuit);
-  }
-  const pose_errors = linkage.pose_errors.map((row, k) => ({
-    ...row,
-    way: places[k]?.[0] ?? null,
-    frame: places[k]?.[1] ?? null,
-    at: places[k] ? ways[places[k][0]] : null,
-    transmission_deg: row.x === null ? null : transmissionOf(...led, { x: row.x, y: row.y, a: row.angle_deg * Math.PI / 180 })
-  }));
-  return { ...linkage, led, ways, pose_errors };
-}
-function chainsOf(ways) {
-  const chains = [];
-  for (const circuit of new Set(ways.map((way) => way.circuit))) {
-    const own = ways.map((way, number) => ({ way, number })).filter(({ way }) => way.circuit === circuit);
-    const stations = ({ way, number }, turned) => {
-      const all = Array.from(way.x, (_, u) => ({ way: number, u }));
-      return turned ? all.reverse() : all;
-    };
-    const [one, other] = own;
-    const joined = (end, start) => other && one.way.dead[end] && other.way.dead[start] && near(one.way, end, other.way, start);
-    if (!other || !(joined(0, 0) || joined(1, 1))) {
-      for (const each of own) chains.push({ circuit, closed: each.way.round, stations: stations(each, false) });
-      continue;
-    }
-    const closed2 = joined(0, 0) && joined(1, 1), high = joined(1, 1);
-    const through = [...stations(one, !high), ...stations(other, high).slice(1)];
-    chains.push({ circuit, closed: closed2, stations: through });
-  }
-  return chains;
-}
-function near(one, end, other, start) {
-  const at = (way, k) => [way.x[k], way.y[k]], last = (way, k) => k ? way.x.length - 1 : 0;
-  const [i, j] = [last(one, end), last(other, start)], inner = end ? i - 1 : 1;
-  const step = Math.hypot(...at(one, i).map((v, k) => v - at(one, inner)[k]));
-  const away = Math.hypot(...at(one, i).map((v, k) => v - at(other, j)[k]));
-  return away <= APART * step + 1e-9 * Math.hypot(...at(one, i));
-}
-function piecesOf(linkage, driver, { circuit, closed: closed2, stations }, length) {
-  const placeOf2 = ({ way, u }) => placeAt(linkage, linkage.ways[way], u, length);
-  const slides = driver.kind === "PR";
-  let before = null;
-  const driveAt = (station) => {
-    let drive = driveOf(driver, placeOf2(station));
-    if (!slides && before !== null) drive -= 2 * Math.PI * Math.round((drive - before) / (2 * Math.PI));
-    return drive;
-  };
-  const drives = stations.map((station) => before = driveAt(station));
-  const count = stations.length - 1, sense = (k) => Math.sign(drives[k + 1] - drives[k]);
-  const cuts = [];
-  for (let k = 1; k < count; k += 1) if (sense(k) * sense(k - 1) < 0) cuts.push(k);
-  if (closed2 && sense(0) * sense(count - 1) < 0) cuts.push(0);
-  if (!cuts.length) return [{ circuit, round: closed2, dead: [false, false], stations }];
-  const dead = new Map(cuts.map((k) => [k, extreme(k)]));
-  function extreme(k) {
-    const here = stations[k], up = drives[k] > drives[k === 0 ? 1 : k - 1] ? 1 : -1;
-    before = drives[k];
-    const sides = [k > 0 ? k - 1 : count - 1, k + 1].map((at2) => {
-      const there = stations[at2];
-      if (there.way === here.way && Math.abs(there.u - here.u) < 1.5) return [here.way, here.u, there.u];
-      return [there.way, there.u, there.u < 1.5 ? 0 : there.u + 1];
-    });
-    const value = (way, u) => up * driveAt({ way, u });
-    let best = { station: here, value: value(here.way, here.u) };
-    for (const [way, u, v] of sides) {
-      let [low, high] = [Math.min(u, v), Math.max(u, v)];
-      for (let step = 0; step < HALVINGS; step += 1) {
-        const [a, b] = [low + GOLDEN * (high - low), high - GOLDEN * (high - low)];
-        if (value(way, a) < value(way, b)) low = a;
-        else high = b;
-      }
-      const station = { way, u: (low + high) / 2 }, found = value(way, station.u);
-      if (found > best.value) best = { station, value: found };
-    }
-    return best.station;
-  }
-  const part = (from, to) => {
-    const inner = [];
-    for (let k = from + 1; k < to; k += 1) inner.push(stations[closed2 ? k % count : k]);
-    const ends = [from, to].map((k) => dead.get(closed2 ? k % count : k) ?? stations[k]);
-    return [ends[0], ...inner.filter((each) => !ends.some((end) => end.way === each.way && Math.abs(end.u - each.u) < 1e-3)), ends[1]];
-  };
-  cuts.sort((a, b) => a - b);
-  if (closed2) {
-    const at2 = [...cuts, cuts[0] + count];
-    return at2.slice(1).map((to, k) => ({ circuit, round: false, dead: [true, true], stations: part(at2[k], to) }));
-  }
-  const at = [0, ...cuts, count];
-  return at.slice(1).map((to, k) => ({ circuit, round: false, dead: [k > 0, to < count], stations: part(at[k], to) }));
-}
-function wayOf(linkage, led, piece, chain, length) {
-  const slides = led[0].kind === "PR", places = piece.stations.map(({ way, u }) => ({ ...placeAt(linkage, linkage.ways[way], u, length) }));
-  const drive = [];
-  places.forEach((place, k) => {
-    let value = driveOf(led[0], place);
-    if (!slides && k) value -= 2 * Math.PI * Math.round((value - drive[k - 1]) / (2 * Math.PI));
-    if (k) place.a -= 2 * Math.PI * Math.round((place.a - places[k - 1].a) / (2 * Math.PI));
-    drive.push(value);
-  });
-  const falls = drive[drive.length - 1] < drive[0];
-  if (falls) [drive, places].forEach((each) => each.reverse());
-  const turns = slides ? 0 : 2 * Math.PI * Math.round((drive[0] + drive[drive.length - 1]) / (4 * Math.PI));
-  return {
-    circuit: chain.circuit,
-    round: piece.round,
-    dead: falls ? [...piece.dead].reverse() : piece.dead,
-    poses: [],
-    falls,
-    drive: drive.map((value) => slides ? value : degrees(value - turns)),
-    x: places.map(({ x }) => x),
-    y: places.map(({ y }) => y),
-    angle: places.map(({ a }) => a),
-    transmission: places.map((place) => transmissionOf(...led, place))
-  };
-}
-function frameIn({ stations }, { way, frame }, last) {
-  for (let k = 0; k + 1 < stations.length; k += 1) {
-    const [a, b] = [stations[k], stations[k + 1]];
-    if (a.way !== way || b.way !== way) {
-      if (a.way === way && Math.abs(a.u - frame) < 1e-9) return k;
-      if (b.way === way && Math.abs(b.u - frame) < 1e-9) return k + 1;
-      continue;
-    }
-    const [u, v] = Math.abs(b.u - a.u) > last / 2 ? [a, b].map((each) => each.u + (each.u < last / 2 ? last : 0)) : [a.u, b.u];
-    for (const at of [frame, frame + last]) {
-      if (at >= Math.min(u, v) - 1e-9 && at <= Math.max(u, v) + 1e-9) return u === v ? k : k + (at - u) / (v - u);
-      if (Math.max(u, v) <= last) break;
-    }
-  }
-  return null;
-}
-
-// src/burmester/web/studio/playing.mjs
-var AT_POSE = 1e-6;
-var Playing = class extends Events {
-  constructor(store, answers) {
-    super();
-    this.store = store;
-    this.answers = answers;
-    this.isOther = false;
-    this.here = null;
-    this.player = new Player(answers.data, (place, drive, transmission, near2) => this.placed({ place, drive, transmission, near: near2 }), () => this.rebuild());
-    this.assemblies = new Assemblies(answers.data, (index) => this.player.take(index));
-    this.drivers = h("fieldset", { class: "bm-ways bs-drivers", hidden: true });
-    this.note = h("p", { class: "bs-quiet bs-driver-note" });
-    this.element = h("div", { class: "bs-player" }, this.player.element, h("div", { class: "bs-player-ways" }, this.drivers, this.assemblies.element), this.note);
-    this.words = new Pace(() => this.player.path && this.player.show());
-    this.marks = new Pace(() => this.player.drawStops());
-    answers.on("answers shown placed", () => this.load());
-    answers.on("moved", () => this.follow());
-    store.on("selection", () => this.goToSelected());
-    store.on("state", () => this.hush());
-    new ResizeObserver(() => this.marks.ask()).observe(this.element);
-    this.load();
-  }
-  /** The linkage as it is driven, or null. */
-  get linkage() {
-    return this.player.linkage;
-  }
-  /** The frames of the way that is shown, or undefined. */
-  get path() {
-    return this.player.path;
-  }
-  /** Another linkage, or another answer for the same one, which stays where it is. */
-  load() {
-    const base = this.answers.shown ?? null;
-    if (base === this.base && base) {
-      this.follow();
-      this.tellDriver();
-      return;
-    }
-    this.base = base;
-    this.isOther = false;
-    this.at = null;
-    this.dress();
-    if (!base) {
-      this.player.linkage = null;
-      this.player.way = 0;
-      this.player.play(false);
-      for (const each of [this.assemblies.element, this.drivers]) give(each, "hidden", true);
-      this.note.textContent = "";
-      this.element.classList.add("bs-empty");
-      this.emit("shape", false);
-      return;
-    }
-    this.element.classList.remove("bs-empty");
-    this.player.load(this.driven());
-    this.goToSelected();
-  }
-  /** The linkage led by the dyad that is to drive. */
-  driven() {
-    return this.isOther ? drivenByOther(this.base, this.answers.data.chart.length) : this.base;
-  }
-  /** Drive by the first dyad of the linkage, or by the other one. */
-  driveBy(other) {
-    this.isOther = other;
-    this.player.linkage = this.driven();
-    this.at = null;
-    this.takeBest();
-    this.rebuild();
-    this.tellDriver();
-  }
-  takeBest() {
-    const counts = this.linkage.ways.map((way) => way.poses.length);
-    this.player.way = Math.max(0, counts.indexOf(Math.max(...counts)));
-    this.player.u = this.player.firstStop();
-  }
-  /** The same linkage with other dimensions: at the same pose, or the same place of its driver. */
-  follow() {
-    const { base, player } = this;
-    if (!base) return;
-    player.linkage = this.driven();
-    const row = this.at?.pose === void 0 ? null : player.linkage.pose_errors[this.at.pose];
-    if (row && row.way !== null) {
-      player.way = row.way;
-      player.u = row.frame;
-    } else if (!player.path) {
-      if (player.linkage.ways.length) this.takeBest();
-    } else if (this.at) {
-      player.u = this.frameOf(player.path, this.at.drive);
-    }
-    player.rebuild();
-    this.emit("shape", true);
-    player.show(false);
-    this.words.ask();
-    this.marks.ask();
-  }
-  /** The frame of a way at which its driver stands so; of angles, whole turns do not count. */
-  frameOf(way, drive) {
-    if (drive === null || this.linkage.led[0].kind === "PR") return frameAt(way.drive, drive ?? way.drive[0]);
-    const middle2 = (way.drive[0] + way.drive[way.drive.length - 1]) / 2;
-    return frameAt(way.drive, drive - 360 * Math.round((drive - middle2) / 360));
-  }
-  /** Everything that depends on the way. */
-  rebuild() {
-    const { player } = this;
-    player.rebuild();
-    this.assemblies.build(this.linkage, player.way);
-    this.buildDrivers();
-    this.emit("shape", false);
-    this.marks.ask();
-    player.show();
-  }
-  placed(here) {
-    this.here = here;
-    const { path: path2, u } = this.player;
-    const pose = this.linkage.pose_errors.findIndex((row) => row.at === path2 && Math.abs(row.frame - u) < AT_POSE);
-    this.at = { drive: here.drive, pose: pose < 0 ? void 0 : pose };
-    this.emit("place", here);
-  }
-  /** The linkage goes to a pose that is taken hold of. */
-  goToSelected() {
-    const { selection } = this.store, { player } = this;
-    if (selection?.kind !== "pose" || player.playing) return;
-    const row = this.linkage?.pose_errors[selection.index];
-    if (!row || row.way === null) return;
-    const other = row.way !== player.way;
-    player.way = row.way;
-    player.u = row.frame;
-    if (other) this.rebuild();
-    else player.go(row.frame);
-  }
-  /** A choice between both dyads. */
-  buildDrivers() {
-    const { base } = this;
-    give(this.drivers, "hidden", !base || !base.ways.length || base.led.some((dyad) => dyad.kind === "PP"));
-    if (this.drivers.hidden) return;
-    const key = `${base.id} ${base.led.map((dyad) => dyad.id)} ${this.isOther}`;
-    if (key === this.driversKey) return;
-    this.driversKey = key;
-    const one = (dyad, other) => h("label", {}, h("input", { type: "radio", name: "bs-driver", checked: other === this.isOther, "data-driver": dyad.id, onchange: () => this.driveBy(other) }), h("span", {}, h("b", {}, dyad.id), ` ${{ RR: "crank or rocker", PR: "slider on its rail", RP: "slot" }[dyad.kind]}`));
-    this.drivers.replaceChildren(h("legend", {}, "Driver"), one(base.led[0], false), one(base.led[1], true));
-    this.tellDriver();
-  }
-  /** What the whole road says of the driver that is chosen. */
-  tellDriver() {
-    const { base } = this;
-    if (!base?.drives || base.followed) {
-      this.note.textContent = "";
-      return;
-    }
-    const driver = this.isOther ? base.led[1] : base.led[0];
-    const drive = base.dyads[0].id === driver.id ? base.drives.first : base.drives.second;
-    const least2 = drive.min_transmission_angle_deg.range;
-    const said = drive.defects.length ? drive.defects.map((each) => each.message).join("; ") : `${drive.turns_fully ? "turns fully" : "reaches every pose"}${least2 === null ? "" : `, transmission angle ${fixed(least2, 1)}° or more between the poses`}`;
-    this.note.textContent = `Driven by ${driver.id}: ${said}.`;
-  }
-  /** Poses and outlines are read by the player from the data, which stay the same object. */
-  dress() {
-    this.driversKey = null;
-  }
-  /** While a hand drags, nothing is read out. */
-  hush() {
-    const quiet = this.store.state === "dragging" || this.player.playing;
-    put(this.player.readout, "aria-live", quiet ? "off" : "polite");
-  }
-};
-
-// src/burmester/web/studio/ordering.mjs
-var ORDERS = {
-  rank: { name: "best first", of: (linkage) => linkage.rank ?? Infinity },
-  worst: { name: "worst miss", of: (linkage) => linkage.worst ?? Infinity },
-  least: { name: "transmission angle", of: (linkage) => -(linkage.least ?? -1) },
-  size: { name: "size", of: (linkage) => linkage.quality?.extent ?? Infinity },
-  sensitivity: { name: "sensitivity", of: (linkage) => linkage.quality?.sensitivity ?? Infinity }
-};
-var FILTERS = {
-  all: { name: "all", holds: () => true },
-  usable: { name: "usable", holds: (linkage) => linkage.usable },
-  pinned: { name: "pinned", holds: (linkage, pinned) => pinned.has(linkage.id) }
-};
-function arranged(linkages, { order, filter, type, pinned }) {
-  const { of } = ORDERS[order], { holds } = FILTERS[filter];
-  return linkages.filter((each) => holds(each, pinned) && (!type || each.type === type)).map((each, k) => ({ each, k, key: of(each) })).sort((a, b) => Number(pinned.has(b.each.id)) - Number(pinned.has(a.each.id)) || (a.key === b.key ? 0 : a.key - b.key) || a.k - b.k).map(({ each }) => each);
-}
-
-// src/burmester/web/studio/help_words.mjs
-var OPTIONS = [
-  [/--min-transmission ([\d.e+-]+)/g, "a least transmission angle of $1°"],
-  [/--within-angle ([\d.e+-]+)/g, "a permitted turn of $1°"],
-  [/--within ([\d.e+-]+)/g, "a permitted miss of $1"],
-  [/--link-ratio ([\d.e+-]+)/g, "a link ratio of $1"],
-  [/--type "([^"]+)"/g, "the type $1"],
-  [/--type (\S+)/g, "the type $1"],
-  [/--driver any/g, "either driver"],
-  [/--any-order/g, "any order of the poses"]
-];
-function helpInWords(text) {
-  const marked = OPTIONS.reduce((said, [option, words]) => said.replace(option, `${words}`), text);
-  const plain = marked.replaceAll(" ", " and ").replaceAll(/[\u0001\u0002]/g, "");
-  return plain.replace(/with (.+?) (L\d+) would do/g, "it would do with $1");
-}
-
-// src/burmester/web/studio/result_card.mjs
-function say(element, text) {
-  if (element.textContent !== text) element.textContent = text;
-}
-var FIGURES = [
-  ["worst", "worst miss"],
-  ["least", "transmission"],
-  ["size", "size"],
-  ["sensitivity", "sensitivity"]
-];
-var ResultCard = class {
-  /** @param {{ choose: Function, pin: Function, compare: Function, improve: Function, letGo: Function }} does */
-  constructor(does) {
-    this.name = h("b", {});
-    this.type = h("span", { class: "bm-type" });
-    this.was = h("span", { class: "bs-was" });
-    this.verdict = h("span", { class: "bm-verdict" });
-    this.figures = new Map(FIGURES.map(([key]) => [key, h("dd", { "data-figure": key })]));
-    this.note = h("span", { class: "bs-card-note" });
-    this.reason = h("span", { class: "bm-reason" });
-    this.help = h("span", { class: "bs-help" });
-    this.main = h(
-      "button",
-      { type: "button", class: "bs-card-main", "aria-pressed": "false", onclick: () => does.choose(this.id) },
-      h("span", { class: "bm-choice-head" }, this.name, " ", this.type, " ", this.was),
-      this.verdict,
-      h("dl", { class: "bs-figures" }, FIGURES.map(([key, name]) => [h("dt", {}, name), this.figures.get(key)])),
-      this.note,
-      this.reason,
-      this.help
-    );
-    this.pin = h("button", { type: "button", class: "bs-small", "aria-pressed": "false", onclick: () => does.pin(this.id) }, "Pin");
-    this.compare = h("button", { type: "button", class: "bs-small", "aria-pressed": "false", onclick: () => does.compare(this.id) }, "Compare");
-    this.improve = h("button", { type: "button", class: "bs-small", onclick: () => does.improve(this.id) }, "Look near it");
-    this.letGo = h("button", { type: "button", class: "bs-small", onclick: () => does.letGo() }, "Let go of the pivots");
-    this.better = h("ul", { class: "bs-better", "aria-live": "polite" });
-    this.element = h("article", { class: "bs-card bm-choice" }, this.main, h("div", { class: "bs-card-tools" }, this.pin, this.compare, this.improve, this.letGo), this.better);
-  }
-  /** Show a linkage as it is now; old: what only the whole road knows belongs to an older task. */
-  show(linkage, { data, old, chosen, pinned, compared }) {
-    const { said } = linkage, { classList } = this.element, isPlaced = linkage.id === PLACED;
-    if (this.id !== linkage.id || old) this.better.replaceChildren();
-    if (this.id !== linkage.id) {
-      this.id = linkage.id;
-      this.element.dataset.linkage = linkage.id;
-      say(this.name, isPlaced ? "By hand" : linkage.id);
-    }
-    say(this.type, linkage.type);
-    say(this.was, pastOf(linkage));
-    say(this.verdict, linkage.gone ? "✕ gone" : linkage.usable ? "✓ usable" : "✕ not usable");
-    say(this.figures.get("worst"), worstOf(linkage, data));
-    say(this.figures.get("least"), least(linkage));
-    say(this.figures.get("size"), said.quality.extent ?? "–");
-    say(this.figures.get("sensitivity"), said.quality.sensitivity ?? "–");
-    say(this.note, linkage.gone ?? (linkage.usable && linkage.change || (linkage.usable && !linkage.followed && linkage.shortcomings?.length ? `Falls short: ${linkage.shortcomings.join("; ")}` : "")));
-    const reason = linkage.usable || linkage.gone ? "" : linkage.followed ? linkage.reason ?? "" : said.reasons.join("; ");
-    say(this.reason, reason);
-    say(this.help, reason && said.help && !linkage.followed ? `What would help: ${helpInWords(said.help)}.` : "");
-    classList.toggle("bm-good", linkage.usable && !linkage.gone);
-    classList.toggle("bm-bad", !linkage.usable || Boolean(linkage.gone));
-    classList.toggle("bs-gone", Boolean(linkage.gone));
-    classList.toggle("bs-old", old || Boolean(linkage.followed));
-    classList.toggle("bs-chosen", chosen);
-    setPressed(this.main, chosen);
-    setPressed(this.pin, pinned);
-    setPressed(this.compare, compared);
-    say(this.pin, pinned ? "Pinned" : "Pin");
-    give(this.pin, "hidden", isPlaced);
-    give(this.compare, "hidden", isPlaced || chosen);
-    give(this.improve, "hidden", isPlaced || linkage.usable || old || Boolean(linkage.gone));
-    give(this.letGo, "hidden", !isPlaced);
-    for (const button2 of [this.pin, this.compare, this.improve]) labelled2(button2, linkage.id);
-  }
-  /** What a search near the linkage found. */
-  tellBetter(sentences) {
-    this.better.replaceChildren(...sentences.map((sentence2) => h("li", {}, sentence2)));
-  }
-};
-function pastOf({ was, shift, isNew, followed }) {
-  if (isNew && !was) return "new";
-  const moved = shift && !followed ? `moved ${(100 * shift).toFixed(1)} %` : "";
-  return [was ? `was ${was}` : "", moved].filter(Boolean).join(", ");
-}
-function least(linkage) {
-  const angle = leastOf(linkage);
-  return angle === "–" ? angle : angle === "0°" ? "down to 0°" : `${angle} or more`;
-}
-function setPressed(button2, on) {
-  put(button2, "aria-pressed", Boolean(on));
-}
-function labelled2(button2, id) {
-  put(button2, "aria-label", `${button2.textContent}: ${id}`);
-}
-
-// src/burmester/web/studio/results.mjs
-var MOST3 = 40;
-var Results = class {
-  constructor(store, answers) {
-    Object.assign(this, { store, answers, cards: /* @__PURE__ */ new Map(), wanted: { order: "rank", filter: "all", type: "" }, all: false });
-    const choice2 = (name, entries, key) => h("label", {}, `${name} `, h("select", { "data-choice": key, onchange: (event) => this.want(key, event.target.value) }, entries.map(([value, text]) => h("option", { value }, text))));
-    this.types = choice2("Type", [["", "any"]], "type");
-    this.title = h("h2", {}, "Linkages");
-    this.status = h("p", { class: "bs-results-status", role: "status" });
-    this.doubt = h("p", { class: "bs-doubt" });
-    this.gone = h("p", { class: "bs-gone-note" });
-    this.list = h("div", { class: "bs-cards" });
-    this.more = h("button", { type: "button", class: "bs-small", hidden: true, onclick: () => this.showAll() });
-    this.element = h(
-      "section",
-      { class: "bs-results", "aria-label": "Linkages" },
-      h(
-        "div",
-        { class: "bs-results-head" },
-        this.title,
-        this.status,
-        this.doubt,
-        this.gone,
-        h("div", { class: "bs-choices" }, choice2("Show", Object.entries(FILTERS).map(([key, { name }]) => [key, name]), "filter"), choice2("Sort by", Object.entries(ORDERS).map(([key, { name }]) => [key, name]), "order"), this.types)
-      ),
-      this.list,
-      this.more
-    );
-    this.pace = new Pace(() => this.update());
-    this.list.addEventListener("keydown", (event) => this.walk(event));
-    answers.on("answers placed", () => this.arrange());
-    answers.on("moved", () => this.pace.ask());
-    answers.on("shown", () => this.update());
-    store.on("pinned", () => this.arrange());
-    store.on("state document", () => this.tell());
-    this.arrange();
-  }
-  want(key, value) {
-    this.wanted[key] = value;
-    this.arrange();
-  }
-  showAll() {
-    this.all = true;
-    this.arrange();
-  }
-  /** Cards in their order: new ones are made, those of linkages that go on keep their elements. */
-  arrange() {
-    const { answers, store, wanted } = this;
-    this.buildTypes();
-    const every = arranged(answers.linkages, { ...wanted, pinned: store.pinned });
-    const shown2 = this.all ? every : every.slice(0, MOST3);
-    const list = answers.placed ? [answers.placed, ...shown2] : shown2;
-    const cards = /* @__PURE__ */ new Map();
-    for (const linkage of list) cards.set(linkage, this.cards.get(linkage) ?? this.card());
-    for (const [linkage, card] of this.cards) if (!cards.has(linkage)) card.element.remove();
-    this.cards = cards;
-    let before = null;
-    for (const card of cards.values()) {
-      const next = before ? before.nextSibling : this.list.firstChild;
-      if (card.element !== next) this.list.insertBefore(card.element, next);
-      before = card.element;
-    }
-    give(this.more, "hidden", every.length <= shown2.length);
-    if (!this.more.hidden) say(this.more, `Show all ${every.length}`);
-    give(this, "hidden", answers.linkages.length - every.length);
-    this.update();
-  }
-  card() {
-    const { store } = this;
-    return new ResultCard({
-      choose: (id) => store.choose(id),
-      pin: (id) => store.pin(id),
-      compare: (id) => store.compare(id),
-      improve: (id) => this.improve(id),
-      letGo: () => this.letGo()
-    });
-  }
-  /** Put the pivots away that a hand put down. */
-  letGo() {
-    this.store.place([]);
-    if (this.store.chosen === PLACED) this.store.choose(this.answers.linkages[0]?.id ?? null);
-  }
-  buildTypes() {
-    const types = [...new Set(this.answers.linkages.map((each) => each.type))].sort(), key = types.join();
-    const select = this.types.querySelector("select");
-    if (key === this.typesKey) return;
-    this.typesKey = key;
-    if (!types.includes(this.wanted.type)) this.wanted.type = "";
-    select.replaceChildren(...["", ...types].map((type) => h("option", { value: type, selected: type === this.wanted.type }, type || "any")));
-    give(this.types, "hidden", types.length < 2);
-  }
-  /** What the cards say, in the order in which they stand. */
-  update() {
-    const { answers, store } = this, { data, isOld, shown: shown2 } = answers;
-    for (const [linkage, card] of this.cards) {
-      card.show(linkage, { data, old: isOld && linkage.id !== PLACED, chosen: linkage === shown2, pinned: store.pinned.has(linkage.id), compared: store.compared === linkage.id });
-    }
-    this.tell();
-  }
-  /** How many there are, and what is doubtful; read aloud only when the hand rests. */
-  tell() {
-    const { answers, store } = this, there = answers.linkages.filter((each) => !each.gone);
-    const usable = there.filter((each) => each.usable).length;
-    say(this.title, there.length ? `${there.length} linkage${there.length === 1 ? "" : "s"}, ${usable} usable` : store.solved ? "No linkage" : "Linkages");
-    put(this.status, "aria-live", store.state === "dragging" ? "off" : "polite");
-    say(this.status, this.statusText());
-    const uncertain = store.followed?.uncertain ?? [];
-    say(this.doubt, store.followed && answers.isOld ? uncertain.length ? `May change when you let go: ${uncertain[0]}${/[.!]$/.test(uncertain[0]) ? "" : "."}` : store.followed.complete === false ? "A linkage that appears now is seen when you let go." : "" : "");
-    say(this.gone, !answers.isOld && answers.gone.length ? `Not in the new answer: ${listed(answers.gone)} of the one before.` : "");
-    this.element.classList.toggle("bs-stale", answers.isOld);
-  }
-  statusText() {
-    const { store, answers } = this, hidden = this.hidden ? `${this.hidden} not shown by the filter. ` : "";
-    if (store.state === "offline") return "The connection is gone; what you see is the last answer.";
-    if (answers.isOld && store.state === "dragging") return store.followed ? "Moving along." : "The new answer comes when you let go.";
-    if (store.state === "solving") return "Looking for all linkages.";
-    if (!store.solved) return "";
-    const { best, outcome } = store.solved;
-    if (!store.solved.linkages.some((each) => each.usable)) return `${hidden}${sentence(outcome?.message)}${outcome?.help ? ` What helps: ${outcome.help}.` : ""}`;
-    return `${hidden}${best?.[0] ?? ""}`;
-  }
-  /** Look for better linkages near one that is not usable, as `burmester judge --improve` does. */
-  async improve(id) {
-    const { document: document2, options, connection } = this.store;
-    const card = () => [...this.cards].find(([linkage]) => linkage.id === id)?.[1];
-    card()?.tellBetter(["Looking near it …"]);
-    let said;
-    try {
-      said = (await (await connection.post("/improve", { document: document2, options, linkage: id })).json()).better;
-    } catch (error) {
-      said = [`That did not work: ${error.message}`];
-    }
-    if (document2 === this.store.document) card()?.tellBetter(said.length ? said.map(nearIt) : ["Nothing better lies near it."]);
-  }
-  /** Arrow keys go from card to card. */
-  walk(event) {
-    const step = { ArrowDown: 1, ArrowRight: 1, ArrowUp: -1, ArrowLeft: -1 }[event.key];
-    const mains = [...this.cards.values()].map((card) => card.main), at = mains.indexOf(document.activeElement);
-    if (!step || at < 0) return;
-    event.preventDefault();
-    mains[clamp(at + step, 0, mains.length - 1)].focus();
-  }
-};
-var nearIt = (text) => text.replace(/^L\d+ changes/, "One changes");
-var sentence = (text) => text ? `${text[0].toUpperCase()}${text.slice(1)}.` : "";
-
-// src/burmester/web/widget/ray_casting.mjs
-var WIDTH = 440;
-var TURNING_SHARE = 0.35;
-function drawStill(canvas, scene, size2, turning) {
-  const share = turning ? TURNING_SHARE : Math.min(1, WIDTH / size2.width);
-  const width = Math.round(size2.width * share), height = Math.round(size2.height * share);
-  canvas.width = width;
-  canvas.height = height;
-  if (!scene.quadrics.length) return;
-  const context = canvas.getContext("2d"), image = context.createImageData(width, height);
-  cast(image, scene);
-  context.putImageData(image, 0, 0);
-}
-function cast(image, { eye, ahead, right, up, reach, quadrics, paint, angles }) {
-  const { data, width, height } = image, [ex, ey, ez] = eye, [zc, zh, middleAngle, step] = angles;
-  const lamp = unit(plus(plus(scaled(ahead, -1), scaled(up, 0.5)), scaled(right, -0.6)));
-  const far = new Float64Array(4), which = new Uint8Array(4);
-  for (let j = 0; j < height; j += 1) {
-    const v = (1 - (2 * j + 1) / height) * reach[1];
-    for (let i = 0; i < width; i += 1) {
-      const u = ((2 * i + 1) / width - 1) * reach[0];
-      let dx = ahead[0] + u * right[0] + v * up[0];
-      let dy = ahead[1] + u * right[1] + v * up[1];
-      let dz = ahead[2] + u * right[2] + v * up[2];
-      const size2 = 1 / Math.sqrt(dx * dx + dy * dy + dz * dz);
-      dx *= size2;
-      dy *= size2;
-      dz *= size2;
-      const x1 = (-1 - ex) / dx, x2 = (1 - ex) / dx, y1 = (-1 - ey) / dy, y2 = (1 - ey) / dy;
-      const z1 = (-1 - ez) / dz, z2 = (1 - ez) / dz;
-      const enter = Math.max(Math.min(x1, x2), Math.min(y1, y2), Math.min(z1, z2));
-      const leave = Math.min(Math.max(x1, x2), Math.max(y1, y2), Math.max(z1, z2));
-      if (!(enter < leave)) continue;
-      const middle2 = (enter + leave) / 2, half = (leave - enter) / 2;
-      const ox = ex + middle2 * dx, oy = ey + middle2 * dy, oz = ez + middle2 * dz;
-      let count = 0;
-      for (let k = 0; k < quadrics.length; k += 1) {
-        const c = quadrics[k];
-        const cx = c[0] * dx + c[1] * dy + c[2] * dz, cy = c[4] * dx + c[5] * dy + c[6] * dz;
-        const cz = c[8] * dx + c[9] * dy + c[10] * dz, cw = c[12] * dx + c[13] * dy + c[14] * dz;
-        const a = dx * cx + dy * cy + dz * cz, b = ox * cx + oy * cy + oz * cz + cw;
-        const e = ox * (c[0] * ox + 2 * (c[1] * oy + c[2] * oz + c[3])) + oy * (c[5] * oy + 2 * (c[6] * oz + c[7])) + oz * (c[10] * oz + 2 * c[11]) + c[15];
-        const root = b * b - a * e;
-        if (root < 0) continue;
-        const q = -(b + (b < 0 ? -1 : 1) * Math.sqrt(root));
-        for (let side = 0; side < 2; side += 1) {
-          const t = side ? e / q : q / a;
-          if (!(Math.abs(t) <= half)) continue;
-          let at2 = count;
-          while (at2 > 0 && far[at2 - 1] > t) {
-            far[at2] = far[at2 - 1];
-            which[at2] = which[at2 - 1];
-            at2 -= 1;
-          }
-          far[at2] = t;
-          which[at2] = k;
-          count += 1;
-        }
-      }
-      if (!count) continue;
-      let red = 0, green = 0, blue = 0, through = 1;
-      for (let k = 0; k < count; k += 1) {
-        const t = far[k], c = quadrics[which[k]], own = paint[which[k]];
-        const x = ox + t * dx, y = oy + t * dy, z = oz + t * dz;
-        let nx = c[0] * x + c[1] * y + c[2] * z + c[3];
-        let ny = c[4] * x + c[5] * y + c[6] * z + c[7];
-        let nz = c[8] * x + c[9] * y + c[10] * z + c[11];
-        const n = 1 / Math.sqrt(nx * nx + ny * ny + nz * nz);
-        nx *= n;
-        ny *= n;
-        nz *= n;
-        const facing = Math.abs(nx * dx + ny * dy + nz * dz);
-        const pixels = (middle2 + t) * reach[1] / height * (Math.sqrt(Math.max(0, 1 - nz * nz)) / Math.max(facing, 0.15)) + 1e-4;
-        const z3 = zc + zh * z, turns = (2 * Math.atan(z3) + middleAngle) / step;
-        const off = Math.abs(turns - Math.round(turns)) * step * (1 + z3 * z3) / (2 * zh);
-        const line2 = 1 - clamp((off / pixels - 0.5) / 1.1, 0, 1);
-        const lit = (0.42 + 0.58 * Math.abs(nx * lamp[0] + ny * lamp[1] + nz * lamp[2])) * (1 - 0.35 * line2);
-        const alpha = 0.5 + 0.42 * (1 - facing) * (1 - facing), share = through * alpha;
-        red += share * own[0] * lit;
-        green += share * own[1] * lit;
-        blue += share * own[2] * lit;
-        through *= 1 - alpha;
-      }
-      const at = 4 * (j * width + i), whole = 255 / (1 - through);
-      data[at] = red * whole;
-      data[at + 1] = green * whole;
-      data[at + 2] = blue * whole;
-      data[at + 3] = 255 * (1 - through);
-    }
-  }
-}
-
-// src/burmester/web/widget/shader.mjs
-var STILL_MILLISECONDS = 250;
-var TURNING_MILLISECONDS = 25;
-var UNIFORMS = ["surface", "paint", "eye", "right", "up", "ahead", "reach", "pixel", "samples", "angles"];
-var VERTEX = `#version 300 es
+var SVG="http://www.w3.org/2000/svg";function furnish(node,attributes,children){for(const[name,value]of Object.entries(attributes??{})){if(value===null||value===
+void 0||value===false)continue;if(name.startsWith("on"))node.addEventListener(name.slice(2),value);else node.setAttribute(name,value===true?"":value)}node.append(
+...children.flat(Infinity).filter(child=>child!==null&&child!==void 0));return node}var h=(tag,attributes,...children)=>furnish(document.createElement(tag),attributes,
+children);var s=(tag,attributes,...children)=>furnish(document.createElementNS(SVG,tag),attributes,children);function put(node,name,value){const text=String(value);
+if(node.getAttribute(name)!==text)node.setAttribute(name,text)}function give(node,name,value){const next=typeof node[name]==="boolean"?Boolean(value):String(value);
+if(node[name]!==next)node[name]=next}function rgb(text){const hex=text.trim().replace("#","");return[0,2,4].map(k=>parseInt(hex.slice(k,k+2),16))}var KEY="burmester.studio";var TAB="burmester.studio.tab";var SOON=400;var Autosave=class{constructor(store){this.store=store;store.on("document",()=>this.soon());
+store.connection.on("open",()=>this.isOpen&&this.soon());addEventListener("pagehide",()=>this.keep());document.addEventListener("visibilitychange",()=>document.
+visibilityState==="hidden"&&this.keep())}soon(){clearTimeout(this.timer);this.isOpen=true;document.documentElement.dataset.kept="false";this.timer=setTimeout(()=>this.
+keep(),SOON)}keep(){if(!this.isOpen)return;this.isOpen=false;clearTimeout(this.timer);const{document:task,options,name,settings,connection}=this.store,text={document:task,
+options,name,settings};document.documentElement.dataset.kept="true";try{sessionStorage.setItem(KEY,JSON.stringify(text))}catch{}connection.post("/autosave",{...text,
+tab:tabName()},"PUT").catch(()=>this.isOpen=true)}};function tabName(){try{const name=sessionStorage.getItem(TAB)??crypto.randomUUID();sessionStorage.setItem(TAB,
+name);return name}catch{return"tab"}}function keptHere(){try{const kept=JSON.parse(sessionStorage.getItem(KEY));return Array.isArray(kept?.document?.poses)?kept:
+null}catch{return null}}var LENGTHS={µm:1e-6,um:1e-6,mm:.001,cm:.01,m:1,in:.0254,inch:.0254,'"':.0254,"″":.0254,ft:.3048,"'":.3048,"′":.3048};var ANGLES={"°":1,deg:1,degree:1,degrees:1,
+rad:180/Math.PI,mrad:.18/Math.PI};var WRITTEN=/^([+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:e[+-]?\d+)?)\s*(.*)$/i;var DIGITS=12;var GREATEST=1e300;var tidy=value=>Number(
+value.toPrecision(DIGITS));var written=value=>value===void 0||value===null?"":String(value).replace("-","−").replace("e−","e-");function quantity(text,{kind="\
+number",unit:unit2="",optional=false,least:least2=-Infinity,above=-Infinity,most=Infinity,whole=false}={}){const plain=text.normalize("NFKC").replace(/[−–]/g,
+"-").replace(/[\u00a0\u2009\u202f]/g," ").trim();const example={length:unit2 in LENGTHS?`12.5 or 0.5 in`:"12.5",angle:"30 or 0.5 rad",number:"12.5"}[kind];if(!plain)
+return optional?{value:void 0}:{fault:`A number is missing here: write one such as ${example}.`};const found=WRITTEN.exec(plain);if(!found)return{fault:`“${text.
+trim()}” is not a number: write one such as ${example}.`};const number=Number(found[1].replace(",",".")),name=found[2].trim().replace(/^μm$/,"µm");const factor=factorOf(
+name,kind,unit2);if(typeof factor==="string")return{fault:factor};const value=factor===1?number:tidy(number*factor);if(!(Math.abs(value)<=GREATEST))return{fault:`${text.
+trim()} is too large a number.`};const shown2=kind==="angle"?"°":kind==="length"&&unit2?` ${unit2}`:"";if(whole&&!Number.isInteger(value))return{fault:`This ha\
+s to be a whole number, such as ${Math.max(1,Math.round(value))}.`};if(value<least2)return{fault:`This may not be less than ${least2}${shown2}.`};if(value<=above)
+return{fault:`This must be greater than ${above}${shown2}.`};if(value>most)return{fault:`This may not be more than ${most}${shown2}.`};return{value}}function factorOf(name,kind,unit2){
+if(!name||kind==="length"&&name===unit2)return 1;if(kind==="number")return`“${name}” is not needed here: write the number alone.`;const units=kind==="angle"?
+ANGLES:LENGTHS,known=name in units?name:name.toLowerCase();if(!Object.hasOwn(units,known)){const usual=kind==="angle"?"° or rad":"mm, cm, m, in or ft";return`“${name}\
+” is not a unit of ${kind} known here: write ${usual}, or the number alone.`}if(kind==="angle")return units[known];if(!Object.hasOwn(LENGTHS,unit2))return`Thi\
+s task has ${unit2?`the unit ${unit2}`:"no unit of length"}: write the number alone.`;return units[known]/LENGTHS[unit2]}var made=0;var NumberField=class{constructor({label,options,commit,step=()=>1,attributes={}}){made+=1;this.options=options;this.commit=commit;this.value=void 0;
+this.drafts=new Map;this.fault=h("p",{class:"bs-fault",id:`bs-fault-${made}`,hidden:true});this.input=h("input",{class:"bs-number",type:"text",inputmode:"text",
+autocomplete:"off",spellcheck:"false","aria-label":label,...attributes,onchange:()=>this.read(),oninput:()=>this.fault.hidden||this.read(),onkeydown:event=>this.
+nudge(event,step())});this.element=h("span",{class:"bs-field"},this.input,this.fault)}show(value){const changed=value!==this.value;this.value=value;if(changed||
+this.fault.hidden){const text=written(value);if(this.input.value!==text&&!(this.isEdited&&!changed))this.input.value=text;if(changed)this.say(null)}}turnTo(id,value){
+if(id===this.id)return;if(this.fault.hidden)this.drafts.delete(this.id);else this.drafts.set(this.id,this.input.value);const draft=this.drafts.get(id);Object.assign(
+this,{id,value});this.input.value=draft??written(value);this.say(draft===void 0?null:quantity(draft,this.options()).fault??null)}get isEdited(){return document.
+activeElement===this.input&&this.input.value!==written(this.value)}read(){const{value,fault}=quantity(this.input.value,this.options());this.say(fault??null);if(fault)
+return;const isNew=value!==this.value;this.value=value;if(document.activeElement!==this.input||!isNew)this.input.value=written(value);if(isNew)this.commit(value);
+this.input.value=written(this.value)}nudge(event,step){if(event.key==="Enter")this.read();const sense={ArrowUp:1,ArrowDown:-1}[event.key];if(!sense||event.ctrlKey||
+event.metaKey)return;const{value,fault}=quantity(this.input.value,this.options());if(fault||value===void 0)return;event.preventDefault();this.input.value=written(
+stepped(value,sense*stepOf(event,step)));this.read()}say(sentence2){give(this.fault,"hidden",sentence2===null);this.fault.textContent=sentence2??"";if(sentence2===
+null){this.input.removeAttribute("aria-invalid");this.input.removeAttribute("aria-describedby")}else{put(this.input,"aria-invalid","true");put(this.input,"aria-\
+describedby",this.fault.id)}}};var stepOf=(event,step)=>step*(event.shiftKey?10:event.altKey?.1:1);var stepped=(value,by)=>Number((value+by).toPrecision(12));var labelled=(text,control,hint)=>h(
+"label",{class:"bs-labelled"},h("span",{class:"bs-label"},text),control,hint?h("span",{class:"bs-hint"},hint):null);function textField(label,commit,attributes={}){
+return h("input",{class:"bs-text",type:"text",autocomplete:"off",spellcheck:"false","aria-label":label,...attributes,onchange:event=>commit(event.target.value)})}
+function tick(text,commit,attributes={}){const box=h("input",{type:"checkbox",...attributes,onchange:event=>commit(event.target.checked)});return{box,element:h(
+"label",{class:"bs-tick"},box," ",text)}}function choice(label,pairs,commit,attributes={}){return h("select",{class:"bs-choice","aria-label":label,...attributes,
+onchange:event=>commit(event.target.value)},pairs.map(([value,text])=>h("option",{value},text)))}var button=(text,onclick,attributes={})=>h("button",{type:"butt\
+on",class:"bm-button",onclick,...attributes},text);var ROLES={refused:"alert",offline:"alert",limit:"alert",expired:"alert"};var NO_FILE="task.json";function sentenceOf({code,message,where,why,help}){return h("l\
+i",{},code?h("span",{class:"bm-code"},code):null," ",h("span",{},message),where&&!where.startsWith(NO_FILE)?h("pre",{class:"bs-where"},where):null,why?h("p",{class:"\
+bs-why"},`Why: ${why}.`):null,help?h("p",{class:"bs-help"},`What to do: ${help}.`):null)}var Banners=class{constructor(store){this.store=store;this.shown=new Map;
+this.element=h("div",{class:"bs-banners"});this.status=h("p",{class:"bs-status"});this.live=h("p",{class:"bs-unseen",role:"status"});store.on("messages",()=>this.
+messages());store.on("state solved messages",()=>this.state())}say(kind,title,messages=[],{undo=false,actions=[]}={}){const close=button("✕",()=>this.close(kind),
+{"aria-label":"Close",class:"bs-close"});const all=[...actions,...undo?[button("Undo",()=>(this.close(kind),this.store.undo()))]:[]];const banner=h("section",{class:`\
+bs-banner bs-${kind}`,role:ROLES[kind]??"status","data-banner":kind},h("p",{class:"bs-banner-title"},title),messages.length?h("ul",{},messages.map(sentenceOf)):
+null,all.length?h("div",{class:"bs-row"},all):null,kind==="offline"?null:close);this.shown.get(kind)?.remove();this.shown.set(kind,banner);this.element.append(banner)}close(kind){
+this.shown.get(kind)?.remove();this.shown.delete(kind)}messages(){const{store}=this,{messages}=store,[first]=messages;this.close("limit");this.close("refused");
+if(!first||store.document.poses.length<2)return;if(first.tone==="cancelled")this.say("note","Solving was stopped. What is shown was followed from the answer bef\
+ore.",[],{actions:[this.again()]});else if(first.tone==="limit")this.say("limit","Solving took too long and was stopped. Nothing is lost: what is shown was foll\
+owed from the answer before.",messages,{actions:[this.again()]});else this.say("refused","The task cannot be solved as it is.",messages)}again(){return button("\
+Solve again",()=>{this.close("note");this.close("limit");this.store.solve()},{"data-do":"solve-again"})}state(){const{store}=this,solving=store.state==="solving";
+if(store.state==="offline")this.offline();else this.close("offline");this.status.dataset.state=store.state;if(store.state==="dragging")return;const said=store.state===
+"offline"?"Not connected":this.summary();this.status.textContent=solving?`Solving${store.progress?`: ${store.progress}`:"…"}`:said;if(!solving&&said&&this.live.
+textContent!==said)this.live.textContent=said}summary(){const{solved,solvedFor,document:document2,messages}=this.store;if(document2.poses.length<2)return"Two po\
+ses or more make a task";if(messages.length)return"Not solved";if(!solved||solvedFor!==document2)return"";const count=solved.linkages.length,usable=solved.linkages.
+filter(each=>each.usable).length;return count?`${count} linkage${count===1?"":"s"}, ${usable} usable`:"No linkage"}offline(){if(this.shown.has("offline"))return;
+this.say("offline","The server does not answer. Nothing is lost: the task is in this page, and can still be changed and saved.",[],{actions:[button("Save the ta\
+sk (JSON)",()=>this.files.saveWithoutServer(),{"data-do":"save-json"}),h("span",{class:"bs-hint"},"The page tries again by itself. If the server has ended, star\
+t burmester studio with that file, or drop the file on the new page.")]})}expired(){this.close("offline");this.say("expired","The server was started anew. Nothi\
+ng is lost: open the address that it printed in this tab, and go on here.",[],{actions:[button("Save the task (JSON)",()=>this.files.saveWithoutServer())]})}};var clamp=(value,low,high)=>Math.min(Math.max(value,low),high);var degrees=angle=>angle*180/Math.PI;var radians=angle=>angle*Math.PI/180;var px=value=>Math.abs(
+value)<1e7?+value.toFixed(5):Math.sign(value)*1e7;function fixed(value,digits){if(value===null||value===void 0||!Number.isFinite(value))return"–";const text=value.
+toFixed(digits);return Number(text)===0?text.replace("-",""):text}function figure(value){if(value===null||!Number.isFinite(value))return"–";if(value===0)return"\
+0";if(Math.abs(value)>=99.5&&Math.abs(value)<1e6)return value.toFixed(0);const rounded=value.toExponential(1),[digits,power]=rounded.split("e");if(power>=-4&&power<
+2)return String(Number(rounded));if(power>0)return`${Number(digits)}e${Number(power)}`;return`${Number(digits)}e-${String(-power).padStart(2,"0")}`}function ticks(low,high,about){
+const rough=(high-low)/Math.max(1,about);const power=10**Math.floor(Math.log10(rough));const step=[1,2,5,10].map(k=>k*power).find(each=>each>=rough*.999);const digits=Math.
+max(0,-Math.floor(Math.log10(step*1.0001)));const marks=[];for(let k=Math.ceil(low/step-1e-9);k*step<=high+step*1e-9;k+=1){marks.push({at:k*step,text:fixed(k*step,
+digits)})}return marks}function angleTicks(low,high,about){const step=[5,10,15,30,45,60,90,180].find(each=>(high-low)/each<=about)??360;const marks=[];for(let k=Math.
+ceil(low/step-1e-9);k*step<=high+1e-6;k+=1){marks.push({at:k*step,text:`${fixed(k*step,0)}°`})}return marks.length>1?marks:ticks(low,high,about).map(t=>({...t,
+text:`${t.text}°`}))}function listed(words){if(words.length<2)return words.join("");return`${words.slice(0,-1).join(", ")} and ${words[words.length-1]}`}function runs(numbers,names){
+const parts=[];for(let k=0;k<numbers.length;){let end=k;while(end+1<numbers.length&&numbers[end+1]===numbers[end]+1)end+=1;if(end-k>=2)parts.push(`${names[numbers[k]-
+1]}–${names[numbers[end]-1]}`);else for(let i=k;i<=end;i+=1)parts.push(names[numbers[i]-1]);k=end+1}return listed(parts)}function act(place,[x,y]){const c=Math.cos(place.a),d=Math.sin(place.a);return[place.x+c*x-d*y,place.y+d*x+c*y]}function back(place,[x,y]){const c=Math.cos(place.
+a),d=Math.sin(place.a);return[c*(x-place.x)+d*(y-place.y),-d*(x-place.x)+c*(y-place.y)]}var normalOf=dyad=>{const angle=radians(dyad.line.normal_deg);return[Math.
+cos(angle),Math.sin(angle)]};function constraint(dyad,place){if(dyad.kind==="PP"){const away=place.a-radians(dyad.angle_deg);return[away-2*Math.PI*Math.round(away/
+(2*Math.PI)),0,0,1]}if(dyad.kind==="RP"){const[nx2,ny2]=normalOf(dyad);const c=Math.cos(place.a),d=Math.sin(place.a);const tx=c*nx2-d*ny2,ty=d*nx2+c*ny2;const ax=dyad.
+fixed_pivot[0]-place.x,ay=dyad.fixed_pivot[1]-place.y;return[tx*ax+ty*ay-dyad.line.offset,-tx,-ty,tx*ay-ty*ax]}const[x,y]=act(place,dyad.moving_pivot);let nx,ny,
+residual;if(dyad.kind==="RR"){const ax=x-dyad.fixed_pivot[0],ay=y-dyad.fixed_pivot[1];const size2=Math.hypot(ax,ay)||1;[nx,ny,residual]=[ax/size2,ay/size2,size2-
+dyad.radius]}else{[nx,ny]=normalOf(dyad);residual=nx*x+ny*y-dyad.line.offset}return[residual,nx,ny,(x-place.x)*ny-(y-place.y)*nx]}var gradient=(dyad,place)=>constraint(
+dyad,place).slice(1);function project(dyads,place,length){let{x,y,a}=place;for(let step=0;step<4;step+=1){const[f,...p]=constraint(dyads[0],{x,y,a});const[g,...q]=constraint(
+dyads[1],{x,y,a});p[2]/=length;q[2]/=length;const pp=p[0]*p[0]+p[1]*p[1]+p[2]*p[2];const pq=p[0]*q[0]+p[1]*q[1]+p[2]*q[2];const qq=q[0]*q[0]+q[1]*q[1]+q[2]*q[2];
+const det=pp*qq-pq*pq;if(!(det>1e-9*pp*qq))return{x,y,a};const u=(f*qq-g*pq)/det,v=(g*pp-f*pq)/det;x-=u*p[0]+v*q[0];y-=u*p[1]+v*q[1];a-=(u*p[2]+v*q[2])/length;if(Math.
+abs(f)+Math.abs(g)<1e-14*length)break}return{x,y,a}}function catmullRom(values,i,share,round){const last=values.length-1;const at=k=>{if(k>=0&&k<=last)return values[k];
+if(!round)return k<0?2*values[0]-values[-k]:2*values[last]-values[2*last-k];const wrap=k<0?k+last:k-last;return values[wrap]+(k<0?-1:1)*(values[last]-values[0])};
+const[p,q,r,t]=[at(i-1),at(i),at(i+1),at(i+2)];return q+share/2*(r-p+share*(2*p-5*q+4*r-t+share*(3*(q-r)+t-p)))}function placeAt(linkage,way,u,length){const stop=linkage.
+pose_errors.find(row=>row.at===way&&Math.abs(row.frame-u)<1e-6);if(stop)return{x:stop.x,y:stop.y,a:radians(stop.angle_deg)};const i=clamp(Math.floor(u),0,way.x.
+length-2),share=u-i;const place={x:catmullRom(way.x,i,share,way.round),y:catmullRom(way.y,i,share,way.round),a:catmullRom(way.angle,i,share,way.round)};return project(
+linkage.led,place,length)}function linear(values,u){const i=clamp(Math.floor(u),0,values.length-2),share=u-i;if(values[i]===null||values[i+1]===null)return null;
+const value=values[i]+share*(values[i+1]-values[i]);return Number.isNaN(value)?null:value}function frameAt(values,wanted){let low=0,high=values.length-1;if(wanted<=
+values[low])return low;if(wanted>=values[high])return high;while(high-low>1){const middle2=low+high>>1;if(values[middle2]<=wanted)low=middle2;else high=middle2}
+const step=values[high]-values[low];return low+(step>0?(wanted-values[low])/step:0)}var LONGEST_STEP=.015;var MOST_BETWEEN=40;function placesOf(data,linkage,way,{low,high}){const at=u=>Number.isInteger(u)?{x:way.x[u],y:way.y[u],a:way.angle[u]}:
+placeAt(linkage,way,u,data.chart.length);const places=[at(low)];let before=low;const goTo=u=>{const next=at(u),last=places[places.length-1];const count=Math.min(
+MOST_BETWEEN,Math.floor(Math.hypot(next.x-last.x,next.y-last.y)/(LONGEST_STEP*data.scene)));for(let k=1;k<=count;k+=1)places.push(at(before+k/(count+1)*(u-before)));
+places.push(next);before=u};for(let k=Math.floor(low)+1;k<high;k+=1)goTo(k);goTo(high);return places}function alongLine(dyad,place){const[nx,ny]=normalOf(dyad);
+const[x,y]=dyad.kind==="PR"?act(place,dyad.moving_pivot):back(place,dyad.fixed_pivot);return nx*y-ny*x}function travelOf(dyad,places){const along=places.map(place=>alongLine(
+dyad,place));return[along.reduce((a,b)=>Math.min(a,b)),along.reduce((a,b)=>Math.max(a,b))]}function pointOnLine(dyad,along){const[nx,ny]=normalOf(dyad),{offset}=dyad.
+line;return[offset*nx-along*ny,offset*ny+along*nx]}var AXIS=26;var BLOCK=[22,14];var WIDEST=4;function farFrom(data){const[x,y]=["x","y"].map(k=>{const[low,high]=data.poses.reduce(([a,b],pose)=>[Math.min(a,pose[k]),
+Math.max(b,pose[k])],[Infinity,-Infinity]);return(low+high)/2});return point2=>!(Math.hypot(point2[0]-x,point2[1]-y)<WIDEST*data.scene)}function pivotsAt(linkage,places){
+const found=[];for(const dyad of linkage.led){if(dyad.fixed_pivot)found.push({dyad,fixed:true,at:dyad.fixed_pivot});const own=dyad.moving_pivot?[dyad.moving_pivot]:
+dyad.kind==="RP"&&places.length?travelOf(dyad,places).map(end=>pointOnLine(dyad,end)):[];for(const point2 of own)for(const place of places)found.push({dyad,fixed:false,
+at:act(place,point2)})}return found}function boundsOf(data,linkage,places,far){const isFar=farFrom(data),box=[Infinity,Infinity,-Infinity,-Infinity];const include=([
+x,y])=>{if(!Number.isFinite(x+y)||!far&&isFar([x,y]))return;box[0]=Math.min(box[0],x);box[1]=Math.min(box[1],y);box[2]=Math.max(box[2],x);box[3]=Math.max(box[3],
+y)};for(const pose of data.poses)include([pose.x,pose.y]);if(linkage){for(const row of linkage.pose_errors)if(row.x!==null)include([row.x,row.y]);for(const place of places)
+include([place.x,place.y]);for(const{at}of pivotsAt(linkage,places))include(at)}const least2=.25*data.scene;for(const k of[0,1]){const lack=least2-(box[k+2]-box[k]);
+if(lack>0){box[k]-=lack/2;box[k+2]+=lack/2}}return box}function viewOf(box,width,height,margin){const scale=Math.min((width-2*margin)/(box[2]-box[0]),(height-2*
+margin)/(box[3]-box[1]));const left=width/2-scale*(box[0]+box[2])/2;const top=height/2+scale*(box[1]+box[3])/2;return{scale,left,top,width,height,X:x=>left+scale*
+x,Y:y=>top-scale*y}}var transform=(x,y,angle)=>`translate(${px(x)} ${px(y)}) rotate(${px(degrees(-angle))})`;function foot(){let hatch="";for(let k=-2;k<=2;k+=1)
+hatch+=`M${5.5*k+3} 16l-6 7`;return s("g",{class:"bm-foot"},s("path",{class:"bm-solid",d:"M0 0L-10 16H10Z"}),s("path",{class:"bm-ground",d:`M-16 16H16${hatch}`}))}
+function axes(length){const l=length,head=Math.max(4,.22*length);return`M0 0H${l}m${-head} ${-head/2}l${head} ${head/2}l${-head} ${head/2}M0 0V${-.6*l}`}function polyline(points,view){
+let path2="",pen="M";for(const[x,y]of points){if(!Number.isFinite(x)||!Number.isFinite(y)){pen="M";continue}path2+=`${pen}${px(view.X(x))} ${px(view.Y(y))}`;pen=
+"L"}return path2}function hull(points){const sorted=[...points].sort((p,q)=>p[0]-q[0]||p[1]-q[1]);const half=list=>{const kept=[];for(const point2 of list){while(kept.
+length>1){const[a,b]=kept.slice(-2);if((b[0]-a[0])*(point2[1]-a[1])-(b[1]-a[1])*(point2[0]-a[0])>0)break;kept.pop()}kept.push(point2)}return kept.slice(0,-1)};const corners=[
+...half(sorted),...half(sorted.reverse())];return corners.length?corners:sorted.slice(0,1)}function withKeys(object,changes){const copy={...object,...changes};for(const[key,value]of Object.entries(changes))if(value===void 0)delete copy[key];return copy}
+var replaced=(list,index,value)=>list.map((each,k)=>k===index?value:each);var without=(list,index)=>list.filter((_,k)=>k!==index);var inserted=(list,index,value)=>[
+...list.slice(0,index),value,...list.slice(index)];var withList=(document2,key,list)=>withKeys(document2,{[key]:list.length?list:void 0});var filled=table3=>Object.
+keys(table3).length?table3:void 0;var setPose=(document2,index,changes)=>withKeys(document2,{poses:replaced(document2.poses,index,withKeys(document2.poses[index],
+changes))});var addPose=(document2,pose,index=document2.poses.length)=>withKeys(document2,{poses:inserted(document2.poses,index,pose)});var removePose=(document2,index)=>withKeys(
+document2,{poses:without(document2.poses,index)});var duplicatePose=(document2,index)=>addPose(document2,withKeys(document2.poses[index],{name:void 0}),index+1);
+function movePose(document2,from,to){const poses=without(document2.poses,from);return withKeys(document2,{poses:inserted(poses,to,document2.poses[from])})}function setFree(document2,index,component2,free){
+const pose=document2.poses[index],others=(pose.free??[]).filter(each=>each!==component2);const list=free?[...others,component2]:others;const{[component2]:bound,
+...bounds2}=pose.tolerance??{};return setPose(document2,index,{free:list.length?list:void 0,tolerance:free?filled(bounds2):pose.tolerance})}var setTolerance=(document2,index,key,bound)=>setPose(
+document2,index,{tolerance:filled(withKeys(document2.poses[index].tolerance??{},{[key]:bound}))});var setBody=(document2,corners)=>withList(document2,"body",corners);
+var bodyOf=document2=>Array.isArray(document2.body)?document2.body:[];var regionsOf=document2=>document2.keep_out===void 0?[]:[document2.keep_out].flat();var addRegion=(document2,region)=>withList(
+document2,"keep_out",[...regionsOf(document2),region]);var setRegion=(document2,index,changes)=>withList(document2,"keep_out",replaced(regionsOf(document2),index,
+withKeys(regionsOf(document2)[index],changes)));var removeRegion=(document2,index)=>withList(document2,"keep_out",without(regionsOf(document2),index));var setSurrounding=(document2,key,value)=>withKeys(
+document2,{surroundings:filled(withKeys(document2.surroundings??{},{[key]:value}))});var limitsOf=document2=>document2.limits===void 0?[]:[document2.limits].flat();
+function setLimit(document2,index,changes){const tables=limitsOf(document2),changed=withKeys(tables[index]??{},changes);const all=index<tables.length?replaced(tables,
+index,changed):[...tables,changed];const kept=all.length>1||filled(changed)?all:[];return withKeys(document2,{limits:kept.length>1?kept:kept[0]})}function splitLimits(document2,apart){
+const tables=limitsOf(document2);if(!apart)return withKeys(document2,{limits:tables[0]&&filled(tables[0])});return tables.length>1?document2:withKeys(document2,
+{limits:[tables[0]??{},tables[0]??{}]})}var limitRegions=document2=>limitsOf(document2).flatMap((table3,index)=>["fixed_pivot","moving_pivot"].filter(key=>table3[key]).
+map(key=>{const[[shape,points]]=Object.entries(table3[key]);return{table:index,key,shape,points:shape==="point"?[points]:points}}));var shapeOf=(shape,points)=>({
+[shape]:shape==="point"?points[0]:points});var setRequirement=(document2,key,value)=>withKeys(document2,{requirements:filled(withKeys(document2.requirements??{},
+{[key]:value}))});function component(poses,index,key){if(Number.isFinite(poses[index][key]))return poses[index][key];const before=poses.slice(0,index).findLastIndex(
+pose=>Number.isFinite(pose[key]));const behind=poses.slice(index+1).findIndex(pose=>Number.isFinite(pose[key]))+index+1;const[a,b]=[poses[before]?.[key],behind>
+index?poses[behind][key]:void 0];if(a===void 0||b===void 0)return a??b??0;return a+(index-before)/(behind-before)*(b-a)}function standing({poses},index){const{x,
+y,angle}=poses[index];if(Number.isFinite(x)&&Number.isFinite(y)&&Number.isFinite(angle))return{x,y,angle};return{x:component(poses,index,"x"),y:component(poses,
+index,"y"),angle:component(poses,index,"angle")}}var poseName=({poses},index)=>poses[index]?.name??String(index+1);var statedOf=(pose,changes)=>Object.fromEntries(
+Object.entries(changes).filter(([key])=>Number.isFinite(pose[key])));var LEAST=120;var SHARE=8;var Pace=class{constructor(work,wanted=()=>true){this.work=work;this.wanted=wanted;this.free=0;this.timer=null;paces.add(this)}ask(){if(this.
+timer!==null||!this.wanted())return;this.timer=setTimeout(()=>this.now(),Math.max(0,this.free-performance.now()))}catchUp(){if(this.timer!==null)this.now()}now(){
+clearTimeout(this.timer);this.timer=null;const start=performance.now();this.work();const end=performance.now();this.free=end+Math.max(LEAST,SHARE*(end-start))}};
+var shown=new WeakMap;function isOther(element,facts){const before=shown.get(element);shown.set(element,facts);return before?.length!==facts.length||facts.some(
+(fact,k)=>!Object.is(fact,before[k]))}var sights=new WeakMap;var callers=new WeakMap;var observer=null;function watch(element,fn){observer??=new IntersectionObserver(
+entries=>{for(const{target,isIntersecting}of entries){sights.set(target,isIntersecting);if(isIntersecting)callers.get(target)()}});callers.set(element,fn);observer.
+observe(element)}var isSeen=element=>printing||sights.get(element)===true;var paces=new Set;var printing=false;function catchUpForPrint(){addEventListener("befo\
+reprint",()=>{printing=true;for(const pace of paces)if(pace.wanted())pace.now()});addEventListener("afterprint",()=>printing=false)}var NONE="–";function table(caption,heads,rows,attributes){return h("div",{class:"bm-scroll",tabindex:"0",role:"region","aria-label":caption},h("table",attributes,
+h("caption",{},caption),h("thead",{},h("tr",{},heads.map(head=>h("th",{scope:"col",class:head.text?"bm-words":null},head.name??head)))),h("tbody",{},rows)))}var cells=(values,words=[],heads=[])=>values.
+map((value,k)=>k===0?h("th",{scope:"row"},value):h("td",{class:classes(words.includes(k)&&"bm-words",(value??NONE)===NONE&&"bm-none"),"data-head":heads[k]?.name??
+heads[k]},value??NONE));var classes=(...names)=>names.filter(Boolean).join(" ")||null;var unitOf=data=>data.unit?` (${data.unit})`:"";var decimalsOf=data=>clamp(
+4-Math.ceil(Math.log10(data.scene)),0,12);var poseName2=pose=>pose.label===pose.name?pose.name:`${pose.label}: ${pose.name}`;var shortened=(text,most)=>text.length>
+most?`${text.slice(0,most-1).trimEnd()}…`:text;function missOf(position,angle,unit2){if(position==="exact"&&angle==="exact")return"exact";if(position==="-")return"\
+–";return`${position}${position==="exact"?"":unit2} and ${angle}`}function verdictOf(linkage){return linkage.usable?"✓ usable":"✕ not usable"}function dyadTable(data){
+const heads=["",{name:"kind",text:true},"on the ground (F)","on the body (M)",`length${unitOf(data)}`,"rms miss","worst miss"];const rows=data.dyads.map(dyad=>h(
+"tr",{},cells([dyad.id,dyad.kind,dyad.said.ground,dyad.said.body,dyad.said.length,dyad.said.rms,dyad.said.worst],[1],heads)));return table(data.dyads_title,heads,
+rows,{class:"bm-stacks"})}function linkageTable(data){const names=["ground","driver","coupler","follower"];const heads=["",{name:"verdict",text:true},{name:"typ\
+e",text:true},{name:"dyads",text:true},{name:"driver",text:true},...names.map(name=>`${name} link`),"worst miss","worst angle","least transm.","extent","sens.",
+{name:"why not",text:true}];const rows=data.linkages.map(each=>h("tr",{},cells([each.id,verdictOf(each),each.type,each.dyads.map(dyad=>dyad.id).join(" "),each.led[0].
+id,...names.map(name=>each.said.links?.[name]??"–"),each.said.worst,each.said.angle,each.said.transmission,each.said.quality.extent?.split(" ")[0]??"–",each.
+said.quality.sensitivity??"–",each.said.reasons.join("; ")||"–"],[1,2,3,4,14],heads)));return table(`All linkages${unitOf(data)}`,heads,rows,{class:"bm-link\
+ages bm-stacks"})}function dimensionRows(linkage){const uncertain=linkage.said.dimensions.some(row=>row.give);let last=null;return linkage.said.dimensions.map(row=>{
+const name=row.dyad===last?"":row.dyad;last=row.dyad;const side=linkage.led.findIndex(dyad=>dyad.id===row.dyad);return h("tr",{},h("th",{scope:"row",class:name?
+`bm-side${side}`:null},name),h("td",{class:"bm-words"},row.what),h("td",{},row.value),uncertain?h("td",{},row.give):null)})}function dimensionTable(data,linkage){
+return table(`Dimensions of ${linkage.id}${data.unit?`, in ${data.unit}`:""}`,["",{name:"",text:true},"value",...linkage.said.dimensions.some(row=>row.give)?["±\
+ (95 %)"]:[]],dimensionRows(linkage),{class:"bm-dimensions"})}function poseTable(data,linkage){const digits=decimalsOf(data),unit2=unitOf(data);const heads=["po\
+se",`wanted x`,`y${unit2}`,"angle"];if(linkage)heads.push("coupler x",`y${unit2}`,"angle","off by","turned by","transm.",{name:"where",text:true});const rows=data.
+poses.map((pose,k)=>{const values=[poseName2(pose)+(pose.exact?" (exact)":""),fixed(pose.x,digits),fixed(pose.y,digits),`${fixed(pose.angle_deg,2)}°`];if(linkage){
+const row=linkage.pose_errors[k];values.push(fixed(row.x,digits),fixed(row.y,digits),row.angle_deg===null?"–":`${fixed(row.angle_deg,2)}°`,row.said.position,
+row.said.turned,row.said.transmission,row.way===null?"–":wayName(linkage.ways[row.way],linkage))}return h("tr",{"data-pose":k+1},cells(values,[10]))});return table(
+linkage?`Poses, and where ${linkage.id} takes the body`:"Poses",heads,rows,{class:data.poses.some(pose=>pose.label!==pose.name)?"bm-pose-table bm-named":"bm-pos\
+e-table"})}function imageTables(data,linkage){const digits=decimalsOf(data);const rows=data.poses.map(pose=>{const c=Math.cos(pose.angle_deg*Math.PI/360),d=Math.
+sin(pose.angle_deg*Math.PI/360);const z=[(pose.x*d-pose.y*c)/2,(pose.x*c+pose.y*d)/2,d,c];return h("tr",{},cells([pose.label,...z.map((value,k)=>fixed(value,k<2?
+digits:5))]))});const points=table(`Image points of the poses${unitOf(data)}, Z3² + Z4² = 1`,["pose","Z1","Z2","Z3","Z4"],rows);if(!linkage)return[points];const surfaces=linkage.
+led.map((dyad,k)=>h("tr",{},cells([dyad.id,...linkage.said.manifolds[k]])));const heads=["",...[1,2,3,4,5,6,7,8].map(k=>`p${k}`)];const caption="Surfaces: p1 (Z\
+1² + Z2²) + p2 Z3² + p3 Z1 Z3 + p4 Z2 Z3 + p5 Z1 Z4 + p6 Z2 Z4 + p7 Z3 Z4 + p8 Z4² = 0";return[points,table(caption,heads,surfaces)]}function wayName(way,linkage){
+const circuits=new Set(linkage.ways.map(each=>each.circuit)).size;const parts=[];if(circuits>1||way.branches<2)parts.push(`assembly ${way.circuit}`);if(way.branches>
+1)parts.push(`branch ${way.branch}`);return parts.join(", ")}var LAYERS=["grid","regions","ghosts","map","curves","paths","mechanism","limits","pivots","poses","labels","tool"];var MARGIN=46;var ZOOM=1.0018;var WIDEST2=1e6;
+var CLICK=4;var SPARE=.5;var Scene=class{constructor(store){this.store=store;this.listeners={view:[],click:[],tool:[],dropped:[]};this.tool=null;this.dragged=null;
+this.layers=new Map(LAYERS.map(name=>[name,s("g",{class:`bs-layer bs-layer-${name}`})]));this.layers.get("grid").setAttribute("aria-hidden","true");this.svg=s("\
+svg",{class:"bs-scene",tabindex:0,role:"group","aria-label":"The plane: poses, linkage and limits. Arrow keys pan, plus and minus zoom, 0 fits."},...this.layers.
+values());this.element=h("div",{class:"bs-plane"},this.svg);this.size={width:640,height:480};this.origin={scale:1,left:320,top:240};this.isFitted=true;this.pointers=
+new Map;this.boxes=[];this.update();this.listen();store.on("document",()=>this.unit===store.document.length_unit||this.grid());new ResizeObserver(()=>this.resize()).
+observe(this.element)}layer(name){return this.layers.get(name)}on(name,fn){this.listeners[name].push(fn)}emit(name,...values){return this.listeners[name].map(fn=>fn(
+...values)).some(Boolean)}hold(fn,far=false){this.boxes.push({fn,far})}update(){const{width,height}=this.size,{scale,left,top}=this.origin;this.view={scale,left,
+top,width,height,X:x=>left+scale*x,Y:y=>top-scale*y,x:X=>(X-left)/scale,y:Y=>(top-Y)/scale};Object.assign(this.svg.dataset,{scale,left,top,fit:this.isFitted?this.
+isWhole?"all":"near":""});this.grid();this.emit("view",this.view)}resize(){const{width,height}=this.svg.getBoundingClientRect();if(!width||!height||width===this.
+size.width&&height===this.size.height)return;this.origin={...this.origin,left:this.origin.left+(width-this.size.width)/2,top:this.origin.top+(height-this.size.height)/
+2};this.size={width,height};put(this.svg,"viewBox",`0 0 ${width} ${height}`);if(this.isFitted)this.fit(this.isWhole);else this.update()}pan(dx,dy){this.isFitted=
+false;this.origin={...this.origin,left:this.origin.left+dx,top:this.origin.top+dy};this.update()}zoom(factor,X,Y){const fitted=this.fittedScale??this.origin.scale;
+const scale=clamp(this.origin.scale*factor,fitted/WIDEST2,fitted*WIDEST2),by=scale/this.origin.scale;this.isFitted=false;this.origin={scale,left:X+by*(this.origin.
+left-X),top:Y+by*(this.origin.top-Y)};this.update()}fit(whole=false){const pointsOf=isFar=>this.boxes.filter(({far:far2})=>far2===isFar).flatMap(({fn})=>fn());const near2=pointsOf(
+false),far=pointsOf(true),all=bounds([...near2,...far]);let[x,y,u,v]=near2.length&&!whole?bounds(near2):Number.isFinite(all[0])?all:[-50,-50,50,50];const size2=Math.
+max(u-x,v-y)||Math.max(1,Math.abs(u),Math.abs(v));if(near2.length&&far.length&&!whole){const reach=SPARE*size2;[x,y,u,v]=[Math.max(all[0],x-reach),Math.max(all[1],
+y-reach),Math.min(all[2],u+reach),Math.min(all[3],v+reach)]}this.isWhole=whole;const{width,height}=this.size,margin=Math.min(MARGIN,width/8);const scale=Math.min(
+(width-2*margin)/Math.max(u-x,.1*size2),(height-2*margin)/Math.max(v-y,.1*size2));this.fittedScale=scale;this.origin={scale,left:width/2-scale*(x+u)/2,top:height/
+2+scale*(y+v)/2};this.isFitted=true;this.update()}fitAgain(){this.fit(this.isFitted&&!this.isWhole)}grid(){const{view}=this,{width,height}=view,group=this.layer(
+"grid");const name=this.unit=this.store.document.length_unit,unit2=name?` ${name}`:"";const across=ticks(view.x(0),view.x(width),width/110),up=ticks(view.y(height),
+view.y(0),height/80);const lines=[...across.map(({at})=>`M${px(view.X(at))} 0V${height}`),...up.map(({at})=>`M0 ${px(view.Y(at))}H${width}`)];const origin=`M${px(
+clamp(view.X(0),-9,width+9))} 0V${height}M0 ${px(clamp(view.Y(0),-9,height+9))}H${width}`;group.replaceChildren(s("path",{class:"bs-grid-line",d:lines.join("")}),
+s("path",{class:"bs-grid-axis",d:origin}),...across.filter(({at})=>view.X(at)>46&&view.X(at)<width-(unit2?54:30)).map(({at,text})=>s("text",{x:px(view.X(at)),y:height-
+6,"text-anchor":"middle"},text)),...up.filter(({at})=>view.Y(at)>30&&view.Y(at)<height-24).map(({at,text})=>s("text",{x:6,y:px(view.Y(at)-4)},text)),s("text",{x:6,
+y:14},`y${unit2}`),s("text",{x:width-6,y:height-6,"text-anchor":"end"},`x${unit2}`))}get grain(){return 10**Math.floor(Math.log10(.35/this.view.scale))}rounded(value){
+const{grain}=this,digits=clamp(-Math.round(Math.log10(grain)),0,12);return Number((Math.round(value/grain)*grain).toFixed(digits))+0}get step(){const[x,y,u,v]=bounds(
+this.store.document.poses.map(pose=>[pose.x??0,pose.y??0]));const span=Math.hypot(u-x,v-y);return Number.isFinite(span)&&span>0?10**Math.floor(Math.log10(span/50)):
+1}at(event){if(!this.box){this.box=this.svg.getBoundingClientRect();requestAnimationFrame(()=>this.box=null)}const{left,top}=this.box,X=event.clientX-left,Y=event.
+clientY-top;return{X,Y,x:this.view.x(X),y:this.view.y(Y)}}drag(element,{start=()=>true,move,end=()=>{},cancel=()=>{},click=()=>{}}){element.addEventListener("po\
+interdown",event=>{if(event.button!==0||this.tool||this.dragged)return;event.preventDefault();event.stopPropagation();element.focus?.({preventScroll:true});const from=this.
+at(event),ended=new AbortController,{signal}=ended;let begun=false;const stop=finish=>{ended.abort();this.dragged=null;this.svg.classList.remove("bs-grasped");if(this.
+svg.hasPointerCapture?.(event.pointerId))this.svg.releasePointerCapture(event.pointerId);finish();this.emit("dropped")};this.dragged={cancel:()=>stop(()=>begun&&
+cancel())};this.capture(event);const on=(name,fn)=>this.svg.addEventListener(name,each=>each.pointerId===event.pointerId&&fn(each),{signal});on("pointermove",each=>{
+const point2=this.at(each);if(!begun){if(Math.hypot(point2.X-from.X,point2.Y-from.Y)<CLICK)return;begun=start(from,event)!==false;if(!begun)return stop(()=>{});
+this.svg.classList.add("bs-grasped")}move(point2,each)});on("pointerup",each=>stop(()=>begun?end(this.at(each)):click(event)));on("pointercancel",()=>stop(()=>begun&&
+cancel()))})}use(tool){const before=this.tool;this.tool=tool??null;before?.end?.();this.svg.classList.toggle("bs-drawing",Boolean(tool));this.emit("tool",this.tool);
+if(tool)this.svg.focus({preventScroll:true})}listen(){const{svg}=this;svg.addEventListener("wheel",event=>{event.preventDefault();const{X,Y}=this.at(event),unit2=event.
+deltaMode===1?16:1;this.zoom(ZOOM**(-event.deltaY*unit2*(event.ctrlKey?4:1)),X,Y)},{passive:false});svg.addEventListener("pointerdown",event=>this.press(event));
+svg.addEventListener("pointermove",event=>this.moved(event));for(const name of["pointerup","pointercancel"])svg.addEventListener(name,event=>this.released(event));
+svg.addEventListener("keydown",event=>this.key(event))}capture({pointerId}){try{this.svg.setPointerCapture(pointerId)}catch{}}press(event){if(event.button!==0&&
+event.button!==1)return;const{X,Y}=this.at(event);this.pointers.set(event.pointerId,{X,Y,from:{X,Y},button:event.button});if(this.pointers.size>1)for(const each of this.
+pointers.values())each.panned=true;this.capture(event)}moved(event){const point2=this.at(event),held=this.pointers.get(event.pointerId);if(!held){if(!this.dragged)
+this.tool?.hover?.(point2);return}const before={X:held.X,Y:held.Y};Object.assign(held,{X:point2.X,Y:point2.Y});if(this.pointers.size===2){const[one,other]=this.
+pointers.values(),still=held===one?other:one;const[now,then]=[point2,before].map(({X,Y})=>Math.hypot(X-still.X,Y-still.Y));if(then>0)this.zoom(now/then,(point2.
+X+still.X)/2,(point2.Y+still.Y)/2);return}held.panned||=Math.hypot(point2.X-held.from.X,point2.Y-held.from.Y)>CLICK;if(!held.panned)return;if(this.tool?.drag?.(
+point2,held))return;this.svg.classList.add("bs-grasped");this.pan(point2.X-before.X,point2.Y-before.Y)}released(event){const held=this.pointers.get(event.pointerId);
+if(!held)return;this.pointers.delete(event.pointerId);this.svg.classList.remove("bs-grasped");const point2=this.at(event);if(event.type==="pointercancel")this.tool?.
+hover?.(null);else if(held.panned)this.tool?.release?.(point2,held);else if(held.button===0)this.tool?this.tool.click(point2,event):this.emit("click",point2,event)}key(event){
+if(event.target!==this.svg||event.ctrlKey||event.metaKey||event.altKey)return;const by=event.shiftKey?160:40,{width,height}=this.size;const steps={ArrowLeft:[by,
+0],ArrowRight:[-by,0],ArrowUp:[0,by],ArrowDown:[0,-by]};if(steps[event.key])this.pan(...steps[event.key]);else if(event.key==="+"||event.key==="=")this.zoom(1.25,
+width/2,height/2);else if(event.key==="-")this.zoom(.8,width/2,height/2);else if(event.key==="0")this.fitAgain();else return;event.preventDefault()}};var bounds=points=>points.
+reduce(([x,y,u,v],[a,b])=>Number.isFinite(a+b)?[Math.min(x,a),Math.min(y,b),Math.max(u,a),Math.max(v,b)]:[x,y,u,v],[Infinity,Infinity,-Infinity,-Infinity]);var Kept=class{constructor(group,make,show){
+Object.assign(this,{group,make,show,elements:new Map})}draw(items){const kept=new Map;for(const[key,item]of items){const element=this.elements.get(key)??this.make(
+key,item);kept.set(key,element);this.show(element,item)}for(const[key,element]of this.elements)if(!kept.has(key))element.remove();let before=null;for(const element of kept.
+values()){const next=before?before.nextSibling:this.group.firstChild;if(element!==next||element.parentNode!==this.group)this.group.insertBefore(element,next);before=
+element}this.elements=kept}};var LONGEST_ARM=46;var SHORTEST_ARM=27;var FEW=24;var MOST=240;var ROOM=14;var LONGEST_NAME=18;var ARROWS={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowUp:[0,1],ArrowDown:[
+0,-1]};var tenths=angle=>Number(angle.toFixed(1))+0;var unwrapped=(angle,near2)=>angle+360*Math.round((near2-angle)/360);function drawnPoses({document:document2,
+selection},scale){const{poses}=document2,count=poses.length,all=[...poses.keys()];if(count<=FEW)return all;const length=poses.slice(1).reduce((sum,{x,y},k)=>sum+
+(Math.hypot(x-poses[k].x,y-poses[k].y)||0),0);const stride=Math.ceil(count/clamp(scale*length/ROOM,FEW,MOST)),chosen=selection?.kind==="pose"?selection.index:-1;
+return all.filter(k=>k%stride===0||k===count-1||k===chosen)}var PoseHandles=class{constructor(store,scene){this.store=store;this.scene=scene;this.element=scene.
+layer("poses");this.names=scene.layer("labels");this.kept=new Kept(this.element,k=>this.make(k),(group,k)=>this.show(group,k));this.labels=new Kept(this.names,()=>s(
+"text",{class:"bs-pose-name"}),(text,k)=>this.showName(text,k));store.on("document selection",()=>this.draw());scene.on("view",()=>this.draw());scene.hold(()=>store.
+document.poses.map((_,k)=>standing(store.document,k)).map(({x,y})=>[x,y]));scene.on("click",()=>store.select(null));this.draw()}get arm(){const{document:document2}=this.
+store,{scale}=this.scene.view,places=drawnPoses(this.store,scale).map(k=>standing(document2,k));const away=places.slice(1).map(({x,y},k)=>scale*Math.hypot(x-places[k].
+x,y-places[k].y)).sort((a,b)=>a-b);return away.length?clamp(1.2*away[away.length>>1],SHORTEST_ARM,LONGEST_ARM):LONGEST_ARM}draw(){this.length=this.scene.dragged?
+this.length??this.arm:this.arm;const poses=drawnPoses(this.store,this.scene.view.scale).map(k=>[k,k]);this.kept.draw(poses);this.labels.draw(poses)}make(k){const origin=s(
+"g",{class:"bs-origin","data-pose":k+1,tabindex:0,role:"button"},s("circle",{class:"bs-hold",r:12}),s("circle",{class:"bs-dot",r:5.5}));const turn=s("g",{class:"\
+bs-turn","data-turn":k+1,tabindex:0,role:"slider","aria-valuemin":-360,"aria-valuemax":360},s("circle",{class:"bs-hold",r:12}),s("circle",{class:"bs-tip",r:5}));
+const group=s("g",{class:"bs-pose"},s("path",{class:"bs-axes"}),origin,turn);this.dragOrigin(origin,k);this.dragTurn(turn,k);for(const part of[origin,turn])part.
+addEventListener("focus",()=>this.store.select({kind:"pose",index:k}));origin.addEventListener("keydown",event=>this.key(event,k,false));turn.addEventListener("\
+keydown",event=>this.key(event,k,true));return group}show(group,k){const{store,scene:{view}}=this,{x,y,angle}=standing(store.document,k),pose=store.document.poses[k];
+const selected=store.selection?.kind==="pose"&&store.selection.index===k,unit2=store.document.length_unit??"",name=poseName(store.document,k);if(!isOther(group,
+[view,this.length,x,y,angle,Boolean(pose.exact),pose.name,name,unit2,selected]))return;const[arrow2,origin,turn]=group.children;put(group,"transform",transform(
+view.X(x),view.Y(y),radians(angle)));put(arrow2,"d",axes(this.length-8));put(turn,"transform",`translate(${px(this.length)} 0)`);group.classList.toggle("bs-sele\
+cted",selected);group.classList.toggle("bs-exact",Boolean(pose.exact));const called=pose.name?`Pose ${k+1}, ${name}`:`Pose ${k+1}`;put(origin,"aria-label",`${called}\
+: x ${x} ${unit2}, y ${y} ${unit2}, angle ${angle}°. Drag, or use the arrow keys; Delete removes it.`);put(origin,"aria-pressed",selected);put(turn,"aria-label",
+`Turn ${called}`);put(turn,"aria-valuenow",angle);put(turn,"aria-valuetext",`${angle}°`)}showName(text,k){const{store,scene:{view}}=this,{x,y,angle}=standing(store.
+document,k),a=radians(angle+215);if(!isOther(text,[view,x,y,angle,poseName(store.document,k)]))return;const name=shortened(poseName(store.document,k),LONGEST_NAME);
+if(text.textContent!==name)text.textContent=name;put(text,"text-anchor",Math.cos(a)<-.3?"end":Math.cos(a)>.3?"start":"middle");put(text,"x",px(view.X(x)+13*Math.
+cos(a)));put(text,"y",px(view.Y(y)-13*Math.sin(a)+4))}set(k,changes,gesture){this.store.edit(document2=>setPose(document2,k,statedOf(document2.poses[k],changes)),
+{gesture})}dragOrigin(element,k){const{store,scene}=this;let gesture,off;scene.drag(element,{start:from=>{const{x,y}=standing(store.document,k);gesture=Symbol("\
+move a pose");off=[x-from.x,y-from.y]},move:point2=>this.set(k,{x:scene.rounded(point2.x+off[0]),y:scene.rounded(point2.y+off[1])},gesture),cancel:()=>store.abandon(
+gesture)})}dragTurn(element,k){const{store,scene}=this;let gesture,off;const angleTo=point2=>{const{x,y}=standing(store.document,k);return degrees(Math.atan2(point2.
+y-y,point2.x-x))};scene.drag(element,{start:from=>{gesture=Symbol("turn a pose");off=standing(store.document,k).angle-angleTo(from)},move:point2=>this.set(k,{angle:tenths(
+unwrapped(angleTo(point2)+off,standing(store.document,k).angle))},gesture),cancel:()=>store.abandon(gesture)})}key(event,k,turning){const{store,scene}=this,arrow2=ARROWS[event.
+key];if(event.ctrlKey||event.metaKey)return;if(arrow2){if(!event.repeat)this.keyed=Symbol("keys");const{x,y,angle}=standing(store.document,k),by=stepOf(event,turning?
+1:scene.step);if(turning)this.set(k,{angle:stepped(angle,by*(arrow2[0]===0?arrow2[1]:-arrow2[0]))},this.keyed);else this.set(k,{x:stepped(x,by*arrow2[0]),y:stepped(
+y,by*arrow2[1])},this.keyed)}else if(event.key==="Delete"||event.key==="Backspace"){store.edit(document2=>removePose(document2,k));const left=store.document.poses.
+length;store.select(left?{kind:"pose",index:Math.min(k,left-1)}:null);this.focus(Math.min(k,left-1))}else{return}event.preventDefault()}focus(k){this.element.querySelector(
+`[data-pose="${k+1}"]`)?.focus({preventScroll:true})}};var PoseTool=class{constructor(store,scene){Object.assign(this,{store,scene,name:"pose",gesture:null});this.
+hint="Click where the pose is to stand, and click again to turn it. Escape ends."}click(point2){const{store,scene}=this;if(this.gesture){this.turn(point2);this.
+gesture=null;return}this.gesture=Symbol("add a pose");const angle=store.document.poses.at(-1)?.angle??0;store.edit(document2=>addPose(document2,{x:scene.rounded(
+point2.x),y:scene.rounded(point2.y),angle}),{gesture:this.gesture});store.select({kind:"pose",index:store.document.poses.length-1})}hover(point2){if(this.gesture&&
+point2)this.turn(point2)}turn(point2){const{store,gesture}=this,k=store.document.poses.length-1,{x,y,angle}=standing(store.document,k);const away=Math.hypot(point2.
+x-x,point2.y-y)*this.scene.view.scale;if(away<6)return;const next=tenths(unwrapped(degrees(Math.atan2(point2.y-y,point2.x-x)),angle));store.edit(document2=>setPose(
+document2,k,{angle:next}),{gesture})}key(event){if(event.key!=="Escape")return false;if(this.gesture)this.store.abandon(this.gesture);this.gesture=null;this.scene.
+use(null);return true}};var cross=([a,b],[c,d])=>a*d-b*c;var minus=([a,b],[c,d])=>[a-c,b-d];var size=([a,b])=>Math.hypot(a,b);function fromSegment(point2,start,end){const along=minus(end,
+start),away=minus(point2,start),square=along[0]**2+along[1]**2;const share=square>0?Math.min(1,Math.max(0,(along[0]*away[0]+along[1]*away[1])/square)):0;return size(
+minus(away,[share*along[0],share*along[1]]))}var boxCorners=([[a,b],[c,d]])=>[[a,b],[c,b],[c,d],[a,d]];var outlineOf=(shape,points)=>shape==="box"?boxCorners(points):
+points;function isInside([x,y],corners){let inside2=false;corners.forEach(([a,b],k)=>{const[c,d]=corners[(k+1)%corners.length];if(b>y!==d>y&&x<a+(y-b)/(d-b)*(c-
+a))inside2=!inside2});return inside2}function distanceTo(point2,shape,points){if(shape==="point")return size(minus(point2,points[0]));if(shape==="segment")return fromSegment(
+point2,...points);if(shape==="line"){const along=minus(points[1],points[0]);return Math.abs(cross(along,minus(point2,points[0])))/size(along)}const corners=outlineOf(
+shape,points);if(isInside(point2,corners))return 0;return Math.min(...corners.map((corner,k)=>fromSegment(point2,corner,corners[(k+1)%corners.length])))}var crosses=(a,b,c,d)=>{
+const turn=(p,q,r)=>Math.sign(cross(minus(q,p),minus(r,p)));return turn(a,b,c)*turn(a,b,d)<0&&turn(c,d,a)*turn(c,d,b)<0};var edges=corners=>corners.map((corner,k)=>[
+corner,corners[(k+1)%corners.length]]);function overlap(one,other){if(isInside(one[0],other)||isInside(other[0],one))return true;return edges(one).some(([a,b])=>edges(
+other).some(([c,d])=>crosses(a,b,c,d)))}function segmentFromPolygon([start,end],corners){if(isInside(start,corners)||edges(corners).some(([c,d])=>crosses(start,
+end,c,d)))return 0;return Math.min(...edges(corners).map(([c,d])=>Math.min(fromSegment(start,c,d),fromSegment(end,c,d),fromSegment(c,start,end),fromSegment(d,start,
+end))))}var ARROWS2={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowUp:[0,1],ArrowDown:[0,-1]};var LEAST_CORNERS=3;var CLOSED=new Set(["box","polygon"]);var GROUND={x:0,y:0,a:0};
+function pathOf(shape,points,place,view){const seen2=outlineOf(shape,points).map(point2=>act(place,point2)).map(([x,y])=>[view.X(x),view.Y(y)]);if(shape==="poin\
+t")return`M${px(seen2[0][0]-7)} ${px(seen2[0][1])}h14m-7 -7v14`;if(shape==="line"){const[[a,b],[c,d]]=seen2,size2=Math.hypot(c-a,d-b)||1,far=view.width+view.height+
+Math.hypot(a,b);const[u,v]=[far*(c-a)/size2,far*(d-b)/size2];return`M${px(a-u)} ${px(b-v)}L${px(c+u)} ${px(d+v)}`}return`M${seen2.map(point2=>point2.map(px).join(
+" ")).join("L")}${CLOSED.has(shape)?"Z":""}`}function withCorner(shape,points,k,to){if(shape!=="box")return points.map((point2,i)=>i===k?to:point2);const opposite=boxCorners(
+points)[(k+2)%4];return[[Math.min(to[0],opposite[0]),Math.min(to[1],opposite[1])],[Math.max(to[0],opposite[0]),Math.max(to[1],opposite[1])]]}var ShapeHandles=class{constructor(scene,{
+what,set,remove,select,abandon,className=""}){Object.assign(this,{scene,what,set,remove,select,abandon});this.title=s("title");this.area=s("path",{class:"bs-sha\
+pe-area",tabindex:0,role:"button"},this.title);this.line=s("path",{class:"bs-shape-line"});this.element=s("g",{class:`bs-shape ${className}`},this.line,this.area);
+this.middles=new Kept(s("g"),(key,k)=>this.makeMiddle(k),(element,k)=>this.showMiddle(element,k));this.corners=new Kept(s("g"),(key,k)=>this.makeCorner(k),(element,k)=>this.
+showCorner(element,k));this.handles=s("g",{class:"bs-corners"},this.middles.group,this.corners.group);this.dragWhole();this.area.addEventListener("focus",()=>this.
+select());this.area.addEventListener("keydown",event=>this.keys(event,(points,by)=>points.map(([x,y])=>[stepped(x,by[0]),stepped(y,by[1])]),()=>this.remove()))}draw(){
+const{shape,points,place,name,selected,state,data}=this.now=this.what();const d=pathOf(shape,points,place,this.scene.view);put(this.line,"d",d);put(this.area,"d",
+d);this.area.classList.toggle("bs-open",!CLOSED.has(shape));put(this.area,"aria-label",`${name}${state?`, ${state} by the chosen linkage`:""}. Drag, or use the \
+arrow keys; Delete removes it.`);put(this.area,"aria-pressed",Boolean(selected));this.title.textContent=name;for(const[key2,value2]of Object.entries(data))this.
+element.dataset[key2]=value2;this.element.dataset.shape=shape;this.element.classList.toggle("bs-selected",Boolean(selected));this.element.classList.toggle("bs-m\
+et",state==="met");this.element.classList.toggle("bs-broken",state==="broken");const[[key,value]]=Object.entries(data);this.handles.dataset.handles=`${key} ${value}`.
+trim();if(!this.handles.parentNode)this.scene.layer("tool").append(this.handles);const count=selected?outlineOf(shape,points).length:0,edges2=shape==="polygon"?
+count:0;this.corners.draw([...Array(count).keys()].map(k=>[k,k]));this.middles.draw([...Array(edges2).keys()].map(k=>[k,k]))}clear(){this.element.remove();this.
+handles.remove()}at([x,y]){const[u,v]=act(this.now.place,[x,y]);return{cx:px(this.scene.view.X(u)),cy:px(this.scene.view.Y(v))}}point({x,y}){return back(this.now.
+place,[x,y]).map(each=>this.scene.rounded(each))}dragWhole(){let gesture,from,before;this.scene.drag(this.area,{start:point2=>{gesture=Symbol("move a shape");from=
+back(this.now.place,[point2.x,point2.y]);before=this.now.points},move:point2=>{const to=back(this.now.place,[point2.x,point2.y]),by=[to[0]-from[0],to[1]-from[1]];
+this.set(before.map(([x,y])=>[this.scene.rounded(x+by[0]),this.scene.rounded(y+by[1])]),gesture)},cancel:()=>this.abandon(gesture),click:()=>this.select()})}makeCorner(k){
+const circle=s("circle",{class:"bs-corner",r:6,tabindex:0,role:"button","data-corner":k+1});let gesture;this.scene.drag(circle,{start:()=>(gesture=Symbol("move \
+a corner"))&&true,move:point2=>this.set(withCorner(this.now.shape,this.now.points,k,this.point(point2)),gesture),cancel:()=>this.abandon(gesture)});circle.addEventListener(
+"keydown",event=>this.keys(event,(points,by)=>{const[x,y]=outlineOf(this.now.shape,points)[k];return withCorner(this.now.shape,points,k,[stepped(x,by[0]),stepped(
+y,by[1])])},()=>this.removeCorner(k)));return circle}removeCorner(k){const{shape,points}=this.now;if(shape!=="polygon"||points.length<=LEAST_CORNERS)return;this.
+set(points.filter((_,i)=>i!==k),null)}makeMiddle(k){const circle=s("circle",{class:"bs-middle",r:4.5,"data-edge":k+1});let gesture;this.scene.drag(circle,{start:()=>{
+gesture=Symbol("add a corner");this.set([...this.now.points.slice(0,k+1),this.now.points[k],...this.now.points.slice(k+1)],gesture)},move:point2=>this.set(withCorner(
+"polygon",this.now.points,k+1,this.point(point2)),gesture),cancel:()=>this.abandon(gesture)});return circle}showCorner(element,k){const corner=outlineOf(this.now.
+shape,this.now.points)[k];for(const[name,value]of Object.entries(this.at(corner)))put(element,name,value);put(element,"aria-label",`Corner ${k+1} of ${this.now.
+name}: ${corner.join(", ")}`)}showMiddle(element,k){const{points}=this.now,next=points[(k+1)%points.length];const middle2=this.at([(points[k][0]+next[0])/2,(points[k][1]+
+next[1])/2]);for(const[name,value]of Object.entries(middle2))put(element,name,value)}keys(event,moved,remove){if(event.ctrlKey||event.metaKey)return;const arrow2=ARROWS2[event.
+key];if(arrow2){if(!event.repeat)this.keyed=Symbol("keys");const by=stepOf(event,this.scene.step);this.set(moved(this.now.points,[by*arrow2[0],by*arrow2[1]]),this.
+keyed)}else if(event.key==="Delete"||event.key==="Backspace"){remove()}else{return}event.preventDefault();event.stopPropagation()}};var CLOSE=12;var PAIRS=new Set(["segment","line","box"]);var HINTS={point:"Click the point. Enter puts it in the middle, Escape gives up.",segment:"Click both e\
+nds. Enter puts one in the middle, Escape gives up.",line:"Click two points of the line. Enter puts one in the middle, Escape gives up.",box:"Drag from corner t\
+o corner, or click both. Enter puts one in the middle, Escape gives up.",polygon:"Click the corners; Enter or a click on the first one closes. Backspace takes t\
+he last one back, Escape gives up."};var MIDDLE={point:[[0,0]],segment:[[-1,0],[1,0]],line:[[-1,0],[1,0]],box:[[-1,-1],[1,1]],polygon:[[-1,-1],[1,-1],[0,1]]};var SHARE2=.12;
+var ordered=([[a,b],[c,d]])=>[[Math.min(a,c),Math.min(b,d)],[Math.max(a,c),Math.max(b,d)]];var isFlat=([[a,b],[c,d]])=>a===c&&b===d;var ShapeTool=class{constructor(scene,{
+shape,place,done,name}){Object.assign(this,{scene,shape,place,done,name,points:[],next:null});this.hint=HINTS[shape];this.path=s("path",{class:"bs-draft"});this.
+dots=s("g");this.element=s("g",{},this.path,this.dots);scene.layer("tool").append(this.element)}point({x,y}){return back(this.place(),[x,y]).map(each=>this.scene.
+rounded(each))}click(point2,event){const next=this.point(point2);if(this.shape==="polygon"){if(this.points.length>2&&(this.isFirst(point2)||event?.detail>1))return this.
+finish(this.points);if(this.points.length&&isFlat([this.points.at(-1),next]))return void 0}this.points.push(next);if(this.shape==="point"||PAIRS.has(this.shape)&&
+this.points.length===2)return this.finish(this.points);return this.draw()}isFirst({X,Y}){const[x,y]=act(this.place(),this.points[0]),{view}=this.scene;return Math.
+hypot(view.X(x)-X,view.Y(y)-Y)<CLOSE}hover(point2){this.next=point2&&this.point(point2);this.draw()}drag(point2,held){if(!PAIRS.has(this.shape)||this.points.length)
+return false;this.dragging=[this.point(this.inPlane(held.from)),this.point(point2)];this.draw();return true}inPlane({X,Y}){return{x:this.scene.view.x(X),y:this.
+scene.view.y(Y)}}inMiddle(){const{width,height}=this.scene.size,half=SHARE2*Math.min(width,height);return MIDDLE[this.shape].map(([x,y])=>this.point(this.inPlane(
+{X:width/2+half*x,Y:height/2-half*y})))}release(){if(!this.dragging)return;const pair=this.dragging;this.dragging=null;this.finish(pair)}finish(points){if(PAIRS.
+has(this.shape)&&isFlat(points)){this.points=points.slice(0,1);return this.draw()}this.scene.use(null);return this.done(this.shape==="box"?ordered(points):points)}key(event){
+if(event.key==="Escape")this.scene.use(null);else if(event.key==="Backspace")this.points.pop();else if(event.key==="Enter"&&!this.points.length)this.finish(this.
+inMiddle());else if(event.key==="Enter"&&this.points.length>2)this.finish(this.points);else return false;this.draw();return true}draw(){const{scene:{view},shape}=this,
+shown2=this.dragging??[...this.points,...this.next?[this.next]:[]];const place=this.place(),whole=shape==="polygon"?"open polygon":shape;const complete=shown2.length>
+1||shape==="point";put(this.path,"d",complete&&shown2.length?pathOf(whole,shown2,place,view):"");this.dots.replaceChildren(...(this.dragging??this.points).map(point2=>act(
+place,point2)).map(([x,y],k)=>s("circle",{class:k?"bs-draft-dot":"bs-draft-dot bs-first",r:4,cx:px(view.X(x)),cy:px(view.Y(y))})))}end(){this.element.remove()}};var MOST_GHOSTS=60;var PALEST=.4;function referenceIndex(store){const{selection,document:document2}=store;if(selection?.kind==="pose"&&selection.index<document2.
+poses.length)store.reference=selection.index;return Math.min(store.reference??0,document2.poses.length-1)}function referencePlace(store){const k=referenceIndex(
+store);if(k<0)return{x:0,y:0,a:0};const{x,y,angle}=standing(store.document,k);return{x,y,a:radians(angle)}}var BodyEditor=class{constructor(store,scene){this.store=
+store;this.scene=scene;this.ghosts=new Kept(s("g",{class:"bs-ghosts","aria-hidden":"true"}),()=>s("path",{class:"bs-ghost"}),(path2,item)=>this.showGhost(path2,
+item));scene.layer("ghosts").append(this.ghosts.group);this.handles=new ShapeHandles(scene,{className:"bs-body-shape",what:()=>({shape:"polygon",points:bodyOf(store.
+document),place:referencePlace(store),name:"Outline of the body",selected:store.selection?.kind==="body",data:{body:""}}),set:(points,gesture)=>store.edit(document2=>setBody(
+document2,points),{gesture}),remove:()=>store.edit(document2=>setBody(document2,[])),select:()=>store.select({kind:"body",index:0}),abandon:gesture=>store.abandon(
+gesture)});store.on("document selection",()=>this.draw());scene.on("view",()=>this.draw());scene.hold(()=>this.corners(),true);this.draw()}corners(){const body=bodyOf(
+this.store.document);return this.indices().flatMap(k=>{const{x,y,angle}=standing(this.store.document,k);return body.map(corner=>act({x,y,a:radians(angle)},corner))})}indices(){
+const drawn=drawnPoses(this.store,this.scene.view.scale),stride=Math.ceil(drawn.length/MOST_GHOSTS);return drawn.filter((_,i)=>i%stride===0||i===drawn.length-1)}draw(){
+const body=bodyOf(this.store.document),{scale}=this.scene.view;this.path=body.length?`M${body.map(([x,y])=>`${px(scale*x)} ${px(-scale*y)}`).join("L")}Z`:"";this.
+ghosts.draw(body.length?this.indices().map(k=>[k,k]):[]);if(!body.length||!this.store.document.poses.length)return this.handles.clear();if(!this.handles.element.
+parentNode)this.scene.layer("ghosts").append(this.handles.element);return this.handles.draw()}showGhost(path2,k){const{view}=this.scene,{x,y,angle}=standing(this.
+store.document,k),last=Math.max(1,this.store.document.poses.length-1);if(!isOther(path2,[view,x,y,angle,k/last,this.path]))return;put(path2,"d",this.path);put(path2,
+"opacity",(PALEST+(1-PALEST)*k/last).toFixed(3));put(path2,"transform",transform(view.X(x),view.Y(y),radians(angle)))}tool(){return new ShapeTool(this.scene,{shape:"\
+polygon",name:"body",place:()=>referencePlace(this.store),done:points=>{this.store.edit(document2=>setBody(document2,points));this.store.select({kind:"body",index:0})}})}};var ROUNDING=1e-6;var MOST_PLACES=90;var KEYS=["fixed_pivot","moving_pivot"];function currentLinkage(store){if(store.chosen==="placed")return store.placed?.linkage??
+null;const followed=store.followed?.linkages.find(({id})=>id===store.chosen);if(followed?.led)return followed;if(store.followed?.vanished?.some(({id})=>id===store.
+chosen))return null;return store.solved?.linkages.find(({id})=>id===store.chosen)??null}var PIVOT={fixed_pivot:"fixed pivot",moving_pivot:"moving pivot"};function missed(table3,dyad,slack){
+const found=[];for(const key of KEYS){if(!table3[key])continue;const[[shape,stated]]=Object.entries(table3[key]),points=shape==="point"?[stated]:stated;const away=dyad[key]?
+distanceTo(dyad[key],shape,points):Infinity;if(away>slack)found.push({key,dyad:dyad.id,away})}const{least:least2=0,most=Infinity}=table3.length??{};if(table3.length&&
+dyad.kind==="RR"&&(dyad.radius<least2-slack||dyad.radius>most+slack)){found.push({key:"length",dyad:dyad.id,away:Math.max(least2-dyad.radius,dyad.radius-most)})}
+if(table3.kinds&&!table3.kinds.includes(dyad.kind))found.push({key:"kinds",dyad:dyad.id,away:Infinity});return found}function limitsMissed(document2,linkage,size2){
+const tables=limitsOf(document2),slack=ROUNDING*size2,[one,other]=linkage.led;if(tables.length<2)return tables.map(table3=>[...missed(table3,one,slack),...missed(
+table3,other,slack)]);const pairings=[[one,other],[other,one]].map(dyads=>dyads.map((dyad,k)=>missed(tables[k],dyad,slack)));const total=lists=>lists.flat().length;
+return total(pairings[1])<total(pairings[0])?pairings[1]:pairings[0]}function missedSentence({key,dyad,away},unit2){const by=`${Number(away.toPrecision(2))}${unit2?
+` ${unit2}`:""}`;if(key==="kinds")return`${dyad} is of another kind.`;if(key==="length")return`The link of ${dyad} is ${by} beyond its range.`;return away===Infinity?
+`${dyad} has no ${PIVOT[key]}.`:`The ${PIVOT[key]} of ${dyad} is ${by} outside.`}function usedPlaces(linkage){const rows=(linkage.pose_errors??[]).filter(row=>row.
+way!==null&&row.frame!==null);if(!rows.length||!linkage.ways?.length)return[];const counts=new Map;for(const{way:way2}of rows)counts.set(way2,(counts.get(way2)??
+0)+1);const[best]=[...counts].sort((a,b)=>b[1]-a[1])[0],way=linkage.ways[best];const frames=rows.filter(row=>row.way===best).map(({frame})=>frame);const low=Math.
+floor(Math.min(...frames)),high=Math.ceil(Math.max(...frames)),stride=Math.max(1,Math.ceil((high-low)/MOST_PLACES));const places=[];for(let k=low;k<=high&&k<way.
+x.length;k+=stride)places.push({x:way.x[k],y:way.y[k],a:way.angle[k]});return places}var regionCorners=region=>region.polygon??(region.box?boxCorners(region.box):
+null);var seen=(body,place)=>body.map(corner=>act(place,corner));function posePlace(document2,k){const{x,y,angle}=standing(document2,k);return{x,y,a:radians(angle)}}
+function regionsTouched(document2,linkage,body){const places=usedPlaces(linkage),width=document2.surroundings?.link_width??0,margin=document2.surroundings?.margin??
+0;const apart=Math.ceil(document2.poses.length/MOST_PLACES),some=[...document2.poses.keys()].filter(k=>k%apart===0);return regionsOf(document2).map(region=>{const corners=regionCorners(
+region);if(!corners)return"";const pose=body.length>2?some.find(k=>overlap(seen(body,posePlace(document2,k)),corners)):void 0;if(pose!==void 0)return`The body t\
+ouches it at pose ${poseName(document2,pose)}.`;if(!places.length)return"";if(body.length>2&&places.some(place=>overlap(seen(body,place),corners)))return"The bo\
+dy touches it.";for(const dyad of linkage.led){if(dyad.kind!=="RR")continue;const near2=Math.min(...places.map(place=>segmentFromPolygon([dyad.fixed_pivot,act(place,
+dyad.moving_pivot)],corners)));if(near2===0||near2<width/2)return`The link of ${dyad.id} touches it.`;if(near2<width/2+margin)return`The link of ${dyad.id} come\
+s nearer than the margin.`}return""})}var AGAIN=[250,500,1e3,2e3,4e3];var UNFINISHED=new Set(["solving","progress","waiting"]);var Refused=class extends Error{constructor(status,messages){super(messages.
+map(each=>each.message).join(" ")||`the server answered ${status}`);this.status=status;this.messages=messages}};async function messagesOf(response){try{return(await response.
+json()).messages??[]}catch{return[]}}var Connection=class{constructor(decode){this.decode=decode;this.listeners={message:[],open:[],closed:[]};this.asked=new Map;
+this.n=0;this.tries=0;this.socket=null}on(name,fn){this.listeners[name].push(fn)}emit(name,value){for(const fn of this.listeners[name])fn(value)}get isOpen(){return this.
+socket?.readyState===1}async session(){const token=decodeURIComponent(location.hash.slice(1)).replace(/^token=/,"");if(!token)return;await this.post("/session",
+{token});history.replaceState(null,"",location.pathname)}async get(path2){return(await this.request(path2,{})).json()}post(path2,body,method="POST"){return this.
+request(path2,{method,headers:{"Content-Type":"application/json"},body:JSON.stringify(body)})}async request(path2,options){const response=await fetch(path2,{credentials:"\
+same-origin",...options});if(!response.ok)throw new Refused(response.status,await messagesOf(response));return response}open(){clearTimeout(this.timer);this.socket?.
+close();const socket=new WebSocket(`${location.protocol==="https:"?"wss":"ws"}://${location.host}/live`);socket.binaryType="arraybuffer";this.socket=socket;socket.
+onopen=()=>{this.tries=0;this.emit("open")};socket.onmessage=({data})=>{if(socket===this.socket)this.take(typeof data==="string"?JSON.parse(data):this.decode(data))};
+socket.onclose=()=>{if(socket!==this.socket)return;for(const{reject}of this.asked.values())reject(new Error("the connection ended"));this.asked.clear();this.emit(
+"closed",this.tries);this.timer=setTimeout(()=>this.open(),AGAIN[Math.min(this.tries,AGAIN.length-1)]);this.tries+=1}}take(message){const waiting=this.asked.get(
+message.n);if(waiting&&!UNFINISHED.has(message.kind)){this.asked.delete(message.n);waiting.resolve(message)}this.emit("message",message)}send(message){if(!this.
+isOpen)return null;this.n+=1;this.socket.send(JSON.stringify({n:this.n,...message}));return this.n}ask(message){return new Promise((resolve,reject)=>{const n=this.
+send(message);if(n===null)reject(new Error("the connection is closed"));else this.asked.set(n,{resolve,reject})})}};var LENGTHS2=[["hole","holes"],["pin","pins"],["width","links are wide"],["thickness","plates are thick"],["gap","gap between plates"]];var NUMBERS=[["pose","dr\
+awn at pose","1",{least:1,whole:true}],["density","density, kg/m³","2700",{above:0}],["seconds","film, seconds","4",{above:0}],["frames_per_second","pictures a\
+ second","25",{above:0}],["width_px","pixels wide","800",{least:1,whole:true}]];var AXES=["y","x","z","-x","-y","-z"];var UNITS=["mm","cm","m","in","ft"];var SIGMA=[
+["position","position","length"],["angle_deg","angle","angle"]];var section=(name,title,...content)=>h("details",{class:"bs-section","data-section":name},h("sum\
+mary",{},title),...content);var ExportSettings=class{constructor(store,scene){this.store=store;const set=name=>value=>store.setting(name,value);this.fields=new Map;
+const number=(name,placeholder,options)=>{const field=new NumberField({label:name.replace(/_/g," "),commit:set(name),options:()=>({optional:true,unit:store.document.
+length_unit,...options}),step:()=>options.kind?scene.step:1,attributes:{"data-setting":name,placeholder}});this.fields.set(name,field);return field.element};this.
+unit=choice("unit of what is exported",UNITS.map(unit2=>[unit2,unit2]),value=>set("unit")(value==="mm"?void 0:value),{"data-setting":"unit"});this.unitRow=labelled(
+"unit of the lengths",this.unit);this.up=choice("up",AXES.map(axis=>[axis,axis]),value=>set("up")(value==="y"?void 0:value),{"data-setting":"up"});this.dimensions=
+tick("drawings have dimension lines",on=>set("dimensions")(on?void 0:false),{"data-setting":"dimensions"});this.assembled=tick("STL: the parts in their places",
+on=>set("assembled")(on||void 0),{"data-setting":"assembled"});const rows=(all,placeholderOf,optionsOf)=>all.map(each=>labelled(each[1],number(each[0],placeholderOf(
+each),optionsOf(each))," "));this.element=h("div",{},section("export","What is exported",h("p",{class:"bs-hint"},"Left empty: sizes that suit the linkage."),h("\
+div",{class:"bs-grid"},this.unitRow,rows(LENGTHS2,()=>"–",()=>({kind:"length",above:0})),rows(NUMBERS,each=>each[2],each=>each[3]),labelled("up, in models",this.
+up)),this.dimensions.element,this.assembled.element),this.makeSigma(scene));store.on("document",()=>this.draw());this.draw()}makeSigma(scene){const{store}=this;
+this.wanted={};this.lack=h("p",{class:"bs-fault",hidden:true},"Give both: how far positions are off, and how far angles.");this.sigma=SIGMA.map(([key,name,kind])=>{
+const field=new NumberField({label:`standard deviation of the ${name}`,options:()=>({kind,unit:store.document.length_unit,optional:true,above:0}),step:()=>kind===
+"angle"?.1:scene.step/10,commit:value=>this.setSigma(key,value),attributes:{"data-key":`sigma-${key}`,placeholder:"–"}});return{key,name,field}});return section(
+"sigma","How well the poses are known",h("p",{class:"bs-hint"},"Standard deviations of what was measured. Left empty: as well as their digits say."),h("div",{class:"\
+bs-grid"},this.sigma.map(({name,field})=>labelled(`${name} ±`,field.element,name==="angle"?"°":" "))),this.lack)}setSigma(key,value){this.wanted=withKeys({...this.
+store.document.pose_sigma,...this.wanted},{[key]:value});const given=Object.keys(this.wanted).length;give(this.lack,"hidden",given!==1);if(given===1)return;const pose_sigma=given?
+this.wanted:void 0;this.wanted={};this.store.edit(document2=>withKeys(document2,{pose_sigma}))}draw(){const{settings,document:document2}=this.store,{pose_sigma}=document2,
+isOther2=pose_sigma!==this.shown;for(const[name,field]of this.fields)field.show(settings[name]);give(this.unit,"value",settings.unit??"mm");give(this.unitRow,"h\
+idden",Boolean(document2.length_unit)&&!settings.unit);give(this.up,"value",settings.up??"y");give(this.dimensions.box,"checked",settings.dimensions!==false);give(
+this.assembled.box,"checked",Boolean(settings.assembled));if(!isOther2)return;this.shown=pose_sigma;this.wanted={};give(this.lack,"hidden",true);for(const{key,field}of this.
+sigma)field.show(pose_sigma?.[key])}};var DRAWINGS=/\.(svg|dxf)$/i;var TASKS=/\.(toml|json)$/i;var KINDS=".toml,.json,.csv,.tsv,.txt,.xlsx,.parquet,.trc,.svg,.dxf";var LARGEST=14e5;async function base64Of(file){
+const bytes=new Uint8Array(await file.arrayBuffer());let text="";for(let k=0;k<bytes.length;k+=32768)text+=String.fromCharCode(...bytes.subarray(k,k+32768));return btoa(
+text)}var isTable=text=>/\d/.test(text)&&(/\t/.test(text)||/\n\s*\S/.test(text.trim()));function download(blob,name){const address=URL.createObjectURL(blob),link=h(
+"a",{href:address,download:name});link.click();setTimeout(()=>URL.revokeObjectURL(address),1e4)}function menu(text,items,attributes={}){const list=h("div",{class:"\
+bs-menu-list",role:"menu"});const summary=h("summary",{class:"bm-button"},text),element=h("details",{class:"bs-menu",...attributes},summary,list);const close=()=>{
+if(!element.open)return;element.open=false;summary.focus()};element.addEventListener("toggle",()=>{if(element.open)list.replaceChildren(...items().map(({title,note,
+act:act2,data})=>h("button",{type:"button",role:"menuitem",class:"bs-menu-item",...data,onclick:()=>(close(),act2())},h("b",{},title),note?h("span",{},note):null)))});
+element.addEventListener("keydown",event=>{const all=[...list.children],at=all.indexOf(document.activeElement);if(event.key==="Escape")close();else if(event.key===
+"ArrowDown")all[(at+1)%all.length]?.focus();else if(event.key==="ArrowUp")all[(at+all.length-1)%all.length]?.focus();else return;event.preventDefault();event.stopPropagation()});
+document.addEventListener("pointerdown",event=>element.contains(event.target)||(element.open=false));return element}var Files=class{constructor(store,start,banners){
+Object.assign(this,{store,start,banners,server:store.connection});this.chooser=h("input",{type:"file",hidden:true,accept:KINDS,"data-file":"open",onchange:()=>this.
+chosen(this.chooser)});this.outlines=h("input",{type:"file",hidden:true,accept:".svg,.dxf","data-file":"outline",onchange:()=>this.chosen(this.outlines)});this.
+dropping=h("div",{class:"bs-dropping",hidden:true,"aria-hidden":"true"},h("p",{},"Drop a task, a table of poses, or the outline of the body"));this.dialog=h("di\
+alog",{class:"bs-dialog","aria-label":"The same from the command line"});this.element=h("div",{class:"bs-files"},...this.buttons(),this.chooser,this.outlines,this.
+dropping,this.dialog);this.listen()}buttons(){const{start}=this;return[menu("Templates",()=>(start.templates??[]).map(({name,summary})=>({title:name,note:summary,
+act:()=>this.template(name),data:{"data-template":name}})),{"data-menu":"templates"}),button("New",()=>this.fresh(),{"data-do":"new",title:"An empty task"}),button(
+"Open…",()=>this.chooser.click(),{"data-do":"open",title:"A task, or a table of poses (Ctrl+O)"}),button("Save task",()=>this.save(),{"data-do":"save",title:"\
+The file that the command reads (Ctrl+S)"}),menu("Export",()=>[...(start.exports??[]).map(({format,title,suffix})=>({title,note:suffix,act:()=>this.export("/exp\
+ort",{format}),data:{"data-export":format}})),{title:"Report",note:".html",act:()=>this.export("/report"),data:{"data-export":"report"}},{title:"Result",note:".\
+json",act:()=>this.export("/result"),data:{"data-export":"result"}}],{"data-menu":"export"}),button("Copy as command",()=>this.commands(),{"data-do":"command",title:"\
+The same from the command line"})]}get task(){const{document:document2,options,name}=this.store;return{document:document2,options,name}}async trying(what,then){
+try{return await then()}catch(error){if(error instanceof Refused&&error.messages.length)this.banners.say("refused",`${what} was not done.`,error.messages);else this.
+banners.say("refused",`${what} was not done: ${error instanceof Refused?error.message:"the server does not answer"}.`);return null}}fresh(){this.store.replace({
+document:{length_unit:"mm",angle_unit:"deg",poses:[]},options:{},name:"task"})}template(name){return this.trying(`Opening ${name}`,async()=>{const made2=await this.
+server.get(`/template/${encodeURIComponent(name)}`);this.store.replace({name,...made2});this.opened?.()})}async chosen(input){for(const file of input.files)await this.
+take(file,input===this.outlines);input.value=""}chooseOutline(){this.outlines.click()}take(file,asOutline=DRAWINGS.test(file.name)){return this.trying(`Reading ${file.
+name}`,async()=>{if(file.size>LARGEST)throw new Refused(413,[{message:`${file.name} has ${Math.round(file.size/1e3)} kB, and the page takes ${LARGEST/1e3}.`,help:"\
+give it to the command: burmester studio FILE"}]);const body={name:file.name,base64:await base64Of(file),length_unit:this.store.document.length_unit};if(asOutline)
+return this.outline(await(await this.server.post("/outline",body)).json(),file.name);const{document:document2,options={},notes=[]}=await(await this.server.post(
+"/read",body)).json();const name=file.name.replace(/\.[^.]*$/,"");const whole=TASKS.test(file.name);this.store.replace(whole?{document:document2,options,name}:{
+document:document2,options:this.store.options,name});this.opened?.();return this.banners.say("note",`${file.name} is open.`,notes,{undo:true})})}outline({outline:corners,
+notes=[]},name){this.store.edit(document2=>setBody(document2,corners));this.store.select({kind:"body",index:0});this.banners.say("note",`The outline of the body\
+ is that in ${name}: ${corners.length} corners.`,notes,{undo:true})}paste(text){return this.trying("Pasting",async()=>{const{document:document2,notes=[]}=await(await this.
+server.post("/read",{name:"pasted",text,length_unit:this.store.document.length_unit,angle_unit:"deg"})).json();const{poses,length_unit}=document2;this.store.edit(
+old=>withKeys(old,{poses,length_unit:length_unit??old.length_unit}));this.store.select(null);this.opened?.();this.banners.say("note",`${poses.length} poses were\
+ pasted.`,notes,{undo:true})})}save(){return this.trying("Saving",async()=>{try{await this.hand(await this.server.post("/task",this.task),`${this.store.name}.to\
+ml`)}catch(error){if(error instanceof Refused)throw error;this.saveWithoutServer();this.banners.say("note","The server does not answer: the task was saved as JS\
+ON, which the command reads as well.")}})}saveWithoutServer(){download(new Blob([`${JSON.stringify(this.store.document,null,2)}
+`],{type:"application/json"}),`${this.store.name.replace(/[^\w.-]+/g,"-")||"task"}.json`)}export(path2,what={}){return this.trying("Exporting",async()=>{const linkage=this.
+store.chosen==="placed"?null:this.store.chosen;this.hand(await this.server.post(path2,{...this.task,linkage,settings:this.store.settings,...what}),"export")})}async hand(response,otherwise){
+const name=/filename="([^"]+)"/.exec(response.headers.get("Content-Disposition")??"")?.[1]??otherwise;download(await response.blob(),name)}commands(){return this.
+trying("Copying",async()=>{const{commands}=await(await this.server.post("/command",{...this.task,settings:this.store.settings,linkage:this.store.chosen==="place\
+d"?null:this.store.chosen})).json();const close=button("Close",()=>this.dialog.close(),{"data-do":"close"});const said=h("p",{class:"bs-hint",role:"status"});const copy=async command=>{
+try{await navigator.clipboard.writeText(command);said.textContent="Copied."}catch{said.textContent="The browser does not let this page copy: select the text."}};
+this.dialog.replaceChildren(h("h2",{},"The same from the command line"),h("p",{class:"bs-hint"},"Save the task first; the commands read that file."),...commands.
+map(({title,command})=>h("div",{class:"bs-command"},h("h3",{},title),h("pre",{tabindex:0},command),button("Copy",()=>copy(command),{"aria-label":`Copy: ${title}`}))),
+h("div",{class:"bs-row"},close,said));this.dialog.showModal()})}listen(){let inside2=0;const hasFiles=event=>[...event.dataTransfer?.types??[]].includes("Files");
+const show=by=>{inside2=Math.max(0,inside2+by);give(this.dropping,"hidden",inside2===0)};document.addEventListener("dragenter",event=>hasFiles(event)&&(event.preventDefault(),
+show(1)));document.addEventListener("dragover",event=>hasFiles(event)&&event.preventDefault());document.addEventListener("dragleave",event=>hasFiles(event)&&show(
+-1));document.addEventListener("drop",async event=>{if(!hasFiles(event))return;event.preventDefault();show(-Infinity);inside2=0;for(const file of event.dataTransfer.
+files)await this.take(file)});document.addEventListener("paste",event=>{const text=event.clipboardData?.getData("text/plain")??"",[file]=event.clipboardData?.files??
+[];const typing=event.target.closest?.("input, textarea, select");if(file)this.take(file);else if(isTable(text))this.paste(text);else return;event.preventDefault();
+if(typing)typing.blur()})}};var WAY=["x","y","angle","drive","transmission"];var POSE=["x","y","angle_deg","position","turned_deg","transmission_deg"];function decodeFrame(buffer){const length=new DataView(
+buffer).getUint32(0,true);const header=JSON.parse(new TextDecoder().decode(new Uint8Array(buffer,4,length)));const numbers=floats(buffer,4+length);for(const linkage of header.
+linkages??[]){if(linkage.ways)linkage.ways=linkage.ways.map(way=>({...way,...pieces(numbers,way,WAY)}));if(!linkage.poses)continue;const{count}=linkage.poses;const columns=pieces(
+numbers,linkage.poses,POSE);linkage.pose_errors=Array.from({length:count},(_,pose)=>{const at=linkage.at?.[pose]??null;const row={way:at?at[0]:null,frame:at?at[1]:
+null};for(const name of POSE){const value=columns[name][pose];row[name]=Number.isNaN(value)?null:value}return row})}return header}function floats(buffer,start){
+if(new Uint8Array(new Uint16Array([1]).buffer)[0]===1)return new Float32Array(buffer,start);const view=new DataView(buffer,start);return Float32Array.from({length:view.
+byteLength/4},(_,k)=>view.getFloat32(4*k,true))}function pieces(numbers,{start,count},names){return Object.fromEntries(names.map((name,k)=>[name,numbers.subarray(
+start+k*count,start+(k+1)*count)]))}var KEYS2=[["Tab","from handle to handle, field to field"],["arrow keys","move what has the focus by a step: a pose, the tip that turns it, a corner, a shape, a\
+ number; Shift: ten steps, Alt: a tenth"],["Delete","removes the pose, the corner or the shape"],["Enter","closes an outline; puts a shape in the middle while i\
+t is drawn"],["Escape","gives up what is under way: a drag, a drawing, a selection"],["+ − 0","on the plane: zoom and fit; arrow keys pan it"],["space","plays\
+ and stops"],["Ctrl+Z, Ctrl+Shift+Z","undo and redo"],["Ctrl+S, Ctrl+O, Ctrl+V","save the task, open a file, paste rows of a spreadsheet"]];function keyList(){const close=button(
+"Close",()=>dialog.close());const dialog=h("dialog",{class:"bs-dialog","aria-label":"Keys"},h("h2",{},"Keys"),h("dl",{class:"bs-keys"},KEYS2.map(([key,what])=>h(
+"div",{},h("dt",{},key),h("dd",{},what)))),close);return[button("Keys",()=>dialog.showModal(),{"data-do":"keys"}),dialog]}var written2=element=>element?.matches?.(
+"input:not([type=checkbox]):not([type=radio]):not([type=range]), textarea");function listenToKeys(store,scene,files){document.addEventListener("keydown",event=>{
+const{key,target}=event,control=(event.ctrlKey||event.metaKey)&&!event.altKey;if(control){const act2={z:()=>event.shiftKey?store.redo():store.undo(),y:()=>store.
+redo(),s:()=>files.save(),o:()=>files.chooser.click()}[key.toLowerCase()];if(!act2||written2(target)&&target.dataset.typing==="true"&&/^[zy]$/i.test(key))return;
+event.preventDefault();act2()}else if(scene.dragged&&key==="Escape"){event.preventDefault();scene.dragged.cancel()}else if(scene.tool&&!written2(target)&&scene.
+tool.key(event)){event.preventDefault();event.stopPropagation()}else if(key==="Escape"&&!written2(target)&&store.selection){store.select(null)}},true);document.
+addEventListener("input",({target})=>target.dataset&&(target.dataset.typing="true"));for(const name of["change","focusout"])document.addEventListener(name,({target})=>target.
+dataset&&delete target.dataset.typing)}var PAGE=60;var NUMBERS2=[["x","length"],["y","length"],["angle","angle"]];var BOUNDS=[["x","x","length"],["y","y","length"],["angle","angle_deg","angle"]];var oneLine=name=>(name??
+"").replace(/[\r\n\u2028\u2029]+/g," ");var PoseTable=class{constructor(store,scene){this.store=store;this.scene=scene;this.page=0;this.rows=[];this.body=h("tbo\
+dy",{});this.unit=h("span",{class:"bs-unit"});this.pages=h("div",{class:"bs-pages",hidden:true});this.details=h("div",{class:"bs-details","data-details":"pose"});
+this.table=h("table",{class:"bs-poses","aria-label":"Poses"},h("thead",{},h("tr",{},h("th",{scope:"col"},"#"),h("th",{scope:"col"},"name"),h("th",{scope:"col"},
+"x"),h("th",{scope:"col"},"y"),h("th",{scope:"col"},"angle °"))),this.body);const add=button("Add a pose",()=>this.add(),{"data-do":"add-pose-row"});this.element=
+h("div",{class:"bs-table-box"},this.table,this.pages,h("div",{class:"bs-row"},add,this.unit),this.details);this.makeDetails();this.pace=new Pace(()=>this.draw());
+store.on("document selection",()=>scene.dragged?this.pace.ask():this.draw());scene.on("dropped",()=>this.pace.catchUp());this.draw()}get selected(){const{selection,
+document:document2}=this.store;return selection?.kind==="pose"&&selection.index<document2.poses.length?selection.index:null}draw(){const{document:document2}=this.
+store,count=document2.poses.length,pages=Math.max(1,Math.ceil(count/PAGE));if(this.selected!==null&&this.selected!==this.shownSelection)this.page=Math.floor(this.
+selected/PAGE);this.shownSelection=this.selected;this.page=Math.min(this.page,pages-1);const first=this.page*PAGE,shown2=Math.min(PAGE,count-first);while(this.rows.
+length<shown2)this.rows.push(this.makeRow(this.rows.length));while(this.body.children.length>shown2)this.body.lastChild.remove();for(let k=0;k<shown2;k+=1){if(!this.
+rows[k].tr.isConnected||this.body.children[k]!==this.rows[k].tr)this.body.append(this.rows[k].tr);this.showRow(this.rows[k],first+k)}this.unit.textContent=document2.
+length_unit?`x and y in ${document2.length_unit}`:"";this.showPages(pages,count);this.showDetails()}makeRow(place){const row={index:place,fields:{}};const change=changes=>this.
+store.edit(document2=>setPose(document2,row.index,changes));row.number=h("button",{type:"button",class:"bs-index",onclick:()=>this.store.select(row.index===this.
+selected?null:{kind:"pose",index:row.index})});row.name=textField("Name",text=>change({name:text.trim()||void 0}),{class:"bs-text bs-name",placeholder:"–"});const cells2=NUMBERS2.
+map(([key,kind])=>{const field=new NumberField({label:key,options:()=>({kind,unit:this.store.document.length_unit,optional:this.isFree(row.index,key)}),step:()=>kind===
+"angle"?1:this.scene.step,commit:value=>change({[key]:value}),attributes:{"data-key":key}});row.fields[key]=field;return h("td",{},field.element)});row.tr=h("tr",
+{class:"bs-pose-row"},h("th",{scope:"row"},row.number),h("td",{},row.name),cells2);row.tr.addEventListener("focusin",event=>event.target!==row.number&&this.store.
+select({kind:"pose",index:row.index}));return row}isFree(index,key){return Boolean(this.store.document.poses[index]?.free?.includes(key))}showRow(row,index){const pose=this.
+store.document.poses[index],moved=row.index!==index,selected=index===this.selected;row.index=index;if(!isOther(row.tr,[index,pose,selected])&&document.activeElement?.
+closest("tr")!==row.tr)return;row.tr.dataset.row=index+1;row.tr.classList.toggle("bs-selected",selected);row.number.textContent=index+1;put(row.number,"aria-lab\
+el",`Pose ${index+1}`);put(row.number,"aria-pressed",selected);if(moved||document.activeElement!==row.name)give(row.name,"value",oneLine(pose.name));put(row.name,
+"aria-label",`Name of pose ${index+1}`);for(const[key]of NUMBERS2){const{input}=row.fields[key],free=this.isFree(index,key);put(input,"aria-label",`${key} of po\
+se ${index+1}`);put(input,"placeholder",free?"free":"");row.fields[key].turnTo(index,pose[key]);row.fields[key].show(pose[key])}}showPages(pages,count){give(this.
+pages,"hidden",pages<2);if(pages<2)return;const go=page=>{this.page=page;this.draw()};this.pages.replaceChildren(button("‹",()=>go(Math.max(0,this.page-1)),{"\
+aria-label":"Earlier poses",disabled:this.page===0}),h("span",{},`${this.page*PAGE+1}–${Math.min(count,(this.page+1)*PAGE)} of ${count}`),button("›",()=>go(
+Math.min(pages-1,this.page+1)),{"aria-label":"Later poses",disabled:this.page===pages-1}))}add(){const{store,scene}=this,count=store.document.poses.length;const last=count?
+standing(store.document,count-1):{x:0,y:0,angle:0};store.edit(document2=>addPose(document2,count?{...last,x:scene.rounded(last.x+10*scene.step)}:last));store.select(
+{kind:"pose",index:count});const field=this.rows.find(row=>row.index===count&&row.tr.isConnected)?.fields.x.input;field?.focus();field?.select()}makeDetails(){const{
+store}=this;const at=()=>this.selected;const edit=change=>store.edit(document2=>change(document2,at()));this.title=h("h3",{class:"bs-pose-title"});this.exact=tick(
+"met exactly",on=>edit((document2,k)=>setPose(document2,k,{exact:on||void 0})),{"data-key":"exact"});this.weight=new NumberField({label:"weight",options:()=>({optional:true,
+above:0}),commit:value=>edit((document2,k)=>setPose(document2,k,{weight:value})),attributes:{"data-key":"weight",placeholder:"1"}});this.bounds=BOUNDS.map(([component2,
+key,kind])=>{const field=new NumberField({label:`tolerance of ${component2}`,options:()=>({kind,unit:store.document.length_unit,optional:true,least:0}),step:()=>kind===
+"angle"?1:this.scene.step,commit:value=>edit((document2,k)=>setTolerance(document2,k,key,value)),attributes:{"data-key":`tolerance-${component2}`,placeholder:"–"}});
+const free=tick("free",on=>edit((document2,k)=>setFree(document2,k,component2,on)),{"data-key":`free-${component2}`,"aria-label":`${component2} is free`});return{
+component:component2,key,field,free}});this.axes=choice("Axes of the tolerance",[["fixed","along the axes of the ground"],["body","along the axes of the body"]],
+value=>edit((document2,k)=>setTolerance(document2,k,"axes",value==="body"?value:void 0)),{"data-key":"tolerance-axes"});const act2=(text,name,change,then)=>button(
+text,()=>{const k=at();edit(change);store.select(then(k)===null?null:{kind:"pose",index:then(k)})},{"data-do":name});const last=()=>store.document.poses.length-
+1;this.up=act2("Earlier","earlier",(document2,k)=>movePose(document2,k,k-1),k=>k-1);this.down=act2("Later","later",(document2,k)=>movePose(document2,k,k+1),k=>k+
+1);this.details.append(this.title,h("div",{class:"bs-row"},this.exact.element,labelled("weight",this.weight.element)),h("p",{class:"bs-hint"},"Tolerance: how fa\
+r from it the body may be, to either side"),h("table",{class:"bs-tolerances","aria-label":"Tolerance"},h("tbody",{},this.bounds.map(({component:component2,field,
+free})=>h("tr",{},h("th",{scope:"row"},component2==="angle"?"angle °":component2),h("td",{},field.element),h("td",{},free.element))))),this.axes,h("div",{class:"\
+bs-row"},this.up,this.down,act2("Duplicate","duplicate",duplicatePose,k=>k+1),act2("Delete","delete-pose",removePose,k=>last()<0?null:Math.min(k,last()))))}showDetails(){
+const k=this.selected;give(this.details,"hidden",k===null);if(k===null)return;const{poses}=this.store.document,pose=poses[k];if(!isOther(this.details,[k,pose,poses.
+length])&&!this.details.contains(document.activeElement))return;this.title.replaceChildren(`Pose ${k+1}`,...pose.name?[": ",h("bdi",{},oneLine(pose.name))]:[]);
+give(this.exact.box,"checked",Boolean(pose.exact));this.weight.turnTo(k,pose.weight);this.weight.show(pose.weight);for(const{component:component2,key,field,free}of this.
+bounds){const isFree=this.isFree(k,component2)||pose.tolerance?.[component2]==="free";give(free.box,"checked",isFree);give(field.input,"disabled",isFree);const stated=pose.
+tolerance?.[key],bound=typeof stated==="number"?stated:void 0;field.turnTo(k,bound);field.show(bound)}give(this.axes,"hidden",!pose.tolerance);give(this.axes,"v\
+alue",pose.tolerance?.axes??"fixed");give(this.up,"disabled",k===0);give(this.down,"disabled",k===poses.length-1)}};var LONGEST_NAME2=22;var HATCH=9;var PIVOT2={fixed_pivot:"Fixed pivot",moving_pivot:"Moving pivot"};function limitName(document2,{table:table3,key}){return`${PIVOT2[key]}${limitsOf(
+document2).length>1?` of dyad ${table3+1}`:""}`}function regionShape(region){if(region.box)return{shape:"box",points:region.box};return region.polygon?{shape:"p\
+olygon",points:region.polygon}:null}var Regions=class{constructor(store,scene){this.store=store;this.scene=scene;this.shapes=new Map;scene.layer("regions").append(
+s("defs",{},s("pattern",{id:"bs-hatch",width:HATCH,height:HATCH,patternUnits:"userSpaceOnUse",patternTransform:"rotate(45)"},s("path",{class:"bm-hatch",d:`M0 0V${HATCH}`}))));
+this.regions=new Kept(s("g"),(key,k)=>this.makeRegion(k),element=>this.shapes.get(element).draw());this.footprint=new Kept(s("g"),()=>this.makeFootprint(),element=>this.
+shapes.get(element).draw());this.limits=new Kept(s("g"),(key,limit)=>this.makeLimit(limit),element=>this.shapes.get(element).draw());this.names=new Kept(s("g",{
+class:"bs-region-names","aria-hidden":"true"}),()=>s("text",{}),(text,name)=>this.showName(text,name));scene.layer("regions").append(this.regions.group,this.footprint.
+group);scene.layer("limits").append(this.limits.group);scene.layer("labels").append(this.names.group);store.on("document",()=>this.judge(store.state==="dragging"&&
+!this.isOther()));store.on("selection",()=>this.draw());store.on("solved followed chosen placed",()=>this.judge());scene.on("view",()=>this.draw());scene.hold(()=>limitRegions(
+store.document).filter(({shape})=>shape!=="line").flatMap(each=>this.corners(each)));scene.hold(()=>regionsOf(store.document).map(regionShape).filter(Boolean).flatMap(
+({shape,points})=>outlineOf(shape,points)),true);this.judge()}place({key}){return key==="moving_pivot"?referencePlace(this.store):GROUND}corners(limit){return outlineOf(
+limit.shape,limit.points).map(point2=>act(this.place(limit),point2))}isOther(){const{body,keep_out,surroundings}=this.store.document,now=[body,keep_out,surroundings];
+return now.some((each,k)=>each!==this.judged?.[k])}judge(pivots=false){const{document:document2,solved}=this.store,linkage=currentLinkage(this.store);this.broken=
+linkage?.led?limitsMissed(document2,linkage,solved?.scene??1):null;if(!pivots){this.judged=[document2.body,document2.keep_out,document2.surroundings];this.touched=
+linkage?.led?regionsTouched(document2,linkage,bodyOf(document2)):null}this.draw();this.onjudged?.()}said(table3,key){return this.broken?.[table3]?.filter(each=>each.
+key===key).map(each=>missedSentence(each,this.store.document.length_unit))??null}draw(){const{document:document2}=this.store,regions=regionsOf(document2),limits=limitRegions(
+document2),{footprint}=document2.requirements??{};this.regions.draw(regions.map((region,k)=>[k,k]).filter(([k])=>regionShape(regions[k])));this.limits.draw(limits.
+map(limit=>[`${limit.table} ${limit.key}`,limit]));this.footprint.draw(footprint?[["footprint",footprint]]:[]);for(const[element,handles]of this.shapes){if(element.
+parentNode)continue;handles.clear();this.shapes.delete(element)}this.names.draw([...regions.map((region,k)=>[`region ${k}`,region.name&&regionShape(region)?{text:region.
+name,at:middle(outlineOf(...Object.values(regionShape(region))))}:null]),...limits.map(limit=>[`limit ${limit.table} ${limit.key}`,{text:limitName(document2,limit),
+at:middleOf(this.corners(limit),limit.key==="moving_pivot"),off:limit.key==="moving_pivot"?-5:14}]),["footprint",footprint?{text:"Footprint",at:middleOf(footprint.
+polygon??outlineOf("box",footprint.box),true),off:-5}:null]].filter(([,name])=>name))}kept(handles){this.shapes.set(handles.element,handles);return handles.element}makeRegion(k){
+const{store}=this;const handles=new ShapeHandles(this.scene,{className:"bs-region",what:()=>{const region=regionsOf(store.document)[k];return{...regionShape(region),
+place:GROUND,name:region.name?`Keep out: ${region.name}`:`Region ${k+1} to keep out of`,selected:store.selection?.kind==="region"&&store.selection.index===k,state:this.
+touched?this.touched[k]?"broken":"met":"",data:{region:k}}},set:(points,gesture)=>store.edit(document2=>setRegion(document2,k,shapeOf(regionShape(regionsOf(document2)[k]).
+shape,points)),{gesture}),remove:()=>this.removeRegion(k),select:()=>store.select({kind:"region",index:k}),abandon:gesture=>store.abandon(gesture)});handles.element.
+insertBefore(s("path",{class:"bs-hatched",fill:"url(#bs-hatch)"}),handles.area);const draw=handles.draw.bind(handles);handles.draw=()=>{draw();handles.element.querySelector(
+".bs-hatched").setAttribute("d",handles.line.getAttribute("d"))};return this.kept(handles)}removeRegion(k){this.store.edit(document2=>removeRegion(document2,k));
+this.store.select(null);this.scene.svg.focus({preventScroll:true})}makeLimit({table:table3,key}){const{store}=this,place=()=>this.place({key});const at=()=>limitRegions(
+store.document).findIndex(each=>each.table===table3&&each.key===key);return this.kept(new ShapeHandles(this.scene,{className:`bs-limit bs-${key.replace("_","-")}`,
+what:()=>{const index=at(),limit=limitRegions(store.document)[index],said=this.said(table3,key);return{...limit,place:place(),name:`Limit: ${limitName(store.document,
+limit)}`,selected:store.selection?.kind==="limit"&&store.selection.index===index,state:said?said.length?"broken":"met":"",data:{limit:index,plane:key==="moving_\
+pivot"?"M":"F"}}},set:(points,gesture)=>store.edit(document2=>setLimit(document2,table3,{[key]:shapeOf(Object.keys(limitsOf(document2)[table3][key])[0],points)}),
+{gesture}),remove:()=>this.removeLimit(table3,key),select:()=>store.select({kind:"limit",index:at()}),abandon:gesture=>store.abandon(gesture)}))}removeLimit(table3,key){
+this.store.edit(document2=>setLimit(document2,table3,{[key]:void 0}));this.store.select(null);this.scene.svg.focus({preventScroll:true})}makeFootprint(){const{store}=this,
+shape=()=>Object.keys(store.document.requirements.footprint)[0];return this.kept(new ShapeHandles(this.scene,{className:"bs-footprint",what:()=>({shape:shape(),
+points:store.document.requirements.footprint[shape()],place:GROUND,name:"Footprint: holds all pivots",selected:store.selection?.kind==="footprint",data:{footprint:""}}),
+set:(points,gesture)=>store.edit(document2=>setRequirement(document2,"footprint",{[shape()]:points}),{gesture}),remove:()=>{store.edit(document2=>setRequirement(
+document2,"footprint",void 0));store.select(null)},select:()=>store.select({kind:"footprint",index:0}),abandon:gesture=>store.abandon(gesture)}))}showName(text,{
+text:name,at:[x,y],off}){const{view}=this.scene,shown2=shortened(name,LONGEST_NAME2);if(text.textContent!==shown2)text.textContent=shown2;put(text,"class",off?"\
+bs-limit-name":"bs-region-name");put(text,"text-anchor","middle");put(text,"x",px(view.X(x)));put(text,"y",px(view.Y(y)+(off??4)))}regionTool(shape){const{store}=this;
+return new ShapeTool(this.scene,{shape,name:`region ${shape}`,place:()=>GROUND,done:points=>{store.edit(document2=>addRegion(document2,{[shape]:points}));store.
+select({kind:"region",index:regionsOf(store.document).length-1})}})}limitTool(table3,key,shape){const{store}=this;return new ShapeTool(this.scene,{shape,name:`l\
+imit ${table3} ${key} ${shape}`,place:()=>this.place({key}),done:points=>{store.edit(document2=>setLimit(document2,table3,{[key]:shapeOf(shape,points)}));store.
+select({kind:"limit",index:limitRegions(store.document).findIndex(each=>each.table===table3&&each.key===key)})}})}footprintTool(shape){const{store}=this;return new ShapeTool(
+this.scene,{shape,name:`footprint ${shape}`,place:()=>GROUND,done:points=>{store.edit(document2=>setRequirement(document2,"footprint",{[shape]:points}));store.select(
+{kind:"footprint",index:0})}})}};function middle(points){const[x,y,u,v]=bounds(points);return[(x+u)/2,(y+v)/2]}function middleOf(points,upper){const[x,y,u,v]=bounds(
+points);return[(x+u)/2,upper?v:y]}function unfoldForPrint(root,signal){window.addEventListener("beforeprint",()=>{for(const part of root.querySelectorAll("details:not([open])")){part.open=true;part.
+dataset.opened=""}},{signal});window.addEventListener("afterprint",()=>{for(const part of root.querySelectorAll("details[data-opened]")){part.open=false;delete part.
+dataset.opened}},{signal})}var Events=class{on(names,fn){this.heard??=new Map;for(const name of names.split(" "))this.heard.set(name,[...this.heard.get(name)??[],fn])}emit(name,...values){
+for(const fn of this.heard?.get(name)??[])fn(...values)}};var LONGEST_NAME3=5;var FOLLOWED=1e-7;var EXACT_TURN=1e-5;var UNSEEN=1e-6;var PLACED="placed";var NOTHING={poses:[],body:null,keep_out:[],scene:1,unit:null,dyads:[],
+linkages:[],dyads_title:"Dyads",chart:{origin:[0,0],angle:0,length:1},space:{centre:[0,0,0],half:[1,1,1],quadrics:[]},pivot_map:null,family_map:null,asked_transmission_deg:null,
+best:[],warnings:[],footnotes:""};var Answers=class extends Events{constructor(store){super();this.store=store;this.data={...NOTHING};this.linkages=[];this.gone=
+[];this.byId=new Map;this.placed=null;store.on("solved",()=>this.takeSolved());store.on("followed",()=>this.takeFollowed());store.on("document",()=>this.takePoses());
+store.on("chosen",()=>this.emit("shown"));store.on("placed",()=>this.takePlaced());this.takePoses();if(store.solved)this.takeSolved()}get shown(){return this.get(
+this.store.chosen)??(this.store.chosen===PLACED?void 0:this.linkages[0])}get(id){return id===PLACED?this.placed??void 0:this.byId.get(id)}get isOld(){return this.
+store.solvedFor!==this.store.document}takePoses(){const poses=posesOf(this.store.document);Object.assign(this.data,{poses,...surroundingsOf(this.store.document,
+this.data)});this.emit("poses")}takeSolved(){const{solved,document:document2}=this.store,before=this.linkages.filter(each=>!each.gone);const{renamed:names,moved}=this.
+store;const was=new Map([...names].map(([old,id])=>[id,this.byId.get(old)]));const{poses,body,keep_out,...rest}=solved;Object.assign(this.data,{body,keep_out,...rest,
+poses:posesOf(document2)});this.gone=before.filter(each=>!names.has(each.id)).map(each=>each.id);this.byId=new Map;this.linkages=solved.linkages.map(fresh=>{const kept=was.
+get(fresh.id),now=kept??{};const stood=kept&&kept.rank!==Infinity;const before2=stood&&kept.id!==fresh.id?kept.id:null;for(const key of Object.keys(now))delete now[key];
+Object.assign(now,figured(linked(fresh)),{was:before2,shift:moved.get(fresh.id)??0,isNew:this.known&&!stood,followed:false,gone:null,change:null});this.byId.set(
+now.id,now);return now});this.known=true;this.emit("answers")}takeFollowed(){const frame=this.store.followed;if(!frame)return;for(const each of frame.linkages){
+let now=this.byId.get(each.id);if(now&&each.fresh===false)continue;if(!now){now=appeared(each);this.byId.set(each.id,now);this.linkages.push(now);this.hasNew=true}
+follow(now,each,this.data)}for(const{id,message}of frame.vanished??[]){const now=this.byId.get(id);if(now)Object.assign(now,{gone:message,usable:false})}for(const{
+id,kind,message}of frame.changes??[]){const now=this.byId.get(id);if(now&&kind!=="vanished")now.change=message}if(this.hasNew){this.hasNew=false;this.emit("answ\
+ers")}else{this.emit("moved")}}takePlaced(){const placed=this.store.placed?.linkage;const before=this.placed;this.placed=placed?Object.assign(before??{},figured(
+renamed(linked(placed))),{id:PLACED,gone:null,followed:false}):null;this.emit("placed");if(this.store.chosen===PLACED)this.emit(before&&placed?"moved":"shown")}};
+var linked=linkage=>({...linkage,pose_errors:linkage.pose_errors.map(row=>({...row,at:row.way===null?null:linkage.ways[row.way]}))});var figured=linkage=>Object.
+assign(linkage,{worst:linkage.position_error.max,least:linkage.min_transmission_angle_deg.range});function renamed(linkage){const names=new Map(linkage.dyads.map(
+(dyad,k)=>[dyad.id,`P${k+1}`]));const named=dyad=>({...dyad,id:names.get(dyad.id)??dyad.id});const dimensions=linkage.said.dimensions.map(row=>({...row,dyad:names.
+get(row.dyad)??row.dyad}));return{...linkage,dyads:linkage.dyads.map(named),led:linkage.led.map(named),said:{...linkage.said,dimensions}}}function posesOf({poses=[]}){
+const names=poses.map((pose,k)=>pose.name||String(k+1));const short=names.every(name=>name.length<=LONGEST_NAME3);return poses.map((pose,k)=>({...pose,angle_deg:pose.
+angle,name:names[k],label:short?names[k]:String(k+1)}))}var surroundingsOf=(document2,data)=>({body:Array.isArray(document2.body)?document2.body:document2.body===
+void 0?null:data.body});function follow(now,each,data){now.usable=each.usable;now.led=each.led;now.worst=each.worst;now.least=each.transmission_deg;now.reason=each.
+reason;now.followed=true;now.gone=null;if(each.type)now.type=each.type;if(!each.ways?.length){now.ways=now.ways??[];return}now.ways=each.ways;now.pose_errors=each.
+pose_errors.map(row=>({...row,at:row.way===null?null:each.ways[row.way],said:row.x===null?{position:"-",turned:"-",transmission:"-"}:{position:row.position<FOLLOWED*
+data.scene?"exact":figure(row.position),turned:row.turned_deg<EXACT_TURN?"exact":`${figure(row.turned_deg)}°`,transmission:row.transmission_deg===null?"-":`${fixed(
+row.transmission_deg,1)}°`}}))}var appeared=each=>({id:each.id,type:each.type??"linkage",rank:Infinity,dyads:each.led,ways:[],pose_errors:[],isNew:true,followed:true,
+said:{met:"",in_short:each.reason??"",reasons:[],quality:{},dimensions:[],notes:[],links:null,manifolds:[[],[]],turns_fully:false,freedom:null,worst:"–",angle:"\
+–",rms:"–",rms_angle:"–",transmission:"-"},space:null,shortcomings:[],defects:[],unmet:[]});function worstOf(linkage,data){if(linkage.worst===null||linkage.
+worst===void 0)return"–";if(!linkage.followed)return linkage.said.worst==="-"?"–":linkage.said.worst==="exact"?"exact":`${linkage.said.worst}${data.unit?` ${data.
+unit}`:""}`;return linkage.worst<FOLLOWED*data.scene?"exact":`${figure(linkage.worst)}${data.unit?` ${data.unit}`:""}`}function leastOf(linkage){if(!linkage.followed)
+return linkage.said.transmission==="-"?"–":linkage.said.transmission;return linkage.least===null||linkage.least===void 0?"–":`${Math.floor(10*linkage.least+
+1e-6)/10}°`}function dimensionsOf(linkage,data){const digits=decimalsOf(data),point2=p=>`(${p.map(value=>fixed(value,digits)).join(", ")})`;return linkage.led.
+flatMap(dyad=>[...dyad.fixed_pivot?[{dyad:dyad.id,what:"fixed pivot in F",value:point2(dyad.fixed_pivot)}]:[],...dyad.moving_pivot?[{dyad:dyad.id,what:"moving p\
+ivot in M",value:point2(dyad.moving_pivot)}]:[],...dyad.radius!==void 0?[{dyad:dyad.id,what:"length",value:fixed(dyad.radius,digits)}]:[],...dyad.line?[{dyad:dyad.
+id,what:`line in ${dyad.kind==="PR"?"F":"M"}, normal and offset`,value:`${fixed(dyad.line.normal_deg,2)}°, ${fixed(dyad.line.offset,digits)}`}]:[]])}var placeOf=row=>({
+x:row.x,y:row.y,a:radians(row.angle_deg)});var dot=(a,b)=>a[0]*b[0]+a[1]*b[1]+a[2]*b[2];var scaled=(a,k)=>[a[0]*k,a[1]*k,a[2]*k];var plus=(a,b)=>[a[0]+b[0],a[1]+b[1],a[2]+b[2]];var cross2=(a,b)=>[a[1]*b[2]-
+a[2]*b[1],a[2]*b[0]-a[0]*b[2],a[0]*b[1]-a[1]*b[0]];var unit=a=>scaled(a,1/Math.hypot(...a));var times=(c,p,w)=>[0,4,8,12].map(r=>c[r]*p[0]+c[r+1]*p[1]+c[r+2]*p[2]+
+c[r+3]*w);function intersections(c,o,d){const cd=times(c,d,0),co=times(c,o,1);const a=dot(d,cd),b=dot(o,cd)+cd[3],e=dot(o,co)+co[3];const root=b*b-a*e;if(root<0)
+return[];const q=-(b+(b<0?-1:1)*Math.sqrt(root));const roots=[];if(Math.abs(a)>1e-12*Math.abs(q))roots.push(q/a);if(q!==0)roots.push(e/q);return roots}function instantCentre(dyads,place){const[u,v,omega]=cross2(gradient(dyads[0],place),gradient(dyads[1],place));const centre=[place.x-v/omega,place.y+u/omega];return Number.
+isFinite(centre[0])&&Number.isFinite(centre[1])?centre:null}function centrodePoint(dyads,place){const fixed2=instantCentre(dyads,place);return fixed2&&{fixed:fixed2,
+moving:back(place,fixed2)}}function driveOf(dyad,place){if(dyad.kind==="PR")return alongLine(dyad,place);if(dyad.kind==="RP")return place.a+radians(dyad.line.normal_deg);
+const[x,y]=act(place,dyad.moving_pivot);return Math.atan2(y-dyad.fixed_pivot[1],x-dyad.fixed_pivot[0])}function transmissionOf(driver,follower,place){if(driver.
+kind==="PP"||follower.kind==="PP")return null;const slot=dyad=>{const[nx,ny]=normalOf(dyad),c=Math.cos(place.a),d=Math.sin(place.a);return[c*nx-d*ny,d*nx+c*ny]};
+if(driver.kind==="RP"&&follower.kind==="RP")return 90;if(follower.kind==="RP"){const pin=act(place,driver.moving_pivot),[x,y]=follower.fixed_pivot;return between(
+slot(follower),[x-pin[0],y-pin[1]])}const end=act(place,follower.moving_pivot);const lever=follower.kind==="PR"?normalOf(follower):[end[0]-follower.fixed_pivot[0],
+end[1]-follower.fixed_pivot[1]];if(driver.kind==="RP")return between(slot(driver),lever);const start=act(place,driver.moving_pivot);return between([end[0]-start[0],
+end[1]-start[1]],lever)}var between=(a,b)=>Math.atan2(Math.abs(a[0]*b[1]-a[1]*b[0]),Math.abs(a[0]*b[0]+a[1]*b[1]))*180/Math.PI;var HATCH2=9;var PALEST2=.45;var LONGEST_NAME4=28;var LEAST_LINKAGE=110;var MOST_PLACES2=400;var patterns=0;var closed=(points,view,[x,y])=>`M${points.map(each=>`${px(
+x+view.scale*each[0])} ${px(y-view.scale*each[1])}`).join("L")}Z`;var bodyOutline=(data,view)=>closed(data.body,view,[0,0]);var placesAtPoses=(data,linkage)=>data.
+poses.map((pose,k)=>{const row=linkage?.pose_errors[k],at=row&&row.x!==null?row:pose;return{x:at.x,y:at.y,a:radians(at.angle_deg)}});function ghosts(data,linkage,view){
+const group=s("g",{class:"bm-ghosts"});if(!data.body)return group;const places=placesAtPoses(data,linkage),last=Math.max(1,places.length-1);places.forEach(({x,y,
+a},k)=>{const opacity=(PALEST2+(1-PALEST2)*k/last).toFixed(3);group.append(s("path",{class:"bm-ghost",d:bodyOutline(data,view),"data-pose":k+1,opacity,transform:transform(
+view.X(x),view.Y(y),a)}))});return group}function keepOut(data,view){const group=s("g",{class:"bm-keep-out"});if(!data.keep_out.length)return group;const id=`bm\
+-hatch-${patterns+=1}`;group.append(s("defs",{},s("pattern",{id,width:HATCH2,height:HATCH2,patternUnits:"userSpaceOnUse",patternTransform:"rotate(45)"},s("path",
+{class:"bm-hatch",d:`M0 0V${HATCH2}`}))));for(const region of data.keep_out){const d=closed(region.outline,view,[view.left,view.top]);group.append(s("g",{class:"\
+bm-region"},s("title",{},region.name||"keep out"),s("path",{class:"bm-region-plain",d}),s("path",{class:"bm-region-edge",d,fill:`url(#${id})`})))}return group}function keepOutNames(data,view,labels){
+return data.keep_out.filter(({name})=>name).map(({name,at:[x,y]})=>{const text=shortened(name,LONGEST_NAME4);labels.block(view.X(x),view.Y(y),7.2*text.length,14);
+return s("text",{class:"bm-region-name",x:px(view.X(x)),y:px(view.Y(y)+4),"text-anchor":"middle"},text)})}function bodyCorners(data,linkage,places){if(!data.body)
+return[];const some=places.filter((_,k)=>k%Math.ceil(places.length/MOST_PLACES2)===0);return[...placesAtPoses(data,linkage),...some].flatMap(place=>data.body.map(
+corner=>act(place,corner)))}var sizeOf=([x,y,u,v])=>Math.max(u-x,v-y);var including=(box,points)=>points.reduce(([x,y,u,v],[a,b])=>[Math.min(x,a),Math.min(y,b),
+Math.max(u,a),Math.max(v,b)],box);function widened(box,data,linkage,places,width,all){const withBody=including(box,bodyCorners(data,linkage,places));const whole=including(
+withBody,data.keep_out.flatMap(region=>region.outline));const most=Math.max(2,width/LEAST_LINKAGE)*sizeOf(box);if(all||!linkage||sizeOf(whole)<=most)return whole;
+const inner=sizeOf(withBody)<=most?withBody:box,reach=(most-sizeOf(inner))/2;return whole.map((each,k)=>k<2?Math.max(each,inner[k]-reach):Math.min(each,inner[k]+
+reach))}var BODY_AXIS=AXIS+10;var LETTER=14;var BLOCK_IN_SLOT=[18,10];var SPARE2=5;var ARROW=24;function mechanism(data,linkage,view,places){const drawn=new Mechanism(linkage);
+drawn.shape(data,linkage,view,places);return drawn}var Mechanism=class{constructor({led}){this.kinds=kindsOf(led);this.outline=s("path",{class:"bm-body-outline"});
+this.links=s("g");this.blocks=s("g");this.pins=s("g");this.coupler=s("g",{class:"bm-coupler"});this.arrow=s("path",{class:"bm-drive-mark bm-side0"});this.letter=
+s("text",{class:"bm-letter","text-anchor":"middle"},"M");this.plates=[s("path",{class:"bm-plate-rim"}),s("path",{class:"bm-plate"})];this.coupler.append(...this.
+plates);this.parts=led.map((dyad,side)=>new PARTS[dyad.kind](this,side));this.coupler.append(s("path",{class:"bm-body-frame",d:axes(BODY_AXIS)}),s("circle",{class:"\
+bm-origin",r:4}));for(const part of this.parts)if(part.pin)this.coupler.append(part.pin);this.group=s("g",{class:"bm-linkage"},this.arrow,this.links,this.coupler,
+this.blocks,this.pins,this.letter)}fits({led}){return kindsOf(led)===this.kinds}shape(data,linkage,view,places){this.view=view;this.led=linkage.led;this.hasBody=
+Boolean(data.body);if(this.hasBody){put(this.outline,"d",bodyOutline(data,view));if(!this.outline.parentNode)this.group.prepend(this.outline)}else{this.outline.
+remove()}const corners=[[0,0]];linkage.led.forEach((dyad,side)=>{if(dyad.moving_pivot)corners.push(inBody(dyad.moving_pivot,view));const more=this.parts[side].shape(
+dyad,view,places);if(more)corners.push(more)});const d=`M${hull(corners).map(corner=>corner.map(px).join(" ")).join("L")}Z`;for(const plate of this.plates)put(plate,
+"d",d);this.shapeArrow()}show(place){const{view}=this,at=transform(view.X(place.x),view.Y(place.y),place.a);put(this.coupler,"transform",at);if(this.hasBody)put(
+this.outline,"transform",at);for(const part of this.parts)part.show(place);const[x,y]=act(place,[-LETTER/view.scale,-LETTER/view.scale]);put(this.letter,"x",px(
+view.X(x)));put(this.letter,"y",px(view.Y(y)+4));const[driver]=this.led;if(driver.kind==="PR")put(this.arrow,"transform",`${onRail(driver,place,view)} translate\
+(0 ${-ARROW})`)}shapeArrow(){const{arrow:arrow2,view}=this,[driver]=this.led;if(driver.kind==="PR")put(arrow2,"d","M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6 5");if(!driver.
+fixed_pivot)return;const[x,y]=driver.fixed_pivot;put(arrow2,"d","M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9");put(arrow2,"transform",`translate(${px(view.
+X(x))} ${px(view.Y(y))}) rotate(-90)`)}};var kindsOf=led=>led.map(dyad=>dyad.kind).join();var inBody=([x,y],view)=>[view.scale*x,-view.scale*y];function onRail(dyad,place,view){
+const[x,y]=act(place,dyad.moving_pivot),[nx,ny]=normalOf(dyad);return transform(view.X(x),view.Y(y),Math.atan2(nx,-ny))}var block=(side,width,height)=>s("g",{class:`\
+bm-block bm-side${side}`},s("rect",{x:-width/2,y:-height/2,width,height,rx:2}));function setPin(pin,[x,y],dyad){put(pin,"cx",px(x));put(pin,"cy",px(y));pin.dataset.
+dyad=dyad.id}var inGround=([x,y],view)=>[view.X(x),view.Y(y)];var Bar=class{constructor({links,pins},side){this.strokes=[s("path",{class:"bm-bar"}),s("path",{class:"\
+bm-core"})];this.bar=s("g",{class:`bm-link bm-side${side}`},this.strokes);this.ground=s("circle",{class:"bm-pin bm-fixed-pin",r:4.5});this.pin=s("circle",{class:"\
+bm-pin",r:4.5});links.append(this.bar);pins.append(this.ground)}shape(dyad,view){this.dyad=dyad;this.view=view;for(const stroke of this.strokes)put(stroke,"d",`\
+M0 0H${px(view.scale*dyad.radius)}`);setPin(this.ground,inGround(dyad.fixed_pivot,view),dyad);setPin(this.pin,inBody(dyad.moving_pivot,view),dyad)}show(place){const{
+dyad,view}=this,[cx,cy]=dyad.fixed_pivot,[x,y]=act(place,dyad.moving_pivot);put(this.bar,"transform",transform(view.X(cx),view.Y(cy),Math.atan2(y-cy,x-cx)))}};var BlockOnRail=class{constructor({
+blocks},side){this.block=block(side,...BLOCK);this.pin=s("circle",{class:"bm-pin",r:4.5});blocks.append(this.block)}shape(dyad,view){this.dyad=dyad;this.view=view;
+this.block.dataset.dyad=dyad.id;setPin(this.pin,inBody(dyad.moving_pivot,view),dyad)}show(place){put(this.block,"transform",onRail(this.dyad,place,this.view))}};
+var Slot=class{constructor({blocks,pins,coupler},side){this.strokes=["rim","plate","edge"].map(name=>s("path",{class:`bm-slot-${name}`}));this.strokes.push(s("p\
+ath",{class:"bm-slot"}));this.block=block(side,...BLOCK_IN_SLOT);this.ground=s("circle",{class:"bm-pin bm-fixed-pin",r:4});coupler.append(...this.strokes);blocks.
+append(this.block);pins.append(this.ground)}shape(dyad,view,places){this.dyad=dyad;this.view=view;const[low,high]=places.length?travelOf(dyad,places):[0,0],end=(BLOCK_IN_SLOT[0]/
+2+SPARE2)/view.scale;const seen2=along=>inBody(pointOnLine(dyad,along),view);const d=`M${[seen2(low-end),seen2(high+end)].map(each=>each.map(px).join(" ")).join(
+"L")}`;for(const stroke of this.strokes)put(stroke,"d",d);this.strokes[3].dataset.dyad=this.block.dataset.dyad=dyad.id;setPin(this.ground,inGround(dyad.fixed_pivot,
+view),dyad);return seen2((low+high)/2)}show(place){const{dyad,view}=this,[nx,ny]=normalOf(dyad),[cx,cy]=dyad.fixed_pivot;put(this.block,"transform",transform(view.
+X(cx),view.Y(cy),place.a+Math.atan2(nx,-ny)))}};var Nothing=class{shape(){}show(){}};var PARTS={RR:Bar,PR:BlockOnRail,RP:Slot,PP:Nothing};var Labels=class{constructor(view){this.view=view;this.taken=[]}block(x,y,width,height){this.taken.push([x-width/2,y-height/2,x+width/2,y+height/2])}put(x,y,text,distance,attributes){
+const width=7.2*text.length+4,height=14;let best=null;for(let ring=0;ring<3;ring+=1){for(let k=0;k<16;k+=1){const angle=Math.PI/8*k+Math.PI/4;const away=distance+
+9*ring;const cx=x+(away+width/2-6)*Math.cos(angle);const cy=y-away*Math.sin(angle);const box=[cx-width/2,cy-height/2,cx+width/2,cy+height/2];let cost=.02*k+6*ring;
+for(const other of this.taken){const across=Math.min(box[2],other[2])-Math.max(box[0],other[0]);const down=Math.min(box[3],other[3])-Math.max(box[1],other[1]);if(across>
+0&&down>0)cost+=across*down}if(box[0]<2||box[2]>this.view.width-2)cost+=500;if(box[1]<2||box[3]>this.view.height-2)cost+=500;if(!best||cost<best.cost)best={cost,
+cx,cy,box}}}this.taken.push(best.box);return s("text",{x:px(best.cx),y:px(best.cy+4),"text-anchor":"middle",...attributes},text)}};var LONGEST=4e3;function railOf(dyad,places,view){const[nx,ny]=normalOf(dyad),[low,high]=travelOf(dyad,places);const half=view.scale*(high-low)/2+BLOCK[0],edge=BLOCK[1]/
+2+1;const[x,y]=(at=>[view.X(at[0]),view.Y(at[1])])(pointOnLine(dyad,(low+high)/2));const bodySide=places.reduce((sum,place)=>sum+nx*place.x+ny*place.y-dyad.line.
+offset,0);const turned=Math.atan2(nx,-ny)+(bodySide>0?Math.PI:0);const drawn=Math.min(half,LONGEST);let hatch="";for(let k=-drawn+4;k<drawn-2;k+=8)hatch+=`M${px(
+k+4)} ${edge}l-6 7`;return{x,y,half,drawn,turned,paths:[`M${px(-half)} ${edge}H${px(half)}${hatch}`,`M${px(-half)} ${-edge}H${px(half)}`]}}var FACTORS=[0,1,10,100,1e3,1e4,1e5];function factorFor(data,linkage){const worst=Math.max(0,...linkage.pose_errors.map(row=>row.position??0));if(!(worst>1e-9*data.
+scene))return 0;const fits=FACTORS.filter(factor=>factor>=1&&factor*worst<.3*data.scene);return fits.length?fits[fits.length-1]:1}var standing2=(dyad,places)=>dyad.
+fixed_pivot??(dyad.kind==="PR"&&places.length?pointOnLine(dyad,travelOf(dyad,places).reduce((a,b)=>(a+b)/2)):null);var Plane=class{constructor(data,parent){this.data=data;this.svg=s("svg",{class:"bm-plane",role:"img",tabindex:"0"});this.parent=parent;parent.append(this.svg)}build(linkage,way,stretch,{
+factor,fill,far}){const{data,svg}=this,path2=linkage?.ways[way];this.places=path2?placesOf(data,linkage,path2,stretch):[];const bare=boundsOf(data,linkage,this.
+places,far);const width=Math.max(260,this.parent.clientWidth);const box=widened(bare,data,linkage,this.places,width,far);this.cut=!far&&widened(bare,data,linkage,
+this.places,width,true).some((each,k)=>each!==box[k]);const shape=(box[3]-box[1])/(box[2]-box[0]);const own=clamp(width*clamp(shape,.45,1),260,clamp(.62*window.
+innerHeight,340,680));const height=Math.round(fill?clamp(fill,own,1.15*width):own);const view=viewOf(box,width,height,width<500?34:42);this.view=view;this.linkage=
+linkage;this.way=way;svg.setAttribute("viewBox",`0 0 ${width} ${height}`);svg.setAttribute("height",height);svg.dataset.scale=view.scale;svg.dataset.left=view.left;
+svg.dataset.top=view.top;svg.replaceChildren();svg.append(this.grid(),keepOut(data,view),ghosts(data,linkage,view));if(linkage)svg.append(this.paths());const labels=new Labels(
+view);this.names=s("g",{class:"bm-names"},keepOutNames(data,view,labels));if(linkage)svg.append(this.ground(labels));for(const pose of data.poses){const x=view.
+X(pose.x),y=view.Y(pose.y),angle=radians(pose.angle_deg);const c=AXIS*Math.cos(angle),d=AXIS*Math.sin(angle);labels.block(x,y,12,12);for(const share of[.35,.65,
+1]){labels.block(x+share*c,y-share*d,6,6);labels.block(x-.6*share*d,y-.6*share*c,6,6)}}svg.append(this.poses(linkage,factor,labels));this.moving=path2?mechanism(
+data,linkage,view,this.places):null;if(this.moving)svg.append(this.moving.group);if(linkage&&!far)this.farPivots(labels);svg.append(this.names)}grid(){const{view}=this,
+group=s("g",{class:"bm-grid","aria-hidden":"true"});const unit2=this.data.unit?` ${this.data.unit}`:"";const across=ticks(-view.left/view.scale,(view.width-view.
+left)/view.scale,view.width/110);const up=ticks((view.top-view.height)/view.scale,view.top/view.scale,view.height/80);for(const{at,text}of across){const x=px(view.
+X(at));group.append(s("path",{d:`M${x} 0V${view.height}`}));if(x>46&&x<view.width-(unit2?54:30)){group.append(s("text",{x,y:view.height-6,"text-anchor":"middle"},
+text))}}for(const{at,text}of up){const y=px(view.Y(at));group.append(s("path",{d:`M0 ${y}H${view.width}`}));if(y>26&&y<view.height-24)group.append(s("text",{x:6,
+y:y-4},text))}group.append(s("text",{x:6,y:14},`y${unit2}`),s("text",{x:view.width-6,y:view.height-6,"text-anchor":"end"},`x${unit2}`));return group}paths(){const{
+view,linkage,places}=this,group=s("g",{class:"bm-paths"});linkage.ways.forEach((way,k)=>{const same=way.circuit===linkage.ways[this.way]?.circuit;const kind=k===
+this.way?"bm-beyond":same?"bm-same":"bm-other";const whole=placesOf(this.data,linkage,way,{low:0,high:way.x.length-1});const d2=polyline(whole.map(({x,y})=>[x,y]),
+view);group.append(s("path",{class:`bm-curve ${kind}`,d:d2}))});for(const[side,dyad]of linkage.led.entries()){if(!dyad.moving_pivot||dyad.kind==="PR")continue;const d2=polyline(
+places.map(place=>act(place,dyad.moving_pivot)),view);group.append(s("path",{class:`bm-pivot-path bm-side${side}`,d:d2}))}const d=polyline(places.map(({x,y})=>[
+x,y]),view);group.append(s("path",{class:"bm-curve bm-here",d}));return group}ground(labels){const group=s("g",{class:"bm-grounds"});this.linkage.led.forEach((dyad,side)=>{
+if(dyad.kind==="PR")this.rail(group,labels,dyad,side);else if(dyad.fixed_pivot)this.fixedPivot(group,labels,dyad,side)});return group}rail(group,labels,dyad,side){
+if(!this.places.length)return;const{x,y,drawn,turned,paths}=railOf(dyad,this.places,this.view),[nx,ny]=normalOf(dyad);group.append(s("g",{class:`bm-rail bm-side${side}`,
+"data-dyad":dyad.id,transform:transform(x,y,turned)},s("path",{class:"bm-ground",d:paths[0]}),s("path",{class:"bm-ground bm-thin",d:paths[1]})));for(let k=-drawn;k<=
+drawn;k+=14)labels.block(x-k*ny,y-k*nx,22,22);this.names.append(labels.put(x,y,dyad.id,26,{class:`bm-name bm-side${side}`}))}fixedPivot(group,labels,dyad,side){
+const x=this.view.X(dyad.fixed_pivot[0]),y=this.view.Y(dyad.fixed_pivot[1]);labels.block(x,y+10,32,34);if(!side)labels.block(x,y,40,40);const at=foot();at.setAttribute(
+"transform",`translate(${px(x)} ${px(y)})`);group.append(at);this.names.append(labels.put(x,y+4,dyad.id,27,{class:`bm-name bm-side${side}`}))}farPivots(labels){
+const{data,view}=this,isFar=farFrom(data),digits=decimalsOf(data);this.linkage.led.forEach((dyad,side)=>{const at=standing2(dyad,this.places);if(!at||!isFar(at))
+return;const[x,y]=[view.X(at[0]),view.Y(at[1])];const cx=view.width/2,cy=view.height/2,size2=Math.hypot(x-cx,y-cy);const u=(x-cx)/size2,v=(y-cy)/size2;const reach=Math.
+min((cx-12)/Math.abs(u),(cy-12)/Math.abs(v));const ex=cx+reach*u,ey=cy+reach*v;const text=`${dyad.id}: ${dyad.fixed_pivot?"fixed pivot":"rail"} at (${at.map(each=>fixed(
+each,digits)).join(", ")})`;labels.block(ex,ey,20,20);this.names.append(s("path",{class:`bm-far-mark bm-side${side}`,d:"M-9 -6L3 0L-9 6",transform:transform(ex,
+ey,Math.atan2(-v,u))}),labels.put(ex,ey,text,14,{class:`bm-name bm-far-name bm-side${side}`}))})}poses(linkage,factor,labels){const{data,view}=this,group=s("g",
+{class:"bm-poses"});const small=data.poses.length>24?.6:1;const arrows=this.errors(linkage,factor,labels);const names=s("g",{class:"bm-pose-names"});data.poses.
+forEach((pose,k)=>{const x=view.X(pose.x),y=view.Y(pose.y);group.append(s("g",{class:"bm-wanted",transform:transform(x,y,radians(pose.angle_deg)),"data-pose":k+
+1},s("path",{d:axes(AXIS*small)}),s("circle",{r:4.5*small})));if(data.poses.length<=60)names.append(labels.put(x,y,pose.label,13,{}));const row=linkage?.pose_errors[k];
+if(!row||row.x===null)return;const elsewhere=row.way===this.way?"":" bm-elsewhere";group.append(s("g",{class:`bm-achieved${elsewhere}`,transform:transform(view.
+X(row.x),view.Y(row.y),radians(row.angle_deg))},s("path",{d:axes(.72*AXIS*small)}),s("circle",{r:2.2*small})))});group.append(arrows,names);return group}errors(linkage,factor,labels){
+const{data,view}=this,arrows=s("g",{class:"bm-errors"});if(!linkage||!factor)return arrows;linkage.pose_errors.forEach((row,k)=>{if(row.x===null)return;const pose=data.
+poses[k],x=view.X(pose.x),y=view.Y(pose.y);const dx=factor*view.scale*(row.x-pose.x),dy=-factor*view.scale*(row.y-pose.y);const size2=Math.hypot(dx,dy);if(size2<
+1.5)return;const head=Math.min(7,.5*size2),ux=dx/size2,uy=dy/size2;const tip=`${px(x+dx)} ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(
+y+dy-head*(uy+sign*.5*ux))}`;arrows.append(s("path",{d:`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}`}));for(let share=0;share<=1;share+=.2)labels.block(
+x+share*dx,y+share*dy,8,8)});return arrows}show(place){this.moving?.show(place)}};var hundredths=value=>Math.round(Math.min(Math.max(value,-1e6),1e6)*100)/100;function smoothPath(X,Y,closed2){const last=X.length-1;if(last<1)return"";const ahead=(values,k)=>k<
+last?values[k+1]:closed2?values[1]:2*values[last]-values[last-1];const behind=(values,k)=>k>0?values[k-1]:closed2?values[last-1]:2*values[0]-values[1];let d=`M${hundredths(
+X[0])} ${hundredths(Y[0])}`;let[u,v]=[(ahead(X,0)-behind(X,0))/6,(ahead(Y,0)-behind(Y,0))/6];for(let k=0;k<last;k+=1){const p=(ahead(X,k+1)-X[k])/6,q=(ahead(Y,k+
+1)-Y[k])/6;d+=`C${hundredths(X[k]+u)} ${hundredths(Y[k]+v)} ${hundredths(X[k+1]-p)} ${hundredths(Y[k+1]-q)} ${hundredths(X[k+1])} ${hundredths(Y[k+1])}`;[u,v]=[
+p,q]}return d}var MOST_ACHIEVED=240;var BELOW=38;var LEAST_ARROW=1.5;var LiveLinkage=class{constructor(answers,playing,scene){Object.assign(this,{answers,playing,scene,factor:0});
+this.beyond=s("path",{class:"bm-curve bm-beyond"});this.others=s("path",{class:"bm-curve bm-other"});this.here=s("path",{class:"bm-curve bm-here"});this.pivotPaths=
+[0,1].map(side=>s("path",{class:`bm-pivot-path bm-side${side}`}));this.paths=s("g",{class:"bs-paths","aria-hidden":"true"},this.others,this.beyond,...this.pivotPaths,
+this.here);this.feet=[0,1].map(side=>{const at=foot();at.classList.add(`bm-side${side}`);return at});this.rails=[0,1].map(side=>s("g",{class:`bm-rail bm-side${side}`},
+s("path",{class:"bm-ground"}),s("path",{class:"bm-ground bm-thin"})));this.achieved=s("g",{class:"bs-achieved"});this.arrows=s("path",{});this.names=[0,1].map(side=>s(
+"text",{class:`bm-name bm-side${side}`,"text-anchor":"middle"}));this.mechanism=null;this.holder=s("g",{class:"bs-mechanism"},...this.rails,...this.feet,this.achieved,
+s("g",{class:"bm-errors"},this.arrows));this.labels=s("g",{class:"bs-dyad-names"},this.names);scene.layer("paths").append(this.paths);scene.layer("mechanism").append(
+this.holder);scene.layer("labels").append(this.labels);scene.hold?.(()=>this.points());playing.on("shape",()=>this.shape());playing.on("place",({place})=>this.mechanism?.
+show(place));scene.on("view",()=>this.redraw());this.redraw()}points(){const{linkage}=this.playing,{data}=this.answers;if(!linkage)return[];const[pose]=data.poses,
+near2=([x,y])=>pose&&Math.hypot(x-pose.x,y-pose.y)<3*data.scene;const pins=linkage.led.flatMap(dyad=>dyad.fixed_pivot?[dyad.fixed_pivot]:[]);const moving=linkage.
+pose_errors.filter(row=>row.x!==null).flatMap(row=>linkage.led.filter(dyad=>dyad.moving_pivot).map(dyad=>act({x:row.x,y:row.y,a:radians(row.angle_deg)},dyad.moving_pivot)));
+return[...pins,...moving].filter(near2)}enlarge(){const{linkage}=this.playing,{data}=this.answers;const seen2=linkage?.pose_errors.length&&!(linkage.followed&&linkage.
+worst<UNSEEN*data.scene);const fits=seen2?factorFor(data,linkage):0;this.factor=this.answers.isOld&&this.factor&&fits?Math.min(this.factor,fits):fits}redraw(){this.
+shape();if(this.playing.here&&this.playing.path)this.mechanism?.show(this.playing.here.place)}shape(){const{playing,answers,scene}=this,{linkage,path:path2}=playing,
+{view}=scene;const there=Boolean(linkage)&&!linkage.gone;for(const part of[this.paths,this.holder,this.labels])put(part,"visibility",there?"visible":"hidden");if(!there)
+return;const places=path2?framesOf(path2):[];this.enlarge();this.curves(linkage,path2,places,view);this.ground(linkage,places,view);this.atPoses(linkage,view);if(!path2){
+this.mechanism?.group.remove();this.mechanism=null;return}if(!this.mechanism?.fits(linkage)){this.mechanism?.group.remove();this.mechanism=new Mechanism(linkage);
+this.holder.append(this.mechanism.group)}this.mechanism.shape(answers.data,linkage,view,places)}curves(linkage,path2,places,view){const set=(element,list2,closed2)=>put(
+element,"d",smoothPath(list2.map(([x])=>view.X(x)),list2.map(([,y])=>view.Y(y)),closed2));const others=linkage.ways.filter(way=>way!==path2);put(this.others,"d",
+others.map(way=>pathOf2(way,view)).join(""));put(this.beyond,"d",path2?pathOf2(path2,view):"");this.pivotPaths.forEach((element,side)=>{const dyad=linkage.led[side];
+if(!path2||!dyad.moving_pivot||dyad.kind==="PR")put(element,"d","");else set(element,places.map(place=>act(place,dyad.moving_pivot)),path2.round)});if(!path2){put(
+this.here,"d","");return}const{low,high}=this.playing.player.stretch,{length}=this.answers.data.chart,list=[];const end=u=>(place=>[place.x,place.y])(placeAt(linkage,
+path2,u,length));list.push(end(low));for(let k=Math.floor(low)+1;k<high;k+=1)list.push([path2.x[k],path2.y[k]]);list.push(end(high));set(this.here,list,path2.round&&
+high-low>path2.x.length-1-1e-6)}ground(linkage,places,view){linkage.led.forEach((dyad,side)=>{const[rail,at,name]=[this.rails[side],this.feet[side],this.names[side]];
+const slides=dyad.kind==="PR"&&places.length>0;put(rail,"display",slides?"inline":"none");put(at,"display",dyad.fixed_pivot?"inline":"none");put(name,"display",
+slides||dyad.fixed_pivot?"inline":"none");if(name.textContent!==dyad.id)name.textContent=dyad.id;let x,y;if(slides){const drawn=railOf(dyad,places,view);({x,y}=
+drawn);put(rail,"transform",transform(x,y,drawn.turned));drawn.paths.forEach((d,k)=>put(rail.children[k],"d",d));rail.dataset.dyad=dyad.id}else if(dyad.fixed_pivot){
+[x,y]=[view.X(dyad.fixed_pivot[0]),view.Y(dyad.fixed_pivot[1])];put(at,"transform",`translate(${px(x)} ${px(y)})`)}else{return}put(name,"x",px(x));put(name,"y",
+px(y+BELOW))})}atPoses(linkage,view){const{achieved,answers:{data}}=this,rows=linkage.pose_errors;const count=Math.min(rows.length,MOST_ACHIEVED),small=count>24?
+.6:1;while(achieved.children.length>count)achieved.lastChild.remove();while(achieved.children.length<count)achieved.append(s("g",{class:"bm-achieved"},s("path",
+{}),s("circle",{})));let arrows="";for(let k=0;k<count;k+=1){const row=rows[k],group=achieved.children[k];if(group.dataset.size!==String(small)){group.dataset.size=
+small;put(group.children[0],"d",axes(.72*AXIS*small));put(group.children[1],"r",2.2*small)}if(row.x===null){put(group,"display","none");continue}put(group,"disp\
+lay","inline");put(group,"transform",transform(view.X(row.x),view.Y(row.y),radians(row.angle_deg)));group.classList.toggle("bm-elsewhere",row.at!==this.playing.
+path);if(this.factor&&data.poses[k])arrows+=arrow(view,data.poses[k],row,this.factor)}put(this.arrows,"d",arrows)}};var framesOf=way=>Array.from(way.x,(x,k)=>({
+x,y:way.y[k],a:way.angle[k]}));var pathOf2=(way,view)=>smoothPath(Array.from(way.x,view.X),Array.from(way.y,view.Y),way.round);function arrow(view,pose,row,factor){
+const x=view.X(pose.x),y=view.Y(pose.y),by=factor*view.scale;const dx=by*(row.x-pose.x),dy=-by*(row.y-pose.y),size2=Math.hypot(dx,dy);if(!(size2>=LEAST_ARROW))return"";
+const head=Math.min(7,.5*size2),ux=dx/size2,uy=dy/size2,tip=`${px(x+dx)} ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(y+dy-head*(uy+sign*
+.5*ux))}`;return`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}`}var FARTHEST=30;var JUMP=2;function centrodesOf(linkage,way,scene,near2){let before=null;const points=framesOf(way).map(place=>{const point2=centrodePoint(linkage.
+led,place);const far=!point2||Math.hypot(point2.fixed[0]-near2[0],point2.fixed[1]-near2[1])>FARTHEST*scene;const cut=far||before&&Math.hypot(point2.fixed[0]-before[0],
+point2.fixed[1]-before[1])>JUMP*scene;before=far?null:point2.fixed;return{point:far?null:point2,cut}});const pieces2=key=>points.flatMap(({point:point2,cut})=>cut?
+[null,point2&&point2[key]]:[point2[key]]);return{fixed:pieces2("fixed"),moving:pieces2("moving")}}var path=(points,X,Y)=>{let d="",pen="M";for(const point2 of points){
+if(point2)d+=`${pen}${px(X(point2[0]))} ${px(Y(point2[1]))}`;pen=point2?"L":"M"}return d};var Centrodes=class{constructor(answers,playing,scene){Object.assign(this,
+{answers,playing,scene});this.fixed=s("path",{class:"bs-centrode bs-fixed-centrode"});this.moving=s("path",{class:"bs-centrode bs-moving-centrode"});this.mark=s(
+"g",{class:"bs-instant-centre"},s("circle",{r:5}),s("path",{d:"M-9 0H9M0 -9V9"}));this.rays=s("path",{class:"bs-rays"});this.group=s("g",{class:"bs-centrodes",visibility:"\
+hidden","aria-hidden":"true"},this.fixed,this.moving,this.rays,this.mark);scene.layer("curves").append(this.group);this.box=h("input",{type:"checkbox","data-too\
+l":"centrodes",onchange:()=>this.shape()});this.readout=h("output",{class:"bs-quiet"});this.element=h("div",{class:"bs-tool"},h("label",{},this.box," Instant ce\
+ntre and centrodes")," ",this.readout);playing.on("shape",()=>this.shape());playing.on("place",({place})=>this.show(place));scene.on("view",()=>this.shape())}get on(){
+return this.box.checked&&Boolean(this.playing.path)&&!this.playing.linkage.gone}shape(){put(this.group,"visibility",this.on?"visible":"hidden");if(!this.on){this.
+readout.textContent="";return}const{data}=this.answers,{linkage,path:way}=this.playing,{view}=this.scene;const[pose]=data.poses,both=centrodesOf(linkage,way,data.
+scene,pose?[pose.x,pose.y]:[0,0]);put(this.fixed,"d",path(both.fixed,view.X,view.Y));put(this.moving,"d",path(both.moving,x=>view.scale*x,y=>-view.scale*y));if(this.
+playing.here)this.show(this.playing.here.place)}show(place){if(!this.on)return;const{view}=this.scene,{led}=this.playing.linkage,centre=instantCentre(led,place);
+put(this.moving,"transform",transform(view.X(place.x),view.Y(place.y),place.a));const there=centre&&Math.hypot(centre[0]-place.x,centre[1]-place.y)<FARTHEST*this.
+answers.data.scene;put(this.mark,"visibility",there?"inherit":"hidden");put(this.rays,"visibility",there?"inherit":"hidden");const digits=decimalsOf(this.answers.
+data),unit2=this.answers.data.unit?` ${this.answers.data.unit}`:"";this.readout.textContent=centre?`at (${centre.map(value=>fixed(value,digits)).join(", ")})${unit2}`:
+"at infinity: the body only shifts";if(!there)return;const[x,y]=[view.X(centre[0]),view.Y(centre[1])];put(this.mark,"transform",`translate(${px(x)} ${px(y)})`);
+const ends=led.filter(dyad=>dyad.fixed_pivot).map(dyad=>`M${px(view.X(dyad.fixed_pivot[0]))} ${px(view.Y(dyad.fixed_pivot[1]))}L${px(x)} ${px(y)}`);put(this.rays,
+"d",ends.join(""))}};var LEFT=62;var RIGHT=14;var TOP=22;var BOTTOM=44;var PANEL=84;var GAP=28;var USUAL_LIMIT=40;var MANY_POSES=40;var HEADROOM=1.32;var INSET=8;var LONGEST_NAME5=16;
+var NAME_WIDTH=11;var Plots=class{constructor(data,parent,scrub){this.data=data;this.parent=parent;this.svg=s("svg",{class:"bm-plots",role:"img","aria-label":"E\
+rrors and transmission angle"});parent.append(this.svg);const go=event=>{if(!this.way)return;const box=this.svg.getBoundingClientRect();const at=(event.clientX-
+box.left-LEFT-INSET)/(this.width-LEFT-RIGHT-2*INSET);scrub(frameAt(this.way.drive,this.low+clamp(at,0,1)*(this.high-this.low)))};this.svg.addEventListener("poin\
+terdown",event=>{this.svg.setPointerCapture(event.pointerId);go(event)});this.svg.addEventListener("pointermove",event=>event.buttons&1&&go(event))}build(linkage,index,stretch){
+const{data,svg}=this,way=linkage.ways[index];this.way=way;svg.replaceChildren();this.cursor=null;if(!way)return;svg.setAttribute("aria-label",`${linkage.id}: er\
+rors at its poses, and its transmission angle along the driver`);const width=this.width=Math.max(260,this.parent.clientWidth);const poses=linkage.pose_errors.map(
+(row,k)=>({...row,pose:data.poses[k]})).filter(row=>row.way===index&&row.pose);const upright=poses.some(({pose})=>pose.label!==pose.name);const longest=Math.max(
+0,...poses.map(({pose})=>shortened(poseName2(pose),LONGEST_NAME5).length));this.top=TOP+(upright?6.2*longest+6:0);const height=this.top+3*PANEL+2*GAP+BOTTOM;svg.
+setAttribute("viewBox",`0 0 ${width} ${height}`);svg.setAttribute("height",height);const[driver]=linkage.led,slides=driver.kind==="PR";this.stretch=stretch;this.
+low=linear(way.drive,stretch.low);this.high=linear(way.drive,stretch.high);this.X=drive=>LEFT+INSET+(drive-this.low)/(this.high-this.low)*(width-LEFT-RIGHT-2*INSET);
+this.across=slides?ticks(this.low,this.high,width/90):angleTicks(this.low,this.high,Math.max(3,width/70));const rows=poses.map(row=>({...row,drive:linear(way.drive,
+row.frame)}));const unit2=data.unit??"unit of the poses";this.errors(0,`position error (${unit2})`,rows,row=>row.position,1e-11*data.scene);this.errors(1,"angle\
+ error (°)",rows,row=>row.turned_deg,1e-9);const base=this.transmission(2,rows);if(upright)this.uprightNames(rows);const title=slides?`place of ${driver.id} on\
+ its line (${unit2})`:`driver angle (${driver.id})`;svg.append(s("text",{class:"bm-title",x:(LEFT+width-RIGHT)/2,y:height-6,"text-anchor":"middle"},title));this.
+cursor=s("g",{class:"bm-cursor"},s("path",{d:`M0 ${this.top}V${base}`}));this.mark=s("circle",{r:4.5});this.cursor.append(this.mark);svg.append(this.cursor)}errors(k,title,rows,value,rounding){
+const{svg,X}=this,y0=this.top+k*(PANEL+GAP),base=y0+PANEL;const greatest=Math.max(1e-300,...rows.map(row=>value(row)??0));const visible=greatest>rounding;const high=visible?
+HEADROOM*greatest:1;const Y=v=>base-v/high*PANEL;this.panel(title,y0,base);if(!visible){svg.append(s("text",{class:"bm-note",x:LEFT+8,y:y0+PANEL/2},rows.length?
+"exact, up to rounding":"no pose is on this assembly"))}else{for(const{at}of ticks(0,high,3).slice(1))this.rule(Y(at),figure(at));svg.append(s("text",{class:"bm\
+-tick",x:LEFT-6,y:base+4,"text-anchor":"end"},"0"))}const greatestThree=new Set([...rows].sort((a,b)=>value(b)-value(a)).slice(0,3));let last=-99;for(const row of[
+...rows].sort((a,b)=>a.drive-b.drive)){const x=px(X(row.drive)),y=px(visible?Y(value(row)):base);svg.append(s("path",{class:"bm-stem",d:`M${x} ${base}V${y}`}),s(
+"circle",{class:"bm-dot",cx:x,cy:y,r:3.5},s("title",{},`pose ${poseName2(row.pose)}: ${figure(value(row))}`)));const{label}=row.pose;if(x-last>6+6.5*label.length&&
+(rows.length<=MANY_POSES||greatestThree.has(row))){svg.append(s("text",{class:"bm-dot-name",x,y:y-7,"text-anchor":"middle"},label));last=x}}}transmission(k,rows){
+const{svg,way,width,X}=this,y0=this.top+k*(PANEL+GAP),base=y0+PANEL;const Y=this.Y=v=>base-v/90*PANEL;this.panel("transmission angle (°)",y0,base,true);for(const at of[
+0,30,60,90])this.rule(Y(at),at);const asked=this.data.asked_transmission_deg,limit=asked??USUAL_LIMIT;svg.append(s("path",{class:"bm-usual",d:`M${LEFT} ${px(Y(limit))}\
+H${width-RIGHT}`}));const below=limit>15&&(linear(way.transmission,this.stretch.high)??90)>limit;const limitName2=s("text",{class:"bm-tick bm-halo",x:width-RIGHT-
+4,y:px(Y(limit))+(below?12:-4),"text-anchor":"end"},`${figure(limit)}°, ${asked?"asked":"a usual limit"}`);const{low,high}=this.stretch,frames=[low];for(let i=Math.
+floor(low)+1;i<high;i+=1)frames.push(i);frames.push(high);let line2="",pen="M";for(const u of frames){const angle=linear(way.transmission,u);if(angle===null)continue;
+line2+=`${pen}${px(X(linear(way.drive,u)))} ${px(Y(angle))}`;pen="L"}svg.append(s("path",{class:"bm-line",d:line2}));for(const row of rows){if(row.transmission_deg===
+null)continue;svg.append(s("circle",{class:"bm-dot",cx:px(X(row.drive)),cy:px(Y(row.transmission_deg)),r:3}))}svg.append(limitName2);return base}uprightNames(rows){
+let last=-99;for(const row of[...rows].sort((a,b)=>a.drive-b.drive)){const x=this.X(row.drive),y=this.top-20;if(x-last<NAME_WIDTH)continue;last=x;const text=s("\
+text",{class:"bm-dot-name bm-upright",transform:`translate(${px(x+4)} ${px(y)}) rotate(-90)`});text.append(shortened(poseName2(row.pose),LONGEST_NAME5));this.svg.
+append(s("g",{},s("title",{},poseName2(row.pose)),text))}}panel(title,y0,base,labelled3=false){const{svg,width}=this;svg.append(s("rect",{class:"bm-panel",x:LEFT,
+y:y0,width:width-LEFT-RIGHT,height:base-y0}),s("text",{class:"bm-title",x:LEFT,y:y0-7},title));let last=-99;for(const{at,text}of this.across){const x=px(this.X(
+at));svg.append(s("path",{class:"bm-rule",d:`M${x} ${y0}V${base}`}));if(labelled3&&x-last>34){svg.append(s("text",{class:"bm-tick",x,y:base+15,"text-anchor":"mi\
+ddle"},text));last=x}}}rule(y,text){this.svg.append(s("path",{class:"bm-rule",d:`M${LEFT} ${px(y)}H${this.width-RIGHT}`}),s("text",{class:"bm-tick",x:LEFT-6,y:px(
+y)+4,"text-anchor":"end"},text))}show(drive,transmission){if(!this.cursor)return;this.cursor.setAttribute("transform",`translate(${px(this.X(drive))} 0)`);if(transmission!==
+null)this.mark.setAttribute("cy",px(this.Y(transmission)))}};var Charts=class{constructor(answers,playing){this.playing=playing;const fill=h("div",{class:"bm-fill"});this.plots=new Plots(answers.data,fill,u=>playing.player.
+go(u));this.element=fill;this.pace=new Pace(()=>this.build(),()=>isSeen(fill));playing.on("shape",()=>this.pace.ask());playing.on("place",({drive,transmission})=>{
+if(this.isFresh&&isSeen(fill))this.plots.show(drive,transmission)});answers.on("poses",()=>this.isFresh=false);new ResizeObserver(()=>this.pace.ask()).observe(fill);
+watch(fill,()=>this.pace.ask())}build(){const{playing,plots}=this,{linkage,path:path2,player}=playing;if(!linkage||!path2||linkage.gone||linkage.pose_errors.length!==
+plots.data.poses.length){plots.svg.replaceChildren();plots.way=plots.cursor=null;return}plots.build(linkage,player.way,player.stretch);this.isFresh=true;if(playing.
+here)plots.show(playing.here.drive,playing.here.transmission)}};var stopsOf=(linkage,index)=>linkage.pose_errors.map((row,k)=>({k,way:row.way,frame:row.frame})).filter(stop=>stop.way===index).sort((a,b)=>a.frame-b.frame);function stageOf(linkage,index,u){
+const stops=stopsOf(linkage,index);if(!stops.length)return null;if(stops.length===1)return{from:stops[0].k,to:stops[0].k,share:0};let at=0;while(at+2<stops.length&&
+stops[at+1].frame<=u)at+=1;const[a,b]=[stops[at],stops[at+1]],step=b.frame-a.frame;const share=step>0?(u-a.frame)/step:0;return{from:a.k,to:b.k,share:Math.min(Math.
+max(share,-1),2)}}function frameAtStage(linkage,stage){if(!stage)return null;const[a,b]=[stage.from,stage.to].map(k=>linkage.pose_errors[k]);const there=row=>Boolean(
+row)&&row.way!==null;if(!there(a)||!there(b)||a.way!==b.way){const[near2,other]=stage.share<.5?[a,b]:[b,a];const row=there(near2)?near2:there(other)?other:null;
+return row&&{way:row.way,u:row.frame}}const way=linkage.ways[a.way],last=way.x.length-1;let step=b.frame-a.frame;if(way.round&&Math.abs(step)>last/2)step-=Math.
+sign(step)*last;const u=a.frame+stage.share*step;return{way:a.way,u:way.round?(u%last+last)%last:Math.min(Math.max(u,0),last)}}function comparison(one,other,data){const unit2=data.unit?` ${data.unit}`:"",both=[one,other];const least2=values=>values.every(Number.isFinite)&&values[0]!==values[1]?
+values[0]<values[1]?0:1:null;const row=(name,text,value,sign=1)=>({name,texts:both.map(text),better:value?least2(both.map(each=>sign*(value(each)??NaN))):null});
+const links=["ground","driver","coupler","follower"];return[row("verdict",each=>each.gone?"gone":each.usable?"usable":"not usable",each=>each.usable?0:1),row("t\
+ype",each=>each.type),row("worst miss",each=>worstOf(each,data),each=>each.worst),row("least transmission angle",each=>leastOf(each),each=>each.least,-1),row("s\
+ize",each=>each.quality?`${figure(each.quality.extent)} spans`:"–",each=>each.quality?.extent),row("sensitivity",each=>each.quality?figure(each.quality.sensitivity):
+"–",each=>each.quality?.sensitivity),row("driver",each=>each.led[0].id),...links.map(name=>row(`${name} link`,each=>each.said.links?.[name]?`${each.said.links[name]}${unit2}`:
+"–")),row("reason",each=>each.usable?"–":(each.followed?each.reason:each.said.reasons.join("; "))||"–")]}var Compare=class{constructor(store,answers,playing){
+Object.assign(this,{store,answers,playing});this.pictures=[0,1].map(()=>h("div",{class:"bm-drawing"}));this.planes=this.pictures.map(parent=>new Plane(answers.data,
+parent));this.names=[0,1].map(()=>h("h3",{}));this.places=[0,1].map(()=>h("p",{class:"bs-quiet"}));this.table=h("div",{class:"bm-scroll",tabindex:0,role:"region",
+"aria-label":"Both linkages in numbers"});this.button=h("button",{type:"button",class:"bm-button",onclick:()=>playing.player.play(!playing.player.playing)},"Pla\
+y both");this.close=h("button",{type:"button",class:"bs-small",onclick:()=>store.compared&&store.compare(store.compared)},"End the comparison");this.pairs=h("di\
+v",{class:"bs-beside"},[0,1].map(k=>h("div",{},this.names[k],this.pictures[k],this.places[k])));this.empty=h("p",{class:"bm-story"},"Press “Compare” on a card: \
+that linkage moves beside the chosen one.");this.full=h("div",{hidden:true},this.pairs,h("div",{class:"bs-tool"},this.button," ",this.close),this.table);this.element=
+h("div",{class:"bs-compare"},this.empty,this.full);this.pace=new Pace(()=>this.build(),()=>this.on&&isSeen(this.element));answers.on("answers shown",()=>this.start());
+playing.on("shape",()=>this.pace.ask());playing.on("place",here=>this.show(here));new ResizeObserver(()=>this.pace.ask()).observe(this.element);watch(this.element,
+()=>this.pace.ask())}get other(){return this.answers.get(this.store.compared)}get on(){return Boolean(this.other&&this.playing.linkage&&this.other!==this.answers.
+shown)}start(){give(this.full,"hidden",!this.on);give(this.empty,"hidden",this.on);if(this.on){for(let part=this.element.parentElement;part;part=part.parentElement)
+if(part.tagName==="DETAILS")part.open=true;this.build()}}build(){if(!this.on)return;const{answers,playing,other}=this,mine=playing.linkage;const options={factor:0,
+fill:0,far:false};this.names.forEach((name,k)=>name.textContent=[mine,other][k].id==="placed"?"By hand":`${[mine,other][k].id}: ${[mine,other][k].type}`);this.planes[0].
+build(mine,playing.player.way,playing.player.stretch,options);this.way=null;this.buildTable(comparison(mine,other,answers.data));if(playing.here)this.show(playing.
+here)}buildTable(rows){const old=this.answers.isOld?"bs-old":null;this.table.replaceChildren(h("table",{class:"bs-compared"},h("caption",{},"Both linkages in nu\
+mbers; the better one of each row is bold"),h("thead",{},h("tr",{},h("th",{scope:"col"},""),this.names.map(name=>h("th",{scope:"col"},name.textContent)))),h("tb\
+ody",{},rows.map(({name,texts,better})=>h("tr",{class:/size|sensitivity|link/.test(name)?old:null},h("th",{scope:"row"},name),texts.map((text,k)=>h("td",{class:"\
+bm-words"},better===k?h("b",{},text):text)))))))}show({place,transmission}){if(!this.on||!isSeen(this.element))return;const{playing,other,answers:{data}}=this,{
+player}=playing;this.planes[0].show(place);this.tell(0,transmission);const at=frameAtStage(other,stageOf(playing.linkage,player.way,player.u));this.pictures[1].
+classList.toggle("bs-old",!at);if(!at){this.planes[1].build(other,0,{low:0,high:(other.ways[0]?.x.length??2)-1},{factor:0,fill:0,far:false});this.places[1].textContent=
+"It does not reach this pose.";return}if(this.way!==at.way){this.way=at.way;const stops=other.pose_errors.filter(row=>row.way===at.way).map(row=>row.frame);const[
+low,high]=[Math.min(...stops),Math.max(...stops)];this.planes[1].build(other,at.way,high>low?{low,high}:{low:0,high:other.ways[at.way].x.length-1},{factor:0,fill:0,
+far:false})}const way=other.ways[at.way];this.planes[1].show(placeAt(other,way,at.u,data.chart.length));this.tell(1,way.transmission[Math.round(at.u)])}tell(k,transmission){
+const text=`transmission angle ${transmission===null||!Number.isFinite(transmission)?"–":`${fixed(transmission,1)}°`}`;if(this.places[k].textContent!==text)this.
+places[k].textContent=text}};var MOST2=8;var ARROWS3={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowUp:[0,1],ArrowDown:[0,-1]};var curveOf=(way,point2)=>framesOf(way).map(place=>act(place,point2));
+var CouplerCurves=class{constructor(answers,playing,scene){Object.assign(this,{answers,playing,scene,points:[]});this.group=s("g",{class:"bs-coupler-curves"});this.
+handles=s("g",{class:"bs-coupler-points"});scene.layer("paths").append(this.group);scene.layer("pivots").append(this.handles);this.button=h("button",{type:"butt\
+on",class:"bs-small","aria-pressed":"false","data-tool":"coupler-point",onclick:()=>this.pick()},"Pick a point on the body");this.list=h("ul",{class:"bs-points"});
+this.readout=h("output",{class:"bs-quiet"});this.element=h("div",{class:"bs-tool"},this.button," ",this.readout,this.list);this.tool={name:"coupler-point",hint:"\
+Click on the body: the curve of that point is drawn. Escape ends.",click:({x,y})=>this.add([x,y]),key:event=>{if(event.key!=="Escape")return false;scene.use?.(null);
+return true},end:()=>put(this.button,"aria-pressed","false")};playing.on("shape",()=>this.shape());playing.on("place",({place})=>this.show(place));scene.on("vie\
+w",()=>this.shape());this.tell()}pick(){const on=this.scene.tool!==this.tool;this.scene.use?.(on?this.tool:null);put(this.button,"aria-pressed",String(on))}add(at,inBody2=false){
+const place=this.playing.here?.place;if(!place&&!inBody2||this.points.length>=MOST2)return;const point2={at:inBody2?at:this.rounded(back(place,at)),path:s("path",
+{class:"bm-curve bs-coupler-curve"})};point2.handle=s("g",{class:"bs-coupler-point",tabindex:0,role:"button","data-point":this.points.length+1},s("circle",{class:"\
+bs-hold",r:13}),s("circle",{class:"bs-coupler-dot",r:4.5}));this.drag(point2);this.points.push(point2);this.group.append(point2.path);this.handles.append(point2.
+handle);this.number();this.shape()}remove(point2){this.points=this.points.filter(each=>each!==point2);point2.path.remove();point2.handle.remove();this.number();
+this.shape()}number(){this.points.forEach((point2,k)=>point2.handle.dataset.point=k+1)}rounded(point2){return point2.map(value=>Number(value.toFixed(clamp(decimalsOf(
+this.answers.data),0,12))))}drag(point2){let before;this.scene.drag?.(point2.handle,{start:()=>{before=point2.at;this.playing.player.play(false)},move:({x,y})=>this.
+put(point2,back(this.playing.here.place,[x,y])),cancel:()=>this.put(point2,before)});point2.handle.addEventListener("keydown",event=>{const arrow2=ARROWS3[event.
+key];if(event.ctrlKey||event.metaKey)return;if(arrow2){const step=(this.scene.step??this.answers.data.scene/100)*(event.shiftKey?10:event.altKey?.1:1);this.put(
+point2,point2.at.map((value,k)=>value+step*arrow2[k]))}else if(event.key==="Delete"||event.key==="Backspace"){this.remove(point2)}else{return}event.preventDefault()})}put(point2,at){
+point2.at=this.rounded(at);this.shape()}shape(){const{path:path2,linkage}=this.playing,{view}=this.scene,there=path2&&!linkage.gone;for(const point2 of this.points){
+const list=there?curveOf(path2,point2.at):[];put(point2.path,"d",smoothPath(list.map(([x])=>view.X(x)),list.map(([,y])=>view.Y(y)),path2?.round));put(point2.handle,
+"visibility",there?"visible":"hidden")}if(there&&this.playing.here)this.show(this.playing.here.place);this.tell()}show(place){const{view}=this.scene;for(const point2 of this.
+points){const[x,y]=act(place,point2.at);put(point2.handle,"transform",transform(view.X(x),view.Y(y),0))}}tell(){const digits=decimalsOf(this.answers.data),key=`${this.
+points.map(({at})=>at.join()).join(" ")} ${digits}`;if(key===this.told)return;this.told=key;this.readout.textContent=this.points.length?"":"Its curve is drawn, \
+and goes along with every change.";this.list.replaceChildren(...this.points.map((point2,k)=>{const name=`Point ${k+1} at (${point2.at.map(value=>fixed(value,digits)).
+join(", ")}) of the body`;put(point2.handle,"aria-label",`${name}. Drag it, or use the arrow keys; Delete removes it.`);return h("li",{},name," ",h("button",{type:"\
+button",class:"bs-small","aria-label":`Remove point ${k+1}`,onclick:()=>this.remove(point2)},"Remove"))}))}};function storyOf(linkage){const{said}=linkage;const met=`${linkage.usable?"Usable":"Not usable"}: it ${said.met}`;if(!linkage.ways.length)return`${met}. It cann\
+ot be shown moving: ${said.reasons.join("; ")||"its motion is not known"}.`;if(linkage.type==="change-point"){return`${met}, driven by ${linkage.led[0].id}. At \
+a change point, where all links lie in one line, it may go on either way.`}return linkage.usable?`${met}, driven by ${linkage.led[0].id}.`:`Not usable: it ${said.
+in_short}.`}function wayStory(way,poses){const names=poses.map(pose=>pose.label);const all=way.poses.length===names.length;const here=all?"all poses":way.poses.
+length?`pose${way.poses.length>1?"s":""} ${runs(way.poses,names)}`:"no pose";const dead=way.dead.filter(Boolean).length;const ends=way.round?"turns round":dead===
+2?"between two dead points":dead?"up to a dead point":"open";return`${here}; ${ends}`}function factsOf(data,linkage){const{said}=linkage,unit2=data.unit?` ${data.
+unit}`:"";const rows=[["verdict",verdictOf(linkage)],...Object.entries(said.links??{}).map(([name,value])=>[`${name} link`,`${value}${unit2}`]),["worst miss",missOf(
+said.worst,said.angle,unit2)],["rms miss",missOf(said.rms,said.rms_angle,unit2)],["least transmission angle",said.transmission==="-"?"–":said.transmission],...Object.
+entries(said.quality),["driver",`${linkage.led[0].id}${said.turns_fully?", turns fully":""}`],...said.freedom?[["pivots",said.freedom.replace("pivots ","")]]:[]];
+return h("dl",{class:"bm-facts"},rows.map(([name,value])=>h("div",{},h("dt",{},name),h("dd",{},value))))}function spaceStory(linkage){const plain="Every place o\
+f the body is one point of this space; numbered points are the poses.";if(!linkage)return[plain];const surface=side=>h("b",{class:`bm-side${side}`},linkage.led[side].
+id);return[plain," The surfaces are all places that dyad ",surface(0)," (driver) and dyad ",surface(1)," (follower) allow; where they meet, the line, the couple\
+r moves."]}function table2(caption,heads,rows){return h("div",{class:"bm-scroll",tabindex:0,role:"region","aria-label":caption},h("table",{},h("caption",{},caption),h("the\
+ad",{},h("tr",{},heads.map(head=>h("th",{scope:"col"},head)))),h("tbody",{},rows.map(row=>h("tr",{},row.map((text,k)=>k?h("td",{},text):h("th",{scope:"row"},text)))))))}
+var point=(at,digits)=>`(${at.map(value=>fixed(value,digits)).join(", ")})`;function poseFacts(linkage,data,points){const digits=decimalsOf(data);return linkage.
+pose_errors.map((row,k)=>{const name=data.poses[k]?poseName2(data.poses[k]):String(k+1);if(row.x===null)return[name,"–",...points.map(()=>"–")];const place=placeOf(
+row),centre=instantCentre(linkage.led,place);return[name,centre?point(centre,digits):"at infinity",...points.map(each=>point(act(place,each.at),digits))]})}var FactsTable=class{constructor(store,answers,playing,curves){
+Object.assign(this,{store,answers,playing,curves});this.element=h("div",{class:"bs-facts"});this.pace=new Pace(()=>this.build(),()=>isSeen(this.element));playing.
+on("shape",()=>this.pace.ask());answers.on("answers poses placed",()=>this.pace.ask());watch(this.element,()=>this.pace.ask());this.element.append(h("p",{class:"\
+bm-story"},"Nothing is known yet."))}build(){const{answers,playing}=this,{data,isOld}=answers,{linkage}=playing;const parts=[];const part=(title,old,...content)=>parts.
+push(h("section",{class:old?"bs-old":null,"aria-label":title},h("h3",{},title),old?h("p",{class:"bs-quiet"},"As of the last whole answer."):null,content));const fits=linkage&&
+linkage.pose_errors.length===data.poses.length;if(linkage){const name=linkage.id===PLACED?"Pivots put down by hand":`${linkage.id}: ${linkage.type}`;const live=linkage.
+followed||playing.isOther;part(name,false,live?this.followedFacts(linkage):[h("p",{class:"bm-story"},storyOf(linkage)),dimensionTable(data,{...linkage,id:linkage.
+id===PLACED?"the linkage by hand":linkage.id}),factsOf(data,linkage)])}part("Pose by pose",false,poseTable(data,fits?linkage:void 0));if(fits){const points=this.
+curves?.points??[];part("Instant centre and picked points",false,table2("At each pose, in F",["pose","instant centre",...points.map((each,k)=>`point ${k+1}`)],poseFacts(
+linkage,data,points)))}if(this.store.placed)part("Pivots put down by hand",false,this.placedTable());if(data.linkages.length)part("All linkages",isOld,this.linkages());
+if(data.dyads.length)part("Dyads",isOld,dyadTable(data));if(linkage&&!linkage.followed&&linkage.said.manifolds?.[0].length&&!playing.isOther)part("Image space",
+isOld,imageTables(data,linkage));this.element.replaceChildren(...parts)}followedFacts(linkage){const{data}=this.answers;return[table2(`Dimensions of ${linkage.id}${data.
+unit?`, in ${data.unit}`:""}`,["","","value"],dimensionsOf(linkage,data).map(({dyad,what,value})=>[dyad,what,value])),table2("Verdict",["","value"],[["verdict",
+linkage.gone??(linkage.usable?"usable":`not usable: ${linkage.reason??linkage.said.reasons.join("; ")}`)],["worst miss",worstOf(linkage,data)],["least transmiss\
+ion angle",leastOf(linkage)],["driver",linkage.led[0].id]])]}linkages(){const{answers}=this,{data}=answers;if(!answers.linkages.some(each=>each.followed))return linkageTable(
+data);return table2("All linkages, followed",["","verdict","type","worst miss","least transmission"],answers.linkages.map(each=>[each.id,each.gone?"gone":each.usable?
+"usable":"not usable",each.type,worstOf(each,data),leastOf(each)]))}placedTable(){const{placed}=this.store,unit2=this.answers.data.unit?`, in ${this.answers.data.
+unit}`:"";return table2(`Their dyads${unit2}`,["","on the ground (F)","on the body (M)","length","rms miss","worst miss"],placed.dyads.map(dyad=>[dyad.id,dyad.said.
+ground,dyad.said.body,dyad.said.length,dyad.said.rms,dyad.said.worst]))}};var CLASSES=7;var OUTSIDE=2;var FamilyPairs=class{constructor(data){this.data=data;this.map=data.family_map;this.isCurve=this.map.kind==="curve";this.columns=this.isCurve?this.map.fixed.length:
+this.map.columns;this.rows=this.isCurve?this.columns:this.map.rows;this.starts=[];(this.map.loops??[]).reduce((start,size2)=>(this.starts.push(start),start+size2),
+0)}letter(loop){return this.starts.length>1?`${"ABCDEFGH"[loop]} `:""}pair([i,j]){const{cells:cells2}=this.map;if(!this.isCurve)return this.decoded(cells2[j*this.
+columns+i]);if(i===j)return{kind:CLASSES-1,driver:0,degrees:0};const[a,b]=[Math.min(i,j),Math.max(i,j)],n=this.columns;const pair=this.decoded(cells2[a*n-a*(a+1)/
+2+b-a-1]);return i<j?pair:{...pair,driver:1-pair.driver}}decoded(code){const rest=Math.floor(code/CLASSES);return{kind:code%CLASSES,driver:rest%2,degrees:Math.floor(
+rest/2)}}bestPartner(i){let best={kind:CLASSES-1,degrees:0};for(let j=0;j<this.columns;j+=1){const pair=this.pair([i,j]);if(pair.kind<best.kind||pair.kind===best.
+kind&&pair.degrees>best.degrees)best=pair}return best}placeName(k){const loop=this.starts.findLastIndex(start=>start<=k),size2=this.map.loops[loop];return`${this.
+letter(loop)}${((k-this.starts[loop]+.5)/size2).toFixed(2)}`}cellOf(pivot){if(!pivot)return null;const{low,high}=this.map,many=[this.columns,this.rows];const at=pivot.
+map((v,k)=>Math.round((v-low[k])/(high[k]-low[k])*(many[k]-1)));return at.every((v,k)=>v>=0&&v<many[k])?at:null}pivotOf(cell){const{low,high}=this.map,many=[this.
+columns,this.rows];return cell.map((v,k)=>low[k]+v/(many[k]-1)*(high[k]-low[k]))}dyadsOf(cell){const{map}=this;if(this.isCurve)return cell.map(k=>({fixed:map.fixed[k],
+moving:map.moving[k],length:map.length[k]}));return[map.chosen,dyadOfThree(this.data.poses,this.pivotOf(cell))]}pinsOf(cell){if(!cell)return[];return this.dyadsOf(
+cell).flatMap(each=>[...each.fixed?[each.fixed]:[],...each.moving?[this.seen(each.moving)]:[]])}seen([x,y]){const[pose]=this.data.poses,turn=pose.angle_deg*Math.
+PI/180,[cos,sin]=[Math.cos(turn),Math.sin(turn)];return[pose.x+cos*x-sin*y,pose.y+sin*x+cos*y]}};function dyadOfThree(poses,pivot){const[a,b,c]=poses.map(pose=>{
+const turn=-pose.angle_deg*Math.PI/180,[x,y]=[pivot[0]-pose.x,pivot[1]-pose.y];return[Math.cos(turn)*x-Math.sin(turn)*y,Math.sin(turn)*x+Math.cos(turn)*y]});const u=[
+b[0]-a[0],b[1]-a[1]],v=[c[0]-a[0],c[1]-a[1]];const cross3=2*(u[0]*v[1]-u[1]*v[0]),uu=u[0]**2+u[1]**2,vv=v[0]**2+v[1]**2;const arm=[(uu*v[1]-vv*u[1])/cross3,(vv*
+u[0]-uu*v[0])/cross3];return{fixed:pivot,moving:[a[0]+arm[0],a[1]+arm[1]],length:Math.hypot(...arm)}}var NEWTON_STEPS=6;var FARTHEST_STEP=.1;function nearestOnCurve(points,loops,wanted,widest){let best=null,start=0;for(const size2 of loops){for(let i=0;i<size2;i+=
+1){const j=(i+1)%size2,a=points[start+i],b=points[start+j];const d=[b[0]-a[0],b[1]-a[1]],squared=d[0]*d[0]+d[1]*d[1];if(squared>widest*widest)continue;const t=squared>
+0?Math.min(1,Math.max(0,((wanted[0]-a[0])*d[0]+(wanted[1]-a[1])*d[1])/squared)):0;const at=[a[0]+t*d[0],a[1]+t*d[1]],away=Math.hypot(at[0]-wanted[0],at[1]-wanted[1]);
+if(!best||away<best.away)best={k:start+i,next:start+j,share:t,at,away}}start+=size2}return best}function circleDeterminant([o,...others]){const[a,b,c]=others.map(
+([x,y])=>[x-o[0],y-o[1]]).map(([x,y])=>[x,y,x*x+y*y]);return a[2]*(b[0]*c[1]-b[1]*c[0])-b[2]*(a[0]*c[1]-a[1]*c[0])+c[2]*(a[0]*b[1]-a[1]*b[0])}function ontoCurve(poses,plane,point2,scene){
+const places=poses.map(pose=>({x:pose.x,y:pose.y,a:radians(pose.angle_deg)}));const value=at2=>circleDeterminant(places.map(place=>plane==="F"?back(place,at2):act(
+place,at2)));const step=1e-6*scene;let at=point2;for(let k=0;k<NEWTON_STEPS;k+=1){const slope=[0,1].map(axis=>{const[up,down]=[1,-1].map(sense=>value(at.map((each,n)=>each+
+(n===axis?sense*step:0))));return(up-down)/(2*step)});const squared=slope[0]**2+slope[1]**2,here=value(at);if(!(squared>0))return at;at=at.map((each,n)=>each-here*
+slope[n]/squared)}return Math.hypot(at[0]-point2[0],at[1]-point2[1])<FARTHEST_STEP*scene?at:point2}var worthOf=pairs=>Array.from({length:pairs.columns},(_,k)=>worth(
+pairs.bestPartner(k).kind));var worth=kind=>kind<OUTSIDE?"works":kind===OUTSIDE?"outside":"fails";function curvesOf({loops}){const curves={fixed:[],moving:[],loops:[],
+worth:[]};for(const loop of loops){const kept=loop.fixed.map((_,k)=>k).filter(k=>[...loop.fixed[k],...loop.moving[k]].every(Number.isFinite));curves.loops.push(
+kept.length);for(const k of kept){curves.fixed.push(loop.fixed[k]);curves.moving.push(loop.moving[k]);curves.worth.push(loop.class?worth(loop.class[k]):"plain")}}
+return curves}function curvePaths(points,loops,worth2,X,Y,widest){const paths={works:"",outside:"",fails:"",plain:""};const near2=(p,q)=>Math.hypot(p[0]-q[0],p[1]-
+q[1])<=widest;const text=([x,y])=>`${Math.round(X(x)*100)/100} ${Math.round(Y(y)*100)/100}`;const between2=(p,q)=>[(p[0]+q[0])/2,(p[1]+q[1])/2];let start=0;for(const size2 of loops){
+for(let i=0;i<size2;i+=1){const[a,b,c]=[-1,0,1].map(step=>points[start+(i+step+size2)%size2]);const list=[...near2(a,b)?[between2(a,b)]:[],b,...near2(b,c)?[between2(
+b,c)]:[]];if(list.length>1)paths[worth2[start+i]]+=`M${list.map(text).join("L")}`}start+=size2}return paths}var LONGEST_STEP2=.5;var STROKES=["plain","fails","outside","works"];var FamilyCurves=class{constructor(store,answers,playing,scene){Object.assign(this,{store,answers,
+playing,scene,known:null,live:null,asking:false});this.curves=["F","M"].map(plane=>s("g",{class:`bs-curve bs-curve-${plane}`},STROKES.map(name=>s("path",{class:`\
+bs-curve-${name}`}))));this.group=s("g",{class:"bs-burmester",visibility:"hidden","aria-hidden":"true"},this.curves);scene.layer("curves").append(this.group);this.
+box=h("input",{type:"checkbox",checked:true,"data-tool":"burmester-curves",onchange:()=>this.draw()});this.label=h("label",{hidden:true},this.box," Burmester cu\
+rves of the four poses, in the drawing");this.legend=h("p",{class:"bm-legend",hidden:true},h("span",{class:"bs-key-works"})," works with a partner; ",h("span",{
+class:"bs-key-outside"})," works outside limits or standard; ",h("span",{class:"bs-key-fails"})," no partner works. Solid: centre points in F; dashed: circle po\
+ints in M, where the body is now.");answers.on("poses",()=>this.ask());playing.on("place",()=>this.move());scene.on("view",()=>this.draw())}get family(){const{data,
+isOld}=this.answers;if(data.poses.length!==4)return null;if(this.live&&(isOld||!this.known))return this.live;return this.known}renew(){const{data}=this.answers,
+map=data.family_map;this.known=map?.kind==="curve"?{...map,worth:worthOf(new FamilyPairs(data))}:null;this.live=null;if(!this.known)this.ask();give(this.label,"\
+hidden",data.poses.length!==4);this.draw()}async ask(){const{store,answers}=this,{document:document2,options}=store;if(document2.poses.length!==4||!this.box.checked||
+this.asking||!store.connection?.isOpen)return;this.asking=true;try{const answer=await store.connection.ask({do:"curve",document:document2,options,judged:store.state!==
+"dragging"});if(answer.kind==="curve"&&store.document.poses.length===4){this.live=curvesOf(answer);this.draw()}}catch{}this.asking=false;if(store.document!==document2&&
+answers.isOld)this.ask()}get widest(){return LONGEST_STEP2*this.answers.data.scene}onto(plane,point2){const map=this.family,{poses,scene}=this.answers.data;if(!map||
+!this.box.checked)return null;const near2=nearestOnCurve(plane==="F"?map.fixed:map.moving,map.loops,point2,this.widest);return near2?ontoCurve(poses,plane,near2.
+at,scene):point2}draw(){const map=this.family,on=Boolean(map)&&this.box.checked;put(this.group,"visibility",on?"visible":"hidden");give(this.legend,"hidden",!on);
+if(!on)return;const{view}=this.scene,planes=[[map.fixed,view.X,view.Y],[map.moving,x=>view.scale*x,y=>-view.scale*y]];planes.forEach(([points,X,Y],n)=>{const paths=curvePaths(
+points,map.loops,map.worth,X,Y,this.widest);[...this.curves[n].children].forEach((path2,k)=>put(path2,"d",paths[STROKES[k]]))});this.move()}move(){const{view}=this.
+scene,place=this.playing.here?.place;if(place&&this.family)put(this.curves[1],"transform",transform(view.X(place.x),view.Y(place.y),place.a))}};var MAX_BANDS=12;var PivotMap=class{constructor(data,parent){this.data=data;this.parent=parent;this.canvas=h("canvas",{"aria-hidden":"true"});const name=`bm-map\
+-${Math.random().toString(36).slice(2)}`;this.svg=s("svg",{class:"bm-map-picture",role:"application",tabindex:"0","aria-roledescription":"map","aria-describedby":name,
+"aria-label":"Pivot map: the error of the best link for every fixed pivot. Arrow keys move a cursor, with Shift by ten steps; the error there is told."});this.readout=
+h("output",{class:"bm-readout",id:name});this.cursor=null;this.legend=h("p",{class:"bm-legend"});parent.append(h("div",{class:"bm-map"},this.canvas,this.svg),this.
+legend,this.readout);this.svg.addEventListener("pointermove",event=>this.read(event));this.svg.addEventListener("pointerleave",()=>this.tell());this.svg.addEventListener(
+"keydown",event=>this.move(event));const{log10_rms:levels}=data.pivot_map;const known=levels.filter(level=>level!==null).sort((a,b)=>a-b);const low=known[Math.floor(
+.002*known.length)],high=known[Math.floor(.98*known.length)];this.step=[1/24,1/12,1/6,1/3,1/2,1,2].find(step=>(high-low)/step<MAX_BANDS-1)??3;this.low=Math.floor(
+low/this.step)*this.step;this.high=Math.ceil(high/this.step)*this.step;this.count=Math.max(1,Math.round((this.high-this.low)/this.step));this.invitation="Point \
+at the map to read it, or move over it by arrow keys.";this.readout.append(this.invitation)}level(u,v){const{columns,rows,log10_rms:levels}=this.data.pivot_map;
+const i=clamp(Math.floor(u),0,columns-2),j=clamp(Math.floor(v),0,rows-2);const a=u-i,b=v-j,at=j*columns+i;const[p,q,r,t]=[levels[at],levels[at+1],levels[at+columns],
+levels[at+columns+1]];const shares=[(1-a)*(1-b),a*(1-b),(1-a)*b,a*b];if([p,q,r,t].some((level,k)=>level===null&&shares[k]>0))return null;return shares[0]*p+shares[1]*
+q+shares[2]*r+shares[3]*t}build(linkage){const{svg}=this,map=this.data.pivot_map;const width=Math.max(240,this.parent.clientWidth);const height=Math.round(width*
+(map.high[1]-map.low[1])/(map.high[0]-map.low[0]));this.paint(width,height);svg.setAttribute("viewBox",`0 0 ${width} ${height}`);svg.replaceChildren();const scale=width/
+(map.high[0]-map.low[0]);const view={width,height,X:x=>(x-map.low[0])*scale,Y:y=>height-(y-map.low[1])*scale};this.linkage=linkage;this.view=view;this.explain(this.
+pivots(linkage,view));this.mark=s("path",{class:"bm-map-cursor",d:"M-11 0H-4M4 0H11M0 -11V-4M0 4V11"});svg.append(this.mark);this.tell()}paint(width,height){const{
+canvas}=this,map=this.data.pivot_map;const dense=Math.min(2,window.devicePixelRatio||1);const style=getComputedStyle(this.parent);const near2=rgb(style.getPropertyValue(
+"--bm-map-near"));const far=rgb(style.getPropertyValue("--bm-map-far"));const w=Math.round(width*dense),t=Math.round(height*dense);if(canvas.width===w&&this.paintedIn===
+near2.join())return;this.paintedIn=near2.join();canvas.width=w;canvas.height=t;const context=canvas.getContext("2d"),image=context.createImageData(w,t);const band=new Int16Array(
+w*t);for(let j=0;j<t;j+=1){for(let i=0;i<w;i+=1){const level=this.level(i/(w-1)*(map.columns-1),(1-j/(t-1))*(map.rows-1));band[j*w+i]=level===null?-1:clamp(Math.
+floor((level-this.low)/this.step),0,this.count-1)}}for(let k=0;k<w*t;k+=1){const own=band[k];const edge=k%w&&band[k-1]!==own||k>=w&&band[k-w]!==own;const share=own<
+0?1:own/Math.max(1,this.count-1);const shade=edge?.84:1;for(let c=0;c<3;c+=1)image.data[4*k+c]=shade*(near2[c]+share*(far[c]-near2[c]));image.data[4*k+3]=255}context.
+putImageData(image,0,0)}pivots(linkage,view){const{data,svg}=this,map=data.pivot_map;const labels=new Labels(view);for(const pose of data.poses){const x=px(view.
+X(pose.x)),y=px(view.Y(pose.y));svg.append(s("path",{class:"bm-cross",d:`M${x-3} ${y}h6M${x} ${y-3}v6`}))}const every=new Map;for(const each of data.linkages)for(const dyad of each.
+led)if(dyad.fixed_pivot)every.set(dyad.fixed_pivot.join(),dyad);for(const dyad of data.dyads)if(dyad.fixed_pivot)every.set(dyad.fixed_pivot.join(),dyad);const inside2=([
+x,y])=>x>=map.low[0]&&x<=map.high[0]&&y>=map.low[1]&&y<=map.high[1];for(const dyad of every.values()){if(!inside2(dyad.fixed_pivot))continue;const[x,y]=[view.X(
+dyad.fixed_pivot[0]),view.Y(dyad.fixed_pivot[1])];svg.append(s("circle",{class:"bm-some-pivot",cx:px(x),cy:px(y),r:2.5}))}const outside=[];(linkage?.led??[]).forEach(
+(dyad,side)=>{if(!dyad.fixed_pivot)return;if(!inside2(dyad.fixed_pivot)){outside.push(`the fixed pivot of ${dyad.id} lies outside`);return}const[x,y]=[view.X(dyad.
+fixed_pivot[0]),view.Y(dyad.fixed_pivot[1])];labels.block(x,y,12,12);svg.append(s("circle",{class:`bm-its-pivot bm-side${side}`,cx:px(x),cy:px(y),r:6}),labels.put(
+x,y,dyad.id,16,{class:"bm-map-name"}))});return outside}explain(outside){const unit2=this.data.unit?` ${this.data.unit}`:"";this.legend.replaceChildren(h("span",
+{class:"bm-swatch bm-near"}),` ${figure(10**this.low)}${unit2} or less`,h("span",{class:"bm-swatch bm-far"}),` ${figure(10**this.high)}${unit2} or more; each li\
+ne is a factor of ${figure(10**this.step)}. `,"Small dots: fixed pivots of all dyads; crosses: the poses.",outside.length?` Of this linkage, ${listed(outside)}.`:
+"")}placeAt([u,v]){const{low,high,columns,rows}=this.data.pivot_map;return[low[0]+u/(columns-1)*(high[0]-low[0]),low[1]+v/(rows-1)*(high[1]-low[1])]}move(event){
+const step={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowDown:[0,-1],ArrowUp:[0,1]}[event.key];if(!step||event.ctrlKey||event.metaKey||event.altKey)return;event.preventDefault();
+const{low,high,columns,rows}=this.data.pivot_map,many=event.shiftKey?10:1;const pivot=this.linkage?.led.map(dyad=>dyad.fixed_pivot).find(Boolean)??this.placeAt(
+[(columns-1)/2,(rows-1)/2]);const[u,v]=this.cursor??[Math.round((pivot[0]-low[0])/(high[0]-low[0])*(columns-1)),Math.round((pivot[1]-low[1])/(high[1]-low[1])*(rows-
+1))];this.cursor=[clamp(u+many*step[0],0,columns-1),clamp(v+many*step[1],0,rows-1)];this.tell()}tell(){const{cursor,mark,view}=this;mark?.setAttribute("visibili\
+ty",cursor?"visible":"hidden");if(!cursor){this.readout.textContent=this.invitation;return}const[x,y]=this.placeAt(cursor);mark?.setAttribute("transform",`trans\
+late(${px(view.X(x))} ${px(view.Y(y))})`);this.say(cursor)}read(event){const box=this.svg.getBoundingClientRect(),{columns,rows}=this.data.pivot_map;this.say([(event.
+clientX-box.left)/box.width*(columns-1),(1-(event.clientY-box.top)/box.height)*(rows-1)])}say(at){const[x,y]=this.placeAt(at),level=this.level(...at);const digits=Math.
+max(0,2-Math.floor(Math.log10(this.data.scene)));const unit2=this.data.unit?` ${this.data.unit}`:"";this.readout.textContent=`Fixed pivot (${fixed(x,digits)}, ${fixed(
+y,digits)}): the best link misses by `+(level===null?"an unknown error.":`${figure(10**level)}${unit2} (rms).`)}};var GRASP=26;var STILL=3;var PivotMapPanel=class{constructor(answers,playing,hand){Object.assign(this,{answers,playing,hand,map:null,handles:null});this.element=
+h("div",{class:"bm-fill"});this.pace=new Pace(()=>this.build(),()=>isSeen(this.element));playing.on("shape",()=>this.pace.ask());new ResizeObserver(()=>this.pace.
+ask()).observe(this.element);watch(this.element,()=>this.pace.ask())}renew(){const{data}=this.answers;if(this.shown===data.pivot_map)return;this.shown=data.pivot_map;
+this.element.replaceChildren();this.map=data.pivot_map?new PivotMap(data,this.element):null;if(this.map)this.listen();this.pace.ask()}build(){if(!this.map)return;
+this.map.build(this.answers.shown);this.handles=[0,1].map(k=>s("g",{class:`bs-pivot bs-map-pivot bm-side${k}`},s("circle",{class:"bs-pivot-ring",r:8})));this.map.
+svg.append(...this.handles);this.drawHandles()}drawHandles(){if(!this.handles||!this.map?.view)return;const{view}=this.map;this.handles.forEach((element,k)=>{const pivot=this.
+hand.pivot(k,"F");put(element,"display",pivot?"inline":"none");if(!pivot)return;put(element,"transform",`translate(${px(view.X(pivot.at[0]))} ${px(view.Y(pivot.
+at[1]))})`);element.dataset.mapPivot=pivot.id})}nearest([x,y]){const{view}=this.map;const away=[0,1].map(k2=>{const pivot=this.hand.pivot(k2,"F");return pivot?Math.
+hypot(view.X(pivot.at[0])-view.X(x),view.Y(pivot.at[1])-view.Y(y)):Infinity});const k=away[1]<away[0]?1:0;return{k,away:away[k]}}listen(){const{hand}=this,{svg}=this.
+map;const at=event=>{const box=svg.getBoundingClientRect(),{low,high}=this.answers.data.pivot_map;const u=(event.clientX-box.left)/box.width,v=1-(event.clientY-
+box.top)/box.height;return[low[0]+u*(high[0]-low[0]),low[1]+v*(high[1]-low[1])]};let pointer=null,start=null;const end=event=>{if(event.pointerId!==pointer)return;
+pointer=null;hand.drop()};svg.addEventListener("pointerdown",event=>{if(event.button!==0)return;const point2=at(event),{k,away}=this.nearest(point2);if(!Number.
+isFinite(away)||!hand.take(k,"F"))return;event.preventDefault();pointer=event.pointerId;start={near:away<=GRASP,X:event.clientX,Y:event.clientY};svg.setPointerCapture(
+pointer);this.playing.player.play(false);if(!start.near)hand.put(point2)});svg.addEventListener("pointermove",event=>{if(event.pointerId!==pointer)return;if(start.
+near&&Math.hypot(event.clientX-start.X,event.clientY-start.Y)<STILL)return;start.near=false;hand.put(at(event))});svg.addEventListener("pointerup",end);svg.addEventListener(
+"pointercancel",end);svg.addEventListener("keydown",event=>{if(event.key==="Escape"&&hand.pivots)hand.release();if(event.key!=="Enter"||!this.map.cursor)return;
+const point2=this.map.placeAt(this.map.cursor),{k}=this.nearest(point2);if(!hand.take(k,"F"))return;event.preventDefault();hand.put(point2);hand.drop()})}};var ARROWS4={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowUp:[0,1],ArrowDown:[0,-1]};var PivotSurface=class{constructor(store,answers,playing,scene){Object.assign(this,
+{store,answers,playing,scene,pivots:null,held:null});this.handles=s("g",{class:"bs-pivots"});scene.layer("pivots").append(this.handles);this.parts=[0,1].map(k=>[
+"F","M"].map(plane=>this.handle(k,plane)));this.story=h("p",{class:"bm-story"});this.readout=h("output",{class:"bs-placed-readout","aria-live":"polite"});this.letGo=
+h("button",{type:"button",class:"bs-small",hidden:true,onclick:()=>this.release()},"Let go of the pivots");this.curves=new FamilyCurves(store,answers,playing,scene);
+this.map=new PivotMapPanel(answers,playing,this);this.element=h("div",{class:"bs-surface"},this.story,h("div",{class:"bs-tool"},this.curves.label),this.curves.legend,
+this.map.element,this.readout,h("div",{class:"bs-tool"},this.letGo));answers.on("answers",()=>this.renew());answers.on("poses",()=>{this.explain();if(this.pivots)
+store.place(this.pivots)});answers.on("placed",()=>this.tell());playing.on("shape",()=>this.show());playing.on("place",()=>this.move());scene.on("view",()=>this.
+show());store.on("state document",()=>this.element.classList.toggle("bs-stale",answers.isOld));this.renew()}get dyads(){const placed=this.store.placed?.dyads;if(this.
+pivots&&placed?.length)return placed;return this.answers.shown?.led??[]}pivot(k,plane){const dyad=this.dyads[k];if(!dyad)return null;const wanted=this.pivots?.[k];
+const at=wanted?.plane===plane?wanted.at:plane==="F"?dyad.fixed_pivot:dyad.moving_pivot;return at?{plane,at,id:dyad.id}:null}handle(k,plane){const name=plane===
+"F"?"fixed":"moving";const element=s("g",{class:`bs-pivot bs-pivot-${name} bm-side${k}`,"data-plane":plane,tabindex:0,role:"button"},s("circle",{class:"bs-hold",
+r:13}),s("circle",{class:"bs-pivot-ring",r:8}));let before;this.scene.drag?.(element,{start:()=>{before=this.pivots;this.playing.player.play(false);this.place=this.
+playing.here?.place??null;return this.take(k,plane)},move:({x,y})=>this.put(plane==="F"?[x,y]:back(this.place,[x,y])),end:()=>this.drop(),cancel:()=>{this.drop();
+if(before)this.ask(before);else this.release()}});element.addEventListener("keydown",event=>this.key(event,k,plane));this.handles.append(element);return element}key(event,k,plane){
+if(event.ctrlKey||event.metaKey)return;const arrow2=ARROWS4[event.key];if(event.key==="Escape"&&this.pivots){this.release()}else if(arrow2){const{at}=this.pivot(
+k,plane),step=(this.scene.step??this.answers.data.scene/100)*(event.shiftKey?10:event.altKey?.1:1);if(!this.take(k,plane))return;this.put(at.map((value,axis)=>value+
+step*arrow2[axis]),step);this.drop()}else{return}event.preventDefault()}take(k,plane){const start=this.pivot(k,plane);if(!start||plane==="M"&&!this.playing.here)
+return false;const other=this.pivots?.[1-k]??this.pivot(1-k,"F")??this.pivot(1-k,"M");const next=[];next[k]={plane,at:start.at};if(other)next[1-k]={plane:other.
+plane,at:other.at};this.pivots=next;this.held={k,plane};this.keepHeight();return true}keepHeight(){const{element}=this.playing;element.style.minHeight=`${element.
+offsetHeight}px`}put(point2,step=0){const{k,plane}=this.held,digits=decimalsOf(this.answers.data);let at=this.curves.onto(plane,point2);if(!at)at=point2.map(value=>step?
+Number(value.toFixed(digits)):this.scene.rounded(value));this.ask(this.pivots.map((each,n)=>n===k?{plane,at}:each))}drop(){this.held=null}ask(pivots){this.pivots=
+pivots;this.store.place(pivots.map(({plane,at})=>({plane,at})));this.show();this.tell()}release(){this.pivots=null;this.held=null;this.playing.element.style.minHeight=
+"";this.store.place([]);if(this.store.chosen===PLACED)this.store.choose(this.before??this.answers.linkages[0]?.id??null);this.tell();this.show()}renew(){const{data}=this.
+answers;if(!this.pivots&&this.store.chosen!==PLACED)this.before=this.store.chosen;this.curves.renew();this.map.renew();this.explain();this.show()}explain(){const count=this.
+answers.data.poses.length;const text=count===4&&this.curves.family?"Four poses leave a curve of dyads. Drag a pivot in the drawing: it slides along its curve.":
+count===3?"Three poses leave every pivot free. Drag a fixed pivot anywhere in F, or a moving pivot anywhere on the body.":count===2?"Two poses leave much open. \
+Drag a pivot: its best dyad follows.":"Drag a pivot in the drawing or on the map: the best dyad there is shown with what it costs.";if(this.story.textContent!==
+text)this.story.textContent=text}show(){const{view}=this.scene,place=this.playing.here?.place,there=this.answers.shown&&!this.answers.shown.gone;this.parts.forEach(
+(planes,k)=>{planes.forEach((element,n)=>{const plane="FM"[n],pivot=there||this.pivots?this.pivot(k,plane):null;const seen2=pivot&&(plane==="F"||place);put(element,
+"display",seen2?"inline":"none");if(!seen2)return;if(element.dataset.pivot!==pivot.id)element.dataset.pivot=pivot.id;element.classList.toggle("bs-put",this.pivots?.[k]?.
+plane===plane);if(plane==="F")put(element,"transform",`translate(${px(view.X(pivot.at[0]))} ${px(view.Y(pivot.at[1]))})`)})});this.name();this.move();this.map.drawHandles()}move(){
+const{view}=this.scene,place=this.playing.here?.place;if(!place)return;this.parts.forEach(([,element],k)=>{const pivot=element.getAttribute("display")==="none"?
+null:this.pivot(k,"M");if(!pivot)return;const[x,y]=act(this.held?.k===k&&this.held.plane==="M"&&this.place?this.place:place,pivot.at);put(element,"transform",`t\
+ranslate(${px(view.X(x))} ${px(view.Y(y))})`)})}name(){if(this.held||this.store.state==="dragging")return;const digits=decimalsOf(this.answers.data);this.parts.
+forEach((planes,k)=>planes.forEach((element,n)=>{const pivot=this.pivot(k,"FM"[n]);if(!pivot)return;const text=`${n?"Moving":"Fixed"} pivot of ${pivot.id} at (${pivot.
+at.map(value=>fixed(value,digits)).join(", ")}) in ${"FM"[n]}. Drag it, or use the arrow keys; the best dyad there is shown.`;put(element,"aria-label",text)}))}tell(){
+const{store,answers}=this,{placed}=store;give(this.letGo,"hidden",!this.pivots);if(!this.pivots||!placed){this.readout.textContent="";if(!placed&&this.pivots&&!this.
+held&&store.placeWanted===null)this.pivots=null;return}put(this.readout,"aria-live",this.held?"off":"polite");this.readout.textContent=placedInWords(placed,answers.
+data);if(placed.linkage&&store.chosen!==PLACED&&this.pivots){this.before=store.chosen;store.choose(PLACED)}this.show()}};function placedInWords(placed,data){const unit2=data.
+unit?` ${data.unit}`:"",digits=decimalsOf(data);const miss=value=>value===null?"an unknown error":value<1e-9*data.scene?"nothing":`${figure(value)}${unit2}`;const dyads=placed.
+dyads.map(dyad=>`${dyad.id}: fixed pivot (${dyad.fixed_pivot.map(v=>fixed(v,digits)).join(", ")}), moving pivot (${dyad.moving_pivot.map(v=>fixed(v,digits)).join(
+", ")}), misses by ${miss(dyad.max_error)} at most.`);const{linkage}=placed;if(!linkage)return[...dyads,...(placed.messages??[]).map(({message})=>`${message[0].
+toUpperCase()}${message.slice(1)}.`)].join(" ");const both=linkage.usable?`usable, ${linkage.said.met}`:`not usable: ${linkage.said.reasons.join("; ")}`;return`${dyads.
+join(" ")} Together a ${linkage.type}: ${both}.`}var Assemblies=class{constructor(data,take){this.data=data;this.take=take;this.name=`bm-way-${Math.random().toString(36).slice(2)}`;this.element=h("fieldset",{class:"\
+bm-ways"})}build(linkage,index){const one=(way,k)=>h("label",{},h("input",{type:"radio",name:this.name,value:k,checked:k===index,onchange:()=>this.take(k)}),h("\
+span",{},h("b",{},wayName(way,linkage).replace("assembly ","")),` ${wayStory(way,this.data.poses)}`));this.element.replaceChildren(h("legend",{},"Assembly"),...linkage.
+ways.map(one));give(this.element,"hidden",!linkage.ways.length)}};var TURN_SECONDS=7;var LEAST_STRETCH=1e-6;var NAME_ROWS=5;var NUMBER_ROWS=2;var MANY_POSES2=100;var ROW=13;var LONGEST_TICK=18;var STEPS=360;var Player=class{constructor(data,show,rebuild){
+this.data=data;this.draw={show,rebuild};this.linkage=null;this.way=0;this.u=0;this.heading=1;this.whole=false;this.stretch={low:0,high:1};this.playing=false;this.
+remaining=null;this.element=this.controls()}get path(){return this.linkage?.ways[this.way]}controls(){const button2=(name,text,label,onclick)=>h("button",{type:"\
+button",class:`bm-button ${name}`,"aria-label":label,title:label,onclick},text);this.button=button2("bm-play","","Play",()=>this.play(!this.playing));this.slider=
+h("input",{type:"range",class:"bm-slider",min:0,step:"any","aria-label":"Driver",oninput:()=>this.go(Number(this.slider.value))});this.box=h("input",{type:"chec\
+kbox",onchange:()=>this.playWhole(this.box.checked)});this.boxName=h("span",{},"Whole branch");this.stops=s("svg",{class:"bm-stops","aria-hidden":"true"});this.
+parts=["","","",""].map(text=>h("span",{},text));this.readout=h("output",{class:"bm-now"},this.parts.flatMap((part,k)=>k?[" ",part]:[part]));this.slider.addEventListener(
+"keydown",event=>{const step={ArrowLeft:-1,ArrowDown:-1,ArrowRight:1,ArrowUp:1}[event.key];if(!step)return;event.preventDefault();this.step(event.shiftKey?10*step:
+step)});return h("div",{class:"bm-controls"},h("div",{class:"bm-track"},this.slider,this.stops),h("div",{class:"bm-row"},this.button,button2("bm-back","◀ Pose",
+"Previous pose",()=>this.toPose(-1)),button2("bm-next","Pose ▶","Next pose",()=>this.toPose(1)),h("label",{class:"bm-whole",title:"Play all that the driver re\
+aches, not only from the first pose to the last"},this.box,this.boxName)),this.readout)}load(linkage){this.linkage=linkage;const counts=linkage.ways.map(way=>way.
+poses.length);this.take(Math.max(0,counts.indexOf(Math.max(...counts))))}take(index){this.way=index;this.u=this.firstStop();this.draw.rebuild()}get stopsOnWay(){
+return this.linkage.pose_errors.map((row,k)=>({...row,k})).filter(row=>row.way===this.way)}firstStop(){return this.stopsOnWay[0]?.frame??0}rebuild(){const{path:path2,
+slider}=this;if(!path2)this.play(false);for(const each of[slider,this.button])give(each,"disabled",!path2);const last=path2?path2.x.length-1:1;const frames=path2?
+this.stopsOnWay.map(row=>row.frame):[];const[low,high]=[frames.reduce((a,b)=>Math.min(a,b),last),frames.reduce((a,b)=>Math.max(a,b),0)];const apart=high-low>LEAST_STRETCH;
+this.stretch=apart&&!this.whole?{low,high}:{low:0,high:last};give(this.box,"disabled",!apart);this.boxName.textContent=path2?.round?"Whole turn":"Whole branch";
+this.heading=1;this.u=clamp(this.u,this.stretch.low,this.stretch.high)}playWhole(on){this.whole=on;this.draw.rebuild()}drawStops(){const{stops,path:path2}=this,
+{low,high}=this.stretch;stops.replaceChildren();if(!path2)return;const width=Math.max(60,this.slider.clientWidth),inset=9;const X=u=>inset+(u-low)/(high-low)*(width-
+2*inset);const known=this.stopsOnWay.filter(row=>this.data.poses[row.k]);const rows=known.sort((a,b)=>a.frame-b.frame).map(row=>({...row,x:X(row.frame),pose:this.
+data.poses[row.k]}));const named=laidOut(rows.map(({x,pose})=>({x,text:shortened(poseName2(pose),LONGEST_TICK)})),width,NAME_ROWS);const texts=named.every(({at})=>at>=
+0)?named:laidOut(rows.map(({x,pose})=>({x,text:pose.label})),width,rows.length>MANY_POSES2?1:NUMBER_ROWS);const deepest=Math.max(0,...texts.map(({at})=>at));const one=(k,pose,...parts)=>s(
+"g",{"data-pose":k+1},s("title",{},`pose ${poseName2(pose)}`),...parts);rows.forEach(({k,x,pose},i)=>stops.append(one(k,pose,s("path",{d:`M${px(x)} 0V${4+ROW*Math.
+max(0,texts[i].at)}`}))));rows.forEach(({k,pose},i)=>{const{at,middle:middle2,text}=texts[i];if(at>=0)stops.append(one(k,pose,s("text",{x:px(middle2),y:14+ROW*at,
+"text-anchor":"middle"},text)))});put(stops,"viewBox",`0 0 ${width} ${16+ROW*deepest}`);put(stops,"height",16+ROW*deepest)}play(on){if(on&&!this.path)return;this.
+remaining=null;if(on===this.playing&&this.button.firstChild)return;this.playing=on;put(this.readout,"aria-live",on?"off":"polite");this.button.replaceChildren(icon(
+on),on?"Pause":"Play");put(this.button,"aria-label",on?"Pause":"Play");this.button.title=on?"Pause (space)":"Play (space)";cancelAnimationFrame(this.tick);if(!on)
+return;let before=null;const run=now=>{if(!this.playing)return;if(before!==null)this.advance(Math.min(.1,(now-before)/1e3));before=now;if(this.playing)this.tick=
+requestAnimationFrame(run)};this.tick=requestAnimationFrame(run)}playOnce(){if(!this.path)return;const{low,high}=this.stretch;this.play(true);this.remaining=(this.
+goesRound?1:2)*(high-low)}get goesRound(){return this.path.round&&this.stretch.high-this.stretch.low>this.path.x.length-1-LEAST_STRETCH}advance(seconds){const{low,
+high}=this.stretch;const step=seconds*(high-low)/(this.goesRound?TURN_SECONDS:TURN_SECONDS/2);if(this.remaining!==null){this.remaining-=step;if(this.remaining<=
+0){this.play(false);this.u=this.firstStop();this.show();return}}this.u+=this.heading*step;if(this.goesRound)this.u=around(this.u,high);else if(this.u>=high||this.
+u<=low){this.heading=this.u>=high?-1:1;this.u=clamp(this.u,low,high)}this.show()}step(steps){if(!this.path)return;const{low,high}=this.stretch;const u=this.u+steps*
+Math.max(.001,(high-low)/STEPS);this.go(this.goesRound?around(u,high):u)}go(u){if(!this.path)return;this.play(false);this.u=clamp(u,this.stretch.low,this.stretch.
+high);this.show()}toPose(sense){const all=this.linkage.pose_errors.map((row,k)=>({...row,k})).filter(row=>row.way!==null);if(!all.length)return;const here=this.
+atPose??(sense>0?-1:this.data.poses.length);const next=sense>0?all.find(row=>row.k>here)??all[0]:[...all].reverse().find(row=>row.k<here)??all[all.length-1];this.
+play(false);if(next.way!==this.way){this.way=next.way;this.u=next.frame;this.draw.rebuild()}this.go(next.frame);this.atPose=next.k}nearest(place){let near2=0,least2=Infinity;
+this.data.poses.forEach((pose,k)=>{const turn=place.a-radians(pose.angle_deg);const away=Math.hypot(place.x-pose.x,place.y-pose.y,this.data.chart.length*(turn-2*
+Math.PI*Math.round(turn/(2*Math.PI))));if(away<least2)[near2,least2]=[k,away]});return near2}show(told=true){const{path:path2,linkage,data}=this;if(!path2){for(const part of this.
+parts)part.textContent="";return}const place=placeAt(linkage,path2,this.u,data.chart.length);const drive=linear(path2.drive,this.u),transmission=linear(path2.transmission,
+this.u);const near2=this.atPose=this.nearest(place);if(told){give(this.slider,"min",this.stretch.low);give(this.slider,"max",this.stretch.high);give(this.slider,
+"value",this.u);this.tell(place,drive,transmission,near2)}this.draw.show(place,drive,transmission,near2)}tell(place,drive,transmission,near2){const{data,linkage}=this;
+const unit2=data.unit?` ${data.unit}`:"",digits=decimalsOf(data);const driver=linkage.led[0].kind==="PR"?`${fixed(drive,digits)}${unit2}`:`${fixed(drive,1)}°`;
+const pose=data.poses[near2],row=linkage.pose_errors[near2];const at=row?.at===this.path&&Math.abs(row.frame-this.u)<1e-6;const away=()=>`${figure(Math.hypot(place.
+x-pose.x,place.y-pose.y))}${unit2} from pose ${poseName2(pose)}`;const missed2=()=>`at pose ${poseName2(pose)}, ${row.said.position==="exact"?"":"off by "}${missOf(
+row.said.position,row.said.turned,unit2)}`;const said=!pose?"between the poses":at?missed2():away();const texts=[`driver ${driver}`,`body (${fixed(place.x,digits)}\
+, ${fixed(place.y,digits)})${unit2}, ${fixed(((degrees(place.a)+180)%360+360)%360-180,2)}°`,`transmission ${transmission===null?"–":`${fixed(transmission,1)}\
+°`}`,said];texts.forEach((text,k)=>{const whole=k+1<texts.length?`${text} ·`:text;if(this.parts[k].textContent!==whole)this.parts[k].textContent=whole});put(this.
+slider,"aria-valuetext",`driver ${driver}, ${texts[3]}`)}};function laidOut(texts,width,count){const ends=Array(count).fill(-99);return texts.map(({x,text})=>{const size2=6.4*
+text.length,left=clamp(x-size2/2,0,Math.max(0,width-size2));const at=ends.findIndex(end=>left>end+4);if(at>=0)ends[at]=left+size2;return{text,at,middle:left+size2/
+2}})}var around=(u,turn)=>(u%turn+turn)%turn;function icon(pause){return s("svg",{width:12,height:12,viewBox:"0 0 12 12","aria-hidden":"true"},s("path",{d:pause?
+"M1 0h3.5v12H1zM7.5 0H11v12H7.5z":"M1 0l11 6l-11 6z"}))}var APART=3;var GOLDEN=.381966011250105;var HALVINGS=24;function drivenByOther(linkage,length){const led=[linkage.led[1],linkage.led[0]];if(led[0].kind==="PP"||
+!linkage.ways.length)return{...linkage,led,ways:[],pose_errors:linkage.pose_errors.map(row=>({...row,way:null,frame:null,at:null}))};const ways=[],places=linkage.
+pose_errors.map(()=>null);for(const chain of chainsOf(linkage.ways)){for(const piece of piecesOf(linkage,led[0],chain,length)){const way=wayOf(linkage,led,piece,
+chain,length);const number=ways.push(way)-1;linkage.pose_errors.forEach((row,k)=>{const frame=places[k]||row.way===null?null:frameIn(piece,row,linkage.ways[row.
+way].x.length-1);if(frame===null)return;places[k]=[number,way.falls?piece.stations.length-1-frame:frame];way.poses.push(k+1)})}}const named=new Map;for(const way of ways){
+way.branches=ways.filter(each=>each.circuit===way.circuit).length;named.set(way.circuit,(named.get(way.circuit)??0)+1);way.branch=named.get(way.circuit)}const pose_errors=linkage.
+pose_errors.map((row,k)=>({...row,way:places[k]?.[0]??null,frame:places[k]?.[1]??null,at:places[k]?ways[places[k][0]]:null,transmission_deg:row.x===null?null:transmissionOf(
+...led,{x:row.x,y:row.y,a:row.angle_deg*Math.PI/180})}));return{...linkage,led,ways,pose_errors}}function chainsOf(ways){const chains=[];for(const circuit of new Set(
+ways.map(way=>way.circuit))){const own=ways.map((way,number)=>({way,number})).filter(({way})=>way.circuit===circuit);const stations=({way,number},turned)=>{const all=Array.
+from(way.x,(_,u)=>({way:number,u}));return turned?all.reverse():all};const[one,other]=own;const joined=(end,start)=>other&&one.way.dead[end]&&other.way.dead[start]&&
+near(one.way,end,other.way,start);if(!other||!(joined(0,0)||joined(1,1))){for(const each of own)chains.push({circuit,closed:each.way.round,stations:stations(each,
+false)});continue}const closed2=joined(0,0)&&joined(1,1),high=joined(1,1);const through=[...stations(one,!high),...stations(other,high).slice(1)];chains.push({circuit,
+closed:closed2,stations:through})}return chains}function near(one,end,other,start){const at=(way,k)=>[way.x[k],way.y[k]],last=(way,k)=>k?way.x.length-1:0;const[
+i,j]=[last(one,end),last(other,start)],inner=end?i-1:1;const step=Math.hypot(...at(one,i).map((v,k)=>v-at(one,inner)[k]));const away=Math.hypot(...at(one,i).map(
+(v,k)=>v-at(other,j)[k]));return away<=APART*step+1e-9*Math.hypot(...at(one,i))}function piecesOf(linkage,driver,{circuit,closed:closed2,stations},length){const placeOf2=({
+way,u})=>placeAt(linkage,linkage.ways[way],u,length);const slides=driver.kind==="PR";let before=null;const driveAt=station=>{let drive=driveOf(driver,placeOf2(station));
+if(!slides&&before!==null)drive-=2*Math.PI*Math.round((drive-before)/(2*Math.PI));return drive};const drives=stations.map(station=>before=driveAt(station));const count=stations.
+length-1,sense=k=>Math.sign(drives[k+1]-drives[k]);const cuts=[];for(let k=1;k<count;k+=1)if(sense(k)*sense(k-1)<0)cuts.push(k);if(closed2&&sense(0)*sense(count-
+1)<0)cuts.push(0);if(!cuts.length)return[{circuit,round:closed2,dead:[false,false],stations}];const dead=new Map(cuts.map(k=>[k,extreme(k)]));function extreme(k){
+const here=stations[k],up=drives[k]>drives[k===0?1:k-1]?1:-1;before=drives[k];const sides=[k>0?k-1:count-1,k+1].map(at2=>{const there=stations[at2];if(there.way===
+here.way&&Math.abs(there.u-here.u)<1.5)return[here.way,here.u,there.u];return[there.way,there.u,there.u<1.5?0:there.u+1]});const value=(way,u)=>up*driveAt({way,
+u});let best={station:here,value:value(here.way,here.u)};for(const[way,u,v]of sides){let[low,high]=[Math.min(u,v),Math.max(u,v)];for(let step=0;step<HALVINGS;step+=
+1){const[a,b]=[low+GOLDEN*(high-low),high-GOLDEN*(high-low)];if(value(way,a)<value(way,b))low=a;else high=b}const station={way,u:(low+high)/2},found=value(way,station.
+u);if(found>best.value)best={station,value:found}}return best.station}const part=(from,to)=>{const inner=[];for(let k=from+1;k<to;k+=1)inner.push(stations[closed2?
+k%count:k]);const ends=[from,to].map(k=>dead.get(closed2?k%count:k)??stations[k]);return[ends[0],...inner.filter(each=>!ends.some(end=>end.way===each.way&&Math.
+abs(end.u-each.u)<.001)),ends[1]]};cuts.sort((a,b)=>a-b);if(closed2){const at2=[...cuts,cuts[0]+count];return at2.slice(1).map((to,k)=>({circuit,round:false,dead:[
+true,true],stations:part(at2[k],to)}))}const at=[0,...cuts,count];return at.slice(1).map((to,k)=>({circuit,round:false,dead:[k>0,to<count],stations:part(at[k],to)}))}
+function wayOf(linkage,led,piece,chain,length){const slides=led[0].kind==="PR",places=piece.stations.map(({way,u})=>({...placeAt(linkage,linkage.ways[way],u,length)}));
+const drive=[];places.forEach((place,k)=>{let value=driveOf(led[0],place);if(!slides&&k)value-=2*Math.PI*Math.round((value-drive[k-1])/(2*Math.PI));if(k)place.a-=
+2*Math.PI*Math.round((place.a-places[k-1].a)/(2*Math.PI));drive.push(value)});const falls=drive[drive.length-1]<drive[0];if(falls)[drive,places].forEach(each=>each.
+reverse());const turns=slides?0:2*Math.PI*Math.round((drive[0]+drive[drive.length-1])/(4*Math.PI));return{circuit:chain.circuit,round:piece.round,dead:falls?[...piece.
+dead].reverse():piece.dead,poses:[],falls,drive:drive.map(value=>slides?value:degrees(value-turns)),x:places.map(({x})=>x),y:places.map(({y})=>y),angle:places.map(
+({a})=>a),transmission:places.map(place=>transmissionOf(...led,place))}}function frameIn({stations},{way,frame},last){for(let k=0;k+1<stations.length;k+=1){const[
+a,b]=[stations[k],stations[k+1]];if(a.way!==way||b.way!==way){if(a.way===way&&Math.abs(a.u-frame)<1e-9)return k;if(b.way===way&&Math.abs(b.u-frame)<1e-9)return k+
+1;continue}const[u,v]=Math.abs(b.u-a.u)>last/2?[a,b].map(each=>each.u+(each.u<last/2?last:0)):[a.u,b.u];for(const at of[frame,frame+last]){if(at>=Math.min(u,v)-
+1e-9&&at<=Math.max(u,v)+1e-9)return u===v?k:k+(at-u)/(v-u);if(Math.max(u,v)<=last)break}}return null}var AT_POSE=1e-6;var Playing=class extends Events{constructor(store,answers){super();this.store=store;this.answers=answers;this.isOther=false;this.here=null;this.
+player=new Player(answers.data,(place,drive,transmission,near2)=>this.placed({place,drive,transmission,near:near2}),()=>this.rebuild());this.assemblies=new Assemblies(
+answers.data,index=>this.player.take(index));this.drivers=h("fieldset",{class:"bm-ways bs-drivers",hidden:true});this.note=h("p",{class:"bs-quiet bs-driver-note"});
+this.element=h("div",{class:"bs-player"},this.player.element,h("div",{class:"bs-player-ways"},this.drivers,this.assemblies.element),this.note);this.words=new Pace(
+()=>this.player.path&&this.player.show());this.marks=new Pace(()=>this.player.drawStops());answers.on("answers shown placed",()=>this.load());answers.on("moved",
+()=>this.follow());store.on("selection",()=>this.goToSelected());store.on("state",()=>this.hush());new ResizeObserver(()=>this.marks.ask()).observe(this.element);
+this.load()}get linkage(){return this.player.linkage}get path(){return this.player.path}load(){const base=this.answers.shown??null;if(base===this.base&&base){this.
+follow();this.tellDriver();return}this.base=base;this.isOther=false;this.at=null;this.dress();if(!base){this.player.linkage=null;this.player.way=0;this.player.play(
+false);for(const each of[this.assemblies.element,this.drivers])give(each,"hidden",true);this.note.textContent="";this.element.classList.add("bs-empty");this.emit(
+"shape",false);return}this.element.classList.remove("bs-empty");this.player.load(this.driven());this.goToSelected()}driven(){return this.isOther?drivenByOther(this.
+base,this.answers.data.chart.length):this.base}driveBy(other){this.isOther=other;this.player.linkage=this.driven();this.at=null;this.takeBest();this.rebuild();this.
+tellDriver()}takeBest(){const counts=this.linkage.ways.map(way=>way.poses.length);this.player.way=Math.max(0,counts.indexOf(Math.max(...counts)));this.player.u=
+this.player.firstStop()}follow(){const{base,player}=this;if(!base)return;player.linkage=this.driven();const row=this.at?.pose===void 0?null:player.linkage.pose_errors[this.
+at.pose];if(row&&row.way!==null){player.way=row.way;player.u=row.frame}else if(!player.path){if(player.linkage.ways.length)this.takeBest()}else if(this.at){player.
+u=this.frameOf(player.path,this.at.drive)}player.rebuild();this.emit("shape",true);player.show(false);this.words.ask();this.marks.ask()}frameOf(way,drive){if(drive===
+null||this.linkage.led[0].kind==="PR")return frameAt(way.drive,drive??way.drive[0]);const middle2=(way.drive[0]+way.drive[way.drive.length-1])/2;return frameAt(
+way.drive,drive-360*Math.round((drive-middle2)/360))}rebuild(){const{player}=this;player.rebuild();this.assemblies.build(this.linkage,player.way);this.buildDrivers();
+this.emit("shape",false);this.marks.ask();player.show()}placed(here){this.here=here;const{path:path2,u}=this.player;const pose=this.linkage.pose_errors.findIndex(
+row=>row.at===path2&&Math.abs(row.frame-u)<AT_POSE);this.at={drive:here.drive,pose:pose<0?void 0:pose};this.emit("place",here)}goToSelected(){const{selection}=this.
+store,{player}=this;if(selection?.kind!=="pose"||player.playing)return;const row=this.linkage?.pose_errors[selection.index];if(!row||row.way===null)return;const other=row.
+way!==player.way;player.way=row.way;player.u=row.frame;if(other)this.rebuild();else player.go(row.frame)}buildDrivers(){const{base}=this;give(this.drivers,"hidd\
+en",!base||!base.ways.length||base.led.some(dyad=>dyad.kind==="PP"));if(this.drivers.hidden)return;const key=`${base.id} ${base.led.map(dyad=>dyad.id)} ${this.isOther}`;
+if(key===this.driversKey)return;this.driversKey=key;const one=(dyad,other)=>h("label",{},h("input",{type:"radio",name:"bs-driver",checked:other===this.isOther,"\
+data-driver":dyad.id,onchange:()=>this.driveBy(other)}),h("span",{},h("b",{},dyad.id),` ${{RR:"crank or rocker",PR:"slider on its rail",RP:"slot"}[dyad.kind]}`));
+this.drivers.replaceChildren(h("legend",{},"Driver"),one(base.led[0],false),one(base.led[1],true));this.tellDriver()}tellDriver(){const{base}=this;if(!base?.drives||
+base.followed){this.note.textContent="";return}const driver=this.isOther?base.led[1]:base.led[0];const drive=base.dyads[0].id===driver.id?base.drives.first:base.
+drives.second;const least2=drive.min_transmission_angle_deg.range;const said=drive.defects.length?drive.defects.map(each=>each.message).join("; "):`${drive.turns_fully?
+"turns fully":"reaches every pose"}${least2===null?"":`, transmission angle ${fixed(least2,1)}° or more between the poses`}`;this.note.textContent=`Driven by ${driver.
+id}: ${said}.`}dress(){this.driversKey=null}hush(){const quiet=this.store.state==="dragging"||this.player.playing;put(this.player.readout,"aria-live",quiet?"off":
+"polite")}};var ORDERS={rank:{name:"best first",of:linkage=>linkage.rank??Infinity},worst:{name:"worst miss",of:linkage=>linkage.worst??Infinity},least:{name:"transmission \
+angle",of:linkage=>-(linkage.least??-1)},size:{name:"size",of:linkage=>linkage.quality?.extent??Infinity},sensitivity:{name:"sensitivity",of:linkage=>linkage.quality?.
+sensitivity??Infinity}};var FILTERS={all:{name:"all",holds:()=>true},usable:{name:"usable",holds:linkage=>linkage.usable},pinned:{name:"pinned",holds:(linkage,pinned)=>pinned.
+has(linkage.id)}};function arranged(linkages,{order,filter,type,pinned}){const{of}=ORDERS[order],{holds}=FILTERS[filter];return linkages.filter(each=>holds(each,
+pinned)&&(!type||each.type===type)).map((each,k)=>({each,k,key:of(each)})).sort((a,b)=>Number(pinned.has(b.each.id))-Number(pinned.has(a.each.id))||(a.key===b.key?
+0:a.key-b.key)||a.k-b.k).map(({each})=>each)}var OPTIONS=[[/--min-transmission ([\d.e+-]+)/g,"a least transmission angle of $1°"],[/--within-angle ([\d.e+-]+)/g,"a permitted turn of $1°"],[/--within ([\d.e+-]+)/g,
+"a permitted miss of $1"],[/--link-ratio ([\d.e+-]+)/g,"a link ratio of $1"],[/--type "([^"]+)"/g,"the type $1"],[/--type (\S+)/g,"the type $1"],[/--driver any/g,
+"either driver"],[/--any-order/g,"any order of the poses"]];function helpInWords(text){const marked=OPTIONS.reduce((said,[option,words])=>said.replace(option,`${words}\
+`),text);const plain=marked.replaceAll(" "," and ").replaceAll(/[\u0001\u0002]/g,"");return plain.replace(/with (.+?) (L\d+) would do/g,"it would do with $1")}function say(element,text){if(element.textContent!==text)element.textContent=text}var FIGURES=[["worst","worst miss"],["least","transmission"],["size","size"],[
+"sensitivity","sensitivity"]];var ResultCard=class{constructor(does){this.name=h("b",{});this.type=h("span",{class:"bm-type"});this.was=h("span",{class:"bs-was"});
+this.verdict=h("span",{class:"bm-verdict"});this.figures=new Map(FIGURES.map(([key])=>[key,h("dd",{"data-figure":key})]));this.note=h("span",{class:"bs-card-not\
+e"});this.reason=h("span",{class:"bm-reason"});this.help=h("span",{class:"bs-help"});this.main=h("button",{type:"button",class:"bs-card-main","aria-pressed":"fa\
+lse",onclick:()=>does.choose(this.id)},h("span",{class:"bm-choice-head"},this.name," ",this.type," ",this.was),this.verdict,h("dl",{class:"bs-figures"},FIGURES.
+map(([key,name])=>[h("dt",{},name),this.figures.get(key)])),this.note,this.reason,this.help);this.pin=h("button",{type:"button",class:"bs-small","aria-pressed":"\
+false",onclick:()=>does.pin(this.id)},"Pin");this.compare=h("button",{type:"button",class:"bs-small","aria-pressed":"false",onclick:()=>does.compare(this.id)},"\
+Compare");this.improve=h("button",{type:"button",class:"bs-small",onclick:()=>does.improve(this.id)},"Look near it");this.letGo=h("button",{type:"button",class:"\
+bs-small",onclick:()=>does.letGo()},"Let go of the pivots");this.better=h("ul",{class:"bs-better","aria-live":"polite"});this.element=h("article",{class:"bs-car\
+d bm-choice"},this.main,h("div",{class:"bs-card-tools"},this.pin,this.compare,this.improve,this.letGo),this.better)}show(linkage,{data,old,chosen,pinned,compared}){
+const{said}=linkage,{classList}=this.element,isPlaced=linkage.id===PLACED;if(this.id!==linkage.id||old)this.better.replaceChildren();if(this.id!==linkage.id){this.
+id=linkage.id;this.element.dataset.linkage=linkage.id;say(this.name,isPlaced?"By hand":linkage.id)}say(this.type,linkage.type);say(this.was,pastOf(linkage));say(
+this.verdict,linkage.gone?"✕ gone":linkage.usable?"✓ usable":"✕ not usable");say(this.figures.get("worst"),worstOf(linkage,data));say(this.figures.get("le\
+ast"),least(linkage));say(this.figures.get("size"),said.quality.extent??"–");say(this.figures.get("sensitivity"),said.quality.sensitivity??"–");say(this.note,
+linkage.gone??(linkage.usable&&linkage.change||(linkage.usable&&!linkage.followed&&linkage.shortcomings?.length?`Falls short: ${linkage.shortcomings.join("; ")}`:
+"")));const reason=linkage.usable||linkage.gone?"":linkage.followed?linkage.reason??"":said.reasons.join("; ");say(this.reason,reason);say(this.help,reason&&said.
+help&&!linkage.followed?`What would help: ${helpInWords(said.help)}.`:"");classList.toggle("bm-good",linkage.usable&&!linkage.gone);classList.toggle("bm-bad",!linkage.
+usable||Boolean(linkage.gone));classList.toggle("bs-gone",Boolean(linkage.gone));classList.toggle("bs-old",old||Boolean(linkage.followed));classList.toggle("bs-\
+chosen",chosen);setPressed(this.main,chosen);setPressed(this.pin,pinned);setPressed(this.compare,compared);say(this.pin,pinned?"Pinned":"Pin");give(this.pin,"hi\
+dden",isPlaced);give(this.compare,"hidden",isPlaced||chosen);give(this.improve,"hidden",isPlaced||linkage.usable||old||Boolean(linkage.gone));give(this.letGo,"h\
+idden",!isPlaced);for(const button2 of[this.pin,this.compare,this.improve])labelled2(button2,linkage.id)}tellBetter(sentences){this.better.replaceChildren(...sentences.
+map(sentence2=>h("li",{},sentence2)))}};function pastOf({was,shift,isNew,followed}){if(isNew&&!was)return"new";const moved=shift&&!followed?`moved ${(100*shift).
+toFixed(1)} %`:"";return[was?`was ${was}`:"",moved].filter(Boolean).join(", ")}function least(linkage){const angle=leastOf(linkage);return angle==="–"?angle:angle===
+"0°"?"down to 0°":`${angle} or more`}function setPressed(button2,on){put(button2,"aria-pressed",Boolean(on))}function labelled2(button2,id){put(button2,"aria-\
+label",`${button2.textContent}: ${id}`)}var MOST3=40;var Results=class{constructor(store,answers){Object.assign(this,{store,answers,cards:new Map,wanted:{order:"rank",filter:"all",type:""},all:false});
+const choice2=(name,entries,key)=>h("label",{},`${name} `,h("select",{"data-choice":key,onchange:event=>this.want(key,event.target.value)},entries.map(([value,text])=>h(
+"option",{value},text))));this.types=choice2("Type",[["","any"]],"type");this.title=h("h2",{},"Linkages");this.status=h("p",{class:"bs-results-status",role:"sta\
+tus"});this.doubt=h("p",{class:"bs-doubt"});this.gone=h("p",{class:"bs-gone-note"});this.list=h("div",{class:"bs-cards"});this.more=h("button",{type:"button",class:"\
+bs-small",hidden:true,onclick:()=>this.showAll()});this.element=h("section",{class:"bs-results","aria-label":"Linkages"},h("div",{class:"bs-results-head"},this.
+title,this.status,this.doubt,this.gone,h("div",{class:"bs-choices"},choice2("Show",Object.entries(FILTERS).map(([key,{name}])=>[key,name]),"filter"),choice2("So\
+rt by",Object.entries(ORDERS).map(([key,{name}])=>[key,name]),"order"),this.types)),this.list,this.more);this.pace=new Pace(()=>this.update());this.list.addEventListener(
+"keydown",event=>this.walk(event));answers.on("answers placed",()=>this.arrange());answers.on("moved",()=>this.pace.ask());answers.on("shown",()=>this.update());
+store.on("pinned",()=>this.arrange());store.on("state document",()=>this.tell());this.arrange()}want(key,value){this.wanted[key]=value;this.arrange()}showAll(){
+this.all=true;this.arrange()}arrange(){const{answers,store,wanted}=this;this.buildTypes();const every=arranged(answers.linkages,{...wanted,pinned:store.pinned});
+const shown2=this.all?every:every.slice(0,MOST3);const list=answers.placed?[answers.placed,...shown2]:shown2;const cards=new Map;for(const linkage of list)cards.
+set(linkage,this.cards.get(linkage)??this.card());for(const[linkage,card]of this.cards)if(!cards.has(linkage))card.element.remove();this.cards=cards;let before=null;
+for(const card of cards.values()){const next=before?before.nextSibling:this.list.firstChild;if(card.element!==next)this.list.insertBefore(card.element,next);before=
+card.element}give(this.more,"hidden",every.length<=shown2.length);if(!this.more.hidden)say(this.more,`Show all ${every.length}`);give(this,"hidden",answers.linkages.
+length-every.length);this.update()}card(){const{store}=this;return new ResultCard({choose:id=>store.choose(id),pin:id=>store.pin(id),compare:id=>store.compare(id),
+improve:id=>this.improve(id),letGo:()=>this.letGo()})}letGo(){this.store.place([]);if(this.store.chosen===PLACED)this.store.choose(this.answers.linkages[0]?.id??
+null)}buildTypes(){const types=[...new Set(this.answers.linkages.map(each=>each.type))].sort(),key=types.join();const select=this.types.querySelector("select");
+if(key===this.typesKey)return;this.typesKey=key;if(!types.includes(this.wanted.type))this.wanted.type="";select.replaceChildren(...["",...types].map(type=>h("op\
+tion",{value:type,selected:type===this.wanted.type},type||"any")));give(this.types,"hidden",types.length<2)}update(){const{answers,store}=this,{data,isOld,shown:shown2}=answers;
+for(const[linkage,card]of this.cards){card.show(linkage,{data,old:isOld&&linkage.id!==PLACED,chosen:linkage===shown2,pinned:store.pinned.has(linkage.id),compared:store.
+compared===linkage.id})}this.tell()}tell(){const{answers,store}=this,there=answers.linkages.filter(each=>!each.gone);const usable=there.filter(each=>each.usable).
+length;say(this.title,there.length?`${there.length} linkage${there.length===1?"":"s"}, ${usable} usable`:store.solved?"No linkage":"Linkages");put(this.status,"\
+aria-live",store.state==="dragging"?"off":"polite");say(this.status,this.statusText());const uncertain=store.followed?.uncertain??[];say(this.doubt,store.followed&&
+answers.isOld?uncertain.length?`May change when you let go: ${uncertain[0]}${/[.!]$/.test(uncertain[0])?"":"."}`:store.followed.complete===false?"A linkage that\
+ appears now is seen when you let go.":"":"");say(this.gone,!answers.isOld&&answers.gone.length?`Not in the new answer: ${listed(answers.gone)} of the one befor\
+e.`:"");this.element.classList.toggle("bs-stale",answers.isOld)}statusText(){const{store,answers}=this,hidden=this.hidden?`${this.hidden} not shown by the filte\
+r. `:"";if(store.state==="offline")return"The connection is gone; what you see is the last answer.";if(answers.isOld&&store.state==="dragging")return store.followed?
+"Moving along.":"The new answer comes when you let go.";if(store.state==="solving")return"Looking for all linkages.";if(!store.solved)return"";const{best,outcome}=store.
+solved;if(!store.solved.linkages.some(each=>each.usable))return`${hidden}${sentence(outcome?.message)}${outcome?.help?` What helps: ${outcome.help}.`:""}`;return`${hidden}${best?.[0]??
+""}`}async improve(id){const{document:document2,options,connection}=this.store;const card=()=>[...this.cards].find(([linkage])=>linkage.id===id)?.[1];card()?.tellBetter(
+["Looking near it …"]);let said;try{said=(await(await connection.post("/improve",{document:document2,options,linkage:id})).json()).better}catch(error){said=[`\
+That did not work: ${error.message}`]}if(document2===this.store.document)card()?.tellBetter(said.length?said.map(nearIt):["Nothing better lies near it."])}walk(event){
+const step={ArrowDown:1,ArrowRight:1,ArrowUp:-1,ArrowLeft:-1}[event.key];const mains=[...this.cards.values()].map(card=>card.main),at=mains.indexOf(document.activeElement);
+if(!step||at<0)return;event.preventDefault();mains[clamp(at+step,0,mains.length-1)].focus()}};var nearIt=text=>text.replace(/^L\d+ changes/,"One changes");var sentence=text=>text?
+`${text[0].toUpperCase()}${text.slice(1)}.`:"";var WIDTH=440;var TURNING_SHARE=.35;function drawStill(canvas,scene,size2,turning){const share=turning?TURNING_SHARE:Math.min(1,WIDTH/size2.width);const width=Math.
+round(size2.width*share),height=Math.round(size2.height*share);canvas.width=width;canvas.height=height;if(!scene.quadrics.length)return;const context=canvas.getContext(
+"2d"),image=context.createImageData(width,height);cast(image,scene);context.putImageData(image,0,0)}function cast(image,{eye,ahead,right,up,reach,quadrics,paint,
+angles}){const{data,width,height}=image,[ex,ey,ez]=eye,[zc,zh,middleAngle,step]=angles;const lamp=unit(plus(plus(scaled(ahead,-1),scaled(up,.5)),scaled(right,-.6)));
+const far=new Float64Array(4),which=new Uint8Array(4);for(let j=0;j<height;j+=1){const v=(1-(2*j+1)/height)*reach[1];for(let i=0;i<width;i+=1){const u=((2*i+1)/
+width-1)*reach[0];let dx=ahead[0]+u*right[0]+v*up[0];let dy=ahead[1]+u*right[1]+v*up[1];let dz=ahead[2]+u*right[2]+v*up[2];const size2=1/Math.sqrt(dx*dx+dy*dy+dz*
+dz);dx*=size2;dy*=size2;dz*=size2;const x1=(-1-ex)/dx,x2=(1-ex)/dx,y1=(-1-ey)/dy,y2=(1-ey)/dy;const z1=(-1-ez)/dz,z2=(1-ez)/dz;const enter=Math.max(Math.min(x1,
+x2),Math.min(y1,y2),Math.min(z1,z2));const leave=Math.min(Math.max(x1,x2),Math.max(y1,y2),Math.max(z1,z2));if(!(enter<leave))continue;const middle2=(enter+leave)/
+2,half=(leave-enter)/2;const ox=ex+middle2*dx,oy=ey+middle2*dy,oz=ez+middle2*dz;let count=0;for(let k=0;k<quadrics.length;k+=1){const c=quadrics[k];const cx=c[0]*
+dx+c[1]*dy+c[2]*dz,cy=c[4]*dx+c[5]*dy+c[6]*dz;const cz=c[8]*dx+c[9]*dy+c[10]*dz,cw=c[12]*dx+c[13]*dy+c[14]*dz;const a=dx*cx+dy*cy+dz*cz,b=ox*cx+oy*cy+oz*cz+cw;const e=ox*
+(c[0]*ox+2*(c[1]*oy+c[2]*oz+c[3]))+oy*(c[5]*oy+2*(c[6]*oz+c[7]))+oz*(c[10]*oz+2*c[11])+c[15];const root=b*b-a*e;if(root<0)continue;const q=-(b+(b<0?-1:1)*Math.sqrt(
+root));for(let side=0;side<2;side+=1){const t=side?e/q:q/a;if(!(Math.abs(t)<=half))continue;let at2=count;while(at2>0&&far[at2-1]>t){far[at2]=far[at2-1];which[at2]=
+which[at2-1];at2-=1}far[at2]=t;which[at2]=k;count+=1}}if(!count)continue;let red=0,green=0,blue=0,through=1;for(let k=0;k<count;k+=1){const t=far[k],c=quadrics[which[k]],
+own=paint[which[k]];const x=ox+t*dx,y=oy+t*dy,z=oz+t*dz;let nx=c[0]*x+c[1]*y+c[2]*z+c[3];let ny=c[4]*x+c[5]*y+c[6]*z+c[7];let nz=c[8]*x+c[9]*y+c[10]*z+c[11];const n=1/
+Math.sqrt(nx*nx+ny*ny+nz*nz);nx*=n;ny*=n;nz*=n;const facing=Math.abs(nx*dx+ny*dy+nz*dz);const pixels=(middle2+t)*reach[1]/height*(Math.sqrt(Math.max(0,1-nz*nz))/
+Math.max(facing,.15))+1e-4;const z3=zc+zh*z,turns=(2*Math.atan(z3)+middleAngle)/step;const off=Math.abs(turns-Math.round(turns))*step*(1+z3*z3)/(2*zh);const line2=1-
+clamp((off/pixels-.5)/1.1,0,1);const lit=(.42+.58*Math.abs(nx*lamp[0]+ny*lamp[1]+nz*lamp[2]))*(1-.35*line2);const alpha=.5+.42*(1-facing)*(1-facing),share=through*
+alpha;red+=share*own[0]*lit;green+=share*own[1]*lit;blue+=share*own[2]*lit;through*=1-alpha}const at=4*(j*width+i),whole=255/(1-through);data[at]=red*whole;data[at+
+1]=green*whole;data[at+2]=blue*whole;data[at+3]=255*(1-through)}}}var STILL_MILLISECONDS=250;var TURNING_MILLISECONDS=25;var UNIFORMS=["surface","paint","eye","right","up","ahead","reach","pixel","samples","angles"];var VERTEX=`\
+#version 300 es
 in vec2 corner;
 out vec2 at;
-void main() { at = corner; gl_Position = vec4(corner, 0.0, 1.0); }`;
-var FRAGMENT = `#version 300 es
+void main() { at = corner; gl_Position = vec4(corner, 0.0, 1.0); }`;var FRAGMENT=`#version 300 es
 precision highp float;
 in vec2 at;
 out vec4 colour;
@@ -6024,1306 +1353,282 @@ void main() {
     sum += ray(at + part * pixel);
   }
   colour = sum / 4.0;
-}`;
-function hasGraphics() {
-  const gl = document.createElement("canvas").getContext("webgl2", { failIfMajorPerformanceCaveat: true });
-  const named = gl?.getExtension("WEBGL_debug_renderer_info");
-  const name = named ? gl.getParameter(named.UNMASKED_RENDERER_WEBGL) : "";
-  return Boolean(gl) && !/swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
-}
-var Shader = class _Shader {
-  /** The shader on a canvas, null where it cannot be; `lost` is called when it ceases to be. */
-  static on(canvas, lost) {
-    if (!hasGraphics()) return null;
-    const gl = canvas.getContext("webgl2", { antialias: false, premultipliedAlpha: true, preserveDrawingBuffer: true });
-    if (!gl) return null;
-    const program = gl.createProgram();
-    for (const [kind, source] of [[gl.VERTEX_SHADER, VERTEX], [gl.FRAGMENT_SHADER, FRAGMENT]]) {
-      const shader = gl.createShader(kind);
-      gl.shaderSource(shader, source);
-      gl.compileShader(shader);
-      gl.attachShader(program, shader);
-    }
-    gl.linkProgram(program);
-    if (!gl.getProgramParameter(program, gl.LINK_STATUS)) {
-      lost();
-      return null;
-    }
-    canvas.addEventListener("webglcontextlost", lost, { once: true });
-    return new _Shader(canvas, gl, program);
-  }
-  constructor(canvas, gl, program) {
-    this.canvas = canvas;
-    this.gl = gl;
-    gl.useProgram(program);
-    gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
-    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array([-1, -1, 3, -1, -1, 3]), gl.STATIC_DRAW);
-    const corner = gl.getAttribLocation(program, "corner");
-    gl.enableVertexAttribArray(corner);
-    gl.vertexAttribPointer(corner, 2, gl.FLOAT, false, 0, 0);
-    this.places = Object.fromEntries(UNIFORMS.map((name) => [name, gl.getUniformLocation(program, name)]));
-  }
-  draw(scene, size2, turning) {
-    const { gl, places } = this;
-    gl.clearColor(0, 0, 0, 0);
-    if (!scene.quadrics.length) {
-      gl.clear(gl.COLOR_BUFFER_BIT);
-      return;
-    }
-    gl.uniformMatrix4fv(places.surface, false, new Float32Array(scene.quadrics.flat()));
-    gl.uniform3fv(places.paint, new Float32Array(scene.paint.flat()));
-    for (const name of ["eye", "right", "up", "ahead"]) gl.uniform3fv(places[name], scene[name]);
-    gl.uniform2fv(places.reach, scene.reach);
-    gl.uniform4fv(places.angles, scene.angles);
-    this.pace ??= this.measure(size2);
-    const full = Math.min(2, window.devicePixelRatio || 1), most = turning ? TURNING_MILLISECONDS : STILL_MILLISECONDS;
-    const ways = turning ? [[1, 1], [0.7, 1], [0.45, 1]] : [[full, 4], [1, 4], [full, 1], [1, 1], [0.7, 1]];
-    const fits = ways.find(([dense, samples]) => dense * dense * samples * this.pace * size2.width * size2.height < most);
-    this.once(size2, ...fits ?? ways[ways.length - 1]);
-  }
-  /** Milliseconds a ray takes: where graphics are slow, the picture gets fewer of them. */
-  measure(size2) {
-    const { gl } = this;
-    this.once(size2, 0.12, 1);
-    gl.finish();
-    const start = performance.now();
-    this.once(size2, 0.3, 1);
-    gl.finish();
-    return (performance.now() - start) / (0.09 * size2.width * size2.height);
-  }
-  /** One picture: pixels of the canvas per pixel of the page along a side, rays per pixel. */
-  once(size2, dense, samples) {
-    const { gl, canvas, places } = this;
-    const width = Math.round(size2.width * dense), height = Math.round(size2.height * dense);
-    if (canvas.width !== width || canvas.height !== height) {
-      canvas.width = width;
-      canvas.height = height;
-    }
-    gl.viewport(0, 0, width, height);
-    gl.clear(gl.COLOR_BUFFER_BIT);
-    gl.uniform2f(places.pixel, 1 / width, 1 / height);
-    gl.uniform1i(places.samples, samples);
-    gl.drawArrays(gl.TRIANGLES, 0, 3);
-  }
-};
-
-// src/burmester/web/widget/image_space.mjs
-var FOCAL_LENGTH = 2.3;
-var EYE_DISTANCE = 4.6;
-var START = { around: -0.62, above: 0.38, zoom: 1 };
-var MANY_POSES3 = 40;
-var inside = (point2) => point2.every((value) => Math.abs(value) <= 1.0001);
-var ImageSpace = class {
-  constructor(data, parent, webgl) {
-    this.data = data;
-    this.parent = parent;
-    this.turn = { ...START };
-    this.canvas = h("canvas", { "aria-hidden": "true" });
-    this.svg = s("svg", { "aria-hidden": "true" });
-    this.note = h("p", { class: "bm-readout" });
-    this.box = h("div", {
-      class: "bm-space",
-      role: "img",
-      tabindex: "0",
-      "aria-label": "Image space: two surfaces and the curve they meet in. Arrow keys turn it, plus and minus zoom."
-    }, this.canvas, this.svg);
-    parent.append(this.box, this.note);
-    this.shader = webgl ? Shader.on(this.canvas, () => this.withoutGl()) : null;
-    this.explain();
-    this.listen();
-  }
-  explain() {
-    this.canvas.dataset.drawn = this.shader ? "webgl" : "still";
-    this.note.textContent = this.shader ? "Drag it, or turn it with the arrow keys; + and − zoom, 0 goes back." : "A still picture, for fast WebGL 2 is missing here; it can be turned all the same, by dragging or with the arrow keys.";
-  }
-  /** Go on without WebGL, on a fresh canvas: the old one can hold nothing else. */
-  withoutGl() {
-    const fresh = this.canvas.cloneNode();
-    this.canvas.replaceWith(fresh);
-    this.canvas = fresh;
-    this.shader = null;
-    this.explain();
-    if (this.space) this.draw(false);
-  }
-  listen() {
-    const { box } = this;
-    let grip = null;
-    box.addEventListener("pointerdown", (event) => {
-      grip = [event.clientX, event.clientY];
-      box.setPointerCapture(event.pointerId);
-    });
-    box.addEventListener("pointermove", (event) => {
-      if (!grip) return;
-      this.turn.around -= 8e-3 * (event.clientX - grip[0]);
-      this.turn.above += 8e-3 * (event.clientY - grip[1]);
-      grip = [event.clientX, event.clientY];
-      this.redraw(true);
-    });
-    for (const end of ["pointerup", "pointercancel"]) {
-      box.addEventListener(end, () => {
-        if (grip) this.redraw(false);
-        grip = null;
-      });
-    }
-    box.addEventListener("keydown", (event) => {
-      const { turn } = this;
-      const step = {
-        ArrowLeft: () => turn.around += 0.1,
-        ArrowRight: () => turn.around -= 0.1,
-        ArrowUp: () => turn.above += 0.1,
-        ArrowDown: () => turn.above -= 0.1,
-        "+": () => turn.zoom *= 1.15,
-        "=": () => turn.zoom *= 1.15,
-        "-": () => turn.zoom /= 1.15,
-        0: () => Object.assign(turn, START)
-      }[event.key];
-      if (!step || event.ctrlKey || event.metaKey || event.altKey) return;
-      event.preventDefault();
-      event.stopPropagation();
-      step();
-      this.redraw(false);
-    });
-  }
-  redraw(turning) {
-    this.turn.above = clamp(this.turn.above, -1.5, 1.5);
-    this.turn.zoom = clamp(this.turn.zoom, 0.6, 4);
-    cancelAnimationFrame(this.waiting);
-    this.waiting = requestAnimationFrame(() => this.draw(turning));
-  }
-  /** The point of the box that is a place of the body. */
-  point(place) {
-    const { chart } = this.data, { centre, half } = this.space;
-    const x = (place.x - chart.origin[0]) / chart.length, y = (place.y - chart.origin[1]) / chart.length;
-    const t = Math.tan((place.a - chart.angle) / 2);
-    return [(x * t - y) / 2, (x + y * t) / 2, t].map((value, k) => (value - centre[k]) / half[k]);
-  }
-  /** A linkage on its way `index`; quick: coarsely, for more changes follow. */
-  build(linkage, index, quick = false) {
-    this.linkage = linkage;
-    this.space = linkage?.space ?? this.data.space;
-    this.poses = this.data.poses.map((pose) => this.point({ x: pose.x, y: pose.y, a: radians(pose.angle_deg) }));
-    this.curves = (linkage?.ways ?? []).map((way, k) => ({
-      here: k === index,
-      points: Array.from(way.x, (x, i) => this.point({ x, y: way.y[i], a: way.angle[i] }))
-    }));
-    const { centre, half } = this.space;
-    const angleOf = (q) => degrees(2 * Math.atan(centre[2] + half[2] * q) + this.data.chart.angle);
-    this.marks = angleTicks(angleOf(-1), angleOf(1), 7);
-    const width = Math.max(240, this.parent.clientWidth);
-    this.width = width;
-    this.height = Math.round(clamp(0.8 * width, 240, 520));
-    this.svg.setAttribute("viewBox", `0 0 ${width} ${this.height}`);
-    this.box.style.height = `${this.height}px`;
-    this.draw(quick);
-  }
-  camera() {
-    const { around: around2, above, zoom } = this.turn;
-    const ahead = [
-      -Math.cos(above) * Math.sin(around2),
-      Math.cos(above) * Math.cos(around2),
-      -Math.sin(above)
-    ];
-    const right = [Math.cos(around2), Math.sin(around2), 0];
-    const up = cross2(right, ahead);
-    const eye = scaled(ahead, -EYE_DISTANCE);
-    const least2 = Math.min(this.width, this.height);
-    const focal = least2 / 2 * FOCAL_LENGTH * zoom * 1.02;
-    return { ahead, right, up, eye, focal, reach: [this.width / 2 / focal, this.height / 2 / focal] };
-  }
-  draw(turning) {
-    this.view = this.camera();
-    const scene = this.sceneOf(this.view);
-    if (this.shader) this.shader.draw(scene, this, turning);
-    else drawStill(this.canvas, scene, this, turning);
-    this.overlay();
-    if (this.place) this.show(this.place);
-  }
-  /** What is drawn: the camera, the quadrics, their colours (0 to 1) and the lines of equal angle. */
-  sceneOf(camera) {
-    const style = getComputedStyle(this.parent);
-    const paint = ["--bm-driver-solid", "--bm-follower-solid"].map((name) => rgb(style.getPropertyValue(name)).map((v) => v / 255));
-    return { ...camera, paint, quadrics: this.space.quadrics, angles: this.angles() };
-  }
-  /** Of M: Z3 in the middle of the box and half its height, middle angle, step of the lines. */
-  angles() {
-    const { centre, half } = this.space, { marks } = this;
-    const step = marks.length > 1 ? radians(marks[1].at - marks[0].at) : Math.PI;
-    return [centre[2], half[2], this.data.chart.angle, step];
-  }
-  /** From the box to pixels, as the camera sees it. */
-  project(point2) {
-    const { eye, ahead, right, up, focal } = this.view;
-    const to = [0, 1, 2].map((k) => point2[k] - eye[k]), depth = dot(to, ahead);
-    return [this.width / 2 + focal * dot(to, right) / depth, this.height / 2 - focal * dot(to, up) / depth];
-  }
-  /** The number of sheets of the surfaces between a point and the eye. */
-  sheetsBefore(point2) {
-    const to = plus(this.view.eye, scaled(point2, -1)), d = unit(to);
-    let leave = Infinity;
-    for (let k = 0; k < 3; k += 1) leave = Math.min(leave, ((d[k] > 0 ? 1 : -1) - point2[k]) / d[k]);
-    let count = 0;
-    for (const c of this.space.quadrics) for (const t of intersections(c, point2, d)) if (t > 0.02 && t < leave) count += 1;
-    return count;
-  }
-  /** Lines, points and names over the surfaces. */
-  overlay() {
-    const { svg } = this;
-    const back2 = this.view.ahead.map((value) => value > 0 ? 1 : -1);
-    svg.replaceChildren(...this.edges(back2), ...this.axisNames(back2), ...this.angleMarks(), ...this.motions());
-    this.images();
-    this.runner = s("circle", { class: "bm-runner", r: 6, visibility: "hidden" });
-    svg.append(this.runner);
-  }
-  /** Edges of the box; those at the farthest corner are behind everything. */
-  edges(back2) {
-    let front = "", behind = "";
-    for (let axis = 0; axis < 3; axis += 1) {
-      for (const [b, c] of [[-1, -1], [-1, 1], [1, -1], [1, 1]]) {
-        const one = [0, 0, 0], [j, k] = [(axis + 1) % 3, (axis + 2) % 3];
-        [one[j], one[k], one[axis]] = [b, c, -1];
-        const other = [...one];
-        other[axis] = 1;
-        const d = `M${this.project(one).map(px).join(" ")}L${this.project(other).map(px).join(" ")}`;
-        if (b === back2[j] && c === back2[k]) behind += d;
-        else front += d;
-      }
-    }
-    return [s("path", { class: "bm-box bm-behind", d: behind }), s("path", { class: "bm-box", d: front })];
-  }
-  /** Names at the middle of edges that are in sight. */
-  axisNames(back2) {
-    const name = (point2, text) => {
-      const [x, y] = this.project(point2), [cx, cy] = [x - this.width / 2, y - this.height / 2];
-      const size2 = Math.hypot(cx, cy) || 1;
-      return s("text", { class: "bm-axis", x: px(x + 14 * cx / size2), y: px(y + 14 * cy / size2 + 4), "text-anchor": "middle" }, text);
-    };
-    const base = this.turn.above >= 0 ? -1 : 1;
-    return [name([0, -back2[1], base], "Z1"), name([-back2[0], 0, base], "Z2")];
-  }
-  /** The third coordinate, as the angle of M, at the edge farthest to the left. */
-  angleMarks() {
-    const upright = [[-1, -1], [-1, 1], [1, -1], [1, 1]].map(([a, b]) => ({ a, b, x: this.project([a, b, 0])[0] }));
-    const edge = upright.reduce((one, other) => other.x < one.x ? other : one);
-    const { centre, half } = this.space;
-    return this.marks.flatMap(({ at, text }) => {
-      const t = Math.tan((radians(at) - this.data.chart.angle) / 2), q = (t - centre[2]) / half[2];
-      const [x, y] = this.project([edge.a, edge.b, q]);
-      return [
-        s("path", { class: "bm-box", d: `M${px(x)} ${px(y)}h-5` }),
-        s("text", { class: "bm-axis", x: px(x - 8), y: px(y + 4), "text-anchor": "end" }, text)
-      ];
-    });
-  }
-  /** The motions of the coupler, in two paths each: behind a surface and before them. */
-  motions() {
-    return this.curves.flatMap(({ here, points }) => {
-      const paths = ["", ""];
-      let last = null;
-      for (let k = 0; k < points.length; k += 1) {
-        const p = points[k];
-        if (!inside(p) || k && Math.hypot(...plus(p, scaled(points[k - 1], -1))) > 0.6) last = null;
-        if (!inside(p)) continue;
-        const at = this.project(p), hidden = this.sheetsBefore(p) > 0 ? 1 : 0;
-        if (last) paths[hidden] += `M${last.map(px).join(" ")}L${at.map(px).join(" ")}`;
-        last = at;
-      }
-      const kind = here ? "bm-here" : "bm-other";
-      return [
-        s("path", { class: `bm-motion bm-hidden ${kind}`, d: paths[1] }),
-        s("path", { class: `bm-motion ${kind}`, d: paths[0] })
-      ];
-    });
-  }
-  /** The image points of the poses, with their names. */
-  images() {
-    const { svg, data } = this;
-    const labels = new Labels({ width: this.width, height: this.height });
-    const shown2 = this.poses.map((point2, k) => ({ point: point2, k })).filter(({ point: point2 }) => inside(point2));
-    for (const { point: point2 } of shown2) labels.block(...this.project(point2), 10, 10);
-    for (const { point: point2, k } of shown2) {
-      const [x, y] = this.project(point2), hidden = this.sheetsBefore(point2) > 0;
-      svg.append(s("circle", { class: `bm-image-point${hidden ? " bm-hidden" : ""}`, cx: px(x), cy: px(y), r: 4 }));
-      if (shown2.length <= MANY_POSES3) svg.append(labels.put(x, y, data.poses[k].label, 12, { class: "bm-image-name" }));
-    }
-  }
-  /** No place of the body is known. */
-  hide() {
-    this.place = null;
-    this.runner.setAttribute("visibility", "hidden");
-  }
-  show(place) {
-    this.place = place;
-    const point2 = this.point(place);
-    const inside2 = point2.every((value) => Math.abs(value) <= 1.02);
-    this.runner.setAttribute("visibility", inside2 ? "visible" : "hidden");
-    if (!inside2) return;
-    const [x, y] = this.project(point2);
-    this.runner.setAttribute("transform", `translate(${px(x)} ${px(y)})`);
-  }
-};
-
-// src/burmester/web/studio/manifold.mjs
-function coefficients(dyad, { origin, angle, length }) {
-  const c = Math.cos(angle), d = Math.sin(angle);
-  const hand = dyad.moving_pivot && [(c * dyad.moving_pivot[0] - d * dyad.moving_pivot[1]) / length, (d * dyad.moving_pivot[0] + c * dyad.moving_pivot[1]) / length];
-  const foot2 = dyad.fixed_pivot && dyad.fixed_pivot.map((value, k) => (value - origin[k]) / length);
-  if (dyad.kind === "RR") {
-    const [x, y] = hand, [xc, yc] = foot2, squared = (dyad.radius / length) ** 2 / 4;
-    const s1 = -(x + xc) / 2, s2 = -(y + yc) / 2, t1 = -(y - yc) / 2, t2 = (x - xc) / 2;
-    return [1, s1 * s1 + s2 * s2 - squared, 2 * s1, 2 * s2, 2 * t1, 2 * t2, 2 * (s1 * t1 + s2 * t2), t1 * t1 + t2 * t2 - squared];
-  }
-  const normal = radians(dyad.line.normal_deg);
-  if (dyad.kind === "PR") {
-    const n = [Math.cos(normal), Math.sin(normal)];
-    return line(normal, (dyad.line.offset - n[0] * origin[0] - n[1] * origin[1]) / length, hand);
-  }
-  return line(normal + angle, dyad.line.offset / length, foot2).map((value, k) => k >= 4 && k < 7 ? -value : value);
-}
-function line(normal, offset, [x, y]) {
-  const n1 = Math.cos(normal), n2 = Math.sin(normal), along = n1 * x + n2 * y, across = n2 * x - n1 * y;
-  return [0, -along - offset, 2 * n1, 2 * n2, -2 * n2, 2 * n1, 2 * across, along - offset];
-}
-function matrixOf(dyad, chart) {
-  if (dyad.kind === "PP") {
-    const half = (radians(dyad.angle_deg) - chart.angle) / 2;
-    return [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, Math.cos(half) / 2, 0, 0, Math.cos(half) / 2, -Math.sin(half)];
-  }
-  const [p1, p2, p3, p4, p5, p6, p7, p8] = coefficients(dyad, chart);
-  return [p1, 0, p3 / 2, p5 / 2, 0, p1, p4 / 2, p6 / 2, p3 / 2, p4 / 2, p2, p7 / 2, p5 / 2, p6 / 2, p7 / 2, p8];
-}
-function quadricOf(dyad, chart, { centre, half }) {
-  const c = matrixOf(dyad, chart), to = (r, k) => r === k ? k < 3 ? half[k] : 1 : k === 3 ? centre[r] : 0;
-  const out = new Array(16).fill(0);
-  for (let i = 0; i < 4; i += 1) {
-    for (let j = 0; j < 4; j += 1) {
-      for (let r = 0; r < 4; r += 1) for (let k = 0; k < 4; k += 1) out[4 * i + j] += to(r, i) * c[4 * r + k] * to(k, j);
-    }
-  }
-  const greatest = Math.max(...out.map(Math.abs));
-  return out.map((value) => value / greatest);
-}
-
-// src/burmester/web/studio/space_panel.mjs
-var CALM = 200;
-var SpacePanel = class {
-  constructor(answers, playing) {
-    Object.assign(this, { answers, playing });
-    this.story = h("p", { class: "bm-story" });
-    const fill = h("div", { class: "bm-fill" });
-    this.element = h("div", {}, this.story, fill);
-    this.fill = fill;
-    this.space = new ImageSpace(answers.data, fill, true);
-    this.quick = new Pace(() => this.build(true), () => isSeen(fill));
-    playing.on("shape", () => this.ask());
-    answers.on("poses placed", () => this.ask());
-    playing.on("place", ({ place }) => {
-      if (this.space.view && !answers.isOld && isSeen(fill)) this.space.show(place);
-    });
-    new ResizeObserver(() => this.ask()).observe(fill);
-    watch(fill, () => this.ask());
-  }
-  /** Coarsely at once, and finely when nothing changes any more. */
-  ask() {
-    this.quick.ask();
-    clearTimeout(this.calm);
-    this.calm = setTimeout(() => isSeen(this.fill) && this.build(false), CALM);
-  }
-  /** The dyads whose manifolds are shown: those put down by hand where they make no linkage, or those of the linkage. */
-  get dyads() {
-    const { linkage } = this.playing, { placed } = this.answers.store;
-    if (!linkage && placed?.dyads?.length) return placed.dyads;
-    return linkage?.led ?? [];
-  }
-  build(quick) {
-    const { answers, playing, space, dyads } = this, { data } = answers, { linkage } = playing;
-    if (!data.poses.length) return;
-    const box = linkage?.space ?? data.space;
-    const quadrics = dyads.map((dyad) => quadricOf(dyad, data.chart, box));
-    if (quadrics.length === 1) quadrics.push(quadrics[0]);
-    const shown2 = { ...linkage && !linkage.gone ? linkage : { ways: [], led: dyads }, space: { ...box, quadrics } };
-    const key = dyads.map((dyad) => dyad.id).join();
-    if (key !== this.told) {
-      this.told = key;
-      this.story.replaceChildren(...spaceStory(linkage && dyads.length === 2 ? { led: dyads } : null));
-    }
-    space.build(shown2, playing.player.way, quick);
-    if (playing.path && playing.here) space.show(playing.here.place);
-    else space.hide();
-  }
-};
-
-// src/burmester/web/studio/answer_panels.mjs
-var REDUCED_MOTION = "(prefers-reduced-motion: reduce)";
-var TYPED_IN = "button, input, select, textarea, summary, a, [role=button], [role=slider]";
-var panel = (name, title, open, ...content) => h("details", { class: `bm-card bs-panel bs-panel-${name}`, open, "data-panel": name }, h("summary", {}, h("h2", {}, title)), content);
-function addResults(store, scene, { player, results, panels }) {
-  const answers = new Answers(store), playing = new Playing(store, answers);
-  const live = new LiveLinkage(answers, playing, scene), surface = new PivotSurface(store, answers, playing, scene);
-  const centrodes = new Centrodes(answers, playing, scene), curves = new CouplerCurves(answers, playing, scene);
-  const cards = new Results(store, answers), charts = new Charts(answers, playing), space = new SpacePanel(answers, playing);
-  const compare = new Compare(store, answers, playing), facts = new FactsTable(store, answers, playing, curves);
-  player.append(playing.element, h("div", { class: "bs-player-tools" }, centrodes.element, curves.element));
-  results.append(cards.element);
-  panels.append(
-    panel("pivots", "Put a pivot somewhere", true, surface.element),
-    panel("space", "Image space", true, space.element),
-    panel("charts", "Errors and transmission", true, charts.element),
-    panel("compare", "Compare two linkages", false, compare.element),
-    panel("facts", "Every number in tables", false, facts.element)
-  );
-  for (const part of panels.children) part.addEventListener("toggle", () => dispatchEvent(new Event("resize")));
-  unfoldForPrint(document.body, new AbortController().signal);
-  catchUpForPrint();
-  listenToSpace(playing);
-  playOnce(store, answers, playing);
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => answers.emit("answers"));
-  return { answers, playing, live, surface, centrodes, curves, cards, charts, space, compare, facts };
-}
-function listenToSpace({ player }) {
-  document.addEventListener("keydown", (event) => {
-    if (event.key !== " " || event.ctrlKey || event.metaKey || event.altKey || event.target.closest?.(TYPED_IN) || !player.path) return;
-    event.preventDefault();
-    player.play(!player.playing);
-  });
-}
-function playOnce(store, answers, { player }) {
-  if (matchMedia(REDUCED_MOTION).matches) return;
-  let first = true;
-  answers.on("answers", () => {
-    if (first && player.path) {
-      first = false;
-      player.playOnce();
-    }
-  });
-  store.on("document selection", () => {
-    first = false;
-    if (player.remaining !== null) player.play(false);
-  });
-}
-
-// src/burmester/web/studio/history.mjs
-var MOST4 = 500;
-var History = class {
-  constructor() {
-    this.past = [];
-    this.future = [];
-  }
-  /** Keep the value that a change is about to replace; edits of one gesture are one entry. */
-  record(value, gesture) {
-    this.future = [];
-    const last = this.past.at(-1);
-    if (gesture !== null && last?.gesture === gesture) return;
-    this.past.push({ value, gesture });
-    if (this.past.length > MOST4) this.past.shift();
-  }
-  /** The value before the last gesture, or null. */
-  undo(value) {
-    const last = this.past.pop();
-    if (!last) return null;
-    this.future.push(value);
-    return last.value;
-  }
-  /** The value that the last undo took away, or null. */
-  redo(value) {
-    const next = this.future.pop();
-    if (next === void 0) return null;
-    this.past.push({ value, gesture: null });
-    return next;
-  }
-  /** The value before a gesture that is given up, which leaves no entry; or null. */
-  abandon(gesture) {
-    if (this.past.at(-1)?.gesture !== gesture) return null;
-    return this.past.pop().value;
-  }
-  get canUndo() {
-    return this.past.length > 0;
-  }
-  get canRedo() {
-    return this.future.length > 0;
-  }
-};
-
-// src/burmester/web/studio/store.mjs
-var REST = 150;
-var MOST_REST = 1e3;
-var MOST_FLYING = 1;
-var MOST_SHOWN = 6;
-var PLACED2 = "placed";
-var Store = class {
-  /** @param {{ connection: import("./connection.mjs").Connection, document: object, options?: object, name?: string, settings?: object }} start */
-  constructor({ connection, document: document2, options = {}, name = "task", settings = {} }) {
-    this.connection = connection;
-    this.renamed = /* @__PURE__ */ new Map();
-    this.moved = /* @__PURE__ */ new Map();
-    this.document = document2;
-    this.options = options;
-    this.name = name;
-    this.settings = settings;
-    this.history = new History();
-    this.solved = null;
-    this.solvedFor = null;
-    this.followed = null;
-    this.followedFor = null;
-    this.state = "resting";
-    this.progress = "";
-    this.chosen = null;
-    this.pinned = /* @__PURE__ */ new Set();
-    this.compared = null;
-    this.placed = null;
-    this.selection = null;
-    this.messages = [];
-    this.listeners = /* @__PURE__ */ new Map();
-    this.basis = null;
-    this.pending = null;
-    this.flying = /* @__PURE__ */ new Map();
-    this.placing = null;
-    this.solving = null;
-    this.improving = null;
-    this.improved = null;
-    connection.on("message", (message) => this.take(message));
-    connection.on("open", () => this.opened());
-    connection.on("closed", () => this.closed());
-  }
-  // Events
-  /** Call `fn` after any of the events in `names`, which blanks or a list separate. */
-  on(names, fn) {
-    for (const name of [names].flat().join(" ").split(/\s+/)) {
-      if (!this.listeners.has(name)) this.listeners.set(name, []);
-      this.listeners.get(name).push(fn);
-    }
-  }
-  emit(...names) {
-    const told = /* @__PURE__ */ new Set();
-    for (const name of names) {
-      for (const fn of this.listeners.get(name) ?? []) {
-        if (told.has(fn)) continue;
-        told.add(fn);
-        fn(name);
-      }
-    }
-  }
-  // The task
-  /** Change the document; `gesture` is the same value for all edits that are undone as one. */
-  edit(change, { gesture = null } = {}) {
-    const next = change(this.document);
-    if (next === this.document) return;
-    this.history.record(this.version, gesture);
-    this.document = next;
-    this.changed();
-  }
-  /** An option of `burmester synthesize`; undefined takes it away. */
-  option(name, value) {
-    this.history.record(this.version, null);
-    const { [name]: _, ...rest } = this.options;
-    this.options = value === void 0 ? rest : { ...rest, [name]: value };
-    this.changed();
-  }
-  /** An option of `burmester export`; undefined takes it away. */
-  setting(name, value) {
-    this.history.record(this.version, null);
-    this.settings = withKeys(this.settings, { [name]: value });
-    this.emit("document");
-  }
-  /** Another name for the task, and for its files. */
-  rename(name) {
-    this.history.record(this.version, null);
-    this.name = name;
-    this.emit("document");
-  }
-  /** Another task in place of this one: one entry, too. */
-  replace({ document: document2, options = {}, name = this.name, settings = this.settings }) {
-    this.history.record(this.version, null);
-    Object.assign(this, { document: document2, options, name, settings, selection: null, placed: null });
-    this.changed();
-    this.emit("selection", "placed");
-  }
-  undo() {
-    this.goTo(this.history.undo(this.version));
-  }
-  redo() {
-    this.goTo(this.history.redo(this.version));
-  }
-  /** Give up a gesture: the task is as it was before it. */
-  abandon(gesture) {
-    this.goTo(this.history.abandon(gesture));
-  }
-  get version() {
-    return { document: this.document, options: this.options, name: this.name, settings: this.settings };
-  }
-  goTo(version) {
-    if (!version) return;
-    const isSame = version.document === this.document && version.options === this.options;
-    Object.assign(this, version);
-    if (isSame) this.emit("document");
-    else this.changed();
-  }
-  /** After any change: follow it, and solve when the hand rests. */
-  changed() {
-    this.emit("document");
-    if (this.state !== "offline") this.setState("dragging");
-    this.follow();
-    this.solveAfterRest();
-  }
-  // The server
-  /** The linkages whose motion is wanted while dragging. */
-  get shown() {
-    return [.../* @__PURE__ */ new Set([this.chosen, this.compared, ...this.pinned])].filter((id) => id && id !== PLACED2).slice(0, MOST_SHOWN);
-  }
-  follow() {
-    if (!this.solved || this.flying.size >= MOST_FLYING) return;
-    const { document: document2, options, shown: shown2 } = this;
-    const n = this.connection.send({ do: "follow", document: document2, options, shown: shown2 });
-    if (n !== null) this.flying.set(n, { document: document2, isOld: false });
-  }
-  solveAfterRest() {
-    clearTimeout(this.resting);
-    const since = performance.now();
-    const rest = () => {
-      if (this.flying.size && performance.now() - since < MOST_REST) this.resting = setTimeout(rest, REST / 3);
-      else this.solve();
-    };
-    this.resting = setTimeout(rest, REST);
-  }
-  /** Run the whole road for the task as it is now. */
-  solve() {
-    clearTimeout(this.resting);
-    const { document: document2, options } = this;
-    const n = this.connection.send({ do: "solve", document: document2, options });
-    if (n === null) return;
-    this.solving = { n, document: document2, options };
-    this.setState("solving", "");
-  }
-  /** Stop the whole road; what was followed stays. */
-  cancel() {
-    this.connection.send({ do: "cancel" });
-  }
-  /** The best dyad with each of these pivots, { plane: "F" | "M", at } one or two; none: no longer. */
-  place(pivots) {
-    this.placeWanted = pivots?.length ? pivots : null;
-    if (!this.placeWanted) {
-      this.placed = null;
-      this.emit("placed");
-    } else if (!this.placing) {
-      this.sendPlace();
-    }
-  }
-  sendPlace() {
-    const { document: document2, options, placeWanted: pivots } = this;
-    const n = this.connection.send({ do: "place", document: document2, options, pivots });
-    this.placing = n === null ? null : { n, pivots };
-  }
-  take(message) {
-    const { n, kind } = message;
-    if (kind === "followed") this.takeFollowed(message);
-    else if (this.flying.has(n)) this.followRefused(message);
-    else if (n === this.placing?.n) this.takePlaced(message);
-    else if (n === this.improving?.n) this.takeImproved(message);
-    else if (n === this.solving?.n || kind === "cancelled" && this.solving && n > this.solving.n) this.takeSolving(message);
-  }
-  takeFollowed(frame) {
-    const asked = this.flying.get(frame.n);
-    if (!asked) return;
-    const { document: document2, isOld } = asked, from = frame.from ?? (isOld ? null : this.basis);
-    this.flying.delete(frame.n);
-    if (this.pending && from === this.pending.n) this.install(this.pending);
-    this.goOn(document2);
-    if (from === this.basis) {
-      this.followed = frame;
-      this.followedFor = document2;
-      this.emit("followed");
-    }
-    if (!this.flying.size && ![this.followedFor, this.solvedFor].includes(this.document)) this.follow();
-  }
-  /** Follow the task as it is now, if it is another than one that was followed, and none that is on its way. */
-  goOn(document2) {
-    const asked = [document2, ...[...this.flying.values()].map((each) => each.document)];
-    if (!asked.includes(this.document)) this.follow();
-  }
-  /** What cannot be followed is solved when the hand rests. */
-  followRefused({ n, kind, messages = [], solve = false }) {
-    const { document: document2 } = this.flying.get(n);
-    this.flying.delete(n);
-    if (kind === "refused" && !solve) this.say(messages);
-    this.goOn(document2);
-  }
-  takePlaced(message) {
-    const { pivots } = this.placing;
-    this.placing = null;
-    if (this.placeWanted && message.kind === "placed") {
-      this.placed = { ...message, pivots };
-      this.emit("placed");
-    } else if (message.kind === "refused") {
-      this.say(message.messages);
-    }
-    if (this.placeWanted && this.placeWanted !== pivots) this.sendPlace();
-  }
-  /** While a newer task is at hand, what an older search says is not told. */
-  takeSolving(message) {
-    const { document: document2 } = this.solving, isNow = document2 === this.document;
-    if (message.kind === "progress" || message.kind === "waiting") {
-      const before = `waiting for ${message.before} other${message.before === 1 ? "" : "s"}`;
-      if (isNow) this.setState("solving", message.kind === "progress" ? message.text : before);
-      return;
-    }
-    if (message.kind === "solving") return;
-    this.solving = null;
-    if (message.kind === "solved") {
-      const answer = { ...message, document: document2 };
-      if (isNow) this.install(answer);
-      else this.pending = answer;
-    } else if (message.kind === "refused") {
-      this.say(message.messages);
-    } else {
-      const [said] = [message.message].flat();
-      this.say([{ tone: message.kind, ...typeof said === "string" ? { message: said } : said }]);
-    }
-    if (isNow) this.setState("resting", "");
-  }
-  /** Look for the nearest better linkages around one that is not usable. */
-  improve(linkage) {
-    const { document: document2, options } = this, n = this.connection.send({ do: "improve", document: document2, options, linkage });
-    this.improving = n === null ? null : { n, linkage };
-    this.emit("improved");
-  }
-  takeImproved(message) {
-    if (message.kind === "progress" || message.kind === "waiting" || message.kind === "solving") return;
-    this.improving = null;
-    if (message.kind === "improved") this.improved = message;
-    else if (message.messages) this.say(message.messages);
-    this.emit("improved");
-  }
-  /** A whole answer becomes what is shown; what was chosen goes on as the same linkage, whatever its id. */
-  install({ n, result, document: document2, seconds, was }) {
-    const told = Object.entries(was ?? {});
-    this.renamed = new Map(told.map(([now, { id }]) => [id, now]));
-    this.moved = new Map(told.map(([now, { moved }]) => [now, moved]));
-    if (!told.length && document2 === this.solvedFor && !this.followed) for (const { id } of result.linkages) this.renamed.set(id, id);
-    const carried = (id) => id === PLACED2 && this.placed?.linkage ? id : this.renamed.get(id) ?? null;
-    Object.assign(this, { solved: result, solvedFor: document2, seconds, basis: n, pending: null, followed: null, followedFor: null });
-    for (const each of this.flying.values()) each.isOld = true;
-    this.chosen = carried(this.chosen) ?? result.linkages[0]?.id ?? null;
-    this.compared = carried(this.compared);
-    this.pinned = new Set([...this.pinned].map(carried).filter(Boolean));
-    this.messages = [];
-    this.emit("solved", "chosen", "pinned", "messages");
-    if (document2 !== this.document) this.follow();
-  }
-  opened() {
-    this.flying.clear();
-    this.solving = this.placing = this.improving = null;
-    this.setState("resting", "");
-    this.basis = null;
-    this.solve();
-  }
-  closed() {
-    clearTimeout(this.resting);
-    this.flying.clear();
-    this.solving = this.placing = this.improving = null;
-    this.setState("offline", "");
-  }
-  setState(state, progress = "") {
-    if (state === this.state && progress === this.progress) return;
-    this.state = state;
-    this.progress = progress;
-    this.emit("state");
-  }
-  /** Messages in the readers' form: { code, message, where, help }; an empty list takes them away. */
-  say(messages) {
-    this.messages = messages;
-    this.emit("messages");
-  }
-  // What is looked at
-  choose(id) {
-    if (id === this.chosen) return;
-    this.chosen = id;
-    this.emit("chosen");
-    if (this.state === "dragging" || this.document !== this.solvedFor) this.follow();
-  }
-  pin(id) {
-    if (!this.pinned.delete(id)) this.pinned.add(id);
-    this.emit("pinned");
-  }
-  compare(id) {
-    this.compared = id === this.compared ? null : id;
-    this.emit("chosen");
-  }
-  /** { kind: "pose" | "limit" | "region" | "body", index }, or null. */
-  select(selection) {
-    if (selection?.kind === this.selection?.kind && selection?.index === this.selection?.index) return;
-    this.selection = selection;
-    this.emit("selection");
-  }
-};
-
-// src/burmester/web/studio/point_fields.mjs
-var FEW2 = 40;
-var PointFields = class {
-  /** options and step: as a NumberField of a length takes them; set(change): change goes from points to points. */
-  constructor({ name, options, step, set }) {
-    Object.assign(this, { name, options, step, set, fields: [] });
-    this.shape = h("span", { class: "bs-hint" });
-    this.more = h("p", { class: "bs-hint" });
-    this.pairs = h("div", { class: "bs-coordinates" });
-    this.element = h("div", { class: "bs-point-fields" }, this.shape, this.pairs, this.more);
-  }
-  /** Show a shape; text that is no number stays where it is, as long as its point does. */
-  show(shape, points) {
-    const count = Math.min(points.length, FEW2);
-    if (shape !== this.shape.textContent) this.fields = [];
-    this.shape.textContent = shape;
-    while (this.fields.length < count) this.fields.push(this.make(this.fields.length));
-    this.fields.length = count;
-    const wanted = this.fields.map((each) => each.element);
-    if (wanted.length !== this.pairs.children.length || wanted.some((each, k) => each !== this.pairs.children[k])) this.pairs.replaceChildren(...wanted);
-    this.fields.forEach(({ pair }, k) => pair.forEach((field, i) => field.show(points[k][i])));
-    give(this.more, "hidden", points.length <= FEW2);
-    this.more.textContent = `and ${points.length - FEW2} more, to drag in the plane`;
-  }
-  make(k) {
-    const pair = ["x", "y"].map((axis, i) => new NumberField({
-      label: `${axis} of point ${k + 1} of ${this.name}`,
-      options: () => ({ ...this.options(), optional: false }),
-      step: this.step,
-      commit: (value) => this.set((points) => points.map((point2, j) => j === k ? point2.map((old, m) => m === i ? value : old) : point2))
-    }));
-    return { pair, element: h("span", { class: "bs-pair" }, pair.map((field) => field.element)) };
-  }
-};
-
-// src/burmester/web/studio/task_panel.mjs
-var SHAPES = ["point", "line", "segment", "box", "polygon"];
-var KINDS2 = [["RR", "RR: a link"], ["PR", "PR: a slider"], ["RP", "RP: a slot"], ["PP", "PP: a carriage"]];
-var TYPES = [
-  "grashof",
-  "non-grashof",
-  "crank-rocker",
-  "rocker-crank",
-  "double-crank",
-  "double-rocker",
-  "triple-rocker",
-  "change-point",
-  "slider-crank",
-  "inverted slider-crank",
-  "double slider",
-  "Oldham linkage",
-  "Rapson slide"
-];
-var DRIVERS = [["any", "either dyad"], ["crank", "one that turns fully"], ["first", "the first of two limits"], ["second", "the second of two limits"]];
-var METHODS = [["auto", "chosen by the task"], ["complete", "complete: every locally best dyad"], ["pencil", "pencil: the two dyads of the paper"], ["exact", "exact: through five poses"]];
-var PREFERENCES = [["transmission", "transmission"], ["size", "size"], ["accuracy", "accuracy"]];
-var NORMS = [["rms", "the root mean square"], ["worst", "the worst pose"]];
-var UNITS2 = ["", "mm", "cm", "m", "in", "ft"];
-var section2 = (name, title, open, ...content) => h("details", { class: "bs-section", "data-section": name, open }, h("summary", {}, title), ...content);
-var TaskPanel = class {
-  constructor(store, scene, regions, body, files) {
-    Object.assign(this, { store, scene, regions, body, files });
-    this.element = h("div", { class: "bs-task" });
-    this.element.append(this.makeLimits(), this.makeRegions(), this.makeBody(), this.makeRequirements(), this.makeOptions());
-    store.on("document selection", () => this.draw());
-    regions.onjudged = () => this.drawVerdicts();
-    this.draw();
-  }
-  edit(change) {
-    this.store.edit(change);
-  }
-  length(label, commit, options = {}, attributes = {}) {
-    return new NumberField({ label, commit, options: () => ({ kind: "length", unit: this.store.document.length_unit, optional: true, ...options }), step: () => this.scene.step, attributes });
-  }
-  /** Buttons that draw a shape; the one in use is pressed. */
-  tools(label, shapes, toolOf, data) {
-    return h("div", { class: "bs-tools", role: "group", "aria-label": label }, shapes.map((shape) => this.toolButton(shape, () => toolOf(shape), { "data-draw": `${data} ${shape}` })));
-  }
-  toolButton(text, toolOf, attributes) {
-    const made2 = button(text, () => this.scene.use(made2.tool && made2.tool === this.scene.tool ? null : made2.tool = toolOf()), { "aria-pressed": "false", ...attributes });
-    this.scene.on("tool", (tool) => put(made2, "aria-pressed", Boolean(tool) && tool === made2.tool));
-    return made2;
-  }
-  /** Fields for the points of a shape; set(change) changes them. */
-  points(name, set) {
-    return new PointFields({ name, set, options: () => ({ kind: "length", unit: this.store.document.length_unit }), step: () => this.scene.step });
-  }
-  // Limits
-  makeLimits() {
-    this.apart = tick("another limit for each of the two dyads", (on) => this.edit((document2) => splitLimits(document2, on)), { "data-key": "limits-apart" });
-    this.tables = h("div", {});
-    this.madeTables = [];
-    return section2("limits", "Limits of pivots and links", false, this.apart.element, this.tables);
-  }
-  makeTable(k) {
-    const { store, regions } = this, edit = (changes) => this.edit((document2) => setLimit(document2, k, changes));
-    const title = h("h3", {}), parts = {};
-    for (const [key, name] of [["fixed_pivot", "Fixed pivot, in the ground"], ["moving_pivot", "Moving pivot, in the body"]]) {
-      const state = h("p", { class: "bs-state" });
-      const numbers = this.points(`the limit of the ${key.replace("_", " ")}`, (change) => this.edit((document2) => withPoints(document2, k, key, change)));
-      const remove = button("Delete", () => regions.removeLimit(k, key), { "data-do": `delete-limit-${k}-${key}`, "aria-label": `Delete the limit: ${name}` });
-      parts[key] = { state, numbers, remove };
-      parts[key].element = h("div", { class: "bs-limit-box" }, h("h4", {}, name), this.tools(`Draw a limit: ${name}`, SHAPES, (shape) => regions.limitTool(k, key, shape), `limit ${k} ${key}`), numbers.element, state, remove);
-    }
-    const least2 = this.length("least length", (value) => edit({ length: range(value, limitsOf(store.document)[k]?.length?.most) }), { least: 0 }, { "data-key": `least-${k}`, placeholder: "any" });
-    const most = this.length("greatest length", (value) => edit({ length: range(limitsOf(store.document)[k]?.length?.least, value) }), { least: 0 }, { "data-key": `most-${k}`, placeholder: "any" });
-    const kinds = KINDS2.map(([kind, text]) => ({ kind, ...tick(text, () => edit({ kinds: kindsOf2(kinds) }), { "data-key": `kind-${k}-${kind}` }) }));
-    const lengthState = h("p", { class: "bs-state" }), kindsState = h("p", { class: "bs-state" });
-    const element = h(
-      "div",
-      { class: "bs-limit-table" },
-      title,
-      parts.fixed_pivot.element,
-      parts.moving_pivot.element,
-      h("div", { class: "bs-row" }, labelled("length from", least2.element), labelled("to", most.element)),
-      lengthState,
-      h("div", { class: "bs-row", role: "group", "aria-label": "kinds of dyads" }, kinds.map((each) => each.element)),
-      kindsState
-    );
-    return { element, title, parts, least: least2, most, kinds, lengthState, kindsState };
-  }
-  drawLimits() {
-    const { document: document2 } = this.store, tables = limitsOf(document2), count = Math.max(1, tables.length);
-    give(this.apart.box, "checked", tables.length > 1);
-    while (this.madeTables.length < count) this.madeTables.push(this.makeTable(this.madeTables.length));
-    while (this.tables.children.length > count) this.tables.lastChild.remove();
-    while (this.tables.children.length < count) this.tables.append(this.madeTables[this.tables.children.length].element);
-    for (let k = 0; k < count; k += 1) {
-      const table3 = tables[k] ?? {}, made2 = this.madeTables[k];
-      made2.title.textContent = count > 1 ? `Dyad ${k + 1}` : "Both dyads";
-      for (const key of ["fixed_pivot", "moving_pivot"]) this.drawLimit(made2.parts[key], table3[key]);
-      made2.least.show(table3.length?.least);
-      made2.most.show(table3.length?.most);
-      for (const { kind, box } of made2.kinds) box.checked = !table3.kinds || table3.kinds.includes(kind);
-    }
-  }
-  drawLimit({ numbers, remove }, region) {
-    for (const each of [remove, numbers.element]) give(each, "hidden", !region);
-    if (!region) return;
-    const [[shape, stated]] = Object.entries(region);
-    numbers.show(shape, shape === "point" ? [stated] : stated);
-  }
-  drawVerdicts() {
-    const { regions } = this, tables = limitsOf(this.store.document);
-    this.madeTables.forEach((made2, k) => {
-      for (const key of ["fixed_pivot", "moving_pivot"]) tell(made2.parts[key].state, tables[k]?.[key] ? regions.said(k, key) : null);
-      tell(made2.lengthState, tables[k]?.length ? regions.said(k, "length") : null);
-      tell(made2.kindsState, tables[k]?.kinds ? regions.said(k, "kinds") : null);
-    });
-    this.regionRows.forEach((row, k) => tell(row.state, regions.touched ? [regions.touched[k]].filter(Boolean) : null));
-  }
-  // Regions to keep out of
-  makeRegions() {
-    this.regionList = h("div", {});
-    this.regionRows = [];
-    this.linkWidth = this.length("width of the links", (value) => this.edit((document2) => setSurrounding(document2, "link_width", value)), { least: 0 }, { "data-key": "link_width", placeholder: "0" });
-    this.margin = this.length("least clearance", (value) => this.edit((document2) => setSurrounding(document2, "margin", value)), { least: 0 }, { "data-key": "margin", placeholder: "0" });
-    this.inPlane = tick("links that stand on the ground must not touch the body either", (on) => this.edit((document2) => setSurrounding(document2, "body_in_plane", on || void 0)), { "data-key": "body_in_plane" });
-    return section2(
-      "keep-out",
-      "Regions to keep out of",
-      false,
-      h("p", { class: "bs-hint" }, "The body and the links must not touch them between the poses."),
-      this.tools("Draw a region to keep out of", ["box", "polygon"], (shape) => this.regions.regionTool(shape), "region"),
-      this.regionList,
-      h("div", { class: "bs-row" }, labelled("links are wide", this.linkWidth.element), labelled("least clearance", this.margin.element)),
-      this.inPlane.element
-    );
-  }
-  drawRegions() {
-    const { store } = this, regions = regionsOf(store.document);
-    while (this.regionRows.length < regions.length) {
-      this.regionRows.push(this.regionRow(this.regionRows.length));
-      this.regionList.append(this.regionRows.at(-1).element);
-    }
-    for (const row of this.regionRows.splice(regions.length)) row.element.remove();
-    this.regionRows.forEach((row, k) => row.show(regions[k], store.selection?.kind === "region" && store.selection.index === k));
-    const { link_width, margin, body_in_plane } = store.document.surroundings ?? {};
-    this.linkWidth.show(link_width);
-    this.margin.show(margin);
-    give(this.inPlane.box, "checked", Boolean(body_in_plane));
-  }
-  regionRow(k) {
-    const { store } = this, shapeKey = (region) => region.box ? "box" : "polygon";
-    const name = textField(`Name of region ${k + 1}`, (text) => this.edit((document2) => setRegion(document2, k, { name: text.trim() || void 0 })), { "data-key": `region-name-${k}`, placeholder: `region ${k + 1}` });
-    const numbers = this.points(`region ${k + 1}`, (change) => this.edit((document2) => {
-      const region = regionsOf(document2)[k], key = shapeKey(region);
-      return setRegion(document2, k, { [key]: change(region[key]) });
-    }));
-    const state = h("p", { class: "bs-state" }), inNumbers = h("details", {}, h("summary", {}, "in numbers"), numbers.element), file = h("p", { class: "bs-hint" });
-    const element = h(
-      "div",
-      { class: "bs-limit-box", "data-region-row": k, onfocusin: () => store.select({ kind: "region", index: k }) },
-      h("div", { class: "bs-row" }, name, button("Delete", () => this.regions.removeRegion(k), { "data-do": `delete-region-${k}`, "aria-label": `Delete region ${k + 1}` })),
-      state,
-      inNumbers,
-      file
-    );
-    const show = (region, selected) => {
-      const text = (region.name ?? "").replace(/[\r\n]+/g, " ");
-      if (document.activeElement !== name && name.value !== text) name.value = text;
-      element.classList.toggle("bs-selected", selected);
-      give(inNumbers, "hidden", region.file !== void 0);
-      give(file, "hidden", !inNumbers.hidden);
-      if (inNumbers.hidden) file.textContent = `from the drawing ${region.file}`;
-      else numbers.show(shapeKey(region), region[shapeKey(region)]);
-    };
-    return { element, state, show };
-  }
-  // The body
-  makeBody() {
-    this.bodyNumbers = this.points("the outline", (change) => this.edit((document2) => setBody(document2, change(bodyOf(document2)))));
-    this.bodyCount = h("summary", {});
-    this.bodyBox = h("details", {}, this.bodyCount, this.bodyNumbers.element);
-    this.noBody = button("Delete the outline", () => this.edit((document2) => setBody(document2, [])), { "data-do": "delete-body" });
-    return section2(
-      "body",
-      "Outline of the body",
-      false,
-      h("p", { class: "bs-hint" }, "It is seen at every pose, moves with the linkage, and says what an angle error counts as."),
-      h("div", { class: "bs-tools" }, this.toolButton("Draw it", () => this.body.tool(), { "data-draw": "body" }), button("From a drawing (SVG, DXF)…", () => this.files.chooseOutline(), { "data-do": "outline-file" }), this.noBody),
-      this.bodyBox
-    );
-  }
-  drawBody() {
-    const { document: task } = this.store, corners = bodyOf(task);
-    give(this.noBody, "hidden", !task.body);
-    give(this.bodyBox, "hidden", !corners.length);
-    if (!corners.length) return;
-    this.bodyCount.textContent = `${corners.length} corners, in numbers`;
-    this.bodyNumbers.show("polygon", corners);
-  }
-  // Requirements and options
-  makeRequirements() {
-    const set = (key) => (value) => this.edit((document2) => setRequirement(document2, key, value));
-    const number = (label, key, options) => new NumberField({ label, commit: set(key), options: () => ({ optional: true, unit: this.store.document.length_unit, ...options }), attributes: { "data-key": key, placeholder: "–" } });
-    this.numbers = {
-      transmission_deg: number("least transmission angle", "transmission_deg", { kind: "angle", least: 0, most: 90 }),
-      link_ratio: number("longest link to the shortest, at most", "link_ratio", { least: 1 }),
-      within: number("greatest position error", "within", { kind: "length", above: 0 }),
-      within_deg: number("greatest angle error", "within_deg", { kind: "angle", above: 0 })
-    };
-    this.driver = choice("driver", DRIVERS, (value) => set("driver")(value === "any" ? void 0 : value), { "data-key": "driver" });
-    this.anyOrder = tick("the poses may be met in any order", (on) => set("any_order")(on || void 0), { "data-key": "any_order" });
-    this.types = TYPES.map((type) => ({ type, ...tick(type, () => set("types")(typesOf(this.types)), { "data-key": `type-${type}` }) }));
-    this.noFootprint = button("Delete", () => set("footprint")(void 0), { "data-do": "delete-footprint", "aria-label": "Delete the footprint" });
-    return section2(
-      "requirements",
-      "What the linkage must be",
-      true,
-      h(
-        "div",
-        { class: "bs-grid" },
-        labelled("transmission angle at least", this.numbers.transmission_deg.element, "°"),
-        labelled("position error at most", this.numbers.within.element, " "),
-        labelled("angle error at most", this.numbers.within_deg.element, "°"),
-        labelled("link ratio at most", this.numbers.link_ratio.element, " "),
-        labelled("driver", this.driver)
-      ),
-      this.anyOrder.element,
-      h("div", { class: "bs-limit-box" }, h("h4", {}, "Footprint: holds all pivots, wherever the poses take them"), this.tools("Draw the footprint", ["box", "polygon"], (shape) => this.regions.footprintTool(shape), "footprint"), this.noFootprint),
-      h("details", {}, h("summary", {}, "Types"), h("div", { class: "bs-ticks" }, this.types.map((each) => each.element)), h("p", { class: "bs-hint" }, "None: any type."))
-    );
-  }
-  drawRequirements() {
-    const asked = this.store.document.requirements ?? {};
-    for (const [key, field] of Object.entries(this.numbers)) field.show(asked[key]);
-    this.driver.value = asked.driver ?? "any";
-    give(this.anyOrder.box, "checked", Boolean(asked.any_order));
-    give(this.noFootprint, "hidden", !asked.footprint);
-    for (const { type, box } of this.types) box.checked = Boolean(asked.types?.includes(type));
-  }
-  makeOptions() {
-    const { store } = this;
-    this.unit = choice("unit of length", UNITS2.map((unit2) => [unit2, unit2 || "not stated"]), (value) => this.edit((document2) => withKeys(document2, { length_unit: value || void 0 })), { "data-key": "length_unit" });
-    this.method = choice("method", METHODS, (value) => store.option("method", value === "auto" ? void 0 : value), { "data-key": "method" });
-    this.norm = choice("norm", NORMS, (value) => store.option("norm", value === "rms" ? void 0 : value), { "data-key": "norm" });
-    this.prefer = choice("best at", PREFERENCES, (value) => store.option("prefer", value === "transmission" ? void 0 : value), { "data-key": "prefer" });
-    this.lengths = ["angle-weight", "tolerance"].map((name) => ({ name, field: this.length(name, (value) => store.option(name, value), { above: 0 }, { "data-key": name, placeholder: "–" }) }));
-    const [weight, made2] = this.lengths.map(({ field }) => field.element);
-    return section2(
-      "options",
-      "Unit and method",
-      false,
-      h(
-        "div",
-        { class: "bs-grid" },
-        labelled("unit of length", this.unit),
-        labelled("method", this.method),
-        labelled("what is made least", this.norm),
-        labelled("two to four poses: best at", this.prefer),
-        labelled("one radian counts as", weight, " "),
-        labelled("pivots and lengths are made to ±", made2, " ")
-      ),
-      h("p", { class: "bs-hint" }, "Another unit leaves the numbers as they are.")
-    );
-  }
-  drawOptions() {
-    const { document: document2, options } = this.store, unit2 = document2.length_unit ?? "";
-    if (![...this.unit.options].some((each) => each.value === unit2)) this.unit.append(h("option", { value: unit2 }, unit2));
-    this.unit.value = unit2;
-    this.method.value = options.method ?? "auto";
-    this.norm.value = options.norm ?? "rms";
-    this.prefer.value = options.prefer ?? "transmission";
-    for (const { name, field } of this.lengths) field.show(options[name]);
-  }
-  /** While poses are dragged nothing here is another. */
-  draw() {
-    const { document: { limits, keep_out, surroundings, body, requirements, length_unit }, options, selection } = this.store;
-    const now = [limits, keep_out, surroundings, body, requirements, length_unit, options, selection];
-    if (now.every((each, k) => each === this.drawn?.[k]) && this.drawn) return;
-    this.drawn = now;
-    this.drawLimits();
-    this.drawRegions();
-    this.drawBody();
-    this.drawRequirements();
-    this.drawOptions();
-    this.drawVerdicts();
-  }
-};
-function tell(element, sentences) {
-  give(element, "hidden", sentences === null);
-  if (sentences === null) return;
-  element.className = `bs-state ${sentences.length ? "bs-broken" : "bs-met"}`;
-  element.textContent = sentences.length ? `✕ ${sentences.join(" ")}` : "✓ met by the chosen linkage";
-}
-function withPoints(document2, k, key, change) {
-  const [[shape, stated]] = Object.entries(limitsOf(document2)[k][key]);
-  return setLimit(document2, k, { [key]: shapeOf(shape, change(shape === "point" ? [stated] : stated)) });
-}
-var range = (least2, most) => least2 === void 0 && most === void 0 ? void 0 : { ...least2 === void 0 ? {} : { least: least2 }, ...most === void 0 ? {} : { most } };
-function kindsOf2(kinds) {
-  const list = kinds.filter(({ box }) => box.checked).map(({ kind }) => kind);
-  return list.length === kinds.length || !list.length ? void 0 : list;
-}
-function typesOf(types) {
-  const list = types.filter(({ box }) => box.checked).map(({ type }) => type);
-  return list.length ? list : void 0;
-}
-
-// src/burmester/web/studio/studio.mjs
-var EMPTY = "An empty task: add poses here, paste rows of a spreadsheet, drop a file, or take a template.";
-var FIRST = "Drag a pose by its point, turn it by the tip of its arrow: every linkage answers at once.";
-function layOut(root, store, start) {
-  const scene = new Scene(store), banners = new Banners(store), files = new Files(store, start, banners);
-  banners.files = files;
-  const body = new BodyEditor(store, scene), regions = new Regions(store, scene);
-  const panel2 = new TaskPanel(store, scene, regions, body, files), handles = new PoseHandles(store, scene), table3 = new PoseTable(store, scene);
-  const player = h("div", { id: "bs-player" }), results = h("aside", { id: "bs-results", "aria-label": "Linkages" }), panels = h("div", { id: "bs-panels" });
-  const name = h("input", { class: "bs-text bs-task-name", "aria-label": "Name of the task", autocomplete: "off", spellcheck: "false", onchange: () => store.rename(name.value.trim() || "task") });
-  const undo = button("↶", () => store.undo(), { "data-do": "undo", title: "Undo (Ctrl+Z)", "aria-label": "Undo" }), redo = button("↷", () => store.redo(), { "data-do": "redo", title: "Redo (Ctrl+Shift+Z)", "aria-label": "Redo" });
-  const show = () => {
-    if (document.activeElement !== name) give(name, "value", store.name.replace(/[\r\n]+/g, " "));
-    give(undo, "disabled", !store.history.canUndo);
-    give(redo, "disabled", !store.history.canRedo);
-  };
-  store.on("document", show);
-  show();
-  root.replaceChildren(
-    h("header", { class: "bs-head" }, h("h1", {}, "burmester studio"), name, h("div", { class: "bs-row" }, undo, redo), files.element, banners.status, banners.live),
-    banners.element,
-    h(
-      "main",
-      { class: "bs-main" },
-      h("section", { class: "bs-left", "aria-label": "The task" }, h("div", { class: "bm-card" }, h("h2", {}, "Poses"), table3.element), h("div", { class: "bm-card" }, panel2.element, new ExportSettings(store, scene).element)),
-      h("section", { class: "bs-stage bm-card", "aria-label": "The plane" }, stageBar(store, scene), scene.element, player),
-      results,
-      panels
-    )
-  );
-  scene.resize();
-  addResults(store, scene, { player, results, panels });
-  listenToKeys(store, scene, files);
-  new Autosave(store);
-  files.opened = refitWhenSolved(store, scene);
-  return { scene, banners, files, body, regions, panel: panel2, handles, table: table3 };
-}
-function stageBar(store, scene) {
-  const pose = button("Add poses", () => scene.use(scene.tool?.name === "pose" ? null : new PoseTool(store, scene)), { "data-do": "add-poses", "aria-pressed": "false" });
-  const stop = button("Stop solving", () => store.cancel(), { "data-do": "cancel", hidden: true });
-  const line2 = h("p", { class: "bs-line" });
-  const show = () => {
-    line2.textContent = scene.tool?.hint ?? (store.document.poses.length ? FIRST : EMPTY);
-    put(pose, "aria-pressed", scene.tool?.name === "pose");
-  };
-  scene.on("tool", show);
-  store.on("document", show);
-  let waiting;
-  store.on("state", () => {
-    clearTimeout(waiting);
-    if (store.state === "solving") waiting = setTimeout(() => give(stop, "hidden", false), 700);
-    else give(stop, "hidden", true);
-  });
-  show();
-  return h(
-    "div",
-    { class: "bs-bar" },
-    h(
-      "div",
-      { class: "bs-row" },
-      pose,
-      button("Fit", () => scene.fitAgain(), { "data-do": "fit", title: "Show the poses; once more: all of the body and the regions, too (0)" }),
-      button("+", () => scene.zoom(1.25, scene.size.width / 2, scene.size.height / 2), { "aria-label": "Zoom in" }),
-      button("−", () => scene.zoom(0.8, scene.size.width / 2, scene.size.height / 2), { "aria-label": "Zoom out" }),
-      ...keyList(),
-      stop
-    ),
-    line2
-  );
-}
-function refitWhenSolved(store, scene) {
-  let waits = true;
-  scene.hold(() => (waits ? [] : currentLinkage(store)?.led ?? []).map((dyad) => dyad.fixed_pivot).filter((point2) => point2 && isNear(store, point2)));
-  store.on("solved", () => {
-    const refit = waits && scene.isFitted;
-    waits = false;
-    if (refit) scene.fit();
-  });
-  return () => {
-    waits = true;
-    scene.fit();
-  };
-}
-function isNear({ solved, document: { poses } }, [x, y]) {
-  return poses.some((pose) => Math.hypot(x - pose.x, y - pose.y) < 3 * (solved?.scene ?? Infinity));
-}
-function listenToTokens(connection, banners) {
-  addEventListener("hashchange", async () => {
-    if (!location.hash) return;
-    await connection.session();
-    banners.close("expired");
-    connection.open();
-  });
-  let asked = false;
-  connection.on("closed", async () => {
-    if (asked) return;
-    asked = true;
-    try {
-      await connection.get("/start");
-    } catch (error) {
-      if (error instanceof Refused && error.status === 401) banners.expired();
-    }
-    asked = false;
-  });
-}
-async function main() {
-  const root = document.getElementById("studio"), connection = new Connection(decodeFrame);
-  try {
-    await connection.session();
-    const start = await connection.get("/start"), kept = keptHere();
-    const store = new Store({ connection, document: start.document, options: start.options, name: start.name, ...kept });
-    const parts = layOut(root, store, start);
-    if (start.saved && !kept) offerSaved(store, parts, start.saved);
-    listenToTokens(connection, parts.banners);
-    document.documentElement.dataset.ready = "true";
-    connection.open();
-  } catch (error) {
-    root.replaceChildren(h("p", { class: "bs-failed", role: "alert" }, error instanceof Refused && error.status === 401 ? "This page needs the address that burmester studio printed, with the token in it. Open that address, or start burmester studio again." : `The page could not start: ${error.message}. Is burmester studio still running? Start it again and open the address that it prints.`));
-    if (!(error instanceof Refused)) throw error;
-  }
-}
-function offerSaved(store, { banners, files }, saved) {
-  const when = typeof saved.when === "number" ? new Date(1e3 * saved.when).toLocaleString() : saved.when;
-  banners.say("saved", `Your task of last time, ${saved.name}${when ? ` (${when})` : ""}, was kept.`, [], {
-    actions: [button("Go on with it", () => {
-      banners.close("saved");
-      store.replace(saved);
-      files.opened();
-    }, { "data-do": "restore" })]
-  });
-}
-main();
+}`;function hasGraphics(){const gl=document.createElement("canvas").getContext("webgl2",{failIfMajorPerformanceCaveat:true});const named=gl?.getExtension("WEBGL\
+_debug_renderer_info");const name=named?gl.getParameter(named.UNMASKED_RENDERER_WEBGL):"";return Boolean(gl)&&!/swiftshader|llvmpipe|softpipe|software|basic render/i.
+test(name)}var Shader=class _Shader{static on(canvas,lost){if(!hasGraphics())return null;const gl=canvas.getContext("webgl2",{antialias:false,premultipliedAlpha:true,
+preserveDrawingBuffer:true});if(!gl)return null;const program=gl.createProgram();for(const[kind,source]of[[gl.VERTEX_SHADER,VERTEX],[gl.FRAGMENT_SHADER,FRAGMENT]]){
+const shader=gl.createShader(kind);gl.shaderSource(shader,source);gl.compileShader(shader);gl.attachShader(program,shader)}gl.linkProgram(program);if(!gl.getProgramParameter(
+program,gl.LINK_STATUS)){lost();return null}canvas.addEventListener("webglcontextlost",lost,{once:true});return new _Shader(canvas,gl,program)}constructor(canvas,gl,program){
+this.canvas=canvas;this.gl=gl;gl.useProgram(program);gl.bindBuffer(gl.ARRAY_BUFFER,gl.createBuffer());gl.bufferData(gl.ARRAY_BUFFER,new Float32Array([-1,-1,3,-1,
+-1,3]),gl.STATIC_DRAW);const corner=gl.getAttribLocation(program,"corner");gl.enableVertexAttribArray(corner);gl.vertexAttribPointer(corner,2,gl.FLOAT,false,0,0);
+this.places=Object.fromEntries(UNIFORMS.map(name=>[name,gl.getUniformLocation(program,name)]))}draw(scene,size2,turning){const{gl,places}=this;gl.clearColor(0,0,
+0,0);if(!scene.quadrics.length){gl.clear(gl.COLOR_BUFFER_BIT);return}gl.uniformMatrix4fv(places.surface,false,new Float32Array(scene.quadrics.flat()));gl.uniform3fv(
+places.paint,new Float32Array(scene.paint.flat()));for(const name of["eye","right","up","ahead"])gl.uniform3fv(places[name],scene[name]);gl.uniform2fv(places.reach,
+scene.reach);gl.uniform4fv(places.angles,scene.angles);this.pace??=this.measure(size2);const full=Math.min(2,window.devicePixelRatio||1),most=turning?TURNING_MILLISECONDS:
+STILL_MILLISECONDS;const ways=turning?[[1,1],[.7,1],[.45,1]]:[[full,4],[1,4],[full,1],[1,1],[.7,1]];const fits=ways.find(([dense,samples])=>dense*dense*samples*
+this.pace*size2.width*size2.height<most);this.once(size2,...fits??ways[ways.length-1])}measure(size2){const{gl}=this;this.once(size2,.12,1);gl.finish();const start=performance.
+now();this.once(size2,.3,1);gl.finish();return(performance.now()-start)/(.09*size2.width*size2.height)}once(size2,dense,samples){const{gl,canvas,places}=this;const width=Math.
+round(size2.width*dense),height=Math.round(size2.height*dense);if(canvas.width!==width||canvas.height!==height){canvas.width=width;canvas.height=height}gl.viewport(
+0,0,width,height);gl.clear(gl.COLOR_BUFFER_BIT);gl.uniform2f(places.pixel,1/width,1/height);gl.uniform1i(places.samples,samples);gl.drawArrays(gl.TRIANGLES,0,3)}};var FOCAL_LENGTH=2.3;var EYE_DISTANCE=4.6;var START={around:-.62,above:.38,zoom:1};var MANY_POSES3=40;var inside=point2=>point2.every(value=>Math.abs(value)<=1.0001);
+var ImageSpace=class{constructor(data,parent,webgl){this.data=data;this.parent=parent;this.turn={...START};this.canvas=h("canvas",{"aria-hidden":"true"});this.svg=
+s("svg",{"aria-hidden":"true"});this.note=h("p",{class:"bm-readout"});this.box=h("div",{class:"bm-space",role:"img",tabindex:"0","aria-label":"Image space: two \
+surfaces and the curve they meet in. Arrow keys turn it, plus and minus zoom."},this.canvas,this.svg);parent.append(this.box,this.note);this.shader=webgl?Shader.
+on(this.canvas,()=>this.withoutGl()):null;this.explain();this.listen()}explain(){this.canvas.dataset.drawn=this.shader?"webgl":"still";this.note.textContent=this.
+shader?"Drag it, or turn it with the arrow keys; + and − zoom, 0 goes back.":"A still picture, for fast WebGL 2 is missing here; it can be turned all the same\
+, by dragging or with the arrow keys."}withoutGl(){const fresh=this.canvas.cloneNode();this.canvas.replaceWith(fresh);this.canvas=fresh;this.shader=null;this.explain();
+if(this.space)this.draw(false)}listen(){const{box}=this;let grip=null;box.addEventListener("pointerdown",event=>{grip=[event.clientX,event.clientY];box.setPointerCapture(
+event.pointerId)});box.addEventListener("pointermove",event=>{if(!grip)return;this.turn.around-=.008*(event.clientX-grip[0]);this.turn.above+=.008*(event.clientY-
+grip[1]);grip=[event.clientX,event.clientY];this.redraw(true)});for(const end of["pointerup","pointercancel"]){box.addEventListener(end,()=>{if(grip)this.redraw(
+false);grip=null})}box.addEventListener("keydown",event=>{const{turn}=this;const step={ArrowLeft:()=>turn.around+=.1,ArrowRight:()=>turn.around-=.1,ArrowUp:()=>turn.
+above+=.1,ArrowDown:()=>turn.above-=.1,"+":()=>turn.zoom*=1.15,"=":()=>turn.zoom*=1.15,"-":()=>turn.zoom/=1.15,0:()=>Object.assign(turn,START)}[event.key];if(!step||
+event.ctrlKey||event.metaKey||event.altKey)return;event.preventDefault();event.stopPropagation();step();this.redraw(false)})}redraw(turning){this.turn.above=clamp(
+this.turn.above,-1.5,1.5);this.turn.zoom=clamp(this.turn.zoom,.6,4);cancelAnimationFrame(this.waiting);this.waiting=requestAnimationFrame(()=>this.draw(turning))}point(place){
+const{chart}=this.data,{centre,half}=this.space;const x=(place.x-chart.origin[0])/chart.length,y=(place.y-chart.origin[1])/chart.length;const t=Math.tan((place.
+a-chart.angle)/2);return[(x*t-y)/2,(x+y*t)/2,t].map((value,k)=>(value-centre[k])/half[k])}build(linkage,index,quick=false){this.linkage=linkage;this.space=linkage?.
+space??this.data.space;this.poses=this.data.poses.map(pose=>this.point({x:pose.x,y:pose.y,a:radians(pose.angle_deg)}));this.curves=(linkage?.ways??[]).map((way,k)=>({
+here:k===index,points:Array.from(way.x,(x,i)=>this.point({x,y:way.y[i],a:way.angle[i]}))}));const{centre,half}=this.space;const angleOf=q=>degrees(2*Math.atan(centre[2]+
+half[2]*q)+this.data.chart.angle);this.marks=angleTicks(angleOf(-1),angleOf(1),7);const width=Math.max(240,this.parent.clientWidth);this.width=width;this.height=
+Math.round(clamp(.8*width,240,520));this.svg.setAttribute("viewBox",`0 0 ${width} ${this.height}`);this.box.style.height=`${this.height}px`;this.draw(quick)}camera(){
+const{around:around2,above,zoom}=this.turn;const ahead=[-Math.cos(above)*Math.sin(around2),Math.cos(above)*Math.cos(around2),-Math.sin(above)];const right=[Math.
+cos(around2),Math.sin(around2),0];const up=cross2(right,ahead);const eye=scaled(ahead,-EYE_DISTANCE);const least2=Math.min(this.width,this.height);const focal=least2/
+2*FOCAL_LENGTH*zoom*1.02;return{ahead,right,up,eye,focal,reach:[this.width/2/focal,this.height/2/focal]}}draw(turning){this.view=this.camera();const scene=this.
+sceneOf(this.view);if(this.shader)this.shader.draw(scene,this,turning);else drawStill(this.canvas,scene,this,turning);this.overlay();if(this.place)this.show(this.
+place)}sceneOf(camera){const style=getComputedStyle(this.parent);const paint=["--bm-driver-solid","--bm-follower-solid"].map(name=>rgb(style.getPropertyValue(name)).
+map(v=>v/255));return{...camera,paint,quadrics:this.space.quadrics,angles:this.angles()}}angles(){const{centre,half}=this.space,{marks}=this;const step=marks.length>
+1?radians(marks[1].at-marks[0].at):Math.PI;return[centre[2],half[2],this.data.chart.angle,step]}project(point2){const{eye,ahead,right,up,focal}=this.view;const to=[
+0,1,2].map(k=>point2[k]-eye[k]),depth=dot(to,ahead);return[this.width/2+focal*dot(to,right)/depth,this.height/2-focal*dot(to,up)/depth]}sheetsBefore(point2){const to=plus(
+this.view.eye,scaled(point2,-1)),d=unit(to);let leave=Infinity;for(let k=0;k<3;k+=1)leave=Math.min(leave,((d[k]>0?1:-1)-point2[k])/d[k]);let count=0;for(const c of this.
+space.quadrics)for(const t of intersections(c,point2,d))if(t>.02&&t<leave)count+=1;return count}overlay(){const{svg}=this;const back2=this.view.ahead.map(value=>value>
+0?1:-1);svg.replaceChildren(...this.edges(back2),...this.axisNames(back2),...this.angleMarks(),...this.motions());this.images();this.runner=s("circle",{class:"b\
+m-runner",r:6,visibility:"hidden"});svg.append(this.runner)}edges(back2){let front="",behind="";for(let axis=0;axis<3;axis+=1){for(const[b,c]of[[-1,-1],[-1,1],[
+1,-1],[1,1]]){const one=[0,0,0],[j,k]=[(axis+1)%3,(axis+2)%3];[one[j],one[k],one[axis]]=[b,c,-1];const other=[...one];other[axis]=1;const d=`M${this.project(one).
+map(px).join(" ")}L${this.project(other).map(px).join(" ")}`;if(b===back2[j]&&c===back2[k])behind+=d;else front+=d}}return[s("path",{class:"bm-box bm-behind",d:behind}),
+s("path",{class:"bm-box",d:front})]}axisNames(back2){const name=(point2,text)=>{const[x,y]=this.project(point2),[cx,cy]=[x-this.width/2,y-this.height/2];const size2=Math.
+hypot(cx,cy)||1;return s("text",{class:"bm-axis",x:px(x+14*cx/size2),y:px(y+14*cy/size2+4),"text-anchor":"middle"},text)};const base=this.turn.above>=0?-1:1;return[
+name([0,-back2[1],base],"Z1"),name([-back2[0],0,base],"Z2")]}angleMarks(){const upright=[[-1,-1],[-1,1],[1,-1],[1,1]].map(([a,b])=>({a,b,x:this.project([a,b,0])[0]}));
+const edge=upright.reduce((one,other)=>other.x<one.x?other:one);const{centre,half}=this.space;return this.marks.flatMap(({at,text})=>{const t=Math.tan((radians(
+at)-this.data.chart.angle)/2),q=(t-centre[2])/half[2];const[x,y]=this.project([edge.a,edge.b,q]);return[s("path",{class:"bm-box",d:`M${px(x)} ${px(y)}h-5`}),s("\
+text",{class:"bm-axis",x:px(x-8),y:px(y+4),"text-anchor":"end"},text)]})}motions(){return this.curves.flatMap(({here,points})=>{const paths=["",""];let last=null;
+for(let k=0;k<points.length;k+=1){const p=points[k];if(!inside(p)||k&&Math.hypot(...plus(p,scaled(points[k-1],-1)))>.6)last=null;if(!inside(p))continue;const at=this.
+project(p),hidden=this.sheetsBefore(p)>0?1:0;if(last)paths[hidden]+=`M${last.map(px).join(" ")}L${at.map(px).join(" ")}`;last=at}const kind=here?"bm-here":"bm-o\
+ther";return[s("path",{class:`bm-motion bm-hidden ${kind}`,d:paths[1]}),s("path",{class:`bm-motion ${kind}`,d:paths[0]})]})}images(){const{svg,data}=this;const labels=new Labels(
+{width:this.width,height:this.height});const shown2=this.poses.map((point2,k)=>({point:point2,k})).filter(({point:point2})=>inside(point2));for(const{point:point2}of shown2)
+labels.block(...this.project(point2),10,10);for(const{point:point2,k}of shown2){const[x,y]=this.project(point2),hidden=this.sheetsBefore(point2)>0;svg.append(s(
+"circle",{class:`bm-image-point${hidden?" bm-hidden":""}`,cx:px(x),cy:px(y),r:4}));if(shown2.length<=MANY_POSES3)svg.append(labels.put(x,y,data.poses[k].label,12,
+{class:"bm-image-name"}))}}hide(){this.place=null;this.runner.setAttribute("visibility","hidden")}show(place){this.place=place;const point2=this.point(place);const inside2=point2.
+every(value=>Math.abs(value)<=1.02);this.runner.setAttribute("visibility",inside2?"visible":"hidden");if(!inside2)return;const[x,y]=this.project(point2);this.runner.
+setAttribute("transform",`translate(${px(x)} ${px(y)})`)}};function coefficients(dyad,{origin,angle,length}){const c=Math.cos(angle),d=Math.sin(angle);const hand=dyad.moving_pivot&&[(c*dyad.moving_pivot[0]-d*dyad.moving_pivot[1])/
+length,(d*dyad.moving_pivot[0]+c*dyad.moving_pivot[1])/length];const foot2=dyad.fixed_pivot&&dyad.fixed_pivot.map((value,k)=>(value-origin[k])/length);if(dyad.kind===
+"RR"){const[x,y]=hand,[xc,yc]=foot2,squared=(dyad.radius/length)**2/4;const s1=-(x+xc)/2,s2=-(y+yc)/2,t1=-(y-yc)/2,t2=(x-xc)/2;return[1,s1*s1+s2*s2-squared,2*s1,
+2*s2,2*t1,2*t2,2*(s1*t1+s2*t2),t1*t1+t2*t2-squared]}const normal=radians(dyad.line.normal_deg);if(dyad.kind==="PR"){const n=[Math.cos(normal),Math.sin(normal)];
+return line(normal,(dyad.line.offset-n[0]*origin[0]-n[1]*origin[1])/length,hand)}return line(normal+angle,dyad.line.offset/length,foot2).map((value,k)=>k>=4&&k<
+7?-value:value)}function line(normal,offset,[x,y]){const n1=Math.cos(normal),n2=Math.sin(normal),along=n1*x+n2*y,across=n2*x-n1*y;return[0,-along-offset,2*n1,2*
+n2,-2*n2,2*n1,2*across,along-offset]}function matrixOf(dyad,chart){if(dyad.kind==="PP"){const half=(radians(dyad.angle_deg)-chart.angle)/2;return[0,0,0,0,0,0,0,
+0,0,0,0,Math.cos(half)/2,0,0,Math.cos(half)/2,-Math.sin(half)]}const[p1,p2,p3,p4,p5,p6,p7,p8]=coefficients(dyad,chart);return[p1,0,p3/2,p5/2,0,p1,p4/2,p6/2,p3/2,
+p4/2,p2,p7/2,p5/2,p6/2,p7/2,p8]}function quadricOf(dyad,chart,{centre,half}){const c=matrixOf(dyad,chart),to=(r,k)=>r===k?k<3?half[k]:1:k===3?centre[r]:0;const out=new Array(
+16).fill(0);for(let i=0;i<4;i+=1){for(let j=0;j<4;j+=1){for(let r=0;r<4;r+=1)for(let k=0;k<4;k+=1)out[4*i+j]+=to(r,i)*c[4*r+k]*to(k,j)}}const greatest=Math.max(
+...out.map(Math.abs));return out.map(value=>value/greatest)}var CALM=200;var SpacePanel=class{constructor(answers,playing){Object.assign(this,{answers,playing});this.story=h("p",{class:"bm-story"});const fill=h("div",{class:"\
+bm-fill"});this.element=h("div",{},this.story,fill);this.fill=fill;this.space=new ImageSpace(answers.data,fill,true);this.quick=new Pace(()=>this.build(true),()=>isSeen(
+fill));playing.on("shape",()=>this.ask());answers.on("poses placed",()=>this.ask());playing.on("place",({place})=>{if(this.space.view&&!answers.isOld&&isSeen(fill))
+this.space.show(place)});new ResizeObserver(()=>this.ask()).observe(fill);watch(fill,()=>this.ask())}ask(){this.quick.ask();clearTimeout(this.calm);this.calm=setTimeout(
+()=>isSeen(this.fill)&&this.build(false),CALM)}get dyads(){const{linkage}=this.playing,{placed}=this.answers.store;if(!linkage&&placed?.dyads?.length)return placed.
+dyads;return linkage?.led??[]}build(quick){const{answers,playing,space,dyads}=this,{data}=answers,{linkage}=playing;if(!data.poses.length)return;const box=linkage?.
+space??data.space;const quadrics=dyads.map(dyad=>quadricOf(dyad,data.chart,box));if(quadrics.length===1)quadrics.push(quadrics[0]);const shown2={...linkage&&!linkage.
+gone?linkage:{ways:[],led:dyads},space:{...box,quadrics}};const key=dyads.map(dyad=>dyad.id).join();if(key!==this.told){this.told=key;this.story.replaceChildren(
+...spaceStory(linkage&&dyads.length===2?{led:dyads}:null))}space.build(shown2,playing.player.way,quick);if(playing.path&&playing.here)space.show(playing.here.place);else
+space.hide()}};var REDUCED_MOTION="(prefers-reduced-motion: reduce)";var TYPED_IN="button, input, select, textarea, summary, a, [role=button], [role=slider]";var panel=(name,title,open,...content)=>h(
+"details",{class:`bm-card bs-panel bs-panel-${name}`,open,"data-panel":name},h("summary",{},h("h2",{},title)),content);function addResults(store,scene,{player,results,
+panels}){const answers=new Answers(store),playing=new Playing(store,answers);const live=new LiveLinkage(answers,playing,scene),surface=new PivotSurface(store,answers,
+playing,scene);const centrodes=new Centrodes(answers,playing,scene),curves=new CouplerCurves(answers,playing,scene);const cards=new Results(store,answers),charts=new Charts(
+answers,playing),space=new SpacePanel(answers,playing);const compare=new Compare(store,answers,playing),facts=new FactsTable(store,answers,playing,curves);player.
+append(playing.element,h("div",{class:"bs-player-tools"},centrodes.element,curves.element));results.append(cards.element);panels.append(panel("pivots","Put a pi\
+vot somewhere",true,surface.element),panel("space","Image space",true,space.element),panel("charts","Errors and transmission",true,charts.element),panel("compar\
+e","Compare two linkages",false,compare.element),panel("facts","Every number in tables",false,facts.element));for(const part of panels.children)part.addEventListener(
+"toggle",()=>dispatchEvent(new Event("resize")));unfoldForPrint(document.body,new AbortController().signal);catchUpForPrint();listenToSpace(playing);playOnce(store,
+answers,playing);matchMedia("(prefers-color-scheme: dark)").addEventListener("change",()=>answers.emit("answers"));return{answers,playing,live,surface,centrodes,
+curves,cards,charts,space,compare,facts}}function listenToSpace({player}){document.addEventListener("keydown",event=>{if(event.key!==" "||event.ctrlKey||event.metaKey||
+event.altKey||event.target.closest?.(TYPED_IN)||!player.path)return;event.preventDefault();player.play(!player.playing)})}function playOnce(store,answers,{player}){
+if(matchMedia(REDUCED_MOTION).matches)return;let first=true;answers.on("answers",()=>{if(first&&player.path){first=false;player.playOnce()}});store.on("document\
+ selection",()=>{first=false;if(player.remaining!==null)player.play(false)})}var MOST4=500;var History=class{constructor(){this.past=[];this.future=[]}record(value,gesture){this.future=[];const last=this.past.at(-1);if(gesture!==null&&last?.
+gesture===gesture)return;this.past.push({value,gesture});if(this.past.length>MOST4)this.past.shift()}undo(value){const last=this.past.pop();if(!last)return null;
+this.future.push(value);return last.value}redo(value){const next=this.future.pop();if(next===void 0)return null;this.past.push({value,gesture:null});return next}abandon(gesture){
+if(this.past.at(-1)?.gesture!==gesture)return null;return this.past.pop().value}get canUndo(){return this.past.length>0}get canRedo(){return this.future.length>
+0}};var REST=150;var MOST_REST=1e3;var MOST_FLYING=1;var MOST_SHOWN=6;var PLACED2="placed";var Store=class{constructor({connection,document:document2,options={},name="\
+task",settings={}}){this.connection=connection;this.renamed=new Map;this.moved=new Map;this.document=document2;this.options=options;this.name=name;this.settings=
+settings;this.history=new History;this.solved=null;this.solvedFor=null;this.followed=null;this.followedFor=null;this.state="resting";this.progress="";this.chosen=
+null;this.pinned=new Set;this.compared=null;this.placed=null;this.selection=null;this.messages=[];this.listeners=new Map;this.basis=null;this.pending=null;this.
+flying=new Map;this.placing=null;this.solving=null;this.improving=null;this.improved=null;connection.on("message",message=>this.take(message));connection.on("op\
+en",()=>this.opened());connection.on("closed",()=>this.closed())}on(names,fn){for(const name of[names].flat().join(" ").split(/\s+/)){if(!this.listeners.has(name))
+this.listeners.set(name,[]);this.listeners.get(name).push(fn)}}emit(...names){const told=new Set;for(const name of names){for(const fn of this.listeners.get(name)??
+[]){if(told.has(fn))continue;told.add(fn);fn(name)}}}edit(change,{gesture=null}={}){const next=change(this.document);if(next===this.document)return;this.history.
+record(this.version,gesture);this.document=next;this.changed()}option(name,value){this.history.record(this.version,null);const{[name]:_,...rest}=this.options;this.
+options=value===void 0?rest:{...rest,[name]:value};this.changed()}setting(name,value){this.history.record(this.version,null);this.settings=withKeys(this.settings,
+{[name]:value});this.emit("document")}rename(name){this.history.record(this.version,null);this.name=name;this.emit("document")}replace({document:document2,options={},
+name=this.name,settings=this.settings}){this.history.record(this.version,null);Object.assign(this,{document:document2,options,name,settings,selection:null,placed:null});
+this.changed();this.emit("selection","placed")}undo(){this.goTo(this.history.undo(this.version))}redo(){this.goTo(this.history.redo(this.version))}abandon(gesture){
+this.goTo(this.history.abandon(gesture))}get version(){return{document:this.document,options:this.options,name:this.name,settings:this.settings}}goTo(version){if(!version)
+return;const isSame=version.document===this.document&&version.options===this.options;Object.assign(this,version);if(isSame)this.emit("document");else this.changed()}changed(){
+this.emit("document");if(this.state!=="offline")this.setState("dragging");this.follow();this.solveAfterRest()}get shown(){return[...new Set([this.chosen,this.compared,
+...this.pinned])].filter(id=>id&&id!==PLACED2).slice(0,MOST_SHOWN)}follow(){if(!this.solved||this.flying.size>=MOST_FLYING)return;const{document:document2,options,
+shown:shown2}=this;const n=this.connection.send({do:"follow",document:document2,options,shown:shown2});if(n!==null)this.flying.set(n,{document:document2,isOld:false})}solveAfterRest(){
+clearTimeout(this.resting);const since=performance.now();const rest=()=>{if(this.flying.size&&performance.now()-since<MOST_REST)this.resting=setTimeout(rest,REST/
+3);else this.solve()};this.resting=setTimeout(rest,REST)}solve(){clearTimeout(this.resting);const{document:document2,options}=this;const n=this.connection.send(
+{do:"solve",document:document2,options});if(n===null)return;this.solving={n,document:document2,options};this.setState("solving","")}cancel(){this.connection.send(
+{do:"cancel"})}place(pivots){this.placeWanted=pivots?.length?pivots:null;if(!this.placeWanted){this.placed=null;this.emit("placed")}else if(!this.placing){this.
+sendPlace()}}sendPlace(){const{document:document2,options,placeWanted:pivots}=this;const n=this.connection.send({do:"place",document:document2,options,pivots});
+this.placing=n===null?null:{n,pivots}}take(message){const{n,kind}=message;if(kind==="followed")this.takeFollowed(message);else if(this.flying.has(n))this.followRefused(
+message);else if(n===this.placing?.n)this.takePlaced(message);else if(n===this.improving?.n)this.takeImproved(message);else if(n===this.solving?.n||kind==="canc\
+elled"&&this.solving&&n>this.solving.n)this.takeSolving(message)}takeFollowed(frame){const asked=this.flying.get(frame.n);if(!asked)return;const{document:document2,
+isOld}=asked,from=frame.from??(isOld?null:this.basis);this.flying.delete(frame.n);if(this.pending&&from===this.pending.n)this.install(this.pending);this.goOn(document2);
+if(from===this.basis){this.followed=frame;this.followedFor=document2;this.emit("followed")}if(!this.flying.size&&![this.followedFor,this.solvedFor].includes(this.
+document))this.follow()}goOn(document2){const asked=[document2,...[...this.flying.values()].map(each=>each.document)];if(!asked.includes(this.document))this.follow()}followRefused({
+n,kind,messages=[],solve=false}){const{document:document2}=this.flying.get(n);this.flying.delete(n);if(kind==="refused"&&!solve)this.say(messages);this.goOn(document2)}takePlaced(message){
+const{pivots}=this.placing;this.placing=null;if(this.placeWanted&&message.kind==="placed"){this.placed={...message,pivots};this.emit("placed")}else if(message.kind===
+"refused"){this.say(message.messages)}if(this.placeWanted&&this.placeWanted!==pivots)this.sendPlace()}takeSolving(message){const{document:document2}=this.solving,
+isNow=document2===this.document;if(message.kind==="progress"||message.kind==="waiting"){const before=`waiting for ${message.before} other${message.before===1?"":
+"s"}`;if(isNow)this.setState("solving",message.kind==="progress"?message.text:before);return}if(message.kind==="solving")return;this.solving=null;if(message.kind===
+"solved"){const answer={...message,document:document2};if(isNow)this.install(answer);else this.pending=answer}else if(message.kind==="refused"){this.say(message.
+messages)}else{const[said]=[message.message].flat();this.say([{tone:message.kind,...typeof said==="string"?{message:said}:said}])}if(isNow)this.setState("restin\
+g","")}improve(linkage){const{document:document2,options}=this,n=this.connection.send({do:"improve",document:document2,options,linkage});this.improving=n===null?
+null:{n,linkage};this.emit("improved")}takeImproved(message){if(message.kind==="progress"||message.kind==="waiting"||message.kind==="solving")return;this.improving=
+null;if(message.kind==="improved")this.improved=message;else if(message.messages)this.say(message.messages);this.emit("improved")}install({n,result,document:document2,
+seconds,was}){const told=Object.entries(was??{});this.renamed=new Map(told.map(([now,{id}])=>[id,now]));this.moved=new Map(told.map(([now,{moved}])=>[now,moved]));
+if(!told.length&&document2===this.solvedFor&&!this.followed)for(const{id}of result.linkages)this.renamed.set(id,id);const carried=id=>id===PLACED2&&this.placed?.
+linkage?id:this.renamed.get(id)??null;Object.assign(this,{solved:result,solvedFor:document2,seconds,basis:n,pending:null,followed:null,followedFor:null});for(const each of this.
+flying.values())each.isOld=true;this.chosen=carried(this.chosen)??result.linkages[0]?.id??null;this.compared=carried(this.compared);this.pinned=new Set([...this.
+pinned].map(carried).filter(Boolean));this.messages=[];this.emit("solved","chosen","pinned","messages");if(document2!==this.document)this.follow()}opened(){this.
+flying.clear();this.solving=this.placing=this.improving=null;this.setState("resting","");this.basis=null;this.solve()}closed(){clearTimeout(this.resting);this.flying.
+clear();this.solving=this.placing=this.improving=null;this.setState("offline","")}setState(state,progress=""){if(state===this.state&&progress===this.progress)return;
+this.state=state;this.progress=progress;this.emit("state")}say(messages){this.messages=messages;this.emit("messages")}choose(id){if(id===this.chosen)return;this.
+chosen=id;this.emit("chosen");if(this.state==="dragging"||this.document!==this.solvedFor)this.follow()}pin(id){if(!this.pinned.delete(id))this.pinned.add(id);this.
+emit("pinned")}compare(id){this.compared=id===this.compared?null:id;this.emit("chosen")}select(selection){if(selection?.kind===this.selection?.kind&&selection?.
+index===this.selection?.index)return;this.selection=selection;this.emit("selection")}};var FEW2=40;var PointFields=class{constructor({name,options,step,set}){Object.assign(this,{name,options,step,set,fields:[]});this.shape=h("span",{class:"bs-hint"});
+this.more=h("p",{class:"bs-hint"});this.pairs=h("div",{class:"bs-coordinates"});this.element=h("div",{class:"bs-point-fields"},this.shape,this.pairs,this.more)}show(shape,points){
+const count=Math.min(points.length,FEW2);if(shape!==this.shape.textContent)this.fields=[];this.shape.textContent=shape;while(this.fields.length<count)this.fields.
+push(this.make(this.fields.length));this.fields.length=count;const wanted=this.fields.map(each=>each.element);if(wanted.length!==this.pairs.children.length||wanted.
+some((each,k)=>each!==this.pairs.children[k]))this.pairs.replaceChildren(...wanted);this.fields.forEach(({pair},k)=>pair.forEach((field,i)=>field.show(points[k][i])));
+give(this.more,"hidden",points.length<=FEW2);this.more.textContent=`and ${points.length-FEW2} more, to drag in the plane`}make(k){const pair=["x","y"].map((axis,i)=>new NumberField(
+{label:`${axis} of point ${k+1} of ${this.name}`,options:()=>({...this.options(),optional:false}),step:this.step,commit:value=>this.set(points=>points.map((point2,j)=>j===
+k?point2.map((old,m)=>m===i?value:old):point2))}));return{pair,element:h("span",{class:"bs-pair"},pair.map(field=>field.element))}}};var SHAPES=["point","line","segment","box","polygon"];var KINDS2=[["RR","RR: a link"],["PR","PR: a slider"],["RP","RP: a slot"],["PP","PP: a carriage"]];var TYPES=[
+"grashof","non-grashof","crank-rocker","rocker-crank","double-crank","double-rocker","triple-rocker","change-point","slider-crank","inverted slider-crank","doub\
+le slider","Oldham linkage","Rapson slide"];var DRIVERS=[["any","either dyad"],["crank","one that turns fully"],["first","the first of two limits"],["second","t\
+he second of two limits"]];var METHODS=[["auto","chosen by the task"],["complete","complete: every locally best dyad"],["pencil","pencil: the two dyads of the p\
+aper"],["exact","exact: through five poses"]];var PREFERENCES=[["transmission","transmission"],["size","size"],["accuracy","accuracy"]];var NORMS=[["rms","the r\
+oot mean square"],["worst","the worst pose"]];var UNITS2=["","mm","cm","m","in","ft"];var section2=(name,title,open,...content)=>h("details",{class:"bs-section",
+"data-section":name,open},h("summary",{},title),...content);var TaskPanel=class{constructor(store,scene,regions,body,files){Object.assign(this,{store,scene,regions,
+body,files});this.element=h("div",{class:"bs-task"});this.element.append(this.makeLimits(),this.makeRegions(),this.makeBody(),this.makeRequirements(),this.makeOptions());
+store.on("document selection",()=>this.draw());regions.onjudged=()=>this.drawVerdicts();this.draw()}edit(change){this.store.edit(change)}length(label,commit,options={},attributes={}){
+return new NumberField({label,commit,options:()=>({kind:"length",unit:this.store.document.length_unit,optional:true,...options}),step:()=>this.scene.step,attributes})}tools(label,shapes,toolOf,data){
+return h("div",{class:"bs-tools",role:"group","aria-label":label},shapes.map(shape=>this.toolButton(shape,()=>toolOf(shape),{"data-draw":`${data} ${shape}`})))}toolButton(text,toolOf,attributes){
+const made2=button(text,()=>this.scene.use(made2.tool&&made2.tool===this.scene.tool?null:made2.tool=toolOf()),{"aria-pressed":"false",...attributes});this.scene.
+on("tool",tool=>put(made2,"aria-pressed",Boolean(tool)&&tool===made2.tool));return made2}points(name,set){return new PointFields({name,set,options:()=>({kind:"l\
+ength",unit:this.store.document.length_unit}),step:()=>this.scene.step})}makeLimits(){this.apart=tick("another limit for each of the two dyads",on=>this.edit(document2=>splitLimits(
+document2,on)),{"data-key":"limits-apart"});this.tables=h("div",{});this.madeTables=[];return section2("limits","Limits of pivots and links",false,this.apart.element,
+this.tables)}makeTable(k){const{store,regions}=this,edit=changes=>this.edit(document2=>setLimit(document2,k,changes));const title=h("h3",{}),parts={};for(const[
+key,name]of[["fixed_pivot","Fixed pivot, in the ground"],["moving_pivot","Moving pivot, in the body"]]){const state=h("p",{class:"bs-state"});const numbers=this.
+points(`the limit of the ${key.replace("_"," ")}`,change=>this.edit(document2=>withPoints(document2,k,key,change)));const remove=button("Delete",()=>regions.removeLimit(
+k,key),{"data-do":`delete-limit-${k}-${key}`,"aria-label":`Delete the limit: ${name}`});parts[key]={state,numbers,remove};parts[key].element=h("div",{class:"bs-\
+limit-box"},h("h4",{},name),this.tools(`Draw a limit: ${name}`,SHAPES,shape=>regions.limitTool(k,key,shape),`limit ${k} ${key}`),numbers.element,state,remove)}const least2=this.
+length("least length",value=>edit({length:range(value,limitsOf(store.document)[k]?.length?.most)}),{least:0},{"data-key":`least-${k}`,placeholder:"any"});const most=this.
+length("greatest length",value=>edit({length:range(limitsOf(store.document)[k]?.length?.least,value)}),{least:0},{"data-key":`most-${k}`,placeholder:"any"});const kinds=KINDS2.
+map(([kind,text])=>({kind,...tick(text,()=>edit({kinds:kindsOf2(kinds)}),{"data-key":`kind-${k}-${kind}`})}));const lengthState=h("p",{class:"bs-state"}),kindsState=h(
+"p",{class:"bs-state"});const element=h("div",{class:"bs-limit-table"},title,parts.fixed_pivot.element,parts.moving_pivot.element,h("div",{class:"bs-row"},labelled(
+"length from",least2.element),labelled("to",most.element)),lengthState,h("div",{class:"bs-row",role:"group","aria-label":"kinds of dyads"},kinds.map(each=>each.
+element)),kindsState);return{element,title,parts,least:least2,most,kinds,lengthState,kindsState}}drawLimits(){const{document:document2}=this.store,tables=limitsOf(
+document2),count=Math.max(1,tables.length);give(this.apart.box,"checked",tables.length>1);while(this.madeTables.length<count)this.madeTables.push(this.makeTable(
+this.madeTables.length));while(this.tables.children.length>count)this.tables.lastChild.remove();while(this.tables.children.length<count)this.tables.append(this.
+madeTables[this.tables.children.length].element);for(let k=0;k<count;k+=1){const table3=tables[k]??{},made2=this.madeTables[k];made2.title.textContent=count>1?`\
+Dyad ${k+1}`:"Both dyads";for(const key of["fixed_pivot","moving_pivot"])this.drawLimit(made2.parts[key],table3[key]);made2.least.show(table3.length?.least);made2.
+most.show(table3.length?.most);for(const{kind,box}of made2.kinds)box.checked=!table3.kinds||table3.kinds.includes(kind)}}drawLimit({numbers,remove},region){for(const each of[
+remove,numbers.element])give(each,"hidden",!region);if(!region)return;const[[shape,stated]]=Object.entries(region);numbers.show(shape,shape==="point"?[stated]:stated)}drawVerdicts(){
+const{regions}=this,tables=limitsOf(this.store.document);this.madeTables.forEach((made2,k)=>{for(const key of["fixed_pivot","moving_pivot"])tell(made2.parts[key].
+state,tables[k]?.[key]?regions.said(k,key):null);tell(made2.lengthState,tables[k]?.length?regions.said(k,"length"):null);tell(made2.kindsState,tables[k]?.kinds?
+regions.said(k,"kinds"):null)});this.regionRows.forEach((row,k)=>tell(row.state,regions.touched?[regions.touched[k]].filter(Boolean):null))}makeRegions(){this.regionList=
+h("div",{});this.regionRows=[];this.linkWidth=this.length("width of the links",value=>this.edit(document2=>setSurrounding(document2,"link_width",value)),{least:0},
+{"data-key":"link_width",placeholder:"0"});this.margin=this.length("least clearance",value=>this.edit(document2=>setSurrounding(document2,"margin",value)),{least:0},
+{"data-key":"margin",placeholder:"0"});this.inPlane=tick("links that stand on the ground must not touch the body either",on=>this.edit(document2=>setSurrounding(
+document2,"body_in_plane",on||void 0)),{"data-key":"body_in_plane"});return section2("keep-out","Regions to keep out of",false,h("p",{class:"bs-hint"},"The body\
+ and the links must not touch them between the poses."),this.tools("Draw a region to keep out of",["box","polygon"],shape=>this.regions.regionTool(shape),"regio\
+n"),this.regionList,h("div",{class:"bs-row"},labelled("links are wide",this.linkWidth.element),labelled("least clearance",this.margin.element)),this.inPlane.element)}drawRegions(){
+const{store}=this,regions=regionsOf(store.document);while(this.regionRows.length<regions.length){this.regionRows.push(this.regionRow(this.regionRows.length));this.
+regionList.append(this.regionRows.at(-1).element)}for(const row of this.regionRows.splice(regions.length))row.element.remove();this.regionRows.forEach((row,k)=>row.
+show(regions[k],store.selection?.kind==="region"&&store.selection.index===k));const{link_width,margin,body_in_plane}=store.document.surroundings??{};this.linkWidth.
+show(link_width);this.margin.show(margin);give(this.inPlane.box,"checked",Boolean(body_in_plane))}regionRow(k){const{store}=this,shapeKey=region=>region.box?"bo\
+x":"polygon";const name=textField(`Name of region ${k+1}`,text=>this.edit(document2=>setRegion(document2,k,{name:text.trim()||void 0})),{"data-key":`region-name\
+-${k}`,placeholder:`region ${k+1}`});const numbers=this.points(`region ${k+1}`,change=>this.edit(document2=>{const region=regionsOf(document2)[k],key=shapeKey(region);
+return setRegion(document2,k,{[key]:change(region[key])})}));const state=h("p",{class:"bs-state"}),inNumbers=h("details",{},h("summary",{},"in numbers"),numbers.
+element),file=h("p",{class:"bs-hint"});const element=h("div",{class:"bs-limit-box","data-region-row":k,onfocusin:()=>store.select({kind:"region",index:k})},h("d\
+iv",{class:"bs-row"},name,button("Delete",()=>this.regions.removeRegion(k),{"data-do":`delete-region-${k}`,"aria-label":`Delete region ${k+1}`})),state,inNumbers,
+file);const show=(region,selected)=>{const text=(region.name??"").replace(/[\r\n]+/g," ");if(document.activeElement!==name&&name.value!==text)name.value=text;element.
+classList.toggle("bs-selected",selected);give(inNumbers,"hidden",region.file!==void 0);give(file,"hidden",!inNumbers.hidden);if(inNumbers.hidden)file.textContent=
+`from the drawing ${region.file}`;else numbers.show(shapeKey(region),region[shapeKey(region)])};return{element,state,show}}makeBody(){this.bodyNumbers=this.points(
+"the outline",change=>this.edit(document2=>setBody(document2,change(bodyOf(document2)))));this.bodyCount=h("summary",{});this.bodyBox=h("details",{},this.bodyCount,
+this.bodyNumbers.element);this.noBody=button("Delete the outline",()=>this.edit(document2=>setBody(document2,[])),{"data-do":"delete-body"});return section2("bo\
+dy","Outline of the body",false,h("p",{class:"bs-hint"},"It is seen at every pose, moves with the linkage, and says what an angle error counts as."),h("div",{class:"\
+bs-tools"},this.toolButton("Draw it",()=>this.body.tool(),{"data-draw":"body"}),button("From a drawing (SVG, DXF)…",()=>this.files.chooseOutline(),{"data-do":"\
+outline-file"}),this.noBody),this.bodyBox)}drawBody(){const{document:task}=this.store,corners=bodyOf(task);give(this.noBody,"hidden",!task.body);give(this.bodyBox,
+"hidden",!corners.length);if(!corners.length)return;this.bodyCount.textContent=`${corners.length} corners, in numbers`;this.bodyNumbers.show("polygon",corners)}makeRequirements(){
+const set=key=>value=>this.edit(document2=>setRequirement(document2,key,value));const number=(label,key,options)=>new NumberField({label,commit:set(key),options:()=>({
+optional:true,unit:this.store.document.length_unit,...options}),attributes:{"data-key":key,placeholder:"–"}});this.numbers={transmission_deg:number("least tra\
+nsmission angle","transmission_deg",{kind:"angle",least:0,most:90}),link_ratio:number("longest link to the shortest, at most","link_ratio",{least:1}),within:number(
+"greatest position error","within",{kind:"length",above:0}),within_deg:number("greatest angle error","within_deg",{kind:"angle",above:0})};this.driver=choice("d\
+river",DRIVERS,value=>set("driver")(value==="any"?void 0:value),{"data-key":"driver"});this.anyOrder=tick("the poses may be met in any order",on=>set("any_order")(
+on||void 0),{"data-key":"any_order"});this.types=TYPES.map(type=>({type,...tick(type,()=>set("types")(typesOf(this.types)),{"data-key":`type-${type}`})}));this.
+noFootprint=button("Delete",()=>set("footprint")(void 0),{"data-do":"delete-footprint","aria-label":"Delete the footprint"});return section2("requirements","Wha\
+t the linkage must be",true,h("div",{class:"bs-grid"},labelled("transmission angle at least",this.numbers.transmission_deg.element,"°"),labelled("position erro\
+r at most",this.numbers.within.element," "),labelled("angle error at most",this.numbers.within_deg.element,"°"),labelled("link ratio at most",this.numbers.link_ratio.
+element," "),labelled("driver",this.driver)),this.anyOrder.element,h("div",{class:"bs-limit-box"},h("h4",{},"Footprint: holds all pivots, wherever the poses tak\
+e them"),this.tools("Draw the footprint",["box","polygon"],shape=>this.regions.footprintTool(shape),"footprint"),this.noFootprint),h("details",{},h("summary",{},
+"Types"),h("div",{class:"bs-ticks"},this.types.map(each=>each.element)),h("p",{class:"bs-hint"},"None: any type.")))}drawRequirements(){const asked=this.store.document.
+requirements??{};for(const[key,field]of Object.entries(this.numbers))field.show(asked[key]);this.driver.value=asked.driver??"any";give(this.anyOrder.box,"checke\
+d",Boolean(asked.any_order));give(this.noFootprint,"hidden",!asked.footprint);for(const{type,box}of this.types)box.checked=Boolean(asked.types?.includes(type))}makeOptions(){
+const{store}=this;this.unit=choice("unit of length",UNITS2.map(unit2=>[unit2,unit2||"not stated"]),value=>this.edit(document2=>withKeys(document2,{length_unit:value||
+void 0})),{"data-key":"length_unit"});this.method=choice("method",METHODS,value=>store.option("method",value==="auto"?void 0:value),{"data-key":"method"});this.
+norm=choice("norm",NORMS,value=>store.option("norm",value==="rms"?void 0:value),{"data-key":"norm"});this.prefer=choice("best at",PREFERENCES,value=>store.option(
+"prefer",value==="transmission"?void 0:value),{"data-key":"prefer"});this.lengths=["angle-weight","tolerance"].map(name=>({name,field:this.length(name,value=>store.
+option(name,value),{above:0},{"data-key":name,placeholder:"–"})}));const[weight,made2]=this.lengths.map(({field})=>field.element);return section2("options","U\
+nit and method",false,h("div",{class:"bs-grid"},labelled("unit of length",this.unit),labelled("method",this.method),labelled("what is made least",this.norm),labelled(
+"two to four poses: best at",this.prefer),labelled("one radian counts as",weight," "),labelled("pivots and lengths are made to ±",made2," ")),h("p",{class:"bs-\
+hint"},"Another unit leaves the numbers as they are."))}drawOptions(){const{document:document2,options}=this.store,unit2=document2.length_unit??"";if(![...this.
+unit.options].some(each=>each.value===unit2))this.unit.append(h("option",{value:unit2},unit2));this.unit.value=unit2;this.method.value=options.method??"auto";this.
+norm.value=options.norm??"rms";this.prefer.value=options.prefer??"transmission";for(const{name,field}of this.lengths)field.show(options[name])}draw(){const{document:{
+limits,keep_out,surroundings,body,requirements,length_unit},options,selection}=this.store;const now=[limits,keep_out,surroundings,body,requirements,length_unit,
+options,selection];if(now.every((each,k)=>each===this.drawn?.[k])&&this.drawn)return;this.drawn=now;this.drawLimits();this.drawRegions();this.drawBody();this.drawRequirements();
+this.drawOptions();this.drawVerdicts()}};function tell(element,sentences){give(element,"hidden",sentences===null);if(sentences===null)return;element.className=`\
+bs-state ${sentences.length?"bs-broken":"bs-met"}`;element.textContent=sentences.length?`✕ ${sentences.join(" ")}`:"✓ met by the chosen linkage"}function withPoints(document2,k,key,change){
+const[[shape,stated]]=Object.entries(limitsOf(document2)[k][key]);return setLimit(document2,k,{[key]:shapeOf(shape,change(shape==="point"?[stated]:stated))})}var range=(least2,most)=>least2===
+void 0&&most===void 0?void 0:{...least2===void 0?{}:{least:least2},...most===void 0?{}:{most}};function kindsOf2(kinds){const list=kinds.filter(({box})=>box.checked).
+map(({kind})=>kind);return list.length===kinds.length||!list.length?void 0:list}function typesOf(types){const list=types.filter(({box})=>box.checked).map(({type})=>type);
+return list.length?list:void 0}var EMPTY="An empty task: add poses here, paste rows of a spreadsheet, drop a file, or take a template.";var FIRST="Drag a pose by its point, turn it by the tip\
+ of its arrow: every linkage answers at once.";function layOut(root,store,start){const scene=new Scene(store),banners=new Banners(store),files=new Files(store,start,
+banners);banners.files=files;const body=new BodyEditor(store,scene),regions=new Regions(store,scene);const panel2=new TaskPanel(store,scene,regions,body,files),
+handles=new PoseHandles(store,scene),table3=new PoseTable(store,scene);const player=h("div",{id:"bs-player"}),results=h("aside",{id:"bs-results","aria-label":"L\
+inkages"}),panels=h("div",{id:"bs-panels"});const name=h("input",{class:"bs-text bs-task-name","aria-label":"Name of the task",autocomplete:"off",spellcheck:"fa\
+lse",onchange:()=>store.rename(name.value.trim()||"task")});const undo=button("↶",()=>store.undo(),{"data-do":"undo",title:"Undo (Ctrl+Z)","aria-label":"Undo"}),
+redo=button("↷",()=>store.redo(),{"data-do":"redo",title:"Redo (Ctrl+Shift+Z)","aria-label":"Redo"});const show=()=>{if(document.activeElement!==name)give(name,
+"value",store.name.replace(/[\r\n]+/g," "));give(undo,"disabled",!store.history.canUndo);give(redo,"disabled",!store.history.canRedo)};store.on("document",show);
+show();root.replaceChildren(h("header",{class:"bs-head"},h("h1",{},"burmester studio"),name,h("div",{class:"bs-row"},undo,redo),files.element,banners.status,banners.
+live),banners.element,h("main",{class:"bs-main"},h("section",{class:"bs-left","aria-label":"The task"},h("div",{class:"bm-card"},h("h2",{},"Poses"),table3.element),
+h("div",{class:"bm-card"},panel2.element,new ExportSettings(store,scene).element)),h("section",{class:"bs-stage bm-card","aria-label":"The plane"},stageBar(store,
+scene),scene.element,player),results,panels));scene.resize();addResults(store,scene,{player,results,panels});listenToKeys(store,scene,files);new Autosave(store);
+files.opened=refitWhenSolved(store,scene);return{scene,banners,files,body,regions,panel:panel2,handles,table:table3}}function stageBar(store,scene){const pose=button(
+"Add poses",()=>scene.use(scene.tool?.name==="pose"?null:new PoseTool(store,scene)),{"data-do":"add-poses","aria-pressed":"false"});const stop=button("Stop solv\
+ing",()=>store.cancel(),{"data-do":"cancel",hidden:true});const line2=h("p",{class:"bs-line"});const show=()=>{line2.textContent=scene.tool?.hint??(store.document.
+poses.length?FIRST:EMPTY);put(pose,"aria-pressed",scene.tool?.name==="pose")};scene.on("tool",show);store.on("document",show);let waiting;store.on("state",()=>{
+clearTimeout(waiting);if(store.state==="solving")waiting=setTimeout(()=>give(stop,"hidden",false),700);else give(stop,"hidden",true)});show();return h("div",{class:"\
+bs-bar"},h("div",{class:"bs-row"},pose,button("Fit",()=>scene.fitAgain(),{"data-do":"fit",title:"Show the poses; once more: all of the body and the regions, too\
+ (0)"}),button("+",()=>scene.zoom(1.25,scene.size.width/2,scene.size.height/2),{"aria-label":"Zoom in"}),button("−",()=>scene.zoom(.8,scene.size.width/2,scene.
+size.height/2),{"aria-label":"Zoom out"}),...keyList(),stop),line2)}function refitWhenSolved(store,scene){let waits=true;scene.hold(()=>(waits?[]:currentLinkage(
+store)?.led??[]).map(dyad=>dyad.fixed_pivot).filter(point2=>point2&&isNear(store,point2)));store.on("solved",()=>{const refit=waits&&scene.isFitted;waits=false;
+if(refit)scene.fit()});return()=>{waits=true;scene.fit()}}function isNear({solved,document:{poses}},[x,y]){return poses.some(pose=>Math.hypot(x-pose.x,y-pose.y)<
+3*(solved?.scene??Infinity))}function listenToTokens(connection,banners){addEventListener("hashchange",async()=>{if(!location.hash)return;await connection.session();
+banners.close("expired");connection.open()});let asked=false;connection.on("closed",async()=>{if(asked)return;asked=true;try{await connection.get("/start")}catch(error){
+if(error instanceof Refused&&error.status===401)banners.expired()}asked=false})}async function main(){const root=document.getElementById("studio"),connection=new Connection(
+decodeFrame);try{await connection.session();const start=await connection.get("/start"),kept=keptHere();const store=new Store({connection,document:start.document,
+options:start.options,name:start.name,...kept});const parts=layOut(root,store,start);if(start.saved&&!kept)offerSaved(store,parts,start.saved);listenToTokens(connection,
+parts.banners);document.documentElement.dataset.ready="true";connection.open()}catch(error){root.replaceChildren(h("p",{class:"bs-failed",role:"alert"},error instanceof
+Refused&&error.status===401?"This page needs the address that burmester studio printed, with the token in it. Open that address, or start burmester studio again\
+.":`The page could not start: ${error.message}. Is burmester studio still running? Start it again and open the address that it prints.`));if(!(error instanceof Refused))
+throw error}}function offerSaved(store,{banners,files},saved){const when=typeof saved.when==="number"?new Date(1e3*saved.when).toLocaleString():saved.when;banners.
+say("saved",`Your task of last time, ${saved.name}${when?` (${when})`:""}, was kept.`,[],{actions:[button("Go on with it",()=>{banners.close("saved");store.replace(
+saved);files.opened()},{"data-do":"restore"})]})}main();
