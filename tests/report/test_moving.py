@@ -226,6 +226,7 @@ def test_the_whole_branch_is_played_on_request_and_stays_for_other_cards(browser
         page.keyboard.press("Space")
         assert whole.is_checked()
         assert page.locator(".bm-play").get_attribute("aria-label") == "Play"
+        assert page.locator(".bm-play").inner_text() == "Play"
         every = ends()
         assert every[0] == 0
         assert every[1] > high

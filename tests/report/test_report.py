@@ -280,6 +280,7 @@ def test_it_opens_in_silence_and_asks_for_nothing(browser, file):
         assert [each for each in asked if "example.org" not in each] == [file.as_uri()]
     with browsers.opened(browser, file) as (page, said, asked):
         assert page.locator(".bm-play").get_attribute("aria-label") == "Play"  # reduced motion
+        assert page.locator(".bm-play").inner_text() == "Play"
         page.locator(".bm-play").click()
         page.wait_for_timeout(200)
         assert (said, asked) == ([], [file.as_uri()])

@@ -178,6 +178,7 @@ def test_playing_moves_and_is_not_read_aloud(shared):
     assert shared.locator(".bm-play").get_attribute("aria-label") == "Pause"
     shared.keyboard.press(" ")
     assert shared.locator(".bm-play").get_attribute("aria-label") == "Play"
+    assert shared.locator(".bm-play").inner_text() == "Play"
 
 
 def test_the_instant_centre_is_where_the_body_turns(shared, task):
@@ -281,9 +282,14 @@ def test_cards_are_sorted_filtered_and_pinned(shared, result):
     shared.locator("[data-choice=order]").select_option("worst")
     worst = {each["id"]: each["position_error"]["max"] for each in result["linkages"]}
     assert names() == sorted(worst, key=worst.get)
+    status = shared.locator(".bs-results-status")
+    assert "not shown" not in status.inner_text()
     shared.locator("[data-choice=filter]").select_option("usable")
     assert names() == [each["id"] for each in result["linkages"] if each["usable"]]
+    hidden = sum(not each["usable"] for each in result["linkages"])
+    assert status.inner_text().startswith(f"{hidden} not shown by the filter. ")
     shared.locator("[data-choice=filter]").select_option("all")
+    assert "not shown" not in status.inner_text()
     last = names()[-1]
     card(shared, last).get_by_text("Pin").click()
     assert names()[0] == last

@@ -401,20 +401,20 @@ unit=choice("unit of what is exported",UNITS.map(unit2=>[unit2,unit2]),value=>se
 "unit of the lengths",this.unit);this.up=choice("up",AXES.map(axis=>[axis,axis]),value=>set("up")(value==="y"?void 0:value),{"data-setting":"up"});this.dimensions=
 tick("drawings have dimension lines",on=>set("dimensions")(on?void 0:false),{"data-setting":"dimensions"});this.assembled=tick("STL: the parts in their places",
 on=>set("assembled")(on||void 0),{"data-setting":"assembled"});const rows=(all,placeholderOf,optionsOf)=>all.map(each=>labelled(each[1],number(each[0],placeholderOf(
-each),optionsOf(each))," "));this.element=h("div",{},section("export","What is exported",h("p",{class:"bs-hint"},"Left empty: sizes that suit the linkage."),h("\
-div",{class:"bs-grid"},this.unitRow,rows(LENGTHS2,()=>"–",()=>({kind:"length",above:0})),rows(NUMBERS,each=>each[2],each=>each[3]),labelled("up, in models",this.
-up)),this.dimensions.element,this.assembled.element),this.makeSigma(scene));store.on("document",()=>this.draw());this.draw()}makeSigma(scene){const{store}=this;
-this.wanted={};this.lack=h("p",{class:"bs-fault",hidden:true},"Give both: how far positions are off, and how far angles.");this.sigma=SIGMA.map(([key,name,kind])=>{
-const field=new NumberField({label:`standard deviation of the ${name}`,options:()=>({kind,unit:store.document.length_unit,optional:true,above:0}),step:()=>kind===
-"angle"?.1:scene.step/10,commit:value=>this.setSigma(key,value),attributes:{"data-key":`sigma-${key}`,placeholder:"–"}});return{key,name,field}});return section(
-"sigma","How well the poses are known",h("p",{class:"bs-hint"},"Standard deviations of what was measured. Left empty: as well as their digits say."),h("div",{class:"\
-bs-grid"},this.sigma.map(({name,field})=>labelled(`${name} ±`,field.element,name==="angle"?"°":" "))),this.lack)}setSigma(key,value){this.wanted=withKeys({...this.
-store.document.pose_sigma,...this.wanted},{[key]:value});const given=Object.keys(this.wanted).length;give(this.lack,"hidden",given!==1);if(given===1)return;const pose_sigma=given?
-this.wanted:void 0;this.wanted={};this.store.edit(document2=>withKeys(document2,{pose_sigma}))}draw(){const{settings,document:document2}=this.store,{pose_sigma}=document2,
-isOther2=pose_sigma!==this.shown;for(const[name,field]of this.fields)field.show(settings[name]);give(this.unit,"value",settings.unit??"mm");give(this.unitRow,"h\
-idden",Boolean(document2.length_unit)&&!settings.unit);give(this.up,"value",settings.up??"y");give(this.dimensions.box,"checked",settings.dimensions!==false);give(
-this.assembled.box,"checked",Boolean(settings.assembled));if(!isOther2)return;this.shown=pose_sigma;this.wanted={};give(this.lack,"hidden",true);for(const{key,field}of this.
-sigma)field.show(pose_sigma?.[key])}};var DRAWINGS=/\.(svg|dxf)$/i;var TASKS=/\.(toml|json)$/i;var KINDS=".toml,.json,.csv,.tsv,.txt,.xlsx,.parquet,.trc,.svg,.dxf";var LARGEST=14e5;async function base64Of(file){
+each),optionsOf(each))," "));this.element=h("div",{class:"bs-task"},section("export","What is exported",h("p",{class:"bs-hint"},"Left empty: sizes that suit the\
+ linkage."),h("div",{class:"bs-grid"},this.unitRow,rows(LENGTHS2,()=>"–",()=>({kind:"length",above:0})),rows(NUMBERS,each=>each[2],each=>each[3]),labelled("up\
+, in models",this.up)),this.dimensions.element,this.assembled.element),this.makeSigma(scene));store.on("document",()=>this.draw());this.draw()}makeSigma(scene){
+const{store}=this;this.wanted={};this.lack=h("p",{class:"bs-fault",hidden:true},"Give both: how far positions are off, and how far angles.");this.sigma=SIGMA.map(
+([key,name,kind])=>{const field=new NumberField({label:`standard deviation of the ${name}`,options:()=>({kind,unit:store.document.length_unit,optional:true,above:0}),
+step:()=>kind==="angle"?.1:scene.step/10,commit:value=>this.setSigma(key,value),attributes:{"data-key":`sigma-${key}`,placeholder:"–"}});return{key,name,field}});
+return section("sigma","How well the poses are known",h("p",{class:"bs-hint"},"Standard deviations of what was measured. Left empty: as well as their digits say\
+."),h("div",{class:"bs-grid"},this.sigma.map(({name,field})=>labelled(`${name} ±`,field.element,name==="angle"?"°":" "))),this.lack)}setSigma(key,value){this.
+wanted=withKeys({...this.store.document.pose_sigma,...this.wanted},{[key]:value});const given=Object.keys(this.wanted).length;give(this.lack,"hidden",given!==1);
+if(given===1)return;const pose_sigma=given?this.wanted:void 0;this.wanted={};this.store.edit(document2=>withKeys(document2,{pose_sigma}))}draw(){const{settings,
+document:document2}=this.store,{pose_sigma}=document2,isOther2=pose_sigma!==this.shown;for(const[name,field]of this.fields)field.show(settings[name]);give(this.
+unit,"value",settings.unit??"mm");give(this.unitRow,"hidden",Boolean(document2.length_unit)&&!settings.unit);give(this.up,"value",settings.up??"y");give(this.dimensions.
+box,"checked",settings.dimensions!==false);give(this.assembled.box,"checked",Boolean(settings.assembled));if(!isOther2)return;this.shown=pose_sigma;this.wanted=
+{};give(this.lack,"hidden",true);for(const{key,field}of this.sigma)field.show(pose_sigma?.[key])}};var DRAWINGS=/\.(svg|dxf)$/i;var TASKS=/\.(toml|json)$/i;var KINDS=".toml,.json,.csv,.tsv,.txt,.xlsx,.parquet,.trc,.svg,.dxf";var LARGEST=14e5;async function base64Of(file){
 const bytes=new Uint8Array(await file.arrayBuffer());let text="";for(let k=0;k<bytes.length;k+=32768)text+=String.fromCharCode(...bytes.subarray(k,k+32768));return btoa(
 text)}var isTable=text=>/\d/.test(text)&&(/\t/.test(text)||/\n\s*\S/.test(text.trim()));function download(blob,name){const address=URL.createObjectURL(blob),link=h(
 "a",{href:address,download:name});link.click();setTimeout(()=>URL.revokeObjectURL(address),1e4)}function menu(text,items,attributes={}){const list=h("div",{class:"\
@@ -1099,12 +1099,12 @@ data.poses[row.k]}));const named=laidOut(rows.map(({x,pose})=>({x,text:shortened
 "g",{"data-pose":k+1},s("title",{},`pose ${poseName2(pose)}`),...parts);rows.forEach(({k,x,pose},i)=>stops.append(one(k,pose,s("path",{d:`M${px(x)} 0V${4+ROW*Math.
 max(0,texts[i].at)}`}))));rows.forEach(({k,pose},i)=>{const{at,middle:middle2,text}=texts[i];if(at>=0)stops.append(one(k,pose,s("text",{x:px(middle2),y:14+ROW*at,
 "text-anchor":"middle"},text)))});put(stops,"viewBox",`0 0 ${width} ${16+ROW*deepest}`);put(stops,"height",16+ROW*deepest)}play(on){if(on&&!this.path)return;this.
-remaining=null;if(on===this.playing&&this.button.firstChild)return;this.playing=on;put(this.readout,"aria-live",on?"off":"polite");this.button.replaceChildren(icon(
-on),on?"Pause":"Play");put(this.button,"aria-label",on?"Pause":"Play");this.button.title=on?"Pause (space)":"Play (space)";cancelAnimationFrame(this.tick);if(!on)
-return;let before=null;const run=now=>{if(!this.playing)return;if(before!==null)this.advance(Math.min(.1,(now-before)/1e3));before=now;if(this.playing)this.tick=
-requestAnimationFrame(run)};this.tick=requestAnimationFrame(run)}playOnce(){if(!this.path)return;const{low,high}=this.stretch;this.play(true);this.remaining=(this.
-goesRound?1:2)*(high-low)}get goesRound(){return this.path.round&&this.stretch.high-this.stretch.low>this.path.x.length-1-LEAST_STRETCH}advance(seconds){const{low,
-high}=this.stretch;const step=seconds*(high-low)/(this.goesRound?TURN_SECONDS:TURN_SECONDS/2);if(this.remaining!==null){this.remaining-=step;if(this.remaining<=
+remaining=null;if(on===this.playing&&this.isDressed)return;this.isDressed=true;this.playing=on;put(this.readout,"aria-live",on?"off":"polite");this.button.replaceChildren(
+icon(on),on?"Pause":"Play");put(this.button,"aria-label",on?"Pause":"Play");this.button.title=on?"Pause (space)":"Play (space)";cancelAnimationFrame(this.tick);
+if(!on)return;let before=null;const run=now=>{if(!this.playing)return;if(before!==null)this.advance(Math.min(.1,(now-before)/1e3));before=now;if(this.playing)this.
+tick=requestAnimationFrame(run)};this.tick=requestAnimationFrame(run)}playOnce(){if(!this.path)return;const{low,high}=this.stretch;this.play(true);this.remaining=
+(this.goesRound?1:2)*(high-low)}get goesRound(){return this.path.round&&this.stretch.high-this.stretch.low>this.path.x.length-1-LEAST_STRETCH}advance(seconds){const{
+low,high}=this.stretch;const step=seconds*(high-low)/(this.goesRound?TURN_SECONDS:TURN_SECONDS/2);if(this.remaining!==null){this.remaining-=step;if(this.remaining<=
 0){this.play(false);this.u=this.firstStop();this.show();return}}this.u+=this.heading*step;if(this.goesRound)this.u=around(this.u,high);else if(this.u>=high||this.
 u<=low){this.heading=this.u>=high?-1:1;this.u=clamp(this.u,low,high)}this.show()}step(steps){if(!this.path)return;const{low,high}=this.stretch;const u=this.u+steps*
 Math.max(.001,(high-low)/STEPS);this.go(this.goesRound?around(u,high):u)}go(u){if(!this.path)return;this.play(false);this.u=clamp(u,this.stretch.low,this.stretch.
@@ -1234,21 +1234,21 @@ this.all=true;this.arrange()}arrange(){const{answers,store,wanted}=this;this.bui
 const shown2=this.all?every:every.slice(0,MOST3);const list=answers.placed?[answers.placed,...shown2]:shown2;const cards=new Map;for(const linkage of list)cards.
 set(linkage,this.cards.get(linkage)??this.card());for(const[linkage,card]of this.cards)if(!cards.has(linkage))card.element.remove();this.cards=cards;let before=null;
 for(const card of cards.values()){const next=before?before.nextSibling:this.list.firstChild;if(card.element!==next)this.list.insertBefore(card.element,next);before=
-card.element}give(this.more,"hidden",every.length<=shown2.length);if(!this.more.hidden)say(this.more,`Show all ${every.length}`);give(this,"hidden",answers.linkages.
-length-every.length);this.update()}card(){const{store}=this;return new ResultCard({choose:id=>store.choose(id),pin:id=>store.pin(id),compare:id=>store.compare(id),
-improve:id=>this.improve(id),letGo:()=>this.letGo()})}letGo(){this.store.place([]);if(this.store.chosen===PLACED)this.store.choose(this.answers.linkages[0]?.id??
-null)}buildTypes(){const types=[...new Set(this.answers.linkages.map(each=>each.type))].sort(),key=types.join();const select=this.types.querySelector("select");
-if(key===this.typesKey)return;this.typesKey=key;if(!types.includes(this.wanted.type))this.wanted.type="";select.replaceChildren(...["",...types].map(type=>h("op\
-tion",{value:type,selected:type===this.wanted.type},type||"any")));give(this.types,"hidden",types.length<2)}update(){const{answers,store}=this,{data,isOld,shown:shown2}=answers;
-for(const[linkage,card]of this.cards){card.show(linkage,{data,old:isOld&&linkage.id!==PLACED,chosen:linkage===shown2,pinned:store.pinned.has(linkage.id),compared:store.
-compared===linkage.id})}this.tell()}tell(){const{answers,store}=this,there=answers.linkages.filter(each=>!each.gone);const usable=there.filter(each=>each.usable).
-length;say(this.title,there.length?`${there.length} linkage${there.length===1?"":"s"}, ${usable} usable`:store.solved?"No linkage":"Linkages");put(this.status,"\
-aria-live",store.state==="dragging"?"off":"polite");say(this.status,this.statusText());const uncertain=store.followed?.uncertain??[];say(this.doubt,store.followed&&
-answers.isOld?uncertain.length?`May change when you let go: ${uncertain[0]}${/[.!]$/.test(uncertain[0])?"":"."}`:store.followed.complete===false?"A linkage that\
- appears now is seen when you let go.":"":"");say(this.gone,!answers.isOld&&answers.gone.length?`Not in the new answer: ${listed(answers.gone)} of the one befor\
-e.`:"");this.element.classList.toggle("bs-stale",answers.isOld)}statusText(){const{store,answers}=this,hidden=this.hidden?`${this.hidden} not shown by the filte\
-r. `:"";if(store.state==="offline")return"The connection is gone; what you see is the last answer.";if(answers.isOld&&store.state==="dragging")return store.followed?
-"Moving along.":"The new answer comes when you let go.";if(store.state==="solving")return"Looking for all linkages.";if(!store.solved)return"";const{best,outcome}=store.
+card.element}give(this.more,"hidden",every.length<=shown2.length);if(!this.more.hidden)say(this.more,`Show all ${every.length}`);this.hidden=answers.linkages.length-
+every.length;this.update()}card(){const{store}=this;return new ResultCard({choose:id=>store.choose(id),pin:id=>store.pin(id),compare:id=>store.compare(id),improve:id=>this.
+improve(id),letGo:()=>this.letGo()})}letGo(){this.store.place([]);if(this.store.chosen===PLACED)this.store.choose(this.answers.linkages[0]?.id??null)}buildTypes(){
+const types=[...new Set(this.answers.linkages.map(each=>each.type))].sort(),key=types.join();const select=this.types.querySelector("select");if(key===this.typesKey)
+return;this.typesKey=key;if(!types.includes(this.wanted.type))this.wanted.type="";select.replaceChildren(...["",...types].map(type=>h("option",{value:type,selected:type===
+this.wanted.type},type||"any")));give(this.types,"hidden",types.length<2)}update(){const{answers,store}=this,{data,isOld,shown:shown2}=answers;for(const[linkage,
+card]of this.cards){card.show(linkage,{data,old:isOld&&linkage.id!==PLACED,chosen:linkage===shown2,pinned:store.pinned.has(linkage.id),compared:store.compared===
+linkage.id})}this.tell()}tell(){const{answers,store}=this,there=answers.linkages.filter(each=>!each.gone);const usable=there.filter(each=>each.usable).length;say(
+this.title,there.length?`${there.length} linkage${there.length===1?"":"s"}, ${usable} usable`:store.solved?"No linkage":"Linkages");put(this.status,"aria-live",
+store.state==="dragging"?"off":"polite");say(this.status,this.statusText());const uncertain=store.followed?.uncertain??[];say(this.doubt,store.followed&&answers.
+isOld?uncertain.length?`May change when you let go: ${uncertain[0]}${/[.!]$/.test(uncertain[0])?"":"."}`:store.followed.complete===false?"A linkage that appears\
+ now is seen when you let go.":"":"");say(this.gone,!answers.isOld&&answers.gone.length?`Not in the new answer: ${listed(answers.gone)} of the one before.`:"");
+this.element.classList.toggle("bs-stale",answers.isOld)}statusText(){const{store,answers}=this,hidden=this.hidden?`${this.hidden} not shown by the filter. `:"";
+if(store.state==="offline")return"The connection is gone; what you see is the last answer.";if(answers.isOld&&store.state==="dragging")return store.followed?"Mo\
+ving along.":"The new answer comes when you let go.";if(store.state==="solving")return"Looking for all linkages.";if(!store.solved)return"";const{best,outcome}=store.
 solved;if(!store.solved.linkages.some(each=>each.usable))return`${hidden}${sentence(outcome?.message)}${outcome?.help?` What helps: ${outcome.help}.`:""}`;return`${hidden}${best?.[0]??
 ""}`}async improve(id){const{document:document2,options,connection}=this.store;const card=()=>[...this.cards].find(([linkage])=>linkage.id===id)?.[1];card()?.tellBetter(
 ["Looking near it …"]);let said;try{said=(await(await connection.post("/improve",{document:document2,options,linkage:id})).json()).better}catch(error){said=[`\

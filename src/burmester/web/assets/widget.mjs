@@ -2342,7 +2342,8 @@ var Player = class {
   play(on) {
     if (on && !this.path) return;
     this.remaining = null;
-    if (on === this.playing && this.button.firstChild) return;
+    if (on === this.playing && this.isDressed) return;
+    this.isDressed = true;
     this.playing = on;
     put(this.readout, "aria-live", on ? "off" : "polite");
     this.button.replaceChildren(icon(on), on ? "Pause" : "Play");

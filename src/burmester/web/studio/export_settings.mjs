@@ -32,7 +32,7 @@ export class ExportSettings {
     this.dimensions = tick("drawings have dimension lines", (on) => set("dimensions")(on ? undefined : false), { "data-setting": "dimensions" });
     this.assembled = tick("STL: the parts in their places", (on) => set("assembled")(on || undefined), { "data-setting": "assembled" });
     const rows = (all, placeholderOf, optionsOf) => all.map((each) => labelled(each[1], number(each[0], placeholderOf(each), optionsOf(each)), " "));
-    this.element = h("div", {},
+    this.element = h("div", { class: "bs-task" },
       section("export", "What is exported",
         h("p", { class: "bs-hint" }, "Left empty: sizes that suit the linkage."),
         h("div", { class: "bs-grid" }, this.unitRow, rows(LENGTHS, () => "–", () => ({ kind: "length", above: 0 })), rows(NUMBERS, (each) => each[2], (each) => each[3]), labelled("up, in models", this.up)),

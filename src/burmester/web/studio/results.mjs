@@ -68,7 +68,7 @@ export class Results {
     }
     give(this.more, "hidden", every.length <= shown.length);
     if (!this.more.hidden) say(this.more, `Show all ${every.length}`);
-    give(this, "hidden", answers.linkages.length - every.length);
+    this.hidden = answers.linkages.length - every.length;
     this.update();
   }
 

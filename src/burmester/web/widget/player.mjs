@@ -141,7 +141,8 @@ export class Player {
   play(on) {
     if (on && !this.path) return;
     this.remaining = null;
-    if (on === this.playing && this.button.firstChild) return;
+    if (on === this.playing && this.isDressed) return;
+    this.isDressed = true;
     this.playing = on;
     put(this.readout, "aria-live", on ? "off" : "polite"); // it would talk without end
     this.button.replaceChildren(icon(on), on ? "Pause" : "Play");
