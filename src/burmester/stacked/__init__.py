@@ -9,7 +9,9 @@ from burmester.stacked.answers import (
     Status,
     joined,
 )
+from burmester.stacked.datasheet import datasheet
 from burmester.stacked.depths import stacked_answers
+from burmester.stacked.random_linkages import RandomLinkages, SampleOptions, random_linkages
 from burmester.stacked.task_stack import TaskStack
 
 __all__ = [
@@ -17,9 +19,13 @@ __all__ = [
     "DyadRows",
     "LinkageRows",
     "Outcome",
+    "RandomLinkages",
+    "SampleOptions",
     "StackedAnswers",
     "Status",
     "TaskStack",
+    "datasheet",
     "joined",
+    "random_linkages",
     "stacked_answers",
 ]
