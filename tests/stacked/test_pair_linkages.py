@@ -17,6 +17,7 @@ from tests.oracles.mixed_tasks import mixed_tasks
 
 NEAR = 1e-7  # relative, of an error that is no rounding
 MET = 1e-9  # of the size of the poses
+CLEAR = 1e-3  # degrees; a linkage that transmits by less is at a dead point
 
 
 def unrefined(task):
@@ -67,9 +68,11 @@ def test_pairs_are_judged_as_the_road_of_one_task_judges_them(count, weighted):
                 (told.angle_worst_deg[row], turn if np.isfinite(turn) else np.inf),
             ):
                 assert mine == pytest.approx(theirs, rel=NEAR, abs=MET * size), name
-            if found.quality is not None:
-                least = np.degrees(found.quality.transmission)
-                assert told.transmission_deg[row] == pytest.approx(least, abs=1e-4, nan_ok=True)
+            if found.quality is None:
+                continue
+            least = np.degrees(found.quality.transmission)
+            assert told.transmission_deg[row] == pytest.approx(least, abs=1e-4, nan_ok=True)
+            if least > CLEAR:  # at a dead point rounding says where it goes
                 extent = float(found.quality.extent)
                 assert told.extent[row] == pytest.approx(extent, rel=1e-5, nan_ok=True)
                 sensitivity = float(found.quality.sensitivity)

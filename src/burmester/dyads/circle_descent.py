@@ -19,6 +19,7 @@ from burmester.dyads.plain_circle_descent import (
     SETTLED_STEP,
     Descent,
     plain_descent,
+    steady_starts,
 )
 from burmester.fourbar.dyad import RR
 from burmester.geometry.displacement import Displacement
@@ -81,7 +82,7 @@ def circle_minima(
     """
     one = np.zeros(len(z), dtype=np.intp)
     if not narrow:
-        return _of_one_task(further_down(z, poses, share), one)
+        return _of_one_task(further_down(steady_starts(z), poses, share), one)
     terms, longest = circle_terms(poses), MAX_LENGTH * float(reach(poses, share))
 
     def cost(terms: tuple[FloatArray, ...]) -> FloatArray:

@@ -40,6 +40,7 @@ __all__ = [
     "balancing_length",
     "continued_points",
     "critical_dyads",
+    "points_at_infinity",
     "residual_rows",
     "residual_triangle",
 ]
@@ -142,7 +143,7 @@ def critical_dyads(poses: Displacement, weights: FloatArray | None = None) -> Cr
     triangle = residual_triangle(seen, weights)
     points = np.full((*lead, COUNT, 4), np.nan + 0j)
     found, charts = np.zeros(lead, dtype=int), np.zeros(lead, dtype=int)
-    far = np.asarray(POINTS_OF_SLIDER * _exact_sliders(poses, frames, seen, weights))
+    far = points_at_infinity(poses, frames, seen, weights)
     health, real = np.zeros(lead), np.zeros((*lead, COUNT), dtype=bool)
     minimum = np.zeros((*lead, COUNT), dtype=bool)
     with one_thread():
@@ -267,13 +268,16 @@ def _all_points(triangle: FloatArray, at_infinity: int) -> _Points:
     return _Points(ordered, real[order], minimum[order], charts, health)
 
 
-def _exact_sliders(
+def points_at_infinity(
     poses: Displacement,
     frames: CanonicalFrames,
     seen: Displacement,
     weights: FloatArray | None,
 ) -> NDArray[np.int_]:
-    """How many sliders meet the poses (*, N) to rounding, (*,); seen: the poses in their frames."""
+    """How many critical points have a pivot at infinity, (*,), of poses (*, N).
+
+    By the sliders that meet the poses to rounding; seen: the poses in their frames.
+    """
     count = np.zeros(poses.shape[:-1], dtype=int)
     origins = [
         np.linalg.norm(each, axis=-1) for each in (frames.fixed_origin, frames.moving_origin)
@@ -287,7 +291,7 @@ def _exact_sliders(
             (size / frames.length)[..., None] + arm * turns[..., None]
         )
         count = count + (worst < SLIDER_ROUNDING * ulp).sum(axis=-1)
-    return count
+    return np.asarray(POINTS_OF_SLIDER * count)
 
 
 def balancing_length(triangle: FloatArray) -> FloatArray:

@@ -126,7 +126,7 @@ def best_dyads(
     share = shares(weights, poses.shape)
     lines = [lines(seen, weights)[0][0] for lines in (fixed_lines, moving_lines)]
     points, more = critical.points[: int(critical.found)], np.zeros((0, 4))
-    hard = is_hard(points, seen, share)
+    hard = is_hard(points, seen, share, int(critical.at_infinity))
     if hard:
         origin = np.concatenate([critical.frames.fixed_origin, critical.frames.moving_origin])
         more = (pivots_of_fits(poses, weights) - origin) / critical.frames.length
@@ -157,9 +157,14 @@ def best_dyads(
     return replace(best, dyads=dyads[order])
 
 
-def is_hard(points: ComplexArray, seen: Displacement, share: FloatArray) -> bool:
-    """Whether the body turns so little that ways down are narrow, or critical points are lost."""
-    return len(points) < COUNT or float(reach(seen, share)) > LITTLE_TURN
+def is_hard(
+    points: ComplexArray, seen: Displacement, share: FloatArray, at_infinity: int = 0
+) -> bool:
+    """Whether the body turns so little that ways down are narrow, or critical points are lost.
+
+    at_infinity: how many of the critical points are known to be there.
+    """
+    return len(points) + at_infinity < COUNT or float(reach(seen, share)) > LITTLE_TURN
 
 
 def starts_down(

@@ -38,33 +38,54 @@ LEAST_DETERMINANT = 1e-11
 _CIRCLE = circle_shape(2, 2, 0, "none")
 
 
+TASKS_AT_ONCE = 400  # bounds the memory
+
+
 def many_critical_points(
-    seen: Displacement, weights: FloatArray | None
+    seen: Displacement, weights: FloatArray | None, far: NDArray[np.int_]
 ) -> tuple[ComplexArray, NDArray[np.bool_]]:
     """The critical points (T, 25, 4) of poses (T, N) in their canonical frames, and of which all.
 
-    Of tasks of which not all are found they are nan.
+    far: (T,), how many of the points are at infinity (`points_at_infinity`); in their places, and
+    for tasks of which not all the others are found, is nan.
     """
+    starts = range(0, max(1, len(far)), TASKS_AT_ONCE)
+    parts = [slice(start, start + TASKS_AT_ONCE) for start in starts]
+    found = [
+        _critical_points(seen[part], None if weights is None else weights[part], far[part])
+        for part in parts
+    ]
+    points, every = zip(*found, strict=True)
+    return np.concatenate(points), np.concatenate(every)
+
+
+def _critical_points(
+    seen: Displacement, weights: FloatArray | None, far: NDArray[np.int_]
+) -> tuple[ComplexArray, NDArray[np.bool_]]:
+    """The same of tasks that are computed together."""
     triangle = residual_triangle(seen, weights)
     unit = balancing_length(triangle)
     scaled = triangle * unit[:, None, None] ** np.array([0, 1, 1, 1, 1, 2, 2])
     size = np.linalg.norm(scaled, axis=(1, 2), keepdims=True)
     scaled = scaled / np.where(size > 0, size, 1.0)
     points = np.full((len(unit), COUNT, 4), np.nan, dtype=complex)
+    found = np.zeros(len(unit), dtype=bool)
     rest, known = np.arange(len(unit)), np.empty((len(unit), 0, 4), dtype=complex)
     with one_thread():
         for chart in range(CHARTS):
             known = np.concatenate([known, _sound_points(scaled[rest], chart)], axis=1)
             once = np.isfinite(known).all(axis=2) & unique_index(known, SAME_POINT, "euclidean")
-            every = once.sum(axis=1) == COUNT
-            points[rest[every]] = known[every][once[every]].reshape(-1, COUNT, 4)
+            every = once.sum(axis=1) == COUNT - far[rest]
+            task, number = np.nonzero(once & every[:, None])
+            column = (np.cumsum(once, axis=1) - 1)[task, number]
+            points[rest[task], column] = known[task, number]
+            found[rest[every]] = True
             rest, known = rest[~every], np.where(once[~every, :, None], known[~every], np.nan)
             if not len(rest):
                 break
     size = 1 + np.linalg.norm(points, axis=2)
     real = np.linalg.norm(points.imag, axis=2) < REAL_TOLERANCE * size
     points[real] = points[real].real
-    found = np.asarray(np.isfinite(points).all(axis=(1, 2)))
     return np.asarray(points * unit[:, None, None]), found
 
 

@@ -18,7 +18,7 @@ from burmester.numerics.arrays import FloatArray
 from burmester.numerics.iteration import MAX_QUARTERINGS
 from burmester.progress import goes_on
 
-__all__ = ["MAX_NEWTON_STEPS", "Descent", "plain_descent"]
+__all__ = ["MAX_NEWTON_STEPS", "Descent", "plain_descent", "steady_starts"]
 
 MAX_NEWTON_STEPS = 60  # from each start
 SETTLED_STEP = 1e-9  # relative; a shorter step of Newton's method is its last one
@@ -84,14 +84,11 @@ def plain_descent(
     Newton's method; where the sum is not convex, Gauss and Newton's step; shortened until it
     helps.  longest: (T,), the greatest coordinate of a circle; one that is greater has left; steps:
     how many of them at most.
-
-    A start is taken to START_BITS only.  Where the sum is not convex a way may turn by the last
-    bit of its start, and would end elsewhere on another machine, or with another eigenproblem.
     """
     count = len(z)
     x, y = (poses.translation[..., k].T for k in (0, 1))
     table = _Poses(np.cos(poses.angle.T), np.sin(poses.angle.T), x, y, share.T)
-    ends, settled = _steady(z.T), np.zeros(count, dtype=bool)
+    ends, settled = np.array(z.T), np.zeros(count, dtype=bool)
     ended_at, run = np.zeros(count, dtype=np.intp), np.arange(count)
     seen, here = table.at(task), ends.copy()
     before, far = seen.cost(here), longest[task]
@@ -115,9 +112,13 @@ def plain_descent(
     return Descent(ends.T.copy(), table.at(task).cost(ends), settled, ended_at)
 
 
-def _steady(z: FloatArray) -> FloatArray:
-    """Circles (5, k) with their coordinates rounded to START_BITS of the greatest of each."""
-    _, exponent = np.frexp(np.abs(z).max(axis=0))
+def steady_starts(z: FloatArray) -> FloatArray:
+    """Circles (k, 5) to start from, with START_BITS of the greatest coordinate of each.
+
+    Where the sum is not convex a way may turn by the last bit of its start: it would end elsewhere
+    on another machine, or with another eigenproblem.
+    """
+    _, exponent = np.frexp(np.abs(z).max(axis=1, keepdims=True))
     return np.asarray(np.ldexp(np.round(np.ldexp(z, START_BITS - exponent)), exponent - START_BITS))
 
 

@@ -17,6 +17,7 @@ from burmester.dyads.circle_descent import further_down
 from burmester.dyads.critical_points import CriticalDyads, continued_points, critical_dyads
 from burmester.dyads.geometric_fit import circle_distances
 from burmester.dyads.local_minima import BestDyads, is_hard, starts_down
+from burmester.dyads.plain_circle_descent import steady_starts
 from burmester.dyads.sliders import fixed_lines, moving_lines
 from burmester.following.minimum_step import MovedMinima, moved_minima
 from burmester.following.moved_fit import circles_of, listed, moved_fit, twins
@@ -74,7 +75,8 @@ class FreeMinima:
         if not hard:
             descents = there.descents
             if not len(descents):
-                descents = starts_down(there.points, sliders, seen, task.weights, np.empty((0, 4)))
+                starts = starts_down(there.points, sliders, seen, task.weights, np.empty((0, 4)))
+                descents = steady_starts(starts)
             down = further_down(descents, seen, share, STEPS_DOWN)
             z = np.concatenate([z, down.z[down.settled]])
             there = replace(there, descents=down.z[down.ended_at == 0])

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.dyads.circle_descent import MAX_LENGTH, minima_of, reach
+from burmester.dyads.critical_points import points_at_infinity
 from burmester.dyads.local_minima import (
     CONJUGATE_PICK,
     LITTLE_TURN,
@@ -19,7 +20,7 @@ from burmester.dyads.local_minima import (
 )
 from burmester.dyads.many_critical_points import many_critical_points
 from burmester.dyads.pencil import MIN_POSES, fit_pencil
-from burmester.dyads.plain_circle_descent import plain_descent
+from burmester.dyads.plain_circle_descent import plain_descent, steady_starts
 from burmester.dyads.selection import MAX_SLIDER_ANGLE
 from burmester.dyads.sliders import fixed_lines, moving_lines
 from burmester.fourbar.canonical_frames import CanonicalFrames
@@ -53,13 +54,14 @@ def best_dyads_in_stack(stack: TaskStack) -> Vouched:
     poses, weights = stack[index].displacements, stack[index].weights
     frames, seen = CanonicalFrames.of(poses, weights)
     share = shares(weights, seen.shape)
-    points, all_found = many_critical_points(seen, weights)
+    far = points_at_infinity(poses, frames, seen, weights)
+    points, all_found = many_critical_points(seen, weights, far)
     easy = all_found & (reach(seen, share) <= LITTLE_TURN)
     index, points, share, seen = index[easy], points[easy], share[easy], seen[easy]
     stack, frames = stack[index], take(frames, easy)
     task, z = _starts(points, seen, share, stack.weights)
     longest = MAX_LENGTH * reach(seen, share)
-    descent = plain_descent(z, task, seen, share, longest)
+    descent = plain_descent(steady_starts(z), task, seen, share, longest)
     once, unfinished = minima_of(descent, task, len(index))
     task, z = task[once], descent.z[once]
     circles = RR(z[:, :2], z[:, 2:4], z[:, 4])

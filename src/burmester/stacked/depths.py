@@ -25,7 +25,9 @@ from burmester.tasks.repeated_poses import exact_repeats
 
 __all__ = ["stacked_answers"]
 
-POSES_AT_ONCE = 20_000  # of tasks computed together; bounds the memory, and fits a cache
+# Poses of the tasks that are computed together: bounds the memory, and fits a cache.  The ways down
+# to best dyads need more room.
+POSES_AT_ONCE, POSES_DOWN_AT_ONCE = 20_000, 4_000
 
 
 def stacked_answers(stack: TaskStack, depth: Depth) -> StackedAnswers:
@@ -34,7 +36,9 @@ def stacked_answers(stack: TaskStack, depth: Depth) -> StackedAnswers:
     A task that the stacked road cannot vouch for takes the road of one task; its neighbours'
     answers do not change for it.
     """
-    size = max(1, POSES_AT_ONCE // max(1, stack.poses.shape[1]))
+    count = stack.poses.shape[1]
+    most = POSES_DOWN_AT_ONCE if depth != "pencil" and count > CONDITIONS else POSES_AT_ONCE
+    size = max(1, most // max(1, count))
     starts = range(0, max(1, len(stack)), size)
     return joined([_answers(stack[start : start + size], depth) for start in starts])
 
