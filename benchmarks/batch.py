@@ -6,8 +6,8 @@
 
 overhead: the processor time of a whole batch, of all its processes, beside that of the same stacks
 in a loop without files, in turn in one run; what starting and ending a batch takes is measured with
-one task and told apart. memory: the greatest resident memory of the run and of a worker, for ten
-thousand tasks and for a million, in parts of the same size. scheduler: parts that hold nothing,
+one task and told apart.  memory: the greatest resident memory of the run and of a worker, for ten
+thousand tasks and for a million, in parts of the same size.  scheduler: parts that hold nothing,
 through processes, through a Dask cluster on this machine, and through the files of a folder.
 """
 

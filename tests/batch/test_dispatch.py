@@ -21,7 +21,7 @@ KILLED = "its worker ended each time: killed, or out of memory"
 
 @pytest.fixture(scope="module")
 def engine():
-    processes = Processes(2)
+    processes = Processes(2, memory=3 << 30)
     yield processes
     processes.close()
 

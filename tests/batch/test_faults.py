@@ -135,7 +135,7 @@ def test_another_batch_is_never_mixed_in(copy, whole, monkeypatch):
     error = refused("E180", again, copy, options=copy / "options.toml")
     assert error.why == 'options.length_unit is null there and "mm" here'
     with monkeypatch.context() as patch:
-        patch.setattr("burmester.batch.job.__version__", "0.2.0")
+        patch.setattr("burmester.batch.part_file.__version__", "0.2.0")
         error = refused("E180", again, copy)
         assert error.why == 'versions.burmester is "0.1.0" there and "0.2.0" here'
     text = (copy / "tasks.csv").read_text()

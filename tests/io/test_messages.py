@@ -246,9 +246,11 @@ def other_version(version):
     """What a worker does with a part that comes from another version."""
     plan = api("batch.part_file.Plan")
     texts = api("batch.parts.TextTasks")((), (), ())
-    options = api("batch.options.BatchOptions")()
+    options, here = api("batch.options.BatchOptions")(), api("batch.part_file.versions")()
     api("batch.part_file.work")(
-        api("batch.parts.Part")(0, texts, 1.0), plan("pencil", options, "", 60, version), {}
+        api("batch.parts.Part")(0, texts, 1.0),
+        plan("pencil", options, "", 60, {**here, "burmester": version}),
+        {},
     )
 
 

@@ -88,7 +88,7 @@ def squares(part, plan, left_out):
     if RAISES in values:
         raise ValueError("no such number")
     if GREEDY in values:
-        raise MemoryError
+        bytearray(4 << 30)
     if TOGETHER in values and len(values) > 1:
         raise ValueError("too many")
     if ENDLESS in values:

@@ -11,12 +11,13 @@ if TYPE_CHECKING:
     from typing import Any
 
     from burmester.batch.job import run as run
+    from burmester.batch.sample import Sample as Sample
     from burmester.batch.summary import Summary as Summary
     from burmester.batch.summary import read_summary as read_summary
 
-_ROOMS = {"Summary": "summary", "read_summary": "summary", "run": "job"}
+_ROOMS = {"Sample": "sample", "Summary": "summary", "read_summary": "summary", "run": "job"}
 
-__all__ = ["Summary", "read_summary", "run"]
+__all__ = ["Sample", "Summary", "read_summary", "run"]
 
 
 def __getattr__(name: str) -> Any:

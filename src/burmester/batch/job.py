@@ -8,11 +8,8 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing, suppress
 from dataclasses import dataclass, field
 from time import monotonic
-from typing import Any, final
+from typing import TYPE_CHECKING, Any, final
 
-import numpy as np
-
-from burmester import __version__
 from burmester.batch.dispatch import Dispatch
 from burmester.batch.engines import Cluster, Engine, Processes, usual_workers
 from burmester.batch.manifest import Manifest, PartRecord
@@ -24,10 +21,14 @@ from burmester.batch.stopping import stopping
 from burmester.batch.summary import Summary, read_summary
 from burmester.errors import InputError
 
+if TYPE_CHECKING:
+    from burmester.batch.sample import Sample
+
 __all__ = ["PART_TASKS", "BatchProgress", "run"]
 
 # Tasks of a part that take some second on one core.
 PART_TASKS: Mapping[Depth, int] = {"pencil": 50_000, "dyads": 1000, "linkages": 500, "full": 10}
+MOST_DRAWN = 5000  # draws of a part: with their curves they are some megabytes
 LIMITS_S: Mapping[Depth, float] = {"pencil": 120, "dyads": 120, "linkages": 120, "full": 600}
 
 
@@ -61,7 +62,7 @@ class BatchProgress:
 
 
 def run(
-    tasks: str | os.PathLike[str],
+    tasks: str | os.PathLike[str] | Sample,
     output: str | os.PathLike[str],
     *,
     depth: Depth = "full",
@@ -77,9 +78,10 @@ def run(
 
     Parameters
     ----------
-    tasks : str or path
+    tasks : str, path or Sample
         A table with a row a pose (Parquet or CSV: task, x, y, angle_deg or angle_rad, and weight
         and exact if wanted), a file with a task a line in JSON, or a folder of task files.
+        Or a `Sample`: linkages that are drawn at random, with poses on their way.
     output : str or path
         The folder of the parts.  Where it holds a part of this very batch, the rest is done.
     depth : {"pencil", "dyads", "linkages", "full"}
@@ -114,10 +116,14 @@ def run(
         E181 (another run works on it), E182 (the workers).
     """
     require_pyarrow()
+    from burmester.batch.sample import Sample, sample_source  # noqa: PLC0415  they need it
+
     _require(depth in DEPTHS, f"there is no depth {depth!r}", f"choose one of {', '.join(DEPTHS)}")
     chosen = _options(options)
     chosen.require_depth(depth)
-    size = PART_TASKS[depth] if part_tasks is None else part_tasks
+    drawn = isinstance(tasks, Sample)
+    usual = min(PART_TASKS[depth], MOST_DRAWN) if drawn else PART_TASKS[depth]
+    size = usual if part_tasks is None else part_tasks
     limit = LIMITS_S[depth] if part_limit is None else part_limit
     least = 0 < size <= MOST_TASKS and (workers is None or workers > 0) and limit > 0
     _require(
@@ -125,8 +131,12 @@ def run(
     )
     folder = OutFolder(os.fspath(output))
     with folder.held():
-        source = open_source(os.fspath(tasks))
-        job = _Job(folder, source, depth, chosen, size, limit, progress)
+        if isinstance(tasks, Sample):
+            source = sample_source(tasks)
+        else:
+            source = open_source(os.fspath(tasks))
+        sheet = tasks.datasheet if isinstance(tasks, Sample) else ""
+        job = _Job(folder, source, depth, chosen, size, limit, progress, sheet)
         memory = None if worker_memory is None else int(worker_memory * 1e9)
 
         def engine() -> Engine:
@@ -185,6 +195,7 @@ class _Job:
     size: int
     limit: float
     progress: Callable[[BatchProgress], object] | None
+    datasheet: str = ""
     total: float = 0.0
     tasks: int = 0
     before: int = 0
@@ -193,18 +204,17 @@ class _Job:
 
     def identity(self) -> dict[str, Any]:
         """All that the rows depend on."""
-        import pyarrow as pa  # noqa: PLC0415
-
+        from burmester.batch.part_file import versions  # noqa: PLC0415
         from burmester.batch.schema import VERSION  # noqa: PLC0415
 
         return {
             "schema": VERSION,
-            "versions": {
-                "burmester": __version__,
-                "numpy": np.__version__,
-                "pyarrow": pa.__version__,
+            "versions": versions(),
+            "tasks": {
+                "kind": self.source.kind,
+                "sha256": self.source.digest,
+                **self.source.told,
             },
-            "tasks": {"kind": self.source.kind, "sha256": self.source.digest},
             "depth": self.depth,
             "options": self.options.data,
             "part_tasks": self.size,
@@ -212,13 +222,15 @@ class _Job:
 
     def run(self, engine: Callable[[], Engine]) -> Summary:
         """Do what is not done yet."""
-        from burmester.batch.part_file import Plan, work  # noqa: PLC0415  pyarrow has been asked for
+        from burmester.batch.part_file import Plan, versions, work  # noqa: PLC0415  an extra
 
         manifest = Manifest(self.folder, self.identity())
+        if self.datasheet:
+            self.folder.write(self.folder.datasheet, self.datasheet)
         for record in manifest.done.values():
             self._count(record)
         self.before = sum(record.tasks for record in manifest.done.values())
-        plan = Plan(self.depth, self.options, manifest.run, self.limit)
+        plan = Plan(self.depth, self.options, manifest.run, self.limit, versions())
         self.begun = monotonic()
 
         def keep(part: Part, worked: Any) -> None:
@@ -265,11 +277,17 @@ class _Job:
     def _left(self, manifest: Manifest) -> Iterator[Part]:
         """The parts that are not done."""
         read = 0
-        for part in self.source.parts(self.size):
-            read += len(part.tasks)
-            self.total = read / part.share
-            if part.number not in manifest.done:
-                yield part
+        try:
+            for part in self.source.parts(self.size):
+                read += len(part.tasks)
+                self.total = read / part.share
+                if part.number not in manifest.done:
+                    yield part
+        except OSError as error:
+            why, help = error.strerror or str(error), "run the batch again: it goes on"
+            message = "the tasks cannot be read any more"
+            where = self.source.name
+            raise InputError("E101", message, where=where, why=why, help=help) from None
 
     def _require_unchanged(self) -> None:
         if not self.source.unchanged():

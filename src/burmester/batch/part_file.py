@@ -23,7 +23,8 @@ from burmester import __version__
 from burmester.batch import schema
 from burmester.batch.answer_rows import Refusal, refused_rows, solved_rows, stacked_rows
 from burmester.batch.options import BatchOptions, Depth, as_task
-from burmester.batch.parts import DrawnTasks, Part, TableTasks, Tasks, TextTasks
+from burmester.batch.parts import DrawnTasks, Part, TableTasks, TextTasks
+from burmester.batch.sample import DRAWN, drawn_columns, drawn_table
 from burmester.batch.worker import within
 from burmester.errors import BurmesterError, InputError
 from burmester.io.result import synthesis_data
@@ -33,9 +34,10 @@ from burmester.stacked import TaskStack, stacked_answers
 from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.motion_task import Task
 
-__all__ = ["Plan", "WorkedPart", "work"]
+__all__ = ["Plan", "WorkedPart", "versions", "work"]
 
 Counts: TypeAlias = NDArray[np.int32]
+Tasks: TypeAlias = TableTasks | TextTasks
 
 # Columns of a few words that are there many times.
 WORDS = [
@@ -54,15 +56,15 @@ TOLD = 20  # failed tasks of a part that the manifest names
 class Plan:
     """What is to be done with every part.
 
-    run: the digest of what the rows depend on; version: of burmester; limit: seconds after which
-    a part is given up.
+    run: the digest of what the rows depend on; limit: seconds after which a part is given up;
+    versions: of the programs that make the rows.
     """
 
     depth: Depth
     options: BatchOptions
     run: str
     limit: float
-    version: str = __version__
+    versions: dict[str, str]
 
 
 @final
@@ -76,20 +78,30 @@ class WorkedPart:
     failed: list[dict[str, Any]]
 
 
+def versions() -> dict[str, str]:
+    """Those of the programs that make the rows, here."""
+    return {"burmester": __version__, "numpy": np.__version__, "pyarrow": pa.__version__}
+
+
 def work(part: Part, plan: Plan, failed: Mapping[int, str]) -> WorkedPart:
     """The rows of a part; failed: tasks that are not tried again, by their places, with why.
 
     A computation that takes longer than the limit ends the process.
     """
-    if plan.version != __version__:
-        raise InputError(
-            "E182",
-            "the workers have another version of burmester",
-            why=f"theirs is {__version__}, here it is {plan.version}",
-            help="install the same version on all machines",
-        )
+    for name, version in versions().items():
+        if plan.versions[name] != version:
+            raise InputError(
+                "E182",
+                f"the workers have another version of {name}",
+                why=f"theirs is {version}, here it is {plan.versions[name]}",
+                help="install the same version on all machines",
+            )
     with within(plan.limit), one_thread():
-        return _written(part, plan, _answered(part.tasks, plan, failed))
+        if isinstance(part.tasks, DrawnTasks):
+            tasks, drawn = drawn_table(part.tasks)
+            columns = drawn_columns(drawn)
+            return _written(part, plan, _answered(tasks, plan, failed), columns)
+        return _written(part, plan, _answered(part.tasks, plan, failed), [])
 
 
 def _answered(tasks: Tasks, plan: Plan, failed: Mapping[int, str]) -> tuple[pa.Table, Counts]:
@@ -135,7 +147,7 @@ def _task(tasks: Tasks, index: int, options: BatchOptions) -> Task:
     """A task as `burmester synthesize` would read it from a file of its own."""
     if isinstance(tasks, TextTasks):
         return as_task(options, tasks.labels[index], tasks.data[index])
-    one = _table_of(tasks.only([index]))
+    one = tasks.only([index])
     angle = "angle_deg" if one.degrees else "angle_rad"
     marks = "" if one.exact is None else ",exact"
     lines = [f"x,y,{angle}{',weight' if one.weights is not None else ''}{marks}"]
@@ -158,7 +170,7 @@ def _stacked(
         table, kept = _as_table(tasks, plan, wanted, poses, refusals)
     else:
         some = tasks if len(wanted) == len(tasks) else tasks.only(wanted)
-        table, kept = _table_of(some), np.array(wanted, dtype=np.intp)
+        table, kept = some, np.array(wanted, dtype=np.intp)
     if not len(kept):
         return [refused_rows([])]
     poses[kept] = counts = table.counts
@@ -190,12 +202,6 @@ def _radians(table: TableTasks) -> FloatArray:
     if not table.degrees:
         return table.poses
     return np.concatenate([table.poses[:, :2], np.radians(table.poses[:, 2:])], axis=1)
-
-
-def _table_of(tasks: TableTasks | DrawnTasks) -> TableTasks:
-    if isinstance(tasks, TableTasks):
-        return tasks
-    raise NotImplementedError
 
 
 def _as_table(
@@ -247,17 +253,23 @@ def _beyond_poses(task: Task) -> str:
     return " and ".join(name for name, given in stated.items() if given)
 
 
-def _written(part: Part, plan: Plan, answered: tuple[pa.Table, Counts]) -> WorkedPart:
+def _written(
+    part: Part, plan: Plan, answered: tuple[pa.Table, Counts], drawn: list[Any]
+) -> WorkedPart:
     """The file of a part."""
     table, poses = answered
     given = part.tasks.numbers if isinstance(part.tasks, DrawnTasks) else part.tasks.names
-    whole = schema.schema(
-        numbered=isinstance(part.tasks, DrawnTasks | TableTasks) and not isinstance(given, tuple)
-    )
+    numbered = isinstance(part.tasks, DrawnTasks) or not isinstance(given, tuple)
+    whole = schema.schema(numbered=numbered, drawn=DRAWN if drawn else None)
     names = pa.array(given, whole.field("task").type)
     columns = [names, pa.array(poses, mask=poses == 0)]
-    columns += [table.column(field.name) for field in list(whole)[2:]]
-    told = {"schema": schema.VERSION, "version": plan.version, "run": plan.run, "part": part.number}
+    columns += [table.column(field.name) for field in list(schema.SCHEMA)[2:]] + drawn
+    told = {
+        "schema": schema.VERSION,
+        "versions": plan.versions,
+        "run": plan.run,
+        "part": part.number,
+    }
     metadata = {"burmester": json.dumps(told, sort_keys=True)}
     rows = pa.Table.from_arrays(columns, schema=whole.with_metadata(metadata))
     sink = BytesIO()

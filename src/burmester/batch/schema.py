@@ -63,7 +63,7 @@ SCHEMA: Final = pa.schema(
 )
 
 
-def schema(numbered: bool, drawn: pa.Schema | None = None) -> Any:
+def schema(*, numbered: bool, drawn: pa.Schema | None = None) -> Any:
     """The schema of a batch whose tasks are named by numbers or by texts.
 
     drawn: the columns of what was drawn, where the tasks are draws.

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import hashlib
 import os
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
-from typing import final
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any, final
 
 from burmester.batch.long_tables import is_parquet_file, table_parts
 from burmester.batch.parts import Part
@@ -26,7 +26,7 @@ class Source:
 
     kind: in words; name: of the file or folder; digest: the SHA-256 of all that is read; parts:
     cuts them into parts of a size; unchanged: whether the file is still the one that the digest is
-    of.
+    of; told: what else the manifest says of them.
     """
 
     kind: str
@@ -34,6 +34,7 @@ class Source:
     digest: str
     parts: Callable[[int], Iterator[Part]]
     unchanged: Callable[[], bool] = lambda: True
+    told: Mapping[str, Any] = field(default_factory=dict)
 
 
 def open_source(path: str) -> Source:

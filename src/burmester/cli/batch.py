@@ -28,6 +28,26 @@ TASKS   a table with a row for each pose (.parquet or .csv), whose columns are
 @click.argument("tasks", required=False)
 @click.option("-o", "--output", metavar="FOLDER", help="The folder of the parts.")
 @click.option(
+    "--sample",
+    type=click.Choice(["four-bars"]),
+    help="In place of TASKS: random usable four-bars, with poses on their way.",
+)
+@click.option("--count", type=click.IntRange(1), metavar="N", help="How many of them.")
+@click.option("--seed", type=int, metavar="N", help="The seed of the draws; by default 0.")
+@click.option("--poses", type=click.IntRange(2), metavar="N", help="Poses of each; by default 10.")
+@click.option(
+    "--noise",
+    type=click.FloatRange(0, 1),
+    metavar="SIGMA",
+    help="Standard deviation of the errors of the poses: a share of their span, and radians; by "
+    "default 0.",
+)
+@click.option(
+    "--types",
+    metavar="NAME,...",
+    help="Types that are drawn, such as crank-rocker,slider-crank; by default all that can be.",
+)
+@click.option(
     "--depth",
     type=click.Choice(["pencil", "dyads", "linkages", "full"]),
     default="full",
@@ -87,22 +107,47 @@ def batch(
             raise InputError("E100", "--show takes a folder alone", help="leave TASKS and -o out")
         _tell(read_summary(show), as_json=as_json)
         return EXIT_FOUND
-    if tasks is None or output is None:
+    sample = {name: given.pop(name) for name in ("count", "seed", "poses", "noise", "types")}
+    source = _source(tasks, given.pop("sample"), sample)
+    if source is None or output is None:
         raise InputError(
             "E100",
-            "there are no tasks" if tasks is None else "there is no folder to write to",
+            "there are no tasks" if source is None else "there is no folder to write to",
             help="say `burmester batch TASKS -o FOLDER`; `burmester batch --help` has more",
         )
     from burmester.batch.job import run
     from burmester.cli.batch_progress import watching
 
-    with watching(as_json=as_json) as progress:
-        summary = run(tasks, output, progress=progress, **given)
+    with watching() as progress:
+        summary = run(source, output, progress=progress, **given)
     _tell(summary, as_json=as_json)
     if not summary.complete:
         click.echo("stopped; the same command goes on", err=True)
         return EXIT_INTERRUPT
     return EXIT_NOTHING if summary.outcomes.get("failed") else EXIT_FOUND
+
+
+def _source(tasks: str | None, sample: str | None, given: dict[str, Any]) -> Any:
+    """The path of the tasks, or a sample of random ones; None for neither."""
+    stated = {name: value for name, value in given.items() if value is not None}
+    if sample is None:
+        if stated:
+            message = f"--{next(iter(stated))} is for a sample"
+            raise InputError("E100", message, help="add --sample four-bars, or leave it out")
+        return tasks
+    if tasks is not None:
+        raise InputError("E100", "TASKS and --sample are given", help="leave one of them out")
+    if "count" not in stated:
+        message = "a sample has no count"
+        raise InputError("E100", message, help="say how many, such as --count 1000")
+    from burmester.batch.job import require_pyarrow
+
+    require_pyarrow()
+    from burmester.batch.sample import Sample
+
+    if "types" in stated:
+        stated["types"] = tuple(each.strip() for each in stated["types"].split(","))
+    return Sample.of(stated.pop("count"), **stated)
 
 
 def _tell(summary: Any, *, as_json: bool) -> None:

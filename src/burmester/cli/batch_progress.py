@@ -19,7 +19,7 @@ SHOWN = 3  # outcomes on a line
 
 
 @contextmanager
-def watching(*, as_json: bool) -> Iterator[Callable[[BatchProgress], object]]:
+def watching() -> Iterator[Callable[[BatchProgress], object]]:
     """Who is told how far a batch is, on standard error."""
     if sys.stderr.isatty() and os.environ.get("TERM") not in ("dumb", "unknown"):
         with _bar() as told:
