@@ -154,6 +154,27 @@ def test_dyads_of_stacks_are_those_of_one_task(tmp_path):
         assert {each["status"] for each in row["dyads"]} <= {"exact", "locally best"}
 
 
+def test_weights_and_marks_count(tmp_path):
+    poses = rows(1, poses=7, seed=8, noise=0.02)[0]
+    lines = [f"{x:.6f},{y:.6f},{a:.6f}" for x, y, a in poses]
+    more = [f"{1 + 3 * (k == 2)},{'yes' if k in (0, 5) else ''}" for k in range(7)]
+    body = [f"{line},{each}" for line, each in zip(lines, more, strict=True)]
+    head = "x,y,angle_deg,weight,exact"
+    (tmp_path / "one.csv").write_text("\n".join([head, *body, ""]))
+    table = [f"task,{head}", *(f"a,{line}" for line in body), *(f"b,{line},1," for line in lines)]
+    (tmp_path / "tasks.csv").write_text("\n".join([*table, ""]))
+    said = burmester_says("synthesize", tmp_path / "one.csv")
+    for depth, within in (("full", 1e-12), ("dyads", 1e-6)):
+        run(tmp_path / "tasks.csv", tmp_path / depth, depth=depth, workers=1)
+        marked, plainly = pq.read_table(tmp_path / depth).to_pylist()
+        assert len(marked["dyads"]) == len(said["dyads"]) > 1
+        for dyad, data in zip(marked["dyads"], said["dyads"], strict=True):
+            for name, value in dyad_columns(data).items():
+                if name != "kind":
+                    assert dyad[name] == pytest.approx(value, rel=within, abs=1e-6), name
+        assert plainly["dyads"][0]["rms"] != pytest.approx(marked["dyads"][0]["rms"], rel=1e-3)
+
+
 def as_parquet(folder, tasks):
     """The same table, its columns stored otherwise: names as texts in a dictionary, in radians."""
     table = pyarrow.csv.read_csv(folder / "tasks.csv")
