@@ -271,13 +271,16 @@ def cards(studio):
     return {key: (name, text) for key, name, text in studio.page.evaluate(CARDS)}
 
 
-def check(studio, drags, seed):
-    """Random drags; what became of the cards after each."""
-    rng = random.Random(seed)
+def check(studio, drags, seed, seconds):
+    """Random drags, as many as there is time for; what became of the cards after each."""
+    rng, end = random.Random(seed), time.monotonic() + seconds
     count = studio.page.locator(".bs-origin").count()
     counted = ("kept", "told", "appeared", "ended", "old frame", "wrong", "not followed", "slow")
-    out = dict.fromkeys(counted, 0)
+    out = dict.fromkeys(("drags", *counted), 0)
     for _ in range(drags):
+        if time.monotonic() > end:
+            break
+        out["drags"] += 1
         if rng.random() < 0.15:
             studio.page.keyboard.press("Control+z")
             studio.rest(studio.solved)
@@ -340,6 +343,7 @@ def main():
     parser.add_argument("--drags", type=int, default=0)
     parser.add_argument("--memory", type=int, default=0)
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--seconds", type=float, default=math.inf)
     given = parser.parse_args()
     with opened(given.task) as studio:
         print(f"first linkage {studio.start:.2f} s after the command")
@@ -348,7 +352,7 @@ def main():
             for name, value in speed(studio, given.moves).items():
                 print(f"  {name}: {value:.1f}")
         if given.drags:
-            print(f"{given.drags} drags:", check(studio, given.drags, given.seed))
+            print(check(studio, given.drags, given.seed, given.seconds), flush=True)
         if given.memory:
             for k, server, page in memory(studio, given.memory, given.seed):
                 print(f"  {k:6d} drags: server {server / 1024:.1f} MB, page {page / 1024:.1f} MB")

@@ -76,12 +76,13 @@ def test_where_it_was_seen_last_counts_for_what_is_told():
     assert told == {one.id: {"id": "B", "moved": pytest.approx(5 * 0.01, rel=0.5)}}
 
 
-def test_a_linkage_with_two_candidates_goes_on_as_neither():
+def test_a_linkage_with_two_candidates_is_the_nearer_one():
     found = answer("case:ge2012-exact")
     size, one = scene_of(found), found.linkages[0]
     by = np.array([0.004 * size, 0.0])
-    near, nearer = (
-        replace(elsewhere(one, sign * by), id=id) for sign, id in ((1, "A"), (-0.6, "B"))
-    )
-    assert one.id not in matched(standing([near, nearer]), found)
-    assert matched(standing([nearer]), found)[one.id]["id"] == "B"
+    near = replace(elsewhere(one, by), id="A")
+    nearer = replace(elsewhere(one, -0.6 * by), id="B")
+    for both in ([near, nearer], [nearer, near]):
+        was = matched(standing(both), found)
+        assert was[one.id]["id"] == "B"
+        assert "A" not in {each["id"] for each in was.values()}

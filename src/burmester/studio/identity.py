@@ -11,7 +11,6 @@ from typing import Any, Final
 
 import numpy as np
 
-from burmester.following.identity import AS_NEAR
 from burmester.fourbar.dyad import PP, PR, RR, Dyad
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.numerics.arrays import FloatArray
@@ -50,8 +49,7 @@ def matched(before: Sequence[dict[str, Any]], synthesis: Synthesis) -> dict[str,
 
     "moved" says how far it is from where it was seen last, in its size; 0 for less than is told.
     before: what `standing` said of the linkages at the same task.  None is taken twice: of several
-    that are near each other the nearest pair counts first.  Where another one is about as near,
-    neither is surely the one, and none is taken.
+    that are near each other the nearest pair counts first.
     """
     new = standing(synthesis.linkages)
     if not new or not before:
@@ -59,12 +57,10 @@ def matched(before: Sequence[dict[str, Any]], synthesis: Synthesis) -> dict[str,
     scene = scene_of(synthesis)
     away, seen = (_away(new, before, scene, key) for key in ("numbers", "seen"))
     out: dict[str, dict[str, Any]] = {}
-    while (least := float(away.min())) < SAME:
+    while away.min() < SAME:
         i, j = divmod(int(away.argmin()), len(before))
-        away[i, j] = np.inf
-        if least < UNTOLD or min(away[i].min(), away[:, j].min()) > AS_NEAR * least:
-            moved = round(float(seen[i, j]), 4) if seen[i, j] >= UNTOLD else 0
-            out[new[i]["id"]] = {"id": before[j]["id"], "moved": moved}
+        moved = round(float(seen[i, j]), 4) if seen[i, j] >= UNTOLD else 0
+        out[new[i]["id"]] = {"id": before[j]["id"], "moved": moved}
         away[i, :] = away[:, j] = np.inf
     return out
 
