@@ -15,8 +15,8 @@ included.  Start is from the command to the first linkage on the page.
 Cards: after each random drag of a pose the whole road answers.  A card counts as kept where its
 linkage is the same as the one it had, in the coordinates of the last frame that was followed to
 that very task; as told where the card says that it is gone or new, or how far the search moved its
-linkage; as old frame where the last
-frame did not judge it; else as wrong.  Cards that ended are named above the list.
+linkage; as old frame where the last frame did not judge it; else as wrong.  A drag is slow where
+the last frame was not of that task, or of another answer.  Cards that ended are named above the list.
 
 Memory: resident sizes of the server with its workers, and the page's heap after a collection.
 """
@@ -107,9 +107,10 @@ class Studio:
 
     @property
     def is_same(self):
-        """Whether the last frame that was followed is of the task that was solved."""
+        """Whether the last frame is of the task that was solved, and of the answer before."""
         frame = self.followed and self.asked.get(self.followed["n"])
-        return frame is not None and frame == self.asked.get(self.solved["n"])
+        is_before = frame is not None and self.followed["from"] != self.solved["n"]
+        return is_before and frame == self.asked.get(self.solved["n"])
 
     def rest(self, before, seconds=30):
         """Wait for a whole answer after the one before."""

@@ -91,6 +91,23 @@ def test_w13_nothing_is_asked_of_any_other_machine(page, visitor):
     assert hosts == {f"127.0.0.1:{visitor.port}"}
 
 
+def test_on_paper_stands_what_was_stated_and_every_number(page):
+    """What is folded of the task says nothing; what is folded of the answers is unfolded."""
+    limits, facts = page.locator("[data-section=limits]"), page.locator("[data-panel=facts] table")
+    asked = page.locator("[data-section=requirements]")
+    assert limits.is_visible()
+    assert not facts.first.is_visible()
+    page.emulate_media(media="print")
+    page.evaluate("dispatchEvent(new Event('beforeprint'))")
+    assert asked.is_visible()
+    assert not limits.is_visible()
+    assert facts.first.is_visible()
+    page.evaluate("dispatchEvent(new Event('afterprint'))")
+    page.emulate_media(media="screen")
+    assert limits.is_visible()
+    assert not facts.first.is_visible()
+
+
 def test_w15_a_reload_in_mid_solve_loses_nothing(page):
     drag(page, '.bs-origin[data-pose="8"]', 14, -9)
     moved = pose(page, 8)

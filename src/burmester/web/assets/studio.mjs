@@ -1444,9 +1444,9 @@ answers,playing),space=new SpacePanel(answers,playing);const compare=new Compare
 append(playing.element,h("div",{class:"bs-player-tools"},centrodes.element,curves.element));results.append(cards.element);panels.append(panel("pivots","Put a pi\
 vot somewhere",true,surface.element),panel("space","Image space",true,space.element),panel("charts","Errors and transmission",true,charts.element),panel("compar\
 e","Compare two linkages",false,compare.element),panel("facts","Every number in tables",false,facts.element));for(const part of panels.children)part.addEventListener(
-"toggle",()=>dispatchEvent(new Event("resize")));unfoldForPrint(document.body,new AbortController().signal);catchUpForPrint();listenToSpace(playing);playOnce(store,
-answers,playing);matchMedia("(prefers-color-scheme: dark)").addEventListener("change",()=>answers.emit("answers"));return{answers,playing,live,surface,centrodes,
-curves,cards,charts,space,compare,facts}}function listenToSpace({player}){document.addEventListener("keydown",event=>{if(event.key!==" "||event.ctrlKey||event.metaKey||
+"toggle",()=>dispatchEvent(new Event("resize")));unfoldForPrint(panels,new AbortController().signal);catchUpForPrint();listenToSpace(playing);playOnce(store,answers,
+playing);matchMedia("(prefers-color-scheme: dark)").addEventListener("change",()=>answers.emit("answers"));return{answers,playing,live,surface,centrodes,curves,
+cards,charts,space,compare,facts}}function listenToSpace({player}){document.addEventListener("keydown",event=>{if(event.key!==" "||event.ctrlKey||event.metaKey||
 event.altKey||event.target.closest?.(TYPED_IN)||!player.path)return;event.preventDefault();player.play(!player.playing)})}function playOnce(store,answers,{player}){
 if(matchMedia(REDUCED_MOTION).matches)return;let first=true;answers.on("answers",()=>{if(first&&player.path){first=false;player.playOnce()}});store.on("document\
  selection",()=>{first=false;if(player.remaining!==null)player.play(false)})}var MOST4=500;var History=class{constructor(){this.past=[];this.future=[]}record(value,gesture){this.future=[];const last=this.past.at(-1);if(gesture!==null&&last?.

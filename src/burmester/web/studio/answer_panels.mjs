@@ -40,7 +40,7 @@ export function addResults(store, scene, { player, results, panels }) {
     panel("facts", "Every number in tables", false, facts.element),
   );
   for (const part of panels.children) part.addEventListener("toggle", () => dispatchEvent(new Event("resize")));
-  unfoldForPrint(document.body, new AbortController().signal);
+  unfoldForPrint(panels, new AbortController().signal); // what is folded of the task says nothing
   catchUpForPrint();
   listenToSpace(playing);
   playOnce(store, answers, playing);
