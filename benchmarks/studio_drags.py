@@ -16,7 +16,8 @@ Cards: after each random drag of a pose the whole road answers.  A card counts a
 linkage is the same as the one it had, in the coordinates of the last frame that was followed to
 that very task; as told where the card says that it is gone or new, or how far the search moved its
 linkage; as old frame where the last frame did not judge it; else as wrong.  A drag is slow where
-the last frame was not of that task, or of another answer.  Cards that ended are named above the list.
+the last frame was not of that task, or of another answer.  Cards that ended are named above the
+list.
 
 Memory: resident sizes of the server with its workers, and the page's heap after a collection.
 """
