@@ -128,8 +128,9 @@ def dyads_of_five(poses: Displacement) -> FivePoseDyads:
     require_count(poses, 5)
     frames, seen = CanonicalFrames.of(poses)
     design = constraint_manifold.monomials(seen.as_image_point())
-    _, singular_values, v = np.linalg.svd(design, full_matrices=True)
-    basis = v[..., 5:, :]
+    q, triangle = np.linalg.qr(np.swapaxes(design, -1, -2), mode="complete")
+    singular_values = np.linalg.svd(triangle[..., :5, :], compute_uv=False)
+    basis = np.swapaxes(q[..., 5:], -1, -2)
     points, determined = _conic_intersections(_conics(basis))
     p = points @ basis
     p = _polish(p / np.linalg.norm(p, axis=-1, keepdims=True), design)
@@ -205,8 +206,9 @@ def _conic_intersections(conics: FloatArray) -> tuple[ComplexArray, NDArray[np.b
     for k in range(3):
         macaulay[..., k, :, _TIMES[k]] = np.moveaxis(conics, -1, 0)
     macaulay = macaulay.reshape(*conics.shape[:-2], 6, 10)
-    _, values, v = np.linalg.svd(macaulay, full_matrices=True)
-    null = np.swapaxes(v[..., 6:, :], -1, -2)
+    q, triangle = np.linalg.qr(np.swapaxes(macaulay, -1, -2), mode="complete")
+    least = np.linalg.svd(triangle[..., :6, :], compute_uv=False)[..., 5]
+    null = q[..., 6:]
     times = np.stack([null[..., _TIMES[k], :] for k in range(3)])
     first, second = (np.tensordot(_CHART[i], times, axes=1) for i in range(2))
     _, eigenvectors = np.linalg.eig(np.linalg.pinv(first) @ second)
@@ -217,9 +219,8 @@ def _conic_intersections(conics: FloatArray) -> tuple[ComplexArray, NDArray[np.b
         outer[..., i, j] = outer[..., j, i] = rows[..., at]
     best = np.abs(np.diagonal(outer, axis1=-2, axis2=-1)).argmax(axis=-1)
     points = np.take_along_axis(outer, best[..., None, None], axis=-1)[..., 0]
-    return points / np.linalg.norm(points, axis=-1, keepdims=True), values[
-        ..., 5
-    ] > ISOLATED_TOLERANCE
+    unit = points / np.linalg.norm(points, axis=-1, keepdims=True)
+    return unit, np.asarray(least > ISOLATED_TOLERANCE)
 
 
 def _equations(p: ComplexArray, design: FloatArray) -> ComplexArray:
@@ -265,39 +266,34 @@ def _sharpened(dyads: RR, poses: Displacement, length: FloatArray) -> RR:
     have no more digits to gain.
     """
     long, lead = np.longdouble, dyads.radius.shape
-    d1, d2 = np.moveaxis(poses.translation.astype(long).reshape(-1, 5, 2), -1, 0)[..., None, :]
-    angle = poses.angle.astype(long).reshape(-1, 1, 5)
-    cos, sin = np.cos(angle), np.sin(angle)
     given = np.concatenate([dyads.fixed_pivot, dyads.moving_pivot], axis=-1)
+    # Rows: the dyads that are looked at, each with its poses (k, 5).
     size = np.where(dyads.radius < SLIDER_LENGTH * length, np.abs(given).max(axis=-1) + length, 0.0)
-    best, radius, size = (
-        given.reshape(-1, 4, 4).copy(),
-        dyads.radius.reshape(-1, 4).copy(),
-        size.reshape(-1, 4),
-    )
-    x = np.where(size[..., None] > 0, best, 0.0).astype(long)
-    least, run = np.full(size.shape, np.inf), np.arange(len(size))  # the tasks that still gain
+    best, radius, size = given.reshape(-1, 4).copy(), dyads.radius.ravel().copy(), size.ravel()
+    run = np.flatnonzero(size > 0)
+    task = run // 4
+    d1, d2 = (poses.translation[..., k].reshape(-1, 5)[task].astype(long) for k in (0, 1))
+    angle = poses.angle.astype(long).reshape(-1, 5)
+    c, s = np.cos(angle)[task], np.sin(angle)[task]
+    x, least = best[run].astype(long), np.full(len(run), np.inf)
     for _ in range(SHARPENING_STEPS):
-        c1, c2, m1, m2 = np.moveaxis(x[run], -1, 0)[..., None]
-        c, s = cos[run], sin[run]
-        a1, a2 = c * m1 - s * m2 + (d1[run] - c1), s * m1 + c * m2 + (d2[run] - c2)
+        c1, c2, m1, m2 = x.T[..., None]
+        a1, a2 = c * m1 - s * m2 + (d1 - c1), s * m1 + c * m2 + (d2 - c2)
         squared = a1 * a1 + a2 * a2
         mean = squared.mean(axis=-1)
-        residual = np.asarray(squared - mean[..., None], dtype=np.float64)
+        residual = np.asarray(squared - mean[:, None], dtype=np.float64)
         worst = np.abs(residual).max(axis=-1)
-        better = (worst < least[run]) & (size[run] > 0)
-        task, number = np.nonzero(better)
-        best[run[task], number] = x[run[task], number]
-        radius[run[task], number] = np.sqrt(mean[task, number])
-        least[run[task], number] = worst[task, number]
-        gains = better.any(axis=-1)
+        gains = worst < least
+        best[run[gains]], radius[run[gains]] = x[gains], np.sqrt(mean[gains])
         columns = [-a1, -a2, c * a1 + s * a2, c * a2 - s * a1, np.full_like(a1, -0.5)]
         jacobian = np.asarray(2 * np.stack(columns, axis=-1), dtype=np.float64)
         step, regular = solve_where_regular(jacobian[gains], residual[gains])
-        run, step = run[gains][on := regular.all(axis=-1)], step[on, :, :4]
-        if not len(run):
+        on = np.flatnonzero(gains)[regular]
+        if not len(on):
             break
-        small = np.abs(step).max(axis=-1, keepdims=True) < MAX_SHARPENING * size[run, :, None]
-        x[run] -= np.where(small, step, 0.0)
+        step = step[regular, :4]
+        run, d1, d2, c, s, least = run[on], d1[on], d2[on], c[on], s[on], worst[on]
+        small = np.abs(step).max(axis=-1) < MAX_SHARPENING * size[run]
+        x = x[on] - np.where(small[:, None], step, 0.0)
     pivots = best.reshape(*lead, 4)
     return RR(pivots[..., :2], pivots[..., 2:], radius.reshape(lead))

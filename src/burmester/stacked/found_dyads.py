@@ -159,7 +159,7 @@ def found_in_stack(
         solutions.rms[kept],
         solutions.worst[kept],
     )
-    parts = [circles, take(sliders._replace(place=straight), stands)]
+    parts = [circles, sliders._replace(place=straight[sliders.place])]
     if lines:
         every = np.arange(len(length))
         on_ground, in_body = (
@@ -179,41 +179,51 @@ def found_in_stack(
 
 
 def _nearest_sliders(fits: Fits, solutions: Solutions, blur: FloatArray) -> tuple[_Rows, Mask]:
-    """The sliders nearest to solutions (k,) with p1 ~ 0, and which of them stand for these."""
+    """The sliders that stand for solutions (k,) with p1 ~ 0, and which of these they stand for."""
     p, task = solutions.coefficients, solutions.task
     in_f, in_m = constraint_manifold.prismatic_parts(p)
     on_ground = np.linalg.norm(in_f, axis=1) >= np.linalg.norm(in_m, axis=1)
-    parts: list[_Rows] = []
-    sine, miss, order = np.empty(len(task)), np.empty(len(task)), []
+    sine, miss = np.empty(len(task)), np.empty(len(task))
+    nearest: list[tuple[Indices, PR | RP]] = []
     for of, part, mask in ((fixed_lines, in_f, on_ground), (moving_lines, in_m, ~on_ground)):
         index = np.flatnonzero(mask)
-        order.append(index)
         which = task[index]
         weights = None if fits.weights is None else fits.weights[which]
         lines, rms, _ = of(fits.seen[which], weights)
         normal = lines.normal_angle
         along = np.cos(normal) * part[index, :1] + np.sin(normal) * part[index, 1:]
-        nearest = np.arange(len(index)), np.abs(along).argmax(axis=1)
-        line = lines[nearest]
+        pick = np.arange(len(index)), np.abs(along).argmax(axis=1)
+        line = lines[pick]
+        nearest.append((index, line))
         q, own = (
             each / constraint_manifold.INVARIANT / constraint_manifold.size(each)[:, None]
             for each in (line.coefficients(), p[index])
         )
         sine[index] = np.linalg.norm(own - (own * q).sum(axis=1, keepdims=True) * q, axis=1)
-        miss[index] = fits.frames.length[which] * rms[nearest]
-        parts.append(_slider_rows(fits, line, which, index))
-    sliders = take(concatenate(parts), np.argsort(np.concatenate(order)))
-    swung = swings(solutions.circle, fits.poses[task])
+        miss[index] = fits.frames.length[which] * rms[pick]
+    stands = _stands(fits, solutions, blur[task], sine, miss)
+    parts = []
+    for index, line in nearest:
+        these = stands[index]
+        parts.append(_slider_rows(fits, line[these], task[index[these]], index[these]))
+    return concatenate(parts), stands
+
+
+def _stands(
+    fits: Fits, solutions: Solutions, blur: FloatArray, sine: FloatArray, miss: FloatArray
+) -> Mask:
+    """Whether sliders stand for solutions (k,), at an angle from them, that miss the poses so."""
+    swung = swings(solutions.circle, fits.poses[solutions.task])
     double = swung < STRAIGHT_SWING
-    known = (fits.relative_resolution * fits.length)[task]
+    known = (fits.relative_resolution * fits.length)[solutions.task]
     rounding = np.finfo(float).eps * solutions.circle.radius  # of a distance so great
     allowed = np.maximum(np.maximum(np.where(double, 2, 1) * solutions.rms, known), rounding)
     as_near = (miss <= allowed) | ~np.isfinite(allowed)
     sensible = (swung > SENSIBLE_SWING) & (solutions.rms <= np.maximum(miss, known))
-    stands = (sine < blur[task]) & as_near & ~sensible
+    stands = (sine < blur) & as_near & ~sensible
     if fits.minima:  # a long link that gains next to nothing is no other dyad than its slider
         stands |= double & (miss <= SLIDER_AS_WELL * solutions.rms)
-    return sliders, stands
+    return np.asarray(stands)
 
 
 def _slider_rows(fits: Fits, line: PR | RP, task: Indices, place: Indices) -> _Rows:
