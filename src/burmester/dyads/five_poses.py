@@ -285,10 +285,13 @@ def _sharpened(dyads: RR, poses: Displacement, length: FloatArray) -> RR:
         worst = np.abs(residual).max(axis=-1)
         gains = worst < least
         best[run[gains]], radius[run[gains]] = x[gains], np.sqrt(mean[gains])
-        columns = [-a1, -a2, c * a1 + s * a2, c * a2 - s * a1, np.full_like(a1, -0.5)]
-        jacobian = np.asarray(2 * np.stack(columns, axis=-1), dtype=np.float64)
-        step, regular = solve_where_regular(jacobian[gains], residual[gains])
-        on = np.flatnonzero(gains)[regular]
+        on = np.flatnonzero(gains)
+        x1, x2, cos, sin = (np.asarray(each[on], dtype=np.float64) for each in (a1, a2, c, s))
+        jacobian = np.full((len(on), 5, 5), -1.0)
+        jacobian[..., 0], jacobian[..., 1] = -2 * x1, -2 * x2
+        jacobian[..., 2], jacobian[..., 3] = 2 * (cos * x1 + sin * x2), 2 * (cos * x2 - sin * x1)
+        step, regular = solve_where_regular(jacobian, residual[on])
+        on = on[regular]
         if not len(on):
             break
         step = step[regular, :4]
