@@ -14,11 +14,9 @@ from burmester.fourbar.dyad import PR, RP
 from burmester.geometry import constraint_manifold
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
-from burmester.numerics.weights import shares
+from burmester.numerics.weights import weights_or_ones
 
 __all__ = ["NearestSlider", "fixed_lines", "moving_lines", "nearest_slider"]
-
-FLAT_TURN = 1e-13  # relative; the cosines and sines of poses that differ by less do not differ
 
 
 def fixed_lines(
@@ -27,58 +25,30 @@ def fixed_lines(
     """The two stationary PR dyads of poses (*, N), the best first.
 
     The distance n · (R m + d) - h is linear in (n, u, v, h), with u and v the cosine and sine
-    parts of n · R m; u, v and h are eliminated by least squares: h by means, u and v by a triangle
-    (QR) of all columns.  n is a right singular vector of the 2 x 2 triangle that is left: the one
-    with the smaller value is the best line.
+    parts of n · R m; u, v and h are eliminated by least squares, and n is a right singular
+    vector of the N x 2 matrix that is left: the one with the smaller value is the best line.
 
     Returns the dyads (*, 2), and their rms and greatest distances from the line, (*, 2) each, in
     the task's unit.
     """
-    share = shares(weights, poses.shape)[..., None]
+    root = np.sqrt(weights_or_ones(weights, poses.shape))[..., None]
     middle = poses.translation.mean(axis=-2, keepdims=True)
-    turn = np.stack([np.cos(poses.angle), np.sin(poses.angle)], axis=-1)
-    columns = np.concatenate([turn, poses.translation - middle], axis=-1)
-    mean = (share * columns).sum(axis=-2, keepdims=True)
-    rows = (columns - mean) * np.sqrt(share)
-    missing = np.zeros((*poses.shape[:-1], max(0, 4 - poses.shape[-1]), 4))
-    triangle = np.asarray(np.linalg.qr(np.concatenate([rows, missing], axis=-2), mode="r"))
-    turning, moving = _eliminated(triangle)
-    # Both right singular vectors, the smaller value first.
-    one, two = moving[..., 0], moving[..., 1]
-    apart, mixed = (one * one - two * two).sum(axis=-1), 2 * (one * two).sum(axis=-1)
-    along = np.arctan2(mixed, apart) / 2
-    angle = np.stack([along + np.pi / 2, along], axis=-1)
-    n1, n2 = np.cos(angle), np.sin(angle)
-    u, w = (turning[..., k, None, 0] * n1 + turning[..., k, None, 1] * n2 for k in (0, 1))
+    d = poses.translation - middle
+    c, s = np.cos(poses.angle), np.sin(poses.angle)
+    others = np.stack([c, s, -np.ones_like(c)], axis=-1)
+    solve = np.linalg.pinv(others * root)
+    rest = d * root - (others * root) @ (solve @ (d * root))
+    _, _, v = np.linalg.svd(rest, full_matrices=False)
+    n = v[..., ::-1, :]
+    u, w, h = np.moveaxis(-solve @ (d * root) @ np.swapaxes(n, -1, -2), -2, 0)
+    n1, n2 = n[..., 0], n[..., 1]
     moving_pivot = np.stack([n1 * u + n2 * w, n2 * u - n1 * w], axis=-1)
-    x, y = (middle[..., k] + mean[..., 2 + k] for k in (0, 1))
-    h = n1 * x + n2 * y + u * mean[..., 0] + w * mean[..., 1]
+    h = h + (n * middle).sum(axis=-1)
     # A line has two normals; take the one in the upper half plane.
     flip = np.where((n2 < 0) | ((n2 == 0) & (n1 < 0)), -1.0, 1.0)
     lines = PR(np.arctan2(n2 * flip, n1 * flip), h * flip, moving_pivot)
     distance = lines[..., None].residual(poses[..., None, :])
     return lines, np.sqrt((distance**2).mean(axis=-1)), np.abs(distance).max(axis=-1)
-
-
-def _eliminated(triangle: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """From a triangle (*, 4, 4) of rows (c, s, d): how (u, v) follow from n, and what n leaves.
-
-    Matrices (*, 2, 2) both.  Where c and s do not differ the shortest u and v are taken.
-    """
-    a, b, c = triangle[..., 0, 0], triangle[..., 0, 1], triangle[..., 1, 1]
-    right, rest = triangle[..., :2, 2:], triangle[..., 2:, 2:]
-    flat = np.abs(a * c) <= FLAT_TURN * (a * a + b * b + c * c)
-    safe_a, safe_c = np.where(flat, 1.0, a)[..., None], np.where(flat, 1.0, c)[..., None]
-    second = -right[..., 1, :] / safe_c
-    first = (-right[..., 0, :] - b[..., None] * second) / safe_a
-    turning = np.stack([first, second], axis=-2)
-    if not flat.any():
-        return turning, rest
-    solve = np.linalg.pinv(triangle[flat][..., :2, :2])
-    turning[flat] = -solve @ right[flat]
-    rest = np.concatenate([np.zeros_like(rest), rest], axis=-2)
-    rest[flat, :2] = right[flat] + triangle[flat][..., :2, :2] @ turning[flat]
-    return turning, rest
 
 
 def moving_lines(
