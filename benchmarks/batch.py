@@ -92,12 +92,15 @@ print(json.dumps({"processor": used}))
 ALONE = """
 import json, sys, time, warnings
 from pathlib import Path
-from burmester import read_task, synthesize
+from burmester import read_task
+from burmester.io.result import synthesis_data
+from burmester.synthesis.motion_generation import synthesize
+from burmester.tasks.options import SynthesisOptions
 warnings.simplefilter("ignore")
 texts = [each.encode() for each in Path(sys.argv[1]).read_text().split("\\n\\n")]
 begun = time.process_time()
 for text in texts:
-    synthesize(read_task("task.csv", data=text)).data
+    synthesis_data(synthesize(read_task("task.csv", data=text), SynthesisOptions()))
 print(json.dumps({"processor": time.process_time() - begun}))
 """
 

@@ -286,7 +286,7 @@ def test_workers_end_with_a_run_that_is_killed(tmp_path):
     children = children_of(process)
     assert len(children) >= 2
     process.kill()
-    process.communicate()
+    process.communicate(timeout=20)  # the workers hold its streams as well
     gone(children)
 
 
