@@ -186,7 +186,13 @@ def verdicts(followed):
             )
         )
         own = target.cost(target.rows_at(followed.linkages[k].error.places))
-        out.append(([verdict(each) for each in found], np.nanmin(target.cost(rows)), own))
+        out.append(
+            (
+                [verdict(each) for each in found],
+                np.nan_to_num(target.cost(rows), nan=np.inf).min(),
+                own,
+            )
+        )
     return out
 
 

@@ -83,11 +83,12 @@ def _multipliers(
     size = np.linalg.norm(root, axis=2)
     size = np.maximum(size, SMALLEST * size.max(axis=1, keepdims=True) + np.finfo(float).tiny)
     box = _BoxProgram(root / size[..., None], b / size, low * size, high * size)
-    y, settled = box.descended(y * size, STEPS_FROM_START)
+    # Where more are free than there are unknowns the start is far off.
+    y, settled = box.descended(y * size, STEPS_FROM_START, root.shape[2])
     hard = np.flatnonzero(~settled)
     if len(hard):
         box = box.at(hard)
-        y[hard], _ = box.descended(box.interior(), STEPS_FROM_INSIDE)
+        y[hard], _ = box.descended(box.interior(), STEPS_FROM_INSIDE, root.shape[1])
     return np.asarray(y / size)
 
 
@@ -107,10 +108,12 @@ class _BoxProgram(NamedTuple):
         """The way downhill (k, m) at y (k, m): w."""
         return np.asarray(self.b - matvec(self.root, (y[:, None] @ self.root)[:, 0]))
 
-    def descended(self, y: FloatArray, steps: int) -> tuple[FloatArray, NDArray[np.bool_]]:
+    def descended(
+        self, y: FloatArray, steps: int, most: int
+    ) -> tuple[FloatArray, NDArray[np.bool_]]:
         """The y (k, m) after steps of the projected Newton method, and which of them settled.
 
-        Those stay unsettled where they are of which more are free than there are unknowns.
+        Those with more than `most` free multipliers make no further step.
         """
         run, settled = np.arange(len(y)), np.zeros(len(y), dtype=bool)
         for last in range(steps + 1):
@@ -120,7 +123,7 @@ class _BoxProgram(NamedTuple):
             terms = np.abs(np.where(free, some.b, here)).max(axis=1)
             going = np.where(free, np.abs(off), 0.0).max(axis=1) > SETTLED * terms
             settled[run[~going]] = True
-            going &= free.sum(axis=1) <= self.root.shape[2]  # no more than can be free at the end
+            going &= free.sum(axis=1) <= most
             if last == steps or not going.any():
                 break
             some, run = some.at(np.flatnonzero(going)), run[going]
