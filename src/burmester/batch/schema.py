@@ -10,22 +10,14 @@ from typing import Any, Final
 
 import pyarrow as pa
 
+from burmester.stacked import StackedAnswers
+
 __all__ = ["DYAD", "LINKAGE", "OUTCOMES", "POSE", "SCHEMA", "VERSION", "schema"]
 
 VERSION: Final = "burmester.batch/1"
 
 # "refused": the task cannot be computed with; "failed": burmester could not compute it.
-OUTCOMES: Final = (
-    "solved",
-    "none usable",
-    "too few dyads",
-    "infinitely many",
-    "special motion",
-    "not determined",
-    "not at this depth",
-    "refused",
-    "failed",
-)
+OUTCOMES: Final = (*StackedAnswers.OUTCOMES, "failed")
 
 _NUMBER = pa.float64()
 DYAD: Final = pa.struct(

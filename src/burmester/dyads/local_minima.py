@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import final
 
@@ -14,21 +13,18 @@ from burmester.dyads.critical_points import COUNT, CriticalDyads, critical_dyads
 from burmester.dyads.minima_within_limits import LimitedDyads, limited_dyads
 from burmester.dyads.sliders import fixed_lines, moving_lines
 from burmester.dyads.start_pivots import pivots_of_fits
+from burmester.dyads.starts_down import starts_down
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray
-from burmester.numerics.weights import shares, weights_or_ones
+from burmester.numerics.weights import shares
 from burmester.tasks.limits import Limits
 from burmester.tasks.options import Norm
 from burmester.tasks.pose_sample import PoseSample
 
-__all__ = ["BestDyads", "best_dyads", "is_hard", "starts_down"]
+__all__ = ["BestDyads", "best_dyads", "is_hard", "starts_of_one", "with_errors"]
 
-# Generic factors by which one of each pair of conjugate points is picked.
-CONJUGATE_PICK = np.sqrt([2.0, 3.0, 5.0, 7.0])
-START_LENGTH = 20.0  # characteristic lengths; the links that start along a line
-ROUGH_DISTANCE = 0.1  # characteristic lengths, rms; from it on for the best start, more are made
 # Of more poses a sample of about so many is followed to minima, and all from these on.
 MAX_POSES_FOLLOWED = 500
 LITTLE_TURN = 400.0  # inverse mean squared turn; from it on more starts are made
@@ -120,12 +116,12 @@ def best_dyads(
     if limits is not None or norm != "rms" or (exact is not None and exact.any()):
         search = limited_dyads(poses, weights, exact, limits, norm)
         distance = search.circles[:, None].residual(search.frames.to_canonical(poses))
-        return _with_errors(search, search.circles, search.sliders, distance)
+        return with_errors(search, search.circles, search.sliders, distance)
     critical = critical_dyads(poses, weights)
     _, seen = CanonicalFrames.of(poses, weights)  # with less rounding than by these frames
     share = shares(weights, poses.shape)
-    lines = [lines(seen, weights)[0][0] for lines in (fixed_lines, moving_lines)]
-    points, more = critical.points[: int(critical.found)], np.zeros((0, 4))
+    lines = fixed_lines(seen, weights)[0][0], moving_lines(seen, weights)[0][0]
+    points, more = critical.points[: int(critical.found)], None
     hard = is_hard(points, seen, share, int(critical.at_infinity))
     if hard:
         origin = np.concatenate([critical.frames.fixed_origin, critical.frames.moving_origin])
@@ -134,8 +130,9 @@ def best_dyads(
     if many := seen.shape[0] > MAX_POSES_FOLLOWED:
         sample = PoseSample.of(poses, weights, MAX_POSES_FOLLOWED)
         some, weight = seen[sample.index], sample.cells
-    starts = starts_down(points, lines, some, weight, more)
-    found = circle_minima(starts, some, shares(weight, some.shape), narrow=hard)
+    part = shares(weight, some.shape)
+    starts = starts_of_one(points, lines, some, part, more)
+    found = circle_minima(starts, some, part, narrow=hard)
     if many:
         found = circle_minima(found.z, seen, share, narrow=hard)._replace(
             unfinished=found.unfinished
@@ -145,15 +142,13 @@ def best_dyads(
     second = np.append(found.cost, [np.inf, np.inf])[1]
     unfinished = int((found.unfinished < second).sum())
     if not hard:
-        return _with_errors(
-            critical, circles, tuple(lines), circles[:, None].residual(seen), unfinished
-        )
+        return with_errors(critical, circles, lines, circles[:, None].residual(seen), unfinished)
     given = critical.frames.circle_from_canonical(circles)
     dyads, distance, at_rest = sharpened_circles(given, poses, share)
     order = np.argsort(distance**2 @ share, kind="stable")
     unfinished += int((~at_rest[order][:2]).sum())
     distance = distance[order] / critical.frames.length
-    best = _with_errors(critical, circles[order], tuple(lines), distance, unfinished)
+    best = with_errors(critical, circles[order], lines, distance, unfinished)
     return replace(best, dyads=dyads[order])
 
 
@@ -167,28 +162,21 @@ def is_hard(
     return len(points) + at_infinity < COUNT or float(reach(seen, share)) > LITTLE_TURN
 
 
-def starts_down(
+def starts_of_one(
     points: ComplexArray,
-    lines: Sequence[PR | RP],
+    lines: tuple[PR, RP],
     seen: Displacement,
-    weights: FloatArray | None,
-    more: FloatArray,
+    share: FloatArray,
+    more: FloatArray | None = None,
 ) -> FloatArray:
-    """Circles (k, 5) from which ways lead down to the minima, for poses in canonical frames.
-
-    points: (c, 4), complex, the critical points of the squared residual; lines: the best sliders;
-    more: (p, 4), other pivots.
-    """
-    pivots = points[points.imag @ CONJUGATE_PICK >= 0].real
-    # With zeros, where the frames' origins stay close.
-    pivots = np.concatenate([pivots, np.zeros((1, 4)), more])
-    if _is_rough(pivots, seen, weights, shares(weights, seen.shape)):
-        pivots = np.concatenate([pivots, _beside(points)])
-    starts = [_circles_about(pivots, seen, weights)]
-    return np.concatenate(starts + [_circles_along(line, seen, weights) for line in lines])
+    """The circles of `starts_down`, for one task."""
+    on_ground, in_body = lines
+    pivots = None if more is None else more[None]
+    own = on_ground[None], in_body[None]
+    return starts_down(points[None], own, seen[None], share[None], pivots)[1]
 
 
-def _with_errors(
+def with_errors(
     search: CriticalDyads | LimitedDyads,
     circles: RR,
     sliders: tuple[PR | RP, ...],
@@ -197,48 +185,6 @@ def _with_errors(
 ) -> BestDyads:
     """The dyads with the rms and the greatest of their distances (k, N)."""
     unit, dyads = search.frames.length, search.frames.circle_from_canonical(circles)
-    rms, worst = np.sqrt((distance**2).mean(axis=-1)), np.abs(distance).max(axis=-1)
+    rms = np.sqrt((distance**2).mean(axis=-1))
+    worst = np.abs(distance).max(axis=-1, initial=0)
     return BestDyads(search, circles, dyads, sliders, rms * unit, worst * unit, unfinished)
-
-
-def _is_rough(
-    pivots: FloatArray, seen: Displacement, weights: FloatArray | None, share: FloatArray
-) -> bool:
-    """Whether no circle about pivots (k, 4) comes near to the poses, so that there is no valley.
-
-    The true distance has minima of its own then.
-    """
-    circles = _circles_about(pivots, seen, weights)
-    distance = RR(circles[:, :2], circles[:, 2:4], circles[:, 4])[:, None].residual(seen)
-    return bool((distance**2 @ share).min() > ROUGH_DISTANCE**2)
-
-
-def _beside(points: ComplexArray) -> FloatArray:
-    """Real pivots (k, 4) beside the complex ones of critical points: real and imaginary parts."""
-    complex_ones = points[points.imag @ CONJUGATE_PICK > 0]
-    return np.concatenate(
-        [complex_ones.real + complex_ones.imag, complex_ones.real - complex_ones.imag]
-    )
-
-
-def _circles_about(
-    pivots: FloatArray, poses: Displacement, weights: FloatArray | None
-) -> FloatArray:
-    """Circles (k, 5), c, m, r, with pivots (k, 4) and the best radius."""
-    share = weights_or_ones(weights, poses.shape)
-    centred = RR(pivots[:, :2], pivots[:, 2:], np.zeros(len(pivots)))
-    radius = centred[:, None].residual(poses) @ share / share.sum()
-    return np.concatenate([pivots, radius[:, None]], axis=-1)
-
-
-def _circles_along(line: PR | RP, poses: Displacement, weights: FloatArray | None) -> FloatArray:
-    """Circles (2, 5) with long links that nearly follow a line, one on either side of it."""
-    n = np.stack([np.cos(line.normal_angle), np.sin(line.normal_angle)])
-    if isinstance(line, RP):
-        inverse = PR(line.normal_angle, line.offset, line.fixed_pivot)
-        return _circles_along(inverse, poses.inverse(), weights)[:, [2, 3, 0, 1, 4]]
-    foot = poses.act(line.moving_pivot).mean(axis=0)
-    foot = foot - (foot @ n - line.offset) * n
-    centres = foot + np.outer([-START_LENGTH, START_LENGTH], n)
-    pivots = np.concatenate([centres, np.tile(line.moving_pivot, (2, 1))], axis=-1)
-    return _circles_about(pivots, poses, weights)

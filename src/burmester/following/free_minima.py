@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from burmester.dyads.circle_descent import further_down
 from burmester.dyads.critical_points import CriticalDyads, continued_points, critical_dyads
 from burmester.dyads.geometric_fit import circle_distances
-from burmester.dyads.local_minima import BestDyads, is_hard, starts_down
+from burmester.dyads.local_minima import BestDyads, is_hard, starts_of_one
 from burmester.dyads.plain_circle_descent import steady_starts
 from burmester.dyads.sliders import fixed_lines, moving_lines
 from burmester.following.minimum_step import MovedMinima, moved_minima
@@ -71,12 +71,11 @@ class FreeMinima:
         if hard and not (moved.sound.all() and there.real == self.real):
             return None
         z, number = _down_where_lost(circles_of(fit), moved, seen, share)
-        sliders = tuple(lines(seen, task.weights)[0][0] for lines in (fixed_lines, moving_lines))
+        sliders = fixed_lines(seen, task.weights)[0][0], moving_lines(seen, task.weights)[0][0]
         if not hard:
             descents = there.descents
             if not len(descents):
-                starts = starts_down(there.points, sliders, seen, task.weights, np.empty((0, 4)))
-                descents = steady_starts(starts)
+                descents = steady_starts(starts_of_one(there.points, sliders, seen, share))
             down = further_down(descents, seen, share, STEPS_DOWN)
             z = np.concatenate([z, down.z[down.settled]])
             there = replace(there, descents=down.z[down.ended_at == 0])

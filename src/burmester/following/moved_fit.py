@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.dyads.local_minima import BestDyads
+from burmester.dyads.local_minima import BestDyads, with_errors
 from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
@@ -35,10 +35,7 @@ def moved_fit(
 ) -> BestDyads:
     """The fit with other circles z (k, 5) and sliders, in the same frames."""
     every = RR(z[:, :2], z[:, 2:4], z[:, 4])
-    distance, unit = every[:, None].residual(seen), fit.frames.length
-    rms, worst = np.sqrt((distance**2).mean(axis=-1)), np.abs(distance).max(axis=-1, initial=0)
-    own = fit.frames.circle_from_canonical(every)
-    return BestDyads(fit.search, every, own, sliders, rms * unit, worst * unit, 0)
+    return with_errors(fit.search, every, sliders, every[:, None].residual(seen))
 
 
 def twins(z: FloatArray) -> NDArray[np.intp]:

@@ -11,22 +11,16 @@ from numpy.typing import NDArray
 
 from burmester.dyads.circle_descent import MAX_LENGTH, minima_of, reach
 from burmester.dyads.critical_points import points_at_infinity
-from burmester.dyads.local_minima import (
-    CONJUGATE_PICK,
-    LITTLE_TURN,
-    MAX_POSES_FOLLOWED,
-    ROUGH_DISTANCE,
-    START_LENGTH,
-)
+from burmester.dyads.local_minima import LITTLE_TURN, MAX_POSES_FOLLOWED
 from burmester.dyads.many_critical_points import many_critical_points
 from burmester.dyads.pencil import MIN_POSES, fit_pencil
 from burmester.dyads.plain_circle_descent import plain_descent, steady_starts
 from burmester.dyads.selection import MAX_SLIDER_ANGLE
 from burmester.dyads.sliders import fixed_lines, moving_lines
+from burmester.dyads.starts_down import starts_down
 from burmester.fourbar.canonical_frames import CanonicalFrames
-from burmester.fourbar.dyad import PR, RR
-from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import ComplexArray, FloatArray
+from burmester.fourbar.dyad import RR
+from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import take
 from burmester.numerics.weights import shares
 from burmester.stacked.advice import within_digits
@@ -59,7 +53,8 @@ def best_dyads_in_stack(stack: TaskStack) -> Vouched:
     easy = all_found & (reach(seen, share) <= LITTLE_TURN)
     index, points, share, seen = index[easy], points[easy], share[easy], seen[easy]
     stack, frames = stack[index], take(frames, easy)
-    task, z = _starts(points, seen, share, stack.weights)
+    lines = fixed_lines(seen, stack.weights)[0][:, 0], moving_lines(seen, stack.weights)[0][:, 0]
+    task, z = starts_down(points, lines, seen, share)
     longest = MAX_LENGTH * reach(seen, share)
     descent = plain_descent(steady_starts(z), task, seen, share, longest)
     once, unfinished = minima_of(descent, task, len(index))
@@ -90,57 +85,3 @@ def _blur(fits: Fits) -> FloatArray:
         return np.full(len(fits.length), MAX_SLIDER_ANGLE)
     pencil = fit_pencil(fits.poses, fits.weights)
     return fits.blur(pencil.noise, pencil.gap)
-
-
-def _starts(
-    points: ComplexArray, seen: Displacement, share: FloatArray, weights: FloatArray | None
-) -> tuple[Indices, FloatArray]:
-    """Circles (k, 5) to start from, and the tasks (k,) of them."""
-    tasks = len(points)
-    side = points.imag @ CONJUGATE_PICK
-    task, number = np.nonzero(side >= 0)  # one of each two conjugate points
-    pivots = np.concatenate([points[task, number].real, np.zeros((tasks, 4))])
-    task = np.concatenate([task, np.arange(tasks)])
-    circles, cost = _circles_about(pivots, task, seen, share)
-    least = np.full(tasks, np.inf)
-    np.minimum.at(least, task, cost)
-    # Far from any circle the distance has minima of its own, and complex points lead to them.
-    rough = (least > ROUGH_DISTANCE**2)[:, None] & (side > 0)
-    more, number = np.nonzero(rough)
-    beside = points[more, number]
-    pivots = np.concatenate([beside.real + beside.imag, beside.real - beside.imag])
-    rough_circles, _ = _circles_about(pivots, np.tile(more, 2), seen, share)
-    every = [circles, rough_circles]
-    lines = fixed_lines(seen, weights)[0][:, 0], moving_lines(seen, weights)[0][:, 0]
-    back = PR(lines[1].normal_angle, lines[1].offset, lines[1].fixed_pivot)
-    for line, motion, order in (
-        (lines[0], seen, [0, 1, 2, 3]),
-        (back, seen.inverse(), [2, 3, 0, 1]),
-    ):
-        for pivots in _pivots_along(line, motion):
-            every.append(_circles_about(pivots[:, order], np.arange(tasks), seen, share)[0])
-    owners = [task, np.tile(more, 2), *[np.arange(tasks)] * 4]
-    return np.concatenate(owners), np.concatenate(every)
-
-
-def _circles_about(
-    pivots: FloatArray, task: Indices, seen: Displacement, share: FloatArray
-) -> tuple[FloatArray, FloatArray]:
-    """Circles (k, 5) with pivots (k, 4) and the best radius, and their mean squares (k,)."""
-    centred = RR(pivots[:, :2], pivots[:, 2:], np.zeros(len(pivots)))
-    distance = centred[:, None].residual(seen[task])
-    radius = (distance * share[task]).sum(axis=1)
-    cost = (share[task] * (distance - radius[:, None]) ** 2).sum(axis=1)
-    return np.concatenate([pivots, radius[:, None]], axis=1), cost
-
-
-def _pivots_along(line: PR, motion: Displacement) -> tuple[FloatArray, FloatArray]:
-    """Pivots (T, 4) of long links that nearly follow lines (T,), one on either side of each."""
-    n = np.stack([np.cos(line.normal_angle), np.sin(line.normal_angle)], axis=-1)
-    foot = motion.act(line.moving_pivot[:, None]).mean(axis=1)
-    foot = foot - ((foot * n).sum(axis=1) - line.offset)[:, None] * n
-    first, second = (
-        np.concatenate([foot + side * START_LENGTH * n, line.moving_pivot], axis=1)
-        for side in (-1, 1)
-    )
-    return first, second

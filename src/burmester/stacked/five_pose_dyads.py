@@ -30,15 +30,7 @@ def five_pose_dyads(stack: TaskStack) -> list[Vouched]:
     four = dyads_of_five(poses)
     length = CanonicalFrames.of(poses, stack.weights)[0].length
     fits = Fits(stack, four.frames, four.frames.to_canonical(poses), length, exact=True)
-    task, number = np.nonzero(np.isfinite(four.coefficients).all(axis=-1))
-    solutions = Solutions(
-        task,
-        four.coefficients[task, number],
-        four.dyads[task, number],
-        four.rms_error[task, number],
-        four.max_error[task, number],
-    )
-    found = found_in_stack(fits, solutions, fits.blur(four.noise, four.gap))
+    found = found_in_stack(fits, Solutions.of(four), fits.blur(four.noise, four.gap))
     exact = Vouched.of(index, "exact", fits, found)
     met = np.bincount(found.task, minlength=len(index)) >= MEETING
     if met.all():

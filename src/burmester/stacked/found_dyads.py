@@ -10,7 +10,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.dyads.five_poses import FivePoseDyads
 from burmester.dyads.long_links import SENSIBLE_SWING, swings
+from burmester.dyads.pencil import Pencil
 from burmester.dyads.selection import (
     COEFFICIENT_ROUNDING,
     LOST_SHARE,
@@ -95,6 +97,18 @@ class Solutions(NamedTuple):
     circle: RR
     rms: FloatArray
     worst: FloatArray
+
+    @classmethod
+    def of(cls, fit: FivePoseDyads | Pencil) -> Solutions:
+        """The solutions of fits (T,) that there are, several a task."""
+        task, number = np.nonzero(np.isfinite(fit.coefficients).all(axis=-1))
+        return cls(
+            task,
+            fit.coefficients[task, number],
+            fit.dyads[task, number],
+            fit.rms_error[task, number],
+            fit.max_error[task, number],
+        )
 
 
 class Found(NamedTuple):

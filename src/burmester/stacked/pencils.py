@@ -23,13 +23,5 @@ def pencil_dyads(stack: TaskStack) -> Vouched:
     stack, fit = stack[index], take(fit, index)
     seen = fit.frames.to_canonical(stack.displacements)
     fits = Fits(stack, fit.frames, seen, fit.frames.length)
-    task, number = np.nonzero(np.isfinite(fit.coefficients).all(axis=-1))
-    solutions = Solutions(
-        task,
-        fit.coefficients[task, number],
-        fit.dyads[task, number],
-        fit.rms_error[task, number],
-        fit.max_error[task, number],
-    )
-    found = found_in_stack(fits, solutions, fits.blur(fit.noise, fit.gap))
+    found = found_in_stack(fits, Solutions.of(fit), fits.blur(fit.noise, fit.gap))
     return Vouched.of(index, "pencil", fits, found)
