@@ -1,0 +1,57 @@
+"""Compile the kernels when burmester is installed: every module whose name ends in `_kernel`."""
+
+import os
+import tempfile
+from pathlib import Path
+
+from Cython.Build import cythonize
+from hatchling.builders.hooks.plugin.interface import BuildHookInterface
+from setuptools import Distribution, Extension
+from setuptools.errors import BaseError
+
+SOURCES = Path("src")
+# The same roundings on every machine: a product and a sum are not made one operation.
+FLAGS = [] if os.name == "nt" else ["-O3", "-ffp-contract=off"]
+HELP = (
+    "burmester's kernels cannot be compiled: a C compiler and Python's headers are needed"
+    " (on Debian: apt-get install build-essential python3-dev)"
+)
+
+
+class KernelsHook(BuildHookInterface):
+    """Kernels go into the wheel; of an installation that can be edited they lie beside the source."""
+
+    def initialize(self, version, build_data):
+        """Compile, and say where the results go."""
+        root = Path(self.root)
+        build_data.update(pure_python=False, infer_tag=True)
+        work = self.work = tempfile.TemporaryDirectory()
+        for kernel in sorted((root / SOURCES).rglob("*_kernel.py")):
+            name = ".".join(kernel.relative_to(root / SOURCES).with_suffix("").parts)
+            made = compiled(name, kernel, Path(work.name))
+            if version == "editable":
+                target = kernel.with_name(made.name)
+                target.unlink(missing_ok=True)  # one that is loaded is left as it is
+                target.write_bytes(made.read_bytes())
+            else:
+                inside = kernel.relative_to(root / SOURCES).with_name(made.name)
+                build_data["force_include"][str(made)] = str(inside)
+
+    def finalize(self, version, build_data, artifact_path):
+        """Nothing is left behind."""
+        self.work.cleanup()
+
+
+def compiled(name, source, work):
+    """The path of a module's extension, made in a folder."""
+    extension = Extension(name, [str(source)], extra_compile_args=FLAGS)
+    extensions = cythonize([extension], build_dir=str(work / "c"), quiet=True)
+    distribution = Distribution({"name": "kernels", "ext_modules": extensions})
+    command = distribution.get_command_obj("build_ext")
+    command.build_lib, command.build_temp = str(work / "lib"), str(work / "o")
+    try:
+        command.ensure_finalized()
+        command.run()
+    except BaseError as error:
+        raise SystemExit(f"{HELP}\n{error}") from None
+    return Path(command.get_ext_fullpath(name))
