@@ -19,7 +19,7 @@ HELP = (
 
 
 class KernelsHook(BuildHookInterface):
-    """Kernels go into the wheel; of an installation that can be edited they lie beside the source."""
+    """Kernels go into the wheel; in an editable installation they lie beside their sources."""
 
     def initialize(self, version, build_data):
         """Compile, and say where the results go."""

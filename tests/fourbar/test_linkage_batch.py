@@ -10,7 +10,7 @@ from burmester.fourbar.dyad import PP, PR, RP, RR
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.bundles import concatenate, take
+from burmester.numerics.bundles import concatenate
 
 KINDS = (RR, PR, RP)
 PAIRS = list(itertools.product(KINDS, KINDS))
@@ -139,42 +139,6 @@ def test_derivatives_by_the_dimensions():
                     up, down = (dyad_of(row + s * step, kind).residual(place)[0] for s in (1, -1))
                     assert np.isclose(slope[j], (up - down) / (2 * h), rtol=1e-6, atol=1e-8)
                 assert (slope[used:] == 0).all()
-
-
-def test_bend_is_the_second_derivative_along_a_straight_step():
-    rng = np.random.default_rng(4)
-    linkages = all_pairs(rng)
-    count, number, h = len(linkages), 4, 1e-4
-    places = some_places(rng, count, number)
-    v, omega = rng.normal(size=(count, number, 2)), rng.normal(size=(count, number))
-    d = places.translation @ [1, 1j]
-    turn = np.exp(1j * places.angle)
-    surfaces = LinkageBatch.of(linkages).forms()
-    _, _, swing = surfaces.at(d[:, None], turn[:, None])
-    bend = surfaces.bend(turn[:, None], swing, (v @ [1, 1j])[:, None], omega[:, None])
-    for k, linkage in enumerate(linkages):
-        here = at(places, k)
-        for side, dyad in enumerate((linkage.first, linkage.second)):
-            f = [
-                equation(
-                    dyad,
-                    Displacement(here.translation + s * h * v[k], here.angle + s * h * omega[k]),
-                )
-                for s in (-1, 0, 1)
-            ]
-            second = (f[0] - 2 * f[1] + f[2]) / h**2
-            assert np.allclose(bend[k, side], second, rtol=1e-5, atol=1e-5)
-
-
-def test_some_surfaces_are_those_of_the_picked_linkages():
-    rng = np.random.default_rng(5)
-    linkages = all_pairs(rng, 1)
-    batch, pick = LinkageBatch.of(linkages), np.array([7, 0, 4])
-    some = take(batch.forms(), pick)
-    for k, number in enumerate(pick):
-        one = LinkageBatch.of([linkages[number]]).forms()
-        for mine, its in zip(some, one, strict=True):
-            assert np.allclose(mine[k], its[0])
 
 
 def test_seen_in_other_frames_and_back():

@@ -11,19 +11,17 @@ from burmester.fourbar.instantaneous import transmission_angle
 from burmester.fourbar.linkage import Linkage, Links, grashof
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.loop_closure import DrivenLoop
+from burmester.fourbar.transmission import LeastTransmission, Transmission
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Line, Polygon, Segment
 from burmester.linkages.constraints import (
     AllConstraints,
     BranchAndOrder,
     DrivenBranch,
-    DyadLimitsConstraint,
     LinkProportions,
-    input_of,
-    least_transmission_inputs,
-    signed_transmission_sine,
     type_excess,
 )
+from burmester.linkages.kept_limits import DyadLimitsConstraint
 from burmester.tasks.limits import Limits
 from burmester.tasks.requirements import Requirements
 from tests.oracles.hard_tasks import assembled, sines
@@ -50,9 +48,9 @@ def swept(first, second, drive):
 
 
 def sine_of(linkage, rows, side=0):
-    """`signed_transmission_sine` of one linkage at rows (n, 3)."""
+    """The signed sine of the transmission angle of one linkage at rows (n, 3)."""
     batch = LinkageBatch.of([linkage])
-    return signed_transmission_sine(batch, rows[None], LENGTH, np.array([side]))[0]
+    return Transmission.of(batch, rows[None], LENGTH, np.array([side])).sine[0]
 
 
 @pytest.mark.parametrize("pair", PAIRS, ids=lambda pair: f"{pair[0].__name__}-{pair[1].__name__}")
@@ -105,7 +103,7 @@ def test_drives_are_those_the_linkage_is_assembled_at(pair):
             at = both.translation[:, side], both.angle[:, side]
             sound = np.isfinite(at[1])
             rows = np.column_stack([at[0], LENGTH * at[1]])[sound]
-            told, turns = input_of(batch, rows[None], LENGTH, np.array([0]))
+            _, told, turns = Transmission.of(batch, rows[None], LENGTH, np.array([0]))
             gap = told[0] - drive[sound]
             assert turns[0] == (pair[0] is not PR)
             assert np.abs(np.exp(1j * gap) - 1 if turns[0] else gap).max(initial=0) < 1e-7
@@ -124,8 +122,8 @@ def test_the_least_sine_of_a_stretch_is_at_its_ends_or_where_it_is_said(pair):
         start, reach = rng.uniform(-3, 3), rng.uniform(0.5, 5)
         drive = np.linspace(start, start + reach, 2001)
         rows = swept(linkage.first, linkage.second, drive)[0]
-        at, cosine = (
-            part[0] for part in least_transmission_inputs(LinkageBatch.of([linkage]), np.array([0]))
+        at, cosine, _ = (
+            part[0] for part in LeastTransmission.of(LinkageBatch.of([linkage]), np.array([0]))
         )
         if pair[0] is not PR:
             at = start + (at - start) % (2 * np.pi)
@@ -347,3 +345,64 @@ def test_the_sides_of_a_box_hold_one_by_one():
     batch = LinkageBatch.of([Linkage(RR([2.25, 1.5], [0, 0], 1), RR([9, 9], [1, 1], 1))])
     value, _ = keep(batch, np.zeros((1, 2, 3)), np.array([0]))
     assert sorted(value[0][value[0] > 0]) == pytest.approx([0.25, 0.5])
+
+
+def numerical_slopes(keep, kinds, z, rows, place_jacobian):
+    """Derivatives of constraint values by all unknowns, by central differences of the values."""
+    out = []
+    for column in range(place_jacobian.shape[-1]):
+        ends = []
+        for h in (1e-6, -1e-6):
+            moved = z + h * (np.arange(10) == column)
+            there = rows + h * place_jacobian[..., column]
+            batch = LinkageBatch(kinds, moved.reshape(-1, 2, 5))
+            ends.append(keep(batch, there, np.arange(len(z)))[0])
+        out.append((ends[0] - ends[1]) / 2e-6)
+    return np.stack(out, axis=-1)
+
+
+@pytest.mark.parametrize("ways", [True, False], ids=["places are unknowns", "nearest places"])
+def test_derivatives_by_all_unknowns(ways):
+    """Limits, branch, order, proportions and tolerances, against differences of their values."""
+    rng = np.random.default_rng(12)
+    frames = CanonicalFrames(np.array([0.3, -0.2]), np.array([0.1, 0.4]), np.array(2.0))
+    corners, notched = REGIONS["box"][0], REGIONS["an L"][0]
+    limits = (
+        Limits(fixed_pivot=Polygon(corners), moving_pivot=Segment((0, 0), (2, 1))),
+        Limits(fixed_pivot=Polygon(notched), moving_pivot=Line((0, 1), (1, 0)), length=(0.5, 3)),
+    )
+    number = 4
+    for pair in PAIRS:
+        if pair == (RP, RP):
+            continue
+        rows = np.full((1, number, 3), np.nan)
+        while not np.isfinite(rows).all():
+            linkage = Linkage(a_dyad(pair[0], rng), a_dyad(pair[1], rng))
+            rows = swept(linkage.first, linkage.second, np.sort(rng.uniform(-2, 2, number)))[:1]
+        batch = LinkageBatch.of([linkage])
+        by_place = np.zeros((1, number, 3, 10 + number * ways))
+        by_place[..., :10] = rng.normal(size=(1, number, 3, 10))
+        if ways:
+            each = np.arange(number)
+            by_place[:, each, :, 10 + each] = rng.normal(size=(number, 1, 3))
+        for driver in (np.array([0]), np.array([1])):
+            for asked in (ANY, Requirements(any_order=True)):
+                branch = DrivenBranch(driver, np.ones(1), np.full(1, np.nan))
+                in_order = BranchAndOrder.of(batch, rows, LENGTH, branch, asked)
+                box = Polygon(corners)
+                proportions = LinkProportions(
+                    LENGTH,
+                    frames,
+                    Requirements(link_ratio=2.5, footprint=box),
+                    driver,
+                    np.array(["crank-rocker"]),
+                )
+                parts = [DyadLimitsConstraint(side, limits[side], frames) for side in (0, 1)]
+                keep = AllConstraints((in_order, proportions, *parts))
+                value, slope, equal = keep.differentiated(batch, rows, np.array([0]), by_place)
+                same, also = keep(batch, rows, np.array([0]))
+                assert np.allclose(value, same, atol=1e-12)
+                assert np.array_equal(equal, also)
+                z = batch.dimensions.reshape(1, 10)
+                numerical = numerical_slopes(keep, batch.kinds, z, rows, by_place)
+                assert np.allclose(slope, numerical, rtol=1e-4, atol=1e-4)

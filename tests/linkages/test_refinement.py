@@ -20,7 +20,8 @@ from burmester.fourbar.pose_error import error_frames
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Line, Point, Polygon, Segment
 from burmester.io.reading.poses import read_task
-from burmester.linkages.constraints import AllConstraints, DyadLimitsConstraint
+from burmester.linkages.constraints import AllConstraints
+from burmester.linkages.kept_limits import DyadLimitsConstraint
 from burmester.linkages.refinement import refine
 from burmester.tasks.limits import Limits
 from tests.oracles.witness import places

@@ -22,8 +22,8 @@ from burmester.fourbar.nearest_places import on_circuits
 from burmester.fourbar.pose_error import error_frames
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Line, Polygon
-from burmester.linkages.constraints import DyadLimitsConstraint
 from burmester.linkages.dimension_grid import multiple
+from burmester.linkages.kept_limits import DyadLimitsConstraint
 from burmester.linkages.rounding import rounded
 from burmester.linkages.target import Target
 from burmester.tasks.limits import Limits

@@ -44,7 +44,7 @@ from burmester.diagnosis.sampson_fits import NormalizedPoses, refine_best
 from burmester.diagnosis.unit_errors import UnitError, pose_apart, unit_error
 from burmester.errors import InputError
 from burmester.fourbar.dyad import Dyad
-from burmester.fourbar.foot_points import newton_step, rows_of
+from burmester.fourbar.foot_points import newton_steps, rows_of
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.nearest_places import on_circuits
@@ -292,10 +292,10 @@ def _among_many(
         poses=normalized.poses[some], rows=normalized.rows[some], weights=normalized.weights[some]
     )
     _, fits = LeaveOneOut.fit_all(sample, dyads, poses[some])
-    forms, rows = fits.of(-1).linkages[:1].forms(), normalized.rows[None]
+    rows = normalized.rows[None]
     with np.errstate(all="ignore"):  # to first order; where a pose is beyond all linkages nan
-        away, _ = newton_step(forms, rows, rows, 1.0)
-        size = normalized.weights * (away[0] ** 2).sum(axis=-1)
+        there, _ = newton_steps(fits.of(-1).linkages[:1], rows, None, 1.0)
+        size = normalized.weights * ((there - rows)[0] ** 2).sum(axis=-1)
     likeliest = np.argsort(-np.nan_to_num(size, nan=np.inf), kind="stable")[:MANY_SUSPECTS]
     index = np.sort(motion.first[np.union1d(some, likeliest)])
     part = Task(

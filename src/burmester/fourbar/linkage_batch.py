@@ -15,13 +15,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.fourbar.canonical_frames import CanonicalFrames
+from burmester.fourbar.coupler_kernel import constraint_jacobians
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
+from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import take
 
-__all__ = ["DIMENSIONS", "DYAD_KINDS", "ConstraintForms", "ConstraintJacobians", "LinkageBatch"]
+__all__ = ["DIMENSIONS", "DYAD_KINDS", "ConstraintJacobians", "LinkageBatch"]
 
 DYAD_KINDS: Final = (RR, PR, RP)  # the kinds of dyads, by their number in a batch
 DIMENSIONS: Final = 5  # number of dimensions of a dyad; a slider leaves the last one unused
@@ -136,97 +137,13 @@ class LinkageBatch:
         out[..., 4] *= before * after
         return LinkageBatch(self.kinds, out)
 
-    def forms(self) -> ConstraintForms:
-        """The constraint manifolds of both dyads, scaled as in `jacobians`."""
-        one, two, last = (
-            self.dimensions[..., :2],
-            self.dimensions[..., 2:4],
-            self.dimensions[..., 4],
-        )
-        c, m = complex_of(one), complex_of(two)
-        out = ConstraintForms(
-            *(np.zeros(c.shape, dtype) for dtype in (float, complex, complex, complex, float))
-        )
-        rr, pr, rp = (self.kinds == kind for kind in range(len(DYAD_KINDS)))
-        if rr.any():
-            fixed, moving, r = c[rr], m[rr], last[rr]
-            constant = (np.abs(moving) ** 2 + np.abs(fixed) ** 2) / r - r
-            terms = (0.5 / r, -fixed / r, moving / r, -moving * fixed.conj() / r, constant / 2)
-            for whole, part in zip(out, terms, strict=True):
-                whole[rr] = part
-        if pr.any():
-            normal = np.exp(1j * one[pr][:, 0])
-            out.still[pr], out.both[pr] = normal, normal.conj() * m[pr]
-            out.constant[pr] = -one[pr][:, 1]
-        if rp.any():
-            normal = np.exp(1j * two[rp][:, 0])
-            out.turned[rp], out.both[rp] = -normal, normal * c[rp].conj()
-            out.constant[rp] = -two[rp][:, 1]
-        return out
-
     def jacobians(self, places: Displacement) -> ConstraintJacobians:
         """The constraints of both dyads at coupler places (k, *), and their derivatives."""
-        d, turn = complex_of(places.translation)[:, None], np.exp(1j * places.angle)[:, None]
-        miss, push, swing = self.forms().at(d, turn)
-        force = np.stack([push.real, push.imag, -swing.imag], axis=-1)
-        by_dimension = np.zeros((*miss.shape, DIMENSIONS))
-        on_body = push * turn.conj()
-        for kind in range(len(DYAD_KINDS)):
-            row, side = np.nonzero(self.kinds == kind)
-            if not len(row):
-                continue
-            z = self.dimensions[row, side].T
-            z = z.reshape(*z.shape, *[1] * (places.angle.ndim - 1))
-            at, body, moved, spun = push[row, side], on_body[row, side], d[row, 0], turn[row, 0]
-            if kind == 0:
-                slope = [-at.real, -at.imag, body.real, body.imag]
-                slope.append(-(at.real**2 + at.imag**2 + 1) / 2)
-            elif kind == 1:
-                point = moved + (z[2] + 1j * z[3]) * spun
-                slope = [(at.conj() * point).imag, -1.0, body.real, body.imag]
-            else:
-                point = z[0] + 1j * z[1] - moved
-                slope = [-at.real, -at.imag, -(at.conj() * point).imag, -1.0]
-            for k, value in enumerate(slope):
-                by_dimension[row, side, ..., k] = value
-        return ConstraintJacobians(miss, force, by_dimension)
-
-
-class ConstraintForms(NamedTuple):
-    """Constraint manifolds in complex numbers, (*,) each: with d and turn = e^(i angle),
-
-    f = round |d|² + Re(d* (still + turned turn)) + Re(both turn) + constant = 0.
-
-    The eight coefficients of `constraint_manifold` in another order; RR is scaled by 1 / (2 r),
-    lines by 1.
-    """
-
-    round: FloatArray
-    still: ComplexArray
-    turned: ComplexArray
-    both: ComplexArray
-    constant: FloatArray
-
-    def at(
-        self, d: ComplexArray, turn: ComplexArray
-    ) -> tuple[FloatArray, ComplexArray, ComplexArray]:
-        """f, the force and `swing` of forms (k, 2) at places (k, 1, *).
-
-        All are (k, 2, *), the latter two complex.  The moment of the force about the origin of M
-        is -swing.imag; f's second derivative by the angle is -swing.real.
-        """
-        spread = (..., *[None] * (d.ndim - 2))
-        round, still = self.round[spread], self.still[spread]
-        arm = self.turned[spread] * turn
-        swing = d.conj() * arm + self.both[spread] * turn
-        along = (d.conj() * still).real + swing.real + self.constant[spread]
-        return round * (d.real**2 + d.imag**2) + along, 2 * round * d + still + arm, swing
-
-    def bend(
-        self, turn: ComplexArray, swing: ComplexArray, v: ComplexArray, omega: FloatArray
-    ) -> FloatArray:
-        """Second derivatives (k, 2, *) of f along velocities v, omega (k, 1, *)."""
-        spread = (..., *[None] * (turn.ndim - 2))
-        turning = 2 * omega * (v.conj() * (1j * turn * self.turned[spread])).real
-        speed = v.real**2 + v.imag**2
-        return np.asarray(2 * self.round[spread] * speed + turning - omega**2 * swing.real)
+        shape = places.angle.shape
+        rows = np.concatenate([places.translation, places.angle[..., None]], axis=-1)
+        count, number = len(self), int(np.prod(shape[1:]))
+        out = tuple(np.empty((count, 2, number, *last)) for last in ((), (3,), (DIMENSIONS,)))
+        constraint_jacobians(self.kinds, self.dimensions, rows.reshape(count, number, 3), *out)
+        return ConstraintJacobians(
+            *(each.reshape(count, 2, *shape[1:], *each.shape[3:]) for each in out)
+        )

@@ -14,10 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.fourbar.canonical_frames import CanonicalFrames
-from burmester.fourbar.linkage_batch import LinkageBatch
-from burmester.geometry.regions import Polygon, Region
+from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
+from burmester.fourbar.transmission import LeastTransmission, Transmission
+from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray, complex_of, wrapped_angle
-from burmester.tasks.limits import Limits
+from burmester.numerics.differences import DifferenceQuotients
 from burmester.tasks.requirements import Requirements
 
 __all__ = [
@@ -27,11 +28,7 @@ __all__ = [
     "BranchAndOrder",
     "Constraints",
     "DrivenBranch",
-    "DyadLimitsConstraint",
     "LinkProportions",
-    "input_of",
-    "least_transmission_inputs",
-    "signed_transmission_sine",
     "type_excess",
 ]
 
@@ -40,11 +37,12 @@ TRANSMISSION_MARGIN: Final = 1e-7  # radians; kept above a required transmission
 MIN_INPUT_STEP: Final = 2e-3  # radians or lengths; least step of the input from pose to pose
 # The index of the shortest of ground, driver, coupler and follower in each of Grashof's types.
 SHORTEST_LINK: Final = {"double-crank": 0, "crank-rocker": 1, "double-rocker": 2, "rocker-crank": 3}
-MAX_SIDES: Final = 8  # number of sides of a convex polygon that are constraints each
 PROPORTION_MARGIN: Final = 1e-6  # relative; kept from the border of a type or a ratio
 
 
 ConstraintValues: TypeAlias = tuple[FloatArray, NDArray[np.bool_]]
+ConstraintSlopes: TypeAlias = tuple[FloatArray, FloatArray, NDArray[np.bool_]]
+QUOTIENTS: Final = DifferenceQuotients(stride=1e-7)  # of constraints, by their unknowns
 
 
 class Constraints(Protocol):
@@ -57,6 +55,19 @@ class Constraints(Protocol):
     def __call__(
         self, batch: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
     ) -> ConstraintValues: ...
+
+    def differentiated(
+        self,
+        batch: LinkageBatch,
+        rows: FloatArray,
+        which: NDArray[np.intp],
+        place_jacobian: FloatArray,
+    ) -> ConstraintSlopes:
+        """Also the derivatives (k, m, n) by the unknowns, by which places have place_jacobian.
+
+        place_jacobian: (k, N, 3, n).  The unknowns are the ten dimensions, and if n is more, a step
+        along the motion for each place.
+        """
 
 
 @final
@@ -77,78 +88,28 @@ class AllConstraints:
         values, equal = zip(*(part(batch, rows, which) for part in self.parts), strict=True)
         return np.concatenate(values, axis=1), np.concatenate(equal)
 
-
-@final
-@dataclass(frozen=True, slots=True, eq=False)
-class DyadLimitsConstraint:
-    """The limits of the dyad on one side, the same for all linkages."""
-
-    side: int
-    limits: Limits
-    frames: CanonicalFrames
-    uses_places: ClassVar[bool] = False
-
-    def __call__(
-        self, batch: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
-    ) -> ConstraintValues:
-        own = batch.from_canonical(self.frames)
-        kind, z = own.kinds[:, self.side], own.dimensions[:, self.side]
-        least, most = self.limits.length
-        with np.errstate(invalid="ignore"):
-            link = np.stack([least - z[:, 4], z[:, 4] - most], axis=1)
-        out = [np.where((kind == 0)[:, None] & np.isfinite(link), link, -1.0)]
-        equal = [np.zeros(2, dtype=bool)]
-        regions = (self.limits.fixed_pivot, 0, 1), (self.limits.moving_pivot, 2, 2)
-        for region, at, line in regions:
-            if region is not None:
-                off = _outside(region, z[:, at : at + 2])
-                out.append(np.where((kind == line)[:, None], 0.0 * off, off))
-                equal.append(np.arange(off.shape[1]) < len(region.equations()))
-        return np.concatenate(out, axis=1) / float(self.frames.length), np.concatenate(equal)
-
-
-def _outside(region: Region, points: FloatArray) -> FloatArray:
-    """Distances (k, m) of points (k, 2) from a region: its equations, then its inequalities.
-
-    Those from the sides of a convex polygon each by itself: its distance has a kink at a corner,
-    where a descent would be held.
-    """
-    if isinstance(region, Polygon):
-        sides = _sides(region)
-        if sides is None:
-            return region.signed_distance(points)[:, None]
-        return np.asarray(points @ sides[:, 1:].T + sides[:, 0])
-    rows = region.equations()
-    off = points @ rows[:, 1:].T + rows[:, 0]
-    if len(rows) == 2:
-        return np.asarray(off)
-    ends = region.corners()
-    if ends is None:
-        beyond = np.full((len(points), 2), -1.0)
-    else:
-        along = (ends[1] - ends[0]) / np.linalg.norm(ends[1] - ends[0])
-        beyond = np.stack([(ends[0] - points) @ along, (points - ends[1]) @ along], axis=1)
-    return np.concatenate([off, beyond], axis=1)
-
-
-def _sides(polygon: Polygon) -> FloatArray | None:
-    """The sides of a convex polygon, (k, 3): row · (1, X, Y) at most 0; else None."""
-    v = polygon.corners()
-    along = np.roll(v, -1, axis=0) - v
-    along = along / np.linalg.norm(along, axis=1, keepdims=True)
-    after = np.roll(along, -1, axis=0)
-    turn = along[:, 0] * after[:, 1] - along[:, 1] * after[:, 0]
-    if len(v) > MAX_SIDES or (turn < 0).any():
-        return None
-    outward = np.stack([along[:, 1], -along[:, 0]], axis=1)
-    return np.column_stack([-(outward * v).sum(axis=1), outward])
+    def differentiated(
+        self,
+        batch: LinkageBatch,
+        rows: FloatArray,
+        which: NDArray[np.intp],
+        place_jacobian: FloatArray,
+    ) -> ConstraintSlopes:
+        """The values of all parts, and their derivatives."""
+        parts = (part.differentiated(batch, rows, which, place_jacobian) for part in self.parts)
+        values, slopes, equal = zip(*parts, strict=True)
+        return (
+            np.concatenate(values, axis=1),
+            np.concatenate(slopes, axis=1),
+            np.concatenate(equal),
+        )
 
 
 class DrivenBranch(NamedTuple):
     """A branch of each linkage (k,), and the side that drives.
 
     driver: (k,), 0 or 1.
-    sign: (k,), of `signed_transmission_sine` on the branch.
+    sign: (k,), of the signed `Transmission.sine` on the branch.
     middle: (k,), the input halfway between its dead points; nan where it has none, or slides.
     """
 
@@ -163,7 +124,7 @@ class BranchAndOrder:
     """The constraint that all poses are on one branch, clear of its dead points, and in order.
 
     length: the length that a radian counts as in rows.  driver: (k,), the side that drives.
-    sign: (k,), of `signed_transmission_sine` on the branch; clear: (k,), its least size.
+    sign: (k,), of the signed `Transmission.sine` on the branch; clear: (k,), its least size.
     sense: (k,), +1 or -1, of the input; ways: (k, N - 1), the steps from pose to pose in that sense
     at the start, which decide on whole turns.  ordered: whether each step must have that sense.
     """
@@ -190,7 +151,7 @@ class BranchAndOrder:
         driver, sign, middle = branch
         least = max(CLEARANCE_ANGLE, requirements.transmission + TRANSMISSION_MARGIN)
         clear = np.full(len(batch), np.sin(least))
-        drive, turns = input_of(batch, rows, length, driver)
+        _, drive, turns = Transmission.of(batch, rows, length, driver)
         round_ = turns & np.isnan(middle)
         between = drive - np.nan_to_num(middle)[:, None]
         between = np.where((turns & ~round_)[:, None], wrapped_angle(between), between)
@@ -214,25 +175,54 @@ class BranchAndOrder:
     def __call__(
         self, batch: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
     ) -> ConstraintValues:
-        driver, sense, ways = self.driver[which], self.sense[which, None], self.ways[which]
-        clear = self.clear[which, None]
-        sine = self.sign[which, None] * signed_transmission_sine(batch, rows, self.length, driver)
-        out = [clear - sine]
-        drive, turns = input_of(batch, rows, self.length, driver)
-        more = sense * np.diff(drive, axis=1) - ways
-        step = ways + np.where(turns[:, None], wrapped_angle(more), more)
-        along = np.concatenate([np.zeros((len(drive), 1)), np.cumsum(step, axis=1)], axis=1)
+        there = Transmission.of(batch, rows, self.length, self.driver[which])
+        least = LeastTransmission.of(batch, self.driver[which])
+        return _at_most(self._values(there, least, which)[0])
+
+    def differentiated(
+        self,
+        batch: LinkageBatch,
+        rows: FloatArray,
+        which: NDArray[np.intp],
+        place_jacobian: FloatArray,
+    ) -> ConstraintSlopes:
+        """Also the derivatives."""
+        there, by_sine, by_drive = Transmission.differentiated(
+            batch, rows, self.length, self.driver[which], place_jacobian
+        )
+        least = LeastTransmission.of(batch, self.driver[which])
+        values, passed = self._values(there, least, which)
+        slopes = [-self.sign[which, None, None] * by_sine]
+        if self.ordered:
+            by_drive = self.sense[which, None, None] * by_drive
+            whole = np.where(there.turns[:, None, None], by_drive[:, -1:] - by_drive[:, :1], 0.0)
+            slopes += [-np.diff(by_drive, axis=1), whole]
+        between = np.zeros((len(batch), 2, place_jacobian.shape[-1]))
+        by_cosine = np.sign(least.cosine)[..., None] * least.slope
+        between[..., : 2 * DIMENSIONS] = np.where(passed[..., None], by_cosine, 0.0)
+        value, equal = _at_most(values)
+        return value, np.concatenate([*slopes, between], axis=1), equal
+
+    def _values(
+        self, there: Transmission, least: LeastTransmission, which: NDArray[np.intp]
+    ) -> tuple[list[FloatArray], NDArray[np.bool_]]:
+        """The values, and which (k, 2) of the least transmission angles are between the poses."""
+        sense, ways, clear = self.sense[which, None], self.ways[which], self.clear[which, None]
+        turns = there.turns[:, None]
+        out = [clear - self.sign[which, None] * there.sine]
+        more = sense * np.diff(there.drive, axis=1) - ways
+        step = ways + np.where(turns, wrapped_angle(more), more)
+        along = np.concatenate([np.zeros((len(step), 1)), np.cumsum(step, axis=1)], axis=1)
         if self.ordered:
             whole = along[:, -1:] - 2 * np.pi + MIN_INPUT_STEP
-            out += [MIN_INPUT_STEP - step, np.where(turns[:, None], whole, -1.0)]
+            out += [MIN_INPUT_STEP - step, np.where(turns, whole, -1.0)]
         # Between the poses, too, it stays clear.
-        at, cosine = least_transmission_inputs(batch, driver)
         start = along.min(axis=1, keepdims=True)
-        ahead = sense * (at - drive[:, :1]) - start
-        ahead = np.where(turns[:, None], ahead % (2 * np.pi), ahead)
+        ahead = sense * (least.at - there.drive[:, :1]) - start
+        ahead = np.where(turns, ahead % (2 * np.pi), ahead)
         passed = (ahead > 0) & (ahead < along.max(axis=1, keepdims=True) - start)
-        out.append(np.where(passed, np.abs(cosine) - np.sqrt(1 - clear**2), -1.0))
-        return _at_most(out)
+        out.append(np.where(passed, np.abs(least.cosine) - np.sqrt(1 - clear**2), -1.0))
+        return out, passed
 
 
 @final
@@ -266,6 +256,25 @@ class LinkProportions:
         value, equal = _at_most(out)
         return np.where(np.isfinite(value), value, -1.0), equal
 
+    def differentiated(
+        self,
+        batch: LinkageBatch,
+        rows: FloatArray,
+        which: NDArray[np.intp],
+        place_jacobian: FloatArray,
+    ) -> ConstraintSlopes:
+        """By difference quotients; those by the places only where places are looked at."""
+        count, unknowns, size = len(batch), place_jacobian.shape[-1], 2 * DIMENSIONS
+        moved = unknowns if self.requirements.footprint is not None else size
+        z = QUOTIENTS.points(batch.dimensions.reshape(count, size), np.eye(moved, size)[:, None])
+        places = QUOTIENTS.points(rows, np.moveaxis(place_jacobian[..., :moved], -1, 0))
+        beside = LinkageBatch(np.tile(batch.kinds, (moved + 1, 1)), z.reshape(-1, 2, DIMENSIONS))
+        value, equal = self(beside, places.reshape(-1, *rows.shape[1:]), np.tile(which, moved + 1))
+        value = value.reshape(moved + 1, count, -1)
+        slope = np.zeros((*value.shape[1:], unknowns))
+        slope[..., :moved] = QUOTIENTS.jacobian(value)
+        return value[0], slope, equal
+
     def _footprint(self, footprint: Polygon, batch: LinkageBatch, rows: FloatArray) -> FloatArray:
         """Distances of fixed pivots, and moving pivots at the places, outside; -1 for lines."""
         unit, origin = float(self.frames.length), self.frames.fixed_origin
@@ -284,88 +293,6 @@ class LinkProportions:
 def _at_most(parts: list[FloatArray]) -> ConstraintValues:
     value = np.concatenate(parts, axis=1)
     return value, np.zeros(value.shape[1], dtype=bool)
-
-
-def signed_transmission_sine(
-    batch: LinkageBatch, rows: FloatArray, length: float, driver: NDArray[np.intp]
-) -> FloatArray:
-    """The sine (k, n) of the transmission angle at rows (k, n, 3), signed.
-
-    It changes its sign at the dead points of the side that drives, (k,).  It is the power that the
-    driver transmits: the determinant of three wrenches (the driver's effort and both constraints),
-    over its lever.
-    """
-    every = np.arange(len(batch))
-    d, turn = complex_of(rows), np.exp(1j * rows[..., 2] / length)
-    _, push, swing = batch.forms().at(d[:, None], turn[:, None])
-    moment = -swing.imag
-    lead, follow = push[every, driver], push[every, 1 - driver]
-    own, other = moment[every, driver], moment[every, 1 - driver]
-    z, z2 = batch.dimensions[every, driver], batch.dimensions[every, 1 - driver]
-    kind, kind2 = batch.kinds[every, driver], batch.kinds[every, 1 - driver]
-    slot, slot2 = (kind == 2)[:, None], (kind2 == 2)[:, None]
-    hand, hand2 = complex_of(z[:, 2:4])[:, None], complex_of(z2[:, 2:4])[:, None]
-    effort, turning = 1j * lead, ((hand * turn).conj() * lead).real
-    across = (lead.conj() * follow).imag
-    # det(effort, own force, other force), by its moments.
-    det = (
-        turning * across - own * (effort.conj() * follow).imag + other * (effort.conj() * lead).imag
-    )
-    pin = d + hand * turn
-    far = np.abs(np.where(slot2, complex_of(z2[:, :2])[:, None] - pin, hand2 - hand))
-    with np.errstate(invalid="ignore", divide="ignore"):
-        sine = np.where(slot, across, det / far)
-    return np.where(slot & slot2, 1.0, sine)
-
-
-def least_transmission_inputs(
-    batch: LinkageBatch, driver: NDArray[np.intp]
-) -> tuple[FloatArray, FloatArray]:
-    """Inputs (k, 2) where the transmission angle may be least between two places, and its cosine.
-
-    These are the ends of the range of f (see `loop_closure`).  The cosine is above 1 where the
-    linkage does not close there.  nan for pairs without such a minimum.
-    """
-    every = np.arange(len(batch))
-    z, z2 = batch.dimensions[every, driver].T, batch.dimensions[every, 1 - driver].T
-    kind, kind2 = batch.kinds[every, driver], batch.kinds[every, 1 - driver]
-    c, m, c2, m2 = (complex_of(part[at : at + 2].T) for part in (z, z2) for at in (0, 2))
-    both = np.array([[1.0], [-1.0]])
-    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-        ground, arm = c2 - c, np.abs(m2 - m)
-        n, n2, slot2 = np.exp(1j * z[0]), np.exp(1j * z2[0]), np.exp(1j * z2[2])
-        rail = np.abs((n.conj() * c2).real - z[1])
-        far = np.where(kind == 0, np.abs(np.abs(ground) - both * z[4]), rail)
-        pins = (arm**2 + z2[4] ** 2 - far**2) / (2 * arm * z2[4])
-        line = (z2[1] - (n2.conj() * c).real - both * z[4]) / arm
-        slot = (z2[3] - (slot2.conj() * m).real) / far
-        across = (both * np.abs(ground) + (np.exp(-1j * z[2]) * m2).real - z[3]) / z2[4]
-    crank, of_slot = np.angle(ground), np.angle(-ground)
-    pair = kind * 3 + kind2
-    cosine = np.select(
-        [pair == 0, pair == 1, pair == 2, pair == 3, pair == 5, pair == 6],
-        [pins, line, slot, pins, slot, across],
-        np.nan,
-    )
-    start = np.select(
-        [pair == 1, kind == 0, kind == 1], [z2[0], crank, (n.conj() * c2).imag], of_slot
-    )
-    at = np.stack([start, np.where(kind == 1, np.nan, start + np.pi)], axis=1)
-    return at, cosine.T
-
-
-def input_of(
-    batch: LinkageBatch, rows: FloatArray, length: float, driver: NDArray[np.intp]
-) -> tuple[FloatArray, NDArray[np.bool_]]:
-    """The input (k, n), see `loop_closure`, at rows (k, n, 3), and whether it turns, (k,)."""
-    every = np.arange(len(batch))
-    z, kind = batch.dimensions[every, driver], batch.kinds[every, driver]
-    d, angle = complex_of(rows), rows[..., 2] / length
-    pin = d + complex_of(z[:, 2:4])[:, None] * np.exp(1j * angle)
-    crank = np.angle(pin - complex_of(z[:, :2])[:, None])
-    slide = (pin * np.exp(-1j * z[:, :1])).imag
-    kind_ = kind[:, None]
-    return np.select([kind_ == 0, kind_ == 1], [crank, slide], angle + z[:, 2:3]), kind != 1
 
 
 def _links(batch: LinkageBatch, driver: NDArray[np.intp]) -> FloatArray:

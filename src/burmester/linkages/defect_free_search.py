@@ -18,6 +18,7 @@ from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.foot_points import rows_of
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.nearest_places import on_circuits
+from burmester.fourbar.transmission import Transmission
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.constrained_refinement import Selection
 from burmester.linkages.constraints import (
@@ -27,8 +28,6 @@ from burmester.linkages.constraints import (
     BranchAndOrder,
     DrivenBranch,
     LinkProportions,
-    input_of,
-    signed_transmission_sine,
     type_excess,
 )
 from burmester.linkages.refinement import Refined
@@ -208,7 +207,7 @@ def _on_branch(
     selection: Selection = (),
 ) -> Refined:
     """`refined_on_branch` on all poses of the target."""
-    sine = signed_transmission_sine(batch, rows, target.length, driver)
+    sine = Transmission.of(batch, rows, target.length, driver).sine
     middle = _middle_inputs(batch, target.places_of(rows[:, 0]), driver)
     branch = DrivenBranch(driver, np.where(np.nansum(sine, axis=1) < 0, -1.0, 1.0), middle)
     starts = _Starts(np.arange(len(batch)), batch, rows, branch)
@@ -232,7 +231,7 @@ def _best_starts(batch: LinkageBatch, target: Target, dyads: NDArray[np.intp]) -
     starts, score = _starts_at_poses(batch, target, dyads)
     there = _starts_on_circuits(batch[:PAIRS_ON_CIRCUITS], target)
     if len(there.pair):
-        sine = signed_transmission_sine(there.batch, there.rows, target.length, there.branch.driver)
+        sine, _, _ = Transmission.of(there.batch, there.rows, target.length, there.branch.driver)
         wrong = (there.branch.sign[:, None] * sine < 0).sum(axis=1)
         score = np.concatenate([score, target.cost(there.rows) + WRONG_BRANCH_SCORE * wrong])
         starts = concatenate([starts, there])
@@ -253,8 +252,7 @@ def _starts_at_poses(
     found = []
     for side in driving_sides(target.requirements):
         lead = np.full(count, side)
-        sine = signed_transmission_sine(batch, rows, target.length, lead)
-        drive, turns = input_of(batch, rows, target.length, lead)
+        sine, drive, turns = Transmission.of(batch, rows, target.length, lead)
         step = np.diff(drive, axis=1)
         step = np.where(turns[:, None], wrapped_angle(step), step)
         back = np.min([np.maximum(way * step, 0.0).sum(axis=1) for way in (1, -1)], axis=0)
@@ -295,7 +293,7 @@ def _starts_on_circuits(batch: LinkageBatch, target: Target) -> _Starts:
         for circuit in (0, 1):
             some = np.flatnonzero(np.isfinite(rows[:, circuit]).all(axis=(1, 2)))
             leads = np.full(len(some), side)
-            sine = signed_transmission_sine(batch[some], rows[some, circuit], target.length, leads)
+            sine, _, _ = Transmission.of(batch[some], rows[some, circuit], target.length, leads)
             middle = middle_input(batch[some], places[some, circuit, 0], side)
             for sign in (1.0, -1.0):
                 on = (sign * sine > 0).any(axis=1)

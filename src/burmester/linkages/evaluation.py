@@ -39,7 +39,6 @@ from burmester.linkages.uncertainty import (
 )
 from burmester.numerics.arrays import FloatArray, even_numbers
 from burmester.numerics.bundles import concatenate, take
-from burmester.numerics.differences import DifferenceQuotients
 from burmester.numerics.weights import weights_or_ones
 from burmester.progress import goes_on, step
 from burmester.tasks.motion_task import Task
@@ -57,7 +56,6 @@ __all__ = [
 
 MIN_LINK = 1e-6  # motion sizes; linkages with a shorter ground link or coupler are dropped
 EXACT_WEIGHT = 1e8  # weight of an exact pose in the covariance
-QUOTIENTS = DifferenceQuotients(stride=1e-7)  # of limits, by the dimensions
 ACTIVE_LIMIT = 1e-9  # lengths; a limit nearer than this is active
 FIXED, MOVING = slice(0, 2), slice(2, 4)  # the pivots' coordinates in an RR dyad's dimensions
 DRIVEN_FROM_THE_OTHER_SIDE = {"crank-rocker": "rocker-crank", "rocker-crank": "crank-rocker"}
@@ -470,12 +468,8 @@ def _active_limits(target: Target, batch: LinkageBatch, rows: FloatArray) -> Flo
     """The limits that hold linkages (k,): their derivatives (k, m, 10), zero where they do not."""
     if not target.kept:
         return None
-    keep = AllConstraints(target.kept)
-    count, size = len(batch), 2 * DIMENSIONS
-    z = QUOTIENTS.points(batch.dimensions.reshape(count, size), np.eye(size)[:, None])
-    every, times = np.tile(np.arange(count), len(z)), (len(z), 1, 1)
-    beside = LinkageBatch(batch.kinds[every], z.reshape(-1, 2, DIMENSIONS))
-    value, equal = keep(beside, np.tile(rows, times), every)
-    value = value.reshape(len(z), count, -1)
-    jacobian = QUOTIENTS.jacobian(value)
-    return np.where((equal | (value[0] > -ACTIVE_LIMIT))[..., None], jacobian, 0.0)
+    still = np.zeros((*rows.shape, 2 * DIMENSIONS))
+    value, slope, equal = AllConstraints(target.kept).differentiated(
+        batch, rows, np.arange(len(batch)), still
+    )
+    return np.where((equal | (value > -ACTIVE_LIMIT))[..., None], slope, 0.0)

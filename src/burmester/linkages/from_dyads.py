@@ -23,7 +23,7 @@ from burmester.fourbar.nearest_places import nearest, on_circuits, on_own_circui
 from burmester.fourbar.pose_error import error_frames
 from burmester.linkages.best_within import best_within
 from burmester.linkages.by_all_poses import judged_at_all, refined_by_all, worst_left_out
-from burmester.linkages.constraints import AllConstraints, Constraints, DyadLimitsConstraint
+from burmester.linkages.constraints import AllConstraints, Constraints
 from burmester.linkages.defect_free_search import (
     FEW_POSES,
     MAX_CONTINUED,
@@ -37,6 +37,7 @@ from burmester.linkages.further_pairs import (
     PairsToSearch,
     closer_linkages,
 )
+from burmester.linkages.kept_limits import DyadLimitsConstraint
 from burmester.linkages.ranking import (
     closest_usable,
     digits_leave_open,

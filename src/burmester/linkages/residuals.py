@@ -13,16 +13,11 @@ from typing import NamedTuple, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.fourbar.foot_points import (
-    ConstraintNormals,
-    constraint_normals,
-    newton_step,
-    places_of,
-)
+from burmester.fourbar.coupler_kernel import normal_parts
+from burmester.fourbar.foot_points import newton_steps
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.linkages.constraints import Constraints
 from burmester.numerics.arrays import FloatArray
-from burmester.numerics.differences import DifferenceQuotients
 from burmester.numerics.linear_algebra import matvec
 
 __all__ = [
@@ -41,7 +36,6 @@ MAX_NEWTON_STEPS = 6  # number of steps to the nearest places at most
 CLOSE_STEP = 1e-6  # lengths; after a smaller step the next would be rounding
 OFF_LINKAGE = 1e-6  # residual, in lengths; a place with a greater one is lost
 MAX_FREE_PLACES = 64  # number of places that may be unknowns; with more, nearest places are used
-QUOTIENTS = DifferenceQuotients(stride=1e-7)  # of the constraints, by all unknowns
 MAX_SHIFT = 0.25  # lengths; a step moves no place farther
 MAX_DIMENSION = 1e4  # lengths; a linkage with a longer dimension is given up
 
@@ -117,29 +111,28 @@ class Problem:
 
     def state(self, which: NDArray[np.intp], z: FloatArray, rows: FloatArray) -> State:
         """The linkages z (k, 10) with their places nearest to the poses, by steps from rows."""
-        with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-            rows, at, partial = self._foot_points(self.batch(which, z), rows, self.wanted)
-            return State(z, rows, *_normal_part(at, rows - self.wanted, partial))
+        return self._state(which, z, rows, self.wanted)
 
-    def _foot_points(
-        self, batch: LinkageBatch, rows: FloatArray, target: FloatArray | None
-    ) -> tuple[FloatArray, ConstraintNormals, FloatArray]:
-        """The rows nearest to target (None: straight ahead of rows), nan where they are lost.
+    def _state(
+        self, which: NDArray[np.intp], z: FloatArray, rows: FloatArray, target: FloatArray | None
+    ) -> State:
+        """The linkages with the places nearest to target (None: straight ahead of rows).
 
-        With the constraints' normals there, and their derivatives by the dimensions.
+        What is normal to the motion there.  With a place's step along it for an unknown where it is
+        straight ahead.  Places that are lost are nan.
         """
-        surfaces = batch.forms()
-        for _ in range(MAX_NEWTON_STEPS):
-            to = rows if target is None else target
-            step, size = newton_step(surfaces, rows, to, self.length)
-            rows = rows + step
-            if not (size > CLOSE_STEP).any():
-                break
-        places = places_of(rows, self.length)
-        residual, force, partial = batch.jacobians(places)
-        off = ~(np.abs(residual) < OFF_LINKAGE).all(axis=(1, 2))
-        rows[off] = np.nan
-        return rows, constraint_normals(residual, force, self.length), partial
+        batch, ahead = self.batch(which, z), target is None
+        rows, _ = newton_steps(
+            batch, rows, target, self.length, steps=MAX_NEWTON_STEPS, close=CLOSE_STEP
+        )
+        count, number = rows.shape[:2]
+        residual, jacobian = np.empty((count, number, 2)), np.empty((count, number, 2, SIZE))
+        by_place = np.zeros((count, number, 3, SIZE + number * ahead))
+        normal_parts(
+            *(batch.kinds, batch.dimensions, rows, self.wanted, self.length, OFF_LINKAGE),
+            *(residual, jacobian, by_place, ahead),
+        )
+        return State(z, rows, residual, jacobian, by_place)
 
     @property
     def places_are_free(self) -> bool:
@@ -155,16 +148,10 @@ class Problem:
         """
         if not self.places_are_free:
             return self.state(which, z, rows)
-        with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-            rows, at, partial = self._foot_points(self.batch(which, z), rows, None)
-            gap, every = rows - self.wanted, np.arange(rows.shape[1])
-            place_jacobian = np.zeros((*gap.shape, SIZE + len(every)))
-            place_jacobian[..., :SIZE] = _normal_part(at, gap, partial)[2]
-            place_jacobian[:, every, :, SIZE + every] = np.moveaxis(at.tangent, 1, 0)
-            if self.metric is None:
-                return State(z, rows, gap, place_jacobian, place_jacobian)
-            jacobian = self.metric[which] @ place_jacobian
-            return State(z, rows, self.counted(which, gap), jacobian, place_jacobian)
+        state = self._state(which, z, rows, None)
+        gap, by_place = self.counted(which, state.rows - self.wanted), state.place_jacobian
+        jacobian = by_place if self.metric is None else self.metric[which] @ by_place
+        return state._replace(residual=gap, jacobian=jacobian)
 
     def constraint_values(
         self, which: NDArray[np.intp], state: State
@@ -174,16 +161,10 @@ class Problem:
         if self.constraints is None:
             none = np.empty((len(which), 0, unknowns))
             return none[..., 0], none, np.empty(0, dtype=bool)
-        z = QUOTIENTS.points(state.z, np.eye(unknowns)[:, None, :SIZE])
-        rows = QUOTIENTS.points(state.rows, np.moveaxis(state.place_jacobian, -1, 0))
-        count, number = len(which), state.rows.shape[1]
-        every = np.tile(which, unknowns + 1)
-        value, equal = self.constraints(
-            self.batch(every, z.reshape(-1, SIZE)), rows.reshape(-1, number, 3), every
+        value, slope, equal = self.constraints.differentiated(
+            self.batch(which, state.z), state.rows, which, state.place_jacobian
         )
-        value = value.reshape(unknowns + 1, count, -1)
-        jacobian = QUOTIENTS.jacobian(value)
-        return value[0], np.where(self.free_unknowns(which)[:, None], jacobian, 0.0), equal
+        return value, np.where(self.free_unknowns(which)[:, None], slope, 0.0), equal
 
     def free_unknowns(self, which: NDArray[np.intp]) -> NDArray[np.bool_]:
         """The unknowns (k, n) that may change."""
@@ -216,28 +197,6 @@ class Problem:
         toward = (residual[..., None] * jacobian).sum(axis=-2) / size[..., None]
         root = (size / top) ** (power / 2)
         return top * root, (power / 2 * root / size * top)[..., None] * toward
-
-
-def _normal_part(
-    at: ConstraintNormals, gap: FloatArray, partial: FloatArray
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """The components (k, N, 2) of gaps (k, N, 3) normal to the motion, in an orthonormal basis.
-
-    With its derivatives (k, N, 2, 10) by the dimensions, and those of the places (k, N, 3, 10).
-    """
-    a, b, _ = np.moveaxis(at.gram, -1, 0)
-    first, height = np.sqrt(a), np.sqrt(at.det / a)
-    basis = np.empty_like(at.force)
-    basis[..., 0, :] = at.force[..., 0, :] / first[..., None]
-    basis[..., 1, :] = (at.force[..., 1, :] - (b / a)[..., None] * at.force[..., 0, :]) / height[
-        ..., None
-    ]
-    jacobian = np.zeros((*gap.shape[:-1], 2, SIZE))
-    jacobian[..., 0, :DIMENSIONS] = -partial[:, 0] / first[..., None]
-    jacobian[..., 1, :DIMENSIONS] = (b / a / height)[..., None] * partial[:, 0]
-    jacobian[..., 1, DIMENSIONS:] = -partial[:, 1] / height[..., None]
-    place_jacobian = np.swapaxes(basis, -1, -2) @ jacobian
-    return (basis @ gap[..., None])[..., 0], jacobian, place_jacobian
 
 
 def power_ratio(problem: Problem, here: State, there: State, power: float) -> FloatArray:

@@ -25,15 +25,16 @@ from burmester.fourbar.circuits import circuit_of
 from burmester.fourbar.foot_points import foot_points, rows_of
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.fourbar.nearest_places import on_circuits
+from burmester.fourbar.transmission import Transmission
 from burmester.linkages.constraints import (
     SHORTEST_LINK,
     AllConstraints,
     BranchAndOrder,
     Constraints,
+    ConstraintSlopes,
     ConstraintValues,
     DrivenBranch,
     LinkProportions,
-    signed_transmission_sine,
 )
 from burmester.linkages.defect_free_search import middle_input
 from burmester.linkages.dimension_grid import Grid
@@ -109,6 +110,20 @@ class _PreviouslyMet:
     ) -> ConstraintValues:
         value, equal = self.inner(batch, rows, np.zeros(len(which), dtype=np.intp))
         return np.where(self.before, value, np.where(equal, 0.0, -1.0)), equal
+
+    def differentiated(
+        self,
+        batch: LinkageBatch,
+        rows: FloatArray,
+        which: NDArray[np.intp],
+        place_jacobian: FloatArray,
+    ) -> ConstraintSlopes:
+        """Also the derivatives; those that count as met have none."""
+        value, slope, equal = self.inner.differentiated(
+            batch, rows, np.zeros(len(which), dtype=np.intp), place_jacobian
+        )
+        value = np.where(self.before, value, np.where(equal, 0.0, -1.0))
+        return value, np.where(self.before[:, None], slope, 0.0), equal
 
 
 class _Candidates(NamedTuple):
@@ -381,7 +396,7 @@ def _branch_sign(
 ) -> FloatArray:
     """The sign (k,) of the transmission angle at most of the places (k, N, 3)."""
     with np.errstate(invalid="ignore"):
-        positive = (signed_transmission_sine(batch, rows, length, driver) > 0).mean(axis=1)
+        positive = (Transmission.of(batch, rows, length, driver).sine > 0).mean(axis=1)
     return np.where(positive >= 0.5, 1.0, -1.0)
 
 

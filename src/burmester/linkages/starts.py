@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from burmester.dyads.pivot_map import fixed_pivot_map, grid
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import RR
-from burmester.fourbar.foot_points import newton_step, places_of, rows_of
+from burmester.fourbar.foot_points import newton_steps, places_of, rows_of
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Point, Polygon, Region
@@ -138,8 +138,8 @@ def first_order_miss(
     wanted = rows_of(poses, length)
     rows = np.broadcast_to(wanted, (len(batch), *wanted.shape))
     with np.errstate(all="ignore"):
-        step, size = newton_step(batch.forms(), rows, rows, length)
-        square = np.maximum((step * step).sum(axis=-1), size * size)
+        there, size = newton_steps(batch, rows, None, length)
+        square = np.maximum(((there - rows) ** 2).sum(axis=-1), size * size)
         miss = square @ weights_of_mean_one(weights, poses.shape)
     return np.asarray(np.nan_to_num(miss, nan=np.inf))
 
@@ -148,10 +148,8 @@ def projected(
     batch: LinkageBatch, rows: FloatArray, length: float
 ) -> tuple[FloatArray, NDArray[np.bool_]]:
     """Places of linkages (k,) straight ahead of rows (k, N, 3), and whether all exist, (k,)."""
-    surfaces = batch.forms()
     with np.errstate(all="ignore"):
-        for _ in range(PROJECTION_STEPS):
-            rows = rows + newton_step(surfaces, rows, rows, length)[0]
+        rows, _ = newton_steps(batch, rows, None, length, steps=PROJECTION_STEPS)
         places = places_of(rows, length)
         on = np.abs(batch.jacobians(places).residual) < ON_LINKAGE
         return rows, np.asarray(on.all(axis=(1, 2)))

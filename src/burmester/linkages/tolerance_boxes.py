@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 
 from burmester.fourbar.box_places import Boxes
 from burmester.fourbar.foot_points import rows_of
-from burmester.fourbar.linkage_batch import LinkageBatch
+from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
-from burmester.linkages.constraints import ConstraintValues
+from burmester.linkages.constraints import ConstraintSlopes, ConstraintValues
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.motion_task import Task
 from burmester.tasks.pose_tolerances import PoseTolerances
@@ -88,16 +88,29 @@ class ToleranceBoxes:
     def __call__(
         self, batch: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
     ) -> ConstraintValues:
-        """The constraint that all places are inside: exact components are equations."""
-        count, away = len(rows), self.boxes.deviations(rows)
-        if not self.binding:
-            return np.full((count, 1), -1.0), np.zeros(1, dtype=bool)
-        inside = ~self.exact & ~self.free
-        bounds = self.boxes.bounds[inside] * (1 - INSIDE_MARGIN)
-        on, off = away[:, self.exact], away[:, inside]
-        value = np.concatenate([on, off - bounds, -off - bounds, np.full((count, 1), -1.0)], axis=1)
-        equal = np.arange(value.shape[1]) < on.shape[1]
+        still = np.zeros((*rows.shape, 2 * DIMENSIONS))
+        value, _, equal = self.differentiated(batch, rows, which, still)
         return value, equal
+
+    def differentiated(
+        self,
+        batch: LinkageBatch,
+        rows: FloatArray,
+        which: NDArray[np.intp],
+        place_jacobian: FloatArray,
+    ) -> ConstraintSlopes:
+        """The constraint that all places are inside: exact components are equations."""
+        inside = ~self.exact & ~self.free & self.binding
+        exact = self.exact & self.binding
+        bounds = self.boxes.bounds[inside] * (1 - INSIDE_MARGIN)
+        away, slope = self.boxes.deviations(rows), place_jacobian.copy()
+        slope[..., :2, :] = self.boxes.directions @ place_jacobian[..., :2, :]
+        on, off, none = away[:, exact], away[:, inside], np.full((len(rows), 1), -1.0)
+        by_on, by_off = slope[:, exact], slope[:, inside]
+        value = np.concatenate([on, off - bounds, -off - bounds, none], axis=1)
+        still = np.zeros((len(rows), 1, slope.shape[-1]))
+        by_all = np.concatenate([by_on, by_off, -by_off, still], axis=1)
+        return value, by_all, np.arange(value.shape[1]) < on.shape[1]
 
 
 def shares_used(places: Displacement, task: Task, size: float) -> FloatArray:

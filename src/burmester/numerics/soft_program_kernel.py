@@ -265,7 +265,9 @@ class BoxProgram:
             i = self.free[a]
             step: cython.double = self.step[a]
             if step != 0.0:
-                share: cython.double = ((self.high[i] if step > 0 else self.low[i]) - self.y[i]) / step
+                share: cython.double = (
+                    (self.high[i] if step > 0 else self.low[i]) - self.y[i]
+                ) / step
                 if share < 1.0:
                     now: cython.double = self.rise(count, share, 0)
                     if now < least:
@@ -296,7 +298,9 @@ class BoxProgram:
         for k in range(self.n):
             self.along[k] = 0.0
         for i in range(self.m):
-            right: cython.double = self.off[i] - self.aim[0, i] / self.gap[0, i] + self.aim[1, i] / self.gap[1, i]
+            right: cython.double = (
+                self.off[i] - self.aim[0, i] / self.gap[0, i] + self.aim[1, i] / self.gap[1, i]
+            )
             right *= self.weight[i]
             self.step[i] = right
             for k in range(self.n):
@@ -310,7 +314,9 @@ class BoxProgram:
                 total += self.root[i, k] * self.along[k]
             self.step[i] -= self.weight[i] * total
             for side in range(2):
-                narrowed: cython.double = self.step[i] if side == 1 else -self.step[i]  # the gap above, or below
+                narrowed: cython.double = (
+                    self.step[i] if side == 1 else -self.step[i]
+                )  # the gap above, or below
                 gap: cython.double = self.gap[side, i]
                 price: cython.double = self.price[side, i]
                 cheaper: cython.double = (self.aim[side, i] - price * narrowed) / gap - price
