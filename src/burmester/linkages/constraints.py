@@ -240,10 +240,19 @@ class LinkProportions:
     types: NDArray[np.str_]
     uses_places: ClassVar[bool] = True
 
+    @property
+    def _asks(self) -> bool:
+        """Whether there is anything to be met."""
+        asked = self.requirements
+        limited = np.isfinite(asked.link_ratio) or asked.footprint is not None
+        return bool(limited or (self.types != "").any())
+
     def __call__(
         self, batch: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
     ) -> ConstraintValues:
         out = [np.full((len(batch), 1), -1.0)]
+        if not self._asks:
+            return _at_most(out)
         links = _links(batch, self.driver[which])
         if np.isfinite(self.requirements.link_ratio):
             ratio = self.requirements.link_ratio * (1 - PROPORTION_MARGIN)
@@ -265,6 +274,9 @@ class LinkProportions:
     ) -> ConstraintSlopes:
         """By difference quotients; those by the places only where places are looked at."""
         count, unknowns, size = len(batch), place_jacobian.shape[-1], 2 * DIMENSIONS
+        if not self._asks:
+            value, equal = self(batch, rows, which)
+            return value, np.zeros((*value.shape, unknowns)), equal
         moved = unknowns if self.requirements.footprint is not None else size
         z = QUOTIENTS.points(batch.dimensions.reshape(count, size), np.eye(moved, size)[:, None])
         places = QUOTIENTS.points(rows, np.moveaxis(place_jacobian[..., :moved], -1, 0))
