@@ -58,7 +58,9 @@ def test_pairs_are_judged_as_the_road_of_one_task_judges_them(count, weighted):
             verdict = LinkageRows.VERDICTS[told.verdict[row]]
             seen.add(verdict)
             assert (name, verdict) == (name, verdict_of(found))
-            assert (told.first[row], told.second[row]) == (one, two), name
+            # At a dead point rounding says which side drives better, and where it goes.
+            clear = found.quality is None or np.degrees(found.quality.transmission) > CLEAR
+            assert not clear or (told.first[row], told.second[row]) == (one, two), name
             assert LinkageRows.TYPES[told.type[row]] == found.type
             turn = np.degrees(found.error.angle.max())
             for mine, theirs in (
@@ -71,8 +73,10 @@ def test_pairs_are_judged_as_the_road_of_one_task_judges_them(count, weighted):
             if found.quality is None:
                 continue
             least = np.degrees(found.quality.transmission)
-            assert told.transmission_deg[row] == pytest.approx(least, abs=1e-4, nan_ok=True)
-            if least > CLEAR:  # at a dead point rounding says where it goes
+            assert told.transmission_deg[row] == pytest.approx(
+                least, abs=1e-4 if clear else CLEAR, nan_ok=True
+            )
+            if clear:
                 extent = float(found.quality.extent)
                 assert told.extent[row] == pytest.approx(extent, rel=1e-5, nan_ok=True)
                 sensitivity = float(found.quality.sensitivity)

@@ -15,8 +15,6 @@ from numpy.typing import NDArray
 from burmester.dyads.geometric_fit import DIVISOR_FLOOR, NEGLIGIBLE_GAIN, circle_terms
 from burmester.dyads.plain_circle_descent import (
     MAX_NEWTON_STEPS,
-    ROUNDING,
-    SETTLED_STEP,
     Descent,
     plain_descent,
     steady_starts,
@@ -40,6 +38,8 @@ __all__ = [
 ]
 
 MAX_VALLEY_STEPS = 240  # from each start, where the body turns little
+SETTLED_STEP = 1e-9  # relative; a shorter step along a valley is the last one
+ROUNDING = float(np.finfo(np.float64).eps)  # of a circle's size; a smaller distance is zero
 SAME_DYAD = 1e-6  # relative; circles whose coordinates differ by less are one
 MAX_LENGTH = 1e3  # times how far pivots are; a circle with greater coordinates is a line
 FLAT_SINGULAR_VALUE = 1e-15  # share of the greatest; smaller ones are taken for this one
