@@ -2,6 +2,7 @@
 
 import os
 import tempfile
+from importlib.machinery import EXTENSION_SUFFIXES
 from pathlib import Path
 
 from Cython.Build import cythonize
@@ -28,18 +29,24 @@ class KernelsHook(BuildHookInterface):
         work = self.work = tempfile.TemporaryDirectory()
         for kernel in sorted((root / SOURCES).rglob("*_kernel.py")):
             name = ".".join(kernel.relative_to(root / SOURCES).with_suffix("").parts)
-            made = compiled(name, kernel, Path(work.name))
-            if version == "editable":
-                target = kernel.with_name(made.name)
-                target.unlink(missing_ok=True)  # one that is loaded is left as it is
-                target.write_bytes(made.read_bytes())
-            else:
+            beside = kernel.with_name(kernel.stem + EXTENSION_SUFFIXES[0])
+            made = beside if is_newer(beside, kernel) else compiled(name, kernel, Path(work.name))
+            if version != "editable":
                 inside = kernel.relative_to(root / SOURCES).with_name(made.name)
                 build_data["force_include"][str(made)] = str(inside)
+            elif made != beside:
+                beside.unlink(missing_ok=True)  # one that is loaded is left as it is
+                beside.write_bytes(made.read_bytes())
 
     def finalize(self, version, build_data, artifact_path):
         """Nothing is left behind."""
         self.work.cleanup()
+
+
+def is_newer(made, source):
+    """Whether a file was made after its source and this script."""
+    made_at = made.stat().st_mtime if made.exists() else 0
+    return made_at > max(source.stat().st_mtime, Path(__file__).stat().st_mtime)
 
 
 def compiled(name, source, work):

@@ -2,6 +2,7 @@
 
 import re
 import subprocess
+import sys
 import tarfile
 import tomllib
 import zipfile
@@ -28,18 +29,20 @@ DATA = (
 # A stranger can set up, check and test with these, and the folders below.
 TOP = (
     "ARCHITECTURE.md", "CHANGELOG.md", "CITATION.cff", "CONTRIBUTING.md", "LICENSE", "README.md",
-    "pyproject.toml", "requirements.lock", "requirements-dev.lock",
+    "hatch_build.py", "pyproject.toml", "requirements.lock", "requirements-dev.lock",
 )  # fmt: skip
+COMPILED = (".so", ".pyd")
 FOLDERS = ("src", "tests", "scripts", "benchmarks", "docs", "examples", ".ci")
 
 
 def below(folder):
-    """The files of a folder, without what Python and npm leave there."""
+    """The files of a folder, without what Python, npm and the compiler leave there."""
     files = (each for each in (ROOT / folder).rglob("*") if each.is_file())
     return {
         each.relative_to(ROOT).as_posix()
         for each in files
         if not {"__pycache__", "node_modules"}.intersection(each.parts)
+        and each.suffix not in COMPILED
     }
 
 
@@ -60,7 +63,13 @@ def test_the_wheel_holds_the_package_and_nothing_else(built):
     # The pages have their scripts in it as bundles, not as the modules these are made from.
     package = below("src/burmester") - below("src/burmester/web/widget")
     package -= below("src/burmester/web/studio")
-    assert sorted(held) == sorted(each.removeprefix("src/") for each in package)
+    kernels = [name for name in held if name.endswith(COMPILED)]
+    plain = sorted(set(held).difference(kernels))
+    assert plain == sorted(each.removeprefix("src/") for each in package)
+    sources = [name for name in plain if name.endswith("_kernel.py")]
+    assert [name.partition(".")[0] for name in sorted(kernels)] == [
+        name.removesuffix(".py") for name in sources
+    ]
     assert set(DATA) <= set(held)
     assert "burmester = burmester.__main__:main" in entry
 
@@ -74,10 +83,11 @@ def test_the_sdist_holds_all_that_tests_and_scripts_need(built):
 
 
 def test_the_version_has_one_source(built):
-    assert [each.name for each in built] == [
-        f"burmester-{__version__}-py3-none-any.whl",
-        f"burmester-{__version__}.tar.gz",
-    ]
+    wheel, sdist = (each.name for each in built)
+    assert sdist == f"burmester-{__version__}.tar.gz"
+    name, version, python, *_ = wheel.split("-")
+    assert (name, version) == ("burmester", __version__)
+    assert python == f"cp{sys.version_info.major}{sys.version_info.minor}"  # kernels are compiled
     project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
     assert "version" not in project
     citation = (ROOT / "CITATION.cff").read_text("utf-8")

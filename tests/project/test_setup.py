@@ -12,7 +12,11 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-NEEDED = ("pyproject.toml", "requirements.lock", "requirements-dev.lock")
+KERNEL = "src/burmester/numerics/soft_program_kernel.py"
+NEEDED = (
+    "pyproject.toml", "hatch_build.py", "requirements.lock", "requirements-dev.lock",
+    "src/burmester/__init__.py", KERNEL,
+)  # fmt: skip
 
 # Makes a .venv with itself as Python, and notes every call of pip; FAILS: names that a file of
 # requirements must not have; KILLED: the call of pip by which the script is killed.
@@ -38,8 +42,8 @@ PART = ".venv/part.txt"
 def setup(tmp_path):
     """Run scripts/setup; what came of it, and the calls since the last time."""
     folder = tmp_path / "a project"
-    (folder / "src" / "burmester").mkdir(parents=True)
-    for name in (*NEEDED, "src/burmester/__init__.py"):
+    (folder / KERNEL).parent.mkdir(parents=True)
+    for name in NEEDED:
         shutil.copy(ROOT / name, folder / name)
     shutil.copytree(ROOT / "scripts", folder / "scripts")
     python = tmp_path / "python3"
@@ -88,6 +92,14 @@ def test_a_changed_version_is_installed(setup):
     setup()
     (setup.folder / "src/burmester/__init__.py").write_text('__version__ = "9.9.9"\n')
     assert setup()[1] == MAIN[1:]
+
+
+def test_a_changed_kernel_is_compiled(setup):
+    setup()
+    with open(setup.folder / KERNEL, "a") as kernel:
+        kernel.write("# more\n")
+    assert setup()[1] == MAIN[1:]
+    assert setup()[1] == []
 
 
 @pytest.mark.parametrize("part", ["", "dev"])

@@ -10,6 +10,9 @@ import cython
 import numpy as np
 from cython.cimports.libc.math import fabs, sqrt
 
+if not cython.compiled:
+    raise ImportError("burmester's kernels are not compiled: install it again, by scripts/setup")
+
 STEPS_FROM_START = cython.declare(cython.int, 4)  # of projected Newton, from multipliers far off
 STEPS_FROM_INSIDE = cython.declare(cython.int, 2)  # of it from where the interior point led
 INTERIOR_STEPS = cython.declare(cython.int, 25)  # at most; it takes about twelve
