@@ -67,6 +67,15 @@ def body(page):
     return (x - at["left"]) / at["scale"], (at["top"] - y) / at["scale"], -turn
 
 
+def apart(page, *selectors):
+    """Whether two elements do not cover each other."""
+    one, other = (page.locator(each).bounding_box() for each in selectors)
+    sides = (("x", "width"), ("y", "height"))
+    return any(
+        a[at] + a[size] <= b[at] for a, b in ((one, other), (other, one)) for at, size in sides
+    )
+
+
 def led(found):
     """The dyads of a linkage of the command's result, by their ids."""
     return {each["id"]: each for each in found["dyads"]}
@@ -130,6 +139,7 @@ def test_steps_from_pose_to_pose_go_where_the_linkage_takes_the_body(shared, res
         pose = int(np.argmin(away))
         assert away[pose] < 1e-3
         assert abs(math.remainder(angle - coupler[pose]["angle_deg"], 360)) < 1e-3
+        assert apart(shared, ".bs-mechanism .bm-letter", f".bs-pose-name >> nth={pose}")
         seen.add(pose)
     assert seen == set(range(count))
 

@@ -94,7 +94,7 @@ def test_w13_nothing_is_asked_of_any_other_machine(page, visitor):
 def test_on_paper_stands_what_was_stated_and_every_number(page):
     """What is folded of the task says nothing; what is folded of the answers is unfolded."""
     limits, facts = page.locator("[data-section=limits]"), page.locator("[data-panel=facts] table")
-    asked = page.locator("[data-section=requirements]")
+    asked, compared = page.locator("[data-section=requirements]"), page.locator(".bs-compare")
     assert limits.is_visible()
     assert not facts.first.is_visible()
     page.emulate_media(media="print")
@@ -102,10 +102,19 @@ def test_on_paper_stands_what_was_stated_and_every_number(page):
     assert asked.is_visible()
     assert not limits.is_visible()
     assert facts.first.is_visible()
+    assert not compared.is_visible()  # nothing is compared
     page.evaluate("dispatchEvent(new Event('afterprint'))")
     page.emulate_media(media="screen")
     assert limits.is_visible()
     assert not facts.first.is_visible()
+    page.locator('[data-linkage="L2"]').get_by_text("Compare").click()
+    page.emulate_media(media="print")
+    page.evaluate("dispatchEvent(new Event('beforeprint'))")
+    assert page.locator(".bs-compare .bm-coupler").count() == 2
+    for each in page.locator(".bs-compare .bm-plane").all():  # as wide and high as it is drawn
+        box = each.bounding_box()
+        width, height = map(float, each.get_attribute("viewBox").split()[2:])
+        assert box["width"] / box["height"] == pytest.approx(width / height, rel=0.02)
 
 
 def test_w15_a_reload_in_mid_solve_loses_nothing(page):

@@ -1894,7 +1894,7 @@ var Mechanism = class {
     put(this.coupler, "transform", at);
     if (this.hasBody) put(this.outline, "transform", at);
     for (const part of this.parts) part.show(place);
-    const [x, y] = act(place, [-LETTER / view.scale, -LETTER / view.scale]);
+    const [x, y] = act(place, [LETTER / view.scale, -LETTER / view.scale]);
     put(this.letter, "x", px(view.X(x)));
     put(this.letter, "y", px(view.Y(y) + 4));
     const [driver] = this.led;

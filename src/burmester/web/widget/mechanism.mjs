@@ -11,7 +11,7 @@ import { bodyOutline } from "./outlines.mjs";
 import { pointOnLine, travelOf } from "./travel.mjs";
 
 const BODY_AXIS = AXIS + 10; // pixels: the x axis of the body
-const LETTER = 14; // pixels: how far the letter M stands from the origin of M, along each axis
+const LETTER = 14; // pixels: how far the letter M stands from the origin of M, along x and against y: names of poses stand elsewhere
 const BLOCK_IN_SLOT = [18, 10]; // pixels: its length and height
 const SPARE = 5; // pixels: how far a slot goes on beyond its block
 const ARROW = 24; // pixels: how far the arrow of a sliding driver stands from its block
@@ -74,7 +74,7 @@ export class Mechanism {
     put(this.coupler, "transform", at);
     if (this.hasBody) put(this.outline, "transform", at);
     for (const part of this.parts) part.show(place);
-    const [x, y] = act(place, [-LETTER / view.scale, -LETTER / view.scale]);
+    const [x, y] = act(place, [LETTER / view.scale, -LETTER / view.scale]);
     put(this.letter, "x", px(view.X(x)));
     put(this.letter, "y", px(view.Y(y) + 4));
     const [driver] = this.led;
