@@ -66,6 +66,32 @@ def test_a_pose_goes_with_the_hand_though_nobody_answers(page):
     solved(page)
 
 
+def test_a_task_is_sent_before_the_next_picture(page):
+    """A browser hands a hand's moves on with its next picture; the server is asked before."""
+    page.evaluate("""() => {
+      window.log = [];
+      const send = WebSocket.prototype.send;
+      WebSocket.prototype.send = function (data) {
+        if (JSON.parse(data).do === "follow") log.push("sent");
+        return send.call(this, data);
+      };
+      window.unlisten = new AbortController();
+      for (const name of ["pointerrawupdate", "pointermove"])
+        addEventListener(name, () => log.push(name), { capture: true, signal: unlisten.signal });
+      unlisten.signal.addEventListener("abort", () => (WebSocket.prototype.send = send));
+    }""")
+    x, y = on_screen(page, *pose(page, 8)[:2])
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.wait_for_timeout(30)
+    page.evaluate("log.length = 0")
+    page.mouse.move(x + 20, y)
+    page.mouse.up()
+    assert page.evaluate("log.slice(0, 3)") == ["pointerrawupdate", "sent", "pointermove"]
+    page.evaluate("unlisten.abort()")
+    solved(page)
+
+
 def test_what_is_shown_already_is_not_written_again(page):
     """Of a field that is written a browser goes through every field of the page."""
     page.evaluate("""() => {

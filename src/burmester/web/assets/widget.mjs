@@ -1895,8 +1895,7 @@ var Mechanism = class {
     if (this.hasBody) put(this.outline, "transform", at);
     for (const part of this.parts) part.show(place);
     const [x, y] = act(place, [LETTER / view.scale, -LETTER / view.scale]);
-    put(this.letter, "x", px(view.X(x)));
-    put(this.letter, "y", px(view.Y(y) + 4));
+    put(this.letter, "transform", `translate(${px(view.X(x))} ${px(view.Y(y) + 4)})`);
     const [driver] = this.led;
     if (driver.kind === "PR") put(this.arrow, "transform", `${onRail(driver, place, view)} translate(0 ${-ARROW})`);
   }

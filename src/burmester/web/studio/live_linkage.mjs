@@ -136,8 +136,7 @@ export class LiveLinkage {
       } else {
         return;
       }
-      put(name, "x", px(x));
-      put(name, "y", px(y + BELOW));
+      put(name, "transform", `translate(${px(x)} ${px(y + BELOW)})`);
     });
   }
 

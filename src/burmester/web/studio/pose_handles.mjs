@@ -101,8 +101,7 @@ export class PoseHandles {
     const name = shortened(poseName(store.document, k), LONGEST_NAME);
     if (text.textContent !== name) text.textContent = name;
     put(text, "text-anchor", Math.cos(a) < -0.3 ? "end" : Math.cos(a) > 0.3 ? "start" : "middle");
-    put(text, "x", px(view.X(x) + 13 * Math.cos(a)));
-    put(text, "y", px(view.Y(y) - 13 * Math.sin(a) + 4));
+    put(text, "transform", `translate(${px(view.X(x) + 13 * Math.cos(a))} ${px(view.Y(y) - 13 * Math.sin(a) + 4)})`); // its letters are not set anew
   }
 
   /** A change of one pose; what is free and not stated stays free. */

@@ -8,6 +8,7 @@ const MARGIN = 46; // pixels around what a fit shows
 const ZOOM = 1.0018; // a pixel of the wheel
 const WIDEST = 1e6; // times the fitted scale, either way
 const CLICK = 4; // pixels: a pointer that moves no farther clicks
+const RAW = 8; // milliseconds: so often a hand is followed between two pictures, where the browser tells
 const SPARE = 0.5; // of the size of what is near: so far a picture reaches for what is far
 
 /** What stands in the middle of the page: `layer(name)` is a group to draw in, in pixels; `view` goes to pixels and back. */
@@ -30,6 +31,7 @@ export class Scene {
     this.listen();
     store.on("document", () => this.unit === store.document.length_unit || this.grid());
     new ResizeObserver(() => this.resize()).observe(this.element);
+    addEventListener("scroll", () => (this.box = null), { capture: true, passive: true });
   }
 
   layer(name) {
@@ -64,6 +66,7 @@ export class Scene {
   }
 
   resize() {
+    this.box = null;
     const { width, height } = this.svg.getBoundingClientRect(); // a pixel of the picture is one of the page
     if (!width || !height || (width === this.size.width && height === this.size.height)) return;
     this.origin = { ...this.origin, left: this.origin.left + (width - this.size.width) / 2, top: this.origin.top + (height - this.size.height) / 2 };
@@ -151,8 +154,8 @@ export class Scene {
   /** The point of an event: in F, and in pixels of the picture. */
   at(event) {
     if (!this.box) {
-      this.box = this.svg.getBoundingClientRect(); // once a picture: it costs a layout where something was drawn since
-      requestAnimationFrame(() => (this.box = null));
+      this.box = this.svg.getBoundingClientRect(); // once a picture, or a drag: it costs a layout where something was drawn since
+      if (!this.dragged) requestAnimationFrame(() => this.dragged || (this.box = null));
     }
     const { left, top } = this.box, X = event.clientX - left, Y = event.clientY - top;
     return { X, Y, x: this.view.x(X), y: this.view.y(Y) };
@@ -172,7 +175,7 @@ export class Scene {
       let begun = false;
       const stop = (finish) => {
         ended.abort();
-        this.dragged = null;
+        this.dragged = this.box = null;
         this.svg.classList.remove("bs-grasped");
         if (this.svg.hasPointerCapture?.(event.pointerId)) this.svg.releasePointerCapture(event.pointerId);
         finish();
@@ -181,8 +184,12 @@ export class Scene {
       this.dragged = { cancel: () => stop(() => begun && cancel()) };
       this.capture(event);
       const on = (name, fn) => this.svg.addEventListener(name, (each) => each.pointerId === event.pointerId && fn(each), { signal });
-      on("pointermove", (each) => {
+      let last = from, then = event.timeStamp;
+      const go = (each) => {
         const point = this.at(each);
+        if (point.X === last.X && point.Y === last.Y) return;
+        last = point;
+        then = each.timeStamp;
         if (!begun) {
           if (Math.hypot(point.X - from.X, point.Y - from.Y) < CLICK) return;
           begun = start(from, event) !== false;
@@ -190,7 +197,9 @@ export class Scene {
           this.svg.classList.add("bs-grasped");
         }
         move(point, each);
-      });
+      };
+      on("pointermove", go);
+      on("pointerrawupdate", (each) => each.timeStamp - then >= RAW && go(each)); // pointermove waits for the next picture
       on("pointerup", (each) => stop(() => (begun ? end(this.at(each)) : click(event))));
       on("pointercancel", () => stop(() => begun && cancel()));
     });

@@ -139,9 +139,9 @@ export class Store {
 
   /** After any change: follow it, and solve when the hand rests. */
   changed() {
+    this.follow(); // the server works while the page draws
     this.emit("document");
     if (this.state !== "offline") this.setState("dragging");
-    this.follow();
     this.solveAfterRest();
   }
 
