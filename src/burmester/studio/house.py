@@ -14,7 +14,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from burmester.errors import InputError
-from burmester.studio.parcel import as_json, plain
+from burmester.live.plain import plain
+from burmester.studio.parcel import as_json
 from burmester.studio.workers import Parcel, Turns, Worker, WorkerEndedError, Workers
 
 __all__ = ["Answer", "House"]

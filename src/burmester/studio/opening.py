@@ -7,7 +7,7 @@ from typing import Any
 
 from burmester.io import templates
 from burmester.io.reading.poses import read_task
-from burmester.studio.document import document_of, read_file
+from burmester.live.document import document_of, read_file
 
 __all__ = ["opening", "template"]
 

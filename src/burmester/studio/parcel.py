@@ -10,7 +10,7 @@ import json
 import struct
 from typing import Any, Protocol
 
-__all__ = ["LENGTHS", "Stream", "as_json", "lengths", "packed", "plain", "read_parcel"]
+__all__ = ["LENGTHS", "Stream", "as_json", "lengths", "packed", "read_parcel"]
 
 _LENGTHS = struct.Struct("<II")
 LENGTHS = _LENGTHS.size
@@ -26,17 +26,6 @@ class Stream(Protocol):
 def as_json(data: object) -> bytes:
     """JSON that is plain ASCII, half characters and all: any decoder takes it."""
     return json.dumps(data, allow_nan=False, separators=(",", ":")).encode("ascii")
-
-
-def plain(value: Any) -> Any:
-    """Numbers as a person writes them: 12, not 12.0."""
-    if isinstance(value, float) and value.is_integer() and abs(value) < 1e15:
-        return int(value)
-    if isinstance(value, list):
-        return [plain(each) for each in value]
-    if isinstance(value, dict):
-        return {key: plain(each) for key, each in value.items()}
-    return value
 
 
 def packed(head: dict[str, Any], body: bytes = b"") -> bytes:

@@ -9,19 +9,15 @@ from __future__ import annotations
 import base64
 import binascii
 import json
-from collections.abc import Callable, Collection
+from collections.abc import Callable
 from typing import Any, Final, Protocol, TypeAlias
 
-from burmester.errors import BurmesterError, InputError
-from burmester.following.follow import follow
-from burmester.following.followed import Followed
+from burmester.errors import BurmesterError
 from burmester.io.reading.outlines.outline_file import OutlineFile, read_outline
 from burmester.io.result import json_line, message_data, synthesis_data
 from burmester.io.saved import read_result
-from burmester.linkages.found_linkage import FoundLinkage
-from burmester.progress import shown
-from burmester.studio.curves import curves
-from burmester.studio.document import (
+from burmester.live.answers import FRAMES, LiveAnswers
+from burmester.live.document import (
     TaskReader,
     document_of,
     options_of,
@@ -29,26 +25,23 @@ from burmester.studio.document import (
     task_file,
     task_of,
 )
+from burmester.live.plain import plain
+from burmester.progress import shown
+from burmester.studio.curves import curves
 from burmester.studio.exports import exported, formats, report_page
-from burmester.studio.frames import Drawn, drawn_of, followed_frame
-from burmester.studio.identity import matched, standing
 from burmester.studio.names import plain_name
 from burmester.studio.opening import template
-from burmester.studio.parcel import as_json, plain
+from burmester.studio.parcel import as_json
 from burmester.studio.placed import placed
 from burmester.synthesis.judgement import judge_linkage
 from burmester.synthesis.motion_generation import synthesize
 from burmester.synthesis.result import Synthesis
-from burmester.tasks.motion_task import Task
-from burmester.web.branches import branches_of
-from burmester.web.data import report_data, scene_of
+from burmester.web.data import report_data
 
 __all__ = ["Road"]
 
 Answer: TypeAlias = tuple[dict[str, Any], bytes]
 
-FRAMES: Final = (61, 361)  # of a way of a followed linkage: as a rule, and at most
-IN_TURN: Final = 2  # linkages that are judged at each step beside those that are shown
 KNOWN: Final = object()  # the key of what the server kept: result and report of the task
 
 
@@ -66,12 +59,8 @@ class Road:
     """The answers of one task, and everything that is done with a task."""
 
     def __init__(self) -> None:
-        self._synthesis: Synthesis | None = None
-        self._answers: Synthesis | Followed | None = None
-        self._drawn: dict[str, Drawn] = {}
-        self._seen: tuple[Any, dict[str, FoundLinkage]] = None, {}  # drawn last, for a document
+        self._live = LiveAnswers()
         self._reader = TaskReader()
-        self._turn = 0
 
     def do(self, head: dict[str, Any], body: bytes, job: Job) -> Answer:
         """Do what a parcel says; the answer is a parcel, too."""
@@ -156,98 +145,43 @@ class Road:
 
     def solve(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """The whole road: the result as a file holds it first, then what the page draws."""
-        self._synthesis = self._answers = None
+        self._live.begin_at(None)
         task = task_of(given.get("document"))
         options = options_of(given.get("options"), head.get("time_limit"))
         with shown(job.listen):
             synthesis = synthesize(task, options)
-        self._begin_at(synthesis)
+        self._live.begin_at(synthesis)
         job.send({"kind": "result"}, json_line(synthesis_data(synthesis)).encode())
         return {"kind": "solved"}, as_json(report_data(synthesis))
 
     def again(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """Back to the last synthesis, wherever its answers have been followed to."""
-        if self._synthesis is not None:
-            self._begin_at(self._synthesis)
+        self._live.again()
         return _json({})
-
-    def _begin_at(self, synthesis: Synthesis) -> None:
-        """Follow from here."""
-        self._synthesis = self._answers = synthesis
-        self._seen = None, {}
-        self._drawn = drawn_of(synthesis.problem, synthesis.linkages)
 
     def follow(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """The last answers, followed to the task that the page shows now."""
-        task = self._reader.task_of(given.get("document"))
-        wanted, asked = given.get("shown"), given.get("frames")
-        shown = (
-            {each for each in wanted if isinstance(each, str)} if isinstance(wanted, list) else ()
+        document = given.get("document")
+        wanted, frames = given.get("shown"), given.get("frames")
+        answer = self._live.follow(
+            given["n"],
+            self._reader.task_of(document),
+            document,
+            {each for each in wanted if isinstance(each, str)} if isinstance(wanted, list) else (),
+            frames=frames if type(frames) is int else FRAMES[0],
+            every=given.get("every") is True,
+            start=head.get("from"),
         )
-        followed = self._followed(task, None if given.get("every") is True else self._judged(shown))
-        if isinstance(followed, str):
-            return _not_followed(followed)
-        self._answers = followed
-        frames = min(max(asked, FRAMES[0]), FRAMES[1]) if type(asked) is int else FRAMES[0]
-        assert self._synthesis is not None
-        scene = scene_of(self._synthesis)
-        motion = {
-            each.id: branches_of(each, task.poses, scene, frames)
-            for each in followed.linkages
-            if each.id in shown
-        }
-        before = self._drawn
-        answer, self._drawn = followed_frame(
-            given["n"], followed, motion, before, start=head.get("from")
-        )
-        now = {key: each.found for key, each in self._drawn.items()}
-        fresh = {
-            key: each
-            for key, each in now.items()
-            if key not in before or before[key].found is not each
-        }
-        self._seen = given.get("document"), fresh
-        return {"kind": "frame"}, answer
-
-    def _judged(self, shown: Collection[str]) -> Collection[str]:
-        """The linkages that are judged at this step of a hand: those shown, and a few in turn.
-
-        To judge all takes a third of the time.
-        """
-        if self._answers is None:
-            return shown
-        ids = [each.id for each in self._answers.linkages if each.id not in shown]
-        self._turn = (self._turn + IN_TURN) % max(1, len(ids))
-        return {*shown, *(ids + ids)[self._turn : self._turn + IN_TURN]}
-
-    def _followed(self, task: Task, judged: Collection[str] | None = None) -> Followed | str:
-        """The last answers at a task; or why they cannot be followed there."""
-        if self._answers is None:
-            return "there is nothing to follow yet"
-        try:
-            return follow(self._answers, task, judged=judged)
-        except InputError as error:
-            if error.code != "E157":
-                raise
-            return f"{error.message}: {error.why}"
+        return _not_followed(answer) if isinstance(answer, str) else ({"kind": "frame"}, answer)
 
     def stand(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
-        """Where the linkages are at a task, for `match`; it changes nothing.
-
-        What cannot be followed there stands where it stood last.
-        """
+        """Where the linkages are at a task, for `match`; it changes nothing."""
         document = given.get("document")
-        found: Synthesis | Followed | str | None = self._followed(task_of(document))
-        if isinstance(found, str):
-            found = self._answers
-        seen = self._seen[1] if self._seen[0] == document else {}
-        return _json([] if found is None else standing(found.linkages, seen))
+        return _json(self._live.stand(task_of(document), document))
 
     def match(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """Which linkages of this task are those that stood elsewhere."""
-        if self._synthesis is None:
-            return _json({})
-        return _json(matched(given, self._synthesis))
+        return _json(self._live.match(given))
 
     def place(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """The dyads of pivots that a hand put somewhere, and what they make."""

@@ -1,4 +1,4 @@
-// A frame of followed answers: what src/burmester/studio/frames.py writes.
+// A frame of followed answers: what src/burmester/live/frames.py writes.
 
 const WAY = ["x", "y", "angle", "drive", "transmission"];
 const POSE = ["x", "y", "angle_deg", "position", "turned_deg", "transmission_deg"];

@@ -9,7 +9,7 @@ import pytest
 from burmester import InputError, read_task
 from burmester.io import cases, templates
 from burmester.io.result import task_data
-from burmester.studio.document import TaskReader, document_of, options_of, task_file, task_of
+from burmester.live.document import TaskReader, document_of, options_of, task_file, task_of
 
 NAMES = [*(f"{name}.toml" for name in templates.names()), *(f"case:{n}" for n in cases.names())]
 

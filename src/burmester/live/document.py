@@ -22,7 +22,7 @@ from burmester.io.reading.outlines.outline_file import FROM_PAGE
 from burmester.io.reading.poses import read_task
 from burmester.io.reading.requirements_text import positive_length
 from burmester.io.reading.stated_requirements import requirements_data
-from burmester.studio.parcel import plain
+from burmester.live.plain import plain
 from burmester.tasks.limits import KINDS, Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.options import SynthesisOptions

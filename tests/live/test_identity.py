@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from burmester import PP, PR, RP, RR, read_task, synthesize
-from burmester.studio.identity import matched, standing
+from burmester.live.identity import matched, standing
 from burmester.web.data import scene_of
 
 

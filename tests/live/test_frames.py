@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from burmester import Displacement, follow, read_task
-from burmester.studio.frames import followed_frame
+from burmester.live.frames import followed_frame
 from burmester.synthesis.motion_generation import synthesize
 from burmester.web.branches import branches_of
 from tests.oracles.studio import header_of

@@ -1,0 +1,1 @@
+"""Answers that go with a task while a hand changes it on a page: the studio, or a notebook."""
