@@ -13,11 +13,11 @@ import signal
 import sys
 import threading
 import time
-import traceback
 import warnings
 from collections.abc import Callable
 from typing import Any, BinaryIO
 
+from burmester.live.fault import fault_data
 from burmester.studio.parcel import as_json, packed, read_parcel
 
 __all__ = ["main"]
@@ -92,7 +92,7 @@ class _Job:
         except _CalledOffError:
             answer = {"kind": "cancelled"}, b""
         except Exception as error:
-            answer = {"kind": "failed"}, as_json({"messages": [_fault(error)]})
+            answer = {"kind": "failed"}, as_json({"messages": [fault_data(error)]})
         self.send(*answer, last=True)
 
     def send(self, head: dict[str, Any], body: bytes = b"", *, last: bool = False) -> None:
@@ -109,28 +109,6 @@ class _Job:
             return  # every step is said, many a millisecond
         self._told = now
         self.send({"kind": "progress"}, str(said).encode(errors="replace"))
-
-
-def _fault(error: Exception) -> dict[str, Any]:
-    """An error as a message; one that is no `BurmesterError` is a fault of burmester itself."""
-    from burmester.errors import BurmesterError  # noqa: PLC0415  seldom
-
-    if isinstance(error, BurmesterError):
-        return {
-            "code": error.code,
-            "message": error.message,
-            "where": error.where,
-            "why": error.why,
-            "help": error.help,
-        }
-    traceback.print_exception(error, file=sys.stderr)
-    return {
-        "code": "E900",
-        "message": f"burmester itself failed: {type(error).__name__}: {error}",
-        "where": None,
-        "why": None,
-        "help": "this is a bug; please report it with the task that led here",
-    }
 
 
 if __name__ == "__main__":

@@ -179,60 +179,61 @@ led.map((dyad,k)=>h("tr",{},cells([dyad.id,...linkage.said.manifolds[k]])));cons
 1² + Z2²) + p2 Z3² + p3 Z1 Z3 + p4 Z2 Z3 + p5 Z1 Z4 + p6 Z2 Z4 + p7 Z3 Z4 + p8 Z4² = 0";return[points,table(caption,heads,surfaces)]}function wayName(way,linkage){
 const circuits=new Set(linkage.ways.map(each=>each.circuit)).size;const parts=[];if(circuits>1||way.branches<2)parts.push(`assembly ${way.circuit}`);if(way.branches>
 1)parts.push(`branch ${way.branch}`);return parts.join(", ")}var LAYERS=["grid","regions","ghosts","map","curves","paths","mechanism","limits","pivots","poses","labels","tool"];var MARGIN=46;var ZOOM=1.0018;var WIDEST2=1e6;
-var CLICK=4;var RAW=8;var SPARE=.5;var Scene=class{constructor(store){this.store=store;this.listeners={view:[],click:[],tool:[],dropped:[]};this.tool=null;this.
-dragged=null;this.layers=new Map(LAYERS.map(name=>[name,s("g",{class:`bs-layer bs-layer-${name}`})]));this.layers.get("grid").setAttribute("aria-hidden","true");
-this.svg=s("svg",{class:"bs-scene",tabindex:0,role:"group","aria-label":"The plane: poses, linkage and limits. Arrow keys pan, plus and minus zoom, 0 fits."},...this.
-layers.values());this.element=h("div",{class:"bs-plane"},this.svg);this.size={width:640,height:480};this.origin={scale:1,left:320,top:240};this.isFitted=true;this.
-pointers=new Map;this.boxes=[];this.update();this.listen();store.on("document",()=>this.unit===store.document.length_unit||this.grid());new ResizeObserver(()=>this.
-resize()).observe(this.element);addEventListener("scroll",()=>this.box=null,{capture:true,passive:true})}layer(name){return this.layers.get(name)}on(name,fn){this.
-listeners[name].push(fn)}emit(name,...values){return this.listeners[name].map(fn=>fn(...values)).some(Boolean)}hold(fn,far=false){this.boxes.push({fn,far})}update(){
-const{width,height}=this.size,{scale,left,top}=this.origin;this.view={scale,left,top,width,height,X:x=>left+scale*x,Y:y=>top-scale*y,x:X=>(X-left)/scale,y:Y=>(top-
-Y)/scale};Object.assign(this.svg.dataset,{scale,left,top,fit:this.isFitted?this.isWhole?"all":"near":""});this.grid();this.emit("view",this.view)}resize(){this.
-box=null;const{width,height}=this.svg.getBoundingClientRect();if(!width||!height||width===this.size.width&&height===this.size.height)return;this.origin={...this.
-origin,left:this.origin.left+(width-this.size.width)/2,top:this.origin.top+(height-this.size.height)/2};this.size={width,height};put(this.svg,"viewBox",`0 0 ${width}\
- ${height}`);if(this.isFitted)this.fit(this.isWhole);else this.update()}pan(dx,dy){this.isFitted=false;this.origin={...this.origin,left:this.origin.left+dx,top:this.
-origin.top+dy};this.update()}zoom(factor,X,Y){const fitted=this.fittedScale??this.origin.scale;const scale=clamp(this.origin.scale*factor,fitted/WIDEST2,fitted*
-WIDEST2),by=scale/this.origin.scale;this.isFitted=false;this.origin={scale,left:X+by*(this.origin.left-X),top:Y+by*(this.origin.top-Y)};this.update()}fit(whole=false){
-const pointsOf=isFar=>this.boxes.filter(({far:far2})=>far2===isFar).flatMap(({fn})=>fn());const near2=pointsOf(false),far=pointsOf(true),all=bounds([...near2,...far]);
-let[x,y,u,v]=near2.length&&!whole?bounds(near2):Number.isFinite(all[0])?all:[-50,-50,50,50];const size2=Math.max(u-x,v-y)||Math.max(1,Math.abs(u),Math.abs(v));if(near2.
-length&&far.length&&!whole){const reach=SPARE*size2;[x,y,u,v]=[Math.max(all[0],x-reach),Math.max(all[1],y-reach),Math.min(all[2],u+reach),Math.min(all[3],v+reach)]}
-this.isWhole=whole;const{width,height}=this.size,margin=Math.min(MARGIN,width/8);const scale=Math.min((width-2*margin)/Math.max(u-x,.1*size2),(height-2*margin)/
-Math.max(v-y,.1*size2));this.fittedScale=scale;this.origin={scale,left:width/2-scale*(x+u)/2,top:height/2+scale*(y+v)/2};this.isFitted=true;this.update()}fitAgain(){
-this.fit(this.isFitted&&!this.isWhole)}grid(){const{view}=this,{width,height}=view,group=this.layer("grid");const name=this.unit=this.store.document.length_unit,
-unit2=name?` ${name}`:"";const across=ticks(view.x(0),view.x(width),width/110),up=ticks(view.y(height),view.y(0),height/80);const lines=[...across.map(({at})=>`\
-M${px(view.X(at))} 0V${height}`),...up.map(({at})=>`M0 ${px(view.Y(at))}H${width}`)];const origin=`M${px(clamp(view.X(0),-9,width+9))} 0V${height}M0 ${px(clamp(
-view.Y(0),-9,height+9))}H${width}`;group.replaceChildren(s("path",{class:"bs-grid-line",d:lines.join("")}),s("path",{class:"bs-grid-axis",d:origin}),...across.filter(
-({at})=>view.X(at)>46&&view.X(at)<width-(unit2?54:30)).map(({at,text})=>s("text",{x:px(view.X(at)),y:height-6,"text-anchor":"middle"},text)),...up.filter(({at})=>view.
-Y(at)>30&&view.Y(at)<height-24).map(({at,text})=>s("text",{x:6,y:px(view.Y(at)-4)},text)),s("text",{x:6,y:14},`y${unit2}`),s("text",{x:width-6,y:height-6,"text-\
-anchor":"end"},`x${unit2}`))}get grain(){return 10**Math.floor(Math.log10(.35/this.view.scale))}rounded(value){const{grain}=this,digits=clamp(-Math.round(Math.log10(
-grain)),0,12);return Number((Math.round(value/grain)*grain).toFixed(digits))+0}get step(){const[x,y,u,v]=bounds(this.store.document.poses.map(pose=>[pose.x??0,pose.
-y??0]));const span=Math.hypot(u-x,v-y);return Number.isFinite(span)&&span>0?10**Math.floor(Math.log10(span/50)):1}at(event){if(!this.box){this.box=this.svg.getBoundingClientRect();
-if(!this.dragged)requestAnimationFrame(()=>this.dragged||(this.box=null))}const{left,top}=this.box,X=event.clientX-left,Y=event.clientY-top;return{X,Y,x:this.view.
-x(X),y:this.view.y(Y)}}drag(element,{start=()=>true,move,end=()=>{},cancel=()=>{},click=()=>{}}){element.addEventListener("pointerdown",event=>{if(event.button!==
-0||this.tool||this.dragged)return;event.preventDefault();event.stopPropagation();element.focus?.({preventScroll:true});const from=this.at(event),ended=new AbortController,
-{signal}=ended;let begun=false;const stop=finish=>{ended.abort();this.dragged=this.box=null;this.svg.classList.remove("bs-grasped");if(this.svg.hasPointerCapture?.(
-event.pointerId))this.svg.releasePointerCapture(event.pointerId);finish();this.emit("dropped")};this.dragged={cancel:()=>stop(()=>begun&&cancel())};this.capture(
-event);const on=(name,fn)=>this.svg.addEventListener(name,each=>each.pointerId===event.pointerId&&fn(each),{signal});let last=from,then=event.timeStamp;const go=each=>{
-const point2=this.at(each);if(point2.X===last.X&&point2.Y===last.Y)return;last=point2;then=each.timeStamp;if(!begun){if(Math.hypot(point2.X-from.X,point2.Y-from.
-Y)<CLICK)return;begun=start(from,event)!==false;if(!begun)return stop(()=>{});this.svg.classList.add("bs-grasped")}move(point2,each)};on("pointermove",go);on("p\
-ointerrawupdate",each=>each.timeStamp-then>=RAW&&go(each));on("pointerup",each=>stop(()=>begun?end(this.at(each)):click(event)));on("pointercancel",()=>stop(()=>begun&&
-cancel()))})}use(tool){const before=this.tool;this.tool=tool??null;before?.end?.();this.svg.classList.toggle("bs-drawing",Boolean(tool));this.emit("tool",this.tool);
-if(tool)this.svg.focus({preventScroll:true})}listen(){const{svg}=this;svg.addEventListener("wheel",event=>{event.preventDefault();const{X,Y}=this.at(event),unit2=event.
-deltaMode===1?16:1;this.zoom(ZOOM**(-event.deltaY*unit2*(event.ctrlKey?4:1)),X,Y)},{passive:false});svg.addEventListener("pointerdown",event=>this.press(event));
-svg.addEventListener("pointermove",event=>this.moved(event));for(const name of["pointerup","pointercancel"])svg.addEventListener(name,event=>this.released(event));
-svg.addEventListener("keydown",event=>this.key(event))}capture({pointerId}){try{this.svg.setPointerCapture(pointerId)}catch{}}press(event){if(event.button!==0&&
-event.button!==1)return;const{X,Y}=this.at(event);this.pointers.set(event.pointerId,{X,Y,from:{X,Y},button:event.button});if(this.pointers.size>1)for(const each of this.
-pointers.values())each.panned=true;this.capture(event)}moved(event){const point2=this.at(event),held=this.pointers.get(event.pointerId);if(!held){if(!this.dragged)
-this.tool?.hover?.(point2);return}const before={X:held.X,Y:held.Y};Object.assign(held,{X:point2.X,Y:point2.Y});if(this.pointers.size===2){const[one,other]=this.
-pointers.values(),still=held===one?other:one;const[now,then]=[point2,before].map(({X,Y})=>Math.hypot(X-still.X,Y-still.Y));if(then>0)this.zoom(now/then,(point2.
-X+still.X)/2,(point2.Y+still.Y)/2);return}held.panned||=Math.hypot(point2.X-held.from.X,point2.Y-held.from.Y)>CLICK;if(!held.panned)return;if(this.tool?.drag?.(
-point2,held))return;this.svg.classList.add("bs-grasped");this.pan(point2.X-before.X,point2.Y-before.Y)}released(event){const held=this.pointers.get(event.pointerId);
-if(!held)return;this.pointers.delete(event.pointerId);this.svg.classList.remove("bs-grasped");const point2=this.at(event);if(event.type==="pointercancel")this.tool?.
-hover?.(null);else if(held.panned)this.tool?.release?.(point2,held);else if(held.button===0)this.tool?this.tool.click(point2,event):this.emit("click",point2,event)}key(event){
-if(event.target!==this.svg||event.ctrlKey||event.metaKey||event.altKey)return;const by=event.shiftKey?160:40,{width,height}=this.size;const steps={ArrowLeft:[by,
-0],ArrowRight:[-by,0],ArrowUp:[0,by],ArrowDown:[0,-by]};if(steps[event.key])this.pan(...steps[event.key]);else if(event.key==="+"||event.key==="=")this.zoom(1.25,
-width/2,height/2);else if(event.key==="-")this.zoom(.8,width/2,height/2);else if(event.key==="0")this.fitAgain();else return;event.preventDefault()}};var bounds=points=>points.
-reduce(([x,y,u,v],[a,b])=>Number.isFinite(a+b)?[Math.min(x,a),Math.min(y,b),Math.max(u,a),Math.max(v,b)]:[x,y,u,v],[Infinity,Infinity,-Infinity,-Infinity]);var Kept=class{constructor(group,make,show){
+var CLICK=4;var RAW=8;var SPARE=.5;var Scene=class{constructor(store,{zoomKey=false}={}){this.store=store;this.zoomKey=zoomKey;this.listeners={view:[],click:[],
+tool:[],dropped:[]};this.tool=null;this.dragged=null;this.layers=new Map(LAYERS.map(name=>[name,s("g",{class:`bs-layer bs-layer-${name}`})]));this.layers.get("g\
+rid").setAttribute("aria-hidden","true");this.svg=s("svg",{class:"bs-scene",tabindex:0,role:"group","aria-label":"The plane: poses, linkage and limits. Arrow ke\
+ys pan, plus and minus zoom, 0 fits."},...this.layers.values());this.element=h("div",{class:"bs-plane"},this.svg);this.size={width:640,height:480};this.origin={
+scale:1,left:320,top:240};this.isFitted=true;this.pointers=new Map;this.boxes=[];this.update();this.listen();store.on("document",()=>this.unit===store.document.
+length_unit||this.grid());new ResizeObserver(()=>this.resize()).observe(this.element);addEventListener("scroll",()=>this.box=null,{capture:true,passive:true})}layer(name){
+return this.layers.get(name)}on(name,fn){this.listeners[name].push(fn)}emit(name,...values){return this.listeners[name].map(fn=>fn(...values)).some(Boolean)}hold(fn,far=false){
+this.boxes.push({fn,far})}update(){const{width,height}=this.size,{scale,left,top}=this.origin;this.view={scale,left,top,width,height,X:x=>left+scale*x,Y:y=>top-
+scale*y,x:X=>(X-left)/scale,y:Y=>(top-Y)/scale};Object.assign(this.svg.dataset,{scale,left,top,fit:this.isFitted?this.isWhole?"all":"near":""});this.grid();this.
+emit("view",this.view)}resize(){this.box=null;const{width,height}=this.svg.getBoundingClientRect();if(!width||!height||width===this.size.width&&height===this.size.
+height)return;this.origin={...this.origin,left:this.origin.left+(width-this.size.width)/2,top:this.origin.top+(height-this.size.height)/2};this.size={width,height};
+put(this.svg,"viewBox",`0 0 ${width} ${height}`);if(this.isFitted)this.fit(this.isWhole);else this.update()}pan(dx,dy){this.isFitted=false;this.origin={...this.
+origin,left:this.origin.left+dx,top:this.origin.top+dy};this.update()}zoom(factor,X,Y){const fitted=this.fittedScale??this.origin.scale;const scale=clamp(this.origin.
+scale*factor,fitted/WIDEST2,fitted*WIDEST2),by=scale/this.origin.scale;this.isFitted=false;this.origin={scale,left:X+by*(this.origin.left-X),top:Y+by*(this.origin.
+top-Y)};this.update()}fit(whole=false){const pointsOf=isFar=>this.boxes.filter(({far:far2})=>far2===isFar).flatMap(({fn})=>fn());const near2=pointsOf(false),far=pointsOf(
+true),all=bounds([...near2,...far]);let[x,y,u,v]=near2.length&&!whole?bounds(near2):Number.isFinite(all[0])?all:[-50,-50,50,50];const size2=Math.max(u-x,v-y)||Math.
+max(1,Math.abs(u),Math.abs(v));if(near2.length&&far.length&&!whole){const reach=SPARE*size2;[x,y,u,v]=[Math.max(all[0],x-reach),Math.max(all[1],y-reach),Math.min(
+all[2],u+reach),Math.min(all[3],v+reach)]}this.isWhole=whole;const{width,height}=this.size,margin=Math.min(MARGIN,width/8);const scale=Math.min((width-2*margin)/
+Math.max(u-x,.1*size2),(height-2*margin)/Math.max(v-y,.1*size2));this.fittedScale=scale;this.origin={scale,left:width/2-scale*(x+u)/2,top:height/2+scale*(y+v)/2};
+this.isFitted=true;this.update()}fitAgain(){this.fit(this.isFitted&&!this.isWhole)}grid(){const{view}=this,{width,height}=view,group=this.layer("grid");const name=this.
+unit=this.store.document.length_unit,unit2=name?` ${name}`:"";const across=ticks(view.x(0),view.x(width),width/110),up=ticks(view.y(height),view.y(0),height/80);
+const lines=[...across.map(({at})=>`M${px(view.X(at))} 0V${height}`),...up.map(({at})=>`M0 ${px(view.Y(at))}H${width}`)];const origin=`M${px(clamp(view.X(0),-9,
+width+9))} 0V${height}M0 ${px(clamp(view.Y(0),-9,height+9))}H${width}`;group.replaceChildren(s("path",{class:"bs-grid-line",d:lines.join("")}),s("path",{class:"\
+bs-grid-axis",d:origin}),...across.filter(({at})=>view.X(at)>46&&view.X(at)<width-(unit2?54:30)).map(({at,text})=>s("text",{x:px(view.X(at)),y:height-6,"text-an\
+chor":"middle"},text)),...up.filter(({at})=>view.Y(at)>30&&view.Y(at)<height-24).map(({at,text})=>s("text",{x:6,y:px(view.Y(at)-4)},text)),s("text",{x:6,y:14},`\
+y${unit2}`),s("text",{x:width-6,y:height-6,"text-anchor":"end"},`x${unit2}`))}get grain(){return 10**Math.floor(Math.log10(.35/this.view.scale))}rounded(value){
+const{grain}=this,digits=clamp(-Math.round(Math.log10(grain)),0,12);return Number((Math.round(value/grain)*grain).toFixed(digits))+0}get step(){const[x,y,u,v]=bounds(
+this.store.document.poses.map(pose=>[pose.x??0,pose.y??0]));const span=Math.hypot(u-x,v-y);return Number.isFinite(span)&&span>0?10**Math.floor(Math.log10(span/50)):
+1}at(event){if(!this.box){this.box=this.svg.getBoundingClientRect();if(!this.dragged)requestAnimationFrame(()=>this.dragged||(this.box=null))}const{left,top}=this.
+box,X=event.clientX-left,Y=event.clientY-top;return{X,Y,x:this.view.x(X),y:this.view.y(Y)}}drag(element,{start=()=>true,move,end=()=>{},cancel=()=>{},click=()=>{}}){
+element.addEventListener("pointerdown",event=>{if(event.button!==0||this.tool||this.dragged)return;event.preventDefault();event.stopPropagation();element.focus?.(
+{preventScroll:true});const from=this.at(event),ended=new AbortController,{signal}=ended;let begun=false;const stop=finish=>{ended.abort();this.dragged=this.box=
+null;this.svg.classList.remove("bs-grasped");if(this.svg.hasPointerCapture?.(event.pointerId))this.svg.releasePointerCapture(event.pointerId);finish();this.emit(
+"dropped")};this.dragged={cancel:()=>stop(()=>begun&&cancel())};this.capture(event);const on=(name,fn)=>this.svg.addEventListener(name,each=>each.pointerId===event.
+pointerId&&fn(each),{signal});let last=from,then=event.timeStamp;const go=each=>{const point2=this.at(each);if(point2.X===last.X&&point2.Y===last.Y)return;last=
+point2;then=each.timeStamp;if(!begun){if(Math.hypot(point2.X-from.X,point2.Y-from.Y)<CLICK)return;begun=start(from,event)!==false;if(!begun)return stop(()=>{});
+this.svg.classList.add("bs-grasped")}move(point2,each)};on("pointermove",go);on("pointerrawupdate",each=>each.timeStamp-then>=RAW&&go(each));on("pointerup",each=>stop(
+()=>begun?end(this.at(each)):click(event)));on("pointercancel",()=>stop(()=>begun&&cancel()))})}use(tool){const before=this.tool;this.tool=tool??null;before?.end?.();
+this.svg.classList.toggle("bs-drawing",Boolean(tool));this.emit("tool",this.tool);if(tool)this.svg.focus({preventScroll:true})}listen(){const{svg}=this;svg.addEventListener(
+"wheel",event=>{if(this.zoomKey&&!event.ctrlKey&&!event.metaKey)return;event.preventDefault();const{X,Y}=this.at(event),unit2=event.deltaMode===1?16:1;this.zoom(
+ZOOM**(-event.deltaY*unit2*(event.ctrlKey&&!this.zoomKey?4:1)),X,Y)},{passive:false});svg.addEventListener("pointerdown",event=>this.press(event));svg.addEventListener(
+"pointermove",event=>this.moved(event));for(const name of["pointerup","pointercancel"])svg.addEventListener(name,event=>this.released(event));svg.addEventListener(
+"keydown",event=>this.key(event))}capture({pointerId}){try{this.svg.setPointerCapture(pointerId)}catch{}}press(event){if(event.button!==0&&event.button!==1)return;
+const{X,Y}=this.at(event);this.pointers.set(event.pointerId,{X,Y,from:{X,Y},button:event.button});if(this.pointers.size>1)for(const each of this.pointers.values())
+each.panned=true;this.capture(event)}moved(event){const point2=this.at(event),held=this.pointers.get(event.pointerId);if(!held){if(!this.dragged)this.tool?.hover?.(
+point2);return}const before={X:held.X,Y:held.Y};Object.assign(held,{X:point2.X,Y:point2.Y});if(this.pointers.size===2){const[one,other]=this.pointers.values(),still=held===
+one?other:one;const[now,then]=[point2,before].map(({X,Y})=>Math.hypot(X-still.X,Y-still.Y));if(then>0)this.zoom(now/then,(point2.X+still.X)/2,(point2.Y+still.Y)/
+2);return}held.panned||=Math.hypot(point2.X-held.from.X,point2.Y-held.from.Y)>CLICK;if(!held.panned)return;if(this.tool?.drag?.(point2,held))return;this.svg.classList.
+add("bs-grasped");this.pan(point2.X-before.X,point2.Y-before.Y)}released(event){const held=this.pointers.get(event.pointerId);if(!held)return;this.pointers.delete(
+event.pointerId);this.svg.classList.remove("bs-grasped");const point2=this.at(event);if(event.type==="pointercancel")this.tool?.hover?.(null);else if(held.panned)
+this.tool?.release?.(point2,held);else if(held.button===0)this.tool?this.tool.click(point2,event):this.emit("click",point2,event)}key(event){if(event.target!==this.
+svg||event.ctrlKey||event.metaKey||event.altKey)return;const by=event.shiftKey?160:40,{width,height}=this.size;const steps={ArrowLeft:[by,0],ArrowRight:[-by,0],
+ArrowUp:[0,by],ArrowDown:[0,-by]};if(steps[event.key])this.pan(...steps[event.key]);else if(event.key==="+"||event.key==="=")this.zoom(1.25,width/2,height/2);else if(event.
+key==="-")this.zoom(.8,width/2,height/2);else if(event.key==="0")this.fitAgain();else return;event.preventDefault()}};var bounds=points=>points.reduce(([x,y,u,v],[
+a,b])=>Number.isFinite(a+b)?[Math.min(x,a),Math.min(y,b),Math.max(u,a),Math.max(v,b)]:[x,y,u,v],[Infinity,Infinity,-Infinity,-Infinity]);var Kept=class{constructor(group,make,show){
 Object.assign(this,{group,make,show,elements:new Map})}draw(items){const kept=new Map;for(const[key,item]of items){const element=this.elements.get(key)??this.make(
 key,item);kept.set(key,element);this.show(element,item)}for(const[key,element]of this.elements)if(!kept.has(key))element.remove();let before=null;for(const element of kept.
 values()){const next=before?before.nextSibling:this.group.firstChild;if(element!==next||element.parentNode!==this.group)this.group.insertBefore(element,next);before=
@@ -480,14 +481,16 @@ start+k*count,start+(k+1)*count)]))}var KEYS2=[["Tab","from handle to handle, fi
 t is drawn"],["Escape","gives up what is under way: a drag, a drawing, a selection"],["+ − 0","on the plane: zoom and fit; arrow keys pan it"],["space","plays\
  and stops"],["Ctrl+Z, Ctrl+Shift+Z","undo and redo"],["Ctrl+S, Ctrl+O, Ctrl+V","save the task, open a file, paste rows of a spreadsheet"]];function keyList(){const close=button(
 "Close",()=>dialog.close());const dialog=h("dialog",{class:"bs-dialog","aria-label":"Keys"},h("h2",{},"Keys"),h("dl",{class:"bs-keys"},KEYS2.map(([key,what])=>h(
-"div",{},h("dt",{},key),h("dd",{},what)))),close);return[button("Keys",()=>dialog.showModal(),{"data-do":"keys"}),dialog]}var written2=element=>element?.matches?.(
-"input:not([type=checkbox]):not([type=radio]):not([type=range]), textarea");function listenToKeys(store,scene,files){document.addEventListener("keydown",event=>{
-const{key,target}=event,control=(event.ctrlKey||event.metaKey)&&!event.altKey;if(control){const act2={z:()=>event.shiftKey?store.redo():store.undo(),y:()=>store.
-redo(),s:()=>files.save(),o:()=>files.chooser.click()}[key.toLowerCase()];if(!act2||written2(target)&&target.dataset.typing==="true"&&/^[zy]$/i.test(key))return;
-event.preventDefault();act2()}else if(scene.dragged&&key==="Escape"){event.preventDefault();scene.dragged.cancel()}else if(scene.tool&&!written2(target)&&scene.
-tool.key(event)){event.preventDefault();event.stopPropagation()}else if(key==="Escape"&&!written2(target)&&store.selection){store.select(null)}},true);document.
-addEventListener("input",({target})=>target.dataset&&(target.dataset.typing="true"));for(const name of["change","focusout"])document.addEventListener(name,({target})=>target.
-dataset&&delete target.dataset.typing)}var PAGE=60;var NUMBERS2=[["x","length"],["y","length"],["angle","angle"]];var BOUNDS=[["x","x","length"],["y","y","length"],["angle","angle_deg","angle"]];var oneLine=name=>(name??
+"div",{},h("dt",{},key),h("dd",{},what)))),close);return[button("Keys",()=>dialog.showModal(),{"data-do":"keys"}),dialog]}var TYPED_IN="button, input, select, t\
+extarea, summary, a, [role=button], [role=slider]";var written2=element=>element?.matches?.("input:not([type=checkbox]):not([type=radio]):not([type=range]), tex\
+tarea");function listenToKeys(store,scene,files=null,root=document){const acts=event=>({z:()=>event.shiftKey?store.redo():store.undo(),y:()=>store.redo(),...files&&
+{s:()=>files.save(),o:()=>files.chooser.click()}});root.addEventListener("keydown",event=>{const{key,target}=event,control=(event.ctrlKey||event.metaKey)&&!event.
+altKey;if(control){const act2=acts(event)[key.toLowerCase()];if(!act2||written2(target)&&target.dataset.typing==="true"&&/^[zy]$/i.test(key))return;event.preventDefault();
+act2()}else if(scene.dragged&&key==="Escape"){event.preventDefault();scene.dragged.cancel()}else if(scene.tool&&!written2(target)&&scene.tool.key(event)){event.
+preventDefault();event.stopPropagation()}else if(key==="Escape"&&!written2(target)&&store.selection){store.select(null)}},true);root.addEventListener("input",({
+target})=>target.dataset&&(target.dataset.typing="true"));for(const name of["change","focusout"])root.addEventListener(name,({target})=>target.dataset&&delete target.
+dataset.typing)}function listenToSpace({player},root=document){root.addEventListener("keydown",event=>{if(event.key!==" "||event.ctrlKey||event.metaKey||event.altKey||
+event.target.closest?.(TYPED_IN)||!player.path)return;event.preventDefault();player.play(!player.playing)})}var PAGE=60;var NUMBERS2=[["x","length"],["y","length"],["angle","angle"]];var BOUNDS=[["x","x","length"],["y","y","length"],["angle","angle_deg","angle"]];var oneLine=name=>(name??
 "").replace(/[\r\n\u2028\u2029]+/g," ");var PoseTable=class{constructor(store,scene){this.store=store;this.scene=scene;this.page=0;this.rows=[];this.body=h("tbo\
 dy",{});this.unit=h("span",{class:"bs-unit"});this.pages=h("div",{class:"bs-pages",hidden:true});this.details=h("div",{class:"bs-details","data-details":"pose"});
 this.table=h("table",{class:"bs-poses","aria-label":"Poses"},h("thead",{},h("tr",{},h("th",{scope:"col"},"#"),h("th",{scope:"col"},"name"),h("th",{scope:"col"},
@@ -1162,36 +1165,38 @@ dead].reverse():piece.dead,poses:[],falls,drive:drive.map(value=>slides?value:de
 ({a})=>a),transmission:places.map(place=>transmissionOf(...led,place))}}function frameIn({stations},{way,frame},last){for(let k=0;k+1<stations.length;k+=1){const[
 a,b]=[stations[k],stations[k+1]];if(a.way!==way||b.way!==way){if(a.way===way&&Math.abs(a.u-frame)<1e-9)return k;if(b.way===way&&Math.abs(b.u-frame)<1e-9)return k+
 1;continue}const[u,v]=Math.abs(b.u-a.u)>last/2?[a,b].map(each=>each.u+(each.u<last/2?last:0)):[a.u,b.u];for(const at of[frame,frame+last]){if(at>=Math.min(u,v)-
-1e-9&&at<=Math.max(u,v)+1e-9)return u===v?k:k+(at-u)/(v-u);if(Math.max(u,v)<=last)break}}return null}var AT_POSE=1e-6;var Playing=class extends Events{constructor(store,answers){super();this.store=store;this.answers=answers;this.isOther=false;this.here=null;this.
-player=new Player(answers.data,(place,drive,transmission,near2)=>this.placed({place,drive,transmission,near:near2}),()=>this.rebuild());this.assemblies=new Assemblies(
-answers.data,index=>this.player.take(index));this.drivers=h("fieldset",{class:"bm-ways bs-drivers",hidden:true});this.note=h("p",{class:"bs-quiet bs-driver-note"});
-this.element=h("div",{class:"bs-player"},this.player.element,h("div",{class:"bs-player-ways"},this.drivers,this.assemblies.element),this.note);this.words=new Pace(
-()=>this.player.path&&this.player.show());this.marks=new Pace(()=>this.player.drawStops());answers.on("answers shown placed",()=>this.load());answers.on("moved",
-()=>this.follow());store.on("selection",()=>this.goToSelected());store.on("state",()=>this.hush());new ResizeObserver(()=>this.marks.ask()).observe(this.element);
-this.load()}get linkage(){return this.player.linkage}get path(){return this.player.path}load(){const base=this.answers.shown??null;if(base===this.base&&base){this.
-follow();this.tellDriver();return}this.base=base;this.isOther=false;this.at=null;this.dress();if(!base){this.player.linkage=null;this.player.way=0;this.player.play(
-false);for(const each of[this.assemblies.element,this.drivers])give(each,"hidden",true);this.note.textContent="";this.element.classList.add("bs-empty");this.emit(
-"shape",false);return}this.element.classList.remove("bs-empty");this.player.load(this.driven());this.goToSelected()}driven(){return this.isOther?drivenByOther(this.
-base,this.answers.data.chart.length):this.base}driveBy(other){this.isOther=other;this.player.linkage=this.driven();this.at=null;this.takeBest();this.rebuild();this.
-tellDriver()}takeBest(){const counts=this.linkage.ways.map(way=>way.poses.length);this.player.way=Math.max(0,counts.indexOf(Math.max(...counts)));this.player.u=
-this.player.firstStop()}follow(){const{base,player}=this;if(!base)return;player.linkage=this.driven();const row=this.at?.pose===void 0?null:player.linkage.pose_errors[this.
-at.pose];if(row&&row.way!==null){player.way=row.way;player.u=row.frame}else if(!player.path){if(player.linkage.ways.length)this.takeBest()}else if(this.at){player.
-u=this.frameOf(player.path,this.at.drive)}player.rebuild();this.emit("shape",true);player.show(false);this.words.ask();this.marks.ask()}frameOf(way,drive){if(drive===
-null||this.linkage.led[0].kind==="PR")return frameAt(way.drive,drive??way.drive[0]);const middle2=(way.drive[0]+way.drive[way.drive.length-1])/2;return frameAt(
-way.drive,drive-360*Math.round((drive-middle2)/360))}rebuild(){const{player}=this;player.rebuild();this.assemblies.build(this.linkage,player.way);this.buildDrivers();
-this.emit("shape",false);this.marks.ask();player.show()}placed(here){this.here=here;const{path:path2,u}=this.player;const pose=this.linkage.pose_errors.findIndex(
-row=>row.at===path2&&Math.abs(row.frame-u)<AT_POSE);this.at={drive:here.drive,pose:pose<0?void 0:pose};this.emit("place",here)}goToSelected(){const{selection}=this.
-store,{player}=this;if(selection?.kind!=="pose"||player.playing)return;const row=this.linkage?.pose_errors[selection.index];if(!row||row.way===null)return;const other=row.
-way!==player.way;player.way=row.way;player.u=row.frame;if(other)this.rebuild();else player.go(row.frame)}buildDrivers(){const{base}=this;give(this.drivers,"hidd\
-en",!base||!base.ways.length||base.led.some(dyad=>dyad.kind==="PP"));if(this.drivers.hidden)return;const key=`${base.id} ${base.led.map(dyad=>dyad.id)} ${this.isOther}`;
-if(key===this.driversKey)return;this.driversKey=key;const one=(dyad,other)=>h("label",{},h("input",{type:"radio",name:"bs-driver",checked:other===this.isOther,"\
-data-driver":dyad.id,onchange:()=>this.driveBy(other)}),h("span",{},h("b",{},dyad.id),` ${{RR:"crank or rocker",PR:"slider on its rail",RP:"slot"}[dyad.kind]}`));
-this.drivers.replaceChildren(h("legend",{},"Driver"),one(base.led[0],false),one(base.led[1],true));this.tellDriver()}tellDriver(){const{base}=this;if(!base?.drives||
-base.followed){this.note.textContent="";return}const driver=this.isOther?base.led[1]:base.led[0];const drive=base.dyads[0].id===driver.id?base.drives.first:base.
-drives.second;const least2=drive.min_transmission_angle_deg.range;const said=drive.defects.length?drive.defects.map(each=>each.message).join("; "):`${drive.turns_fully?
-"turns fully":"reaches every pose"}${least2===null?"":`, transmission angle ${fixed(least2,1)}° or more between the poses`}`;this.note.textContent=`Driven by ${driver.
-id}: ${said}.`}dress(){this.driversKey=null}hush(){const quiet=this.store.state==="dragging"||this.player.playing;put(this.player.readout,"aria-live",quiet?"off":
-"polite")}};var ORDERS={rank:{name:"best first",of:linkage=>linkage.rank??Infinity},worst:{name:"worst miss",of:linkage=>linkage.worst??Infinity},least:{name:"transmission \
+1e-9&&at<=Math.max(u,v)+1e-9)return u===v?k:k+(at-u)/(v-u);if(Math.max(u,v)<=last)break}}return null}var REDUCED_MOTION="(prefers-reduced-motion: reduce)";var AT_POSE=1e-6;var Playing=class extends Events{constructor(store,answers){super();this.store=store;this.
+answers=answers;this.isOther=false;this.here=null;this.player=new Player(answers.data,(place,drive,transmission,near2)=>this.placed({place,drive,transmission,near:near2}),
+()=>this.rebuild());this.assemblies=new Assemblies(answers.data,index=>this.player.take(index));this.drivers=h("fieldset",{class:"bm-ways bs-drivers",hidden:true});
+this.note=h("p",{class:"bs-quiet bs-driver-note"});this.element=h("div",{class:"bs-player"},this.player.element,h("div",{class:"bs-player-ways"},this.drivers,this.
+assemblies.element),this.note);this.words=new Pace(()=>this.player.path&&this.player.show());this.marks=new Pace(()=>this.player.drawStops());answers.on("answer\
+s shown placed",()=>this.load());answers.on("moved",()=>this.follow());store.on("selection",()=>this.goToSelected());store.on("state",()=>this.hush());new ResizeObserver(
+()=>this.marks.ask()).observe(this.element);this.load()}get linkage(){return this.player.linkage}get path(){return this.player.path}load(){const base=this.answers.
+shown??null;if(base===this.base&&base){this.follow();this.tellDriver();return}this.base=base;this.isOther=false;this.at=null;this.dress();if(!base){this.player.
+linkage=null;this.player.way=0;this.player.play(false);for(const each of[this.assemblies.element,this.drivers])give(each,"hidden",true);this.note.textContent="";
+this.element.classList.add("bs-empty");this.emit("shape",false);return}this.element.classList.remove("bs-empty");this.player.load(this.driven());this.goToSelected()}driven(){
+return this.isOther?drivenByOther(this.base,this.answers.data.chart.length):this.base}driveBy(other){this.isOther=other;this.player.linkage=this.driven();this.at=
+null;this.takeBest();this.rebuild();this.tellDriver()}takeBest(){const counts=this.linkage.ways.map(way=>way.poses.length);this.player.way=Math.max(0,counts.indexOf(
+Math.max(...counts)));this.player.u=this.player.firstStop()}follow(){const{base,player}=this;if(!base)return;player.linkage=this.driven();const row=this.at?.pose===
+void 0?null:player.linkage.pose_errors[this.at.pose];if(row&&row.way!==null){player.way=row.way;player.u=row.frame}else if(!player.path){if(player.linkage.ways.
+length)this.takeBest()}else if(this.at){player.u=this.frameOf(player.path,this.at.drive)}player.rebuild();this.emit("shape",true);player.show(false);this.words.
+ask();this.marks.ask()}frameOf(way,drive){if(drive===null||this.linkage.led[0].kind==="PR")return frameAt(way.drive,drive??way.drive[0]);const middle2=(way.drive[0]+
+way.drive[way.drive.length-1])/2;return frameAt(way.drive,drive-360*Math.round((drive-middle2)/360))}rebuild(){const{player}=this;player.rebuild();this.assemblies.
+build(this.linkage,player.way);this.buildDrivers();this.emit("shape",false);this.marks.ask();player.show()}placed(here){this.here=here;const{path:path2,u}=this.
+player;const pose=this.linkage.pose_errors.findIndex(row=>row.at===path2&&Math.abs(row.frame-u)<AT_POSE);this.at={drive:here.drive,pose:pose<0?void 0:pose};this.
+emit("place",here)}goToSelected(){const{selection}=this.store,{player}=this;if(selection?.kind!=="pose"||player.playing)return;const row=this.linkage?.pose_errors[selection.
+index];if(!row||row.way===null)return;const other=row.way!==player.way;player.way=row.way;player.u=row.frame;if(other)this.rebuild();else player.go(row.frame)}buildDrivers(){
+const{base}=this;give(this.drivers,"hidden",!base||!base.ways.length||base.led.some(dyad=>dyad.kind==="PP"));if(this.drivers.hidden)return;const key=`${base.id}\
+ ${base.led.map(dyad=>dyad.id)} ${this.isOther}`;if(key===this.driversKey)return;this.driversKey=key;const one=(dyad,other)=>h("label",{},h("input",{type:"radio",
+name:"bs-driver",checked:other===this.isOther,"data-driver":dyad.id,onchange:()=>this.driveBy(other)}),h("span",{},h("b",{},dyad.id),` ${{RR:"crank or rocker",PR:"\
+slider on its rail",RP:"slot"}[dyad.kind]}`));this.drivers.replaceChildren(h("legend",{},"Driver"),one(base.led[0],false),one(base.led[1],true));this.tellDriver()}tellDriver(){
+const{base}=this;if(!base?.drives||base.followed){this.note.textContent="";return}const driver=this.isOther?base.led[1]:base.led[0];const drive=base.dyads[0].id===
+driver.id?base.drives.first:base.drives.second;const least2=drive.min_transmission_angle_deg.range;const said=drive.defects.length?drive.defects.map(each=>each.
+message).join("; "):`${drive.turns_fully?"turns fully":"reaches every pose"}${least2===null?"":`, transmission angle ${fixed(least2,1)}° or more between the pos\
+es`}`;this.note.textContent=`Driven by ${driver.id}: ${said}.`}dress(){this.driversKey=null}hush(){const quiet=this.store.state==="dragging"||this.player.playing;
+put(this.player.readout,"aria-live",quiet?"off":"polite")}};function playOnce(store,answers,{player}){if(matchMedia(REDUCED_MOTION).matches)return;let first=true;
+answers.on("answers",()=>{if(first&&player.path){first=false;player.playOnce()}});store.on("document selection",()=>{first=false;if(player.remaining!==null)player.
+play(false)})}var ORDERS={rank:{name:"best first",of:linkage=>linkage.rank??Infinity},worst:{name:"worst miss",of:linkage=>linkage.worst??Infinity},least:{name:"transmission \
 angle",of:linkage=>-(linkage.least??-1)},size:{name:"size",of:linkage=>linkage.quality?.extent??Infinity},sensitivity:{name:"sensitivity",of:linkage=>linkage.quality?.
 sensitivity??Infinity}};var FILTERS={all:{name:"all",holds:()=>true},usable:{name:"usable",holds:linkage=>linkage.usable},pinned:{name:"pinned",holds:(linkage,pinned)=>pinned.
 has(linkage.id)}};function arranged(linkages,{order,filter,type,pinned}){const{of}=ORDERS[order],{holds}=FILTERS[filter];return linkages.filter(each=>holds(each,
@@ -1255,9 +1260,9 @@ solved;if(!store.solved.linkages.some(each=>each.usable))return`${hidden}${sente
 ""}`}async improve(id){const{document:document2,options,connection}=this.store;const card=()=>[...this.cards].find(([linkage])=>linkage.id===id)?.[1];card()?.tellBetter(
 ["Looking near it …"]);let said;try{said=(await(await connection.post("/improve",{document:document2,options,linkage:id})).json()).better}catch(error){said=[`\
 That did not work: ${error.message}`]}if(document2===this.store.document)card()?.tellBetter(said.length?said.map(nearIt):["Nothing better lies near it."])}walk(event){
-const step={ArrowDown:1,ArrowRight:1,ArrowUp:-1,ArrowLeft:-1}[event.key];const mains=[...this.cards.values()].map(card=>card.main),at=mains.indexOf(document.activeElement);
-if(!step||at<0)return;event.preventDefault();mains[clamp(at+step,0,mains.length-1)].focus()}};var nearIt=text=>text.replace(/^L\d+ changes/,"One changes");var sentence=text=>text?
-`${text[0].toUpperCase()}${text.slice(1)}.`:"";var WIDTH=440;var TURNING_SHARE=.35;function drawStill(canvas,scene,size2,turning){const share=turning?TURNING_SHARE:Math.min(1,WIDTH/size2.width);const width=Math.
+const step={ArrowDown:1,ArrowRight:1,ArrowUp:-1,ArrowLeft:-1}[event.key];const mains=[...this.cards.values()].map(card=>card.main),at=mains.indexOf(this.list.getRootNode().
+activeElement);if(!step||at<0)return;event.preventDefault();mains[clamp(at+step,0,mains.length-1)].focus()}};var nearIt=text=>text.replace(/^L\d+ changes/,"One \
+changes");var sentence=text=>text?`${text[0].toUpperCase()}${text.slice(1)}.`:"";var WIDTH=440;var TURNING_SHARE=.35;function drawStill(canvas,scene,size2,turning){const share=turning?TURNING_SHARE:Math.min(1,WIDTH/size2.width);const width=Math.
 round(size2.width*share),height=Math.round(size2.height*share);canvas.width=width;canvas.height=height;if(!scene.quadrics.length)return;const context=canvas.getContext(
 "2d"),image=context.createImageData(width,height);cast(image,scene);context.putImageData(image,0,0)}function cast(image,{eye,ahead,right,up,reach,quadrics,paint,
 angles}){const{data,width,height}=image,[ex,ey,ez]=eye,[zc,zh,middleAngle,step]=angles;const lamp=unit(plus(plus(scaled(ahead,-1),scaled(up,.5)),scaled(right,-.6)));
@@ -1438,73 +1443,70 @@ dyads;return linkage?.led??[]}build(quick){const{answers,playing,space,dyads}=th
 space??data.space;const quadrics=dyads.map(dyad=>quadricOf(dyad,data.chart,box));if(quadrics.length===1)quadrics.push(quadrics[0]);const shown2={...linkage&&!linkage.
 gone?linkage:{ways:[],led:dyads},space:{...box,quadrics}};const key=dyads.map(dyad=>dyad.id).join();if(key!==this.told){this.told=key;this.story.replaceChildren(
 ...spaceStory(linkage&&dyads.length===2?{led:dyads}:null))}space.build(shown2,playing.player.way,quick);if(playing.path&&playing.here)space.show(playing.here.place);else
-space.hide()}};var REDUCED_MOTION="(prefers-reduced-motion: reduce)";var TYPED_IN="button, input, select, textarea, summary, a, [role=button], [role=slider]";var panel=(name,title,open,...content)=>h(
-"details",{class:`bm-card bs-panel bs-panel-${name}`,open,"data-panel":name},h("summary",{},h("h2",{},title)),content);function addResults(store,scene,{player,results,
-panels}){const answers=new Answers(store),playing=new Playing(store,answers);const live=new LiveLinkage(answers,playing,scene),surface=new PivotSurface(store,answers,
-playing,scene);const centrodes=new Centrodes(answers,playing,scene),curves=new CouplerCurves(answers,playing,scene);const cards=new Results(store,answers),charts=new Charts(
-answers,playing),space=new SpacePanel(answers,playing);const compare=new Compare(store,answers,playing),facts=new FactsTable(store,answers,playing,curves);player.
-append(playing.element,h("div",{class:"bs-player-tools"},centrodes.element,curves.element));results.append(cards.element);panels.append(panel("pivots","Put a pi\
-vot somewhere",true,surface.element),panel("space","Image space",true,space.element),panel("charts","Errors and transmission",true,charts.element),panel("compar\
-e","Compare two linkages",false,compare.element),panel("facts","Every number in tables",false,facts.element));for(const part of panels.children)part.addEventListener(
-"toggle",()=>dispatchEvent(new Event("resize")));unfoldForPrint(panels,new AbortController().signal);catchUpForPrint();listenToSpace(playing);playOnce(store,answers,
-playing);matchMedia("(prefers-color-scheme: dark)").addEventListener("change",()=>answers.emit("answers"));return{answers,playing,live,surface,centrodes,curves,
-cards,charts,space,compare,facts}}function listenToSpace({player}){document.addEventListener("keydown",event=>{if(event.key!==" "||event.ctrlKey||event.metaKey||
-event.altKey||event.target.closest?.(TYPED_IN)||!player.path)return;event.preventDefault();player.play(!player.playing)})}function playOnce(store,answers,{player}){
-if(matchMedia(REDUCED_MOTION).matches)return;let first=true;answers.on("answers",()=>{if(first&&player.path){first=false;player.playOnce()}});store.on("document\
- selection",()=>{first=false;if(player.remaining!==null)player.play(false)})}var MOST4=500;var History=class{constructor(){this.past=[];this.future=[]}record(value,gesture){this.future=[];const last=this.past.at(-1);if(gesture!==null&&last?.
+space.hide()}};var panel=(name,title,open,...content)=>h("details",{class:`bm-card bs-panel bs-panel-${name}`,open,"data-panel":name},h("summary",{},h("h2",{},title)),content);
+function addResults(store,scene,{player,results,panels}){const answers=new Answers(store),playing=new Playing(store,answers);const live=new LiveLinkage(answers,
+playing,scene),surface=new PivotSurface(store,answers,playing,scene);const centrodes=new Centrodes(answers,playing,scene),curves=new CouplerCurves(answers,playing,
+scene);const cards=new Results(store,answers),charts=new Charts(answers,playing),space=new SpacePanel(answers,playing);const compare=new Compare(store,answers,playing),
+facts=new FactsTable(store,answers,playing,curves);player.append(playing.element,h("div",{class:"bs-player-tools"},centrodes.element,curves.element));results.append(
+cards.element);panels.append(panel("pivots","Put a pivot somewhere",true,surface.element),panel("space","Image space",true,space.element),panel("charts","Errors\
+ and transmission",true,charts.element),panel("compare","Compare two linkages",false,compare.element),panel("facts","Every number in tables",false,facts.element));
+for(const part of panels.children)part.addEventListener("toggle",()=>dispatchEvent(new Event("resize")));unfoldForPrint(panels,new AbortController().signal);catchUpForPrint();
+listenToSpace(playing);playOnce(store,answers,playing);matchMedia("(prefers-color-scheme: dark)").addEventListener("change",()=>answers.emit("answers"));return{
+answers,playing,live,surface,centrodes,curves,cards,charts,space,compare,facts}}var MOST4=500;var History=class{constructor(){this.past=[];this.future=[]}record(value,gesture){this.future=[];const last=this.past.at(-1);if(gesture!==null&&last?.
 gesture===gesture)return;this.past.push({value,gesture});if(this.past.length>MOST4)this.past.shift()}undo(value){const last=this.past.pop();if(!last)return null;
 this.future.push(value);return last.value}redo(value){const next=this.future.pop();if(next===void 0)return null;this.past.push({value,gesture:null});return next}abandon(gesture){
 if(this.past.at(-1)?.gesture!==gesture)return null;return this.past.pop().value}get canUndo(){return this.past.length>0}get canRedo(){return this.future.length>
 0}};var REST=150;var MOST_REST=1e3;var MOST_FLYING=1;var MOST_SHOWN=6;var PLACED2="placed";var Store=class{constructor({connection,document:document2,options={},name="\
-task",settings={}}){this.connection=connection;this.renamed=new Map;this.moved=new Map;this.document=document2;this.options=options;this.name=name;this.settings=
-settings;this.history=new History;this.solved=null;this.solvedFor=null;this.followed=null;this.followedFor=null;this.state="resting";this.progress="";this.chosen=
-null;this.pinned=new Set;this.compared=null;this.placed=null;this.selection=null;this.messages=[];this.listeners=new Map;this.basis=null;this.pending=null;this.
-flying=new Map;this.placing=null;this.solving=null;this.improving=null;this.improved=null;connection.on("message",message=>this.take(message));connection.on("op\
-en",()=>this.opened());connection.on("closed",()=>this.closed())}on(names,fn){for(const name of[names].flat().join(" ").split(/\s+/)){if(!this.listeners.has(name))
-this.listeners.set(name,[]);this.listeners.get(name).push(fn)}}emit(...names){const told=new Set;for(const name of names){for(const fn of this.listeners.get(name)??
-[]){if(told.has(fn))continue;told.add(fn);fn(name)}}}edit(change,{gesture=null}={}){const next=change(this.document);if(next===this.document)return;this.history.
-record(this.version,gesture);this.document=next;this.changed()}option(name,value){this.history.record(this.version,null);const{[name]:_,...rest}=this.options;this.
-options=value===void 0?rest:{...rest,[name]:value};this.changed()}setting(name,value){this.history.record(this.version,null);this.settings=withKeys(this.settings,
-{[name]:value});this.emit("document")}rename(name){this.history.record(this.version,null);this.name=name;this.emit("document")}replace({document:document2,options={},
-name=this.name,settings=this.settings}){this.history.record(this.version,null);Object.assign(this,{document:document2,options,name,settings,selection:null,placed:null});
-this.changed();this.emit("selection","placed")}undo(){this.goTo(this.history.undo(this.version))}redo(){this.goTo(this.history.redo(this.version))}abandon(gesture){
-this.goTo(this.history.abandon(gesture))}get version(){return{document:this.document,options:this.options,name:this.name,settings:this.settings}}goTo(version){if(!version)
-return;const isSame=version.document===this.document&&version.options===this.options;Object.assign(this,version);if(isSame)this.emit("document");else this.changed()}changed(){
-this.follow();this.emit("document");if(this.state!=="offline")this.setState("dragging");this.solveAfterRest()}get shown(){return[...new Set([this.chosen,this.compared,
-...this.pinned])].filter(id=>id&&id!==PLACED2).slice(0,MOST_SHOWN)}follow(){if(!this.solved||this.flying.size>=MOST_FLYING)return;const{document:document2,options,
-shown:shown2}=this;const n=this.connection.send({do:"follow",document:document2,options,shown:shown2});if(n!==null)this.flying.set(n,{document:document2,isOld:false})}solveAfterRest(){
-clearTimeout(this.resting);const since=performance.now();const rest=()=>{if(this.flying.size&&performance.now()-since<MOST_REST)this.resting=setTimeout(rest,REST/
-3);else this.solve()};this.resting=setTimeout(rest,REST)}solve(){clearTimeout(this.resting);const{document:document2,options}=this;const n=this.connection.send(
-{do:"solve",document:document2,options});if(n===null)return;this.solving={n,document:document2,options};this.setState("solving","")}cancel(){this.connection.send(
-{do:"cancel"})}place(pivots){this.placeWanted=pivots?.length?pivots:null;if(!this.placeWanted){this.placed=null;this.emit("placed")}else if(!this.placing){this.
-sendPlace()}}sendPlace(){const{document:document2,options,placeWanted:pivots}=this;const n=this.connection.send({do:"place",document:document2,options,pivots});
-this.placing=n===null?null:{n,pivots}}take(message){const{n,kind}=message;if(kind==="followed")this.takeFollowed(message);else if(this.flying.has(n))this.followRefused(
-message);else if(n===this.placing?.n)this.takePlaced(message);else if(n===this.improving?.n)this.takeImproved(message);else if(n===this.solving?.n||kind==="canc\
-elled"&&this.solving&&n>this.solving.n)this.takeSolving(message)}takeFollowed(frame){const asked=this.flying.get(frame.n);if(!asked)return;const{document:document2,
-isOld}=asked,from=frame.from??(isOld?null:this.basis);this.flying.delete(frame.n);if(this.pending&&from===this.pending.n)this.install(this.pending);this.goOn(document2);
-if(from===this.basis){this.followed=frame;this.followedFor=document2;this.emit("followed")}if(!this.flying.size&&![this.followedFor,this.solvedFor].includes(this.
-document))this.follow()}goOn(document2){const asked=[document2,...[...this.flying.values()].map(each=>each.document)];if(!asked.includes(this.document))this.follow()}followRefused({
-n,kind,messages=[],solve=false}){const{document:document2}=this.flying.get(n);this.flying.delete(n);if(kind==="refused"&&!solve)this.say(messages);this.goOn(document2)}takePlaced(message){
-const{pivots}=this.placing;this.placing=null;if(this.placeWanted&&message.kind==="placed"){this.placed={...message,pivots};this.emit("placed")}else if(message.kind===
-"refused"){this.say(message.messages)}if(this.placeWanted&&this.placeWanted!==pivots)this.sendPlace()}takeSolving(message){const{document:document2}=this.solving,
-isNow=document2===this.document;if(message.kind==="progress"||message.kind==="waiting"){const before=`waiting for ${message.before} other${message.before===1?"":
-"s"}`;if(isNow)this.setState("solving",message.kind==="progress"?message.text:before);return}if(message.kind==="solving")return;this.solving=null;if(message.kind===
-"solved"){const answer={...message,document:document2};if(isNow)this.install(answer);else this.pending=answer}else if(message.kind==="refused"){this.say(message.
-messages)}else{const[said]=[message.message].flat();this.say([{tone:message.kind,...typeof said==="string"?{message:said}:said}])}if(isNow)this.setState("restin\
-g","")}improve(linkage){const{document:document2,options}=this,n=this.connection.send({do:"improve",document:document2,options,linkage});this.improving=n===null?
-null:{n,linkage};this.emit("improved")}takeImproved(message){if(message.kind==="progress"||message.kind==="waiting"||message.kind==="solving")return;this.improving=
-null;if(message.kind==="improved")this.improved=message;else if(message.messages)this.say(message.messages);this.emit("improved")}install({n,result,document:document2,
-seconds,was}){const told=Object.entries(was??{});this.renamed=new Map(told.map(([now,{id}])=>[id,now]));this.moved=new Map(told.map(([now,{moved}])=>[now,moved]));
-if(!told.length&&document2===this.solvedFor&&!this.followed)for(const{id}of result.linkages)this.renamed.set(id,id);const carried=id=>id===PLACED2&&this.placed?.
-linkage?id:this.renamed.get(id)??null;Object.assign(this,{solved:result,solvedFor:document2,seconds,basis:n,pending:null,followed:null,followedFor:null});for(const each of this.
-flying.values())each.isOld=true;this.chosen=carried(this.chosen)??result.linkages[0]?.id??null;this.compared=carried(this.compared);this.pinned=new Set([...this.
-pinned].map(carried).filter(Boolean));this.messages=[];this.emit("solved","chosen","pinned","messages");if(document2!==this.document)this.follow()}opened(){this.
-flying.clear();this.solving=this.placing=this.improving=null;this.setState("resting","");this.basis=null;this.solve()}closed(){clearTimeout(this.resting);this.flying.
-clear();this.solving=this.placing=this.improving=null;this.setState("offline","")}setState(state,progress=""){if(state===this.state&&progress===this.progress)return;
-this.state=state;this.progress=progress;this.emit("state")}say(messages){this.messages=messages;this.emit("messages")}choose(id){if(id===this.chosen)return;this.
-chosen=id;this.emit("chosen");if(this.state==="dragging"||this.document!==this.solvedFor)this.follow()}pin(id){if(!this.pinned.delete(id))this.pinned.add(id);this.
-emit("pinned")}compare(id){this.compared=id===this.compared?null:id;this.emit("chosen")}select(selection){if(selection?.kind===this.selection?.kind&&selection?.
-index===this.selection?.index)return;this.selection=selection;this.emit("selection")}};var FEW2=40;var PointFields=class{constructor({name,options,step,set}){Object.assign(this,{name,options,step,set,fields:[]});this.shape=h("span",{class:"bs-hint"});
+task",settings={},mostFlying=MOST_FLYING}){this.connection=connection;this.mostFlying=mostFlying;this.renamed=new Map;this.moved=new Map;this.document=document2;
+this.options=options;this.name=name;this.settings=settings;this.history=new History;this.solved=null;this.solvedFor=null;this.followed=null;this.followedFor=null;
+this.state="resting";this.progress="";this.chosen=null;this.pinned=new Set;this.compared=null;this.placed=null;this.selection=null;this.messages=[];this.listeners=
+new Map;this.basis=null;this.pending=null;this.flying=new Map;this.placing=null;this.solving=null;this.improving=null;this.improved=null;connection.on("message",
+message=>this.take(message));connection.on("open",()=>this.opened());connection.on("closed",()=>this.closed())}on(names,fn){for(const name of[names].flat().join(
+" ").split(/\s+/)){if(!this.listeners.has(name))this.listeners.set(name,[]);this.listeners.get(name).push(fn)}}emit(...names){const told=new Set;for(const name of names){
+for(const fn of this.listeners.get(name)??[]){if(told.has(fn))continue;told.add(fn);fn(name)}}}edit(change,{gesture=null}={}){const next=change(this.document);if(next===
+this.document)return;this.history.record(this.version,gesture);this.document=next;this.changed()}option(name,value){this.history.record(this.version,null);const{
+[name]:_,...rest}=this.options;this.options=value===void 0?rest:{...rest,[name]:value};this.changed()}setting(name,value){this.history.record(this.version,null);
+this.settings=withKeys(this.settings,{[name]:value});this.emit("document")}rename(name){this.history.record(this.version,null);this.name=name;this.emit("documen\
+t")}replace({document:document2,options={},name=this.name,settings=this.settings}){this.history.record(this.version,null);Object.assign(this,{document:document2,
+options,name,settings,selection:null,placed:null});this.changed();this.emit("selection","placed")}undo(){this.goTo(this.history.undo(this.version))}redo(){this.
+goTo(this.history.redo(this.version))}abandon(gesture){this.goTo(this.history.abandon(gesture))}get version(){return{document:this.document,options:this.options,
+name:this.name,settings:this.settings}}goTo(version){if(!version)return;const isSame=version.document===this.document&&version.options===this.options;Object.assign(
+this,version);if(isSame)this.emit("document");else this.changed()}changed(){this.follow();this.emit("document");if(this.state!=="offline")this.setState("draggin\
+g");this.solveAfterRest()}get shown(){return[...new Set([this.chosen,this.compared,...this.pinned])].filter(id=>id&&id!==PLACED2).slice(0,MOST_SHOWN)}follow(){if(!this.
+solved||this.flying.size>=this.mostFlying)return;const{document:document2,options,shown:shown2}=this;const n=this.connection.send({do:"follow",document:document2,
+options,shown:shown2});if(n!==null)this.flying.set(n,{document:document2,isOld:false})}solveAfterRest(){clearTimeout(this.resting);const since=performance.now();
+const rest=()=>{if(this.flying.size&&performance.now()-since<MOST_REST)this.resting=setTimeout(rest,REST/3);else this.solve()};this.resting=setTimeout(rest,REST)}solve(){
+clearTimeout(this.resting);const{document:document2,options}=this;const n=this.connection.send({do:"solve",document:document2,options});if(n===null)return;this.
+solving={n,document:document2,options};this.setState("solving","")}cancel(){this.connection.send({do:"cancel"})}place(pivots){this.placeWanted=pivots?.length?pivots:
+null;if(!this.placeWanted){this.placed=null;this.emit("placed")}else if(!this.placing){this.sendPlace()}}sendPlace(){const{document:document2,options,placeWanted:pivots}=this;
+const n=this.connection.send({do:"place",document:document2,options,pivots});this.placing=n===null?null:{n,pivots}}take(message){const{n,kind}=message;if(kind===
+"followed")this.takeFollowed(message);else if(this.flying.has(n))this.followRefused(message);else if(n===this.placing?.n)this.takePlaced(message);else if(n===this.
+improving?.n)this.takeImproved(message);else if(n===this.solving?.n||kind==="cancelled"&&this.solving&&n>this.solving.n)this.takeSolving(message)}takeFollowed(frame){
+const asked=this.flying.get(frame.n);if(!asked)return;const{document:document2,isOld}=asked,from=frame.from??(isOld?null:this.basis);this.flying.delete(frame.n);
+if(this.pending&&from===this.pending.n)this.install(this.pending);this.goOn(document2);if(from===this.basis){this.followed=frame;this.followedFor=document2;this.
+emit("followed")}if(!this.flying.size&&![this.followedFor,this.solvedFor].includes(this.document))this.follow()}goOn(document2){const asked=[document2,...[...this.
+flying.values()].map(each=>each.document)];if(!asked.includes(this.document))this.follow()}followRefused({n,kind,messages=[],solve=false}){const{document:document2}=this.
+flying.get(n);this.flying.delete(n);if(kind==="refused"&&!solve)this.say(messages);this.goOn(document2)}takePlaced(message){const{pivots}=this.placing;this.placing=
+null;if(this.placeWanted&&message.kind==="placed"){this.placed={...message,pivots};this.emit("placed")}else if(message.kind==="refused"){this.say(message.messages)}
+if(this.placeWanted&&this.placeWanted!==pivots)this.sendPlace()}takeSolving(message){const{document:document2}=this.solving,isNow=document2===this.document;if(message.
+kind==="progress"||message.kind==="waiting"){const before=`waiting for ${message.before} other${message.before===1?"":"s"}`;if(isNow)this.setState("solving",message.
+kind==="progress"?message.text:before);return}if(message.kind==="solving")return;this.solving=null;if(message.kind==="solved"){const answer={...message,document:document2};
+if(isNow)this.install(answer);else this.pending=answer}else if(message.kind==="refused"){this.say(message.messages)}else{const[said]=[message.message].flat();this.
+say([{tone:message.kind,...typeof said==="string"?{message:said}:said}])}if(isNow)this.setState("resting","")}improve(linkage){const{document:document2,options}=this,
+n=this.connection.send({do:"improve",document:document2,options,linkage});this.improving=n===null?null:{n,linkage};this.emit("improved")}takeImproved(message){if(message.
+kind==="progress"||message.kind==="waiting"||message.kind==="solving")return;this.improving=null;if(message.kind==="improved")this.improved=message;else if(message.
+messages)this.say(message.messages);this.emit("improved")}install({n,result,document:document2,seconds,was}){const told=Object.entries(was??{});this.renamed=new Map(
+told.map(([now,{id}])=>[id,now]));this.moved=new Map(told.map(([now,{moved}])=>[now,moved]));if(!told.length&&document2===this.solvedFor&&!this.followed)for(const{
+id}of result.linkages)this.renamed.set(id,id);const carried=id=>id===PLACED2&&this.placed?.linkage?id:this.renamed.get(id)??null;Object.assign(this,{solved:result,
+solvedFor:document2,seconds,basis:n,pending:null,followed:null,followedFor:null});for(const each of this.flying.values())each.isOld=true;this.chosen=carried(this.
+chosen)??result.linkages[0]?.id??null;this.compared=carried(this.compared);this.pinned=new Set([...this.pinned].map(carried).filter(Boolean));this.messages=[];this.
+emit("solved","chosen","pinned","messages");if(document2!==this.document)this.follow()}opened(){this.flying.clear();this.solving=this.placing=this.improving=null;
+this.setState("resting","");this.basis=null;this.solve()}closed(){clearTimeout(this.resting);this.flying.clear();this.solving=this.placing=this.improving=null;this.
+setState("offline","")}setState(state,progress=""){if(state===this.state&&progress===this.progress)return;this.state=state;this.progress=progress;this.emit("sta\
+te")}say(messages){this.messages=messages;this.emit("messages")}choose(id){if(id===this.chosen)return;this.chosen=id;this.emit("chosen");if(this.state==="draggi\
+ng"||this.document!==this.solvedFor)this.follow()}pin(id){if(!this.pinned.delete(id))this.pinned.add(id);this.emit("pinned")}compare(id){this.compared=id===this.
+compared?null:id;this.emit("chosen")}select(selection){if(selection?.kind===this.selection?.kind&&selection?.index===this.selection?.index)return;this.selection=
+selection;this.emit("selection")}};var FEW2=40;var PointFields=class{constructor({name,options,step,set}){Object.assign(this,{name,options,step,set,fields:[]});this.shape=h("span",{class:"bs-hint"});
 this.more=h("p",{class:"bs-hint"});this.pairs=h("div",{class:"bs-coordinates"});this.element=h("div",{class:"bs-point-fields"},this.shape,this.pairs,this.more)}show(shape,points){
 const count=Math.min(points.length,FEW2);if(shape!==this.shape.textContent)this.fields=[];this.shape.textContent=shape;while(this.fields.length<count)this.fields.
 push(this.make(this.fields.length));this.fields.length=count;const wanted=this.fields.map(each=>each.element);if(wanted.length!==this.pairs.children.length||wanted.

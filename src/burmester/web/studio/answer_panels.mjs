@@ -8,15 +8,13 @@ import { Charts } from "./charts.mjs";
 import { Compare } from "./compare.mjs";
 import { CouplerCurves } from "./coupler_curve.mjs";
 import { FactsTable } from "./facts_table.mjs";
+import { listenToSpace } from "./keyboard.mjs";
 import { LiveLinkage } from "./live_linkage.mjs";
 import { catchUpForPrint } from "./pacing.mjs";
 import { PivotSurface } from "./pivot_surface.mjs";
-import { Playing } from "./playing.mjs";
+import { Playing, playOnce } from "./playing.mjs";
 import { Results } from "./results.mjs";
 import { SpacePanel } from "./space_panel.mjs";
-
-const REDUCED_MOTION = "(prefers-reduced-motion: reduce)";
-const TYPED_IN = "button, input, select, textarea, summary, a, [role=button], [role=slider]"; // elements with a use of their own for space
 
 /** A panel under the scene that folds. */
 const panel = (name, title, open, ...content) =>
@@ -46,29 +44,4 @@ export function addResults(store, scene, { player, results, panels }) {
   playOnce(store, answers, playing);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => answers.emit("answers"));
   return { answers, playing, live, surface, centrodes, curves, cards, charts, space, compare, facts };
-}
-
-/** Space plays and stops wherever it has no other use. */
-function listenToSpace({ player }) {
-  document.addEventListener("keydown", (event) => {
-    if (event.key !== " " || event.ctrlKey || event.metaKey || event.altKey || event.target.closest?.(TYPED_IN) || !player.path) return;
-    event.preventDefault();
-    player.play(!player.playing);
-  });
-}
-
-/** The first answer moves once, unless the reader wants no motion; a hand that takes hold of something stops it. */
-function playOnce(store, answers, { player }) {
-  if (matchMedia(REDUCED_MOTION).matches) return;
-  let first = true;
-  answers.on("answers", () => {
-    if (first && player.path) {
-      first = false;
-      player.playOnce();
-    }
-  });
-  store.on("document selection", () => {
-    first = false;
-    if (player.remaining !== null) player.play(false);
-  });
 }

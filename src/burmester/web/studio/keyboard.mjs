@@ -23,14 +23,18 @@ export function keyList() {
   return [button("Keys", () => dialog.showModal(), { "data-do": "keys" }), dialog];
 }
 
+const TYPED_IN = "button, input, select, textarea, summary, a, [role=button], [role=slider]"; // elements with a use of their own for space
+
 const written = (element) => element?.matches?.("input:not([type=checkbox]):not([type=radio]):not([type=range]), textarea");
 
-/** Undo, redo, save, open; Escape ends a gesture, then a tool, then a selection. */
-export function listenToKeys(store, scene, files) {
-  document.addEventListener("keydown", (event) => {
+/** Undo and redo, and save and open where there are files; Escape ends a gesture, then a tool, then a selection.
+ * root: where keys are heard, the page or a part of it. */
+export function listenToKeys(store, scene, files = null, root = document) {
+  const acts = (event) => ({ z: () => (event.shiftKey ? store.redo() : store.undo()), y: () => store.redo(), ...(files && { s: () => files.save(), o: () => files.chooser.click() }) });
+  root.addEventListener("keydown", (event) => {
     const { key, target } = event, control = (event.ctrlKey || event.metaKey) && !event.altKey;
     if (control) {
-      const act = { z: () => (event.shiftKey ? store.redo() : store.undo()), y: () => store.redo(), s: () => files.save(), o: () => files.chooser.click() }[key.toLowerCase()];
+      const act = acts(event)[key.toLowerCase()];
       // A text that is being typed has the browser's own undo.
       if (!act || (written(target) && target.dataset.typing === "true" && /^[zy]$/i.test(key))) return;
       event.preventDefault();
@@ -45,6 +49,15 @@ export function listenToKeys(store, scene, files) {
       store.select(null);
     }
   }, true);
-  document.addEventListener("input", ({ target }) => target.dataset && (target.dataset.typing = "true"));
-  for (const name of ["change", "focusout"]) document.addEventListener(name, ({ target }) => target.dataset && delete target.dataset.typing);
+  root.addEventListener("input", ({ target }) => target.dataset && (target.dataset.typing = "true"));
+  for (const name of ["change", "focusout"]) root.addEventListener(name, ({ target }) => target.dataset && delete target.dataset.typing);
+}
+
+/** Space plays and stops wherever it has no other use. */
+export function listenToSpace({ player }, root = document) {
+  root.addEventListener("keydown", (event) => {
+    if (event.key !== " " || event.ctrlKey || event.metaKey || event.altKey || event.target.closest?.(TYPED_IN) || !player.path) return;
+    event.preventDefault();
+    player.play(!player.playing);
+  });
 }

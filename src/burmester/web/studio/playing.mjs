@@ -9,6 +9,7 @@ import { Events } from "./events.mjs";
 import { drivenByOther } from "./other_driver.mjs";
 import { Pace } from "./pacing.mjs";
 
+const REDUCED_MOTION = "(prefers-reduced-motion: reduce)";
 const AT_POSE = 1e-6; // frames: nearer than that the body is at the pose
 
 /** Events: "shape" (another linkage or way, or the same one with other dimensions: `moved` is true), "place" (it moved along its way). */
@@ -192,4 +193,20 @@ export class Playing extends Events {
     const quiet = this.store.state === "dragging" || this.player.playing;
     put(this.player.readout, "aria-live", quiet ? "off" : "polite");
   }
+}
+
+/** The first answer moves once, unless the reader wants no motion; a hand that takes hold of something stops it. */
+export function playOnce(store, answers, { player }) {
+  if (matchMedia(REDUCED_MOTION).matches) return;
+  let first = true;
+  answers.on("answers", () => {
+    if (first && player.path) {
+      first = false;
+      player.playOnce();
+    }
+  });
+  store.on("document selection", () => {
+    first = false;
+    if (player.remaining !== null) player.play(false);
+  });
 }

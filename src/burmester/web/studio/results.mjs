@@ -149,7 +149,7 @@ export class Results {
   /** Arrow keys go from card to card. */
   walk(event) {
     const step = { ArrowDown: 1, ArrowRight: 1, ArrowUp: -1, ArrowLeft: -1 }[event.key];
-    const mains = [...this.cards.values()].map((card) => card.main), at = mains.indexOf(document.activeElement);
+    const mains = [...this.cards.values()].map((card) => card.main), at = mains.indexOf(this.list.getRootNode().activeElement);
     if (!step || at < 0) return;
     event.preventDefault();
     mains[clamp(at + step, 0, mains.length - 1)].focus();

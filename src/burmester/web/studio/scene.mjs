@@ -11,10 +11,14 @@ const CLICK = 4; // pixels: a pointer that moves no farther clicks
 const RAW = 8; // milliseconds: so often a hand is followed between two pictures, where the browser tells
 const SPARE = 0.5; // of the size of what is near: so far a picture reaches for what is far
 
-/** What stands in the middle of the page: `layer(name)` is a group to draw in, in pixels; `view` goes to pixels and back. */
+/** What stands in the middle of the page: `layer(name)` is a group to draw in, in pixels; `view` goes to pixels and back.
+ *
+ * zoomKey: whether the wheel zooms with Ctrl or Cmd only, for it scrolls the page.
+ */
 export class Scene {
-  constructor(store) {
+  constructor(store, { zoomKey = false } = {}) {
     this.store = store;
+    this.zoomKey = zoomKey;
     this.listeners = { view: [], click: [], tool: [], dropped: [] };
     this.tool = null;
     this.dragged = null;
@@ -218,9 +222,10 @@ export class Scene {
   listen() {
     const { svg } = this;
     svg.addEventListener("wheel", (event) => {
+      if (this.zoomKey && !event.ctrlKey && !event.metaKey) return;
       event.preventDefault();
       const { X, Y } = this.at(event), unit = event.deltaMode === 1 ? 16 : 1;
-      this.zoom(ZOOM ** (-event.deltaY * unit * (event.ctrlKey ? 4 : 1)), X, Y);
+      this.zoom(ZOOM ** (-event.deltaY * unit * (event.ctrlKey && !this.zoomKey ? 4 : 1)), X, Y);
     }, { passive: false });
     svg.addEventListener("pointerdown", (event) => this.press(event));
     svg.addEventListener("pointermove", (event) => this.moved(event));

@@ -9,15 +9,16 @@ import { History } from "./history.mjs";
 
 const REST = 150; // milliseconds without an edit before the whole road runs
 const MOST_REST = 1000; // the same where what was asked before is not answered yet
-const MOST_FLYING = 1; // follows on their way: of two the second would wait, and answer to an older task than one asked later
+const MOST_FLYING = 1; // follows on their way, as a rule: of two the second would wait, and answer to an older task than one asked later
 const MOST_SHOWN = 6; // linkages whose motion is asked for while dragging
 const PLACED = "placed"; // chosen: the linkage whose pivots were put down by hand
 
 /** Events: document, solved, followed, state, chosen, pinned, placed, improved, selection, messages. */
 export class Store {
-  /** @param {{ connection: import("./connection.mjs").Connection, document: object, options?: object, name?: string, settings?: object }} start */
-  constructor({ connection, document, options = {}, name = "task", settings = {} }) {
+  /** @param {{ connection: import("./connection.mjs").Connection, document: object, options?: object, name?: string, settings?: object, mostFlying?: number }} start */
+  constructor({ connection, document, options = {}, name = "task", settings = {}, mostFlying = MOST_FLYING }) {
     this.connection = connection;
+    this.mostFlying = mostFlying;
     this.renamed = new Map(); // of the last whole answer: old id, new id
     this.moved = new Map(); // of it, too: new id, how far the search moved that linkage
     this.document = document;
@@ -153,7 +154,7 @@ export class Store {
   }
 
   follow() {
-    if (!this.solved || this.flying.size >= MOST_FLYING) return;
+    if (!this.solved || this.flying.size >= this.mostFlying) return;
     const { document, options, shown } = this;
     const n = this.connection.send({ do: "follow", document, options, shown });
     if (n !== null) this.flying.set(n, { document, isOld: false });
