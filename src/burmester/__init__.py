@@ -7,8 +7,8 @@
 >>> result.best.type
 'crank-rocker'
 
-`burmester.plot`, `burmester.report`, `burmester.export` and `burmester.batch` are loaded when
-they are first used.
+`burmester.plot`, `burmester.report`, `burmester.export`, `burmester.batch` and
+`burmester.notebook` are loaded when they are first used.
 The classical methods and the solvers live in their rooms, such as `burmester.dyads.pencil`.
 """
 
@@ -18,6 +18,7 @@ TYPE_CHECKING = False  # as type checkers take it; `typing` would be a third of 
 if TYPE_CHECKING:
     from burmester import batch as batch
     from burmester import export as export
+    from burmester import notebook as notebook
     from burmester import plot as plot
     from burmester import report as report
     from burmester.api.judge import judge as judge
@@ -131,7 +132,7 @@ _ROOMS_BESIDE = {
     "odd_pose": "diagnosis.odd_pose",
     "ravani_roth": "dyads.image_space_fits",
 }
-_PACKAGES = ("batch", "export", "plot", "report")
+_PACKAGES = ("batch", "export", "notebook", "plot", "report")
 
 __all__ = [
     "PP",

@@ -6,6 +6,7 @@ import re
 import subprocess
 import sys
 from itertools import pairwise
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -302,6 +303,7 @@ def test_a_result_without_linkages_is_shown_in_words():
     assert few
     assert "turns about" in few._repr_html_()
     assert "<svg" not in few._repr_html_()
+    assert set(few._repr_mimebundle_()) == {"text/plain", "text/html"}
     with pytest.raises(InputError, match="no linkage") as refused:
         few.plot()
     assert "turns about" in refused.value.why
@@ -310,6 +312,19 @@ def test_a_result_without_linkages_is_shown_in_words():
 def test_names_from_files_do_no_harm_in_a_notebook():
     task = Task.from_rows(ROWS, angle_unit="deg", length_unit="<b>mm</b>")
     assert "<b>" not in burmester.synthesize(task)._repr_html_()
+
+
+def test_a_notebook_gets_text_html_and_a_drawing_that_need_no_script(five, tmp_path):
+    formatters = pytest.importorskip("IPython.core.formatters")
+    read = burmester.read_result(five.save(tmp_path / "five.json"))
+    for shown in (five, five.best, read, read["L2"]):
+        data, _ = formatters.DisplayFormatter().format(shown)
+        assert data["text/plain"] == repr(shown)
+        assert "<table>" in data["text/html"]
+        assert "<script" not in data["text/html"]
+        drawing = ElementTree.fromstring(data["image/svg+xml"])  # a file of its own
+        assert drawing.tag == "{http://www.w3.org/2000/svg}svg"
+        assert data["image/svg+xml"] in data["text/html"]
 
 
 def test_the_figure_shows_the_way_of_the_origin_through_the_poses(five):

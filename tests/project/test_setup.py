@@ -148,7 +148,7 @@ def test_no_venv_module(setup):
 def test_what_cannot_be_had_is_left_out_and_told(setup):
     done, calls = setup("dev", FAILS="mujoco|atheris")
     # One by one after all at once.
-    assert calls == [*MAIN, *[PART] * 7]
+    assert calls == [*MAIN, *[PART] * 8]
     assert done.returncode == 0
     assert "not installed: atheris mujoco (" in done.stderr
     assert setup("dev")[1] == []

@@ -124,11 +124,21 @@ class _Handover:
         saved = self.saved()
         return f"{saved.id}, {with_article(saved.type)}, and {len(saved.task.poses.angle)} poses"
 
-    def _repr_html_(self) -> str:
+    def _drawing(self) -> str:
         saved = self.saved()
-        drawing = still(saved.linkage, saved.error.places, saved.task, self._title())
+        return still(saved.linkage, saved.error.places, saved.task, self._title())
+
+    def _repr_html_(self) -> str:
         caption = f"<figcaption>{escape(self._title())}</figcaption>"
-        return f"<figure>{drawing}{caption}{dimensions_as_html(saved)}</figure>"
+        return f"<figure>{self._drawing()}{caption}{dimensions_as_html(self.saved())}</figure>"
+
+    def _repr_mimebundle_(self, include: object = None, exclude: object = None) -> dict[str, str]:
+        """In a notebook: text, HTML without scripts, and the drawing alone."""
+        return {
+            "text/plain": repr(self),
+            "text/html": self._repr_html_(),
+            "image/svg+xml": self._drawing(),
+        }
 
 
 @final

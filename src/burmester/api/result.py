@@ -128,6 +128,15 @@ class _RankedLinkages(Generic[AnyLinkage]):
         table: str = as_html([each.saved() for each in linkages])
         return f"<div>{first}{table}{linkages[0]._repr_html_()}</div>"
 
+    def _repr_mimebundle_(self, include: object = None, exclude: object = None) -> dict[str, str]:
+        """In a notebook: text, HTML without scripts, and the first linkage as a drawing."""
+        linkages = self._parts()[1]
+        drawing = {"image/svg+xml": linkages[0]._drawing()} if linkages else {}
+        return {"text/plain": repr(self), "text/html": self._repr_html_(), **drawing}
+
+    def _repr_html_(self) -> str:
+        return self._html()
+
 
 @final
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -209,9 +218,6 @@ class ReadResult(_RankedLinkages[ReadLinkage]):
 
     def __repr__(self) -> str:
         return self._text()
-
-    def _repr_html_(self) -> str:
-        return self._html()
 
 
 def read_result(source: str | os.PathLike[str]) -> ReadResult:

@@ -1,0 +1,115 @@
+// The studio in a cell of a notebook, in anywidget's module format.  Python's side is `burmester.notebook`.
+
+import studioStyle from "../assets/studio.css";
+import sharedStyle from "../assets/widget.css";
+import { Answers } from "../studio/answers.mjs";
+import { button } from "../studio/fields.mjs";
+import { listenToKeys, listenToSpace } from "../studio/keyboard.mjs";
+import { LiveLinkage } from "../studio/live_linkage.mjs";
+import { Playing, playOnce } from "../studio/playing.mjs";
+import { PoseHandles } from "../studio/pose_handles.mjs";
+import { Results } from "../studio/results.mjs";
+import { Scene } from "../studio/scene.mjs";
+import { Store } from "../studio/store.mjs";
+import { give, h } from "../widget/dom.mjs";
+import { Kernel } from "./kernel.mjs";
+import ownStyle from "./notebook.css";
+import { dress } from "./theme.mjs";
+
+const MOST_FLYING = 4; // follows on their way: a kernel is farther away than a server on this machine
+const PATIENCE = 700; // milliseconds until solving may be stopped
+const HINT = "Drag a pose by its point, turn it by the tip of its arrow.";
+
+function render({ model, el }) {
+  const ended = new AbortController(), { signal } = ended, kernel = new Kernel(model);
+  const host = h("div", {}), frame = h("div", { class: "bm bs bn" }, h("p", { class: "bn-line" }, "Waiting for the kernel…"));
+  host.attachShadow({ mode: "open" }).append(frame);
+  el.replaceChildren(host);
+  dress(host.shadowRoot, [sharedStyle, studioStyle, ownStyle], signal);
+  keepKeys(host, signal);
+  let studio = null;
+  kernel.on("message", (message) => {
+    if (message.kind === "opened" && !studio) studio = layOut(frame, kernel, message);
+    else if (message.kind === "task" && message.by !== kernel.view) studio?.replace(message.document);
+    else if (message.kind === "chosen" && message.id) studio?.store.choose(message.id);
+  });
+  kernel.send({ do: "open" });
+  return () => {
+    ended.abort();
+    kernel.close();
+    studio?.playing.player.play(false);
+    el.replaceChildren();
+  };
+}
+
+/** The parts of the widget in its frame. */
+function layOut(frame, kernel, { document: task }) {
+  const store = new Store({ connection: kernel, document: task, mostFlying: MOST_FLYING });
+  const scene = new Scene(store, { zoomKey: true }), answers = new Answers(store), playing = new Playing(store, answers);
+  new LiveLinkage(answers, playing, scene);
+  new PoseHandles(store, scene);
+  const results = new Results(store, answers), left = h("div", { class: "bn-left" }, bar(store, scene), scene.element, playing.element);
+  const ways = playing.element.querySelector(".bs-player-ways"), fold = h("details", { class: "bn-ways" }, h("summary", {}, "Driver and assembly"));
+  ways.replaceWith(fold);
+  fold.append(ways);
+  frame.replaceChildren(h("div", { class: "bn-main" }, left, results.element));
+  scene.resize();
+  fitFirst(store, scene);
+  listenToKeys(store, scene, null, frame);
+  listenToSpace(playing, frame);
+  playOnce(store, answers, playing);
+  store.on("chosen", () => kernel.send({ do: "choose", id: store.chosen, basis: store.basis }));
+  kernel.emit("open");
+  const replace = (document) => {
+    if (JSON.stringify(document) === JSON.stringify(store.document)) return;
+    store.replace({ document });
+    store.solve(); // its answer is there
+    if (scene.isFitted) scene.fit();
+  };
+  return { store, playing, replace };
+}
+
+/** What is done in the plane, and a line that says what can be done, or what is wrong. */
+function bar(store, scene) {
+  const undo = button("↶", () => store.undo(), { "data-do": "undo", title: "Undo (Ctrl+Z)", "aria-label": "Undo" });
+  const redo = button("↷", () => store.redo(), { "data-do": "redo", title: "Redo (Ctrl+Shift+Z)", "aria-label": "Redo" });
+  const stop = button("Stop", () => store.cancel(), { "data-do": "cancel", title: "Stop solving", hidden: true });
+  const line = h("p", { class: "bn-line", role: "status" });
+  const show = () => {
+    give(undo, "disabled", !store.history.canUndo);
+    give(redo, "disabled", !store.history.canRedo);
+    const [said] = store.messages, solving = store.state === "solving" && store.progress;
+    const text = said ? [said.message, said.help].filter(Boolean).join("; ") : solving ? `Solving: ${store.progress}` : HINT;
+    if (line.textContent !== text) line.textContent = text;
+    line.classList.toggle("bn-refused", Boolean(said));
+  };
+  let waiting;
+  store.on("state", () => {
+    clearTimeout(waiting);
+    if (store.state === "solving") waiting = setTimeout(() => give(stop, "hidden", false), PATIENCE);
+    else give(stop, "hidden", true);
+  });
+  store.on("document state messages solved", show);
+  show();
+  return h("div", { class: "bn-bar" }, undo, redo, button("Fit", () => scene.fitAgain(), { "data-do": "fit", title: "Show all poses and pivots (0)" }), stop, line);
+}
+
+/** The first answer brings pivots that the first view did not know. */
+function fitFirst(store, scene) {
+  let first = true;
+  store.on("solved", () => {
+    if (first && scene.isFitted) scene.fit();
+    first = false;
+  });
+}
+
+/** Keys in the widget are its own; those with Ctrl or Cmd are the notebook's, but for undo and redo. */
+function keepKeys(host, signal) {
+  const isOwn = ({ ctrlKey, metaKey, key }) => !(ctrlKey || metaKey) || /^[zy]$/i.test(key);
+  window.addEventListener("keydown", (event) => {
+    if (event.composedPath().includes(host)) host.toggleAttribute("data-lm-suppress-shortcuts", isOwn(event));
+  }, { capture: true, signal });
+  host.addEventListener("keydown", (event) => isOwn(event) && event.stopPropagation());
+}
+
+export default { render };

@@ -1,0 +1,94 @@
+"""The widget in JupyterLab, in a real browser, under real pointer and key events."""
+
+import pytest
+
+from tests.oracles import browser, jupyter
+
+pytest.importorskip("jupyterlab", reason="no JupyterLab for this machine")
+pytestmark = pytest.mark.slow
+
+CODE = """import burmester
+from burmester.notebook import Studio
+widget, seen = Studio(burmester.read_task("case:motiongen-shoulder")), []
+widget.observe(lambda change: seen.append(change["name"]))
+widget"""
+MOVED = (9, -6)  # pixels
+
+
+@pytest.fixture(scope="module")
+def lab(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("lab")
+    with (
+        browser.launched() as chromium,
+        jupyter.notebook(chromium, folder, CODE, before=jupyter.CLOCK) as notebook,
+    ):
+        notebook.page.wait_for_selector(".bn [data-linkage=L3]")
+        yield notebook
+
+
+def place(lab, pose):
+    """Where Python has a pose."""
+    return lab.value(f"widget.task.poses.translation[{pose - 1}].tolist()")
+
+
+def label(lab, pose):
+    """What the handle of a pose says of it."""
+    return lab.page.locator(f'.bn .bs-origin[data-pose="{pose}"]').get_attribute("aria-label")
+
+
+def is_solved(lab):
+    return lab.until("widget.result.task is widget.task")
+
+
+def test_a_drag_in_the_cell_changes_the_task_in_python(lab):
+    before, scale = (
+        place(lab, 2),
+        float(lab.page.locator(".bn .bs-scene").get_attribute("data-scale")),
+    )
+    path = [(MOVED[0] * k / 30, MOVED[1] * k / 30) for k in range(1, 31)]
+    jupyter.drag(lab.page, 2, path, 1 / 120)
+    lab.until("'result' in seen")
+    is_solved(lab)
+    x, y = place(lab, 2)
+    assert x - before[0] == pytest.approx(MOVED[0] / scale, abs=1 / scale)
+    assert y - before[1] == pytest.approx(-MOVED[1] / scale, abs=1 / scale)
+    assert lab.value("widget.result.to_json() == burmester.synthesize(widget.task).to_json()")
+    assert lab.value("seen.count('task')") > lab.value("seen.count('result')")  # it followed
+    clock = lab.page.evaluate("clock")
+    assert clock["pictures"]
+    assert 1 < clock["most"] <= 4
+    assert lab.page.wrong == []
+
+
+def test_keys_move_a_pose_and_are_not_the_notebooks(lab):
+    cells, before = lab.page.locator(".jp-Cell").count(), place(lab, 3)
+    lab.page.locator('.bn .bs-origin[data-pose="3"]').focus()
+    for key in ("ArrowRight", "a", "b"):  # the last two add cells where a notebook hears them
+        lab.page.keyboard.press(key)
+    lab.until(f"widget.task.poses.translation[2, 0] > {before[0]!r}")
+    is_solved(lab)
+    assert lab.page.locator(".jp-Cell").count() == cells
+
+
+def test_a_card_that_is_picked_is_selected_in_python_and_back(lab):
+    lab.page.locator('.bn [data-linkage="L2"] .bs-card-main').click()
+    lab.until("widget.selected == 'L2'")
+    lab.run("widget.selected = 'L1'")
+    lab.page.wait_for_selector('.bn [data-linkage="L1"].bs-chosen')
+
+
+def test_a_task_that_python_sets_moves_the_handles(lab):
+    lab.run("widget.task = burmester.read_task('case:ge2012-exact')")
+    lab.page.wait_for_selector('.bn .bs-origin[data-pose="10"]')
+    x, y = place(lab, 10)
+    assert f"x {x:g}" in label(lab, 10)
+    assert f"y {y:g}" in label(lab, 10)
+    count = lab.value("len(widget.result)")
+    lab.page.wait_for_selector(f'.bn [data-linkage="L{count}"]')
+
+
+def test_no_style_leaks(lab):
+    styles = """[...document.styleSheets, ...document.adoptedStyleSheets].map(
+        (sheet) => [...sheet.cssRules].map((each) => each.cssText).join()).join()"""
+    assert "--bm-" not in lab.page.evaluate(styles)
+    assert lab.page.locator(".bn").evaluate("node => getComputedStyle(node).fontSize") == "14px"
