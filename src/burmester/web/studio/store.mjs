@@ -219,7 +219,8 @@ export class Store {
     this.flying.delete(frame.n);
     if (this.pending && from === this.pending.n) this.install(this.pending);
     this.goOn(document); // before anything is drawn
-    if (from === this.basis) {
+    const isThere = document === this.solvedFor && !this.followed; // as the whole answer has it, which knows more
+    if (from === this.basis && !isThere) {
       this.followed = frame;
       this.followedFor = document;
       this.emit("followed");
