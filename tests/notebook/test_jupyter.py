@@ -75,6 +75,12 @@ def test_a_card_that_is_picked_is_selected_in_python_and_back(lab):
     lab.until("widget.selected == 'L2'")
     lab.run("widget.selected = 'L1'")
     lab.page.wait_for_selector('.bn [data-linkage="L1"].bs-chosen')
+    # The linkage that is shown goes on, and both sides know it by the same id.
+    lab.page.locator('.bn .bs-origin[data-pose="2"]').focus()
+    lab.page.keyboard.press("ArrowUp")
+    lab.until("widget.result.task is widget.task")
+    lab.page.wait_for_selector(f'.bn [data-linkage="{lab.value("widget.selected")}"].bs-chosen')
+    assert lab.page.wrong == []
 
 
 def test_a_task_that_python_sets_moves_the_handles(lab):

@@ -154,6 +154,7 @@ def notebook(browser, folder, code, *, width=1000, height=900, before=None, **op
         context = browser.new_context(viewport={"width": width, "height": height}, **options)
         context.set_default_timeout(1000 * SECONDS)
         page, wrong = context.new_page(), []
+        page.on("console", lambda said: wrong.append(said.text) if said.type == "error" else None)
         page.on("pageerror", lambda error: wrong.append(str(error)))
         if before:
             page.add_init_script(before)

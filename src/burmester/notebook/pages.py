@@ -136,6 +136,7 @@ class Pages:
         if id in known and basis == self._basis.get(view):
             with _told():
                 self._studio.follow_choice(id)
+            self.choose(id)  # on the other pages
 
     async def _follow_hand(self) -> None:
         """Answer the newest follow of each page, until there are none."""
@@ -168,6 +169,8 @@ class Pages:
         self._call_off()
         self._newest = document
         if document == self._document:
+            if (older := self._waiting.pop(view, None)) is not None:
+                self._tell(view, n=older["n"], kind="superseded", by=n)
             with self._lock:
                 self._live.again()
             self._tell_solved(view, n)

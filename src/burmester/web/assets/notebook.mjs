@@ -968,41 +968,43 @@ const n=this.connection.send({do:"place",document:document2,options,pivots});thi
 "followed")this.takeFollowed(message);else if(this.flying.has(n))this.followRefused(message);else if(n===this.placing?.n)this.takePlaced(message);else if(n===this.
 improving?.n)this.takeImproved(message);else if(n===this.solving?.n||kind==="cancelled"&&this.solving&&n>this.solving.n)this.takeSolving(message)}takeFollowed(frame){
 const asked=this.flying.get(frame.n);if(!asked)return;const{document:document2,isOld}=asked,from=frame.from??(isOld?null:this.basis);this.flying.delete(frame.n);
-if(this.pending&&from===this.pending.n)this.install(this.pending);this.goOn(document2);if(from===this.basis){this.followed=frame;this.followedFor=document2;this.
-emit("followed")}if(!this.flying.size&&![this.followedFor,this.solvedFor].includes(this.document))this.follow()}goOn(document2){const asked=[document2,...[...this.
-flying.values()].map(each=>each.document)];if(!asked.includes(this.document))this.follow()}followRefused({n,kind,messages=[],solve=false}){const{document:document2}=this.
-flying.get(n);this.flying.delete(n);if(kind==="refused"&&!solve)this.say(messages);this.goOn(document2)}takePlaced(message){const{pivots}=this.placing;this.placing=
-null;if(this.placeWanted&&message.kind==="placed"){this.placed={...message,pivots};this.emit("placed")}else if(message.kind==="refused"){this.say(message.messages)}
-if(this.placeWanted&&this.placeWanted!==pivots)this.sendPlace()}takeSolving(message){const{document:document2}=this.solving,isNow=document2===this.document;if(message.
-kind==="progress"||message.kind==="waiting"){const before=`waiting for ${message.before} other${message.before===1?"":"s"}`;if(isNow)this.setState("solving",message.
-kind==="progress"?message.text:before);return}if(message.kind==="solving")return;this.solving=null;if(message.kind==="solved"){const answer={...message,document:document2};
-if(isNow)this.install(answer);else this.pending=answer}else if(message.kind==="refused"){this.say(message.messages)}else{const[said]=[message.message].flat();this.
-say([{tone:message.kind,...typeof said==="string"?{message:said}:said}])}if(isNow)this.setState("resting","")}improve(linkage){const{document:document2,options}=this,
-n=this.connection.send({do:"improve",document:document2,options,linkage});this.improving=n===null?null:{n,linkage};this.emit("improved")}takeImproved(message){if(message.
-kind==="progress"||message.kind==="waiting"||message.kind==="solving")return;this.improving=null;if(message.kind==="improved")this.improved=message;else if(message.
-messages)this.say(message.messages);this.emit("improved")}install({n,result,document:document2,seconds,was}){const told=Object.entries(was??{});this.renamed=new Map(
-told.map(([now,{id}])=>[id,now]));this.moved=new Map(told.map(([now,{moved}])=>[now,moved]));if(!told.length&&document2===this.solvedFor&&!this.followed)for(const{
-id}of result.linkages)this.renamed.set(id,id);const carried=id=>id===PLACED2&&this.placed?.linkage?id:this.renamed.get(id)??null;Object.assign(this,{solved:result,
-solvedFor:document2,seconds,basis:n,pending:null,followed:null,followedFor:null});for(const each of this.flying.values())each.isOld=true;this.chosen=carried(this.
-chosen)??result.linkages[0]?.id??null;this.compared=carried(this.compared);this.pinned=new Set([...this.pinned].map(carried).filter(Boolean));this.messages=[];this.
-emit("solved","chosen","pinned","messages");if(document2!==this.document)this.follow()}opened(){this.flying.clear();this.solving=this.placing=this.improving=null;
-this.setState("resting","");this.basis=null;this.solve()}closed(){clearTimeout(this.resting);this.flying.clear();this.solving=this.placing=this.improving=null;this.
-setState("offline","")}setState(state,progress=""){if(state===this.state&&progress===this.progress)return;this.state=state;this.progress=progress;this.emit("sta\
-te")}say(messages){this.messages=messages;this.emit("messages")}choose(id){if(id===this.chosen)return;this.chosen=id;this.emit("chosen");if(this.state==="draggi\
-ng"||this.document!==this.solvedFor)this.follow()}pin(id){if(!this.pinned.delete(id))this.pinned.add(id);this.emit("pinned")}compare(id){this.compared=id===this.
-compared?null:id;this.emit("chosen")}select(selection){if(selection?.kind===this.selection?.kind&&selection?.index===this.selection?.index)return;this.selection=
-selection;this.emit("selection")}};var WAY=["x","y","angle","drive","transmission"];var POSE=["x","y","angle_deg","position","turned_deg","transmission_deg"];function decodeFrame(buffer){const length=new DataView(
+if(this.pending&&from===this.pending.n)this.install(this.pending);this.goOn(document2);const isThere=document2===this.solvedFor&&!this.followed;if(from===this.basis&&
+!isThere){this.followed=frame;this.followedFor=document2;this.emit("followed")}if(!this.flying.size&&![this.followedFor,this.solvedFor].includes(this.document))
+this.follow()}goOn(document2){const asked=[document2,...[...this.flying.values()].map(each=>each.document)];if(!asked.includes(this.document))this.follow()}followRefused({
+n,kind,messages=[],solve=false}){const{document:document2}=this.flying.get(n);this.flying.delete(n);if(kind==="refused"&&!solve)this.say(messages);this.goOn(document2)}takePlaced(message){
+const{pivots}=this.placing;this.placing=null;if(this.placeWanted&&message.kind==="placed"){this.placed={...message,pivots};this.emit("placed")}else if(message.kind===
+"refused"){this.say(message.messages)}if(this.placeWanted&&this.placeWanted!==pivots)this.sendPlace()}takeSolving(message){const{document:document2}=this.solving,
+isNow=document2===this.document;if(message.kind==="progress"||message.kind==="waiting"){const before=`waiting for ${message.before} other${message.before===1?"":
+"s"}`;if(isNow)this.setState("solving",message.kind==="progress"?message.text:before);return}if(message.kind==="solving")return;this.solving=null;if(message.kind===
+"solved"){const answer={...message,document:document2};if(isNow)this.install(answer);else this.pending=answer}else if(message.kind==="refused"){this.say(message.
+messages)}else{const[said]=[message.message].flat();this.say([{tone:message.kind,...typeof said==="string"?{message:said}:said}])}if(isNow)this.setState("restin\
+g","")}improve(linkage){const{document:document2,options}=this,n=this.connection.send({do:"improve",document:document2,options,linkage});this.improving=n===null?
+null:{n,linkage};this.emit("improved")}takeImproved(message){if(message.kind==="progress"||message.kind==="waiting"||message.kind==="solving")return;this.improving=
+null;if(message.kind==="improved")this.improved=message;else if(message.messages)this.say(message.messages);this.emit("improved")}install({n,result,document:document2,
+seconds,was}){const told=Object.entries(was??{});this.renamed=new Map(told.map(([now,{id}])=>[id,now]));this.moved=new Map(told.map(([now,{moved}])=>[now,moved]));
+if(!told.length&&document2===this.solvedFor&&!this.followed)for(const{id}of result.linkages)this.renamed.set(id,id);const carried=id=>id===PLACED2&&this.placed?.
+linkage?id:this.renamed.get(id)??null;Object.assign(this,{solved:result,solvedFor:document2,seconds,basis:n,pending:null,followed:null,followedFor:null});for(const each of this.
+flying.values())each.isOld=true;this.chosen=carried(this.chosen)??result.linkages[0]?.id??null;this.compared=carried(this.compared);this.pinned=new Set([...this.
+pinned].map(carried).filter(Boolean));this.messages=[];this.emit("solved","chosen","pinned","messages");if(document2!==this.document)this.follow()}opened(){this.
+flying.clear();this.solving=this.placing=this.improving=null;this.setState("resting","");this.basis=null;this.solve()}closed(){clearTimeout(this.resting);this.flying.
+clear();this.solving=this.placing=this.improving=null;this.setState("offline","")}setState(state,progress=""){if(state===this.state&&progress===this.progress)return;
+this.state=state;this.progress=progress;this.emit("state")}say(messages){this.messages=messages;this.emit("messages")}choose(id){if(id===this.chosen)return;this.
+chosen=id;this.emit("chosen");if(this.state==="dragging"||this.document!==this.solvedFor)this.follow()}pin(id){if(!this.pinned.delete(id))this.pinned.add(id);this.
+emit("pinned")}compare(id){this.compared=id===this.compared?null:id;this.emit("chosen")}select(selection){if(selection?.kind===this.selection?.kind&&selection?.
+index===this.selection?.index)return;this.selection=selection;this.emit("selection")}};var WAY=["x","y","angle","drive","transmission"];var POSE=["x","y","angle_deg","position","turned_deg","transmission_deg"];function decodeFrame(buffer){const length=new DataView(
 buffer).getUint32(0,true);const header=JSON.parse(new TextDecoder().decode(new Uint8Array(buffer,4,length)));const numbers=floats(buffer,4+length);for(const linkage of header.
 linkages??[]){if(linkage.ways)linkage.ways=linkage.ways.map(way=>({...way,...pieces(numbers,way,WAY)}));if(!linkage.poses)continue;const{count}=linkage.poses;const columns=pieces(
 numbers,linkage.poses,POSE);linkage.pose_errors=Array.from({length:count},(_,pose)=>{const at=linkage.at?.[pose]??null;const row={way:at?at[0]:null,frame:at?at[1]:
 null};for(const name of POSE){const value=columns[name][pose];row[name]=Number.isNaN(value)?null:value}return row})}return header}function floats(buffer,start){
 if(new Uint8Array(new Uint16Array([1]).buffer)[0]===1)return new Float32Array(buffer,start);const view=new DataView(buffer,start);return Float32Array.from({length:view.
 byteLength/4},(_,k)=>view.getFloat32(4*k,true))}function pieces(numbers,{start,count},names){return Object.fromEntries(names.map((name,k)=>[name,numbers.subarray(
-start+k*count,start+(k+1)*count)]))}var Kernel=class{constructor(model){this.model=model;this.view=Math.random().toString(36).slice(2);this.listeners={message:[],open:[],closed:[]};this.n=0;this.heard=
-(message,buffers)=>this.take(message,buffers);model.on("msg:custom",this.heard)}on(name,fn){this.listeners[name].push(fn)}emit(name,value){for(const fn of this.
-listeners[name])fn(value)}take(message,buffers=[]){if(message.view!==null&&message.view!==this.view)return;this.emit("message",message.kind==="followed"?decodeFrame(
-bytesOf(buffers[0])):message)}send(message){this.n+=1;this.model.send({view:this.view,n:this.n,...message});return this.n}close(){this.model.off("msg:custom",this.
-heard)}};function bytesOf(data){return data instanceof ArrayBuffer?data:data.buffer.slice(data.byteOffset,data.byteOffset+data.byteLength)}var notebook_default="/* The widget of a notebook; in a shadow root, after widget.css and studio.css. */\n\n:host { display: block; }\n.bm.bn { min-height: 0; font\
+start+k*count,start+(k+1)*count)]))}var PATIENCE=1500;var Kernel=class{constructor(model){this.model=model;this.view=Math.random().toString(36).slice(2);this.listeners={message:[],open:[],closed:[],
+told:[],busy:[]};this.n=0;this.waiting=null;this.heard=(message,buffers)=>this.take(message,buffers);model.on("msg:custom",this.heard)}on(name,fn){this.listeners[name].
+push(fn)}emit(name,value){for(const fn of this.listeners[name])fn(value)}take(message,buffers=[]){if(message.view!==null&&message.view!==this.view)return;this.rest();
+if(message.n===void 0)this.emit("told",message);else this.emit("message",message.kind==="followed"?decodeFrame(bytesOf(buffers[0])):message)}send(message){this.
+n+=1;if(message.do!=="choose")this.waiting??=setTimeout(()=>this.emit("busy",true),PATIENCE);this.model.send({view:this.view,n:this.n,...message});return this.n}rest(){
+clearTimeout(this.waiting);this.waiting=null;this.emit("busy",false)}close(){clearTimeout(this.waiting);this.model.off("msg:custom",this.heard)}};function bytesOf(data){
+return data instanceof ArrayBuffer?data:data.buffer.slice(data.byteOffset,data.byteOffset+data.byteLength)}var notebook_default="/* The widget of a notebook; in a shadow root, after widget.css and studio.css. */\n\n:host { display: block; }\n.bm.bn { min-height: 0; font\
 -size: 14px; border: 1px solid var(--bm-line); border-radius: 8px; overflow: hidden; background: var(--bm-panel); }\n.bn-main { display: grid; height: 470px; gri\
 d-template-columns: minmax(0, 1fr) 236px; }\n.bn-left { display: grid; gap: 5px; padding: 7px 10px 8px; min-width: 0; min-height: 0; grid-template: auto minmax(0\
 , 1fr) auto / minmax(0, 1fr); }\n.bn-bar { display: flex; gap: 5px; align-items: center; min-width: 0; }\n.bs .bn-bar .bm-button { min-height: 28px; min-width: 30\
@@ -1015,36 +1017,38 @@ dding: 1px 10px; font-size: 0.82rem; }\n.bn .bm-controls, .bn .bm-row { font-siz
 ontent: start; grid-template-rows: auto minmax(0, 1fr); gap: 6px; border-left: 1px solid var(--bm-line); background: var(--bm-bg); }\n.bn .bs-results .bs-choices\
 , .bn .bs-card-tools, .bn .bs-better { display: none; }\n.bm.bn .bs-results-status { font-size: 0.76rem; max-height: 6.2em; overflow: auto; }\n.bn .bs-cards { gri\
 d-template-columns: minmax(0, 1fr); overflow: auto; scrollbar-width: thin; padding: 1px; }\n.bn .bs-card { font-size: 0.8rem; }\n.bn .bs-card-main { padding-botto\
-m: 9px; }\n@container (max-width: 559px) {\n  .bn-main { height: auto; grid-template-columns: minmax(0, 1fr); }\n  .bn .bs-plane { height: 270px; }\n  .bn .bs-resul\
-ts { border-left: 0; border-top: 1px solid var(--bm-line); }\n  .bn .bs-cards { display: flex; align-items: stretch; overflow-x: auto; padding-bottom: 5px; }\n  .\
-bn .bs-card.bm-choice { flex: 0 0 212px; }\n}\n@media (min-width: 1px) { .bn .bs-cards { scroll-snap-type: none; } }\n/* What changes under a hand is laid out by i\
-tself. */\n.bn { contain: layout style paint; }\n.bn .bs-player, .bn .bs-results, .bn-bar { contain: layout style; }\n";var DARK_SCHEME="(prefers-color-scheme: dark)";var LATE=400;function dress(root,texts,signal){const sheets=texts.map(text=>{const sheet=new CSSStyleSheet;sheet.
-replaceSync(text);return sheet});const dark=sheets.flatMap(({cssRules})=>[...cssRules]).filter(rule=>rule.media?.mediaText===DARK_SCHEME);const follow2=()=>{const on=isDark(
-root.host);for(const rule of dark)rule.media.mediaText=on?"all":"not all";root.host.style.colorScheme=on?"dark":"light"};const both=()=>{follow2();setTimeout(follow2,
-LATE)};const seen=new MutationObserver(both);for(const element of[document.documentElement,document.body])seen.observe(element,{attributes:true});matchMedia(DARK_SCHEME).
-addEventListener("change",both,{signal});const placed=new ResizeObserver(follow2);placed.observe(root.host);signal.addEventListener("abort",()=>[seen,placed].forEach(
-each=>each.disconnect()));root.adoptedStyleSheets=sheets;both()}function isDark(element){for(let node=element;node;node=node.parentElement??node.getRootNode().host){
-const colour=getComputedStyle(node).backgroundColor;const[r,g,b,a=1]=colour.startsWith("rgb")?colour.match(/[\d.]+/g).map(Number):[0,0,0,0];if(a>.5)return .299*
-r+.587*g+.114*b<128}return matchMedia(DARK_SCHEME).matches}var MOST_FLYING2=4;var PATIENCE=700;var HINT="Drag a pose by its point, turn it by the tip of its arrow.";function render({model,el}){const ended=new AbortController,
-{signal}=ended,kernel=new Kernel(model);const host=h("div",{}),frame=h("div",{class:"bm bs bn"},h("p",{class:"bn-line"},"Waiting for the kernel…"));host.attachShadow(
-{mode:"open"}).append(frame);el.replaceChildren(host);dress(host.shadowRoot,[widget_default,studio_default,notebook_default],signal);keepKeys(host,signal);let studio=null;
-kernel.on("message",message=>{if(message.kind==="opened"&&!studio)studio=layOut(frame,kernel,message);else if(message.kind==="task"&&message.by!==kernel.view)studio?.
-replace(message.document);else if(message.kind==="chosen"&&message.id)studio?.store.choose(message.id)});kernel.send({do:"open"});return()=>{ended.abort();kernel.
-close();studio?.playing.player.play(false);el.replaceChildren()}}function layOut(frame,kernel,{document:task}){const store=new Store({connection:kernel,document:task,
-mostFlying:MOST_FLYING2});const scene=new Scene(store,{zoomKey:true}),answers=new Answers(store),playing=new Playing(store,answers);new LiveLinkage(answers,playing,
-scene);new PoseHandles(store,scene);const results=new Results(store,answers),left=h("div",{class:"bn-left"},bar(store,scene),scene.element,playing.element);const ways=playing.
-element.querySelector(".bs-player-ways"),fold=h("details",{class:"bn-ways"},h("summary",{},"Driver and assembly"));ways.replaceWith(fold);fold.append(ways);frame.
-replaceChildren(h("div",{class:"bn-main"},left,results.element));scene.resize();fitFirst(store,scene);listenToKeys(store,scene,null,frame);listenToSpace(playing,
-frame);playOnce(store,answers,playing);store.on("chosen",()=>kernel.send({do:"choose",id:store.chosen,basis:store.basis}));kernel.emit("open");const replace=document2=>{
-if(JSON.stringify(document2)===JSON.stringify(store.document))return;store.replace({document:document2});store.solve();if(scene.isFitted)scene.fit()};return{store,
-playing,replace}}function bar(store,scene){const undo=button("↶",()=>store.undo(),{"data-do":"undo",title:"Undo (Ctrl+Z)","aria-label":"Undo"});const redo=button(
-"↷",()=>store.redo(),{"data-do":"redo",title:"Redo (Ctrl+Shift+Z)","aria-label":"Redo"});const stop=button("Stop",()=>store.cancel(),{"data-do":"cancel",title:"\
-Stop solving",hidden:true});const line=h("p",{class:"bn-line",role:"status"});const show=()=>{give(undo,"disabled",!store.history.canUndo);give(redo,"disabled",
-!store.history.canRedo);const[said]=store.messages,solving=store.state==="solving"&&store.progress;const text=said?[said.message,said.help].filter(Boolean).join(
-"; "):solving?`Solving: ${store.progress}`:HINT;if(line.textContent!==text)line.textContent=text;line.classList.toggle("bn-refused",Boolean(said))};let waiting;
-store.on("state",()=>{clearTimeout(waiting);if(store.state==="solving")waiting=setTimeout(()=>give(stop,"hidden",false),PATIENCE);else give(stop,"hidden",true)});
-store.on("document state messages solved",show);show();return h("div",{class:"bn-bar"},undo,redo,button("Fit",()=>scene.fitAgain(),{"data-do":"fit",title:"Show \
-all poses and pivots (0)"}),stop,line)}function fitFirst(store,scene){let first=true;store.on("solved",()=>{if(first&&scene.isFitted)scene.fit();first=false})}function keepKeys(host,signal){
-const isOwn=({ctrlKey,metaKey,key})=>!(ctrlKey||metaKey)||/^[zy]$/i.test(key);window.addEventListener("keydown",event=>{if(event.composedPath().includes(host))host.
-toggleAttribute("data-lm-suppress-shortcuts",isOwn(event))},{capture:true,signal});host.addEventListener("keydown",event=>isOwn(event)&&event.stopPropagation())}
-var notebook_default2={render};export{notebook_default2 as default};
+m: 9px; }\n.bn .bs-card .bm-choice-head { font-size: 0.88rem; }\n.bn .bs-figures, .bs.bn .bs-card-note, .bs.bn .bm-reason, .bs.bn .bs-help { font-size: 0.77rem; }\
+\n.bn .bm-whole { font-size: 0.8rem; }\n.bn .bs-figures dd { white-space: nowrap; }\n.bn .bs-gone-note { display: none; }\n@container (max-width: 559px) {\n  .bn-mai\
+n { height: auto; grid-template-columns: minmax(0, 1fr); }\n  .bn .bs-plane { height: 270px; }\n  .bn .bs-results { border-left: 0; border-top: 1px solid var(--bm\
+-line); }\n  .bn .bs-cards { display: flex; align-items: stretch; overflow-x: auto; padding-bottom: 5px; }\n  .bn .bs-card.bm-choice { flex: 0 0 212px; }\n}\n/* Wha\
+t changes under a hand is laid out by itself. */\n.bn { contain: layout style paint; }\n.bn .bs-player, .bn .bs-results, .bn-bar { contain: layout style; }\n";var DARK_SCHEME="(prefers-color-scheme: dark)";var REM=16;var LATE=400;function dress(root,texts,signal){const sheets=texts.map(text=>{const sheet=new CSSStyleSheet;
+sheet.replaceSync(text.replace(/([\d.]+)rem\b/g,(_,size)=>`${REM*size}px`));return sheet});const dark=sheets.flatMap(({cssRules})=>[...cssRules]).filter(rule=>rule.
+media?.mediaText===DARK_SCHEME);const follow2=()=>{const on=isDark(root.host);for(const rule of dark)rule.media.mediaText=on?"all":"not all";root.host.style.colorScheme=
+on?"dark":"light"};const both=()=>{follow2();setTimeout(follow2,LATE)};const seen=new MutationObserver(both);for(const element of[document.documentElement,document.
+body])seen.observe(element,{attributes:true});matchMedia(DARK_SCHEME).addEventListener("change",both,{signal});const placed=new ResizeObserver(follow2);placed.observe(
+root.host);signal.addEventListener("abort",()=>[seen,placed].forEach(each=>each.disconnect()));root.adoptedStyleSheets=sheets;both()}function isDark(element){for(let node=element;node;node=
+node.parentElement??node.getRootNode().host){const colour=getComputedStyle(node).backgroundColor;const[r,g,b,a=1]=colour.startsWith("rgb")?colour.match(/[\d.]+/g).
+map(Number):[0,0,0,0];if(a>.5)return .299*r+.587*g+.114*b<128}return matchMedia(DARK_SCHEME).matches}var MOST_FLYING2=4;var PATIENCE2=700;var BUSY="The kernel is busy: what is done here is answered when it is free.";var HINT="Drag a pose by its point, turn it b\
+y the tip of its arrow.";function render({model,el}){const ended=new AbortController,{signal}=ended,kernel=new Kernel(model);const host=h("div",{}),frame=h("div",
+{class:"bm bs bn"},h("p",{class:"bn-line"},"Waiting for the kernel…"));host.attachShadow({mode:"open"}).append(frame);el.replaceChildren(host);dress(host.shadowRoot,
+[widget_default,studio_default,notebook_default],signal);keepKeys(host,signal);let studio=null;kernel.on("message",message=>{if(message.kind==="opened"&&!studio)
+studio=layOut(frame,kernel,message)});kernel.on("told",message=>{if(message.kind==="task"&&message.by!==kernel.view)studio?.replace(message.document);else if(message.
+kind==="chosen"&&message.id)studio?.store.choose(message.id)});kernel.send({do:"open"});return()=>{ended.abort();kernel.close();studio?.playing.player.play(false);
+el.replaceChildren()}}function layOut(frame,kernel,{document:task}){const store=new Store({connection:kernel,document:task,mostFlying:MOST_FLYING2});const scene=new Scene(
+store,{zoomKey:true}),answers=new Answers(store),playing=new Playing(store,answers);new LiveLinkage(answers,playing,scene);new PoseHandles(store,scene);const results=new Results(
+store,answers),left=h("div",{class:"bn-left"},bar(store,scene,kernel),scene.element,playing.element);const ways=playing.element.querySelector(".bs-player-ways"),
+fold=h("details",{class:"bn-ways"},h("summary",{},"Driver and assembly"));ways.replaceWith(fold);fold.append(ways);frame.replaceChildren(h("div",{class:"bn-main"},
+left,results.element));scene.resize();const refit=fitOnceSolved(store,scene);listenToKeys(store,scene,null,frame);listenToSpace(playing,frame);playOnce(store,answers,
+playing);store.on("chosen",()=>kernel.send({do:"choose",id:store.chosen,basis:store.basis}));kernel.emit("open");const replace=document2=>{if(JSON.stringify(document2)===
+JSON.stringify(store.document))return;store.replace({document:document2});store.solve();refit()};return{store,playing,replace}}function bar(store,scene,kernel){
+const undo=button("↶",()=>store.undo(),{"data-do":"undo",title:"Undo (Ctrl+Z)","aria-label":"Undo"});const redo=button("↷",()=>store.redo(),{"data-do":"redo",
+title:"Redo (Ctrl+Shift+Z)","aria-label":"Redo"});const stop=button("Stop",()=>store.cancel(),{"data-do":"cancel",title:"Stop solving",hidden:true});const line=h(
+"p",{class:"bn-line",role:"status"});let isBusy=false;const show=()=>{give(undo,"disabled",!store.history.canUndo);give(redo,"disabled",!store.history.canRedo);
+const[said]=store.messages,solving=store.state==="solving"&&store.progress;const text=isBusy?BUSY:said?[said.message,said.help].filter(Boolean).join("; "):solving?
+`Solving: ${store.progress}`:HINT;if(line.textContent!==text)line.textContent=text;line.classList.toggle("bn-refused",Boolean(said))};kernel.on("busy",on=>{if(on===
+isBusy)return;isBusy=on;show()});let waiting;store.on("state",()=>{clearTimeout(waiting);if(store.state==="solving")waiting=setTimeout(()=>give(stop,"hidden",false),
+PATIENCE2);else give(stop,"hidden",true)});store.on("document state messages solved",show);show();return h("div",{class:"bn-bar"},undo,redo,button("Fit",()=>scene.
+fitAgain(),{"data-do":"fit",title:"Show all poses and pivots (0)"}),stop,line)}function fitOnceSolved(store,scene){let waits=true;store.on("solved",()=>{if(waits&&
+scene.isFitted)scene.fit();waits=false});return()=>waits=true}function keepKeys(host,signal){const isOwn=({ctrlKey,metaKey,key})=>!(ctrlKey||metaKey)||/^[zy]$/i.
+test(key);window.addEventListener("keydown",event=>{if(event.composedPath().includes(host))host.toggleAttribute("data-lm-suppress-shortcuts",isOwn(event))},{capture:true,
+signal});host.addEventListener("keydown",event=>isOwn(event)&&event.stopPropagation())}var notebook_default2={render};export{notebook_default2 as default};

@@ -18,6 +18,7 @@ import { dress } from "./theme.mjs";
 
 const MOST_FLYING = 4; // follows on their way: a kernel is farther away than a server on this machine
 const PATIENCE = 700; // milliseconds until solving may be stopped
+const BUSY = "The kernel is busy: what is done here is answered when it is free.";
 const HINT = "Drag a pose by its point, turn it by the tip of its arrow.";
 
 function render({ model, el }) {
@@ -30,7 +31,9 @@ function render({ model, el }) {
   let studio = null;
   kernel.on("message", (message) => {
     if (message.kind === "opened" && !studio) studio = layOut(frame, kernel, message);
-    else if (message.kind === "task" && message.by !== kernel.view) studio?.replace(message.document);
+  });
+  kernel.on("told", (message) => {
+    if (message.kind === "task" && message.by !== kernel.view) studio?.replace(message.document);
     else if (message.kind === "chosen" && message.id) studio?.store.choose(message.id);
   });
   kernel.send({ do: "open" });
@@ -48,13 +51,13 @@ function layOut(frame, kernel, { document: task }) {
   const scene = new Scene(store, { zoomKey: true }), answers = new Answers(store), playing = new Playing(store, answers);
   new LiveLinkage(answers, playing, scene);
   new PoseHandles(store, scene);
-  const results = new Results(store, answers), left = h("div", { class: "bn-left" }, bar(store, scene), scene.element, playing.element);
+  const results = new Results(store, answers), left = h("div", { class: "bn-left" }, bar(store, scene, kernel), scene.element, playing.element);
   const ways = playing.element.querySelector(".bs-player-ways"), fold = h("details", { class: "bn-ways" }, h("summary", {}, "Driver and assembly"));
   ways.replaceWith(fold);
   fold.append(ways);
   frame.replaceChildren(h("div", { class: "bn-main" }, left, results.element));
   scene.resize();
-  fitFirst(store, scene);
+  const refit = fitOnceSolved(store, scene);
   listenToKeys(store, scene, null, frame);
   listenToSpace(playing, frame);
   playOnce(store, answers, playing);
@@ -64,25 +67,31 @@ function layOut(frame, kernel, { document: task }) {
     if (JSON.stringify(document) === JSON.stringify(store.document)) return;
     store.replace({ document });
     store.solve(); // its answer is there
-    if (scene.isFitted) scene.fit();
+    refit();
   };
   return { store, playing, replace };
 }
 
 /** What is done in the plane, and a line that says what can be done, or what is wrong. */
-function bar(store, scene) {
+function bar(store, scene, kernel) {
   const undo = button("↶", () => store.undo(), { "data-do": "undo", title: "Undo (Ctrl+Z)", "aria-label": "Undo" });
   const redo = button("↷", () => store.redo(), { "data-do": "redo", title: "Redo (Ctrl+Shift+Z)", "aria-label": "Redo" });
   const stop = button("Stop", () => store.cancel(), { "data-do": "cancel", title: "Stop solving", hidden: true });
   const line = h("p", { class: "bn-line", role: "status" });
+  let isBusy = false;
   const show = () => {
     give(undo, "disabled", !store.history.canUndo);
     give(redo, "disabled", !store.history.canRedo);
     const [said] = store.messages, solving = store.state === "solving" && store.progress;
-    const text = said ? [said.message, said.help].filter(Boolean).join("; ") : solving ? `Solving: ${store.progress}` : HINT;
+    const text = isBusy ? BUSY : said ? [said.message, said.help].filter(Boolean).join("; ") : solving ? `Solving: ${store.progress}` : HINT;
     if (line.textContent !== text) line.textContent = text;
     line.classList.toggle("bn-refused", Boolean(said));
   };
+  kernel.on("busy", (on) => {
+    if (on === isBusy) return;
+    isBusy = on;
+    show();
+  });
   let waiting;
   store.on("state", () => {
     clearTimeout(waiting);
@@ -94,13 +103,14 @@ function bar(store, scene) {
   return h("div", { class: "bn-bar" }, undo, redo, button("Fit", () => scene.fitAgain(), { "data-do": "fit", title: "Show all poses and pivots (0)" }), stop, line);
 }
 
-/** The first answer brings pivots that the first view did not know. */
-function fitFirst(store, scene) {
-  let first = true;
+/** The first answer to a task brings pivots that its first view did not know; calling what is returned waits for another. */
+function fitOnceSolved(store, scene) {
+  let waits = true;
   store.on("solved", () => {
-    if (first && scene.isFitted) scene.fit();
-    first = false;
+    if (waits && scene.isFitted) scene.fit();
+    waits = false;
   });
+  return () => (waits = true);
 }
 
 /** Keys in the widget are its own; those with Ctrl or Cmd are the notebook's, but for undo and redo. */

@@ -1,13 +1,14 @@
 // Style sheets that follow the notebook, whose theme is its own and need not be that of the browser.
 
 const DARK_SCHEME = "(prefers-color-scheme: dark)";
+const REM = 16; // pixels: a notebook may have another size at its root
 const LATE = 400; // milliseconds: a notebook may load the colours of another theme after it says so
 
 /** The styles of a shadow root, from texts; `signal` ends them. */
 export function dress(root, texts, signal) {
   const sheets = texts.map((text) => {
     const sheet = new CSSStyleSheet();
-    sheet.replaceSync(text);
+    sheet.replaceSync(text.replace(/([\d.]+)rem\b/g, (_, size) => `${REM * size}px`));
     return sheet;
   });
   const dark = sheets.flatMap(({ cssRules }) => [...cssRules]).filter((rule) => rule.media?.mediaText === DARK_SCHEME);
