@@ -1,9 +1,10 @@
 """Make the pictures of pages and of image space in docs.
 
 report.png is the page of the example, few-poses.png that of a template with three poses, studio.png
-the studio as it opens, and image-space.png the paper's Fig. 4.
+the studio as it opens, notebook.png the widget in JupyterLab, and image-space.png the paper's
+Fig. 4.
 
-Needs a browser, Playwright, the studio and Matplotlib, as the tests do.  Run it from the
+Needs a browser, Playwright, the studio, JupyterLab and Matplotlib, as the tests do.  Run it from the
 project's root:
 
     .venv/bin/python -m docs.screens
@@ -15,6 +16,7 @@ from pathlib import Path
 
 from PIL import Image
 from tests.oracles import browser as browsers
+from tests.oracles import jupyter
 from tests.oracles.studio import served
 from tests.oracles.studio_page import studio_page
 
@@ -57,6 +59,24 @@ def studio():
         return page.screenshot()
 
 
+def notebook():
+    """A cell of JupyterLab that shows the widget, its linkage at the middle of its poses."""
+    code = (
+        "import burmester\nfrom burmester.notebook import Studio\n\n"
+        'widget = Studio(burmester.read_task("case:motiongen-shoulder"))\nwidget'
+    )
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        browsers.launched() as browser,
+        jupyter.notebook(browser, folder, code, width=1040, height=800) as lab,
+    ):
+        lab.page.wait_for_selector(".bn [data-linkage]")
+        for _ in range(2):
+            lab.page.get_by_role("button", name="Next pose").click()
+        assert lab.page.wrong == []
+        return lab.page.locator(".jp-Notebook .jp-Cell").screenshot()
+
+
 def figure():
     """Two constraint manifolds in image space: the paper's Fig. 4."""
     held = BytesIO()
@@ -70,6 +90,7 @@ def main():
         "report.png": screen(),
         "few-poses.png": screen("src/burmester/templates/chest-lid.toml"),
         "studio.png": studio(),
+        "notebook.png": notebook(),
         "image-space.png": figure(),
     }
     for name, drawn in pictures.items():

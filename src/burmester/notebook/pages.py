@@ -25,15 +25,17 @@ import threading
 import time
 import traceback
 from collections.abc import Callable, Coroutine, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any, Final
 
 from burmester.api.result import Result
+from burmester.errors import InputError
 from burmester.live.answers import LiveAnswers
 from burmester.live.document import TaskReader
 from burmester.live.fault import fault_data
 from burmester.numerics.linear_algebra import one_thread
 from burmester.progress import Progress
+from burmester.tasks.motion_task import Task
 from burmester.web.data import report_data
 
 if TYPE_CHECKING:
@@ -88,7 +90,9 @@ class Pages:
     def begin(self, result: Result, document: Any) -> dict[str, dict[str, Any]]:
         """Another answer; for its linkages the ids before, where they are the same ones."""
         with self._lock:
-            before = [] if self._result is None else self._live.stand(result.task, document)
+            before = []
+            with suppress(InputError):  # what cannot be followed there is another linkage
+                before = self._live.stand(result.task, document)
             self._live.begin_at(result)
             self._result, self._document = result, document
             self._report, self._basis = None, {}
@@ -142,8 +146,8 @@ class Pages:
         """Answer the newest follow of each page, until there are none."""
         while self._waiting:
             await asyncio.sleep(0)  # what waits is heard before: it may be newer
-            view = next(iter(self._waiting))
-            self._follow(self._waiting.pop(view))
+            for view in [*self._waiting][:1]:
+                self._follow(self._waiting.pop(view))
 
     def _follow(self, message: dict[str, Any]) -> None:
         view, n, document = message["view"], message["n"], message["document"]
@@ -186,17 +190,18 @@ class Pages:
         loop, start = asyncio.get_running_loop(), time.monotonic()
         search.say = lambda text: loop.call_soon_threadsafe(self._progress, view, n, text)
 
-        def road() -> tuple[Result, dict[str, Any]]:
-            result = self._studio.solved(self._reader.task_of(document), progress=search.listen)
+        def road(task: Task) -> tuple[Result, dict[str, Any]]:
+            result = self._studio.solved(task, progress=search.listen)
             return result, _report_of(result)
 
         try:
+            task = self._reader.task_of(document)
             with one_thread():  # held here, as holds of two threads would undo each other
-                result, report = await asyncio.to_thread(road)
-        except _CalledOffError:
-            return
+                result, report = await asyncio.to_thread(road, task)
         except Exception as error:
-            self._refuse(view, n, error)
+            if search.is_wanted:
+                self._search = None
+                self._refuse(view, n, error)
             return
         if not search.is_wanted:
             return

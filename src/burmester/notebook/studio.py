@@ -73,6 +73,8 @@ class Studio(anywidget.AnyWidget):
 
     _esm = (resources.files("burmester.web") / "assets" / "notebook.mjs").read_text("utf-8")
 
+    # Raised by a page at each answer and choice: marimo runs cells again where a value changes.
+    turn = traitlets.Int(0).tag(sync=True)
     task: Any = traitlets.TraitType(None)  # `Any` would let None in without asking the validators
     result: Any = traitlets.TraitType(None)
     selected: Any = traitlets.TraitType(None)

@@ -1028,27 +1028,28 @@ on?"dark":"light"};const both=()=>{follow2();setTimeout(follow2,LATE)};const see
 body])seen.observe(element,{attributes:true});matchMedia(DARK_SCHEME).addEventListener("change",both,{signal});const placed=new ResizeObserver(follow2);placed.observe(
 root.host);signal.addEventListener("abort",()=>[seen,placed].forEach(each=>each.disconnect()));root.adoptedStyleSheets=sheets;both()}function isDark(element){for(let node=element;node;node=
 node.parentElement??node.getRootNode().host){const colour=getComputedStyle(node).backgroundColor;const[r,g,b,a=1]=colour.startsWith("rgb")?colour.match(/[\d.]+/g).
-map(Number):[0,0,0,0];if(a>.5)return .299*r+.587*g+.114*b<128}return matchMedia(DARK_SCHEME).matches}var MOST_FLYING2=4;var PATIENCE2=700;var BUSY="The kernel is busy: what is done here is answered when it is free.";var HINT="Drag a pose by its point, turn it b\
+map(Number):[0,0,0,0];if(a>.5)return .299*r+.587*g+.114*b<128}return matchMedia(DARK_SCHEME).matches}var MOST_FLYING2=2;var PATIENCE2=700;var BUSY="The kernel is busy: what is done here is answered when it is free.";var HINT="Drag a pose by its point, turn it b\
 y the tip of its arrow.";function render({model,el}){const ended=new AbortController,{signal}=ended,kernel=new Kernel(model);const host=h("div",{}),frame=h("div",
 {class:"bm bs bn"},h("p",{class:"bn-line"},"Waiting for the kernel…"));host.attachShadow({mode:"open"}).append(frame);el.replaceChildren(host);dress(host.shadowRoot,
 [widget_default,studio_default,notebook_default],signal);keepKeys(host,signal);let studio=null;kernel.on("message",message=>{if(message.kind==="opened"&&!studio)
-studio=layOut(frame,kernel,message)});kernel.on("told",message=>{if(message.kind==="task"&&message.by!==kernel.view)studio?.replace(message.document);else if(message.
-kind==="chosen"&&message.id)studio?.store.choose(message.id)});kernel.send({do:"open"});return()=>{ended.abort();kernel.close();studio?.playing.player.play(false);
-el.replaceChildren()}}function layOut(frame,kernel,{document:task}){const store=new Store({connection:kernel,document:task,mostFlying:MOST_FLYING2});const scene=new Scene(
-store,{zoomKey:true}),answers=new Answers(store),playing=new Playing(store,answers);new LiveLinkage(answers,playing,scene);new PoseHandles(store,scene);const results=new Results(
-store,answers),left=h("div",{class:"bn-left"},bar(store,scene,kernel),scene.element,playing.element);const ways=playing.element.querySelector(".bs-player-ways"),
-fold=h("details",{class:"bn-ways"},h("summary",{},"Driver and assembly"));ways.replaceWith(fold);fold.append(ways);frame.replaceChildren(h("div",{class:"bn-main"},
-left,results.element));scene.resize();const refit=fitOnceSolved(store,scene);listenToKeys(store,scene,null,frame);listenToSpace(playing,frame);playOnce(store,answers,
-playing);store.on("chosen",()=>kernel.send({do:"choose",id:store.chosen,basis:store.basis}));kernel.emit("open");const replace=document2=>{if(JSON.stringify(document2)===
-JSON.stringify(store.document))return;store.replace({document:document2});store.solve();refit()};return{store,playing,replace}}function bar(store,scene,kernel){
-const undo=button("↶",()=>store.undo(),{"data-do":"undo",title:"Undo (Ctrl+Z)","aria-label":"Undo"});const redo=button("↷",()=>store.redo(),{"data-do":"redo",
-title:"Redo (Ctrl+Shift+Z)","aria-label":"Redo"});const stop=button("Stop",()=>store.cancel(),{"data-do":"cancel",title:"Stop solving",hidden:true});const line=h(
-"p",{class:"bn-line",role:"status"});let isBusy=false;const show=()=>{give(undo,"disabled",!store.history.canUndo);give(redo,"disabled",!store.history.canRedo);
-const[said]=store.messages,solving=store.state==="solving"&&store.progress;const text=isBusy?BUSY:said?[said.message,said.help].filter(Boolean).join("; "):solving?
-`Solving: ${store.progress}`:HINT;if(line.textContent!==text)line.textContent=text;line.classList.toggle("bn-refused",Boolean(said))};kernel.on("busy",on=>{if(on===
-isBusy)return;isBusy=on;show()});let waiting;store.on("state",()=>{clearTimeout(waiting);if(store.state==="solving")waiting=setTimeout(()=>give(stop,"hidden",false),
-PATIENCE2);else give(stop,"hidden",true)});store.on("document state messages solved",show);show();return h("div",{class:"bn-bar"},undo,redo,button("Fit",()=>scene.
-fitAgain(),{"data-do":"fit",title:"Show all poses and pivots (0)"}),stop,line)}function fitOnceSolved(store,scene){let waits=true;store.on("solved",()=>{if(waits&&
-scene.isFitted)scene.fit();waits=false});return()=>waits=true}function keepKeys(host,signal){const isOwn=({ctrlKey,metaKey,key})=>!(ctrlKey||metaKey)||/^[zy]$/i.
-test(key);window.addEventListener("keydown",event=>{if(event.composedPath().includes(host))host.toggleAttribute("data-lm-suppress-shortcuts",isOwn(event))},{capture:true,
-signal});host.addEventListener("keydown",event=>isOwn(event)&&event.stopPropagation())}var notebook_default2={render};export{notebook_default2 as default};
+studio=layOut(frame,kernel,message,turn)});kernel.on("told",message=>{if(message.kind==="task"&&message.by!==kernel.view)studio?.replace(message.document);else if(message.
+kind==="chosen"&&message.id)studio?.store.choose(message.id)});const turn=()=>{model.set("turn",model.get("turn")+1);model.save_changes()};kernel.send({do:"open"});
+return()=>{ended.abort();kernel.close();studio?.playing.player.play(false);el.replaceChildren()}}function layOut(frame,kernel,{document:task},turn){const store=new Store(
+{connection:kernel,document:task,mostFlying:MOST_FLYING2});const scene=new Scene(store,{zoomKey:true}),answers=new Answers(store),playing=new Playing(store,answers);
+new LiveLinkage(answers,playing,scene);new PoseHandles(store,scene);const results=new Results(store,answers),left=h("div",{class:"bn-left"},bar(store,scene,kernel),
+scene.element,playing.element);const ways=playing.element.querySelector(".bs-player-ways"),fold=h("details",{class:"bn-ways"},h("summary",{},"Driver and assembl\
+y"));ways.replaceWith(fold);fold.append(ways);frame.replaceChildren(h("div",{class:"bn-main"},left,results.element));scene.resize();const refit=fitOnceSolved(store,
+scene);listenToKeys(store,scene,null,frame);listenToSpace(playing,frame);playOnce(store,answers,playing);store.on("chosen",()=>{kernel.send({do:"choose",id:store.
+chosen,basis:store.basis});turn()});kernel.emit("open");const replace=document2=>{if(JSON.stringify(document2)!==JSON.stringify(store.document)){store.replace({
+document:document2});refit()}else if(store.solvedFor===store.document){return}store.solve()};return{store,playing,replace}}function bar(store,scene,kernel){const undo=button(
+"↶",()=>store.undo(),{"data-do":"undo",title:"Undo (Ctrl+Z)","aria-label":"Undo"});const redo=button("↷",()=>store.redo(),{"data-do":"redo",title:"Redo (Ctr\
+l+Shift+Z)","aria-label":"Redo"});const stop=button("Stop",()=>store.cancel(),{"data-do":"cancel",title:"Stop solving",hidden:true});const line=h("p",{class:"bn\
+-line",role:"status"});let isBusy=false;const show=()=>{give(undo,"disabled",!store.history.canUndo);give(redo,"disabled",!store.history.canRedo);const[said]=store.
+messages,solving=store.state==="solving"&&store.progress;const text=isBusy?BUSY:said?[said.message,said.help].filter(Boolean).join("; "):solving?`Solving: ${store.
+progress}`:HINT;if(line.textContent!==text)line.textContent=text;line.classList.toggle("bn-refused",Boolean(said))};kernel.on("busy",on=>{if(on===isBusy)return;
+isBusy=on;show()});let waiting;store.on("state",()=>{clearTimeout(waiting);if(store.state==="solving")waiting=setTimeout(()=>give(stop,"hidden",false),PATIENCE2);else
+give(stop,"hidden",true)});store.on("document state messages solved",show);show();return h("div",{class:"bn-bar"},undo,redo,button("Fit",()=>scene.fitAgain(),{"\
+data-do":"fit",title:"Show all poses and pivots (0)"}),stop,line)}function fitOnceSolved(store,scene){let waits=true;store.on("solved",()=>{if(waits&&scene.isFitted)
+scene.fit();waits=false});return()=>waits=true}function keepKeys(host,signal){const isOwn=({ctrlKey,metaKey,key})=>!(ctrlKey||metaKey)||/^[zy]$/i.test(key);window.
+addEventListener("keydown",event=>{if(event.composedPath().includes(host))host.toggleAttribute("data-lm-suppress-shortcuts",isOwn(event))},{capture:true,signal});
+host.addEventListener("keydown",event=>isOwn(event)&&event.stopPropagation())}var notebook_default2={render};export{notebook_default2 as default};

@@ -16,7 +16,7 @@ import { Kernel } from "./kernel.mjs";
 import ownStyle from "./notebook.css";
 import { dress } from "./theme.mjs";
 
-const MOST_FLYING = 4; // follows on their way: a kernel is farther away than a server on this machine
+const MOST_FLYING = 2; // follows on their way: while one is answered the next one comes; more make the machine slower
 const PATIENCE = 700; // milliseconds until solving may be stopped
 const BUSY = "The kernel is busy: what is done here is answered when it is free.";
 const HINT = "Drag a pose by its point, turn it by the tip of its arrow.";
@@ -30,12 +30,16 @@ function render({ model, el }) {
   keepKeys(host, signal);
   let studio = null;
   kernel.on("message", (message) => {
-    if (message.kind === "opened" && !studio) studio = layOut(frame, kernel, message);
+    if (message.kind === "opened" && !studio) studio = layOut(frame, kernel, message, turn);
   });
   kernel.on("told", (message) => {
     if (message.kind === "task" && message.by !== kernel.view) studio?.replace(message.document);
     else if (message.kind === "chosen" && message.id) studio?.store.choose(message.id);
   });
+  const turn = () => {
+    model.set("turn", model.get("turn") + 1);
+    model.save_changes();
+  };
   kernel.send({ do: "open" });
   return () => {
     ended.abort();
@@ -45,8 +49,8 @@ function render({ model, el }) {
   };
 }
 
-/** The parts of the widget in its frame. */
-function layOut(frame, kernel, { document: task }) {
+/** The parts of the widget in its frame; turn: to be called where Python has something new. */
+function layOut(frame, kernel, { document: task }, turn) {
   const store = new Store({ connection: kernel, document: task, mostFlying: MOST_FLYING });
   const scene = new Scene(store, { zoomKey: true }), answers = new Answers(store), playing = new Playing(store, answers);
   new LiveLinkage(answers, playing, scene);
@@ -61,13 +65,19 @@ function layOut(frame, kernel, { document: task }) {
   listenToKeys(store, scene, null, frame);
   listenToSpace(playing, frame);
   playOnce(store, answers, playing);
-  store.on("chosen", () => kernel.send({ do: "choose", id: store.chosen, basis: store.basis }));
+  store.on("chosen", () => {
+    kernel.send({ do: "choose", id: store.chosen, basis: store.basis });
+    turn();
+  });
   kernel.emit("open");
   const replace = (document) => {
-    if (JSON.stringify(document) === JSON.stringify(store.document)) return;
-    store.replace({ document });
+    if (JSON.stringify(document) !== JSON.stringify(store.document)) {
+      store.replace({ document });
+      refit();
+    } else if (store.solvedFor === store.document) {
+      return;
+    }
     store.solve(); // its answer is there
-    refit();
   };
   return { store, playing, replace };
 }
