@@ -4,8 +4,8 @@ report.png is the page of the example, few-poses.png that of a template with thr
 the studio as it opens, notebook.png the widget in JupyterLab, and image-space.png the paper's
 Fig. 4.
 
-Needs a browser, Playwright, the studio, JupyterLab and Matplotlib, as the tests do.  Run it from the
-project's root:
+Needs a browser, Playwright, the studio, JupyterLab and Matplotlib, as the tests do.  Run it from
+the project's root:
 
     .venv/bin/python -m docs.screens
 """
