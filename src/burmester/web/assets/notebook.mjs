@@ -306,7 +306,9 @@ ood); }
 .bs-panel > summary h2 { display: inline; }
 .bs-panel-compare[open], .bs-panel-facts[open] { grid-column: 1 / -1; }
 .bs-panel .bs-surface .bm-map svg { touch-action: none; }
-.bs-beside { display: grid; gap: 12px; grid-template-columns: repeat(auto-fit, minmax(min(100%, 320px), 1fr)); }
+.bs-beside { display: grid; gap: 12px; grid-template-columns: repeat(auto-fit, minmax(min(100%, 280px), 1fr)); }
+.bm .bs-compared { table-layout: fixed; }
+.bm .bs-compared th { white-space: normal; }
 .bm .bs-compared th, .bm .bs-compared td { text-align: left; }
 .bs-facts { display: grid; gap: 16px; grid-template-columns: minmax(0, 1fr); }
 .bs-facts caption { position: static; width: auto; height: auto; clip-path: none; text-align: left; color: var(--bm-muted); padding: 2px 0; }
@@ -321,8 +323,17 @@ ood); }
   .bs #bs-panels { grid-column: 2; grid-row: 2; }
 }
 @media (pointer: coarse) { .bs-small { min-height: 38px; padding: 3px 12px; } }
-@media print { .bs-card-tools, .bs-choices, .bs-tool, .bs-results-status, .bs-pivots, .bs-player .bm-row, .bs-player .bm-track { display: none !important; } #bs\
--panels { display: block; } .bs-panel { break-inside: avoid; margin-bottom: 6mm; } .bs-panel > summary { list-style: none; } }
+@media print {
+  .bs-card-tools, .bs-choices, .bs-tool, .bs-results-status, .bs-pivots, .bs-player .bm-row, .bs-player .bm-track { display: none !important; }
+  #bs-panels { display: block; }
+  .bs-panel { break-inside: avoid; margin-bottom: 6mm; }
+  .bs-panel > summary { list-style: none; }
+  .bs-panel-compare:has(.bs-compare > div[hidden]) { display: none; } /* nothing is compared */
+  .bs-compare .bm-plane { height: auto; }
+  .bs-panel .bm-map { width: 120mm; } /* and the image space fits below it */
+  .bs-facts .bm-linkages { font-size: 7pt; }
+  .bm-near, .bm-far, [class^="bs-key-"] { print-color-adjust: exact; } /* keys to what is drawn */
+}
 /* What changes under a hand is laid out by itself. */
 @media screen {
   .bs-plane { contain: strict; }
@@ -578,13 +589,13 @@ data,view));if(!this.outline.parentNode)this.group.prepend(this.outline)}else{th
 moving_pivot)corners.push(inBody(dyad.moving_pivot,view));const more=this.parts[side].shape(dyad,view,places);if(more)corners.push(more)});const d=`M${hull(corners).
 map(corner=>corner.map(px).join(" ")).join("L")}Z`;for(const plate of this.plates)put(plate,"d",d);this.shapeArrow()}show(place){const{view}=this,at=transform(view.
 X(place.x),view.Y(place.y),place.a);put(this.coupler,"transform",at);if(this.hasBody)put(this.outline,"transform",at);for(const part of this.parts)part.show(place);
-const[x,y]=act(place,[-LETTER/view.scale,-LETTER/view.scale]);put(this.letter,"x",px(view.X(x)));put(this.letter,"y",px(view.Y(y)+4));const[driver]=this.led;if(driver.
-kind==="PR")put(this.arrow,"transform",`${onRail(driver,place,view)} translate(0 ${-ARROW})`)}shapeArrow(){const{arrow:arrow2,view}=this,[driver]=this.led;if(driver.
-kind==="PR")put(arrow2,"d","M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6 5");if(!driver.fixed_pivot)return;const[x,y]=driver.fixed_pivot;put(arrow2,"d","M17 -6A18 18 \
-0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9");put(arrow2,"transform",`translate(${px(view.X(x))} ${px(view.Y(y))}) rotate(-90)`)}};var kindsOf=led=>led.map(dyad=>dyad.
-kind).join();var inBody=([x,y],view)=>[view.scale*x,-view.scale*y];function onRail(dyad,place,view){const[x,y]=act(place,dyad.moving_pivot),[nx,ny]=normalOf(dyad);
-return transform(view.X(x),view.Y(y),Math.atan2(nx,-ny))}var block=(side,width,height)=>s("g",{class:`bm-block bm-side${side}`},s("rect",{x:-width/2,y:-height/2,
-width,height,rx:2}));function setPin(pin,[x,y],dyad){put(pin,"cx",px(x));put(pin,"cy",px(y));pin.dataset.dyad=dyad.id}var inGround=([x,y],view)=>[view.X(x),view.
+const[x,y]=act(place,[LETTER/view.scale,-LETTER/view.scale]);put(this.letter,"transform",`translate(${px(view.X(x))} ${px(view.Y(y)+4)})`);const[driver]=this.led;
+if(driver.kind==="PR")put(this.arrow,"transform",`${onRail(driver,place,view)} translate(0 ${-ARROW})`)}shapeArrow(){const{arrow:arrow2,view}=this,[driver]=this.
+led;if(driver.kind==="PR")put(arrow2,"d","M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6 5");if(!driver.fixed_pivot)return;const[x,y]=driver.fixed_pivot;put(arrow2,"d",
+"M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9");put(arrow2,"transform",`translate(${px(view.X(x))} ${px(view.Y(y))}) rotate(-90)`)}};var kindsOf=led=>led.
+map(dyad=>dyad.kind).join();var inBody=([x,y],view)=>[view.scale*x,-view.scale*y];function onRail(dyad,place,view){const[x,y]=act(place,dyad.moving_pivot),[nx,ny]=normalOf(
+dyad);return transform(view.X(x),view.Y(y),Math.atan2(nx,-ny))}var block=(side,width,height)=>s("g",{class:`bm-block bm-side${side}`},s("rect",{x:-width/2,y:-height/
+2,width,height,rx:2}));function setPin(pin,[x,y],dyad){put(pin,"cx",px(x));put(pin,"cy",px(y));pin.dataset.dyad=dyad.id}var inGround=([x,y],view)=>[view.X(x),view.
 Y(y)];var Bar=class{constructor({links,pins},side){this.strokes=[s("path",{class:"bm-bar"}),s("path",{class:"bm-core"})];this.bar=s("g",{class:`bm-link bm-side${side}`},
 this.strokes);this.ground=s("circle",{class:"bm-pin bm-fixed-pin",r:4.5});this.pin=s("circle",{class:"bm-pin",r:4.5});links.append(this.bar);pins.append(this.ground)}shape(dyad,view){
 this.dyad=dyad;this.view=view;for(const stroke of this.strokes)put(stroke,"d",`M0 0H${px(view.scale*dyad.radius)}`);setPin(this.ground,inGround(dyad.fixed_pivot,
@@ -633,12 +644,12 @@ high-low>path.x.length-1-1e-6)}ground(linkage,places,view){linkage.led.forEach((
 const slides=dyad.kind==="PR"&&places.length>0;put(rail,"display",slides?"inline":"none");put(at,"display",dyad.fixed_pivot?"inline":"none");put(name,"display",
 slides||dyad.fixed_pivot?"inline":"none");if(name.textContent!==dyad.id)name.textContent=dyad.id;let x,y;if(slides){const drawn=railOf(dyad,places,view);({x,y}=
 drawn);put(rail,"transform",transform(x,y,drawn.turned));drawn.paths.forEach((d,k)=>put(rail.children[k],"d",d));rail.dataset.dyad=dyad.id}else if(dyad.fixed_pivot){
-[x,y]=[view.X(dyad.fixed_pivot[0]),view.Y(dyad.fixed_pivot[1])];put(at,"transform",`translate(${px(x)} ${px(y)})`)}else{return}put(name,"x",px(x));put(name,"y",
-px(y+BELOW))})}atPoses(linkage,view){const{achieved,answers:{data}}=this,rows=linkage.pose_errors;const count=Math.min(rows.length,MOST_ACHIEVED),small=count>24?
-.6:1;while(achieved.children.length>count)achieved.lastChild.remove();while(achieved.children.length<count)achieved.append(s("g",{class:"bm-achieved"},s("path",
-{}),s("circle",{})));let arrows="";for(let k=0;k<count;k+=1){const row=rows[k],group=achieved.children[k];if(group.dataset.size!==String(small)){group.dataset.size=
-small;put(group.children[0],"d",axes(.72*AXIS*small));put(group.children[1],"r",2.2*small)}if(row.x===null){put(group,"display","none");continue}put(group,"disp\
-lay","inline");put(group,"transform",transform(view.X(row.x),view.Y(row.y),radians(row.angle_deg)));group.classList.toggle("bm-elsewhere",row.at!==this.playing.
+[x,y]=[view.X(dyad.fixed_pivot[0]),view.Y(dyad.fixed_pivot[1])];put(at,"transform",`translate(${px(x)} ${px(y)})`)}else{return}put(name,"transform",`translate(${px(
+x)} ${px(y+BELOW)})`)})}atPoses(linkage,view){const{achieved,answers:{data}}=this,rows=linkage.pose_errors;const count=Math.min(rows.length,MOST_ACHIEVED),small=count>
+24?.6:1;while(achieved.children.length>count)achieved.lastChild.remove();while(achieved.children.length<count)achieved.append(s("g",{class:"bm-achieved"},s("pat\
+h",{}),s("circle",{})));let arrows="";for(let k=0;k<count;k+=1){const row=rows[k],group=achieved.children[k];if(group.dataset.size!==String(small)){group.dataset.
+size=small;put(group.children[0],"d",axes(.72*AXIS*small));put(group.children[1],"r",2.2*small)}if(row.x===null){put(group,"display","none");continue}put(group,
+"display","inline");put(group,"transform",transform(view.X(row.x),view.Y(row.y),radians(row.angle_deg)));group.classList.toggle("bm-elsewhere",row.at!==this.playing.
 path);if(this.factor&&data.poses[k])arrows+=arrow(view,data.poses[k],row,this.factor)}put(this.arrows,"d",arrows)}};var framesOf=way=>Array.from(way.x,(x,k)=>({
 x,y:way.y[k],a:way.angle[k]}));var pathOf=(way,view)=>smoothPath(Array.from(way.x,view.X),Array.from(way.y,view.Y),way.round);function arrow(view,pose,row,factor){
 const x=view.X(pose.x),y=view.Y(pose.y),by=factor*view.scale;const dx=by*(row.x-pose.x),dy=-by*(row.y-pose.y),size=Math.hypot(dx,dy);if(!(size>=LEAST_ARROW))return"";
@@ -781,63 +792,65 @@ void 0];if(a===void 0||b===void 0)return a??b??0;return a+(index-before)/(behind
 isFinite(x)&&Number.isFinite(y)&&Number.isFinite(angle))return{x,y,angle};return{x:component(poses,index,"x"),y:component(poses,index,"y"),angle:component(poses,
 index,"angle")}}var poseName2=({poses},index)=>poses[index]?.name??String(index+1);var statedOf=(pose,changes)=>Object.fromEntries(Object.entries(changes).filter(
 ([key])=>Number.isFinite(pose[key])));var LAYERS=["grid","regions","ghosts","map","curves","paths","mechanism","limits","pivots","poses","labels","tool"];var MARGIN=46;var ZOOM=1.0018;var WIDEST=1e6;
-var CLICK=4;var SPARE2=.5;var Scene=class{constructor(store,{zoomKey=false}={}){this.store=store;this.zoomKey=zoomKey;this.listeners={view:[],click:[],tool:[],dropped:[]};
-this.tool=null;this.dragged=null;this.layers=new Map(LAYERS.map(name=>[name,s("g",{class:`bs-layer bs-layer-${name}`})]));this.layers.get("grid").setAttribute("\
-aria-hidden","true");this.svg=s("svg",{class:"bs-scene",tabindex:0,role:"group","aria-label":"The plane: poses, linkage and limits. Arrow keys pan, plus and min\
-us zoom, 0 fits."},...this.layers.values());this.element=h("div",{class:"bs-plane"},this.svg);this.size={width:640,height:480};this.origin={scale:1,left:320,top:240};
-this.isFitted=true;this.pointers=new Map;this.boxes=[];this.update();this.listen();store.on("document",()=>this.unit===store.document.length_unit||this.grid());
-new ResizeObserver(()=>this.resize()).observe(this.element)}layer(name){return this.layers.get(name)}on(name,fn){this.listeners[name].push(fn)}emit(name,...values){
-return this.listeners[name].map(fn=>fn(...values)).some(Boolean)}hold(fn,far=false){this.boxes.push({fn,far})}update(){const{width,height}=this.size,{scale,left,
-top}=this.origin;this.view={scale,left,top,width,height,X:x=>left+scale*x,Y:y=>top-scale*y,x:X=>(X-left)/scale,y:Y=>(top-Y)/scale};Object.assign(this.svg.dataset,
-{scale,left,top,fit:this.isFitted?this.isWhole?"all":"near":""});this.grid();this.emit("view",this.view)}resize(){const{width,height}=this.svg.getBoundingClientRect();
-if(!width||!height||width===this.size.width&&height===this.size.height)return;this.origin={...this.origin,left:this.origin.left+(width-this.size.width)/2,top:this.
-origin.top+(height-this.size.height)/2};this.size={width,height};put(this.svg,"viewBox",`0 0 ${width} ${height}`);if(this.isFitted)this.fit(this.isWhole);else this.
-update()}pan(dx,dy){this.isFitted=false;this.origin={...this.origin,left:this.origin.left+dx,top:this.origin.top+dy};this.update()}zoom(factor,X,Y){const fitted=this.
-fittedScale??this.origin.scale;const scale=clamp(this.origin.scale*factor,fitted/WIDEST,fitted*WIDEST),by=scale/this.origin.scale;this.isFitted=false;this.origin=
-{scale,left:X+by*(this.origin.left-X),top:Y+by*(this.origin.top-Y)};this.update()}fit(whole=false){const pointsOf=isFar=>this.boxes.filter(({far:far2})=>far2===
-isFar).flatMap(({fn})=>fn());const near2=pointsOf(false),far=pointsOf(true),all=bounds([...near2,...far]);let[x,y,u,v]=near2.length&&!whole?bounds(near2):Number.
-isFinite(all[0])?all:[-50,-50,50,50];const size=Math.max(u-x,v-y)||Math.max(1,Math.abs(u),Math.abs(v));if(near2.length&&far.length&&!whole){const reach=SPARE2*size;
-[x,y,u,v]=[Math.max(all[0],x-reach),Math.max(all[1],y-reach),Math.min(all[2],u+reach),Math.min(all[3],v+reach)]}this.isWhole=whole;const{width,height}=this.size,
-margin=Math.min(MARGIN,width/8);const scale=Math.min((width-2*margin)/Math.max(u-x,.1*size),(height-2*margin)/Math.max(v-y,.1*size));this.fittedScale=scale;this.
-origin={scale,left:width/2-scale*(x+u)/2,top:height/2+scale*(y+v)/2};this.isFitted=true;this.update()}fitAgain(){this.fit(this.isFitted&&!this.isWhole)}grid(){const{
-view}=this,{width,height}=view,group=this.layer("grid");const name=this.unit=this.store.document.length_unit,unit=name?` ${name}`:"";const across=ticks(view.x(0),
-view.x(width),width/110),up=ticks(view.y(height),view.y(0),height/80);const lines=[...across.map(({at})=>`M${px(view.X(at))} 0V${height}`),...up.map(({at})=>`M0\
- ${px(view.Y(at))}H${width}`)];const origin=`M${px(clamp(view.X(0),-9,width+9))} 0V${height}M0 ${px(clamp(view.Y(0),-9,height+9))}H${width}`;group.replaceChildren(
-s("path",{class:"bs-grid-line",d:lines.join("")}),s("path",{class:"bs-grid-axis",d:origin}),...across.filter(({at})=>view.X(at)>46&&view.X(at)<width-(unit?54:30)).
-map(({at,text})=>s("text",{x:px(view.X(at)),y:height-6,"text-anchor":"middle"},text)),...up.filter(({at})=>view.Y(at)>30&&view.Y(at)<height-24).map(({at,text})=>s(
-"text",{x:6,y:px(view.Y(at)-4)},text)),s("text",{x:6,y:14},`y${unit}`),s("text",{x:width-6,y:height-6,"text-anchor":"end"},`x${unit}`))}get grain(){return 10**Math.
-floor(Math.log10(.35/this.view.scale))}rounded(value){const{grain}=this,digits=clamp(-Math.round(Math.log10(grain)),0,12);return Number((Math.round(value/grain)*
-grain).toFixed(digits))+0}get step(){const[x,y,u,v]=bounds(this.store.document.poses.map(pose=>[pose.x??0,pose.y??0]));const span=Math.hypot(u-x,v-y);return Number.
-isFinite(span)&&span>0?10**Math.floor(Math.log10(span/50)):1}at(event){if(!this.box){this.box=this.svg.getBoundingClientRect();requestAnimationFrame(()=>this.box=
-null)}const{left,top}=this.box,X=event.clientX-left,Y=event.clientY-top;return{X,Y,x:this.view.x(X),y:this.view.y(Y)}}drag(element,{start=()=>true,move,end=()=>{},
-cancel=()=>{},click=()=>{}}){element.addEventListener("pointerdown",event=>{if(event.button!==0||this.tool||this.dragged)return;event.preventDefault();event.stopPropagation();
-element.focus?.({preventScroll:true});const from=this.at(event),ended=new AbortController,{signal}=ended;let begun=false;const stop=finish=>{ended.abort();this.
-dragged=null;this.svg.classList.remove("bs-grasped");if(this.svg.hasPointerCapture?.(event.pointerId))this.svg.releasePointerCapture(event.pointerId);finish();this.
-emit("dropped")};this.dragged={cancel:()=>stop(()=>begun&&cancel())};this.capture(event);const on=(name,fn)=>this.svg.addEventListener(name,each=>each.pointerId===
-event.pointerId&&fn(each),{signal});on("pointermove",each=>{const point=this.at(each);if(!begun){if(Math.hypot(point.X-from.X,point.Y-from.Y)<CLICK)return;begun=
-start(from,event)!==false;if(!begun)return stop(()=>{});this.svg.classList.add("bs-grasped")}move(point,each)});on("pointerup",each=>stop(()=>begun?end(this.at(
-each)):click(event)));on("pointercancel",()=>stop(()=>begun&&cancel()))})}use(tool){const before=this.tool;this.tool=tool??null;before?.end?.();this.svg.classList.
-toggle("bs-drawing",Boolean(tool));this.emit("tool",this.tool);if(tool)this.svg.focus({preventScroll:true})}listen(){const{svg}=this;svg.addEventListener("wheel",
-event=>{if(this.zoomKey&&!event.ctrlKey&&!event.metaKey)return;event.preventDefault();const{X,Y}=this.at(event),unit=event.deltaMode===1?16:1;this.zoom(ZOOM**(-event.
-deltaY*unit*(event.ctrlKey&&!this.zoomKey?4:1)),X,Y)},{passive:false});svg.addEventListener("pointerdown",event=>this.press(event));svg.addEventListener("pointe\
-rmove",event=>this.moved(event));for(const name of["pointerup","pointercancel"])svg.addEventListener(name,event=>this.released(event));svg.addEventListener("key\
-down",event=>this.key(event))}capture({pointerId}){try{this.svg.setPointerCapture(pointerId)}catch{}}press(event){if(event.button!==0&&event.button!==1)return;const{
-X,Y}=this.at(event);this.pointers.set(event.pointerId,{X,Y,from:{X,Y},button:event.button});if(this.pointers.size>1)for(const each of this.pointers.values())each.
-panned=true;this.capture(event)}moved(event){const point=this.at(event),held=this.pointers.get(event.pointerId);if(!held){if(!this.dragged)this.tool?.hover?.(point);
-return}const before={X:held.X,Y:held.Y};Object.assign(held,{X:point.X,Y:point.Y});if(this.pointers.size===2){const[one,other]=this.pointers.values(),still=held===
-one?other:one;const[now,then]=[point,before].map(({X,Y})=>Math.hypot(X-still.X,Y-still.Y));if(then>0)this.zoom(now/then,(point.X+still.X)/2,(point.Y+still.Y)/2);
-return}held.panned||=Math.hypot(point.X-held.from.X,point.Y-held.from.Y)>CLICK;if(!held.panned)return;if(this.tool?.drag?.(point,held))return;this.svg.classList.
-add("bs-grasped");this.pan(point.X-before.X,point.Y-before.Y)}released(event){const held=this.pointers.get(event.pointerId);if(!held)return;this.pointers.delete(
-event.pointerId);this.svg.classList.remove("bs-grasped");const point=this.at(event);if(event.type==="pointercancel")this.tool?.hover?.(null);else if(held.panned)
-this.tool?.release?.(point,held);else if(held.button===0)this.tool?this.tool.click(point,event):this.emit("click",point,event)}key(event){if(event.target!==this.
-svg||event.ctrlKey||event.metaKey||event.altKey)return;const by=event.shiftKey?160:40,{width,height}=this.size;const steps={ArrowLeft:[by,0],ArrowRight:[-by,0],
-ArrowUp:[0,by],ArrowDown:[0,-by]};if(steps[event.key])this.pan(...steps[event.key]);else if(event.key==="+"||event.key==="=")this.zoom(1.25,width/2,height/2);else if(event.
-key==="-")this.zoom(.8,width/2,height/2);else if(event.key==="0")this.fitAgain();else return;event.preventDefault()}};var bounds=points=>points.reduce(([x,y,u,v],[
-a,b])=>Number.isFinite(a+b)?[Math.min(x,a),Math.min(y,b),Math.max(u,a),Math.max(v,b)]:[x,y,u,v],[Infinity,Infinity,-Infinity,-Infinity]);var Kept=class{constructor(group,make,show){
-Object.assign(this,{group,make,show,elements:new Map})}draw(items){const kept=new Map;for(const[key,item]of items){const element=this.elements.get(key)??this.make(
-key,item);kept.set(key,element);this.show(element,item)}for(const[key,element]of this.elements)if(!kept.has(key))element.remove();let before=null;for(const element of kept.
-values()){const next=before?before.nextSibling:this.group.firstChild;if(element!==next||element.parentNode!==this.group)this.group.insertBefore(element,next);before=
-element}this.elements=kept}};var LONGEST_ARM=46;var SHORTEST_ARM=27;var FEW=24;var MOST=240;var ROOM=14;var LONGEST_NAME2=18;var ARROWS={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowUp:[0,1],ArrowDown:[
+var CLICK=4;var RAW=8;var SPARE2=.5;var Scene=class{constructor(store,{zoomKey=false}={}){this.store=store;this.zoomKey=zoomKey;this.listeners={view:[],click:[],
+tool:[],dropped:[]};this.tool=null;this.dragged=null;this.layers=new Map(LAYERS.map(name=>[name,s("g",{class:`bs-layer bs-layer-${name}`})]));this.layers.get("g\
+rid").setAttribute("aria-hidden","true");this.svg=s("svg",{class:"bs-scene",tabindex:0,role:"group","aria-label":"The plane: poses, linkage and limits. Arrow ke\
+ys pan, plus and minus zoom, 0 fits."},...this.layers.values());this.element=h("div",{class:"bs-plane"},this.svg);this.size={width:640,height:480};this.origin={
+scale:1,left:320,top:240};this.isFitted=true;this.pointers=new Map;this.boxes=[];this.update();this.listen();store.on("document",()=>this.unit===store.document.
+length_unit||this.grid());new ResizeObserver(()=>this.resize()).observe(this.element);addEventListener("scroll",()=>this.box=null,{capture:true,passive:true})}layer(name){
+return this.layers.get(name)}on(name,fn){this.listeners[name].push(fn)}emit(name,...values){return this.listeners[name].map(fn=>fn(...values)).some(Boolean)}hold(fn,far=false){
+this.boxes.push({fn,far})}update(){const{width,height}=this.size,{scale,left,top}=this.origin;this.view={scale,left,top,width,height,X:x=>left+scale*x,Y:y=>top-
+scale*y,x:X=>(X-left)/scale,y:Y=>(top-Y)/scale};Object.assign(this.svg.dataset,{scale,left,top,fit:this.isFitted?this.isWhole?"all":"near":""});this.grid();this.
+emit("view",this.view)}resize(){this.box=null;const{width,height}=this.svg.getBoundingClientRect();if(!width||!height||width===this.size.width&&height===this.size.
+height)return;this.origin={...this.origin,left:this.origin.left+(width-this.size.width)/2,top:this.origin.top+(height-this.size.height)/2};this.size={width,height};
+put(this.svg,"viewBox",`0 0 ${width} ${height}`);if(this.isFitted)this.fit(this.isWhole);else this.update()}pan(dx,dy){this.isFitted=false;this.origin={...this.
+origin,left:this.origin.left+dx,top:this.origin.top+dy};this.update()}zoom(factor,X,Y){const fitted=this.fittedScale??this.origin.scale;const scale=clamp(this.origin.
+scale*factor,fitted/WIDEST,fitted*WIDEST),by=scale/this.origin.scale;this.isFitted=false;this.origin={scale,left:X+by*(this.origin.left-X),top:Y+by*(this.origin.
+top-Y)};this.update()}fit(whole=false){const pointsOf=isFar=>this.boxes.filter(({far:far2})=>far2===isFar).flatMap(({fn})=>fn());const near2=pointsOf(false),far=pointsOf(
+true),all=bounds([...near2,...far]);let[x,y,u,v]=near2.length&&!whole?bounds(near2):Number.isFinite(all[0])?all:[-50,-50,50,50];const size=Math.max(u-x,v-y)||Math.
+max(1,Math.abs(u),Math.abs(v));if(near2.length&&far.length&&!whole){const reach=SPARE2*size;[x,y,u,v]=[Math.max(all[0],x-reach),Math.max(all[1],y-reach),Math.min(
+all[2],u+reach),Math.min(all[3],v+reach)]}this.isWhole=whole;const{width,height}=this.size,margin=Math.min(MARGIN,width/8);const scale=Math.min((width-2*margin)/
+Math.max(u-x,.1*size),(height-2*margin)/Math.max(v-y,.1*size));this.fittedScale=scale;this.origin={scale,left:width/2-scale*(x+u)/2,top:height/2+scale*(y+v)/2};
+this.isFitted=true;this.update()}fitAgain(){this.fit(this.isFitted&&!this.isWhole)}grid(){const{view}=this,{width,height}=view,group=this.layer("grid");const name=this.
+unit=this.store.document.length_unit,unit=name?` ${name}`:"";const across=ticks(view.x(0),view.x(width),width/110),up=ticks(view.y(height),view.y(0),height/80);
+const lines=[...across.map(({at})=>`M${px(view.X(at))} 0V${height}`),...up.map(({at})=>`M0 ${px(view.Y(at))}H${width}`)];const origin=`M${px(clamp(view.X(0),-9,
+width+9))} 0V${height}M0 ${px(clamp(view.Y(0),-9,height+9))}H${width}`;group.replaceChildren(s("path",{class:"bs-grid-line",d:lines.join("")}),s("path",{class:"\
+bs-grid-axis",d:origin}),...across.filter(({at})=>view.X(at)>46&&view.X(at)<width-(unit?54:30)).map(({at,text})=>s("text",{x:px(view.X(at)),y:height-6,"text-anc\
+hor":"middle"},text)),...up.filter(({at})=>view.Y(at)>30&&view.Y(at)<height-24).map(({at,text})=>s("text",{x:6,y:px(view.Y(at)-4)},text)),s("text",{x:6,y:14},`y${unit}`),
+s("text",{x:width-6,y:height-6,"text-anchor":"end"},`x${unit}`))}get grain(){return 10**Math.floor(Math.log10(.35/this.view.scale))}rounded(value){const{grain}=this,
+digits=clamp(-Math.round(Math.log10(grain)),0,12);return Number((Math.round(value/grain)*grain).toFixed(digits))+0}get step(){const[x,y,u,v]=bounds(this.store.document.
+poses.map(pose=>[pose.x??0,pose.y??0]));const span=Math.hypot(u-x,v-y);return Number.isFinite(span)&&span>0?10**Math.floor(Math.log10(span/50)):1}at(event){if(!this.
+box){this.box=this.svg.getBoundingClientRect();if(!this.dragged)requestAnimationFrame(()=>this.dragged||(this.box=null))}const{left,top}=this.box,X=event.clientX-
+left,Y=event.clientY-top;return{X,Y,x:this.view.x(X),y:this.view.y(Y)}}drag(element,{start=()=>true,move,end=()=>{},cancel=()=>{},click=()=>{}}){element.addEventListener(
+"pointerdown",event=>{if(event.button!==0||this.tool||this.dragged)return;event.preventDefault();event.stopPropagation();element.focus?.({preventScroll:true});const from=this.
+at(event),ended=new AbortController,{signal}=ended;let begun=false;const stop=finish=>{ended.abort();this.dragged=this.box=null;this.svg.classList.remove("bs-gr\
+asped");if(this.svg.hasPointerCapture?.(event.pointerId))this.svg.releasePointerCapture(event.pointerId);finish();this.emit("dropped")};this.dragged={cancel:()=>stop(
+()=>begun&&cancel())};this.capture(event);const on=(name,fn)=>this.svg.addEventListener(name,each=>each.pointerId===event.pointerId&&fn(each),{signal});let last=from,
+then=event.timeStamp;const go=each=>{const point=this.at(each);if(point.X===last.X&&point.Y===last.Y)return;last=point;then=each.timeStamp;if(!begun){if(Math.hypot(
+point.X-from.X,point.Y-from.Y)<CLICK)return;begun=start(from,event)!==false;if(!begun)return stop(()=>{});this.svg.classList.add("bs-grasped")}move(point,each)};
+on("pointermove",go);on("pointerrawupdate",each=>each.timeStamp-then>=RAW&&go(each));on("pointerup",each=>stop(()=>begun?end(this.at(each)):click(event)));on("p\
+ointercancel",()=>stop(()=>begun&&cancel()))})}use(tool){const before=this.tool;this.tool=tool??null;before?.end?.();this.svg.classList.toggle("bs-drawing",Boolean(
+tool));this.emit("tool",this.tool);if(tool)this.svg.focus({preventScroll:true})}listen(){const{svg}=this;svg.addEventListener("wheel",event=>{if(this.zoomKey&&!event.
+ctrlKey&&!event.metaKey)return;event.preventDefault();const{X,Y}=this.at(event),unit=event.deltaMode===1?16:1;this.zoom(ZOOM**(-event.deltaY*unit*(event.ctrlKey&&
+!this.zoomKey?4:1)),X,Y)},{passive:false});svg.addEventListener("pointerdown",event=>this.press(event));svg.addEventListener("pointermove",event=>this.moved(event));
+for(const name of["pointerup","pointercancel"])svg.addEventListener(name,event=>this.released(event));svg.addEventListener("keydown",event=>this.key(event))}capture({
+pointerId}){try{this.svg.setPointerCapture(pointerId)}catch{}}press(event){if(event.button!==0&&event.button!==1)return;const{X,Y}=this.at(event);this.pointers.
+set(event.pointerId,{X,Y,from:{X,Y},button:event.button});if(this.pointers.size>1)for(const each of this.pointers.values())each.panned=true;this.capture(event)}moved(event){
+const point=this.at(event),held=this.pointers.get(event.pointerId);if(!held){if(!this.dragged)this.tool?.hover?.(point);return}const before={X:held.X,Y:held.Y};
+Object.assign(held,{X:point.X,Y:point.Y});if(this.pointers.size===2){const[one,other]=this.pointers.values(),still=held===one?other:one;const[now,then]=[point,before].
+map(({X,Y})=>Math.hypot(X-still.X,Y-still.Y));if(then>0)this.zoom(now/then,(point.X+still.X)/2,(point.Y+still.Y)/2);return}held.panned||=Math.hypot(point.X-held.
+from.X,point.Y-held.from.Y)>CLICK;if(!held.panned)return;if(this.tool?.drag?.(point,held))return;this.svg.classList.add("bs-grasped");this.pan(point.X-before.X,
+point.Y-before.Y)}released(event){const held=this.pointers.get(event.pointerId);if(!held)return;this.pointers.delete(event.pointerId);this.svg.classList.remove(
+"bs-grasped");const point=this.at(event);if(event.type==="pointercancel")this.tool?.hover?.(null);else if(held.panned)this.tool?.release?.(point,held);else if(held.
+button===0)this.tool?this.tool.click(point,event):this.emit("click",point,event)}key(event){if(event.target!==this.svg||event.ctrlKey||event.metaKey||event.altKey)
+return;const by=event.shiftKey?160:40,{width,height}=this.size;const steps={ArrowLeft:[by,0],ArrowRight:[-by,0],ArrowUp:[0,by],ArrowDown:[0,-by]};if(steps[event.
+key])this.pan(...steps[event.key]);else if(event.key==="+"||event.key==="=")this.zoom(1.25,width/2,height/2);else if(event.key==="-")this.zoom(.8,width/2,height/
+2);else if(event.key==="0")this.fitAgain();else return;event.preventDefault()}};var bounds=points=>points.reduce(([x,y,u,v],[a,b])=>Number.isFinite(a+b)?[Math.min(
+x,a),Math.min(y,b),Math.max(u,a),Math.max(v,b)]:[x,y,u,v],[Infinity,Infinity,-Infinity,-Infinity]);var Kept=class{constructor(group,make,show){Object.assign(this,
+{group,make,show,elements:new Map})}draw(items){const kept=new Map;for(const[key,item]of items){const element=this.elements.get(key)??this.make(key,item);kept.set(
+key,element);this.show(element,item)}for(const[key,element]of this.elements)if(!kept.has(key))element.remove();let before=null;for(const element of kept.values()){
+const next=before?before.nextSibling:this.group.firstChild;if(element!==next||element.parentNode!==this.group)this.group.insertBefore(element,next);before=element}
+this.elements=kept}};var LONGEST_ARM=46;var SHORTEST_ARM=27;var FEW=24;var MOST=240;var ROOM=14;var LONGEST_NAME2=18;var ARROWS={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowUp:[0,1],ArrowDown:[
 0,-1]};var tenths=angle=>Number(angle.toFixed(1))+0;var unwrapped=(angle,near2)=>angle+360*Math.round((near2-angle)/360);function drawnPoses({document:document2,
 selection},scale){const{poses}=document2,count=poses.length,all=[...poses.keys()];if(count<=FEW)return all;const length=poses.slice(1).reduce((sum,{x,y},k)=>sum+
 (Math.hypot(x-poses[k].x,y-poses[k].y)||0),0);const stride=Math.ceil(count/clamp(scale*length/ROOM,FEW,MOST)),chosen=selection?.kind==="pose"?selection.index:-1;
@@ -860,18 +873,18 @@ selected);group.classList.toggle("bs-exact",Boolean(pose.exact));const called=po
  x ${x} ${unit}, y ${y} ${unit}, angle ${angle}°. Drag, or use the arrow keys; Delete removes it.`);put(origin,"aria-pressed",selected);put(turn,"aria-label",`\
 Turn ${called}`);put(turn,"aria-valuenow",angle);put(turn,"aria-valuetext",`${angle}°`)}showName(text,k){const{store,scene:{view}}=this,{x,y,angle}=standing(store.
 document,k),a=radians(angle+215);if(!isOther(text,[view,x,y,angle,poseName2(store.document,k)]))return;const name=shortened(poseName2(store.document,k),LONGEST_NAME2);
-if(text.textContent!==name)text.textContent=name;put(text,"text-anchor",Math.cos(a)<-.3?"end":Math.cos(a)>.3?"start":"middle");put(text,"x",px(view.X(x)+13*Math.
-cos(a)));put(text,"y",px(view.Y(y)-13*Math.sin(a)+4))}set(k,changes,gesture){this.store.edit(document2=>setPose(document2,k,statedOf(document2.poses[k],changes)),
-{gesture})}dragOrigin(element,k){const{store,scene}=this;let gesture,off;scene.drag(element,{start:from=>{const{x,y}=standing(store.document,k);gesture=Symbol("\
-move a pose");off=[x-from.x,y-from.y]},move:point=>this.set(k,{x:scene.rounded(point.x+off[0]),y:scene.rounded(point.y+off[1])},gesture),cancel:()=>store.abandon(
-gesture)})}dragTurn(element,k){const{store,scene}=this;let gesture,off;const angleTo=point=>{const{x,y}=standing(store.document,k);return degrees(Math.atan2(point.
-y-y,point.x-x))};scene.drag(element,{start:from=>{gesture=Symbol("turn a pose");off=standing(store.document,k).angle-angleTo(from)},move:point=>this.set(k,{angle:tenths(
-unwrapped(angleTo(point)+off,standing(store.document,k).angle))},gesture),cancel:()=>store.abandon(gesture)})}key(event,k,turning){const{store,scene}=this,arrow2=ARROWS[event.
-key];if(event.ctrlKey||event.metaKey)return;if(arrow2){if(!event.repeat)this.keyed=Symbol("keys");const{x,y,angle}=standing(store.document,k),by=stepOf(event,turning?
-1:scene.step);if(turning)this.set(k,{angle:stepped(angle,by*(arrow2[0]===0?arrow2[1]:-arrow2[0]))},this.keyed);else this.set(k,{x:stepped(x,by*arrow2[0]),y:stepped(
-y,by*arrow2[1])},this.keyed)}else if(event.key==="Delete"||event.key==="Backspace"){store.edit(document2=>removePose(document2,k));const left=store.document.poses.
-length;store.select(left?{kind:"pose",index:Math.min(k,left-1)}:null);this.focus(Math.min(k,left-1))}else{return}event.preventDefault()}focus(k){this.element.querySelector(
-`[data-pose="${k+1}"]`)?.focus({preventScroll:true})}};var ORDERS={rank:{name:"best first",of:linkage=>linkage.rank??Infinity},worst:{name:"worst miss",of:linkage=>linkage.worst??Infinity},least:{name:"transmission \
+if(text.textContent!==name)text.textContent=name;put(text,"text-anchor",Math.cos(a)<-.3?"end":Math.cos(a)>.3?"start":"middle");put(text,"transform",`translate(${px(
+view.X(x)+13*Math.cos(a))} ${px(view.Y(y)-13*Math.sin(a)+4)})`)}set(k,changes,gesture){this.store.edit(document2=>setPose(document2,k,statedOf(document2.poses[k],
+changes)),{gesture})}dragOrigin(element,k){const{store,scene}=this;let gesture,off;scene.drag(element,{start:from=>{const{x,y}=standing(store.document,k);gesture=
+Symbol("move a pose");off=[x-from.x,y-from.y]},move:point=>this.set(k,{x:scene.rounded(point.x+off[0]),y:scene.rounded(point.y+off[1])},gesture),cancel:()=>store.
+abandon(gesture)})}dragTurn(element,k){const{store,scene}=this;let gesture,off;const angleTo=point=>{const{x,y}=standing(store.document,k);return degrees(Math.atan2(
+point.y-y,point.x-x))};scene.drag(element,{start:from=>{gesture=Symbol("turn a pose");off=standing(store.document,k).angle-angleTo(from)},move:point=>this.set(k,
+{angle:tenths(unwrapped(angleTo(point)+off,standing(store.document,k).angle))},gesture),cancel:()=>store.abandon(gesture)})}key(event,k,turning){const{store,scene}=this,
+arrow2=ARROWS[event.key];if(event.ctrlKey||event.metaKey)return;if(arrow2){if(!event.repeat)this.keyed=Symbol("keys");const{x,y,angle}=standing(store.document,k),
+by=stepOf(event,turning?1:scene.step);if(turning)this.set(k,{angle:stepped(angle,by*(arrow2[0]===0?arrow2[1]:-arrow2[0]))},this.keyed);else this.set(k,{x:stepped(
+x,by*arrow2[0]),y:stepped(y,by*arrow2[1])},this.keyed)}else if(event.key==="Delete"||event.key==="Backspace"){store.edit(document2=>removePose(document2,k));const left=store.
+document.poses.length;store.select(left?{kind:"pose",index:Math.min(k,left-1)}:null);this.focus(Math.min(k,left-1))}else{return}event.preventDefault()}focus(k){
+this.element.querySelector(`[data-pose="${k+1}"]`)?.focus({preventScroll:true})}};var ORDERS={rank:{name:"best first",of:linkage=>linkage.rank??Infinity},worst:{name:"worst miss",of:linkage=>linkage.worst??Infinity},least:{name:"transmission \
 angle",of:linkage=>-(linkage.least??-1)},size:{name:"size",of:linkage=>linkage.quality?.extent??Infinity},sensitivity:{name:"sensitivity",of:linkage=>linkage.quality?.
 sensitivity??Infinity}};var FILTERS={all:{name:"all",holds:()=>true},usable:{name:"usable",holds:linkage=>linkage.usable},pinned:{name:"pinned",holds:(linkage,pinned)=>pinned.
 has(linkage.id)}};function arranged(linkages,{order,filter,type,pinned}){const{of}=ORDERS[order],{holds}=FILTERS[filter];return linkages.filter(each=>holds(each,
@@ -956,8 +969,8 @@ t")}replace({document:document2,options={},name=this.name,settings=this.settings
 options,name,settings,selection:null,placed:null});this.changed();this.emit("selection","placed")}undo(){this.goTo(this.history.undo(this.version))}redo(){this.
 goTo(this.history.redo(this.version))}abandon(gesture){this.goTo(this.history.abandon(gesture))}get version(){return{document:this.document,options:this.options,
 name:this.name,settings:this.settings}}goTo(version){if(!version)return;const isSame=version.document===this.document&&version.options===this.options;Object.assign(
-this,version);if(isSame)this.emit("document");else this.changed()}changed(){this.emit("document");if(this.state!=="offline")this.setState("dragging");this.follow();
-this.solveAfterRest()}get shown(){return[...new Set([this.chosen,this.compared,...this.pinned])].filter(id=>id&&id!==PLACED2).slice(0,MOST_SHOWN)}follow(){if(!this.
+this,version);if(isSame)this.emit("document");else this.changed()}changed(){this.follow();this.emit("document");if(this.state!=="offline")this.setState("draggin\
+g");this.solveAfterRest()}get shown(){return[...new Set([this.chosen,this.compared,...this.pinned])].filter(id=>id&&id!==PLACED2).slice(0,MOST_SHOWN)}follow(){if(!this.
 solved||this.flying.size>=this.mostFlying)return;const{document:document2,options,shown:shown2}=this;const n=this.connection.send({do:"follow",document:document2,
 options,shown:shown2});if(n!==null)this.flying.set(n,{document:document2,isOld:false})}solveAfterRest(){clearTimeout(this.resting);const since=performance.now();
 const rest=()=>{if(this.flying.size&&performance.now()-since<MOST_REST)this.resting=setTimeout(rest,REST/3);else this.solve()};this.resting=setTimeout(rest,REST)}solve(){
