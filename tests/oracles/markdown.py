@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Self
 
-FENCE = re.compile(r"^```(\w*)\s*$")
+FENCE = re.compile(r"^```(?:(\w*)|\{([\w-]+)\}.*?)\s*$")
 COMMENT = re.compile(r"^<!-- (\$|file:|not run:) ?(.*?) ?-->$")
 
 
@@ -13,7 +13,8 @@ COMMENT = re.compile(r"^<!-- (\$|file:|not run:) ?(.*?) ?-->$")
 class Block:
     """One fenced block.
 
-    text ends with a newline; line: the first line inside, from 1; kind: the word behind the fence;
+    text ends with a newline; line: the first line inside, from 1; kind: the word behind the fence,
+    without its braces;
     comment: the hidden line right before it, as a pair of its mark and the rest, or None.
     """
 
@@ -53,7 +54,7 @@ class Document:
                 else:
                     inside.append(line + "\n")
             elif fence := FENCE.match(line):
-                inside, kind, start = [], fence[1], number + 1
+                inside, kind, start = [], fence[1] or fence[2] or "", number + 1
             elif hidden := COMMENT.match(line):
                 if hidden[1] == "$":
                     blocks.append(Block(f"$ {hidden[2]}\n", number, "console"))

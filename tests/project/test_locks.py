@@ -109,14 +109,16 @@ def test_names_of_a_group_and_a_name_that_is_none(tmp_path):
     assert "neither a group nor a package 'none'" in entries(lock, "none")
 
 
-def test_both_parts_are_the_full_lock():
+def test_the_parts_are_the_full_lock():
     """What setup installs in parts is all of it, and nothing optional is in the required part."""
     lock = ROOT / "requirements-dev.lock"
-    dev, optional = entries(lock, "dev"), entries(lock, "optional")
+    dev, optional, docs = (entries(lock, group) for group in ("dev", "optional", "docs"))
     names = {name for name, _ in pins("requirements-dev.lock")}
     in_dev = set(re.findall(r"(?m)^([a-z0-9][\w.-]*)==", dev))
     in_optional = set(re.findall(r"(?m)^([a-z0-9][\w.-]*)==", optional))
+    in_docs = set(re.findall(r"(?m)^([a-z0-9][\w.-]*)==", docs))
     main = {name for name, _ in pins("requirements.lock")}
-    assert in_dev | in_optional | main == names
+    assert in_dev | in_optional | in_docs | main == names
+    assert named(GROUPS["docs"]) <= in_docs
     assert named(GROUPS["optional"]) <= in_optional
     assert not named(GROUPS["optional"]) & in_dev

@@ -78,6 +78,8 @@ def test_the_rest_comes_on_top(setup):
     setup()
     assert setup("dev")[1] == [PART, PART]
     assert setup("dev")[1] == setup()[1] == []
+    assert setup("docs")[1] == [PART]
+    assert setup("docs")[1] == []
 
 
 def test_a_changed_lock_is_installed_into_the_same_place(setup):

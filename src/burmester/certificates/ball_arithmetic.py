@@ -114,6 +114,8 @@ def zero_near(system: System, start: Matrix) -> Matrix | None:
     start: a column of real or of complex balls; it decides which zeros count.  Newton's
     method goes to the middle of the box; the proof is Krawczyk's test, that a box is mapped into
     its own interior (Rump, Acta Numerica 19, 2010, section 13).
+
+    Formula `krawczyk` of the theory.
     """
     lib = flint()
     kind, n = type(start), start.nrows()

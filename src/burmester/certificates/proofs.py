@@ -149,6 +149,8 @@ def infinity_takes_eight(gram: Matrix) -> bool:
     then are m0 (S11 m0 + S12 c0) and c0 (S21 m0 + S22 c0), with S the Schur complement on (g*, h*).
     Where these have no common zero but 0, the point is isolated and has multiplicity
     1 · 1 · 2 · 2.  The other point is its conjugate.
+
+    Formula `at-infinity` of the theory.
     """
     lib = flint()
     half = lib.acb(1) / 2

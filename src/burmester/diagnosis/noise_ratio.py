@@ -112,7 +112,10 @@ def floor_by_ratio(count: int, position: float, angle: float) -> FloatArray:
 
 
 def chance_of_pose(count: int, without: FloatArray, of_all: FloatArray) -> FloatArray:
-    """The chance that the least of N sums of squares without a pose is no greater (an F test)."""
+    """The chance that the least of N sums of squares without a pose is no greater (an F test).
+
+    Formula `chance-of-pose` of the theory.
+    """
     return np.asarray(np.minimum(1.0, count * np.minimum(1.0, without / of_all) ** (count - 6)))
 
 

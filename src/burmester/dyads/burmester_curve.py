@@ -76,6 +76,8 @@ def dyad_curve(poses: Displacement, samples: int = 400) -> DyadCurve:
     pivot is (X, Y, L) / norm up to sign in the canonical frames, with L their length, so infinity
     is a place like others.
 
+    Formula `four-poses` of the theory.
+
     Parameters
     ----------
     poses : Displacement, (4,)

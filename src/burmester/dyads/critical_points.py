@@ -102,6 +102,8 @@ def critical_dyads(poses: Displacement, weights: FloatArray | None = None) -> Cr
     All of them come from one eigenproblem for each task, with no start value; leading axes are
     tasks.
 
+    Formula `squared-residual` of the theory.
+
     Parameters
     ----------
     poses : Displacement, (*, N)
@@ -171,7 +173,10 @@ def _mean(values: FloatArray, weights: FloatArray | None) -> FloatArray:
 
 
 def residual_rows(poses: Displacement) -> FloatArray:
-    """The rows a (*, N, 7) with |R m + d - c|² - |m|² - |c|² = a · v."""
+    """The rows a (*, N, 7) with |R m + d - c|² - |m|² - |c|² = a · v.
+
+    Formula `residual-rows` of the theory.
+    """
     d1, d2 = poses.translation[..., 0], poses.translation[..., 1]
     c, s = np.cos(poses.angle), np.sin(poses.angle)
     rows = [d1 * d1 + d2 * d2, -2 * d1, -2 * d2, 2 * (c * d1 + s * d2), 2 * (c * d2 - s * d1)]

@@ -94,6 +94,8 @@ class FivePoseDyads:
 def dyads_of_five(poses: Displacement) -> FivePoseDyads:
     """All dyads that pass through five poses exactly: at most four are real.
 
+    Formula `five-poses` of the theory.
+
     Parameters
     ----------
     poses : Displacement, (*, 5)

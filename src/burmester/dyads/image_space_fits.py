@@ -124,6 +124,8 @@ def larochelle(poses: Displacement, start: RR) -> NormalFit:
 
     The nearest point of the manifold is searched anew at every evaluation.
 
+    Formula `manifold-distance` of the theory.
+
     Parameters
     ----------
     poses : Displacement, (N,)
@@ -163,6 +165,8 @@ def ravani_roth(poses: Displacement, start: RR) -> NormalFit:
     With g the two algebraic distances and J (2, 3) their derivatives by (Z1, Z2, psi), the squared
     distance to first order is gᵀ (J Jᵀ)⁻¹ g.  It has no bound where the normals of the manifolds
     are parallel.
+
+    Formula `normal-distance` of the theory.
 
     Parameters
     ----------

@@ -91,7 +91,10 @@ def free_minima(problem: FitProblem, z: FloatArray, along: FloatArray) -> FloatA
 
 
 def least_powers(problem: FitProblem, z: FloatArray, along: FloatArray, power: int) -> GeometricFit:
-    """The local minima of the weighted sum of some even power of the distances."""
+    """The local minima of the weighted sum of some even power of the distances.
+
+    Formula `powers` of the theory.
+    """
 
     def advance(rows: NDArray[np.intp], at: _Way) -> tuple[_Way, NDArray[np.bool_]]:
         here = problem.distances.at(at.z)

@@ -80,6 +80,8 @@ def best_dyads(
     kind; else as `limited_dyads` describes.  That the distance has no minimum elsewhere is not
     proved; its minima go over into those of the residual as the errors become small.
 
+    Formula `true-distance` of the theory.
+
     Parameters
     ----------
     poses : Displacement, (N,)

@@ -78,7 +78,10 @@ class Pencil:
         return self.singular_values[..., 2]
 
     def at(self, theta: FloatArray) -> FloatArray:
-        """The quadrics p(theta), Eq. (16): (*, k) angles to (*, k, 8) coefficients."""
+        """The quadrics p(theta), Eq. (16): (*, k) angles to (*, k, 8) coefficients.
+
+        Formula `pencil` of the theory.
+        """
         t = np.asarray(theta, dtype=np.float64)[..., None]
         return np.cos(t) * self.vectors[..., None, 0, :] + np.sin(t) * self.vectors[..., None, 1, :]
 
@@ -89,6 +92,8 @@ def fit_pencil(
     """The pencil of quadrics through or near poses, and its two dyads: the paper's method.
 
     Leading axes are tasks: 100,000 are one call.
+
+    Formula `pencil` of the theory.
 
     Parameters
     ----------
@@ -186,6 +191,8 @@ def stationary_angles(v1: FloatArray, v2: FloatArray) -> FloatArray:
     With w = v1 - i v2, p(theta) = Re(w exp(i theta)), and so
     g = centre + plus exp(i psi) + minus exp(-i psi): an ellipse with the half axes
     |plus| + |minus| and |plus| - |minus|.
+
+    Formulas `pencil-error`, `normal-feet` of the theory.
     """
 
     def conditions(p: NDArray[Any]) -> NDArray[Any]:

@@ -59,6 +59,8 @@ def fixed_pivot_map(
 
     nan where the moving pivot is not determined, as in a pure rotation about the pivot.
 
+    Formula `pivot-map` of the theory.
+
     Parameters
     ----------
     poses : Displacement, (N,)
@@ -110,6 +112,8 @@ def moving_pivot_map(
     """The best link of poses for each moving pivot.
 
     The inverse motion exchanges the two pivots; see `fixed_pivot_map`.
+
+    Formula `pivot-map` of the theory.
 
     Parameters
     ----------

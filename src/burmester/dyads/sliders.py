@@ -30,6 +30,8 @@ def fixed_lines(
 
     Returns the dyads (*, 2), and their rms and greatest distances from the line, (*, 2) each, in
     the task's unit.
+
+    Formula `slider` of the theory.
     """
     root = np.sqrt(weights_or_ones(weights, poses.shape))[..., None]
     middle = poses.translation.mean(axis=-2, keepdims=True)
@@ -58,6 +60,8 @@ def moving_lines(
 
     The inverse motion exchanges F and M.
     Returns the dyads, and their rms and greatest distances, (*, 2) each.
+
+    Formula `slot` of the theory.
     """
     lines, rms, worst = fixed_lines(poses.inverse(), weights)
     return RP(lines.moving_pivot, lines.normal_angle, lines.offset), rms, worst

@@ -73,7 +73,10 @@ class _Points(NamedTuple):
 
 
 def stationary_points(shape: Shape, target: Parameters) -> list[StationaryPoints]:
-    """The real stationary points of systems of one shape, parameters with one leading axis (T,)."""
+    """The real stationary points of systems of one shape, parameters with one leading axis (T,).
+
+    Formula `lagrangian` of the theory.
+    """
     tasks = len(target.square)
     points = _Points(np.empty((tasks, 0, shape.size), dtype=complex), np.empty((tasks, 0), bool))
     away, lost = np.zeros(tasks, dtype=int), np.zeros(tasks, dtype=int)

@@ -18,6 +18,8 @@ def dyad_with_moving_pivot(poses: Displacement, moving_pivot: ArrayLike) -> RR:
     The fixed pivot is the centre of the circle through the three places of the moving pivot;
     it is infinite where they lie on a line, and the dyad a slider.
 
+    Formula `three-poses` of the theory.
+
     Parameters
     ----------
     poses : Displacement, (3,)
@@ -58,6 +60,8 @@ def dyad_with_fixed_pivot(poses: Displacement, fixed_pivot: ArrayLike) -> RR:
     """The one RR dyad of three poses with each fixed pivot.
 
     The inverse motion exchanges fixed and moving pivots; see `dyad_with_moving_pivot`.
+
+    Formula `three-poses` of the theory.
 
     Parameters
     ----------

@@ -69,6 +69,8 @@ def promising_pairs(
 
     Those that transmit at the poses as is asked; where there are fewer than `most`, the next best
     ones as well.  kinds: the pairs of kinds that are allowed.
+
+    Formula `transmission-at-poses` of the theory.
     """
     found = [(np.empty(0, np.intp), np.empty(0, np.intp), np.empty(0))]
     seen = 0

@@ -30,7 +30,10 @@ RIDGE: Final = 1e-13  # relative; added where equations depend on each other
 def projected(
     trials: Trials, task: OpenTask, steps: int = STEPS
 ) -> tuple[Trials, NDArray[np.bool_]]:
-    """Linkages (k,) near those given, and which dyads (k, 2) meet the poses within their limits."""
+    """Linkages (k,) near those given, and which dyads (k, 2) meet the poses within their limits.
+
+    Formula `shortest-step` of the theory.
+    """
     batch, offsets = trials.batch, trials.offsets.copy()
     z = batch.dimensions.copy()
     sides = np.arange(2)

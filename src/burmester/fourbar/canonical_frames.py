@@ -50,7 +50,10 @@ class CanonicalFrames:
     def of(
         cls, poses: Displacement, weights: FloatArray | None = None
     ) -> tuple[Self, Displacement]:
-        """The canonical frames of poses (*, N), and the poses seen in them."""
+        """The canonical frames of poses (*, N), and the poses seen in them.
+
+        Formula `canonical-frames` of the theory.
+        """
         share = shares(weights, poses.shape)
         d = poses.translation[..., 0] + 1j * poses.translation[..., 1]
         turn = np.exp(1j * poses.angle)

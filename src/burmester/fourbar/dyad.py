@@ -263,6 +263,8 @@ def refitted_circles(
     The mean distance of the moving pivot from the fixed one is the radius with the least sum of
     squares.  The radius in p itself is not used: noise makes its two versions disagree.
 
+    Formula `refitted-radius` of the theory.
+
     Parameters
     ----------
     p : (*, k, 8) array of float

@@ -47,6 +47,8 @@ def twist(linkage: Linkage, places: Displacement) -> FloatArray:
     (v1, v2, omega): the velocity in F of the origin of M, and the angular velocity.  The axes of
     the linkages are the first of the places.  Zero at a change point, where both constraints are
     the same to first order and the coupler can move in two ways.
+
+    Formula `twist` of the theory.
     """
     first, second = (
         with_trailing_axes(dyad, len(places.shape)).gradient(places)
@@ -106,7 +108,10 @@ def _input_speed(first: Dyad, places: Displacement, motion: FloatArray) -> Float
 
 
 def instant_centre(linkage: Linkage, places: Displacement) -> FloatArray:
-    """The point (*, 2) of F about which the coupler turns at places (*,); see `Centrodes`."""
+    """The point (*, 2) of F about which the coupler turns at places (*,); see `Centrodes`.
+
+    Formula `instant-centre` of the theory.
+    """
     motion = twist(linkage, places)
     with np.errstate(divide="ignore", invalid="ignore"):
         arm = np.stack([-motion[..., 1], motion[..., 0]], axis=-1) / motion[..., 2:]
@@ -132,6 +137,8 @@ def transmission_angle(linkage: Linkage, places: Displacement) -> FloatArray:
     the force's only direction, and the follower.  An RP that follows: between the normal of its
     slot and the line from the driving pin to the fixed pivot.  An RP after an RP passes a pure
     couple on: pi/2.  nan for PP.
+
+    Formula `transmission-angle` of the theory.
     """
     if isinstance(linkage.first, PP) or isinstance(linkage.second, PP):
         return np.full(places.shape, np.nan)

@@ -115,6 +115,8 @@ class Linkage:
         The two places exchange roles where they meet.  Not for PP dyads, nor for a coupler that
         only translates.
 
+        Formula `coupler-places` of the theory.
+
         Parameters
         ----------
         angle : (*,) array of float
@@ -160,6 +162,8 @@ def grashof(links: Links) -> str:
 
     By the signs of `GRASHOF_SUMS`; one of them is s + l - p - q but for its sign.  A sum within
     GRASHOF_TIE of zero is a change point.
+
+    Formula `grashof` of the theory.
     """
     return TYPES[int(grashof_numbers(links))]
 

@@ -138,7 +138,10 @@ class LinkageBatch:
         return LinkageBatch(self.kinds, out)
 
     def jacobians(self, places: Displacement) -> ConstraintJacobians:
-        """The constraints of both dyads at coupler places (k, *), and their derivatives."""
+        """The constraints of both dyads at coupler places (k, *), and their derivatives.
+
+        Formula `constraint-form` of the theory.
+        """
         shape = places.angle.shape
         rows = np.concatenate([places.translation, places.angle[..., None]], axis=-1)
         count, number = len(self), int(np.prod(shape[1:]))

@@ -69,6 +69,8 @@ class PoseError:
         """Both errors in one, (N,): the position error, and the angle's as if `length` a radian.
 
         This is what a refinement makes least.  Infinite where there is no place near the pose.
+
+        Formula `pose-error` of the theory.
         """
         return np.nan_to_num(np.hypot(self.position, length * self.angle), nan=np.inf)
 

@@ -29,6 +29,8 @@ class Transmission(NamedTuple):
     driver.  It is the power that the driver transmits: the determinant of three wrenches (the
     driver's effort and both constraints), over its lever.
     drive: (k, N), the input, see `loop_closure`; turns: (k,), whether it is an angle.
+
+    Formula `signed-transmission` of the theory.
     """
 
     sine: FloatArray

@@ -46,6 +46,8 @@ def monomials(points: ArrayLike) -> FloatArray:
     """The eight monomials of Eq. (13) at image points (*, 4), shape (*, 8).
 
     A row of Eq. (14), with the homogeneous point in place of the chart Z4 = 1.
+
+    Formula `monomials` of the theory.
     """
     z = np.asarray(points, dtype=np.float64)
     z1, z2, z3, z4 = np.moveaxis(z, -1, 0)
@@ -62,7 +64,10 @@ def monomials(points: ArrayLike) -> FloatArray:
 
 
 def matrix(coefficients: ArrayLike) -> FloatArray:
-    """The symmetric matrices (*, 4, 4) of Eq. (9): Zᵀ C Z = p · monomials(Z)."""
+    """The symmetric matrices (*, 4, 4) of Eq. (9): Zᵀ C Z = p · monomials(Z).
+
+    Formula `constraint-manifold` of the theory.
+    """
     p = np.asarray(coefficients, dtype=np.float64)
     c = np.zeros((*p.shape[:-1], 4, 4))
     c[..., 0, 0] = c[..., 1, 1] = p[..., 0]
@@ -76,6 +81,8 @@ def conditions(coefficients: NDArray[Any]) -> NDArray[Any]:
     """The two relations of Eq. (17), zero where p is a dyad: (*, 8) to (*, 2).
 
     Real or complex coefficients.  Both are quadratic forms in p.
+
+    Formula `conditions` of the theory.
     """
     p1, p2, p3, p4, p5, p6, p7, p8 = np.moveaxis(coefficients, -1, 0)
     return np.stack(
@@ -99,7 +106,10 @@ def condition_gradients(coefficients: NDArray[Any]) -> NDArray[Any]:
 def coefficients_of_circle(
     fixed_pivot: ArrayLike, moving_pivot: ArrayLike, radius: ArrayLike
 ) -> FloatArray:
-    """RR: the moving pivot (*, 2) of M stays on a circle of F; Eqs. (6) and (7), p1 = 1."""
+    """RR: the moving pivot (*, 2) of M stays on a circle of F; Eqs. (6) and (7), p1 = 1.
+
+    Formula `constraint-manifold` of the theory.
+    """
     xc, yc = np.moveaxis(np.asarray(fixed_pivot, dtype=np.float64), -1, 0)
     x, y = np.moveaxis(np.asarray(moving_pivot, dtype=np.float64), -1, 0)
     s1, s2 = -(x + xc) / 2, -(y + yc) / 2
@@ -124,6 +134,8 @@ def circle(coefficients: ArrayLike) -> tuple[FloatArray, FloatArray, FloatArray]
     The squared radius comes from p2 and again from p8; the two agree only where p fulfils
     Eq. (17).  The paper takes the mean of the two radii (its Table 8).  Where p1 = 0 the
     result is infinite or nan.
+
+    Formula `pivots-of-manifold` of the theory.
     """
     p = np.asarray(coefficients, dtype=np.float64)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -141,6 +153,8 @@ def coefficients_of_fixed_line(
     """PR: the moving pivot (*, 2) of M stays on the line n · X = offset of F.
 
     With unit image points Zᵀ C Z is the signed distance n · X - offset; p1 = 0.
+
+    Formula `slider` of the theory.
     """
     angle = np.asarray(normal_angle, dtype=np.float64)
     h = np.asarray(offset, dtype=np.float64)
@@ -166,6 +180,8 @@ def coefficients_of_moving_line(
     """RP: the fixed pivot (*, 2) of F stays on the line n · x = offset of M.
 
     With unit image points Zᵀ C Z is the signed distance n · x - offset; p1 = 0.
+
+    Formula `slot` of the theory.
     """
     p = coefficients_of_fixed_line(normal_angle, offset, fixed_pivot)
     # The inverse displacement has the image point (-Z1, -Z2, -Z3, Z4).
@@ -174,7 +190,10 @@ def coefficients_of_moving_line(
 
 
 def coefficients_of_rotation(angle: ArrayLike) -> FloatArray:
-    """PP: the rotation stays `angle`; the doubled plane (Z3 cos - Z4 sin)² = 0, half angle."""
+    """PP: the rotation stays `angle`; the doubled plane (Z3 cos - Z4 sin)² = 0, half angle.
+
+    Formula `no-turning` of the theory.
+    """
     half = np.asarray(angle, dtype=np.float64) / 2
     s, c = np.sin(half), np.cos(half)
     zero = np.zeros_like(half)
@@ -197,5 +216,8 @@ def prismatic_parts(coefficients: ArrayLike) -> tuple[FloatArray, FloatArray]:
 
 
 def size(coefficients: ArrayLike) -> FloatArray:
-    """The norm (*,) of p (*, 8) that rotations of F and M leave as it is."""
+    """The norm (*,) of p (*, 8) that rotations of F and M leave as it is.
+
+    Formula `invariant-size` of the theory.
+    """
     return np.asarray(np.linalg.norm(np.asarray(coefficients) / INVARIANT, axis=-1))

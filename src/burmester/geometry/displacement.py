@@ -88,6 +88,8 @@ class Displacement:
         """The displacement of an image point (*, 4) of any scale but zero, Eq. (3).
 
         The angle comes back in (-pi, pi].
+
+        Formula `pose-of-image-point` of the theory.
         """
         z = np.asarray(point, dtype=np.float64)
         z1, z2, z3, z4 = np.moveaxis(z, -1, 0)
@@ -117,7 +119,10 @@ class Displacement:
         return matrix
 
     def as_image_point(self) -> FloatArray:
-        """Unit image points (*, 4), Eq. (2), with Z3² + Z4² = 1."""
+        """Unit image points (*, 4), Eq. (2), with Z3² + Z4² = 1.
+
+        Formula `image-point` of the theory.
+        """
         s, c = np.sin(self.angle / 2), np.cos(self.angle / 2)
         d1, d2 = self.translation[..., 0], self.translation[..., 1]
         point = np.empty((*self.shape, 4))
@@ -135,7 +140,10 @@ class Displacement:
         return np.stack([c * x - s * y, s * x + c * y], axis=-1)
 
     def act(self, points: ArrayLike) -> FloatArray:
-        """Points of M (*, 2) seen in F, Eq. (4)."""
+        """Points of M (*, 2) seen in F, Eq. (4).
+
+        Formula `displacement` of the theory.
+        """
         return self.rotate(points) + self.translation
 
     def inverse(self) -> Displacement:
@@ -191,6 +199,8 @@ def image_multiply(left: ArrayLike, right: ArrayLike) -> FloatArray:
 
     So a change of the frame F or M is a linear map of the image space (Bottema and Roth,
     Theoretical Kinematics, chapter 11).
+
+    Formula `composition` of the theory.
     """
     a1, a2, a3, a4 = np.moveaxis(np.asarray(left, dtype=np.float64), -1, 0)
     b1, b2, b3, b4 = np.moveaxis(np.asarray(right, dtype=np.float64), -1, 0)

@@ -91,6 +91,8 @@ def refine(
     In frames where lengths are about 1 (`pose_error.error_frames`).  Places change continuously, so
     they stay on their circuits.
 
+    Formula `refinement-step` of the theory.
+
     Parameters
     ----------
     batch : LinkageBatch

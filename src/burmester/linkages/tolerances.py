@@ -222,6 +222,8 @@ def sensitivity(
 
     Of their positions, by errors in the order of `LinkageBatch`, each as a length (see the top of
     the file); zero for unused slots.
+
+    Formula `sensitivity` of the theory.
     """
     miss, force, by_dimension = batch.jacobians(places)
     at = constraint_normals(miss, force, length)

@@ -61,6 +61,8 @@ class PivotRegion:
     major, minor: its semi-axes; direction: the angle of the major one in the pivot's own frame
     (F for a fixed pivot, M for a moving one), radians in (-pi/2, pi/2].
     reach: how far first order is trusted; beyond it the probability need not hold.
+
+    Formula `pivot-ellipse` of the theory.
     """
 
     major: float
@@ -226,6 +228,8 @@ def covariance(
     `LinkageBatch.to_canonical`, and sigma in that unit; the origin of M stays, as pose errors are
     those of this point.
     What the poses do not determine has a standard deviation of at least UNKNOWN_DEVIATION.
+
+    Formula `covariance` of the theory.
     """
     count = places.shape[1]
     _, force, by_dimension = batch.jacobians(places)

@@ -102,7 +102,10 @@ class MotionClass:
 
 
 def classify_motion(task: Task) -> MotionClass:
-    """The class of a task's motion, and its distinct poses."""
+    """The class of a task's motion, and its distinct poses.
+
+    Formula `rotation-and-sliders` of the theory.
+    """
     first, group = exact_repeats(task.poses)
     motion = _RotationFit.of(task.poses[first], task.resolution)
     canonical = Displacement(

@@ -1,0 +1,45 @@
+"""Lay out the sources, build the pages, check them; exit code 1 where something is wrong."""
+
+import os
+import shutil
+import sys
+import time
+from pathlib import Path
+
+from sphinx.cmd.build import main as sphinx
+
+from docs.building import checks, sources
+
+ROOT = Path(__file__).resolve().parents[2]
+REMAINS = (".doctrees", ".buildinfo", "jupyter_execute", "reports")  # what no reader opens
+
+
+def main(folder: Path) -> int:
+    """The exit code."""
+    began = time.monotonic()
+    os.environ.update(OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1", PYTHONHASHSEED="0")
+    laid_out = folder.parent / f"{folder.name}-sources"
+    for each in (folder, laid_out):
+        shutil.rmtree(each, ignore_errors=True)
+    sources.lay_out(ROOT, laid_out)
+    if code := sphinx(
+        ["-b", "html", "-W", "--keep-going", "-q", "-c", str(ROOT / "docs"),
+         "-d", str(folder.parent / "docs-doctrees"), str(laid_out), str(folder)]
+    ):  # fmt: skip
+        return code
+    for each in REMAINS:
+        path = folder / each
+        shutil.rmtree(path) if path.is_dir() else path.unlink(missing_ok=True)
+    wrong = checks.troubles(folder)
+    for each in wrong:
+        print(f"docs: {each}", file=sys.stderr)
+    pages = sum(1 for _ in folder.rglob("*.html"))
+    print(
+        f"{pages} pages, {checks.megabytes(folder):.1f} MB, {time.monotonic() - began:.0f} s: "
+        f"{os.path.relpath(folder / 'index.html')}"
+    )
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(Path(sys.argv[1] if len(sys.argv) > 1 else "build/docs").resolve()))

@@ -1,0 +1,189 @@
+"""Pages made of what the program says of itself: the command, messages, the JSON schema, the paper's tables."""
+
+import inspect
+import json
+import re
+from importlib.resources import files
+from pathlib import Path
+
+import click
+from PIL import Image
+
+from burmester.cli import burmester as command
+from burmester.paper.reproduction import reproduce
+from burmester.plot import write_figures
+from burmester.plot.paper import NAMES
+from docs.building import GENERATED
+
+COLOURS = 256  # of a picture: more show no difference, and fill the file
+
+
+def write_pages(folder: Path, functions):
+    """All generated pages; functions: what the page of functions describes."""
+    reference = folder / "reference"
+    pages = {
+        "command": command_page(),
+        "functions": functions_page(functions),
+        "messages": messages_page(),
+        "paper-tables": paper_page(folder / "reference" / "paper"),
+        "schema": schema_page(),
+    }
+    assert tuple(pages) == GENERATED
+    for name, text in pages.items():
+        reference.joinpath(f"{name}.md").write_text(text, encoding="utf-8")
+
+
+def command_page():
+    """`burmester` and its commands, from click itself."""
+    parts = [
+        "# The command",
+        "What `burmester --help` says, for every command. [Commands](../commands.md) tells what they are for.",
+        "```text\n" + help_of(command, "burmester") + "\n```",
+    ]
+    for name, each in command.commands.items():
+        about = inspect.cleandoc(each.help or "").replace("\b\n", "")
+        parts += [f"## burmester {name}", f"```text\n{help_of(each, f'burmester {name}')}\n```"]
+        assert about, f"{name} says nothing of itself"
+        rows = [
+            f"| `{', '.join(one.opts + one.secondary_opts)}` | {kind(one)} | {cell(one.help or '')} |"
+            for one in each.params
+            if isinstance(one, click.Option)
+        ]
+        parts.append("\n".join(["| option | value | effect |", "|---|---|---|", *rows]))
+    return "\n\n".join(parts) + "\n"
+
+
+def help_of(each, name):
+    """The usage and the text of a command's help, without its options, which a table has."""
+    context = click.Context(each, info_name=name, terminal_width=96, max_content_width=96)
+    whole = each.get_help(context)
+    return whole if isinstance(each, click.Group) else whole.partition("\nOptions:")[0].rstrip()
+
+
+def kind(option):
+    """What an option takes."""
+    if option.is_flag:
+        return "-"
+    if isinstance(option.type, click.Choice):
+        return " ".join(f"`{each}`" for each in option.type.choices)
+    return f"`{option.metavar or option.type.name.upper()}`"
+
+
+def cell(text):
+    """A text in a cell of a table."""
+    return re.sub(r"([|<>*_])", r"\\\1", " ".join(text.split()))
+
+
+def messages_page():
+    """Every code with its page, an anchor for each."""
+    text = files("burmester.io").joinpath("messages.md").read_text(encoding="utf-8")
+    text = re.sub(r"(?m)^(#+) ", r"#\1 ", text)
+    text = re.sub(r"(?m)^### ([A-Z]\d{3}) ", r"(\1)=\n### \1 ", text)
+    text = re.sub(r"(?m)^```$", "```text", text)
+    text = re.sub(r"(?ms)^```text\n(.*?)^```text$", r"```text\n\1```", text)
+    return (
+        "# Every message\n\n"
+        "Errors begin with E, warnings with W, results with R. `burmester explain CODE` prints the same.\n\n"
+        + text
+    )
+
+
+def schema_page():
+    """The JSON schema as tables: each key with its type and what it holds."""
+    schema = json.loads(
+        files("burmester.io").joinpath("synthesis.schema.json").read_text(encoding="utf-8")
+    )
+    parts = [
+        "# The JSON schema",
+        "What `burmester synthesize POSES --json` prints. Keys may be added, none goes away. "
+        "The schema itself: [synthesis.schema.json](synthesis.schema.json). `!`: the key is always there.",
+        "## The object",
+        table_of(schema),
+    ]
+    for name, part in schema["$defs"].items():
+        if "properties" in part:
+            parts += [f"## {name}", table_of(part)]
+    return "\n\n".join(parts) + "\n"
+
+
+def table_of(part):
+    """The keys of an object."""
+    rows = ["| key | type | |", "|---|---|---|"]
+    for key, each in part["properties"].items():
+        always = "!" if key in part.get("required", ()) else ""
+        rows.append(f"| `{key}` {always} | {type_of(each)} | {cell(each.get('$comment', ''))} |")
+    return "\n".join(rows)
+
+
+def type_of(part):
+    """A type in words, with a link where the page describes it."""
+    if "$ref" in part:
+        name = part["$ref"].rpartition("/")[2]
+        return f"{name}" if name in PLAIN else f"[{name}](#{name})"
+    if "enum" in part:
+        return ", ".join(f"`{json.dumps(each)}`" for each in part["enum"])
+    if "const" in part:
+        return f"`{json.dumps(part['const'])}`"
+    if "anyOf" in part or "oneOf" in part:
+        return " or ".join(map(type_of, part.get("anyOf", part.get("oneOf"))))
+    kinds = part.get("type", "any")
+    kinds = [kinds] if isinstance(kinds, str) else kinds
+    text = " or ".join(kinds)
+    if "array" in kinds and "items" in part:
+        text = text.replace("array", f"array of {type_of(part['items'])}")
+    if "object" in kinds and "properties" in part:
+        text += ": " + ", ".join(f"`{key}`" for key in part["properties"])
+    return text
+
+
+SCHEMA = json.loads(files("burmester.io").joinpath("synthesis.schema.json").read_text("utf-8"))
+PLAIN = {name for name, part in SCHEMA["$defs"].items() if "properties" not in part}
+
+
+def functions_page(functions):
+    """The functions of formulas and methods that have no short name."""
+    head = (
+        "# Functions behind the theory\n\n"
+        "The functions that compute the formulas of [the theory](../mathematics.md), and the solvers. What is "
+        "imported with `import burmester` alone stands on [its own page](api.md).\n"
+    )
+    by_module = {}
+    for each in functions:
+        _, room, module, *_ = each.split(".")
+        by_module.setdefault(f"burmester.{room}.{module}", []).append(each)
+    for module, names in sorted(by_module.items()):
+        head += f"\n## {module.removeprefix('burmester.')}\n\n```{{eval-rst}}\n"
+        for each in sorted(names):
+            rest = each.removeprefix(module + ".")
+            word = "automethod" if "." in rest else "autoclass" if rest[0].isupper() else "autofunction"
+            head += f".. {word}:: {each}\n"
+        head += "```\n"
+    return head
+
+
+def paper_page(pictures: Path):
+    """The paper's numbers beside ours, and its figures drawn again."""
+    pictures.mkdir(parents=True)
+    for path in write_figures(pictures, formats=("png",)):
+        Image.open(path).convert("RGB").quantize(COLOURS).save(path, optimize=True)
+    parts = [
+        "# The paper, number by number",
+        "Each printed number of Ge, Zhao, Purwar and Li (2012) beside the computed one, as `burmester reproduce` prints "
+        "them. *Spread*: the least and the greatest value over copies of the poses drawn within the rounding of the "
+        "print. [The paper, checked](../paper.md) says what comes of it.",
+        "## Its figures, drawn again",
+    ]
+    for name in NAMES:
+        title = name.replace("-", " ").capitalize()
+        parts.append(f'### {title}\n\n<img src="paper/{name}.png" width="460" alt="{title}">')
+    parts.append("## Its numbers")
+    for section in reproduce():
+        rows = ["| | print | computed | spread | |", "|---|--:|--:|--:|---|"]
+        for row in section.rows:
+            cells = [cell(each) for each in row.cells()]
+            rows.append("| " + " | ".join(cells) + " |")
+        notes = [f"- {row.item}: {cell(row.note)}" for row in section.rows if row.note]
+        parts += [f"### {section.title}", "\n".join(rows) if section.rows else ""]
+        parts += ["\n".join(notes), *section.remarks]
+    return "\n\n".join(part for part in parts if part) + "\n"
+

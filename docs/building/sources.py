@@ -1,0 +1,91 @@
+"""The sources that Sphinx reads: `docs/`, the pages beside it, and pages made of what the program says.
+
+In the project pages link to files anywhere in it, as a code host shows them.  Here everything lies
+in one folder, so links that leave `docs/` are bent to where their target lies.
+"""
+
+import re
+import shutil
+from pathlib import Path
+
+from myst_nb.core.read import is_myst_markdown_notebook, read_myst_markdown_notebook
+import nbformat
+
+from docs.building import formulas, generated
+
+BESIDE = {  # files outside docs/ that are pages, or files, of the site
+    "ARCHITECTURE.md": "project/architecture.md",
+    "CHANGELOG.md": "project/changelog.md",
+    "CONTRIBUTING.md": "project/contributing.md",
+    "benchmarks/README.md": "project/benchmarks.md",
+    "CITATION.cff": "project/CITATION.cff",
+    "README.md": "index.md",
+    "docs/README.md": "index.md",
+    "src/burmester/io/synthesis.schema.json": "reference/synthesis.schema.json",
+    "src/burmester/io/family_map.schema.json": "reference/family_map.schema.json",
+}
+NOT_COPIED = ("building", "__pycache__", "*.py", "README.md", "*.ipynb")
+LINK = re.compile(r"(\]\(|(?:src|srcset|href)=\")([^)\s\"#]+)(#[^)\s\"]*)?(?=[)\"])")
+
+
+def lay_out(root: Path, folder: Path):
+    """Everything that Sphinx needs, into an empty folder."""
+    shutil.copytree(root / "docs", folder, ignore=shutil.ignore_patterns(*NOT_COPIED))
+    shutil.copytree(root / "examples", folder / "examples")
+    for source, place in BESIDE.items():
+        if place != "index.md":
+            target = folder / place
+            target.parent.mkdir(exist_ok=True)
+            shutil.copy(root / source, target)
+    for page in folder.rglob("*.md"):
+        at = page.relative_to(folder).as_posix()
+        origin = next((one for one, other in BESIDE.items() if other == at), f"docs/{at}")
+        text = bent(page.read_text(encoding="utf-8"), origin, root)
+        page.write_text(text, encoding="utf-8")
+    theory = folder / "mathematics.md"
+    text = theory.read_text(encoding="utf-8")
+    theory.write_text(formulas.linked(text), encoding="utf-8")
+    generated.write_pages(folder, formulas.functions_apart(text))
+    for page in folder.rglob("*.md"):
+        if is_myst_markdown_notebook(page.read_text(encoding="utf-8")):
+            write_notebook(page)
+
+
+def bent(text, origin, root):
+    """The text of the file `origin` of the project with links that hold in the folder."""
+
+    def link(match):
+        address, anchor = match[2], match[3] or ""
+        if "://" in address or address.startswith("mailto:"):
+            return match[0]
+        target = (root / origin).parent.joinpath(address).resolve().relative_to(root).as_posix()
+        there = place_of(target)
+        if there is None:
+            return match[0]
+        here = Path(place_of(origin) or origin)
+        steps = "../" * (len(here.parts) - 1)
+        return f"{match[1]}{steps}{there}{anchor}"
+
+    return without_code(text, lambda prose: LINK.sub(link, prose))
+
+
+def place_of(target):
+    """Where a file of the project lies in the folder; None if it is not of the site."""
+    if target in BESIDE:
+        return BESIDE[target]
+    if target in ("docs", "docs/"):
+        return "index.md"
+    return target.removeprefix("docs/") if target.startswith("docs/") else None
+
+
+def without_code(text, change):
+    """The text with its prose changed and its fenced blocks as they are."""
+    parts = re.split(r"(?ms)^(```.*?^```$)", text)
+    return "".join(part if part.startswith("```") else change(part) for part in parts)
+
+
+def write_notebook(page: Path):
+    """The page as a notebook that Jupyter opens, beside it: not run, without pictures."""
+    text = page.read_text(encoding="utf-8")
+    notebook = read_myst_markdown_notebook(text, add_source_map=False)
+    nbformat.write(notebook, page.with_suffix(".ipynb"))
