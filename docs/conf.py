@@ -1,4 +1,4 @@
-"""How Sphinx builds the pages; `scripts/docs` calls it on the sources that `docs.building` lays out."""
+"""How Sphinx builds the pages, of the sources that `docs.building` lays out; see `scripts/docs`."""
 
 from burmester import __version__
 
@@ -16,7 +16,7 @@ extensions = [
 ]
 nitpicky = False
 default_role = "py:obj"
-exclude_patterns = ["jupyter_execute", "**.ipynb_checkpoints"]
+exclude_patterns = ["jupyter_execute", "**.ipynb"]
 
 # Markdown
 myst_enable_extensions = ["dollarmath", "html_image", "attrs_block"]

@@ -6,9 +6,8 @@ import sys
 import time
 from pathlib import Path
 
-from sphinx.cmd.build import main as sphinx
-
 from docs.building import checks, sources
+from sphinx.cmd.build import main as sphinx
 
 ROOT = Path(__file__).resolve().parents[2]
 REMAINS = (".doctrees", ".buildinfo", "jupyter_execute", "reports")  # what no reader opens

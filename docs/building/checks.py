@@ -1,4 +1,7 @@
-"""What holds of the pages when they are built: links lead somewhere, nothing is loaded from elsewhere, they are small."""
+"""What holds of the built pages.
+
+Links lead somewhere, nothing is loaded from elsewhere, and all of it is small.
+"""
 
 import re
 from html.parser import HTMLParser
@@ -6,7 +9,14 @@ from pathlib import Path
 from urllib.parse import unquote
 
 MOST_MEGABYTES = 40
-LOADED = {"img": "src", "script": "src", "link": "href", "source": "src", "video": "src", "iframe": "src"}
+LOADED = {
+    "img": "src",
+    "script": "src",
+    "link": "href",
+    "source": "src",
+    "video": "src",
+    "iframe": "src",
+}
 ELSEWHERE = re.compile(r"^(?:https?:)?//", re.IGNORECASE)
 IN_STYLE = re.compile(r"(?:url\(|@import)\s*[\"']?((?:https?:)?//[^\"')]+)", re.IGNORECASE)
 
@@ -43,7 +53,9 @@ def troubles(folder: Path):
             if re.match(r"^[a-z]+:", link) or ELSEWHERE.match(link):
                 continue
             address, _, anchor = link.partition("#")
-            target = (path.parent / unquote(address.partition("?")[0])).resolve() if address else path
+            target = (
+                (path.parent / unquote(address.partition("?")[0])).resolve() if address else path
+            )
             if not target.is_file():
                 told.append(f"{at}: {link} leads nowhere")
             elif anchor and target in pages and unquote(anchor) not in pages[target].ids | {""}:

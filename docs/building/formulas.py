@@ -1,4 +1,4 @@
-"""Formulas of `docs/mathematics.md` and the functions that compute them: which they are, and links both ways.
+"""Formulas of `docs/mathematics.md` and the functions that compute them, linked both ways.
 
 The page says below a formula: Formula `name`, computed by `room.module.function`.  The docstring of
 that function says: Formula `name` of the theory.
@@ -114,8 +114,9 @@ def as_rst(lines):
     return made
 
 
-def link_docstring(app, what, name, obj, options, lines):
+def link_docstring(*told_by_sphinx):
     """Docstrings as markup, names of formulas as links; Sphinx calls this before numpydoc."""
+    lines = told_by_sphinx[-1]
     text = IN_DOCSTRING.sub(
         lambda told: "Theory: " + ", ".join(
             f":ref:`{each} <formula-{each}>`" for each in QUOTED.findall(told[1])

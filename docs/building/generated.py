@@ -1,4 +1,7 @@
-"""Pages made of what the program says of itself: the command, messages, the JSON schema, the paper's tables."""
+"""Pages made of what the program says of itself.
+
+The command, messages, the JSON schema, the functions of the theory, the paper's tables.
+"""
 
 import inspect
 import json
@@ -7,13 +10,13 @@ from importlib.resources import files
 from pathlib import Path
 
 import click
+from docs.building import GENERATED
 from PIL import Image
 
 from burmester.cli import burmester as command
 from burmester.paper.reproduction import reproduce
 from burmester.plot import write_figures
 from burmester.plot.paper import NAMES
-from docs.building import GENERATED
 
 COLOURS = 256  # of a picture: more show no difference, and fill the file
 
@@ -37,7 +40,8 @@ def command_page():
     """`burmester` and its commands, from click itself."""
     parts = [
         "# The command",
-        "What `burmester --help` says, for every command. [Commands](../commands.md) tells what they are for.",
+        "What `burmester --help` says, for every command. "
+        "[Commands](../commands.md) tells what they are for.",
         "```text\n" + help_of(command, "burmester") + "\n```",
     ]
     for name, each in command.commands.items():
@@ -45,7 +49,7 @@ def command_page():
         parts += [f"## burmester {name}", f"```text\n{help_of(each, f'burmester {name}')}\n```"]
         assert about, f"{name} says nothing of itself"
         rows = [
-            f"| `{', '.join(one.opts + one.secondary_opts)}` | {kind(one)} | {cell(one.help or '')} |"
+            f"| `{', '.join(one.opts)}` | {kind(one)} | {cell(one.help or '')} |"
             for one in each.params
             if isinstance(one, click.Option)
         ]
@@ -79,12 +83,11 @@ def messages_page():
     text = files("burmester.io").joinpath("messages.md").read_text(encoding="utf-8")
     text = re.sub(r"(?m)^(#+) ", r"#\1 ", text)
     text = re.sub(r"(?m)^### ([A-Z]\d{3}) ", r"(\1)=\n### \1 ", text)
-    text = re.sub(r"(?m)^```$", "```text", text)
-    text = re.sub(r"(?ms)^```text\n(.*?)^```text$", r"```text\n\1```", text)
+    text = re.sub(r"(?ms)^```\n(.*?)^```$", r"```text\n\1```", text)
     return (
         "# Every message\n\n"
-        "Errors begin with E, warnings with W, results with R. `burmester explain CODE` prints the same.\n\n"
-        + text
+        "Errors begin with E, warnings with W, results with R. `burmester explain CODE` prints "
+        "the same.\n\n" + text
     )
 
 
@@ -96,7 +99,8 @@ def schema_page():
     parts = [
         "# The JSON schema",
         "What `burmester synthesize POSES --json` prints. Keys may be added, none goes away. "
-        "The schema itself: [synthesis.schema.json](synthesis.schema.json). `!`: the key is always there.",
+        "The schema itself: [synthesis.schema.json](synthesis.schema.json). "
+        "`!`: the key is always there.",
         "## The object",
         table_of(schema),
     ]
@@ -144,8 +148,9 @@ def functions_page(functions):
     """The functions of formulas and methods that have no short name."""
     head = (
         "# Functions behind the theory\n\n"
-        "The functions that compute the formulas of [the theory](../mathematics.md), and the solvers. What is "
-        "imported with `import burmester` alone stands on [its own page](api.md).\n"
+        "The functions that compute the formulas of [the theory](../mathematics.md), and the "
+        "solvers. What is imported with `import burmester` alone stands on "
+        "[its own page](api.md).\n"
     )
     by_module = {}
     for each in functions:
@@ -155,7 +160,13 @@ def functions_page(functions):
         head += f"\n## {module.removeprefix('burmester.')}\n\n```{{eval-rst}}\n"
         for each in sorted(names):
             rest = each.removeprefix(module + ".")
-            word = "automethod" if "." in rest else "autoclass" if rest[0].isupper() else "autofunction"
+            word = (
+                "automethod"
+                if "." in rest
+                else "autoclass"
+                if rest[0].isupper()
+                else "autofunction"
+            )
             head += f".. {word}:: {each}\n"
         head += "```\n"
     return head
@@ -168,9 +179,10 @@ def paper_page(pictures: Path):
         Image.open(path).convert("RGB").quantize(COLOURS).save(path, optimize=True)
     parts = [
         "# The paper, number by number",
-        "Each printed number of Ge, Zhao, Purwar and Li (2012) beside the computed one, as `burmester reproduce` prints "
-        "them. *Spread*: the least and the greatest value over copies of the poses drawn within the rounding of the "
-        "print. [The paper, checked](../paper.md) says what comes of it.",
+        "Each printed number of Ge, Zhao, Purwar and Li (2012) beside the computed one, as "
+        "`burmester reproduce` prints them. *Spread*: the least and the greatest value over copies "
+        "of the poses drawn within the rounding of the print. [The paper, checked](../paper.md) "
+        "says what comes of it.",
         "## Its figures, drawn again",
     ]
     for name in NAMES:
@@ -186,4 +198,3 @@ def paper_page(pictures: Path):
         parts += [f"### {section.title}", "\n".join(rows) if section.rows else ""]
         parts += ["\n".join(notes), *section.remarks]
     return "\n\n".join(part for part in parts if part) + "\n"
-

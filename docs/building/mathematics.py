@@ -1,7 +1,7 @@
 """Formulas as MathML, which browsers set themselves: no script, no network.
 
-The font is STIX Two Math (SIL Open Font License), which ziamath carries; only the characters that mathematics
-needs are kept.
+The font is STIX Two Math (SIL Open Font License), which ziamath carries; only the characters
+that mathematics needs are kept.
 """
 
 import html
@@ -60,7 +60,9 @@ def write_font(app, _error):
 
 def setup(app):
     """Sphinx calls this."""
-    app.add_html_math_renderer("mathml", inline_renderers=(inline, None), block_renderers=(block, None))
+    app.add_html_math_renderer(
+        "mathml", inline_renderers=(inline, None), block_renderers=(block, None)
+    )
     app.config.html_math_renderer = "mathml"
     app.connect("build-finished", write_font)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,4 +1,4 @@
-"""The sources that Sphinx reads: `docs/`, the pages beside it, and pages made of what the program says.
+"""The sources that Sphinx reads: `docs/`, pages beside it, and pages made of what the program says.
 
 In the project pages link to files anywhere in it, as a code host shows them.  Here everything lies
 in one folder, so links that leave `docs/` are bent to where their target lies.
@@ -8,10 +8,9 @@ import re
 import shutil
 from pathlib import Path
 
-from myst_nb.core.read import is_myst_markdown_notebook, read_myst_markdown_notebook
 import nbformat
-
 from docs.building import formulas, generated
+from myst_nb.core.read import is_myst_markdown_notebook, read_myst_markdown_notebook
 
 BESIDE = {  # files outside docs/ that are pages, or files, of the site
     "ARCHITECTURE.md": "project/architecture.md",
@@ -31,7 +30,9 @@ LINK = re.compile(r"(\]\(|(?:src|srcset|href)=\")([^)\s\"#]+)(#[^)\s\"]*)?(?=[)\
 def lay_out(root: Path, folder: Path):
     """Everything that Sphinx needs, into an empty folder."""
     shutil.copytree(root / "docs", folder, ignore=shutil.ignore_patterns(*NOT_COPIED))
-    shutil.copytree(root / "examples", folder / "examples")
+    for name in ("tutorials", "gallery", "teaching"):
+        for file in given_files(root):
+            shutil.copy(file, folder / name)
     for source, place in BESIDE.items():
         if place != "index.md":
             target = folder / place
@@ -49,6 +50,12 @@ def lay_out(root: Path, folder: Path):
     for page in folder.rglob("*.md"):
         if is_myst_markdown_notebook(page.read_text(encoding="utf-8")):
             write_notebook(page)
+
+
+def given_files(root: Path):
+    """Files that notebooks read beside themselves: those of `burmester new`, and the examples."""
+    yield from sorted((root / "src" / "burmester" / "templates").glob("*.toml"))
+    yield from sorted(file for file in (root / "examples").iterdir() if file.is_file())
 
 
 def bent(text, origin, root):

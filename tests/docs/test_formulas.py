@@ -3,7 +3,6 @@
 from pathlib import Path
 
 import pytest
-
 from docs.building import formulas
 
 ROOT = Path(__file__).parents[2]
@@ -37,13 +36,15 @@ def test_a_formula_without_its_function_is_told(tmp_path):
         formulas.owner("a.b.gone")
     (tmp_path / "a").mkdir()
     (tmp_path / "a" / "b.py").write_text(
-        'class C:\n    def f():\n        """It.\n\n        Formulas `one`, `two` of the theory.\n        """\n'
+        'class C:\n    def f():\n        """It.\n\n    Formulas `one`, `two` of the theory."""\n'
     )
     assert formulas.in_docstrings(tmp_path) == {("one", "a.b.C.f"), ("two", "a.b.C.f")}
 
 
 def test_links_of_the_site_take_the_short_name_where_there_is_one():
-    assert formulas.on_site("geometry.displacement.Displacement.act") == "burmester.Displacement.act"
+    assert (
+        formulas.on_site("geometry.displacement.Displacement.act") == "burmester.Displacement.act"
+    )
     assert formulas.on_site("dyads.local_minima.best_dyads") == "burmester.best_dyads"
     assert formulas.on_site("dyads.pencil.fit_pencil") == "burmester.dyads.pencil.fit_pencil"
     assert formulas.on_site("dyads.pencil.Pencil.at") == "burmester.dyads.pencil.Pencil.at"

@@ -5,7 +5,6 @@ from collections import Counter
 from pathlib import Path
 
 import pytest
-
 from docs.building import GENERATED
 
 ROOT = Path(__file__).parents[2]

@@ -1,0 +1,69 @@
+"""Every notebook of the documentation runs, cell by cell; what it asserts holds.
+
+Figures, films and drawings have tests of their own: here only that they are asked for what exists.
+The files beside a notebook are those of `burmester new`, the examples, and its own.
+"""
+
+import ast
+import re
+import shutil
+from pathlib import Path
+
+import pytest
+
+from burmester.api.linkage import _Handover
+from tests.oracles.markdown import Document
+
+ROOT = Path(__file__).parents[2]
+FOLDERS = ("tutorials", "gallery", "teaching")
+OPTION = re.compile(r"(?m)\A(?::[\w-]+:.*\n)+")
+
+
+def cells(page):
+    """The code of a page's cells, their options left out."""
+    blocks = Document.of(page).blocks
+    return [(OPTION.sub("", b.text), b.line) for b in blocks if b.kind == "code-cell"]
+
+
+PAGES = [page for name in FOLDERS for page in sorted((ROOT / "docs" / name).glob("*.md"))]
+NOTEBOOKS = {f"{page.parent.name}/{page.stem}": page for page in PAGES if cells(page)}
+
+
+@pytest.fixture
+def beside(tmp_path, monkeypatch):
+    """The folder in which a notebook runs; what it exports is only noted."""
+    for folder in ("examples", "src/burmester/templates"):
+        for file in (ROOT / folder).iterdir():
+            if file.is_file():
+                shutil.copy(file, tmp_path)
+    monkeypatch.chdir(tmp_path)
+
+    def export(self, path, **options):
+        assert Path(path).suffix in {".dxf", ".svg", ".json", ".gif"}
+        self.saved()
+        return Path(path)
+
+    monkeypatch.setattr(_Handover, "export", export)
+    monkeypatch.setattr(_Handover, "animate", lambda self, **how: self.saved())
+    return tmp_path
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("page", NOTEBOOKS.values(), ids=NOTEBOOKS)
+def test_every_cell_runs(page, beside, capsys):
+    pytest.importorskip("matplotlib").use("agg")
+    for file in page.parent.iterdir():
+        if file.suffix in {".toml", ".csv"}:
+            shutil.copy(file, beside)
+    names: dict[str, object] = {"__name__": "__main__"}
+    for text, line in cells(page):
+        tree = ast.increment_lineno(ast.parse(text), line - 1)
+        exec(compile(tree, str(page), "exec"), names)
+
+
+@pytest.mark.parametrize("page", NOTEBOOKS.values(), ids=NOTEBOOKS)
+def test_a_notebook_is_a_screenful_that_can_be_taken_home(page):
+    text = page.read_text(encoding="utf-8")
+    assert f"<{page.stem}.ipynb>`" in text
+    assert text.startswith("---\nfile_format: mystnb\nkernelspec:\n  name: python3\n")
+    assert len(text.splitlines()) < 190
