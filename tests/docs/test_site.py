@@ -1,9 +1,8 @@
-"""What is checked of the built pages is checked here of pages with a fault each; nothing is built."""
+"""What is checked of the built pages, on pages with a fault each; nothing is built."""
 
 from pathlib import Path
 
 import pytest
-
 from docs.building import checks
 
 GOOD = """<html><head><link rel="stylesheet" href="_static/a.css"></head><body id="top">
