@@ -172,7 +172,7 @@ def shows_something(name):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", filter(shows_something, NAMES))
+@pytest.mark.parametrize("name", list(filter(shows_something, NAMES)))
 def test_every_block_does_what_it_shows(name, shims, folder, monkeypatch):
     wrong = troubles(Document.of(ROOT / name), shims, folder, monkeypatch)
     assert not wrong, "\n\n".join([f"{name}:", *wrong])
