@@ -19,7 +19,7 @@ CELL = re.compile(r"(?ms)^```\{code-cell\}[^\n]*\n(.*?)^```$")
 
 
 def chosen(page):
-    """The linkage that a page chooses: what its cells call `chosen`, films and drawings left out."""
+    """What the cells of a page call `chosen`; films and drawings are left out."""
     names = {}
     for cell in CELL.findall(page.read_text(encoding="utf-8")):
         if "animate" in cell:
