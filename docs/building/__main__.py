@@ -10,7 +10,7 @@ from docs.building import checks, sources
 from sphinx.cmd.build import main as sphinx
 
 ROOT = Path(__file__).resolve().parents[2]
-REMAINS = (".doctrees", ".buildinfo", "jupyter_execute", "reports")  # what no reader opens
+REMAINS = (".buildinfo", "jupyter_execute", "reports")  # what no reader opens
 
 
 def main(folder: Path) -> int:
@@ -22,7 +22,7 @@ def main(folder: Path) -> int:
         shutil.rmtree(each, ignore_errors=True)
     sources.lay_out(ROOT, laid_out)
     if code := sphinx(
-        ["-b", "html", "-W", "--keep-going", "-q", "-c", str(ROOT / "docs"),
+        ["-b", "html", "-W", "--keep-going", "-q", "-j", "2", "-c", str(ROOT / "docs"),
          "-d", str(folder.parent / "docs-doctrees"), str(laid_out), str(folder)]
     ):  # fmt: skip
         return code
