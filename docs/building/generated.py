@@ -3,7 +3,6 @@
 The command, messages, the JSON schema, the functions of the theory, the paper's tables.
 """
 
-import inspect
 import json
 import re
 from importlib.resources import files
@@ -42,35 +41,18 @@ def command_page():
         "# The command",
         "What `burmester --help` says, for every command. "
         "[Commands](../commands.md) tells what they are for.",
-        "```text\n" + help_of(command, "burmester") + "\n```",
+        f"```text\n{help_of(command, 'burmester')}\n```",
     ]
     for name, each in command.commands.items():
-        about = inspect.cleandoc(each.help or "").replace("\b\n", "")
-        parts += [f"## burmester {name}", f"```text\n{help_of(each, f'burmester {name}')}\n```"]
-        assert about, f"{name} says nothing of itself"
-        rows = [
-            f"| `{', '.join(one.opts)}` | {kind(one)} | {cell(one.help or '')} |"
-            for one in each.params
-            if isinstance(one, click.Option)
-        ]
-        parts.append("\n".join(["| option | value | effect |", "|---|---|---|", *rows]))
+        whole = f"burmester {name}"
+        parts += [f"## {whole}", f"```text\n{help_of(each, whole)}\n```"]
     return "\n\n".join(parts) + "\n"
 
 
 def help_of(each, name):
-    """The usage and the text of a command's help, without its options, which a table has."""
-    context = click.Context(each, info_name=name, terminal_width=96, max_content_width=96)
-    whole = each.get_help(context)
-    return whole if isinstance(each, click.Group) else whole.partition("\nOptions:")[0].rstrip()
-
-
-def kind(option):
-    """What an option takes."""
-    if option.is_flag:
-        return "-"
-    if isinstance(option.type, click.Choice):
-        return " ".join(f"`{each}`" for each in option.type.choices)
-    return f"`{option.metavar or option.type.name.upper()}`"
+    """What a command says with --help, 84 characters wide."""
+    context = click.Context(each, info_name=name, terminal_width=84, max_content_width=84)
+    return each.get_help(context).rstrip()
 
 
 def cell(text):

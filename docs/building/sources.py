@@ -24,6 +24,7 @@ BESIDE = {  # files outside docs/ that are pages, or files, of the site
     "src/burmester/io/family_map.schema.json": "reference/family_map.schema.json",
 }
 NOT_COPIED = ("building", "__pycache__", "*.py", "README.md", "*.ipynb")
+CODE = re.compile(r"\(([EWR]\d{3})\)")  # of a message, which has its place on the page of messages
 LINK = re.compile(r"(\]\(|(?:src|srcset|href)=\")([^)\s\"#]+)(#[^)\s\"]*)?(?=[)\"])")
 
 
@@ -73,7 +74,7 @@ def bent(text, origin, root):
         steps = "../" * (len(here.parts) - 1)
         return f"{match[1]}{steps}{there}{anchor}"
 
-    return without_code(text, lambda prose: LINK.sub(link, prose))
+    return without_code(text, lambda prose: CODE.sub(r"([\1](#\1))", LINK.sub(link, prose)))
 
 
 def place_of(target):
