@@ -19,7 +19,8 @@ linkage; as old frame where the last frame did not judge it; else as wrong.  A d
 the last frame was not of that task, or of another answer.  Cards that ended are named above the
 list.
 
-Memory: resident sizes of the server with its workers, and the page's heap after a collection.
+Memory: that of the server with its workers, without mapped files, which a system drops and loads as
+it likes, and the page's heap after a collection.
 """
 
 import argparse
@@ -38,6 +39,7 @@ from pathlib import Path
 from playwright.sync_api import sync_playwright
 
 SAME = 2e-3  # of the size of a linkage: dyads nearer than that are one
+MOST_ASKED = 500  # messages whose tasks are kept
 TELLTALE = re.compile(r"gone|new|was L\d+")
 MOVED = re.compile(r"moved \d")
 
@@ -90,6 +92,7 @@ class Studio:
     def __init__(self, task, server, page, url):
         self.task, self.server, self.page, self.url = task, server, page, url
         self.solved, self.followed, self.answers, self.asked = None, None, 0, {}
+        self.devtools = page.context.new_cdp_session(page)
 
     def received(self, payload):
         if isinstance(payload, bytes):
@@ -105,6 +108,7 @@ class Studio:
         message = json.loads(payload)
         if message["do"] in ("follow", "solve"):
             self.asked[message["n"]] = message["document"]
+            self.asked.pop(message["n"] - MOST_ASKED, None)
 
     @property
     def is_same(self):
@@ -128,7 +132,7 @@ class Studio:
         box = self.page.locator(f'.bs-origin[data-pose="{number}"] .bs-hold').first.bounding_box()
         return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
 
-    def drag(self, number, path, pause):
+    def drag(self, number, path, pause=0.0):
         x, y = self.handle(number)
         mouse = self.page.mouse
         mouse.move(x, y)
@@ -142,7 +146,7 @@ class Studio:
         mouse.up()
 
     def resident(self):
-        """Kilobytes of the server and all its workers."""
+        """Kilobytes of memory of the server and all its workers, without files that are mapped."""
         parents = {}
         for folder in Path("/proc").iterdir():
             if folder.name.isdigit():
@@ -160,18 +164,17 @@ class Studio:
                 text = Path(f"/proc/{pid}/status").read_text()
             except OSError:
                 continue
-            sizes.append(int(re.search(r"VmRSS:\s+(\d+)", text)[1]))
+            sizes.append(int(re.search(r"RssAnon:\s+(\d+)", text)[1]))
         return sum(sizes)
 
     def heap(self):
         """Kilobytes of the page's heap after a collection."""
-        session = self.page.context.new_cdp_session(self.page)
-        session.send("HeapProfiler.enable")
-        session.send("HeapProfiler.collectGarbage")
-        used = session.send("Runtime.getHeapUsage")["usedSize"] / 1024
-        session.send("HeapProfiler.disable")
-        session.detach()
-        return used
+        self.devtools.send("HeapProfiler.collectGarbage")
+        return self.devtools.send("Runtime.getHeapUsage")["usedSize"] / 1024
+
+    def nodes(self):
+        """Nodes of documents that the page holds, shown or not."""
+        return self.devtools.send("Memory.getDOMCounters")["nodes"]
 
 
 @contextmanager
@@ -321,21 +324,21 @@ def check(studio, drags, seed, seconds):
     return out
 
 
-def memory(studio, drags, seed):
-    """Sizes at ten times during many short drags."""
-    rng = random.Random(seed)
-    count, rows = studio.page.locator(".bs-origin").count(), []
-    for k in range(drags):
-        if k % max(1, drags // 10) == 0:
-            rows.append((k, studio.resident(), studio.heap()))
+def memory(studio, drags, seed, seconds):
+    """Sizes at twenty times during many short drags, as many as there is time for."""
+    rng, end = random.Random(seed), time.monotonic() + seconds
+    count = studio.page.locator(".bs-origin").count()
+    for k in range(drags + 1):
+        over = k == drags or time.monotonic() > end
+        if over or k % max(1, drags // 20) == 0:
+            yield k, studio.resident() / 1024, studio.heap() / 1024, studio.nodes()
+        if over:
+            return
         before = studio.solved
         dx, dy = rng.uniform(-3, 3), rng.uniform(-3, 3)
-        number = rng.randint(1, count)
-        studio.drag(number, [(dx, dy), (5 * dx, 5 * dy), (0, 0)], 1 / 60)
+        studio.drag(rng.randint(1, count), [(dx, dy), (5 * dx, 5 * dy), (0, 0)])
         if k % 20 == 0:
             studio.rest(before, 10)
-    rows.append((drags, studio.resident(), studio.heap()))
-    return rows
 
 
 def main():
@@ -356,8 +359,9 @@ def main():
         if given.drags:
             print(check(studio, given.drags, given.seed, given.seconds), flush=True)
         if given.memory:
-            for k, server, page in memory(studio, given.memory, given.seed):
-                print(f"  {k:6d} drags: server {server / 1024:.1f} MB, page {page / 1024:.1f} MB")
+            for k, server, page, nodes in memory(studio, given.memory, given.seed, given.seconds):
+                text = f"server {server:.1f} MB, page {page:.1f} MB, {nodes} nodes"
+                print(f"  {k:6d} drags: {text}", flush=True)
 
 
 if __name__ == "__main__":

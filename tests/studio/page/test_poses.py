@@ -97,11 +97,15 @@ def test_what_is_shown_already_is_not_written_again(page):
     page.evaluate("""() => {
       window.again = [];
       window.watch = new MutationObserver((records) => {
-        for (const { target, attributeName: name, oldValue } of records)
-          if (target.getAttribute(name) === oldValue && target.matches("input, button, select"))
-            window.again.push(`${name} of ${target.className}`);
+        for (const { target, attributeName: name, oldValue, addedNodes, removedNodes } of records) {
+          const [now, before] = [addedNodes, removedNodes].map((all) =>
+            all.length === 1 && all[0].nodeType === Node.TEXT_NODE ? all[0].data : all);
+          if (name ? target.getAttribute(name) === oldValue : now === before)
+            window.again.push(`${name ?? "text"} of ${target.outerHTML.slice(0, 99)}`);
+        }
       });
-      window.watch.observe(document, { attributes: true, attributeOldValue: true, subtree: true });
+      const all = { attributes: true, attributeOldValue: true, childList: true, subtree: true };
+      window.watch.observe(document, all);
       const { get, set } = Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, "value");
       Object.defineProperty(HTMLInputElement.prototype, "value", { get, set(value) {
         if (get.call(this) === String(value)) window.again.push(`value of ${this.className}`);

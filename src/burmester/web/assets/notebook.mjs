@@ -509,7 +509,7 @@ void 0||value===false)continue;if(name.startsWith("on"))node.addEventListener(na
 ...children.flat(Infinity).filter(child=>child!==null&&child!==void 0));return node}var h=(tag,attributes,...children)=>furnish(document.createElement(tag),attributes,
 children);var s=(tag,attributes,...children)=>furnish(document.createElementNS(SVG,tag),attributes,children);function put(node,name,value){const text=String(value);
 if(node.getAttribute(name)!==text)node.setAttribute(name,text)}function give(node,name,value){const next=typeof node[name]==="boolean"?Boolean(value):String(value);
-if(node[name]!==next)node[name]=next}var decimalsOf=data=>clamp(4-Math.ceil(Math.log10(data.scene)),0,12);var poseName=pose=>pose.label===pose.name?pose.name:`${pose.label}: ${pose.name}`;var shortened=(text,most)=>text.
+if(node[name]!==next)node[name]=next}function say(node,text){const next=String(text);if(node.textContent!==next)node.textContent=next}var decimalsOf=data=>clamp(4-Math.ceil(Math.log10(data.scene)),0,12);var poseName=pose=>pose.label===pose.name?pose.name:`${pose.label}: ${pose.name}`;var shortened=(text,most)=>text.
 length>most?`${text.slice(0,most-1).trimEnd()}…`:text;function missOf(position,angle,unit){if(position==="exact"&&angle==="exact")return"exact";if(position===
 "-")return"–";return`${position}${position==="exact"?"":unit} and ${angle}`}function wayName(way,linkage){const circuits=new Set(linkage.ways.map(each=>each.circuit)).size;const parts=[];if(circuits>1||way.branches<2)parts.push(`assembl\
 y ${way.circuit}`);if(way.branches>1)parts.push(`branch ${way.branch}`);return parts.join(", ")}var Events=class{on(names,fn){this.heard??=new Map;for(const name of names.split(" "))this.heard.set(name,[...this.heard.get(name)??[],fn])}emit(name,...values){
@@ -595,21 +595,21 @@ led;if(driver.kind==="PR")put(arrow2,"d","M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6
 "M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9");put(arrow2,"transform",`translate(${px(view.X(x))} ${px(view.Y(y))}) rotate(-90)`)}};var kindsOf=led=>led.
 map(dyad=>dyad.kind).join();var inBody=([x,y],view)=>[view.scale*x,-view.scale*y];function onRail(dyad,place,view){const[x,y]=act(place,dyad.moving_pivot),[nx,ny]=normalOf(
 dyad);return transform(view.X(x),view.Y(y),Math.atan2(nx,-ny))}var block=(side,width,height)=>s("g",{class:`bm-block bm-side${side}`},s("rect",{x:-width/2,y:-height/
-2,width,height,rx:2}));function setPin(pin,[x,y],dyad){put(pin,"cx",px(x));put(pin,"cy",px(y));pin.dataset.dyad=dyad.id}var inGround=([x,y],view)=>[view.X(x),view.
-Y(y)];var Bar=class{constructor({links,pins},side){this.strokes=[s("path",{class:"bm-bar"}),s("path",{class:"bm-core"})];this.bar=s("g",{class:`bm-link bm-side${side}`},
-this.strokes);this.ground=s("circle",{class:"bm-pin bm-fixed-pin",r:4.5});this.pin=s("circle",{class:"bm-pin",r:4.5});links.append(this.bar);pins.append(this.ground)}shape(dyad,view){
-this.dyad=dyad;this.view=view;for(const stroke of this.strokes)put(stroke,"d",`M0 0H${px(view.scale*dyad.radius)}`);setPin(this.ground,inGround(dyad.fixed_pivot,
-view),dyad);setPin(this.pin,inBody(dyad.moving_pivot,view),dyad)}show(place){const{dyad,view}=this,[cx,cy]=dyad.fixed_pivot,[x,y]=act(place,dyad.moving_pivot);put(
-this.bar,"transform",transform(view.X(cx),view.Y(cy),Math.atan2(y-cy,x-cx)))}};var BlockOnRail=class{constructor({blocks},side){this.block=block(side,...BLOCK);
-this.pin=s("circle",{class:"bm-pin",r:4.5});blocks.append(this.block)}shape(dyad,view){this.dyad=dyad;this.view=view;this.block.dataset.dyad=dyad.id;setPin(this.
-pin,inBody(dyad.moving_pivot,view),dyad)}show(place){put(this.block,"transform",onRail(this.dyad,place,this.view))}};var Slot=class{constructor({blocks,pins,coupler},side){
-this.strokes=["rim","plate","edge"].map(name=>s("path",{class:`bm-slot-${name}`}));this.strokes.push(s("path",{class:"bm-slot"}));this.block=block(side,...BLOCK_IN_SLOT);
-this.ground=s("circle",{class:"bm-pin bm-fixed-pin",r:4});coupler.append(...this.strokes);blocks.append(this.block);pins.append(this.ground)}shape(dyad,view,places){
-this.dyad=dyad;this.view=view;const[low,high]=places.length?travelOf(dyad,places):[0,0],end=(BLOCK_IN_SLOT[0]/2+SPARE)/view.scale;const seen=along=>inBody(pointOnLine(
-dyad,along),view);const d=`M${[seen(low-end),seen(high+end)].map(each=>each.map(px).join(" ")).join("L")}`;for(const stroke of this.strokes)put(stroke,"d",d);this.
-strokes[3].dataset.dyad=this.block.dataset.dyad=dyad.id;setPin(this.ground,inGround(dyad.fixed_pivot,view),dyad);return seen((low+high)/2)}show(place){const{dyad,
-view}=this,[nx,ny]=normalOf(dyad),[cx,cy]=dyad.fixed_pivot;put(this.block,"transform",transform(view.X(cx),view.Y(cy),place.a+Math.atan2(nx,-ny)))}};var Nothing=class{shape(){}show(){}};
-var PARTS={RR:Bar,PR:BlockOnRail,RP:Slot,PP:Nothing};var LONGEST=4e3;function railOf(dyad,places,view){const[nx,ny]=normalOf(dyad),[low,high]=travelOf(dyad,places);const half=view.scale*(high-low)/2+BLOCK[0],edge=BLOCK[1]/
+2,width,height,rx:2}));function setPin(pin,[x,y],dyad){put(pin,"cx",px(x));put(pin,"cy",px(y));put(pin,"data-dyad",dyad.id)}var inGround=([x,y],view)=>[view.X(x),
+view.Y(y)];var Bar=class{constructor({links,pins},side){this.strokes=[s("path",{class:"bm-bar"}),s("path",{class:"bm-core"})];this.bar=s("g",{class:`bm-link bm-\
+side${side}`},this.strokes);this.ground=s("circle",{class:"bm-pin bm-fixed-pin",r:4.5});this.pin=s("circle",{class:"bm-pin",r:4.5});links.append(this.bar);pins.
+append(this.ground)}shape(dyad,view){this.dyad=dyad;this.view=view;for(const stroke of this.strokes)put(stroke,"d",`M0 0H${px(view.scale*dyad.radius)}`);setPin(
+this.ground,inGround(dyad.fixed_pivot,view),dyad);setPin(this.pin,inBody(dyad.moving_pivot,view),dyad)}show(place){const{dyad,view}=this,[cx,cy]=dyad.fixed_pivot,
+[x,y]=act(place,dyad.moving_pivot);put(this.bar,"transform",transform(view.X(cx),view.Y(cy),Math.atan2(y-cy,x-cx)))}};var BlockOnRail=class{constructor({blocks},side){
+this.block=block(side,...BLOCK);this.pin=s("circle",{class:"bm-pin",r:4.5});blocks.append(this.block)}shape(dyad,view){this.dyad=dyad;this.view=view;put(this.block,
+"data-dyad",dyad.id);setPin(this.pin,inBody(dyad.moving_pivot,view),dyad)}show(place){put(this.block,"transform",onRail(this.dyad,place,this.view))}};var Slot=class{constructor({
+blocks,pins,coupler},side){this.strokes=["rim","plate","edge"].map(name=>s("path",{class:`bm-slot-${name}`}));this.strokes.push(s("path",{class:"bm-slot"}));this.
+block=block(side,...BLOCK_IN_SLOT);this.ground=s("circle",{class:"bm-pin bm-fixed-pin",r:4});coupler.append(...this.strokes);blocks.append(this.block);pins.append(
+this.ground)}shape(dyad,view,places){this.dyad=dyad;this.view=view;const[low,high]=places.length?travelOf(dyad,places):[0,0],end=(BLOCK_IN_SLOT[0]/2+SPARE)/view.
+scale;const seen=along=>inBody(pointOnLine(dyad,along),view);const d=`M${[seen(low-end),seen(high+end)].map(each=>each.map(px).join(" ")).join("L")}`;for(const stroke of this.
+strokes)put(stroke,"d",d);for(const part of[this.strokes[3],this.block])put(part,"data-dyad",dyad.id);setPin(this.ground,inGround(dyad.fixed_pivot,view),dyad);return seen(
+(low+high)/2)}show(place){const{dyad,view}=this,[nx,ny]=normalOf(dyad),[cx,cy]=dyad.fixed_pivot;put(this.block,"transform",transform(view.X(cx),view.Y(cy),place.
+a+Math.atan2(nx,-ny)))}};var Nothing=class{shape(){}show(){}};var PARTS={RR:Bar,PR:BlockOnRail,RP:Slot,PP:Nothing};var LONGEST=4e3;function railOf(dyad,places,view){const[nx,ny]=normalOf(dyad),[low,high]=travelOf(dyad,places);const half=view.scale*(high-low)/2+BLOCK[0],edge=BLOCK[1]/
 2+1;const[x,y]=(at=>[view.X(at[0]),view.Y(at[1])])(pointOnLine(dyad,(low+high)/2));const bodySide=places.reduce((sum,place)=>sum+nx*place.x+ny*place.y-dyad.line.
 offset,0);const turned=Math.atan2(nx,-ny)+(bodySide>0?Math.PI:0);const drawn=Math.min(half,LONGEST);let hatch="";for(let k=-drawn+4;k<drawn-2;k+=8)hatch+=`M${px(
 k+4)} ${edge}l-6 7`;return{x,y,half,drawn,turned,paths:[`M${px(-half)} ${edge}H${px(half)}${hatch}`,`M${px(-half)} ${-edge}H${px(half)}`]}}var FACTORS=[0,1,10,100,1e3,1e4,1e5];function factorFor(data,linkage){const worst=Math.max(0,...linkage.pose_errors.map(row=>row.position??0));if(!(worst>1e-9*data.
@@ -642,19 +642,18 @@ this.here,"d","");return}const{low,high}=this.playing.player.stretch,{length}=th
 path,u,length));list.push(end(low));for(let k=Math.floor(low)+1;k<high;k+=1)list.push([path.x[k],path.y[k]]);list.push(end(high));set(this.here,list,path.round&&
 high-low>path.x.length-1-1e-6)}ground(linkage,places,view){linkage.led.forEach((dyad,side)=>{const[rail,at,name]=[this.rails[side],this.feet[side],this.names[side]];
 const slides=dyad.kind==="PR"&&places.length>0;put(rail,"display",slides?"inline":"none");put(at,"display",dyad.fixed_pivot?"inline":"none");put(name,"display",
-slides||dyad.fixed_pivot?"inline":"none");if(name.textContent!==dyad.id)name.textContent=dyad.id;let x,y;if(slides){const drawn=railOf(dyad,places,view);({x,y}=
-drawn);put(rail,"transform",transform(x,y,drawn.turned));drawn.paths.forEach((d,k)=>put(rail.children[k],"d",d));rail.dataset.dyad=dyad.id}else if(dyad.fixed_pivot){
-[x,y]=[view.X(dyad.fixed_pivot[0]),view.Y(dyad.fixed_pivot[1])];put(at,"transform",`translate(${px(x)} ${px(y)})`)}else{return}put(name,"transform",`translate(${px(
-x)} ${px(y+BELOW)})`)})}atPoses(linkage,view){const{achieved,answers:{data}}=this,rows=linkage.pose_errors;const count=Math.min(rows.length,MOST_ACHIEVED),small=count>
-24?.6:1;while(achieved.children.length>count)achieved.lastChild.remove();while(achieved.children.length<count)achieved.append(s("g",{class:"bm-achieved"},s("pat\
-h",{}),s("circle",{})));let arrows="";for(let k=0;k<count;k+=1){const row=rows[k],group=achieved.children[k];if(group.dataset.size!==String(small)){group.dataset.
-size=small;put(group.children[0],"d",axes(.72*AXIS*small));put(group.children[1],"r",2.2*small)}if(row.x===null){put(group,"display","none");continue}put(group,
-"display","inline");put(group,"transform",transform(view.X(row.x),view.Y(row.y),radians(row.angle_deg)));group.classList.toggle("bm-elsewhere",row.at!==this.playing.
-path);if(this.factor&&data.poses[k])arrows+=arrow(view,data.poses[k],row,this.factor)}put(this.arrows,"d",arrows)}};var framesOf=way=>Array.from(way.x,(x,k)=>({
-x,y:way.y[k],a:way.angle[k]}));var pathOf=(way,view)=>smoothPath(Array.from(way.x,view.X),Array.from(way.y,view.Y),way.round);function arrow(view,pose,row,factor){
-const x=view.X(pose.x),y=view.Y(pose.y),by=factor*view.scale;const dx=by*(row.x-pose.x),dy=-by*(row.y-pose.y),size=Math.hypot(dx,dy);if(!(size>=LEAST_ARROW))return"";
-const head=Math.min(7,.5*size),ux=dx/size,uy=dy/size,tip=`${px(x+dx)} ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(y+dy-head*(uy+sign*.5*
-ux))}`;return`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}`}function wayStory(way,poses){const names=poses.map(pose=>pose.label);const all=way.poses.length===names.length;const here=all?"all poses":way.poses.length?`pose${way.
+slides||dyad.fixed_pivot?"inline":"none");say(name,dyad.id);let x,y;if(slides){const drawn=railOf(dyad,places,view);({x,y}=drawn);put(rail,"transform",transform(
+x,y,drawn.turned));drawn.paths.forEach((d,k)=>put(rail.children[k],"d",d));put(rail,"data-dyad",dyad.id)}else if(dyad.fixed_pivot){[x,y]=[view.X(dyad.fixed_pivot[0]),
+view.Y(dyad.fixed_pivot[1])];put(at,"transform",`translate(${px(x)} ${px(y)})`)}else{return}put(name,"transform",`translate(${px(x)} ${px(y+BELOW)})`)})}atPoses(linkage,view){
+const{achieved,answers:{data}}=this,rows=linkage.pose_errors;const count=Math.min(rows.length,MOST_ACHIEVED),small=count>24?.6:1;while(achieved.children.length>
+count)achieved.lastChild.remove();while(achieved.children.length<count)achieved.append(s("g",{class:"bm-achieved"},s("path",{}),s("circle",{})));let arrows="";for(let k=0;k<
+count;k+=1){const row=rows[k],group=achieved.children[k];if(group.dataset.size!==String(small)){group.dataset.size=small;put(group.children[0],"d",axes(.72*AXIS*
+small));put(group.children[1],"r",2.2*small)}if(row.x===null){put(group,"display","none");continue}put(group,"display","inline");put(group,"transform",transform(
+view.X(row.x),view.Y(row.y),radians(row.angle_deg)));group.classList.toggle("bm-elsewhere",row.at!==this.playing.path);if(this.factor&&data.poses[k])arrows+=arrow(
+view,data.poses[k],row,this.factor)}put(this.arrows,"d",arrows)}};var framesOf=way=>Array.from(way.x,(x,k)=>({x,y:way.y[k],a:way.angle[k]}));var pathOf=(way,view)=>smoothPath(
+Array.from(way.x,view.X),Array.from(way.y,view.Y),way.round);function arrow(view,pose,row,factor){const x=view.X(pose.x),y=view.Y(pose.y),by=factor*view.scale;const dx=by*
+(row.x-pose.x),dy=-by*(row.y-pose.y),size=Math.hypot(dx,dy);if(!(size>=LEAST_ARROW))return"";const head=Math.min(7,.5*size),ux=dx/size,uy=dy/size,tip=`${px(x+dx)}\
+ ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(y+dy-head*(uy+sign*.5*ux))}`;return`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}`}function wayStory(way,poses){const names=poses.map(pose=>pose.label);const all=way.poses.length===names.length;const here=all?"all poses":way.poses.length?`pose${way.
 poses.length>1?"s":""} ${runs(way.poses,names)}`:"no pose";const dead=way.dead.filter(Boolean).length;const ends=way.round?"turns round":dead===2?"between two d\
 ead points":dead?"up to a dead point":"open";return`${here}; ${ends}`}var Assemblies=class{constructor(data,take){this.data=data;this.take=take;this.name=`bm-way-${Math.random().toString(36).slice(2)}`;this.element=h("fieldset",{class:"\
 bm-ways"})}build(linkage,index){const one=(way,k)=>h("label",{},h("input",{type:"radio",name:this.name,value:k,checked:k===index,onchange:()=>this.take(k)}),h("\
@@ -674,9 +673,9 @@ poses.length);this.take(Math.max(0,counts.indexOf(Math.max(...counts))))}take(in
 return this.linkage.pose_errors.map((row,k)=>({...row,k})).filter(row=>row.way===this.way)}firstStop(){return this.stopsOnWay[0]?.frame??0}rebuild(){const{path,
 slider}=this;if(!path)this.play(false);for(const each of[slider,this.button])give(each,"disabled",!path);const last=path?path.x.length-1:1;const frames=path?this.
 stopsOnWay.map(row=>row.frame):[];const[low,high]=[frames.reduce((a,b)=>Math.min(a,b),last),frames.reduce((a,b)=>Math.max(a,b),0)];const apart=high-low>LEAST_STRETCH;
-this.stretch=apart&&!this.whole?{low,high}:{low:0,high:last};give(this.box,"disabled",!apart);this.boxName.textContent=path?.round?"Whole turn":"Whole branch";this.
-heading=1;this.u=clamp(this.u,this.stretch.low,this.stretch.high)}playWhole(on){this.whole=on;this.draw.rebuild()}drawStops(){const{stops,path}=this,{low,high}=this.
-stretch;stops.replaceChildren();if(!path)return;const width=Math.max(60,this.slider.clientWidth),inset=9;const X=u=>inset+(u-low)/(high-low)*(width-2*inset);const known=this.
+this.stretch=apart&&!this.whole?{low,high}:{low:0,high:last};give(this.box,"disabled",!apart);say(this.boxName,path?.round?"Whole turn":"Whole branch");this.heading=
+1;this.u=clamp(this.u,this.stretch.low,this.stretch.high)}playWhole(on){this.whole=on;this.draw.rebuild()}drawStops(){const{stops,path}=this,{low,high}=this.stretch;
+stops.replaceChildren();if(!path)return;const width=Math.max(60,this.slider.clientWidth),inset=9;const X=u=>inset+(u-low)/(high-low)*(width-2*inset);const known=this.
 stopsOnWay.filter(row=>this.data.poses[row.k]);const rows=known.sort((a,b)=>a.frame-b.frame).map(row=>({...row,x:X(row.frame),pose:this.data.poses[row.k]}));const named=laidOut(
 rows.map(({x,pose})=>({x,text:shortened(poseName(pose),LONGEST_TICK)})),width,NAME_ROWS);const texts=named.every(({at})=>at>=0)?named:laidOut(rows.map(({x,pose})=>({
 x,text:pose.label})),width,rows.length>MANY_POSES?1:NUMBER_ROWS);const deepest=Math.max(0,...texts.map(({at})=>at));const one=(k,pose,...parts)=>s("g",{"data-po\
@@ -762,8 +761,8 @@ assemblies.element),this.note);this.words=new Pace(()=>this.player.path&&this.pl
 s shown placed",()=>this.load());answers.on("moved",()=>this.follow());store.on("selection",()=>this.goToSelected());store.on("state",()=>this.hush());new ResizeObserver(
 ()=>this.marks.ask()).observe(this.element);this.load()}get linkage(){return this.player.linkage}get path(){return this.player.path}load(){const base=this.answers.
 shown??null;if(base===this.base&&base){this.follow();this.tellDriver();return}this.base=base;this.isOther=false;this.at=null;this.dress();if(!base){this.player.
-linkage=null;this.player.way=0;this.player.play(false);for(const each of[this.assemblies.element,this.drivers])give(each,"hidden",true);this.note.textContent="";
-this.element.classList.add("bs-empty");this.emit("shape",false);return}this.element.classList.remove("bs-empty");this.player.load(this.driven());this.goToSelected()}driven(){
+linkage=null;this.player.way=0;this.player.play(false);for(const each of[this.assemblies.element,this.drivers])give(each,"hidden",true);say(this.note,"");this.element.
+classList.add("bs-empty");this.emit("shape",false);return}this.element.classList.remove("bs-empty");this.player.load(this.driven());this.goToSelected()}driven(){
 return this.isOther?drivenByOther(this.base,this.answers.data.chart.length):this.base}driveBy(other){this.isOther=other;this.player.linkage=this.driven();this.at=
 null;this.takeBest();this.rebuild();this.tellDriver()}takeBest(){const counts=this.linkage.ways.map(way=>way.poses.length);this.player.way=Math.max(0,counts.indexOf(
 Math.max(...counts)));this.player.u=this.player.firstStop()}follow(){const{base,player}=this;if(!base)return;player.linkage=this.driven();const row=this.at?.pose===
@@ -779,13 +778,12 @@ const{base}=this;give(this.drivers,"hidden",!base||!base.ways.length||base.led.s
  ${base.led.map(dyad=>dyad.id)} ${this.isOther}`;if(key===this.driversKey)return;this.driversKey=key;const one=(dyad,other)=>h("label",{},h("input",{type:"radio",
 name:"bs-driver",checked:other===this.isOther,"data-driver":dyad.id,onchange:()=>this.driveBy(other)}),h("span",{},h("b",{},dyad.id),` ${{RR:"crank or rocker",PR:"\
 slider on its rail",RP:"slot"}[dyad.kind]}`));this.drivers.replaceChildren(h("legend",{},"Driver"),one(base.led[0],false),one(base.led[1],true));this.tellDriver()}tellDriver(){
-const{base}=this;if(!base?.drives||base.followed){this.note.textContent="";return}const driver=this.isOther?base.led[1]:base.led[0];const drive=base.dyads[0].id===
-driver.id?base.drives.first:base.drives.second;const least2=drive.min_transmission_angle_deg.range;const said=drive.defects.length?drive.defects.map(each=>each.
-message).join("; "):`${drive.turns_fully?"turns fully":"reaches every pose"}${least2===null?"":`, transmission angle ${fixed(least2,1)}° or more between the pos\
-es`}`;this.note.textContent=`Driven by ${driver.id}: ${said}.`}dress(){this.driversKey=null}hush(){const quiet=this.store.state==="dragging"||this.player.playing;
-put(this.player.readout,"aria-live",quiet?"off":"polite")}};function playOnce(store,answers,{player}){if(matchMedia(REDUCED_MOTION).matches)return;let first=true;
-answers.on("answers",()=>{if(first&&player.path){first=false;player.playOnce()}});store.on("document selection",()=>{first=false;if(player.remaining!==null)player.
-play(false)})}function withKeys(object,changes){const copy={...object,...changes};for(const[key,value]of Object.entries(changes))if(value===void 0)delete copy[key];return copy}
+const{base}=this;if(!base?.drives||base.followed){say(this.note,"");return}const driver=this.isOther?base.led[1]:base.led[0];const drive=base.dyads[0].id===driver.
+id?base.drives.first:base.drives.second;const least2=drive.min_transmission_angle_deg.range;const said=drive.defects.length?drive.defects.map(each=>each.message).
+join("; "):`${drive.turns_fully?"turns fully":"reaches every pose"}${least2===null?"":`, transmission angle ${fixed(least2,1)}° or more between the poses`}`;say(
+this.note,`Driven by ${driver.id}: ${said}.`)}dress(){this.driversKey=null}hush(){const quiet=this.store.state==="dragging"||this.player.playing;put(this.player.
+readout,"aria-live",quiet?"off":"polite")}};function playOnce(store,answers,{player}){if(matchMedia(REDUCED_MOTION).matches)return;let first=true;answers.on("an\
+swers",()=>{if(first&&player.path){first=false;player.playOnce()}});store.on("document selection",()=>{first=false;if(player.remaining!==null)player.play(false)})}function withKeys(object,changes){const copy={...object,...changes};for(const[key,value]of Object.entries(changes))if(value===void 0)delete copy[key];return copy}
 var replaced=(list,index,value)=>list.map((each,k)=>k===index?value:each);var without=(list,index)=>list.filter((_,k)=>k!==index);var setPose=(document2,index,changes)=>withKeys(document2,{poses:replaced(document2.poses,index,withKeys(document2.poses[index],changes))});var removePose=(document2,index)=>withKeys(document2,{poses:without(document2.poses,index)});function component(poses,index,key){if(Number.isFinite(poses[index][key]))return poses[index][key];const before=poses.slice(0,index).findLastIndex(pose=>Number.
 isFinite(pose[key]));const behind=poses.slice(index+1).findIndex(pose=>Number.isFinite(pose[key]))+index+1;const[a,b]=[poses[before]?.[key],behind>index?poses[behind][key]:
 void 0];if(a===void 0||b===void 0)return a??b??0;return a+(index-before)/(behind-before)*(b-a)}function standing({poses},index){const{x,y,angle}=poses[index];if(Number.
@@ -872,19 +870,19 @@ X(x),view.Y(y),radians(angle)));put(arrow2,"d",axes(this.length-8));put(turn,"tr
 selected);group.classList.toggle("bs-exact",Boolean(pose.exact));const called=pose.name?`Pose ${k+1}, ${name}`:`Pose ${k+1}`;put(origin,"aria-label",`${called}:\
  x ${x} ${unit}, y ${y} ${unit}, angle ${angle}°. Drag, or use the arrow keys; Delete removes it.`);put(origin,"aria-pressed",selected);put(turn,"aria-label",`\
 Turn ${called}`);put(turn,"aria-valuenow",angle);put(turn,"aria-valuetext",`${angle}°`)}showName(text,k){const{store,scene:{view}}=this,{x,y,angle}=standing(store.
-document,k),a=radians(angle+215);if(!isOther(text,[view,x,y,angle,poseName2(store.document,k)]))return;const name=shortened(poseName2(store.document,k),LONGEST_NAME2);
-if(text.textContent!==name)text.textContent=name;put(text,"text-anchor",Math.cos(a)<-.3?"end":Math.cos(a)>.3?"start":"middle");put(text,"transform",`translate(${px(
-view.X(x)+13*Math.cos(a))} ${px(view.Y(y)-13*Math.sin(a)+4)})`)}set(k,changes,gesture){this.store.edit(document2=>setPose(document2,k,statedOf(document2.poses[k],
-changes)),{gesture})}dragOrigin(element,k){const{store,scene}=this;let gesture,off;scene.drag(element,{start:from=>{const{x,y}=standing(store.document,k);gesture=
-Symbol("move a pose");off=[x-from.x,y-from.y]},move:point=>this.set(k,{x:scene.rounded(point.x+off[0]),y:scene.rounded(point.y+off[1])},gesture),cancel:()=>store.
-abandon(gesture)})}dragTurn(element,k){const{store,scene}=this;let gesture,off;const angleTo=point=>{const{x,y}=standing(store.document,k);return degrees(Math.atan2(
-point.y-y,point.x-x))};scene.drag(element,{start:from=>{gesture=Symbol("turn a pose");off=standing(store.document,k).angle-angleTo(from)},move:point=>this.set(k,
-{angle:tenths(unwrapped(angleTo(point)+off,standing(store.document,k).angle))},gesture),cancel:()=>store.abandon(gesture)})}key(event,k,turning){const{store,scene}=this,
-arrow2=ARROWS[event.key];if(event.ctrlKey||event.metaKey)return;if(arrow2){if(!event.repeat)this.keyed=Symbol("keys");const{x,y,angle}=standing(store.document,k),
-by=stepOf(event,turning?1:scene.step);if(turning)this.set(k,{angle:stepped(angle,by*(arrow2[0]===0?arrow2[1]:-arrow2[0]))},this.keyed);else this.set(k,{x:stepped(
-x,by*arrow2[0]),y:stepped(y,by*arrow2[1])},this.keyed)}else if(event.key==="Delete"||event.key==="Backspace"){store.edit(document2=>removePose(document2,k));const left=store.
-document.poses.length;store.select(left?{kind:"pose",index:Math.min(k,left-1)}:null);this.focus(Math.min(k,left-1))}else{return}event.preventDefault()}focus(k){
-this.element.querySelector(`[data-pose="${k+1}"]`)?.focus({preventScroll:true})}};var ORDERS={rank:{name:"best first",of:linkage=>linkage.rank??Infinity},worst:{name:"worst miss",of:linkage=>linkage.worst??Infinity},least:{name:"transmission \
+document,k),a=radians(angle+215);if(!isOther(text,[view,x,y,angle,poseName2(store.document,k)]))return;say(text,shortened(poseName2(store.document,k),LONGEST_NAME2));
+put(text,"text-anchor",Math.cos(a)<-.3?"end":Math.cos(a)>.3?"start":"middle");put(text,"transform",`translate(${px(view.X(x)+13*Math.cos(a))} ${px(view.Y(y)-13*
+Math.sin(a)+4)})`)}set(k,changes,gesture){this.store.edit(document2=>setPose(document2,k,statedOf(document2.poses[k],changes)),{gesture})}dragOrigin(element,k){
+const{store,scene}=this;let gesture,off;scene.drag(element,{start:from=>{const{x,y}=standing(store.document,k);gesture=Symbol("move a pose");off=[x-from.x,y-from.
+y]},move:point=>this.set(k,{x:scene.rounded(point.x+off[0]),y:scene.rounded(point.y+off[1])},gesture),cancel:()=>store.abandon(gesture)})}dragTurn(element,k){const{
+store,scene}=this;let gesture,off;const angleTo=point=>{const{x,y}=standing(store.document,k);return degrees(Math.atan2(point.y-y,point.x-x))};scene.drag(element,
+{start:from=>{gesture=Symbol("turn a pose");off=standing(store.document,k).angle-angleTo(from)},move:point=>this.set(k,{angle:tenths(unwrapped(angleTo(point)+off,
+standing(store.document,k).angle))},gesture),cancel:()=>store.abandon(gesture)})}key(event,k,turning){const{store,scene}=this,arrow2=ARROWS[event.key];if(event.
+ctrlKey||event.metaKey)return;if(arrow2){if(!event.repeat)this.keyed=Symbol("keys");const{x,y,angle}=standing(store.document,k),by=stepOf(event,turning?1:scene.
+step);if(turning)this.set(k,{angle:stepped(angle,by*(arrow2[0]===0?arrow2[1]:-arrow2[0]))},this.keyed);else this.set(k,{x:stepped(x,by*arrow2[0]),y:stepped(y,by*
+arrow2[1])},this.keyed)}else if(event.key==="Delete"||event.key==="Backspace"){store.edit(document2=>removePose(document2,k));const left=store.document.poses.length;
+store.select(left?{kind:"pose",index:Math.min(k,left-1)}:null);this.focus(Math.min(k,left-1))}else{return}event.preventDefault()}focus(k){this.element.querySelector(
+`[data-pose="${k+1}"]`)?.focus({preventScroll:true})}};var ORDERS={rank:{name:"best first",of:linkage=>linkage.rank??Infinity},worst:{name:"worst miss",of:linkage=>linkage.worst??Infinity},least:{name:"transmission \
 angle",of:linkage=>-(linkage.least??-1)},size:{name:"size",of:linkage=>linkage.quality?.extent??Infinity},sensitivity:{name:"sensitivity",of:linkage=>linkage.quality?.
 sensitivity??Infinity}};var FILTERS={all:{name:"all",holds:()=>true},usable:{name:"usable",holds:linkage=>linkage.usable},pinned:{name:"pinned",holds:(linkage,pinned)=>pinned.
 has(linkage.id)}};function arranged(linkages,{order,filter,type,pinned}){const{of}=ORDERS[order],{holds}=FILTERS[filter];return linkages.filter(each=>holds(each,
@@ -892,31 +890,30 @@ pinned)&&(!type||each.type===type)).map((each,k)=>({each,k,key:of(each)})).sort(
 0:a.key-b.key)||a.k-b.k).map(({each})=>each)}var OPTIONS=[[/--min-transmission ([\d.e+-]+)/g,"a least transmission angle of $1°"],[/--within-angle ([\d.e+-]+)/g,"a permitted turn of $1°"],[/--within ([\d.e+-]+)/g,
 "a permitted miss of $1"],[/--link-ratio ([\d.e+-]+)/g,"a link ratio of $1"],[/--type "([^"]+)"/g,"the type $1"],[/--type (\S+)/g,"the type $1"],[/--driver any/g,
 "either driver"],[/--any-order/g,"any order of the poses"]];function helpInWords(text){const marked=OPTIONS.reduce((said,[option,words])=>said.replace(option,`${words}\
-`),text);const plain=marked.replaceAll(" "," and ").replaceAll(/[\u0001\u0002]/g,"");return plain.replace(/with (.+?) (L\d+) would do/g,"it would do with $1")}function say(element,text){if(element.textContent!==text)element.textContent=text}var FIGURES=[["worst","worst miss"],["least","transmission"],["size","size"],[
-"sensitivity","sensitivity"]];var ResultCard=class{constructor(does){this.name=h("b",{});this.type=h("span",{class:"bm-type"});this.was=h("span",{class:"bs-was"});
-this.verdict=h("span",{class:"bm-verdict"});this.figures=new Map(FIGURES.map(([key])=>[key,h("dd",{"data-figure":key})]));this.note=h("span",{class:"bs-card-not\
-e"});this.reason=h("span",{class:"bm-reason"});this.help=h("span",{class:"bs-help"});this.main=h("button",{type:"button",class:"bs-card-main","aria-pressed":"fa\
-lse",onclick:()=>does.choose(this.id)},h("span",{class:"bm-choice-head"},this.name," ",this.type," ",this.was),this.verdict,h("dl",{class:"bs-figures"},FIGURES.
-map(([key,name])=>[h("dt",{},name),this.figures.get(key)])),this.note,this.reason,this.help);this.pin=h("button",{type:"button",class:"bs-small","aria-pressed":"\
-false",onclick:()=>does.pin(this.id)},"Pin");this.compare=h("button",{type:"button",class:"bs-small","aria-pressed":"false",onclick:()=>does.compare(this.id)},"\
-Compare");this.improve=h("button",{type:"button",class:"bs-small",onclick:()=>does.improve(this.id)},"Look near it");this.letGo=h("button",{type:"button",class:"\
-bs-small",onclick:()=>does.letGo()},"Let go of the pivots");this.better=h("ul",{class:"bs-better","aria-live":"polite"});this.element=h("article",{class:"bs-car\
-d bm-choice"},this.main,h("div",{class:"bs-card-tools"},this.pin,this.compare,this.improve,this.letGo),this.better)}show(linkage,{data,old,chosen,pinned,compared}){
-const{said}=linkage,{classList}=this.element,isPlaced=linkage.id===PLACED;if(this.id!==linkage.id||old)this.better.replaceChildren();if(this.id!==linkage.id){this.
-id=linkage.id;this.element.dataset.linkage=linkage.id;say(this.name,isPlaced?"By hand":linkage.id)}say(this.type,linkage.type);say(this.was,pastOf(linkage));say(
-this.verdict,linkage.gone?"✕ gone":linkage.usable?"✓ usable":"✕ not usable");say(this.figures.get("worst"),worstOf(linkage,data));say(this.figures.get("le\
-ast"),least(linkage));say(this.figures.get("size"),said.quality.extent??"–");say(this.figures.get("sensitivity"),said.quality.sensitivity??"–");say(this.note,
-linkage.gone??(linkage.usable&&linkage.change||(linkage.usable&&!linkage.followed&&linkage.shortcomings?.length?`Falls short: ${linkage.shortcomings.join("; ")}`:
-"")));const reason=linkage.usable||linkage.gone?"":linkage.followed?linkage.reason??"":said.reasons.join("; ");say(this.reason,reason);say(this.help,reason&&said.
-help&&!linkage.followed?`What would help: ${helpInWords(said.help)}.`:"");classList.toggle("bm-good",linkage.usable&&!linkage.gone);classList.toggle("bm-bad",!linkage.
-usable||Boolean(linkage.gone));classList.toggle("bs-gone",Boolean(linkage.gone));classList.toggle("bs-old",old||Boolean(linkage.followed));classList.toggle("bs-\
-chosen",chosen);setPressed(this.main,chosen);setPressed(this.pin,pinned);setPressed(this.compare,compared);say(this.pin,pinned?"Pinned":"Pin");give(this.pin,"hi\
-dden",isPlaced);give(this.compare,"hidden",isPlaced||chosen);give(this.improve,"hidden",isPlaced||linkage.usable||old||Boolean(linkage.gone));give(this.letGo,"h\
-idden",!isPlaced);for(const button2 of[this.pin,this.compare,this.improve])labelled(button2,linkage.id)}tellBetter(sentences){this.better.replaceChildren(...sentences.
-map(sentence2=>h("li",{},sentence2)))}};function pastOf({was,shift,isNew,followed}){if(isNew&&!was)return"new";const moved=shift&&!followed?`moved ${(100*shift).
-toFixed(1)} %`:"";return[was?`was ${was}`:"",moved].filter(Boolean).join(", ")}function least(linkage){const angle=leastOf(linkage);return angle==="–"?angle:angle===
-"0°"?"down to 0°":`${angle} or more`}function setPressed(button2,on){put(button2,"aria-pressed",Boolean(on))}function labelled(button2,id){put(button2,"aria-l\
-abel",`${button2.textContent}: ${id}`)}var MOST2=40;var Results=class{constructor(store,answers){Object.assign(this,{store,answers,cards:new Map,wanted:{order:"rank",filter:"all",type:""},all:false});
+`),text);const plain=marked.replaceAll(" "," and ").replaceAll(/[\u0001\u0002]/g,"");return plain.replace(/with (.+?) (L\d+) would do/g,"it would do with $1")}var FIGURES=[["worst","worst miss"],["least","transmission"],["size","size"],["sensitivity","sensitivity"]];var ResultCard=class{constructor(does){this.name=h("\
+b",{});this.type=h("span",{class:"bm-type"});this.was=h("span",{class:"bs-was"});this.verdict=h("span",{class:"bm-verdict"});this.figures=new Map(FIGURES.map(([
+key])=>[key,h("dd",{"data-figure":key})]));this.note=h("span",{class:"bs-card-note"});this.reason=h("span",{class:"bm-reason"});this.help=h("span",{class:"bs-he\
+lp"});this.main=h("button",{type:"button",class:"bs-card-main","aria-pressed":"false",onclick:()=>does.choose(this.id)},h("span",{class:"bm-choice-head"},this.name,
+" ",this.type," ",this.was),this.verdict,h("dl",{class:"bs-figures"},FIGURES.map(([key,name])=>[h("dt",{},name),this.figures.get(key)])),this.note,this.reason,this.
+help);this.pin=h("button",{type:"button",class:"bs-small","aria-pressed":"false",onclick:()=>does.pin(this.id)},"Pin");this.compare=h("button",{type:"button",class:"\
+bs-small","aria-pressed":"false",onclick:()=>does.compare(this.id)},"Compare");this.improve=h("button",{type:"button",class:"bs-small",onclick:()=>does.improve(
+this.id)},"Look near it");this.letGo=h("button",{type:"button",class:"bs-small",onclick:()=>does.letGo()},"Let go of the pivots");this.better=h("ul",{class:"bs-\
+better","aria-live":"polite"});this.element=h("article",{class:"bs-card bm-choice"},this.main,h("div",{class:"bs-card-tools"},this.pin,this.compare,this.improve,
+this.letGo),this.better)}show(linkage,{data,old,chosen,pinned,compared}){const{said}=linkage,{classList}=this.element,isPlaced=linkage.id===PLACED;if(this.id!==
+linkage.id||old)this.better.replaceChildren();if(this.id!==linkage.id){this.id=linkage.id;put(this.element,"data-linkage",linkage.id);say(this.name,isPlaced?"By\
+ hand":linkage.id)}say(this.type,linkage.type);say(this.was,pastOf(linkage));say(this.verdict,linkage.gone?"✕ gone":linkage.usable?"✓ usable":"✕ not usable");
+say(this.figures.get("worst"),worstOf(linkage,data));say(this.figures.get("least"),least(linkage));say(this.figures.get("size"),said.quality.extent??"–");say(
+this.figures.get("sensitivity"),said.quality.sensitivity??"–");say(this.note,linkage.gone??(linkage.usable&&linkage.change||(linkage.usable&&!linkage.followed&&
+linkage.shortcomings?.length?`Falls short: ${linkage.shortcomings.join("; ")}`:"")));const reason=linkage.usable||linkage.gone?"":linkage.followed?linkage.reason??
+"":said.reasons.join("; ");say(this.reason,reason);say(this.help,reason&&said.help&&!linkage.followed?`What would help: ${helpInWords(said.help)}.`:"");classList.
+toggle("bm-good",linkage.usable&&!linkage.gone);classList.toggle("bm-bad",!linkage.usable||Boolean(linkage.gone));classList.toggle("bs-gone",Boolean(linkage.gone));
+classList.toggle("bs-old",old||Boolean(linkage.followed));classList.toggle("bs-chosen",chosen);setPressed(this.main,chosen);setPressed(this.pin,pinned);setPressed(
+this.compare,compared);say(this.pin,pinned?"Pinned":"Pin");give(this.pin,"hidden",isPlaced);give(this.compare,"hidden",isPlaced||chosen);give(this.improve,"hidd\
+en",isPlaced||linkage.usable||old||Boolean(linkage.gone));give(this.letGo,"hidden",!isPlaced);for(const button2 of[this.pin,this.compare,this.improve])labelled(
+button2,linkage.id)}tellBetter(sentences){this.better.replaceChildren(...sentences.map(sentence2=>h("li",{},sentence2)))}};function pastOf({was,shift,isNew,followed}){
+if(isNew&&!was)return"new";const moved=shift&&!followed?`moved ${(100*shift).toFixed(1)} %`:"";return[was?`was ${was}`:"",moved].filter(Boolean).join(", ")}function least(linkage){
+const angle=leastOf(linkage);return angle==="–"?angle:angle==="0°"?"down to 0°":`${angle} or more`}function setPressed(button2,on){put(button2,"aria-pressed",
+Boolean(on))}function labelled(button2,id){put(button2,"aria-label",`${button2.textContent}: ${id}`)}var MOST2=40;var Results=class{constructor(store,answers){Object.assign(this,{store,answers,cards:new Map,wanted:{order:"rank",filter:"all",type:""},all:false});
 const choice=(name,entries,key)=>h("label",{},`${name} `,h("select",{"data-choice":key,onchange:event=>this.want(key,event.target.value)},entries.map(([value,text])=>h(
 "option",{value},text))));this.types=choice("Type",[["","any"]],"type");this.title=h("h2",{},"Linkages");this.status=h("p",{class:"bs-results-status",role:"stat\
 us"});this.doubt=h("p",{class:"bs-doubt"});this.gone=h("p",{class:"bs-gone-note"});this.list=h("div",{class:"bs-cards"});this.more=h("button",{type:"button",class:"\

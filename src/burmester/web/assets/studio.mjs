@@ -4,14 +4,15 @@ void 0||value===false)continue;if(name.startsWith("on"))node.addEventListener(na
 ...children.flat(Infinity).filter(child=>child!==null&&child!==void 0));return node}var h=(tag,attributes,...children)=>furnish(document.createElement(tag),attributes,
 children);var s=(tag,attributes,...children)=>furnish(document.createElementNS(SVG,tag),attributes,children);function put(node,name,value){const text=String(value);
 if(node.getAttribute(name)!==text)node.setAttribute(name,text)}function give(node,name,value){const next=typeof node[name]==="boolean"?Boolean(value):String(value);
-if(node[name]!==next)node[name]=next}function rgb(text){const hex=text.trim().replace("#","");return[0,2,4].map(k=>parseInt(hex.slice(k,k+2),16))}var KEY="burmester.studio";var TAB="burmester.studio.tab";var SOON=400;var Autosave=class{constructor(store){this.store=store;store.on("document",()=>this.soon());
+if(node[name]!==next)node[name]=next}function say(node,text){const next=String(text);if(node.textContent!==next)node.textContent=next}function rgb(text){const hex=text.
+trim().replace("#","");return[0,2,4].map(k=>parseInt(hex.slice(k,k+2),16))}var KEY="burmester.studio";var TAB="burmester.studio.tab";var SOON=400;var Autosave=class{constructor(store){this.store=store;store.on("document",()=>this.soon());
 store.connection.on("open",()=>this.isOpen&&this.soon());addEventListener("pagehide",()=>this.keep());document.addEventListener("visibilitychange",()=>document.
-visibilityState==="hidden"&&this.keep())}soon(){clearTimeout(this.timer);this.isOpen=true;document.documentElement.dataset.kept="false";this.timer=setTimeout(()=>this.
-keep(),SOON)}keep(){if(!this.isOpen)return;this.isOpen=false;clearTimeout(this.timer);const{document:task,options,name,settings,connection}=this.store,text={document:task,
-options,name,settings};document.documentElement.dataset.kept="true";try{sessionStorage.setItem(KEY,JSON.stringify(text))}catch{}connection.post("/autosave",{...text,
-tab:tabName()},"PUT").catch(()=>this.isOpen=true)}};function tabName(){try{const name=sessionStorage.getItem(TAB)??crypto.randomUUID();sessionStorage.setItem(TAB,
-name);return name}catch{return"tab"}}function keptHere(){try{const kept=JSON.parse(sessionStorage.getItem(KEY));return Array.isArray(kept?.document?.poses)?kept:
-null}catch{return null}}var LENGTHS={µm:1e-6,um:1e-6,mm:.001,cm:.01,m:1,in:.0254,inch:.0254,'"':.0254,"″":.0254,ft:.3048,"'":.3048,"′":.3048};var ANGLES={"°":1,deg:1,degree:1,degrees:1,
+visibilityState==="hidden"&&this.keep())}soon(){clearTimeout(this.timer);this.isOpen=true;put(document.documentElement,"data-kept",false);this.timer=setTimeout(
+()=>this.keep(),SOON)}keep(){if(!this.isOpen)return;this.isOpen=false;clearTimeout(this.timer);const{document:task,options,name,settings,connection}=this.store,
+text={document:task,options,name,settings};document.documentElement.dataset.kept="true";try{sessionStorage.setItem(KEY,JSON.stringify(text))}catch{}connection.post(
+"/autosave",{...text,tab:tabName()},"PUT").catch(()=>this.isOpen=true)}};function tabName(){try{const name=sessionStorage.getItem(TAB)??crypto.randomUUID();sessionStorage.
+setItem(TAB,name);return name}catch{return"tab"}}function keptHere(){try{const kept=JSON.parse(sessionStorage.getItem(KEY));return Array.isArray(kept?.document?.
+poses)?kept:null}catch{return null}}var LENGTHS={µm:1e-6,um:1e-6,mm:.001,cm:.01,m:1,in:.0254,inch:.0254,'"':.0254,"″":.0254,ft:.3048,"'":.3048,"′":.3048};var ANGLES={"°":1,deg:1,degree:1,degrees:1,
 rad:180/Math.PI,mrad:.18/Math.PI};var WRITTEN=/^([+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:e[+-]?\d+)?)\s*(.*)$/i;var DIGITS=12;var GREATEST=1e300;var tidy=value=>Number(
 value.toPrecision(DIGITS));var written=value=>value===void 0||value===null?"":String(value).replace("-","−").replace("e−","e-");function quantity(text,{kind="\
 number",unit:unit2="",optional=false,least:least2=-Infinity,above=-Infinity,most=Infinity,whole=false}={}){const plain=text.normalize("NFKC").replace(/[−–]/g,
@@ -31,14 +32,14 @@ autocomplete:"off",spellcheck:"false","aria-label":label,...attributes,onchange:
 nudge(event,step())});this.element=h("span",{class:"bs-field"},this.input,this.fault)}show(value){const changed=value!==this.value;this.value=value;if(changed||
 this.fault.hidden){const text=written(value);if(this.input.value!==text&&!(this.isEdited&&!changed))this.input.value=text;if(changed)this.say(null)}}turnTo(id,value){
 if(id===this.id)return;if(this.fault.hidden)this.drafts.delete(this.id);else this.drafts.set(this.id,this.input.value);const draft=this.drafts.get(id);Object.assign(
-this,{id,value});this.input.value=draft??written(value);this.say(draft===void 0?null:quantity(draft,this.options()).fault??null)}get isEdited(){return document.
+this,{id,value});give(this.input,"value",draft??written(value));this.say(draft===void 0?null:quantity(draft,this.options()).fault??null)}get isEdited(){return document.
 activeElement===this.input&&this.input.value!==written(this.value)}read(){const{value,fault}=quantity(this.input.value,this.options());this.say(fault??null);if(fault)
 return;const isNew=value!==this.value;this.value=value;if(document.activeElement!==this.input||!isNew)this.input.value=written(value);if(isNew)this.commit(value);
 this.input.value=written(this.value)}nudge(event,step){if(event.key==="Enter")this.read();const sense={ArrowUp:1,ArrowDown:-1}[event.key];if(!sense||event.ctrlKey||
 event.metaKey)return;const{value,fault}=quantity(this.input.value,this.options());if(fault||value===void 0)return;event.preventDefault();this.input.value=written(
-stepped(value,sense*stepOf(event,step)));this.read()}say(sentence2){give(this.fault,"hidden",sentence2===null);this.fault.textContent=sentence2??"";if(sentence2===
-null){this.input.removeAttribute("aria-invalid");this.input.removeAttribute("aria-describedby")}else{put(this.input,"aria-invalid","true");put(this.input,"aria-\
-describedby",this.fault.id)}}};var stepOf=(event,step)=>step*(event.shiftKey?10:event.altKey?.1:1);var stepped=(value,by)=>Number((value+by).toPrecision(12));var labelled=(text,control,hint)=>h(
+stepped(value,sense*stepOf(event,step)));this.read()}say(sentence2){give(this.fault,"hidden",sentence2===null);say(this.fault,sentence2??"");if(sentence2===null){
+this.input.removeAttribute("aria-invalid");this.input.removeAttribute("aria-describedby")}else{put(this.input,"aria-invalid","true");put(this.input,"aria-descri\
+bedby",this.fault.id)}}};var stepOf=(event,step)=>step*(event.shiftKey?10:event.altKey?.1:1);var stepped=(value,by)=>Number((value+by).toPrecision(12));var labelled=(text,control,hint)=>h(
 "label",{class:"bs-labelled"},h("span",{class:"bs-label"},text),control,hint?h("span",{class:"bs-hint"},hint):null);function textField(label,commit,attributes={}){
 return h("input",{class:"bs-text",type:"text",autocomplete:"off",spellcheck:"false","aria-label":label,...attributes,onchange:event=>commit(event.target.value)})}
 function tick(text,commit,attributes={}){const box=h("input",{type:"checkbox",...attributes,onchange:event=>commit(event.target.checked)});return{box,element:h(
@@ -57,15 +58,15 @@ if(!first||store.document.poses.length<2)return;if(first.tone==="cancelled")this
 ore.",[],{actions:[this.again()]});else if(first.tone==="limit")this.say("limit","Solving took too long and was stopped. Nothing is lost: what is shown was foll\
 owed from the answer before.",messages,{actions:[this.again()]});else this.say("refused","The task cannot be solved as it is.",messages)}again(){return button("\
 Solve again",()=>{this.close("note");this.close("limit");this.store.solve()},{"data-do":"solve-again"})}state(){const{store}=this,solving=store.state==="solving";
-if(store.state==="offline")this.offline();else this.close("offline");this.status.dataset.state=store.state;if(store.state==="dragging")return;const said=store.state===
-"offline"?"Not connected":this.summary();this.status.textContent=solving?`Solving${store.progress?`: ${store.progress}`:"…"}`:said;if(!solving&&said&&this.live.
-textContent!==said)this.live.textContent=said}summary(){const{solved,solvedFor,document:document2,messages}=this.store;if(document2.poses.length<2)return"Two po\
-ses or more make a task";if(messages.length)return"Not solved";if(!solved||solvedFor!==document2)return"";const count=solved.linkages.length,usable=solved.linkages.
-filter(each=>each.usable).length;return count?`${count} linkage${count===1?"":"s"}, ${usable} usable`:"No linkage"}offline(){if(this.shown.has("offline"))return;
-this.say("offline","The server does not answer. Nothing is lost: the task is in this page, and can still be changed and saved.",[],{actions:[button("Save the ta\
-sk (JSON)",()=>this.files.saveWithoutServer(),{"data-do":"save-json"}),h("span",{class:"bs-hint"},"The page tries again by itself. If the server has ended, star\
-t burmester studio with that file, or drop the file on the new page.")]})}expired(){this.close("offline");this.say("expired","The server was started anew. Nothi\
-ng is lost: open the address that it printed in this tab, and go on here.",[],{actions:[button("Save the task (JSON)",()=>this.files.saveWithoutServer())]})}};var clamp=(value,low,high)=>Math.min(Math.max(value,low),high);var degrees=angle=>angle*180/Math.PI;var radians=angle=>angle*Math.PI/180;var px=value=>Math.abs(
+if(store.state==="offline")this.offline();else this.close("offline");put(this.status,"data-state",store.state);if(store.state==="dragging")return;const said=store.
+state==="offline"?"Not connected":this.summary();say(this.status,solving?`Solving${store.progress?`: ${store.progress}`:"…"}`:said);if(!solving&&said)say(this.
+live,said)}summary(){const{solved,solvedFor,document:document2,messages}=this.store;if(document2.poses.length<2)return"Two poses or more make a task";if(messages.
+length)return"Not solved";if(!solved||solvedFor!==document2)return"";const count=solved.linkages.length,usable=solved.linkages.filter(each=>each.usable).length;
+return count?`${count} linkage${count===1?"":"s"}, ${usable} usable`:"No linkage"}offline(){if(this.shown.has("offline"))return;this.say("offline","The server d\
+oes not answer. Nothing is lost: the task is in this page, and can still be changed and saved.",[],{actions:[button("Save the task (JSON)",()=>this.files.saveWithoutServer(),
+{"data-do":"save-json"}),h("span",{class:"bs-hint"},"The page tries again by itself. If the server has ended, start burmester studio with that file, or drop the\
+ file on the new page.")]})}expired(){this.close("offline");this.say("expired","The server was started anew. Nothing is lost: open the address that it printed i\
+n this tab, and go on here.",[],{actions:[button("Save the task (JSON)",()=>this.files.saveWithoutServer())]})}};var clamp=(value,low,high)=>Math.min(Math.max(value,low),high);var degrees=angle=>angle*180/Math.PI;var radians=angle=>angle*Math.PI/180;var px=value=>Math.abs(
 value)<1e7?+value.toFixed(5):Math.sign(value)*1e7;function fixed(value,digits){if(value===null||value===void 0||!Number.isFinite(value))return"–";const text=value.
 toFixed(digits);return Number(text)===0?text.replace("-",""):text}function figure(value){if(value===null||!Number.isFinite(value))return"–";if(value===0)return"\
 0";if(Math.abs(value)>=99.5&&Math.abs(value)<1e6)return value.toFixed(0);const rounded=value.toExponential(1),[digits,power]=rounded.split("e");if(power>=-4&&power<
@@ -259,24 +260,24 @@ view.X(x),view.Y(y),radians(angle)));put(arrow2,"d",axes(this.length-8));put(tur
 cted",selected);group.classList.toggle("bs-exact",Boolean(pose.exact));const called=pose.name?`Pose ${k+1}, ${name}`:`Pose ${k+1}`;put(origin,"aria-label",`${called}\
 : x ${x} ${unit2}, y ${y} ${unit2}, angle ${angle}°. Drag, or use the arrow keys; Delete removes it.`);put(origin,"aria-pressed",selected);put(turn,"aria-label",
 `Turn ${called}`);put(turn,"aria-valuenow",angle);put(turn,"aria-valuetext",`${angle}°`)}showName(text,k){const{store,scene:{view}}=this,{x,y,angle}=standing(store.
-document,k),a=radians(angle+215);if(!isOther(text,[view,x,y,angle,poseName(store.document,k)]))return;const name=shortened(poseName(store.document,k),LONGEST_NAME);
-if(text.textContent!==name)text.textContent=name;put(text,"text-anchor",Math.cos(a)<-.3?"end":Math.cos(a)>.3?"start":"middle");put(text,"transform",`translate(${px(
-view.X(x)+13*Math.cos(a))} ${px(view.Y(y)-13*Math.sin(a)+4)})`)}set(k,changes,gesture){this.store.edit(document2=>setPose(document2,k,statedOf(document2.poses[k],
-changes)),{gesture})}dragOrigin(element,k){const{store,scene}=this;let gesture,off;scene.drag(element,{start:from=>{const{x,y}=standing(store.document,k);gesture=
-Symbol("move a pose");off=[x-from.x,y-from.y]},move:point2=>this.set(k,{x:scene.rounded(point2.x+off[0]),y:scene.rounded(point2.y+off[1])},gesture),cancel:()=>store.
-abandon(gesture)})}dragTurn(element,k){const{store,scene}=this;let gesture,off;const angleTo=point2=>{const{x,y}=standing(store.document,k);return degrees(Math.
-atan2(point2.y-y,point2.x-x))};scene.drag(element,{start:from=>{gesture=Symbol("turn a pose");off=standing(store.document,k).angle-angleTo(from)},move:point2=>this.
-set(k,{angle:tenths(unwrapped(angleTo(point2)+off,standing(store.document,k).angle))},gesture),cancel:()=>store.abandon(gesture)})}key(event,k,turning){const{store,
-scene}=this,arrow2=ARROWS[event.key];if(event.ctrlKey||event.metaKey)return;if(arrow2){if(!event.repeat)this.keyed=Symbol("keys");const{x,y,angle}=standing(store.
-document,k),by=stepOf(event,turning?1:scene.step);if(turning)this.set(k,{angle:stepped(angle,by*(arrow2[0]===0?arrow2[1]:-arrow2[0]))},this.keyed);else this.set(
-k,{x:stepped(x,by*arrow2[0]),y:stepped(y,by*arrow2[1])},this.keyed)}else if(event.key==="Delete"||event.key==="Backspace"){store.edit(document2=>removePose(document2,
-k));const left=store.document.poses.length;store.select(left?{kind:"pose",index:Math.min(k,left-1)}:null);this.focus(Math.min(k,left-1))}else{return}event.preventDefault()}focus(k){
-this.element.querySelector(`[data-pose="${k+1}"]`)?.focus({preventScroll:true})}};var PoseTool=class{constructor(store,scene){Object.assign(this,{store,scene,name:"\
-pose",gesture:null});this.hint="Click where the pose is to stand, and click again to turn it. Escape ends."}click(point2){const{store,scene}=this;if(this.gesture){
-this.turn(point2);this.gesture=null;return}this.gesture=Symbol("add a pose");const angle=store.document.poses.at(-1)?.angle??0;store.edit(document2=>addPose(document2,
-{x:scene.rounded(point2.x),y:scene.rounded(point2.y),angle}),{gesture:this.gesture});store.select({kind:"pose",index:store.document.poses.length-1})}hover(point2){
-if(this.gesture&&point2)this.turn(point2)}turn(point2){const{store,gesture}=this,k=store.document.poses.length-1,{x,y,angle}=standing(store.document,k);const away=Math.
-hypot(point2.x-x,point2.y-y)*this.scene.view.scale;if(away<6)return;const next=tenths(unwrapped(degrees(Math.atan2(point2.y-y,point2.x-x)),angle));store.edit(document2=>setPose(
+document,k),a=radians(angle+215);if(!isOther(text,[view,x,y,angle,poseName(store.document,k)]))return;say(text,shortened(poseName(store.document,k),LONGEST_NAME));
+put(text,"text-anchor",Math.cos(a)<-.3?"end":Math.cos(a)>.3?"start":"middle");put(text,"transform",`translate(${px(view.X(x)+13*Math.cos(a))} ${px(view.Y(y)-13*
+Math.sin(a)+4)})`)}set(k,changes,gesture){this.store.edit(document2=>setPose(document2,k,statedOf(document2.poses[k],changes)),{gesture})}dragOrigin(element,k){
+const{store,scene}=this;let gesture,off;scene.drag(element,{start:from=>{const{x,y}=standing(store.document,k);gesture=Symbol("move a pose");off=[x-from.x,y-from.
+y]},move:point2=>this.set(k,{x:scene.rounded(point2.x+off[0]),y:scene.rounded(point2.y+off[1])},gesture),cancel:()=>store.abandon(gesture)})}dragTurn(element,k){
+const{store,scene}=this;let gesture,off;const angleTo=point2=>{const{x,y}=standing(store.document,k);return degrees(Math.atan2(point2.y-y,point2.x-x))};scene.drag(
+element,{start:from=>{gesture=Symbol("turn a pose");off=standing(store.document,k).angle-angleTo(from)},move:point2=>this.set(k,{angle:tenths(unwrapped(angleTo(
+point2)+off,standing(store.document,k).angle))},gesture),cancel:()=>store.abandon(gesture)})}key(event,k,turning){const{store,scene}=this,arrow2=ARROWS[event.key];
+if(event.ctrlKey||event.metaKey)return;if(arrow2){if(!event.repeat)this.keyed=Symbol("keys");const{x,y,angle}=standing(store.document,k),by=stepOf(event,turning?
+1:scene.step);if(turning)this.set(k,{angle:stepped(angle,by*(arrow2[0]===0?arrow2[1]:-arrow2[0]))},this.keyed);else this.set(k,{x:stepped(x,by*arrow2[0]),y:stepped(
+y,by*arrow2[1])},this.keyed)}else if(event.key==="Delete"||event.key==="Backspace"){store.edit(document2=>removePose(document2,k));const left=store.document.poses.
+length;store.select(left?{kind:"pose",index:Math.min(k,left-1)}:null);this.focus(Math.min(k,left-1))}else{return}event.preventDefault()}focus(k){this.element.querySelector(
+`[data-pose="${k+1}"]`)?.focus({preventScroll:true})}};var PoseTool=class{constructor(store,scene){Object.assign(this,{store,scene,name:"pose",gesture:null});this.
+hint="Click where the pose is to stand, and click again to turn it. Escape ends."}click(point2){const{store,scene}=this;if(this.gesture){this.turn(point2);this.
+gesture=null;return}this.gesture=Symbol("add a pose");const angle=store.document.poses.at(-1)?.angle??0;store.edit(document2=>addPose(document2,{x:scene.rounded(
+point2.x),y:scene.rounded(point2.y),angle}),{gesture:this.gesture});store.select({kind:"pose",index:store.document.poses.length-1})}hover(point2){if(this.gesture&&
+point2)this.turn(point2)}turn(point2){const{store,gesture}=this,k=store.document.poses.length-1,{x,y,angle}=standing(store.document,k);const away=Math.hypot(point2.
+x-x,point2.y-y)*this.scene.view.scale;if(away<6)return;const next=tenths(unwrapped(degrees(Math.atan2(point2.y-y,point2.x-x)),angle));store.edit(document2=>setPose(
 document2,k,{angle:next}),{gesture})}key(event){if(event.key!=="Escape")return false;if(this.gesture)this.store.abandon(this.gesture);this.gesture=null;this.scene.
 use(null);return true}};var cross=([a,b],[c,d])=>a*d-b*c;var minus=([a,b],[c,d])=>[a-c,b-d];var size=([a,b])=>Math.hypot(a,b);function fromSegment(point2,start,end){const along=minus(end,
 start),away=minus(point2,start),square=along[0]**2+along[1]**2;const share=square>0?Math.min(1,Math.max(0,(along[0]*away[0]+along[1]*away[1])/square)):0;return size(
@@ -302,27 +303,27 @@ showCorner(element,k));this.handles=s("g",{class:"bs-corners"},this.middles.grou
 select());this.area.addEventListener("keydown",event=>this.keys(event,(points,by)=>points.map(([x,y])=>[stepped(x,by[0]),stepped(y,by[1])]),()=>this.remove()))}draw(){
 const{shape,points,place,name,selected,state,data}=this.now=this.what();const d=pathOf(shape,points,place,this.scene.view);put(this.line,"d",d);put(this.area,"d",
 d);this.area.classList.toggle("bs-open",!CLOSED.has(shape));put(this.area,"aria-label",`${name}${state?`, ${state} by the chosen linkage`:""}. Drag, or use the \
-arrow keys; Delete removes it.`);put(this.area,"aria-pressed",Boolean(selected));this.title.textContent=name;for(const[key2,value2]of Object.entries(data))this.
-element.dataset[key2]=value2;this.element.dataset.shape=shape;this.element.classList.toggle("bs-selected",Boolean(selected));this.element.classList.toggle("bs-m\
-et",state==="met");this.element.classList.toggle("bs-broken",state==="broken");const[[key,value]]=Object.entries(data);this.handles.dataset.handles=`${key} ${value}`.
-trim();if(!this.handles.parentNode)this.scene.layer("tool").append(this.handles);const count=selected?outlineOf(shape,points).length:0,edges2=shape==="polygon"?
-count:0;this.corners.draw([...Array(count).keys()].map(k=>[k,k]));this.middles.draw([...Array(edges2).keys()].map(k=>[k,k]))}clear(){this.element.remove();this.
-handles.remove()}at([x,y]){const[u,v]=act(this.now.place,[x,y]);return{cx:px(this.scene.view.X(u)),cy:px(this.scene.view.Y(v))}}point({x,y}){return back(this.now.
-place,[x,y]).map(each=>this.scene.rounded(each))}dragWhole(){let gesture,from,before;this.scene.drag(this.area,{start:point2=>{gesture=Symbol("move a shape");from=
-back(this.now.place,[point2.x,point2.y]);before=this.now.points},move:point2=>{const to=back(this.now.place,[point2.x,point2.y]),by=[to[0]-from[0],to[1]-from[1]];
-this.set(before.map(([x,y])=>[this.scene.rounded(x+by[0]),this.scene.rounded(y+by[1])]),gesture)},cancel:()=>this.abandon(gesture),click:()=>this.select()})}makeCorner(k){
-const circle=s("circle",{class:"bs-corner",r:6,tabindex:0,role:"button","data-corner":k+1});let gesture;this.scene.drag(circle,{start:()=>(gesture=Symbol("move \
-a corner"))&&true,move:point2=>this.set(withCorner(this.now.shape,this.now.points,k,this.point(point2)),gesture),cancel:()=>this.abandon(gesture)});circle.addEventListener(
-"keydown",event=>this.keys(event,(points,by)=>{const[x,y]=outlineOf(this.now.shape,points)[k];return withCorner(this.now.shape,points,k,[stepped(x,by[0]),stepped(
-y,by[1])])},()=>this.removeCorner(k)));return circle}removeCorner(k){const{shape,points}=this.now;if(shape!=="polygon"||points.length<=LEAST_CORNERS)return;this.
-set(points.filter((_,i)=>i!==k),null)}makeMiddle(k){const circle=s("circle",{class:"bs-middle",r:4.5,"data-edge":k+1});let gesture;this.scene.drag(circle,{start:()=>{
-gesture=Symbol("add a corner");this.set([...this.now.points.slice(0,k+1),this.now.points[k],...this.now.points.slice(k+1)],gesture)},move:point2=>this.set(withCorner(
-"polygon",this.now.points,k+1,this.point(point2)),gesture),cancel:()=>this.abandon(gesture)});return circle}showCorner(element,k){const corner=outlineOf(this.now.
-shape,this.now.points)[k];for(const[name,value]of Object.entries(this.at(corner)))put(element,name,value);put(element,"aria-label",`Corner ${k+1} of ${this.now.
-name}: ${corner.join(", ")}`)}showMiddle(element,k){const{points}=this.now,next=points[(k+1)%points.length];const middle2=this.at([(points[k][0]+next[0])/2,(points[k][1]+
-next[1])/2]);for(const[name,value]of Object.entries(middle2))put(element,name,value)}keys(event,moved,remove){if(event.ctrlKey||event.metaKey)return;const arrow2=ARROWS2[event.
-key];if(arrow2){if(!event.repeat)this.keyed=Symbol("keys");const by=stepOf(event,this.scene.step);this.set(moved(this.now.points,[by*arrow2[0],by*arrow2[1]]),this.
-keyed)}else if(event.key==="Delete"||event.key==="Backspace"){remove()}else{return}event.preventDefault();event.stopPropagation()}};var CLOSE=12;var PAIRS=new Set(["segment","line","box"]);var HINTS={point:"Click the point. Enter puts it in the middle, Escape gives up.",segment:"Click both e\
+arrow keys; Delete removes it.`);put(this.area,"aria-pressed",Boolean(selected));say(this.title,name);for(const[key2,value2]of Object.entries({...data,shape}))put(
+this.element,`data-${key2}`,value2);this.element.classList.toggle("bs-selected",Boolean(selected));this.element.classList.toggle("bs-met",state==="met");this.element.
+classList.toggle("bs-broken",state==="broken");const[[key,value]]=Object.entries(data);put(this.handles,"data-handles",`${key} ${value}`.trim());if(!this.handles.
+parentNode)this.scene.layer("tool").append(this.handles);const count=selected?outlineOf(shape,points).length:0,edges2=shape==="polygon"?count:0;this.corners.draw(
+[...Array(count).keys()].map(k=>[k,k]));this.middles.draw([...Array(edges2).keys()].map(k=>[k,k]))}clear(){this.element.remove();this.handles.remove()}at([x,y]){
+const[u,v]=act(this.now.place,[x,y]);return{cx:px(this.scene.view.X(u)),cy:px(this.scene.view.Y(v))}}point({x,y}){return back(this.now.place,[x,y]).map(each=>this.
+scene.rounded(each))}dragWhole(){let gesture,from,before;this.scene.drag(this.area,{start:point2=>{gesture=Symbol("move a shape");from=back(this.now.place,[point2.
+x,point2.y]);before=this.now.points},move:point2=>{const to=back(this.now.place,[point2.x,point2.y]),by=[to[0]-from[0],to[1]-from[1]];this.set(before.map(([x,y])=>[
+this.scene.rounded(x+by[0]),this.scene.rounded(y+by[1])]),gesture)},cancel:()=>this.abandon(gesture),click:()=>this.select()})}makeCorner(k){const circle=s("cir\
+cle",{class:"bs-corner",r:6,tabindex:0,role:"button","data-corner":k+1});let gesture;this.scene.drag(circle,{start:()=>(gesture=Symbol("move a corner"))&&true,move:point2=>this.
+set(withCorner(this.now.shape,this.now.points,k,this.point(point2)),gesture),cancel:()=>this.abandon(gesture)});circle.addEventListener("keydown",event=>this.keys(
+event,(points,by)=>{const[x,y]=outlineOf(this.now.shape,points)[k];return withCorner(this.now.shape,points,k,[stepped(x,by[0]),stepped(y,by[1])])},()=>this.removeCorner(
+k)));return circle}removeCorner(k){const{shape,points}=this.now;if(shape!=="polygon"||points.length<=LEAST_CORNERS)return;this.set(points.filter((_,i)=>i!==k),null)}makeMiddle(k){
+const circle=s("circle",{class:"bs-middle",r:4.5,"data-edge":k+1});let gesture;this.scene.drag(circle,{start:()=>{gesture=Symbol("add a corner");this.set([...this.
+now.points.slice(0,k+1),this.now.points[k],...this.now.points.slice(k+1)],gesture)},move:point2=>this.set(withCorner("polygon",this.now.points,k+1,this.point(point2)),
+gesture),cancel:()=>this.abandon(gesture)});return circle}showCorner(element,k){const corner=outlineOf(this.now.shape,this.now.points)[k];for(const[name,value]of Object.
+entries(this.at(corner)))put(element,name,value);put(element,"aria-label",`Corner ${k+1} of ${this.now.name}: ${corner.join(", ")}`)}showMiddle(element,k){const{
+points}=this.now,next=points[(k+1)%points.length];const middle2=this.at([(points[k][0]+next[0])/2,(points[k][1]+next[1])/2]);for(const[name,value]of Object.entries(
+middle2))put(element,name,value)}keys(event,moved,remove){if(event.ctrlKey||event.metaKey)return;const arrow2=ARROWS2[event.key];if(arrow2){if(!event.repeat)this.
+keyed=Symbol("keys");const by=stepOf(event,this.scene.step);this.set(moved(this.now.points,[by*arrow2[0],by*arrow2[1]]),this.keyed)}else if(event.key==="Delete"||
+event.key==="Backspace"){remove()}else{return}event.preventDefault();event.stopPropagation()}};var CLOSE=12;var PAIRS=new Set(["segment","line","box"]);var HINTS={point:"Click the point. Enter puts it in the middle, Escape gives up.",segment:"Click both e\
 nds. Enter puts one in the middle, Escape gives up.",line:"Click two points of the line. Enter puts one in the middle, Escape gives up.",box:"Drag from corner t\
 o corner, or click both. Enter puts one in the middle, Escape gives up.",polygon:"Click the corners; Enter or a click on the first one closes. Backspace takes t\
 he last one back, Escape gives up."};var MIDDLE={point:[[0,0]],segment:[[-1,0],[1,0]],line:[[-1,0],[1,0]],box:[[-1,-1],[1,1]],polygon:[[-1,-1],[1,-1],[0,1]]};var SHARE2=.12;
@@ -501,8 +502,8 @@ document:document2}=this.store;return selection?.kind==="pose"&&selection.index<
 store,count=document2.poses.length,pages=Math.max(1,Math.ceil(count/PAGE));if(this.selected!==null&&this.selected!==this.shownSelection)this.page=Math.floor(this.
 selected/PAGE);this.shownSelection=this.selected;this.page=Math.min(this.page,pages-1);const first=this.page*PAGE,shown2=Math.min(PAGE,count-first);while(this.rows.
 length<shown2)this.rows.push(this.makeRow(this.rows.length));while(this.body.children.length>shown2)this.body.lastChild.remove();for(let k=0;k<shown2;k+=1){if(!this.
-rows[k].tr.isConnected||this.body.children[k]!==this.rows[k].tr)this.body.append(this.rows[k].tr);this.showRow(this.rows[k],first+k)}this.unit.textContent=document2.
-length_unit?`x and y in ${document2.length_unit}`:"";this.showPages(pages,count);this.showDetails()}makeRow(place){const row={index:place,fields:{}};const change=changes=>this.
+rows[k].tr.isConnected||this.body.children[k]!==this.rows[k].tr)this.body.append(this.rows[k].tr);this.showRow(this.rows[k],first+k)}say(this.unit,document2.length_unit?
+`x and y in ${document2.length_unit}`:"");this.showPages(pages,count);this.showDetails()}makeRow(place){const row={index:place,fields:{}};const change=changes=>this.
 store.edit(document2=>setPose(document2,row.index,changes));row.number=h("button",{type:"button",class:"bs-index",onclick:()=>this.store.select(row.index===this.
 selected?null:{kind:"pose",index:row.index})});row.name=textField("Name",text=>change({name:text.trim()||void 0}),{class:"bs-text bs-name",placeholder:"–"});const cells2=NUMBERS2.
 map(([key,kind])=>{const field=new NumberField({label:key,options:()=>({kind,unit:this.store.document.length_unit,optional:this.isFree(row.index,key)}),step:()=>kind===
@@ -510,10 +511,10 @@ map(([key,kind])=>{const field=new NumberField({label:key,options:()=>({kind,uni
 {class:"bs-pose-row"},h("th",{scope:"row"},row.number),h("td",{},row.name),cells2);row.tr.addEventListener("focusin",event=>event.target!==row.number&&this.store.
 select({kind:"pose",index:row.index}));return row}isFree(index,key){return Boolean(this.store.document.poses[index]?.free?.includes(key))}showRow(row,index){const pose=this.
 store.document.poses[index],moved=row.index!==index,selected=index===this.selected;row.index=index;if(!isOther(row.tr,[index,pose,selected])&&document.activeElement?.
-closest("tr")!==row.tr)return;row.tr.dataset.row=index+1;row.tr.classList.toggle("bs-selected",selected);row.number.textContent=index+1;put(row.number,"aria-lab\
-el",`Pose ${index+1}`);put(row.number,"aria-pressed",selected);if(moved||document.activeElement!==row.name)give(row.name,"value",oneLine(pose.name));put(row.name,
-"aria-label",`Name of pose ${index+1}`);for(const[key]of NUMBERS2){const{input}=row.fields[key],free=this.isFree(index,key);put(input,"aria-label",`${key} of po\
-se ${index+1}`);put(input,"placeholder",free?"free":"");row.fields[key].turnTo(index,pose[key]);row.fields[key].show(pose[key])}}showPages(pages,count){give(this.
+closest("tr")!==row.tr)return;put(row.tr,"data-row",index+1);row.tr.classList.toggle("bs-selected",selected);say(row.number,index+1);put(row.number,"aria-label",
+`Pose ${index+1}`);put(row.number,"aria-pressed",selected);if(moved||document.activeElement!==row.name)give(row.name,"value",oneLine(pose.name));put(row.name,"a\
+ria-label",`Name of pose ${index+1}`);for(const[key]of NUMBERS2){const{input}=row.fields[key],free=this.isFree(index,key);put(input,"aria-label",`${key} of pose\
+ ${index+1}`);put(input,"placeholder",free?"free":"");row.fields[key].turnTo(index,pose[key]);row.fields[key].show(pose[key])}}showPages(pages,count){give(this.
 pages,"hidden",pages<2);if(pages<2)return;const go=page=>{this.page=page;this.draw()};this.pages.replaceChildren(button("‹",()=>go(Math.max(0,this.page-1)),{"\
 aria-label":"Earlier poses",disabled:this.page===0}),h("span",{},`${this.page*PAGE+1}–${Math.min(count,(this.page+1)*PAGE)} of ${count}`),button("›",()=>go(
 Math.min(pages-1,this.page+1)),{"aria-label":"Later poses",disabled:this.page===pages-1}))}add(){const{store,scene}=this,count=store.document.poses.length;const last=count?
@@ -577,15 +578,14 @@ shape=()=>Object.keys(store.document.requirements.footprint)[0];return this.kept
 points:store.document.requirements.footprint[shape()],place:GROUND,name:"Footprint: holds all pivots",selected:store.selection?.kind==="footprint",data:{footprint:""}}),
 set:(points,gesture)=>store.edit(document2=>setRequirement(document2,"footprint",{[shape()]:points}),{gesture}),remove:()=>{store.edit(document2=>setRequirement(
 document2,"footprint",void 0));store.select(null)},select:()=>store.select({kind:"footprint",index:0}),abandon:gesture=>store.abandon(gesture)}))}showName(text,{
-text:name,at:[x,y],off}){const{view}=this.scene,shown2=shortened(name,LONGEST_NAME2);if(text.textContent!==shown2)text.textContent=shown2;put(text,"class",off?"\
-bs-limit-name":"bs-region-name");put(text,"text-anchor","middle");put(text,"x",px(view.X(x)));put(text,"y",px(view.Y(y)+(off??4)))}regionTool(shape){const{store}=this;
-return new ShapeTool(this.scene,{shape,name:`region ${shape}`,place:()=>GROUND,done:points=>{store.edit(document2=>addRegion(document2,{[shape]:points}));store.
-select({kind:"region",index:regionsOf(store.document).length-1})}})}limitTool(table3,key,shape){const{store}=this;return new ShapeTool(this.scene,{shape,name:`l\
-imit ${table3} ${key} ${shape}`,place:()=>this.place({key}),done:points=>{store.edit(document2=>setLimit(document2,table3,{[key]:shapeOf(shape,points)}));store.
-select({kind:"limit",index:limitRegions(store.document).findIndex(each=>each.table===table3&&each.key===key)})}})}footprintTool(shape){const{store}=this;return new ShapeTool(
-this.scene,{shape,name:`footprint ${shape}`,place:()=>GROUND,done:points=>{store.edit(document2=>setRequirement(document2,"footprint",{[shape]:points}));store.select(
-{kind:"footprint",index:0})}})}};function middle(points){const[x,y,u,v]=bounds(points);return[(x+u)/2,(y+v)/2]}function middleOf(points,upper){const[x,y,u,v]=bounds(
-points);return[(x+u)/2,upper?v:y]}function unfoldForPrint(root,signal){window.addEventListener("beforeprint",()=>{for(const part of root.querySelectorAll("details:not([open])")){part.open=true;part.
+text:name,at:[x,y],off}){const{view}=this.scene,shown2=shortened(name,LONGEST_NAME2);say(text,shown2);put(text,"class",off?"bs-limit-name":"bs-region-name");put(
+text,"text-anchor","middle");put(text,"x",px(view.X(x)));put(text,"y",px(view.Y(y)+(off??4)))}regionTool(shape){const{store}=this;return new ShapeTool(this.scene,
+{shape,name:`region ${shape}`,place:()=>GROUND,done:points=>{store.edit(document2=>addRegion(document2,{[shape]:points}));store.select({kind:"region",index:regionsOf(
+store.document).length-1})}})}limitTool(table3,key,shape){const{store}=this;return new ShapeTool(this.scene,{shape,name:`limit ${table3} ${key} ${shape}`,place:()=>this.
+place({key}),done:points=>{store.edit(document2=>setLimit(document2,table3,{[key]:shapeOf(shape,points)}));store.select({kind:"limit",index:limitRegions(store.document).
+findIndex(each=>each.table===table3&&each.key===key)})}})}footprintTool(shape){const{store}=this;return new ShapeTool(this.scene,{shape,name:`footprint ${shape}`,
+place:()=>GROUND,done:points=>{store.edit(document2=>setRequirement(document2,"footprint",{[shape]:points}));store.select({kind:"footprint",index:0})}})}};function middle(points){
+const[x,y,u,v]=bounds(points);return[(x+u)/2,(y+v)/2]}function middleOf(points,upper){const[x,y,u,v]=bounds(points);return[(x+u)/2,upper?v:y]}function unfoldForPrint(root,signal){window.addEventListener("beforeprint",()=>{for(const part of root.querySelectorAll("details:not([open])")){part.open=true;part.
 dataset.opened=""}},{signal});window.addEventListener("afterprint",()=>{for(const part of root.querySelectorAll("details[data-opened]")){part.open=false;delete part.
 dataset.opened}},{signal})}var Events=class{on(names,fn){this.heard??=new Map;for(const name of names.split(" "))this.heard.set(name,[...this.heard.get(name)??[],fn])}emit(name,...values){
 for(const fn of this.heard?.get(name)??[])fn(...values)}};var LONGEST_NAME3=5;var FOLLOWED=1e-7;var EXACT_TURN=1e-5;var UNSEEN=1e-6;var PLACED="placed";var NOTHING={poses:[],body:null,keep_out:[],scene:1,unit:null,dyads:[],
@@ -670,21 +670,22 @@ slate(0 ${-ARROW})`)}shapeArrow(){const{arrow:arrow2,view}=this,[driver]=this.le
 if(!driver.fixed_pivot)return;const[x,y]=driver.fixed_pivot;put(arrow2,"d","M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9");put(arrow2,"transform",`transl\
 ate(${px(view.X(x))} ${px(view.Y(y))}) rotate(-90)`)}};var kindsOf=led=>led.map(dyad=>dyad.kind).join();var inBody=([x,y],view)=>[view.scale*x,-view.scale*y];function onRail(dyad,place,view){
 const[x,y]=act(place,dyad.moving_pivot),[nx,ny]=normalOf(dyad);return transform(view.X(x),view.Y(y),Math.atan2(nx,-ny))}var block=(side,width,height)=>s("g",{class:`\
-bm-block bm-side${side}`},s("rect",{x:-width/2,y:-height/2,width,height,rx:2}));function setPin(pin,[x,y],dyad){put(pin,"cx",px(x));put(pin,"cy",px(y));pin.dataset.
-dyad=dyad.id}var inGround=([x,y],view)=>[view.X(x),view.Y(y)];var Bar=class{constructor({links,pins},side){this.strokes=[s("path",{class:"bm-bar"}),s("path",{class:"\
-bm-core"})];this.bar=s("g",{class:`bm-link bm-side${side}`},this.strokes);this.ground=s("circle",{class:"bm-pin bm-fixed-pin",r:4.5});this.pin=s("circle",{class:"\
-bm-pin",r:4.5});links.append(this.bar);pins.append(this.ground)}shape(dyad,view){this.dyad=dyad;this.view=view;for(const stroke of this.strokes)put(stroke,"d",`\
-M0 0H${px(view.scale*dyad.radius)}`);setPin(this.ground,inGround(dyad.fixed_pivot,view),dyad);setPin(this.pin,inBody(dyad.moving_pivot,view),dyad)}show(place){const{
-dyad,view}=this,[cx,cy]=dyad.fixed_pivot,[x,y]=act(place,dyad.moving_pivot);put(this.bar,"transform",transform(view.X(cx),view.Y(cy),Math.atan2(y-cy,x-cx)))}};var BlockOnRail=class{constructor({
-blocks},side){this.block=block(side,...BLOCK);this.pin=s("circle",{class:"bm-pin",r:4.5});blocks.append(this.block)}shape(dyad,view){this.dyad=dyad;this.view=view;
-this.block.dataset.dyad=dyad.id;setPin(this.pin,inBody(dyad.moving_pivot,view),dyad)}show(place){put(this.block,"transform",onRail(this.dyad,place,this.view))}};
-var Slot=class{constructor({blocks,pins,coupler},side){this.strokes=["rim","plate","edge"].map(name=>s("path",{class:`bm-slot-${name}`}));this.strokes.push(s("p\
-ath",{class:"bm-slot"}));this.block=block(side,...BLOCK_IN_SLOT);this.ground=s("circle",{class:"bm-pin bm-fixed-pin",r:4});coupler.append(...this.strokes);blocks.
-append(this.block);pins.append(this.ground)}shape(dyad,view,places){this.dyad=dyad;this.view=view;const[low,high]=places.length?travelOf(dyad,places):[0,0],end=(BLOCK_IN_SLOT[0]/
-2+SPARE2)/view.scale;const seen2=along=>inBody(pointOnLine(dyad,along),view);const d=`M${[seen2(low-end),seen2(high+end)].map(each=>each.map(px).join(" ")).join(
-"L")}`;for(const stroke of this.strokes)put(stroke,"d",d);this.strokes[3].dataset.dyad=this.block.dataset.dyad=dyad.id;setPin(this.ground,inGround(dyad.fixed_pivot,
-view),dyad);return seen2((low+high)/2)}show(place){const{dyad,view}=this,[nx,ny]=normalOf(dyad),[cx,cy]=dyad.fixed_pivot;put(this.block,"transform",transform(view.
-X(cx),view.Y(cy),place.a+Math.atan2(nx,-ny)))}};var Nothing=class{shape(){}show(){}};var PARTS={RR:Bar,PR:BlockOnRail,RP:Slot,PP:Nothing};var Labels=class{constructor(view){this.view=view;this.taken=[]}block(x,y,width,height){this.taken.push([x-width/2,y-height/2,x+width/2,y+height/2])}put(x,y,text,distance,attributes){
+bm-block bm-side${side}`},s("rect",{x:-width/2,y:-height/2,width,height,rx:2}));function setPin(pin,[x,y],dyad){put(pin,"cx",px(x));put(pin,"cy",px(y));put(pin,
+"data-dyad",dyad.id)}var inGround=([x,y],view)=>[view.X(x),view.Y(y)];var Bar=class{constructor({links,pins},side){this.strokes=[s("path",{class:"bm-bar"}),s("p\
+ath",{class:"bm-core"})];this.bar=s("g",{class:`bm-link bm-side${side}`},this.strokes);this.ground=s("circle",{class:"bm-pin bm-fixed-pin",r:4.5});this.pin=s("c\
+ircle",{class:"bm-pin",r:4.5});links.append(this.bar);pins.append(this.ground)}shape(dyad,view){this.dyad=dyad;this.view=view;for(const stroke of this.strokes)put(
+stroke,"d",`M0 0H${px(view.scale*dyad.radius)}`);setPin(this.ground,inGround(dyad.fixed_pivot,view),dyad);setPin(this.pin,inBody(dyad.moving_pivot,view),dyad)}show(place){
+const{dyad,view}=this,[cx,cy]=dyad.fixed_pivot,[x,y]=act(place,dyad.moving_pivot);put(this.bar,"transform",transform(view.X(cx),view.Y(cy),Math.atan2(y-cy,x-cx)))}};
+var BlockOnRail=class{constructor({blocks},side){this.block=block(side,...BLOCK);this.pin=s("circle",{class:"bm-pin",r:4.5});blocks.append(this.block)}shape(dyad,view){
+this.dyad=dyad;this.view=view;put(this.block,"data-dyad",dyad.id);setPin(this.pin,inBody(dyad.moving_pivot,view),dyad)}show(place){put(this.block,"transform",onRail(
+this.dyad,place,this.view))}};var Slot=class{constructor({blocks,pins,coupler},side){this.strokes=["rim","plate","edge"].map(name=>s("path",{class:`bm-slot-${name}`}));
+this.strokes.push(s("path",{class:"bm-slot"}));this.block=block(side,...BLOCK_IN_SLOT);this.ground=s("circle",{class:"bm-pin bm-fixed-pin",r:4});coupler.append(
+...this.strokes);blocks.append(this.block);pins.append(this.ground)}shape(dyad,view,places){this.dyad=dyad;this.view=view;const[low,high]=places.length?travelOf(
+dyad,places):[0,0],end=(BLOCK_IN_SLOT[0]/2+SPARE2)/view.scale;const seen2=along=>inBody(pointOnLine(dyad,along),view);const d=`M${[seen2(low-end),seen2(high+end)].
+map(each=>each.map(px).join(" ")).join("L")}`;for(const stroke of this.strokes)put(stroke,"d",d);for(const part of[this.strokes[3],this.block])put(part,"data-dy\
+ad",dyad.id);setPin(this.ground,inGround(dyad.fixed_pivot,view),dyad);return seen2((low+high)/2)}show(place){const{dyad,view}=this,[nx,ny]=normalOf(dyad),[cx,cy]=dyad.
+fixed_pivot;put(this.block,"transform",transform(view.X(cx),view.Y(cy),place.a+Math.atan2(nx,-ny)))}};var Nothing=class{shape(){}show(){}};var PARTS={RR:Bar,PR:BlockOnRail,
+RP:Slot,PP:Nothing};var Labels=class{constructor(view){this.view=view;this.taken=[]}block(x,y,width,height){this.taken.push([x-width/2,y-height/2,x+width/2,y+height/2])}put(x,y,text,distance,attributes){
 const width=7.2*text.length+4,height=14;let best=null;for(let ring=0;ring<3;ring+=1){for(let k=0;k<16;k+=1){const angle=Math.PI/8*k+Math.PI/4;const away=distance+
 9*ring;const cx=x+(away+width/2-6)*Math.cos(angle);const cy=y-away*Math.sin(angle);const box=[cx-width/2,cy-height/2,cx+width/2,cy+height/2];let cost=.02*k+6*ring;
 for(const other of this.taken){const across=Math.min(box[2],other[2])-Math.max(box[0],other[0]);const down=Math.min(box[3],other[3])-Math.max(box[1],other[1]);if(across>
@@ -764,19 +765,19 @@ this.here,"d","");return}const{low,high}=this.playing.player.stretch,{length}=th
 path2,u,length));list.push(end(low));for(let k=Math.floor(low)+1;k<high;k+=1)list.push([path2.x[k],path2.y[k]]);list.push(end(high));set(this.here,list,path2.round&&
 high-low>path2.x.length-1-1e-6)}ground(linkage,places,view){linkage.led.forEach((dyad,side)=>{const[rail,at,name]=[this.rails[side],this.feet[side],this.names[side]];
 const slides=dyad.kind==="PR"&&places.length>0;put(rail,"display",slides?"inline":"none");put(at,"display",dyad.fixed_pivot?"inline":"none");put(name,"display",
-slides||dyad.fixed_pivot?"inline":"none");if(name.textContent!==dyad.id)name.textContent=dyad.id;let x,y;if(slides){const drawn=railOf(dyad,places,view);({x,y}=
-drawn);put(rail,"transform",transform(x,y,drawn.turned));drawn.paths.forEach((d,k)=>put(rail.children[k],"d",d));rail.dataset.dyad=dyad.id}else if(dyad.fixed_pivot){
-[x,y]=[view.X(dyad.fixed_pivot[0]),view.Y(dyad.fixed_pivot[1])];put(at,"transform",`translate(${px(x)} ${px(y)})`)}else{return}put(name,"transform",`translate(${px(
-x)} ${px(y+BELOW)})`)})}atPoses(linkage,view){const{achieved,answers:{data}}=this,rows=linkage.pose_errors;const count=Math.min(rows.length,MOST_ACHIEVED),small=count>
-24?.6:1;while(achieved.children.length>count)achieved.lastChild.remove();while(achieved.children.length<count)achieved.append(s("g",{class:"bm-achieved"},s("pat\
-h",{}),s("circle",{})));let arrows="";for(let k=0;k<count;k+=1){const row=rows[k],group=achieved.children[k];if(group.dataset.size!==String(small)){group.dataset.
-size=small;put(group.children[0],"d",axes(.72*AXIS*small));put(group.children[1],"r",2.2*small)}if(row.x===null){put(group,"display","none");continue}put(group,
-"display","inline");put(group,"transform",transform(view.X(row.x),view.Y(row.y),radians(row.angle_deg)));group.classList.toggle("bm-elsewhere",row.at!==this.playing.
-path);if(this.factor&&data.poses[k])arrows+=arrow(view,data.poses[k],row,this.factor)}put(this.arrows,"d",arrows)}};var framesOf=way=>Array.from(way.x,(x,k)=>({
-x,y:way.y[k],a:way.angle[k]}));var pathOf2=(way,view)=>smoothPath(Array.from(way.x,view.X),Array.from(way.y,view.Y),way.round);function arrow(view,pose,row,factor){
-const x=view.X(pose.x),y=view.Y(pose.y),by=factor*view.scale;const dx=by*(row.x-pose.x),dy=-by*(row.y-pose.y),size2=Math.hypot(dx,dy);if(!(size2>=LEAST_ARROW))return"";
-const head=Math.min(7,.5*size2),ux=dx/size2,uy=dy/size2,tip=`${px(x+dx)} ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(y+dy-head*(uy+sign*
-.5*ux))}`;return`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}`}var FARTHEST=30;var JUMP=2;function centrodesOf(linkage,way,scene,near2){let before=null;const points=framesOf(way).map(place=>{const point2=centrodePoint(linkage.
+slides||dyad.fixed_pivot?"inline":"none");say(name,dyad.id);let x,y;if(slides){const drawn=railOf(dyad,places,view);({x,y}=drawn);put(rail,"transform",transform(
+x,y,drawn.turned));drawn.paths.forEach((d,k)=>put(rail.children[k],"d",d));put(rail,"data-dyad",dyad.id)}else if(dyad.fixed_pivot){[x,y]=[view.X(dyad.fixed_pivot[0]),
+view.Y(dyad.fixed_pivot[1])];put(at,"transform",`translate(${px(x)} ${px(y)})`)}else{return}put(name,"transform",`translate(${px(x)} ${px(y+BELOW)})`)})}atPoses(linkage,view){
+const{achieved,answers:{data}}=this,rows=linkage.pose_errors;const count=Math.min(rows.length,MOST_ACHIEVED),small=count>24?.6:1;while(achieved.children.length>
+count)achieved.lastChild.remove();while(achieved.children.length<count)achieved.append(s("g",{class:"bm-achieved"},s("path",{}),s("circle",{})));let arrows="";for(let k=0;k<
+count;k+=1){const row=rows[k],group=achieved.children[k];if(group.dataset.size!==String(small)){group.dataset.size=small;put(group.children[0],"d",axes(.72*AXIS*
+small));put(group.children[1],"r",2.2*small)}if(row.x===null){put(group,"display","none");continue}put(group,"display","inline");put(group,"transform",transform(
+view.X(row.x),view.Y(row.y),radians(row.angle_deg)));group.classList.toggle("bm-elsewhere",row.at!==this.playing.path);if(this.factor&&data.poses[k])arrows+=arrow(
+view,data.poses[k],row,this.factor)}put(this.arrows,"d",arrows)}};var framesOf=way=>Array.from(way.x,(x,k)=>({x,y:way.y[k],a:way.angle[k]}));var pathOf2=(way,view)=>smoothPath(
+Array.from(way.x,view.X),Array.from(way.y,view.Y),way.round);function arrow(view,pose,row,factor){const x=view.X(pose.x),y=view.Y(pose.y),by=factor*view.scale;const dx=by*
+(row.x-pose.x),dy=-by*(row.y-pose.y),size2=Math.hypot(dx,dy);if(!(size2>=LEAST_ARROW))return"";const head=Math.min(7,.5*size2),ux=dx/size2,uy=dy/size2,tip=`${px(
+x+dx)} ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(y+dy-head*(uy+sign*.5*ux))}`;return`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(
+-1)}`}var FARTHEST=30;var JUMP=2;function centrodesOf(linkage,way,scene,near2){let before=null;const points=framesOf(way).map(place=>{const point2=centrodePoint(linkage.
 led,place);const far=!point2||Math.hypot(point2.fixed[0]-near2[0],point2.fixed[1]-near2[1])>FARTHEST*scene;const cut=far||before&&Math.hypot(point2.fixed[0]-before[0],
 point2.fixed[1]-before[1])>JUMP*scene;before=far?null:point2.fixed;return{point:far?null:point2,cut}});const pieces2=key=>points.flatMap(({point:point2,cut})=>cut?
 [null,point2&&point2[key]]:[point2[key]]);return{fixed:pieces2("fixed"),moving:pieces2("moving")}}var path=(points,X,Y)=>{let d="",pen="M";for(const point2 of points){
@@ -872,8 +873,7 @@ classList.toggle("bs-old",!at);if(!at){this.planes[1].build(other,0,{low:0,high:
 "It does not reach this pose.";return}if(this.way!==at.way){this.way=at.way;const stops=other.pose_errors.filter(row=>row.way===at.way).map(row=>row.frame);const[
 low,high]=[Math.min(...stops),Math.max(...stops)];this.planes[1].build(other,at.way,high>low?{low,high}:{low:0,high:other.ways[at.way].x.length-1},{factor:0,fill:0,
 far:false})}const way=other.ways[at.way];this.planes[1].show(placeAt(other,way,at.u,data.chart.length));this.tell(1,way.transmission[Math.round(at.u)])}tell(k,transmission){
-const text=`transmission angle ${transmission===null||!Number.isFinite(transmission)?"–":`${fixed(transmission,1)}°`}`;if(this.places[k].textContent!==text)this.
-places[k].textContent=text}};var MOST2=8;var ARROWS3={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowUp:[0,1],ArrowDown:[0,-1]};var curveOf=(way,point2)=>framesOf(way).map(place=>act(place,point2));
+const text=`transmission angle ${transmission===null||!Number.isFinite(transmission)?"–":`${fixed(transmission,1)}°`}`;say(this.places[k],text)}};var MOST2=8;var ARROWS3={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowUp:[0,1],ArrowDown:[0,-1]};var curveOf=(way,point2)=>framesOf(way).map(place=>act(place,point2));
 var CouplerCurves=class{constructor(answers,playing,scene){Object.assign(this,{answers,playing,scene,points:[]});this.group=s("g",{class:"bs-coupler-curves"});this.
 handles=s("g",{class:"bs-coupler-points"});scene.layer("paths").append(this.group);scene.layer("pivots").append(this.handles);this.button=h("button",{type:"butt\
 on",class:"bs-small","aria-pressed":"false","data-tool":"coupler-point",onclick:()=>this.pick()},"Pick a point on the body");this.list=h("ul",{class:"bs-points"});
@@ -1060,24 +1060,23 @@ pivots;this.store.place(pivots.map(({plane,at})=>({plane,at})));this.show();this
 answers;if(!this.pivots&&this.store.chosen!==PLACED)this.before=this.store.chosen;this.curves.renew();this.map.renew();this.explain();this.show()}explain(){const count=this.
 answers.data.poses.length;const text=count===4&&this.curves.family?"Four poses leave a curve of dyads. Drag a pivot in the drawing: it slides along its curve.":
 count===3?"Three poses leave every pivot free. Drag a fixed pivot anywhere in F, or a moving pivot anywhere on the body.":count===2?"Two poses leave much open. \
-Drag a pivot: its best dyad follows.":"Drag a pivot in the drawing or on the map: the best dyad there is shown with what it costs.";if(this.story.textContent!==
-text)this.story.textContent=text}show(){const{view}=this.scene,place=this.playing.here?.place,there=this.answers.shown&&!this.answers.shown.gone;this.parts.forEach(
-(planes,k)=>{planes.forEach((element,n)=>{const plane="FM"[n],pivot=there||this.pivots?this.pivot(k,plane):null;const seen2=pivot&&(plane==="F"||place);put(element,
-"display",seen2?"inline":"none");if(!seen2)return;if(element.dataset.pivot!==pivot.id)element.dataset.pivot=pivot.id;element.classList.toggle("bs-put",this.pivots?.[k]?.
-plane===plane);if(plane==="F")put(element,"transform",`translate(${px(view.X(pivot.at[0]))} ${px(view.Y(pivot.at[1]))})`)})});this.name();this.move();this.map.drawHandles()}move(){
-const{view}=this.scene,place=this.playing.here?.place;if(!place)return;this.parts.forEach(([,element],k)=>{const pivot=element.getAttribute("display")==="none"?
-null:this.pivot(k,"M");if(!pivot)return;const[x,y]=act(this.held?.k===k&&this.held.plane==="M"&&this.place?this.place:place,pivot.at);put(element,"transform",`t\
-ranslate(${px(view.X(x))} ${px(view.Y(y))})`)})}name(){if(this.held||this.store.state==="dragging")return;const digits=decimalsOf(this.answers.data);this.parts.
-forEach((planes,k)=>planes.forEach((element,n)=>{const pivot=this.pivot(k,"FM"[n]);if(!pivot)return;const text=`${n?"Moving":"Fixed"} pivot of ${pivot.id} at (${pivot.
-at.map(value=>fixed(value,digits)).join(", ")}) in ${"FM"[n]}. Drag it, or use the arrow keys; the best dyad there is shown.`;put(element,"aria-label",text)}))}tell(){
-const{store,answers}=this,{placed}=store;give(this.letGo,"hidden",!this.pivots);if(!this.pivots||!placed){this.readout.textContent="";if(!placed&&this.pivots&&!this.
-held&&store.placeWanted===null)this.pivots=null;return}put(this.readout,"aria-live",this.held?"off":"polite");this.readout.textContent=placedInWords(placed,answers.
-data);if(placed.linkage&&store.chosen!==PLACED&&this.pivots){this.before=store.chosen;store.choose(PLACED)}this.show()}};function placedInWords(placed,data){const unit2=data.
-unit?` ${data.unit}`:"",digits=decimalsOf(data);const miss=value=>value===null?"an unknown error":value<1e-9*data.scene?"nothing":`${figure(value)}${unit2}`;const dyads=placed.
-dyads.map(dyad=>`${dyad.id}: fixed pivot (${dyad.fixed_pivot.map(v=>fixed(v,digits)).join(", ")}), moving pivot (${dyad.moving_pivot.map(v=>fixed(v,digits)).join(
-", ")}), misses by ${miss(dyad.max_error)} at most.`);const{linkage}=placed;if(!linkage)return[...dyads,...(placed.messages??[]).map(({message})=>`${message[0].
-toUpperCase()}${message.slice(1)}.`)].join(" ");const both=linkage.usable?`usable, ${linkage.said.met}`:`not usable: ${linkage.said.reasons.join("; ")}`;return`${dyads.
-join(" ")} Together a ${linkage.type}: ${both}.`}var Assemblies=class{constructor(data,take){this.data=data;this.take=take;this.name=`bm-way-${Math.random().toString(36).slice(2)}`;this.element=h("fieldset",{class:"\
+Drag a pivot: its best dyad follows.":"Drag a pivot in the drawing or on the map: the best dyad there is shown with what it costs.";say(this.story,text)}show(){
+const{view}=this.scene,place=this.playing.here?.place,there=this.answers.shown&&!this.answers.shown.gone;this.parts.forEach((planes,k)=>{planes.forEach((element,n)=>{
+const plane="FM"[n],pivot=there||this.pivots?this.pivot(k,plane):null;const seen2=pivot&&(plane==="F"||place);put(element,"display",seen2?"inline":"none");if(!seen2)
+return;put(element,"data-pivot",pivot.id);element.classList.toggle("bs-put",this.pivots?.[k]?.plane===plane);if(plane==="F")put(element,"transform",`translate(${px(
+view.X(pivot.at[0]))} ${px(view.Y(pivot.at[1]))})`)})});this.name();this.move();this.map.drawHandles()}move(){const{view}=this.scene,place=this.playing.here?.place;
+if(!place)return;this.parts.forEach(([,element],k)=>{const pivot=element.getAttribute("display")==="none"?null:this.pivot(k,"M");if(!pivot)return;const[x,y]=act(
+this.held?.k===k&&this.held.plane==="M"&&this.place?this.place:place,pivot.at);put(element,"transform",`translate(${px(view.X(x))} ${px(view.Y(y))})`)})}name(){
+if(this.held||this.store.state==="dragging")return;const digits=decimalsOf(this.answers.data);this.parts.forEach((planes,k)=>planes.forEach((element,n)=>{const pivot=this.
+pivot(k,"FM"[n]);if(!pivot)return;const text=`${n?"Moving":"Fixed"} pivot of ${pivot.id} at (${pivot.at.map(value=>fixed(value,digits)).join(", ")}) in ${"FM"[n]}\
+. Drag it, or use the arrow keys; the best dyad there is shown.`;put(element,"aria-label",text)}))}tell(){const{store,answers}=this,{placed}=store;give(this.letGo,
+"hidden",!this.pivots);if(!this.pivots||!placed){say(this.readout,"");if(!placed&&this.pivots&&!this.held&&store.placeWanted===null)this.pivots=null;return}put(
+this.readout,"aria-live",this.held?"off":"polite");say(this.readout,placedInWords(placed,answers.data));if(placed.linkage&&store.chosen!==PLACED&&this.pivots){this.
+before=store.chosen;store.choose(PLACED)}this.show()}};function placedInWords(placed,data){const unit2=data.unit?` ${data.unit}`:"",digits=decimalsOf(data);const miss=value=>value===
+null?"an unknown error":value<1e-9*data.scene?"nothing":`${figure(value)}${unit2}`;const dyads=placed.dyads.map(dyad=>`${dyad.id}: fixed pivot (${dyad.fixed_pivot.
+map(v=>fixed(v,digits)).join(", ")}), moving pivot (${dyad.moving_pivot.map(v=>fixed(v,digits)).join(", ")}), misses by ${miss(dyad.max_error)} at most.`);const{
+linkage}=placed;if(!linkage)return[...dyads,...(placed.messages??[]).map(({message})=>`${message[0].toUpperCase()}${message.slice(1)}.`)].join(" ");const both=linkage.
+usable?`usable, ${linkage.said.met}`:`not usable: ${linkage.said.reasons.join("; ")}`;return`${dyads.join(" ")} Together a ${linkage.type}: ${both}.`}var Assemblies=class{constructor(data,take){this.data=data;this.take=take;this.name=`bm-way-${Math.random().toString(36).slice(2)}`;this.element=h("fieldset",{class:"\
 bm-ways"})}build(linkage,index){const one=(way,k)=>h("label",{},h("input",{type:"radio",name:this.name,value:k,checked:k===index,onchange:()=>this.take(k)}),h("\
 span",{},h("b",{},wayName(way,linkage).replace("assembly ","")),` ${wayStory(way,this.data.poses)}`));this.element.replaceChildren(h("legend",{},"Assembly"),...linkage.
 ways.map(one));give(this.element,"hidden",!linkage.ways.length)}};var TURN_SECONDS=7;var LEAST_STRETCH=1e-6;var NAME_ROWS=5;var NUMBER_ROWS=2;var MANY_POSES2=100;var ROW=13;var LONGEST_TICK=18;var STEPS=360;var Player=class{constructor(data,show,rebuild){
@@ -1095,21 +1094,21 @@ poses.length);this.take(Math.max(0,counts.indexOf(Math.max(...counts))))}take(in
 return this.linkage.pose_errors.map((row,k)=>({...row,k})).filter(row=>row.way===this.way)}firstStop(){return this.stopsOnWay[0]?.frame??0}rebuild(){const{path:path2,
 slider}=this;if(!path2)this.play(false);for(const each of[slider,this.button])give(each,"disabled",!path2);const last=path2?path2.x.length-1:1;const frames=path2?
 this.stopsOnWay.map(row=>row.frame):[];const[low,high]=[frames.reduce((a,b)=>Math.min(a,b),last),frames.reduce((a,b)=>Math.max(a,b),0)];const apart=high-low>LEAST_STRETCH;
-this.stretch=apart&&!this.whole?{low,high}:{low:0,high:last};give(this.box,"disabled",!apart);this.boxName.textContent=path2?.round?"Whole turn":"Whole branch";
-this.heading=1;this.u=clamp(this.u,this.stretch.low,this.stretch.high)}playWhole(on){this.whole=on;this.draw.rebuild()}drawStops(){const{stops,path:path2}=this,
-{low,high}=this.stretch;stops.replaceChildren();if(!path2)return;const width=Math.max(60,this.slider.clientWidth),inset=9;const X=u=>inset+(u-low)/(high-low)*(width-
-2*inset);const known=this.stopsOnWay.filter(row=>this.data.poses[row.k]);const rows=known.sort((a,b)=>a.frame-b.frame).map(row=>({...row,x:X(row.frame),pose:this.
-data.poses[row.k]}));const named=laidOut(rows.map(({x,pose})=>({x,text:shortened(poseName2(pose),LONGEST_TICK)})),width,NAME_ROWS);const texts=named.every(({at})=>at>=
-0)?named:laidOut(rows.map(({x,pose})=>({x,text:pose.label})),width,rows.length>MANY_POSES2?1:NUMBER_ROWS);const deepest=Math.max(0,...texts.map(({at})=>at));const one=(k,pose,...parts)=>s(
-"g",{"data-pose":k+1},s("title",{},`pose ${poseName2(pose)}`),...parts);rows.forEach(({k,x,pose},i)=>stops.append(one(k,pose,s("path",{d:`M${px(x)} 0V${4+ROW*Math.
-max(0,texts[i].at)}`}))));rows.forEach(({k,pose},i)=>{const{at,middle:middle2,text}=texts[i];if(at>=0)stops.append(one(k,pose,s("text",{x:px(middle2),y:14+ROW*at,
-"text-anchor":"middle"},text)))});put(stops,"viewBox",`0 0 ${width} ${16+ROW*deepest}`);put(stops,"height",16+ROW*deepest)}play(on){if(on&&!this.path)return;this.
-remaining=null;if(on===this.playing&&this.isDressed)return;this.isDressed=true;this.playing=on;put(this.readout,"aria-live",on?"off":"polite");this.button.replaceChildren(
-icon(on),on?"Pause":"Play");put(this.button,"aria-label",on?"Pause":"Play");this.button.title=on?"Pause (space)":"Play (space)";cancelAnimationFrame(this.tick);
-if(!on)return;let before=null;const run=now=>{if(!this.playing)return;if(before!==null)this.advance(Math.min(.1,(now-before)/1e3));before=now;if(this.playing)this.
-tick=requestAnimationFrame(run)};this.tick=requestAnimationFrame(run)}playOnce(){if(!this.path)return;const{low,high}=this.stretch;this.play(true);this.remaining=
-(this.goesRound?1:2)*(high-low)}get goesRound(){return this.path.round&&this.stretch.high-this.stretch.low>this.path.x.length-1-LEAST_STRETCH}advance(seconds){const{
-low,high}=this.stretch;const step=seconds*(high-low)/(this.goesRound?TURN_SECONDS:TURN_SECONDS/2);if(this.remaining!==null){this.remaining-=step;if(this.remaining<=
+this.stretch=apart&&!this.whole?{low,high}:{low:0,high:last};give(this.box,"disabled",!apart);say(this.boxName,path2?.round?"Whole turn":"Whole branch");this.heading=
+1;this.u=clamp(this.u,this.stretch.low,this.stretch.high)}playWhole(on){this.whole=on;this.draw.rebuild()}drawStops(){const{stops,path:path2}=this,{low,high}=this.
+stretch;stops.replaceChildren();if(!path2)return;const width=Math.max(60,this.slider.clientWidth),inset=9;const X=u=>inset+(u-low)/(high-low)*(width-2*inset);const known=this.
+stopsOnWay.filter(row=>this.data.poses[row.k]);const rows=known.sort((a,b)=>a.frame-b.frame).map(row=>({...row,x:X(row.frame),pose:this.data.poses[row.k]}));const named=laidOut(
+rows.map(({x,pose})=>({x,text:shortened(poseName2(pose),LONGEST_TICK)})),width,NAME_ROWS);const texts=named.every(({at})=>at>=0)?named:laidOut(rows.map(({x,pose})=>({
+x,text:pose.label})),width,rows.length>MANY_POSES2?1:NUMBER_ROWS);const deepest=Math.max(0,...texts.map(({at})=>at));const one=(k,pose,...parts)=>s("g",{"data-p\
+ose":k+1},s("title",{},`pose ${poseName2(pose)}`),...parts);rows.forEach(({k,x,pose},i)=>stops.append(one(k,pose,s("path",{d:`M${px(x)} 0V${4+ROW*Math.max(0,texts[i].
+at)}`}))));rows.forEach(({k,pose},i)=>{const{at,middle:middle2,text}=texts[i];if(at>=0)stops.append(one(k,pose,s("text",{x:px(middle2),y:14+ROW*at,"text-anchor":"\
+middle"},text)))});put(stops,"viewBox",`0 0 ${width} ${16+ROW*deepest}`);put(stops,"height",16+ROW*deepest)}play(on){if(on&&!this.path)return;this.remaining=null;
+if(on===this.playing&&this.isDressed)return;this.isDressed=true;this.playing=on;put(this.readout,"aria-live",on?"off":"polite");this.button.replaceChildren(icon(
+on),on?"Pause":"Play");put(this.button,"aria-label",on?"Pause":"Play");this.button.title=on?"Pause (space)":"Play (space)";cancelAnimationFrame(this.tick);if(!on)
+return;let before=null;const run=now=>{if(!this.playing)return;if(before!==null)this.advance(Math.min(.1,(now-before)/1e3));before=now;if(this.playing)this.tick=
+requestAnimationFrame(run)};this.tick=requestAnimationFrame(run)}playOnce(){if(!this.path)return;const{low,high}=this.stretch;this.play(true);this.remaining=(this.
+goesRound?1:2)*(high-low)}get goesRound(){return this.path.round&&this.stretch.high-this.stretch.low>this.path.x.length-1-LEAST_STRETCH}advance(seconds){const{low,
+high}=this.stretch;const step=seconds*(high-low)/(this.goesRound?TURN_SECONDS:TURN_SECONDS/2);if(this.remaining!==null){this.remaining-=step;if(this.remaining<=
 0){this.play(false);this.u=this.firstStop();this.show();return}}this.u+=this.heading*step;if(this.goesRound)this.u=around(this.u,high);else if(this.u>=high||this.
 u<=low){this.heading=this.u>=high?-1:1;this.u=clamp(this.u,low,high)}this.show()}step(steps){if(!this.path)return;const{low,high}=this.stretch;const u=this.u+steps*
 Math.max(.001,(high-low)/STEPS);this.go(this.goesRound?around(u,high):u)}go(u){if(!this.path)return;this.play(false);this.u=clamp(u,this.stretch.low,this.stretch.
@@ -1173,8 +1172,8 @@ assemblies.element),this.note);this.words=new Pace(()=>this.player.path&&this.pl
 s shown placed",()=>this.load());answers.on("moved",()=>this.follow());store.on("selection",()=>this.goToSelected());store.on("state",()=>this.hush());new ResizeObserver(
 ()=>this.marks.ask()).observe(this.element);this.load()}get linkage(){return this.player.linkage}get path(){return this.player.path}load(){const base=this.answers.
 shown??null;if(base===this.base&&base){this.follow();this.tellDriver();return}this.base=base;this.isOther=false;this.at=null;this.dress();if(!base){this.player.
-linkage=null;this.player.way=0;this.player.play(false);for(const each of[this.assemblies.element,this.drivers])give(each,"hidden",true);this.note.textContent="";
-this.element.classList.add("bs-empty");this.emit("shape",false);return}this.element.classList.remove("bs-empty");this.player.load(this.driven());this.goToSelected()}driven(){
+linkage=null;this.player.way=0;this.player.play(false);for(const each of[this.assemblies.element,this.drivers])give(each,"hidden",true);say(this.note,"");this.element.
+classList.add("bs-empty");this.emit("shape",false);return}this.element.classList.remove("bs-empty");this.player.load(this.driven());this.goToSelected()}driven(){
 return this.isOther?drivenByOther(this.base,this.answers.data.chart.length):this.base}driveBy(other){this.isOther=other;this.player.linkage=this.driven();this.at=
 null;this.takeBest();this.rebuild();this.tellDriver()}takeBest(){const counts=this.linkage.ways.map(way=>way.poses.length);this.player.way=Math.max(0,counts.indexOf(
 Math.max(...counts)));this.player.u=this.player.firstStop()}follow(){const{base,player}=this;if(!base)return;player.linkage=this.driven();const row=this.at?.pose===
@@ -1190,13 +1189,12 @@ const{base}=this;give(this.drivers,"hidden",!base||!base.ways.length||base.led.s
  ${base.led.map(dyad=>dyad.id)} ${this.isOther}`;if(key===this.driversKey)return;this.driversKey=key;const one=(dyad,other)=>h("label",{},h("input",{type:"radio",
 name:"bs-driver",checked:other===this.isOther,"data-driver":dyad.id,onchange:()=>this.driveBy(other)}),h("span",{},h("b",{},dyad.id),` ${{RR:"crank or rocker",PR:"\
 slider on its rail",RP:"slot"}[dyad.kind]}`));this.drivers.replaceChildren(h("legend",{},"Driver"),one(base.led[0],false),one(base.led[1],true));this.tellDriver()}tellDriver(){
-const{base}=this;if(!base?.drives||base.followed){this.note.textContent="";return}const driver=this.isOther?base.led[1]:base.led[0];const drive=base.dyads[0].id===
-driver.id?base.drives.first:base.drives.second;const least2=drive.min_transmission_angle_deg.range;const said=drive.defects.length?drive.defects.map(each=>each.
-message).join("; "):`${drive.turns_fully?"turns fully":"reaches every pose"}${least2===null?"":`, transmission angle ${fixed(least2,1)}° or more between the pos\
-es`}`;this.note.textContent=`Driven by ${driver.id}: ${said}.`}dress(){this.driversKey=null}hush(){const quiet=this.store.state==="dragging"||this.player.playing;
-put(this.player.readout,"aria-live",quiet?"off":"polite")}};function playOnce(store,answers,{player}){if(matchMedia(REDUCED_MOTION).matches)return;let first=true;
-answers.on("answers",()=>{if(first&&player.path){first=false;player.playOnce()}});store.on("document selection",()=>{first=false;if(player.remaining!==null)player.
-play(false)})}var ORDERS={rank:{name:"best first",of:linkage=>linkage.rank??Infinity},worst:{name:"worst miss",of:linkage=>linkage.worst??Infinity},least:{name:"transmission \
+const{base}=this;if(!base?.drives||base.followed){say(this.note,"");return}const driver=this.isOther?base.led[1]:base.led[0];const drive=base.dyads[0].id===driver.
+id?base.drives.first:base.drives.second;const least2=drive.min_transmission_angle_deg.range;const said=drive.defects.length?drive.defects.map(each=>each.message).
+join("; "):`${drive.turns_fully?"turns fully":"reaches every pose"}${least2===null?"":`, transmission angle ${fixed(least2,1)}° or more between the poses`}`;say(
+this.note,`Driven by ${driver.id}: ${said}.`)}dress(){this.driversKey=null}hush(){const quiet=this.store.state==="dragging"||this.player.playing;put(this.player.
+readout,"aria-live",quiet?"off":"polite")}};function playOnce(store,answers,{player}){if(matchMedia(REDUCED_MOTION).matches)return;let first=true;answers.on("an\
+swers",()=>{if(first&&player.path){first=false;player.playOnce()}});store.on("document selection",()=>{first=false;if(player.remaining!==null)player.play(false)})}var ORDERS={rank:{name:"best first",of:linkage=>linkage.rank??Infinity},worst:{name:"worst miss",of:linkage=>linkage.worst??Infinity},least:{name:"transmission \
 angle",of:linkage=>-(linkage.least??-1)},size:{name:"size",of:linkage=>linkage.quality?.extent??Infinity},sensitivity:{name:"sensitivity",of:linkage=>linkage.quality?.
 sensitivity??Infinity}};var FILTERS={all:{name:"all",holds:()=>true},usable:{name:"usable",holds:linkage=>linkage.usable},pinned:{name:"pinned",holds:(linkage,pinned)=>pinned.
 has(linkage.id)}};function arranged(linkages,{order,filter,type,pinned}){const{of}=ORDERS[order],{holds}=FILTERS[filter];return linkages.filter(each=>holds(each,
@@ -1204,31 +1202,30 @@ pinned)&&(!type||each.type===type)).map((each,k)=>({each,k,key:of(each)})).sort(
 0:a.key-b.key)||a.k-b.k).map(({each})=>each)}var OPTIONS=[[/--min-transmission ([\d.e+-]+)/g,"a least transmission angle of $1°"],[/--within-angle ([\d.e+-]+)/g,"a permitted turn of $1°"],[/--within ([\d.e+-]+)/g,
 "a permitted miss of $1"],[/--link-ratio ([\d.e+-]+)/g,"a link ratio of $1"],[/--type "([^"]+)"/g,"the type $1"],[/--type (\S+)/g,"the type $1"],[/--driver any/g,
 "either driver"],[/--any-order/g,"any order of the poses"]];function helpInWords(text){const marked=OPTIONS.reduce((said,[option,words])=>said.replace(option,`${words}\
-`),text);const plain=marked.replaceAll(" "," and ").replaceAll(/[\u0001\u0002]/g,"");return plain.replace(/with (.+?) (L\d+) would do/g,"it would do with $1")}function say(element,text){if(element.textContent!==text)element.textContent=text}var FIGURES=[["worst","worst miss"],["least","transmission"],["size","size"],[
-"sensitivity","sensitivity"]];var ResultCard=class{constructor(does){this.name=h("b",{});this.type=h("span",{class:"bm-type"});this.was=h("span",{class:"bs-was"});
-this.verdict=h("span",{class:"bm-verdict"});this.figures=new Map(FIGURES.map(([key])=>[key,h("dd",{"data-figure":key})]));this.note=h("span",{class:"bs-card-not\
-e"});this.reason=h("span",{class:"bm-reason"});this.help=h("span",{class:"bs-help"});this.main=h("button",{type:"button",class:"bs-card-main","aria-pressed":"fa\
-lse",onclick:()=>does.choose(this.id)},h("span",{class:"bm-choice-head"},this.name," ",this.type," ",this.was),this.verdict,h("dl",{class:"bs-figures"},FIGURES.
-map(([key,name])=>[h("dt",{},name),this.figures.get(key)])),this.note,this.reason,this.help);this.pin=h("button",{type:"button",class:"bs-small","aria-pressed":"\
-false",onclick:()=>does.pin(this.id)},"Pin");this.compare=h("button",{type:"button",class:"bs-small","aria-pressed":"false",onclick:()=>does.compare(this.id)},"\
-Compare");this.improve=h("button",{type:"button",class:"bs-small",onclick:()=>does.improve(this.id)},"Look near it");this.letGo=h("button",{type:"button",class:"\
-bs-small",onclick:()=>does.letGo()},"Let go of the pivots");this.better=h("ul",{class:"bs-better","aria-live":"polite"});this.element=h("article",{class:"bs-car\
-d bm-choice"},this.main,h("div",{class:"bs-card-tools"},this.pin,this.compare,this.improve,this.letGo),this.better)}show(linkage,{data,old,chosen,pinned,compared}){
-const{said}=linkage,{classList}=this.element,isPlaced=linkage.id===PLACED;if(this.id!==linkage.id||old)this.better.replaceChildren();if(this.id!==linkage.id){this.
-id=linkage.id;this.element.dataset.linkage=linkage.id;say(this.name,isPlaced?"By hand":linkage.id)}say(this.type,linkage.type);say(this.was,pastOf(linkage));say(
-this.verdict,linkage.gone?"✕ gone":linkage.usable?"✓ usable":"✕ not usable");say(this.figures.get("worst"),worstOf(linkage,data));say(this.figures.get("le\
-ast"),least(linkage));say(this.figures.get("size"),said.quality.extent??"–");say(this.figures.get("sensitivity"),said.quality.sensitivity??"–");say(this.note,
-linkage.gone??(linkage.usable&&linkage.change||(linkage.usable&&!linkage.followed&&linkage.shortcomings?.length?`Falls short: ${linkage.shortcomings.join("; ")}`:
-"")));const reason=linkage.usable||linkage.gone?"":linkage.followed?linkage.reason??"":said.reasons.join("; ");say(this.reason,reason);say(this.help,reason&&said.
-help&&!linkage.followed?`What would help: ${helpInWords(said.help)}.`:"");classList.toggle("bm-good",linkage.usable&&!linkage.gone);classList.toggle("bm-bad",!linkage.
-usable||Boolean(linkage.gone));classList.toggle("bs-gone",Boolean(linkage.gone));classList.toggle("bs-old",old||Boolean(linkage.followed));classList.toggle("bs-\
-chosen",chosen);setPressed(this.main,chosen);setPressed(this.pin,pinned);setPressed(this.compare,compared);say(this.pin,pinned?"Pinned":"Pin");give(this.pin,"hi\
-dden",isPlaced);give(this.compare,"hidden",isPlaced||chosen);give(this.improve,"hidden",isPlaced||linkage.usable||old||Boolean(linkage.gone));give(this.letGo,"h\
-idden",!isPlaced);for(const button2 of[this.pin,this.compare,this.improve])labelled2(button2,linkage.id)}tellBetter(sentences){this.better.replaceChildren(...sentences.
-map(sentence2=>h("li",{},sentence2)))}};function pastOf({was,shift,isNew,followed}){if(isNew&&!was)return"new";const moved=shift&&!followed?`moved ${(100*shift).
-toFixed(1)} %`:"";return[was?`was ${was}`:"",moved].filter(Boolean).join(", ")}function least(linkage){const angle=leastOf(linkage);return angle==="–"?angle:angle===
-"0°"?"down to 0°":`${angle} or more`}function setPressed(button2,on){put(button2,"aria-pressed",Boolean(on))}function labelled2(button2,id){put(button2,"aria-\
-label",`${button2.textContent}: ${id}`)}var MOST3=40;var Results=class{constructor(store,answers){Object.assign(this,{store,answers,cards:new Map,wanted:{order:"rank",filter:"all",type:""},all:false});
+`),text);const plain=marked.replaceAll(" "," and ").replaceAll(/[\u0001\u0002]/g,"");return plain.replace(/with (.+?) (L\d+) would do/g,"it would do with $1")}var FIGURES=[["worst","worst miss"],["least","transmission"],["size","size"],["sensitivity","sensitivity"]];var ResultCard=class{constructor(does){this.name=h("\
+b",{});this.type=h("span",{class:"bm-type"});this.was=h("span",{class:"bs-was"});this.verdict=h("span",{class:"bm-verdict"});this.figures=new Map(FIGURES.map(([
+key])=>[key,h("dd",{"data-figure":key})]));this.note=h("span",{class:"bs-card-note"});this.reason=h("span",{class:"bm-reason"});this.help=h("span",{class:"bs-he\
+lp"});this.main=h("button",{type:"button",class:"bs-card-main","aria-pressed":"false",onclick:()=>does.choose(this.id)},h("span",{class:"bm-choice-head"},this.name,
+" ",this.type," ",this.was),this.verdict,h("dl",{class:"bs-figures"},FIGURES.map(([key,name])=>[h("dt",{},name),this.figures.get(key)])),this.note,this.reason,this.
+help);this.pin=h("button",{type:"button",class:"bs-small","aria-pressed":"false",onclick:()=>does.pin(this.id)},"Pin");this.compare=h("button",{type:"button",class:"\
+bs-small","aria-pressed":"false",onclick:()=>does.compare(this.id)},"Compare");this.improve=h("button",{type:"button",class:"bs-small",onclick:()=>does.improve(
+this.id)},"Look near it");this.letGo=h("button",{type:"button",class:"bs-small",onclick:()=>does.letGo()},"Let go of the pivots");this.better=h("ul",{class:"bs-\
+better","aria-live":"polite"});this.element=h("article",{class:"bs-card bm-choice"},this.main,h("div",{class:"bs-card-tools"},this.pin,this.compare,this.improve,
+this.letGo),this.better)}show(linkage,{data,old,chosen,pinned,compared}){const{said}=linkage,{classList}=this.element,isPlaced=linkage.id===PLACED;if(this.id!==
+linkage.id||old)this.better.replaceChildren();if(this.id!==linkage.id){this.id=linkage.id;put(this.element,"data-linkage",linkage.id);say(this.name,isPlaced?"By\
+ hand":linkage.id)}say(this.type,linkage.type);say(this.was,pastOf(linkage));say(this.verdict,linkage.gone?"✕ gone":linkage.usable?"✓ usable":"✕ not usable");
+say(this.figures.get("worst"),worstOf(linkage,data));say(this.figures.get("least"),least(linkage));say(this.figures.get("size"),said.quality.extent??"–");say(
+this.figures.get("sensitivity"),said.quality.sensitivity??"–");say(this.note,linkage.gone??(linkage.usable&&linkage.change||(linkage.usable&&!linkage.followed&&
+linkage.shortcomings?.length?`Falls short: ${linkage.shortcomings.join("; ")}`:"")));const reason=linkage.usable||linkage.gone?"":linkage.followed?linkage.reason??
+"":said.reasons.join("; ");say(this.reason,reason);say(this.help,reason&&said.help&&!linkage.followed?`What would help: ${helpInWords(said.help)}.`:"");classList.
+toggle("bm-good",linkage.usable&&!linkage.gone);classList.toggle("bm-bad",!linkage.usable||Boolean(linkage.gone));classList.toggle("bs-gone",Boolean(linkage.gone));
+classList.toggle("bs-old",old||Boolean(linkage.followed));classList.toggle("bs-chosen",chosen);setPressed(this.main,chosen);setPressed(this.pin,pinned);setPressed(
+this.compare,compared);say(this.pin,pinned?"Pinned":"Pin");give(this.pin,"hidden",isPlaced);give(this.compare,"hidden",isPlaced||chosen);give(this.improve,"hidd\
+en",isPlaced||linkage.usable||old||Boolean(linkage.gone));give(this.letGo,"hidden",!isPlaced);for(const button2 of[this.pin,this.compare,this.improve])labelled2(
+button2,linkage.id)}tellBetter(sentences){this.better.replaceChildren(...sentences.map(sentence2=>h("li",{},sentence2)))}};function pastOf({was,shift,isNew,followed}){
+if(isNew&&!was)return"new";const moved=shift&&!followed?`moved ${(100*shift).toFixed(1)} %`:"";return[was?`was ${was}`:"",moved].filter(Boolean).join(", ")}function least(linkage){
+const angle=leastOf(linkage);return angle==="–"?angle:angle==="0°"?"down to 0°":`${angle} or more`}function setPressed(button2,on){put(button2,"aria-pressed",
+Boolean(on))}function labelled2(button2,id){put(button2,"aria-label",`${button2.textContent}: ${id}`)}var MOST3=40;var Results=class{constructor(store,answers){Object.assign(this,{store,answers,cards:new Map,wanted:{order:"rank",filter:"all",type:""},all:false});
 const choice2=(name,entries,key)=>h("label",{},`${name} `,h("select",{"data-choice":key,onchange:event=>this.want(key,event.target.value)},entries.map(([value,text])=>h(
 "option",{value},text))));this.types=choice2("Type",[["","any"]],"type");this.title=h("h2",{},"Linkages");this.status=h("p",{class:"bs-results-status",role:"sta\
 tus"});this.doubt=h("p",{class:"bs-doubt"});this.gone=h("p",{class:"bs-gone-note"});this.list=h("div",{class:"bs-cards"});this.more=h("button",{type:"button",class:"\
@@ -1508,10 +1505,10 @@ chosen=id;this.emit("chosen");if(this.state==="dragging"||this.document!==this.s
 emit("pinned")}compare(id){this.compared=id===this.compared?null:id;this.emit("chosen")}select(selection){if(selection?.kind===this.selection?.kind&&selection?.
 index===this.selection?.index)return;this.selection=selection;this.emit("selection")}};var FEW2=40;var PointFields=class{constructor({name,options,step,set}){Object.assign(this,{name,options,step,set,fields:[]});this.shape=h("span",{class:"bs-hint"});
 this.more=h("p",{class:"bs-hint"});this.pairs=h("div",{class:"bs-coordinates"});this.element=h("div",{class:"bs-point-fields"},this.shape,this.pairs,this.more)}show(shape,points){
-const count=Math.min(points.length,FEW2);if(shape!==this.shape.textContent)this.fields=[];this.shape.textContent=shape;while(this.fields.length<count)this.fields.
-push(this.make(this.fields.length));this.fields.length=count;const wanted=this.fields.map(each=>each.element);if(wanted.length!==this.pairs.children.length||wanted.
-some((each,k)=>each!==this.pairs.children[k]))this.pairs.replaceChildren(...wanted);this.fields.forEach(({pair},k)=>pair.forEach((field,i)=>field.show(points[k][i])));
-give(this.more,"hidden",points.length<=FEW2);this.more.textContent=`and ${points.length-FEW2} more, to drag in the plane`}make(k){const pair=["x","y"].map((axis,i)=>new NumberField(
+const count=Math.min(points.length,FEW2);if(shape!==this.shape.textContent)this.fields=[];say(this.shape,shape);while(this.fields.length<count)this.fields.push(
+this.make(this.fields.length));this.fields.length=count;const wanted=this.fields.map(each=>each.element);if(wanted.length!==this.pairs.children.length||wanted.some(
+(each,k)=>each!==this.pairs.children[k]))this.pairs.replaceChildren(...wanted);this.fields.forEach(({pair},k)=>pair.forEach((field,i)=>field.show(points[k][i])));
+give(this.more,"hidden",points.length<=FEW2);say(this.more,`and ${points.length-FEW2} more, to drag in the plane`)}make(k){const pair=["x","y"].map((axis,i)=>new NumberField(
 {label:`${axis} of point ${k+1} of ${this.name}`,options:()=>({...this.options(),optional:false}),step:this.step,commit:value=>this.set(points=>points.map((point2,j)=>j===
 k?point2.map((old,m)=>m===i?value:old):point2))}));return{pair,element:h("span",{class:"bs-pair"},pair.map(field=>field.element))}}};var SHAPES=["point","line","segment","box","polygon"];var KINDS2=[["RR","RR: a link"],["PR","PR: a slider"],["RP","RP: a slot"],["PP","PP: a carriage"]];var TYPES=[
 "grashof","non-grashof","crank-rocker","rocker-crank","double-crank","double-rocker","triple-rocker","change-point","slider-crank","inverted slider-crank","doub\
@@ -1541,9 +1538,9 @@ map(([kind,text])=>({kind,...tick(text,()=>edit({kinds:kindsOf2(kinds)}),{"data-
 element)),kindsState);return{element,title,parts,least:least2,most,kinds,lengthState,kindsState}}drawLimits(){const{document:document2}=this.store,tables=limitsOf(
 document2),count=Math.max(1,tables.length);give(this.apart.box,"checked",tables.length>1);while(this.madeTables.length<count)this.madeTables.push(this.makeTable(
 this.madeTables.length));while(this.tables.children.length>count)this.tables.lastChild.remove();while(this.tables.children.length<count)this.tables.append(this.
-madeTables[this.tables.children.length].element);for(let k=0;k<count;k+=1){const table3=tables[k]??{},made2=this.madeTables[k];made2.title.textContent=count>1?`\
-Dyad ${k+1}`:"Both dyads";for(const key of["fixed_pivot","moving_pivot"])this.drawLimit(made2.parts[key],table3[key]);made2.least.show(table3.length?.least);made2.
-most.show(table3.length?.most);for(const{kind,box}of made2.kinds)box.checked=!table3.kinds||table3.kinds.includes(kind)}}drawLimit({numbers,remove},region){for(const each of[
+madeTables[this.tables.children.length].element);for(let k=0;k<count;k+=1){const table3=tables[k]??{},made2=this.madeTables[k];say(made2.title,count>1?`Dyad ${k+
+1}`:"Both dyads");for(const key of["fixed_pivot","moving_pivot"])this.drawLimit(made2.parts[key],table3[key]);made2.least.show(table3.length?.least);made2.most.
+show(table3.length?.most);for(const{kind,box}of made2.kinds)box.checked=!table3.kinds||table3.kinds.includes(kind)}}drawLimit({numbers,remove},region){for(const each of[
 remove,numbers.element])give(each,"hidden",!region);if(!region)return;const[[shape,stated]]=Object.entries(region);numbers.show(shape,shape==="point"?[stated]:stated)}drawVerdicts(){
 const{regions}=this,tables=limitsOf(this.store.document);this.madeTables.forEach((made2,k)=>{for(const key of["fixed_pivot","moving_pivot"])tell(made2.parts[key].
 state,tables[k]?.[key]?regions.said(k,key):null);tell(made2.lengthState,tables[k]?.length?regions.said(k,"length"):null);tell(made2.kindsState,tables[k]?.kinds?
@@ -1571,7 +1568,7 @@ this.bodyNumbers.element);this.noBody=button("Delete the outline",()=>this.edit(
 dy","Outline of the body",false,h("p",{class:"bs-hint"},"It is seen at every pose, moves with the linkage, and says what an angle error counts as."),h("div",{class:"\
 bs-tools"},this.toolButton("Draw it",()=>this.body.tool(),{"data-draw":"body"}),button("From a drawing (SVG, DXF)…",()=>this.files.chooseOutline(),{"data-do":"\
 outline-file"}),this.noBody),this.bodyBox)}drawBody(){const{document:task}=this.store,corners=bodyOf(task);give(this.noBody,"hidden",!task.body);give(this.bodyBox,
-"hidden",!corners.length);if(!corners.length)return;this.bodyCount.textContent=`${corners.length} corners, in numbers`;this.bodyNumbers.show("polygon",corners)}makeRequirements(){
+"hidden",!corners.length);if(!corners.length)return;say(this.bodyCount,`${corners.length} corners, in numbers`);this.bodyNumbers.show("polygon",corners)}makeRequirements(){
 const set=key=>value=>this.edit(document2=>setRequirement(document2,key,value));const number=(label,key,options)=>new NumberField({label,commit:set(key),options:()=>({
 optional:true,unit:this.store.document.length_unit,...options}),attributes:{"data-key":key,placeholder:"–"}});this.numbers={transmission_deg:number("least tra\
 nsmission angle","transmission_deg",{kind:"angle",least:0,most:90}),link_ratio:number("longest link to the shortest, at most","link_ratio",{least:1}),within:number(
@@ -1598,8 +1595,8 @@ unit.options].some(each=>each.value===unit2))this.unit.append(h("option",{value:
 norm.value=options.norm??"rms";this.prefer.value=options.prefer??"transmission";for(const{name,field}of this.lengths)field.show(options[name])}draw(){const{document:{
 limits,keep_out,surroundings,body,requirements,length_unit},options,selection}=this.store;const now=[limits,keep_out,surroundings,body,requirements,length_unit,
 options,selection];if(now.every((each,k)=>each===this.drawn?.[k])&&this.drawn)return;this.drawn=now;this.drawLimits();this.drawRegions();this.drawBody();this.drawRequirements();
-this.drawOptions();this.drawVerdicts()}};function tell(element,sentences){give(element,"hidden",sentences===null);if(sentences===null)return;element.className=`\
-bs-state ${sentences.length?"bs-broken":"bs-met"}`;element.textContent=sentences.length?`✕ ${sentences.join(" ")}`:"✓ met by the chosen linkage"}function withPoints(document2,k,key,change){
+this.drawOptions();this.drawVerdicts()}};function tell(element,sentences){give(element,"hidden",sentences===null);if(sentences===null)return;put(element,"class",
+`bs-state ${sentences.length?"bs-broken":"bs-met"}`);say(element,sentences.length?`✕ ${sentences.join(" ")}`:"✓ met by the chosen linkage")}function withPoints(document2,k,key,change){
 const[[shape,stated]]=Object.entries(limitsOf(document2)[k][key]);return setLimit(document2,k,{[key]:shapeOf(shape,change(shape==="point"?[stated]:stated))})}var range=(least2,most)=>least2===
 void 0&&most===void 0?void 0:{...least2===void 0?{}:{least:least2},...most===void 0?{}:{most}};function kindsOf2(kinds){const list=kinds.filter(({box})=>box.checked).
 map(({kind})=>kind);return list.length===kinds.length||!list.length?void 0:list}function typesOf(types){const list=types.filter(({box})=>box.checked).map(({type})=>type);
@@ -1617,20 +1614,20 @@ h("div",{class:"bm-card"},panel2.element,new ExportSettings(store,scene).element
 scene),scene.element,player),results,panels));scene.resize();addResults(store,scene,{player,results,panels});listenToKeys(store,scene,files);new Autosave(store);
 files.opened=refitWhenSolved(store,scene);return{scene,banners,files,body,regions,panel:panel2,handles,table:table3}}function stageBar(store,scene){const pose=button(
 "Add poses",()=>scene.use(scene.tool?.name==="pose"?null:new PoseTool(store,scene)),{"data-do":"add-poses","aria-pressed":"false"});const stop=button("Stop solv\
-ing",()=>store.cancel(),{"data-do":"cancel",hidden:true});const line2=h("p",{class:"bs-line"});const show=()=>{line2.textContent=scene.tool?.hint??(store.document.
-poses.length?FIRST:EMPTY);put(pose,"aria-pressed",scene.tool?.name==="pose")};scene.on("tool",show);store.on("document",show);let waiting;store.on("state",()=>{
-clearTimeout(waiting);if(store.state==="solving")waiting=setTimeout(()=>give(stop,"hidden",false),700);else give(stop,"hidden",true)});show();return h("div",{class:"\
-bs-bar"},h("div",{class:"bs-row"},pose,button("Fit",()=>scene.fitAgain(),{"data-do":"fit",title:"Show the poses; once more: all of the body and the regions, too\
- (0)"}),button("+",()=>scene.zoom(1.25,scene.size.width/2,scene.size.height/2),{"aria-label":"Zoom in"}),button("−",()=>scene.zoom(.8,scene.size.width/2,scene.
-size.height/2),{"aria-label":"Zoom out"}),...keyList(),stop),line2)}function refitWhenSolved(store,scene){let waits=true;scene.hold(()=>(waits?[]:currentLinkage(
-store)?.led??[]).map(dyad=>dyad.fixed_pivot).filter(point2=>point2&&isNear(store,point2)));store.on("solved",()=>{const refit=waits&&scene.isFitted;waits=false;
-if(refit)scene.fit()});return()=>{waits=true;scene.fit()}}function isNear({solved,document:{poses}},[x,y]){return poses.some(pose=>Math.hypot(x-pose.x,y-pose.y)<
-3*(solved?.scene??Infinity))}function listenToTokens(connection,banners){addEventListener("hashchange",async()=>{if(!location.hash)return;await connection.session();
-banners.close("expired");connection.open()});let asked=false;connection.on("closed",async()=>{if(asked)return;asked=true;try{await connection.get("/start")}catch(error){
-if(error instanceof Refused&&error.status===401)banners.expired()}asked=false})}async function main(){const root=document.getElementById("studio"),connection=new Connection(
-decodeFrame);try{await connection.session();const start=await connection.get("/start"),kept=keptHere();const store=new Store({connection,document:start.document,
-options:start.options,name:start.name,...kept});const parts=layOut(root,store,start);if(start.saved&&!kept)offerSaved(store,parts,start.saved);listenToTokens(connection,
-parts.banners);document.documentElement.dataset.ready="true";connection.open()}catch(error){root.replaceChildren(h("p",{class:"bs-failed",role:"alert"},error instanceof
+ing",()=>store.cancel(),{"data-do":"cancel",hidden:true});const line2=h("p",{class:"bs-line"});const show=()=>{say(line2,scene.tool?.hint??(store.document.poses.
+length?FIRST:EMPTY));put(pose,"aria-pressed",scene.tool?.name==="pose")};scene.on("tool",show);store.on("document",show);let waiting;store.on("state",()=>{clearTimeout(
+waiting);if(store.state==="solving")waiting=setTimeout(()=>give(stop,"hidden",false),700);else give(stop,"hidden",true)});show();return h("div",{class:"bs-bar"},
+h("div",{class:"bs-row"},pose,button("Fit",()=>scene.fitAgain(),{"data-do":"fit",title:"Show the poses; once more: all of the body and the regions, too (0)"}),button(
+"+",()=>scene.zoom(1.25,scene.size.width/2,scene.size.height/2),{"aria-label":"Zoom in"}),button("−",()=>scene.zoom(.8,scene.size.width/2,scene.size.height/2),
+{"aria-label":"Zoom out"}),...keyList(),stop),line2)}function refitWhenSolved(store,scene){let waits=true;scene.hold(()=>(waits?[]:currentLinkage(store)?.led??[]).
+map(dyad=>dyad.fixed_pivot).filter(point2=>point2&&isNear(store,point2)));store.on("solved",()=>{const refit=waits&&scene.isFitted;waits=false;if(refit)scene.fit()});
+return()=>{waits=true;scene.fit()}}function isNear({solved,document:{poses}},[x,y]){return poses.some(pose=>Math.hypot(x-pose.x,y-pose.y)<3*(solved?.scene??Infinity))}
+function listenToTokens(connection,banners){addEventListener("hashchange",async()=>{if(!location.hash)return;await connection.session();banners.close("expired");
+connection.open()});let asked=false;connection.on("closed",async()=>{if(asked)return;asked=true;try{await connection.get("/start")}catch(error){if(error instanceof
+Refused&&error.status===401)banners.expired()}asked=false})}async function main(){const root=document.getElementById("studio"),connection=new Connection(decodeFrame);
+try{await connection.session();const start=await connection.get("/start"),kept=keptHere();const store=new Store({connection,document:start.document,options:start.
+options,name:start.name,...kept});const parts=layOut(root,store,start);if(start.saved&&!kept)offerSaved(store,parts,start.saved);listenToTokens(connection,parts.
+banners);document.documentElement.dataset.ready="true";connection.open()}catch(error){root.replaceChildren(h("p",{class:"bs-failed",role:"alert"},error instanceof
 Refused&&error.status===401?"This page needs the address that burmester studio printed, with the token in it. Open that address, or start burmester studio again\
 .":`The page could not start: ${error.message}. Is burmester studio still running? Start it again and open the address that it prints.`));if(!(error instanceof Refused))
 throw error}}function offerSaved(store,{banners,files},saved){const when=typeof saved.when==="number"?new Date(1e3*saved.when).toLocaleString():saved.when;banners.

@@ -21,6 +21,10 @@ function give(node, name, value) {
   const next = typeof node[name] === "boolean" ? Boolean(value) : String(value);
   if (node[name] !== next) node[name] = next;
 }
+function say(node, text) {
+  const next = String(text);
+  if (node.textContent !== next) node.textContent = next;
+}
 function rgb(text) {
   const hex = text.trim().replace("#", "");
   return [0, 2, 4].map((k) => parseInt(hex.slice(k, k + 2), 16));
@@ -1919,7 +1923,7 @@ var block = (side, width, height) => s("g", { class: `bm-block bm-side${side}` }
 function setPin(pin, [x, y], dyad) {
   put(pin, "cx", px(x));
   put(pin, "cy", px(y));
-  pin.dataset.dyad = dyad.id;
+  put(pin, "data-dyad", dyad.id);
 }
 var inGround = ([x, y], view) => [view.X(x), view.Y(y)];
 var Bar = class {
@@ -1952,7 +1956,7 @@ var BlockOnRail = class {
   shape(dyad, view) {
     this.dyad = dyad;
     this.view = view;
-    this.block.dataset.dyad = dyad.id;
+    put(this.block, "data-dyad", dyad.id);
     setPin(this.pin, inBody(dyad.moving_pivot, view), dyad);
   }
   show(place) {
@@ -1977,7 +1981,7 @@ var Slot = class {
     const seen = (along) => inBody(pointOnLine(dyad, along), view);
     const d = `M${[seen(low - end), seen(high + end)].map((each) => each.map(px).join(" ")).join("L")}`;
     for (const stroke of this.strokes) put(stroke, "d", d);
-    this.strokes[3].dataset.dyad = this.block.dataset.dyad = dyad.id;
+    for (const part of [this.strokes[3], this.block]) put(part, "data-dyad", dyad.id);
     setPin(this.ground, inGround(dyad.fixed_pivot, view), dyad);
     return seen((low + high) / 2);
   }
@@ -2308,7 +2312,7 @@ var Player = class {
     const apart = high - low > LEAST_STRETCH;
     this.stretch = apart && !this.whole ? { low, high } : { low: 0, high: last };
     give(this.box, "disabled", !apart);
-    this.boxName.textContent = path?.round ? "Whole turn" : "Whole branch";
+    say(this.boxName, path?.round ? "Whole turn" : "Whole branch");
     this.heading = 1;
     this.u = clamp(this.u, this.stretch.low, this.stretch.high);
   }

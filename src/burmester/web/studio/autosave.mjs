@@ -1,5 +1,7 @@
 // The task is kept: in this tab at once, so that a reload loses nothing, and by the server for the next time.
 
+import { put } from "../widget/dom.mjs";
+
 const KEY = "burmester.studio", TAB = "burmester.studio.tab";
 const SOON = 400; // milliseconds of rest before it is kept
 
@@ -15,7 +17,7 @@ export class Autosave {
   soon() {
     clearTimeout(this.timer);
     this.isOpen = true;
-    document.documentElement.dataset.kept = "false";
+    put(document.documentElement, "data-kept", false);
     this.timer = setTimeout(() => this.keep(), SOON);
   }
 

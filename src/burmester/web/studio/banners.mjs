@@ -1,6 +1,6 @@
 // What the page has to say: the server is gone, solving took too long, a task was refused, work of last time is kept.
 
-import { h } from "../widget/dom.mjs";
+import { h, put, say } from "../widget/dom.mjs";
 import { button } from "./fields.mjs";
 
 const ROLES = { refused: "alert", offline: "alert", limit: "alert", expired: "alert" };
@@ -65,11 +65,11 @@ export class Banners {
     const { store } = this, solving = store.state === "solving";
     if (store.state === "offline") this.offline();
     else this.close("offline");
-    this.status.dataset.state = store.state;
+    put(this.status, "data-state", store.state);
     if (store.state === "dragging") return;
     const said = store.state === "offline" ? "Not connected" : this.summary();
-    this.status.textContent = solving ? `Solving${store.progress ? `: ${store.progress}` : "…"}` : said;
-    if (!solving && said && this.live.textContent !== said) this.live.textContent = said;
+    say(this.status, solving ? `Solving${store.progress ? `: ${store.progress}` : "…"}` : said);
+    if (!solving && said) say(this.live, said);
   }
 
   summary() {

@@ -1,6 +1,6 @@
 // Two linkages side by side, moving together, with their numbers beside each other.
 
-import { give, h } from "../widget/dom.mjs";
+import { give, h, say } from "../widget/dom.mjs";
 import { placeAt } from "../widget/kinematics.mjs";
 import { figure, fixed } from "../widget/numbers.mjs";
 import { Plane } from "../widget/plane.mjs";
@@ -112,6 +112,6 @@ export class Compare {
 
   tell(k, transmission) {
     const text = `transmission angle ${transmission === null || !Number.isFinite(transmission) ? "–" : `${fixed(transmission, 1)}°`}`;
-    if (this.places[k].textContent !== text) this.places[k].textContent = text;
+    say(this.places[k], text);
   }
 }

@@ -1,7 +1,7 @@
 // Fields of the task: a number with its unit, a text, a choice.  What cannot be read stays in its field, with the
 // sentence that says so under it, and never enters the task.
 
-import { give, h, put } from "../widget/dom.mjs";
+import { give, h, put, say } from "../widget/dom.mjs";
 import { quantity, written } from "./quantities.mjs";
 
 let made = 0; // ids of fields and their sentences are unique on the page
@@ -46,7 +46,7 @@ export class NumberField {
     else this.drafts.set(this.id, this.input.value);
     const draft = this.drafts.get(id);
     Object.assign(this, { id, value });
-    this.input.value = draft ?? written(value);
+    give(this.input, "value", draft ?? written(value));
     this.say(draft === undefined ? null : quantity(draft, this.options()).fault ?? null);
   }
 
@@ -79,7 +79,7 @@ export class NumberField {
 
   say(sentence) {
     give(this.fault, "hidden", sentence === null);
-    this.fault.textContent = sentence ?? "";
+    say(this.fault, sentence ?? "");
     if (sentence === null) {
       this.input.removeAttribute("aria-invalid");
       this.input.removeAttribute("aria-describedby");

@@ -1,7 +1,7 @@
 // The chosen linkage in the scene: what it passes through, its ground, and the linkage itself, moved by
 // attributes while it is followed or played.
 
-import { put, s } from "../widget/dom.mjs";
+import { put, s, say } from "../widget/dom.mjs";
 import { AXIS, axes, foot, transform } from "../widget/drawing.mjs";
 import { act, placeAt } from "../widget/kinematics.mjs";
 import { Mechanism } from "../widget/mechanism.mjs";
@@ -122,14 +122,14 @@ export class LiveLinkage {
       put(rail, "display", slides ? "inline" : "none");
       put(at, "display", dyad.fixed_pivot ? "inline" : "none");
       put(name, "display", slides || dyad.fixed_pivot ? "inline" : "none");
-      if (name.textContent !== dyad.id) name.textContent = dyad.id;
+      say(name, dyad.id);
       let x, y;
       if (slides) {
         const drawn = railOf(dyad, places, view);
         ({ x, y } = drawn);
         put(rail, "transform", transform(x, y, drawn.turned));
         drawn.paths.forEach((d, k) => put(rail.children[k], "d", d));
-        rail.dataset.dyad = dyad.id;
+        put(rail, "data-dyad", dyad.id);
       } else if (dyad.fixed_pivot) {
         [x, y] = [view.X(dyad.fixed_pivot[0]), view.Y(dyad.fixed_pivot[1])];
         put(at, "transform", `translate(${px(x)} ${px(y)})`);

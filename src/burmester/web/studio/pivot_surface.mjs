@@ -2,7 +2,7 @@
 //
 // Of four poses a pivot slides along a Burmester curve, of three it goes anywhere in F or in M.
 
-import { give, h, put, s } from "../widget/dom.mjs";
+import { give, h, put, s, say } from "../widget/dom.mjs";
 import { act, back } from "../widget/kinematics.mjs";
 import { figure, fixed, px } from "../widget/numbers.mjs";
 import { decimalsOf } from "../widget/tables.mjs";
@@ -167,7 +167,7 @@ export class PivotSurface {
         : count === 2
           ? "Two poses leave much open. Drag a pivot: its best dyad follows."
           : "Drag a pivot in the drawing or on the map: the best dyad there is shown with what it costs.";
-    if (this.story.textContent !== text) this.story.textContent = text;
+    say(this.story, text);
   }
 
   /** Handles where the pivots are. */
@@ -179,7 +179,7 @@ export class PivotSurface {
         const seen = pivot && (plane === "F" || place);
         put(element, "display", seen ? "inline" : "none");
         if (!seen) return;
-        if (element.dataset.pivot !== pivot.id) element.dataset.pivot = pivot.id;
+        put(element, "data-pivot", pivot.id);
         element.classList.toggle("bs-put", this.pivots?.[k]?.plane === plane);
         if (plane === "F") put(element, "transform", `translate(${px(view.X(pivot.at[0]))} ${px(view.Y(pivot.at[1]))})`);
       });
@@ -218,12 +218,12 @@ export class PivotSurface {
     const { store, answers } = this, { placed } = store;
     give(this.letGo, "hidden", !this.pivots);
     if (!this.pivots || !placed) {
-      this.readout.textContent = "";
+      say(this.readout, "");
       if (!placed && this.pivots && !this.held && store.placeWanted === null) this.pivots = null;
       return;
     }
     put(this.readout, "aria-live", this.held ? "off" : "polite");
-    this.readout.textContent = placedInWords(placed, answers.data);
+    say(this.readout, placedInWords(placed, answers.data));
     if (placed.linkage && store.chosen !== PLACED && this.pivots) {
       this.before = store.chosen;
       store.choose(PLACED);

@@ -1,7 +1,7 @@
 // What moves the chosen linkage: play controls, either driver, either assembly; and where it is now.
 
 import { Assemblies } from "../widget/assemblies.mjs";
-import { give, h, put } from "../widget/dom.mjs";
+import { give, h, put, say } from "../widget/dom.mjs";
 import { frameAt } from "../widget/kinematics.mjs";
 import { fixed } from "../widget/numbers.mjs";
 import { Player } from "../widget/player.mjs";
@@ -62,7 +62,7 @@ export class Playing extends Events {
       this.player.way = 0;
       this.player.play(false);
       for (const each of [this.assemblies.element, this.drivers]) give(each, "hidden", true);
-      this.note.textContent = "";
+      say(this.note, "");
       this.element.classList.add("bs-empty");
       this.emit("shape", false);
       return;
@@ -171,7 +171,7 @@ export class Playing extends Events {
   tellDriver() {
     const { base } = this;
     if (!base?.drives || base.followed) {
-      this.note.textContent = "";
+      say(this.note, "");
       return;
     }
     const driver = this.isOther ? base.led[1] : base.led[0];
@@ -180,7 +180,7 @@ export class Playing extends Events {
     const said = drive.defects.length
       ? drive.defects.map((each) => each.message).join("; ")
       : `${drive.turns_fully ? "turns fully" : "reaches every pose"}${least === null ? "" : `, transmission angle ${fixed(least, 1)}° or more between the poses`}`;
-    this.note.textContent = `Driven by ${driver.id}: ${said}.`;
+    say(this.note, `Driven by ${driver.id}: ${said}.`);
   }
 
   /** Poses and outlines are read by the player from the data, which stay the same object. */

@@ -1,6 +1,6 @@
 // The points of a shape as fields, two for each.
 
-import { give, h } from "../widget/dom.mjs";
+import { give, h, say } from "../widget/dom.mjs";
 import { NumberField } from "./fields.mjs";
 
 const FEW = 40; // points that have fields
@@ -19,14 +19,14 @@ export class PointFields {
   show(shape, points) {
     const count = Math.min(points.length, FEW);
     if (shape !== this.shape.textContent) this.fields = [];
-    this.shape.textContent = shape;
+    say(this.shape, shape);
     while (this.fields.length < count) this.fields.push(this.make(this.fields.length));
     this.fields.length = count;
     const wanted = this.fields.map((each) => each.element);
     if (wanted.length !== this.pairs.children.length || wanted.some((each, k) => each !== this.pairs.children[k])) this.pairs.replaceChildren(...wanted);
     this.fields.forEach(({ pair }, k) => pair.forEach((field, i) => field.show(points[k][i])));
     give(this.more, "hidden", points.length <= FEW);
-    this.more.textContent = `and ${points.length - FEW} more, to drag in the plane`;
+    say(this.more, `and ${points.length - FEW} more, to drag in the plane`);
   }
 
   make(k) {

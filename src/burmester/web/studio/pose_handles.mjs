@@ -1,6 +1,6 @@
 // Poses to take hold of: the origin moves, the tip of the x axis turns, keys do both.
 
-import { put, s } from "../widget/dom.mjs";
+import { put, s, say } from "../widget/dom.mjs";
 import { axes, transform } from "../widget/drawing.mjs";
 import { clamp, degrees, px, radians } from "../widget/numbers.mjs";
 import { shortened } from "../widget/tables.mjs";
@@ -98,8 +98,7 @@ export class PoseHandles {
   showName(text, k) {
     const { store, scene: { view } } = this, { x, y, angle } = standing(store.document, k), a = radians(angle + 215);
     if (!isOther(text, [view, x, y, angle, poseName(store.document, k)])) return;
-    const name = shortened(poseName(store.document, k), LONGEST_NAME);
-    if (text.textContent !== name) text.textContent = name;
+    say(text, shortened(poseName(store.document, k), LONGEST_NAME));
     put(text, "text-anchor", Math.cos(a) < -0.3 ? "end" : Math.cos(a) > 0.3 ? "start" : "middle");
     put(text, "transform", `translate(${px(view.X(x) + 13 * Math.cos(a))} ${px(view.Y(y) - 13 * Math.sin(a) + 4)})`); // its letters are not set anew
   }

@@ -1,6 +1,6 @@
 // The poses as a table: the same data as the handles, to the last digit.
 
-import { give, h, put } from "../widget/dom.mjs";
+import { give, h, put, say } from "../widget/dom.mjs";
 import { addPose, duplicatePose, movePose, removePose, setFree, setPose, setTolerance, standing } from "./document.mjs";
 import { NumberField, button, choice, labelled, textField, tick } from "./fields.mjs";
 import { Pace, isOther } from "./pacing.mjs";
@@ -54,7 +54,7 @@ export class PoseTable {
       if (!this.rows[k].tr.isConnected || this.body.children[k] !== this.rows[k].tr) this.body.append(this.rows[k].tr);
       this.showRow(this.rows[k], first + k);
     }
-    this.unit.textContent = document.length_unit ? `x and y in ${document.length_unit}` : "";
+    say(this.unit, document.length_unit ? `x and y in ${document.length_unit}` : "");
     this.showPages(pages, count);
     this.showDetails();
   }
@@ -89,9 +89,9 @@ export class PoseTable {
     const pose = this.store.document.poses[index], moved = row.index !== index, selected = index === this.selected;
     row.index = index;
     if (!isOther(row.tr, [index, pose, selected]) && document.activeElement?.closest("tr") !== row.tr) return;
-    row.tr.dataset.row = index + 1;
+    put(row.tr, "data-row", index + 1);
     row.tr.classList.toggle("bs-selected", selected);
-    row.number.textContent = index + 1;
+    say(row.number, index + 1);
     put(row.number, "aria-label", `Pose ${index + 1}`);
     put(row.number, "aria-pressed", selected);
     if (moved || document.activeElement !== row.name) give(row.name, "value", oneLine(pose.name));

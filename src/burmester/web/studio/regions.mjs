@@ -1,6 +1,6 @@
 // What is drawn in the plane as a condition: regions to keep out of, limits of pivots, the footprint.
 
-import { put, s } from "../widget/dom.mjs";
+import { put, s, say } from "../widget/dom.mjs";
 import { act } from "../widget/kinematics.mjs";
 import { px } from "../widget/numbers.mjs";
 import { shortened } from "../widget/tables.mjs";
@@ -178,7 +178,7 @@ export class Regions {
 
   showName(text, { text: name, at: [x, y], off }) {
     const { view } = this.scene, shown = shortened(name, LONGEST_NAME);
-    if (text.textContent !== shown) text.textContent = shown;
+    say(text, shown);
     put(text, "class", off ? "bs-limit-name" : "bs-region-name");
     put(text, "text-anchor", "middle");
     put(text, "x", px(view.X(x)));

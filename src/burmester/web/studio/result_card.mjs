@@ -1,13 +1,8 @@
 // One linkage as a card: its verdict with the reason, its figures, and what would help.
 
-import { give, h, put } from "../widget/dom.mjs";
+import { give, h, put, say } from "../widget/dom.mjs";
 import { PLACED, leastOf, worstOf } from "./answers.mjs";
 import { helpInWords } from "./help_words.mjs";
-
-/** Text of an element, set only where it differs: a page that is read aloud, and one that is drawn, are left alone. */
-export function say(element, text) {
-  if (element.textContent !== text) element.textContent = text;
-}
 
 const FIGURES = [
   ["worst", "worst miss"],
@@ -50,7 +45,7 @@ export class ResultCard {
     if (this.id !== linkage.id || old) this.better.replaceChildren();
     if (this.id !== linkage.id) {
       this.id = linkage.id;
-      this.element.dataset.linkage = linkage.id;
+      put(this.element, "data-linkage", linkage.id);
       say(this.name, isPlaced ? "By hand" : linkage.id);
     }
     say(this.type, linkage.type);

@@ -1,11 +1,11 @@
 // The panel of cards: filtered, sorted and pinned.  A card keeps its linkage while a hand drags.
 
-import { give, h, put } from "../widget/dom.mjs";
+import { give, h, put, say } from "../widget/dom.mjs";
 import { clamp, listed } from "../widget/numbers.mjs";
 import { PLACED } from "./answers.mjs";
 import { FILTERS, ORDERS, arranged } from "./ordering.mjs";
 import { Pace } from "./pacing.mjs";
-import { ResultCard, say } from "./result_card.mjs";
+import { ResultCard } from "./result_card.mjs";
 
 const MOST = 40; // cards that are there at once, unless all of them are asked for
 

@@ -1,6 +1,6 @@
 // A shape in the plane to take hold of: its corners, the middles of its edges, and all of it.
 
-import { put, s } from "../widget/dom.mjs";
+import { put, s, say } from "../widget/dom.mjs";
 import { act, back } from "../widget/kinematics.mjs";
 import { px } from "../widget/numbers.mjs";
 import { stepOf, stepped } from "./fields.mjs";
@@ -57,14 +57,13 @@ export class ShapeHandles {
     this.area.classList.toggle("bs-open", !CLOSED.has(shape));
     put(this.area, "aria-label", `${name}${state ? `, ${state} by the chosen linkage` : ""}. Drag, or use the arrow keys; Delete removes it.`);
     put(this.area, "aria-pressed", Boolean(selected));
-    this.title.textContent = name;
-    for (const [key, value] of Object.entries(data)) this.element.dataset[key] = value;
-    this.element.dataset.shape = shape;
+    say(this.title, name);
+    for (const [key, value] of Object.entries({ ...data, shape })) put(this.element, `data-${key}`, value);
     this.element.classList.toggle("bs-selected", Boolean(selected));
     this.element.classList.toggle("bs-met", state === "met");
     this.element.classList.toggle("bs-broken", state === "broken");
     const [[key, value]] = Object.entries(data);
-    this.handles.dataset.handles = `${key} ${value}`.trim();
+    put(this.handles, "data-handles", `${key} ${value}`.trim());
     if (!this.handles.parentNode) this.scene.layer("tool").append(this.handles);
     const count = selected ? outlineOf(shape, points).length : 0, edges = shape === "polygon" ? count : 0;
     this.corners.draw([...Array(count).keys()].map((k) => [k, k]));

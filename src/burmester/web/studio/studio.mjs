@@ -1,7 +1,7 @@
 // The studio: one page on which a linkage is designed by hand.  Lengths are in the task's unit, angles in degrees
 // where a document or a name says so, else in radians; F is the ground, M the body.
 
-import { give, h, put } from "../widget/dom.mjs";
+import { give, h, put, say } from "../widget/dom.mjs";
 import { Autosave, keptHere } from "./autosave.mjs";
 import { Banners } from "./banners.mjs";
 import { BodyEditor } from "./body_editor.mjs";
@@ -61,7 +61,7 @@ function stageBar(store, scene) {
   const stop = button("Stop solving", () => store.cancel(), { "data-do": "cancel", hidden: true });
   const line = h("p", { class: "bs-line" });
   const show = () => {
-    line.textContent = scene.tool?.hint ?? (store.document.poses.length ? FIRST : EMPTY);
+    say(line, scene.tool?.hint ?? (store.document.poses.length ? FIRST : EMPTY));
     put(pose, "aria-pressed", scene.tool?.name === "pose");
   };
   scene.on("tool", show);

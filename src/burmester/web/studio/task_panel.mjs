@@ -1,6 +1,6 @@
 // What the linkage must be, in fields: limits of dyads, regions, requirements, options.
 
-import { give, h, put } from "../widget/dom.mjs";
+import { give, h, put, say } from "../widget/dom.mjs";
 import { limitsOf, regionsOf, setBody, setLimit, setRegion, setRequirement, setSurrounding, shapeOf, splitLimits, bodyOf, limitRegions, withKeys } from "./document.mjs";
 import { NumberField, button, choice, labelled, textField, tick } from "./fields.mjs";
 import { PointFields } from "./point_fields.mjs";
@@ -90,7 +90,7 @@ export class TaskPanel {
     while (this.tables.children.length < count) this.tables.append(this.madeTables[this.tables.children.length].element);
     for (let k = 0; k < count; k += 1) {
       const table = tables[k] ?? {}, made = this.madeTables[k];
-      made.title.textContent = count > 1 ? `Dyad ${k + 1}` : "Both dyads";
+      say(made.title, count > 1 ? `Dyad ${k + 1}` : "Both dyads");
       for (const key of ["fixed_pivot", "moving_pivot"]) this.drawLimit(made.parts[key], table[key]);
       made.least.show(table.length?.least);
       made.most.show(table.length?.most);
@@ -184,7 +184,7 @@ export class TaskPanel {
     give(this.noBody, "hidden", !task.body);
     give(this.bodyBox, "hidden", !corners.length);
     if (!corners.length) return;
-    this.bodyCount.textContent = `${corners.length} corners, in numbers`;
+    say(this.bodyCount, `${corners.length} corners, in numbers`);
     this.bodyNumbers.show("polygon", corners);
   }
 
@@ -267,8 +267,8 @@ export class TaskPanel {
 function tell(element, sentences) {
   give(element, "hidden", sentences === null);
   if (sentences === null) return;
-  element.className = `bs-state ${sentences.length ? "bs-broken" : "bs-met"}`;
-  element.textContent = sentences.length ? `✕ ${sentences.join(" ")}` : "✓ met by the chosen linkage";
+  put(element, "class", `bs-state ${sentences.length ? "bs-broken" : "bs-met"}`);
+  say(element, sentences.length ? `✕ ${sentences.join(" ")}` : "✓ met by the chosen linkage");
 }
 
 /** A document with other points in a limit. */

@@ -29,6 +29,12 @@ export function give(node, name, value) {
   if (node[name] !== next) node[name] = next;
 }
 
+/** The text of an element, set only where it differs: a page that is read aloud, and one that is drawn, are left alone. */
+export function say(node, text) {
+  const next = String(text);
+  if (node.textContent !== next) node.textContent = next;
+}
+
 /** A colour of a style sheet, #rrggbb, as three numbers from 0 to 255. */
 export function rgb(text) {
   const hex = text.trim().replace("#", "");

@@ -109,7 +109,7 @@ const block = (side, width, height) =>
 function setPin(pin, [x, y], dyad) {
   put(pin, "cx", px(x));
   put(pin, "cy", px(y));
-  pin.dataset.dyad = dyad.id;
+  put(pin, "data-dyad", dyad.id);
 }
 
 const inGround = ([x, y], view) => [view.X(x), view.Y(y)];
@@ -150,7 +150,7 @@ class BlockOnRail {
   shape(dyad, view) {
     this.dyad = dyad;
     this.view = view;
-    this.block.dataset.dyad = dyad.id;
+    put(this.block, "data-dyad", dyad.id);
     setPin(this.pin, inBody(dyad.moving_pivot, view), dyad);
   }
 
@@ -179,7 +179,7 @@ class Slot {
     const seen = (along) => inBody(pointOnLine(dyad, along), view);
     const d = `M${[seen(low - end), seen(high + end)].map((each) => each.map(px).join(" ")).join("L")}`;
     for (const stroke of this.strokes) put(stroke, "d", d);
-    this.strokes[3].dataset.dyad = this.block.dataset.dyad = dyad.id;
+    for (const part of [this.strokes[3], this.block]) put(part, "data-dyad", dyad.id);
     setPin(this.ground, inGround(dyad.fixed_pivot, view), dyad);
     return seen((low + high) / 2);
   }

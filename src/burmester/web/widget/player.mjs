@@ -1,6 +1,6 @@
 // What moves a linkage along one of its ways: playing, the slider, steps from pose to pose.
 
-import { give, h, put, s } from "./dom.mjs";
+import { give, h, put, s, say } from "./dom.mjs";
 import { linear, placeAt } from "./kinematics.mjs";
 import { clamp, degrees, figure, fixed, px, radians } from "./numbers.mjs";
 import { decimalsOf, missOf, poseName, shortened } from "./tables.mjs";
@@ -104,7 +104,7 @@ export class Player {
     const apart = high - low > LEAST_STRETCH;
     this.stretch = apart && !this.whole ? { low, high } : { low: 0, high: last };
     give(this.box, "disabled", !apart);
-    this.boxName.textContent = path?.round ? "Whole turn" : "Whole branch";
+    say(this.boxName, path?.round ? "Whole turn" : "Whole branch");
     this.heading = 1; // at an end it turns round by itself
     this.u = clamp(this.u, this.stretch.low, this.stretch.high);
   }
