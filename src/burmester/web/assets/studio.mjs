@@ -142,7 +142,7 @@ pose=>Number.isFinite(pose[key]));const behind=poses.slice(index+1).findIndex(po
 index?poses[behind][key]:void 0];if(a===void 0||b===void 0)return a??b??0;return a+(index-before)/(behind-before)*(b-a)}function standing({poses},index){const{x,
 y,angle}=poses[index];if(Number.isFinite(x)&&Number.isFinite(y)&&Number.isFinite(angle))return{x,y,angle};return{x:component(poses,index,"x"),y:component(poses,
 index,"y"),angle:component(poses,index,"angle")}}var poseName=({poses},index)=>poses[index]?.name??String(index+1);var statedOf=(pose,changes)=>Object.fromEntries(
-Object.entries(changes).filter(([key])=>Number.isFinite(pose[key])));var LEAST=120;var SHARE=8;var Pace=class{constructor(work,wanted=()=>true){this.work=work;this.wanted=wanted;this.free=0;this.timer=null;paces.add(this)}ask(){if(this.
+Object.entries(changes).filter(([key])=>Number.isFinite(pose[key])));var LEAST=250;var SHARE=8;var Pace=class{constructor(work,wanted=()=>true){this.work=work;this.wanted=wanted;this.free=0;this.timer=null;paces.add(this)}ask(){if(this.
 timer!==null||!this.wanted())return;this.timer=setTimeout(()=>this.now(),Math.max(0,this.free-performance.now()))}catchUp(){if(this.timer!==null)this.now()}now(){
 clearTimeout(this.timer);this.timer=null;const start=performance.now();this.work();const end=performance.now();this.free=end+Math.max(LEAST,SHARE*(end-start))}};
 var shown=new WeakMap;function isOther(element,facts){const before=shown.get(element);shown.set(element,facts);return before?.length!==facts.length||facts.some(

@@ -1,6 +1,6 @@
 // Work that may lag behind the hand: done soon, not at every picture, and never most of the time.
 
-const LEAST = 120; // milliseconds between two times
+const LEAST = 250; // milliseconds between two times: nobody reads faster, and every time the page is laid out anew
 const SHARE = 8; // the pause after work is so many times as long as the work
 
 /** `ask` has `work` done, at once where it rested long enough; asked again meanwhile, it is done once more afterwards. */
