@@ -153,6 +153,7 @@ def test_a_closed_widget_goes_on(widget):
 
 
 def test_what_a_page_drags_python_has(widget):
+    widget.selected = "L2"
     page, seen = Page(widget), changes(widget)
     page.ask("solve", document=page.document)
     moved = page.moved(0.01)
@@ -170,7 +171,7 @@ def test_what_a_page_drags_python_has(widget):
     assert numbers(widget.result) == numbers(burmester.synthesize(task_of(moved)))
     assert widget.result.task is widget.task
     # The linkage that was shown is shown, whatever its id is by now.
-    assert page.last("solved")["was"][widget.selected]["id"] == "L1"
+    assert page.last("solved")["was"][widget.selected]["id"] == "L2"
 
 
 def test_what_a_page_picks_python_has(widget):
@@ -224,10 +225,44 @@ def test_of_follows_that_wait_the_newest_is_answered(widget):
     assert widget.task.poses.translation[1, 0] == pytest.approx(page.moved(0.003)["poses"][1]["x"])
 
 
-def test_a_newer_search_calls_off_the_one_before(widget):
-    page, seen = Page(widget), changes(widget)
+def test_where_a_hand_comes_back_linkages_are_there_again(widget):
+    page = Page(widget)
     page.ask("solve", document=page.document)
-    last = page.moved(0.02)
+    page.ask("follow", document=page.moved(5), shown=["L1"])
+    gone = {each["id"] for each in header_of(page.last("followed")["buffers"][0])["vanished"]}
+    page.ask("solve", document=page.document)
+    page.ask("follow", document=page.moved(0.001), shown=["L1"])
+    there = {each["id"] for each in header_of(page.last("followed")["buffers"][0])["linkages"]}
+    assert "L1" in gone & there
+
+
+def test_a_search_that_ends_while_a_hand_goes_on_leaves_the_task_to_the_hand(widget):
+    page = Page(widget)
+    page.ask("solve", document=page.document)
+    solved, last = page.moved(0.01), page.moved(0.02)
+
+    async def both():
+        page.ask("solve", document=solved)
+        page.ask("follow", document=last, shown=[])
+        while widget._pages._under_way:
+            await asyncio.sleep(0.001)
+
+    asyncio.run(both())
+    assert np.array_equal(places(widget.result.task), places(task_of(solved)))
+    assert np.array_equal(places(widget.task), places(task_of(last)))
+
+
+@pytest.mark.parametrize("hears", [True, False], ids=["at once", "too late"])
+def test_a_newer_search_calls_off_the_one_before(widget, hears):
+    page, seen, found = Page(widget), changes(widget), []
+    page.ask("solve", document=page.document)
+    last, solved = page.moved(0.02), widget.solved
+
+    def kept(task, progress):
+        found.append(solved(task, progress=progress if hears else None))
+        return found[-1]
+
+    widget.solved = kept
 
     async def two():
         first = page.ask("solve", document=page.moved(0.01))
@@ -242,6 +277,7 @@ def test_a_newer_search_calls_off_the_one_before(widget):
     assert page.kinds(second)[-1] == "solved"
     kinds = [each["kind"] for each in page.told if each.get("n") in (followed, second)]
     assert kinds.index("followed") < kinds.index("solved")  # a hand need not wait for a search
+    assert len(found) == (1 if hears else 2)
     assert [name for name, _ in seen].count("result") == 1
     assert numbers(widget.result) == numbers(burmester.synthesize(task_of(last)))
 
