@@ -749,7 +749,7 @@ dead].reverse():piece.dead,poses:[],falls,drive:drive.map(value=>slides?value:de
 ({a})=>a),transmission:places.map(place=>transmissionOf(...led,place))}}function frameIn({stations},{way,frame},last){for(let k=0;k+1<stations.length;k+=1){const[
 a,b]=[stations[k],stations[k+1]];if(a.way!==way||b.way!==way){if(a.way===way&&Math.abs(a.u-frame)<1e-9)return k;if(b.way===way&&Math.abs(b.u-frame)<1e-9)return k+
 1;continue}const[u,v]=Math.abs(b.u-a.u)>last/2?[a,b].map(each=>each.u+(each.u<last/2?last:0)):[a.u,b.u];for(const at of[frame,frame+last]){if(at>=Math.min(u,v)-
-1e-9&&at<=Math.max(u,v)+1e-9)return u===v?k:k+(at-u)/(v-u);if(Math.max(u,v)<=last)break}}return null}var LEAST=120;var SHARE=8;var Pace=class{constructor(work,wanted=()=>true){this.work=work;this.wanted=wanted;this.free=0;this.timer=null;paces.add(this)}ask(){if(this.
+1e-9&&at<=Math.max(u,v)+1e-9)return u===v?k:k+(at-u)/(v-u);if(Math.max(u,v)<=last)break}}return null}var LEAST=250;var SHARE=8;var Pace=class{constructor(work,wanted=()=>true){this.work=work;this.wanted=wanted;this.free=0;this.timer=null;paces.add(this)}ask(){if(this.
 timer!==null||!this.wanted())return;this.timer=setTimeout(()=>this.now(),Math.max(0,this.free-performance.now()))}catchUp(){if(this.timer!==null)this.now()}now(){
 clearTimeout(this.timer);this.timer=null;const start=performance.now();this.work();const end=performance.now();this.free=end+Math.max(LEAST,SHARE*(end-start))}};
 var shown=new WeakMap;function isOther(element,facts){const before=shown.get(element);shown.set(element,facts);return before?.length!==facts.length||facts.some(

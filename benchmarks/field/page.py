@@ -1,0 +1,300 @@
+"""The page of the results, `docs/field.md`, with its tables and two pictures."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from statistics import median
+from string import Template
+from typing import Any
+
+from benchmarks.field.generated import KINDS
+
+TEMPLATE = Template(Path(__file__).with_name("page.md").read_text(encoding="utf-8"))
+DOCS = Path(__file__).parents[2] / "docs"
+PAGE = DOCS / "field.md"
+SHARES, TIMES = DOCS / "field-solved.png", DOCS / "field-time.png"
+OURS = "burmester_synthesize"
+SHORT = {
+    "burmester_synthesize": "burmester",
+    "pencil": "pencil (the paper's)",
+    "scipy_starts": "SciPy, many starts",
+    "evolution": "SciPy, evolution",
+    "fourbarhinge_fit": "fourbarhinge",
+    "pylinkage_motion": "pylinkage",
+}
+NEARER = 0.8  # of our error: what counts as a smaller one
+ROUNDING = 1e-8  # of the span: errors below it are alike
+
+Record = dict[str, Any]
+
+
+class Results:
+    """Records by tool and kind of task."""
+
+    def __init__(self, data: dict[str, Any]) -> None:
+        self.data = data
+        self.names = [name for name in SHORT if name in data["tools"]]
+        self.tasks = {task["name"]: task for task in data["tasks"]}
+        self.kinds = list(dict.fromkeys(_in_order(task["kind"] for task in data["tasks"])))
+        self.records = {(each["tool"], each["task"]): each for each in data["records"]}
+
+    def of(self, name: str, kind: str | None = None) -> list[Record]:
+        """What a tool made of the tasks of a kind, or of all, that it takes."""
+        out = []
+        for task in self.tasks.values():
+            record = self.records.get((name, task["name"]))
+            if record and record["status"] != "does not apply" and kind in (None, task["kind"]):
+                out.append(record)
+        return out
+
+
+def _in_order(kinds: Any) -> list[str]:
+    there = set(kinds)
+    return [kind for kind in KINDS if kind in there]
+
+
+def table(data: dict[str, Any]) -> str:
+    """A row for each kind of task: solved, median error and median time of every tool."""
+    results = Results(data)
+    lines = [
+        "| tasks | " + " | ".join(SHORT[name] for name in results.names) + " |",
+        "|---|" + "--:|" * len(results.names),
+    ]
+    for kind in results.kinds:
+        cells = [_cell(results.of(name, kind)) for name in results.names]
+        lines.append(f"| {kind} | " + " | ".join(cells) + " |")
+    whole = [results.of(name) for name in results.names]
+    lines.append("| **all that it takes** | " + " | ".join(map(_total, whole)) + " |")
+    firsts = [f"{sum(_first(each) for each in part)} of {len(part)}" for part in whole]
+    lines.append("| **by its first answer** | " + " | ".join(firsts) + " |")
+    known = [_known(part) for part in whole]
+    lines.append("| **known linkages found** | " + " | ".join(known) + " |")
+    return "\n".join(lines)
+
+
+def _solved(record: Record) -> bool:
+    return bool(record.get("solved"))
+
+
+def _first(record: Record) -> bool:
+    return bool(record.get("solved_first"))
+
+
+def _cell(part: list[Record]) -> str:
+    if not part:
+        return "–"
+    return f"**{sum(map(_solved, part))} of {len(part)}**<br>{_error(part)}<br>{_time(part)}"
+
+
+def _total(part: list[Record]) -> str:
+    return f"**{sum(map(_solved, part))} of {len(part)}**<br>{_time(part)}" if part else "–"
+
+
+def _known(part: list[Record]) -> str:
+    there = sum(record.get("known", 0) for record in part)
+    found = sum(record.get("known_found", 0) for record in part)
+    return f"{found} of {there}" if there else "–"
+
+
+def _median_error(part: list[Record]) -> float:
+    errors = [record.get("best_error") for record in part]
+    return median(float("inf") if error is None else error for error in errors)
+
+
+def _error(part: list[Record]) -> str:
+    error = _median_error(part)
+    if error == float("inf"):
+        return "none near"
+    return "exact" if error < ROUNDING else f"{error:.1g}"
+
+
+def _seconds(part: list[Record], limit: float | None = None) -> float:
+    return median(record.get("cpu", limit or float("inf")) for record in part)
+
+
+def _time(part: list[Record]) -> str:
+    seconds = _seconds(part)
+    if seconds == float("inf"):
+        return "out of time"
+    return f"{seconds:.2g} s" if seconds >= 0.01 else "0.01 s or less"
+
+
+def better(data: dict[str, Any]) -> list[str]:
+    """Sentences, one for each way in which another tool is ahead of ours."""
+    results = Results(data)
+    lines = []
+    for name in results.names:
+        if name == OURS:
+            continue
+        title = data["tools"][name]["title"]
+        more = _solves_what_ours_does_not(results, name)
+        if more:
+            lines.append(f"**{title}** solves what burmester does not: {', '.join(more)}.")
+        nearer = []
+        for task in results.tasks.values():
+            theirs, ours = (results.records.get((each, task["name"]), {}) for each in (name, OURS))
+            a, b = theirs.get("best_error"), ours.get("best_error")
+            if ours.get("status") == "does not apply" or a is None or not _solved(theirs):
+                continue
+            if _solved(ours) and b > ROUNDING and a < NEARER * b:
+                nearer.append(f"{task['name']} ({a:.2g} beside {b:.2g})")
+        if nearer:
+            lines.append(f"**{title}** comes nearer, both solving: {', '.join(nearer)}.")
+        quicker = _quicker(results, name)
+        if quicker:
+            lines.append(f"**{title}** is faster in the median: {', '.join(quicker)}.")
+    return lines
+
+
+def _solves_what_ours_does_not(results: Results, name: str) -> list[str]:
+    out = []
+    for task in results.tasks.values():
+        theirs = results.records.get((name, task["name"]), {})
+        ours = results.records.get((OURS, task["name"]), {})
+        if _solved(theirs) and not _solved(ours):
+            takes = ours.get("status") != "does not apply"
+            out.append(task["name"] + ("" if takes else " (which burmester does not take)"))
+    return out
+
+
+def _quicker(results: Results, name: str) -> list[str]:
+    """Kinds in which a tool needs less time than ours on tasks that both solve."""
+    out = []
+    for kind in results.kinds:
+        both = []
+        for task in results.tasks.values():
+            pair = [results.records.get((each, task["name"]), {}) for each in (name, OURS)]
+            if task["kind"] == kind and all(map(_solved, pair)):
+                both.append([record["cpu"] for record in pair])
+        if both:
+            theirs, ours = (median(column) for column in zip(*both, strict=True))
+            if theirs < ours:
+                out.append(f"{kind} ({theirs:.2g} s beside {ours:.2g} s, {len(both)} tasks)")
+    return out
+
+
+def troubles(data: dict[str, Any]) -> list[str]:
+    """What crashed or ran out of time."""
+    lines = []
+    for record in data["records"]:
+        if record["status"] in ("crashed", "out of time"):
+            title = SHORT[record["tool"]]
+            lines.append(f"{title}, {record['task']}: {record['status']} ({record['reason']})")
+    return lines
+
+
+def write(data: dict[str, Any]) -> None:
+    """The page and its pictures."""
+    PAGE.write_text(text(data), encoding="utf-8")
+    pictures(data)
+
+
+def text(data: dict[str, Any]) -> str:
+    """The page: `page.md` with what the results say."""
+    results = Results(data)
+    asked = [
+        f"- **{about['title']}**, {about['package']} {about['version']}: {about['called']}."
+        for about in (data["tools"][name] for name in results.names)
+    ]
+    published = [task for task in data["tasks"] if task["source"] != "generated"]
+    trouble = "\n".join(f"- {line}" for line in troubles(data))
+    return TEMPLATE.substitute(
+        answer=_answer(results),
+        table=table(data),
+        shares=SHARES.name,
+        times=TIMES.name,
+        count=len(data["tasks"]),
+        published_count=len(published),
+        seed=data["seed"],
+        asked="\n".join(asked),
+        sources="\n".join(f"- `{task['name']}`: {task['source']}." for task in published),
+        limit=f"{data['limit']:g}",
+        ahead="\n".join(f"- {line}" for line in better(data)) or "Nowhere in these results.",
+        trouble=f"What crashed or ran out of time:\n\n{trouble}\n" if trouble else "",
+        date=data["date"],
+        **data["machine"],
+    )
+
+
+def _answer(results: Results) -> str:
+    """The outcome in a few sentences, from the figures."""
+    said = {name: results.of(name) for name in results.names}
+    ours = said.pop(OURS)
+    ranked = sorted(said, key=lambda name: -sum(map(_solved, said[name])) / len(said[name]))
+    rest = [f"{SHORT[name]} {_share(said[name])}" for name in ranked]
+    return (
+        f"burmester solves {_share(ours)} tasks that it takes, {_seconds(ours):.2g} s of processor "
+        f"time in the median. The others: {'; '.join(rest)}. They do not all take the same tasks: "
+        "the table tells. Those who write this page write burmester, too; a judge that shares no "
+        "code with any tool says what is solved, and [where other tools are "
+        "better](#where-other-tools-are-better) is listed by the same script."
+    )
+
+
+def _share(part: list[Record]) -> str:
+    return f"{sum(map(_solved, part))} of {len(part)}"
+
+
+def pictures(data: dict[str, Any]) -> None:
+    """The share of tasks solved by kind, and over time."""
+    import matplotlib as mpl
+
+    mpl.use("Agg")
+    import matplotlib.pyplot as plt
+    import numpy as np
+
+    results = Results(data)
+    share = np.full((len(results.kinds), len(results.names)), np.nan)
+    for i, kind in enumerate(results.kinds):
+        for j, name in enumerate(results.names):
+            part = results.of(name, kind)
+            if part:
+                share[i, j] = sum(map(_solved, part)) / len(part)
+    figure, axes = plt.subplots(figsize=(8.2, 5.2), layout="constrained")
+    colours = mpl.colormaps["YlGn"].with_extremes(bad="#eeeeee")
+    axes.imshow(share, cmap=colours, vmin=0, vmax=1.25, aspect="auto")
+    for i, kind in enumerate(results.kinds):
+        for j, name in enumerate(results.names):
+            part = results.of(name, kind)
+            words = f"{sum(map(_solved, part))} of {len(part)}" if part else "–"
+            axes.text(j, i, words, ha="center", va="center", fontsize=9)
+    axes.set_xticks(range(len(results.names)), [SHORT[name] for name in results.names], fontsize=9)
+    axes.set_yticks(range(len(results.kinds)), results.kinds, fontsize=9)
+    axes.xaxis.tick_top()
+    plt.setp(axes.get_xticklabels(), rotation=18, ha="left")
+    axes.tick_params(length=0)
+    axes.spines[:].set_visible(False)
+    _save(figure, SHARES)
+
+    figure, axes = plt.subplots(figsize=(6.2, 3.8), layout="constrained")
+    count = len(results.tasks)
+    for name, style in zip(
+        results.names, ("-", ":", "--", "-.", (0, (5, 1)), (0, (1, 1))), strict=False
+    ):
+        seconds = sorted(record["cpu"] for record in results.of(name) if _solved(record))
+        x = [1e-3, *(max(each, 1e-3) for each in seconds), data["limit"]]
+        y = [0, *range(1, len(seconds) + 1), len(seconds)]
+        wide = 2.4 if name == OURS else 1.6
+        axes.step(
+            x,
+            [100 * each / count for each in y],
+            where="post",
+            linestyle=style,
+            linewidth=wide,
+            label=SHORT[name],
+        )
+    axes.set_xscale("log")
+    axes.set_xlim(5e-3, data["limit"])
+    axes.set_ylim(0, 100)
+    axes.set_xlabel("processor time for a task, s")
+    axes.set_ylabel(f"solved, % of all {count} tasks")
+    axes.grid(alpha=0.3)
+    axes.legend(fontsize=8, loc="upper left")
+    _save(figure, TIMES)
+
+
+def _save(figure: Any, path: Path) -> None:
+    import matplotlib.pyplot as plt
+
+    figure.savefig(path, dpi=130, metadata={"Software": None})
+    plt.close(figure)

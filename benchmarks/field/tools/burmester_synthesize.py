@@ -1,0 +1,60 @@
+"""Ours: `burmester.synthesize`, one call, all options as they come."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from benchmarks.field.linkage import Dyad, FourBar
+from benchmarks.field.task import FieldTask
+
+TITLE = "burmester"
+PACKAGE = "burmester"
+CALLED = (
+    "`burmester.synthesize(task, length_per_radian=...)`, with ground pivots as `Limits` where the "
+    "task has some; the linkages of the result in their order"
+)
+
+
+def refuses(task: FieldTask) -> str | None:
+    return "it takes no points without angles" if task.is_path else None
+
+
+def solve(task: FieldTask, seconds: float) -> list[FourBar]:
+    import burmester
+
+    poses = burmester.Displacement.from_poses(task.rows)
+    given = burmester.Task(poses, limits=_limits(task))
+    # A time limit is one of the clock; this one ends searches only, and the limit here is CPU time.
+    result = burmester.synthesize(given, length_per_radian=task.disc, time_limit=0.9 * seconds)
+    found = [_four_bar(each.driver_first) for each in result]
+    return [four_bar for four_bar in found if four_bar is not None]
+
+
+def _limits(task: FieldTask) -> tuple[Any, ...]:
+    import burmester
+
+    if task.pivots is None:
+        return ()
+    a, b = ((place.real, place.imag) for place in task.pivots.places)
+    if task.pivots.kind == "box":
+        return (burmester.Limits(fixed_pivot=burmester.box(a, b)),)
+    if task.pivots.kind == "line":
+        return (burmester.Limits(fixed_pivot=burmester.Line(a, b)),)
+    return tuple(burmester.Limits(fixed_pivot=burmester.Point(place)) for place in (a, b))
+
+
+def _four_bar(linkage: Any) -> FourBar | None:
+    dyads = [plain(dyad) for dyad in (linkage.first, linkage.second)]
+    return FourBar(dyads[0], dyads[1]) if dyads[0] and dyads[1] else None
+
+
+def plain(dyad: Any) -> Dyad | None:
+    """A dyad of the package in plain numbers; none for two sliders, which no tracer drives."""
+    kind = type(dyad).__name__
+    if kind == "PP":
+        return None
+    fixed = complex(*getattr(dyad, "fixed_pivot", (0, 0)))
+    moving = complex(*getattr(dyad, "moving_pivot", (0, 0)))
+    if kind == "RR":
+        return Dyad("RR", fixed, moving, float(dyad.radius))
+    return Dyad(kind, fixed, moving, float(dyad.offset), float(dyad.normal_angle))  # type: ignore[arg-type]
