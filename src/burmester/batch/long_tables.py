@@ -17,6 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from burmester.batch.parts import Part, TableTasks
+from burmester.batch.task_names import TaskNames
 from burmester.errors import InputError
 from burmester.io.reading.pose_table import MARKS, shown
 from burmester.io.reading.trees.locations import close_match
@@ -48,6 +49,7 @@ def is_parquet_file(path: str) -> bool:
 def table_parts(path: str, size: int) -> Iterator[Part]:
     """The parts of a table, each of `size` tasks but for the last."""
     label, number, row = printable(path), 0, 0
+    names = TaskNames(lambda before: _names_before(path, label, before))
     held: list[dict[str, Any]] = []
     begun = 0  # tasks in what is held, at most: one may go on in the next piece
     for piece in _pieces(path, label):
@@ -60,14 +62,24 @@ def table_parts(path: str, size: int) -> Iterator[Part]:
         whole = (len(starts) - 1) // size * size
         for first in range(0, whole, size):
             one = _cut(columns, starts[first], starts[first + size])
-            yield Part(number, _tasks(one, label, row), piece.share)
+            yield Part(number, _tasks(one, label, row, names), piece.share)
             number, row = number + 1, row + len(one["task"])
         held, begun = [_cut(columns, starts[whole], None)], len(starts) - whole
     columns = _joined(held)
     if columns and len(columns["task"]):
-        yield Part(number, _tasks(columns, label, row), 1.0)
+        yield Part(number, _tasks(columns, label, row, names), 1.0)
     elif number == 0:
         raise InputError("E102", "there are no tasks: the table has no rows", where=label)
+
+
+def _names_before(path: str, label: str, row: int) -> Iterator[Any]:
+    """The column `task` up to a row."""
+    for piece in _pieces(path, label):
+        names = piece.columns["task"]
+        yield names[:row]
+        row -= len(names)
+        if row <= 0:
+            return
 
 
 def _pieces(path: str, label: str) -> Iterator[_Piece]:
@@ -227,8 +239,11 @@ def _cut(columns: dict[str, Any], first: int, end: int | None) -> dict[str, Any]
     return {name: column[first:end] for name, column in columns.items()}
 
 
-def _tasks(columns: dict[str, Any], label: str, row: int) -> TableTasks:
-    """The tasks in rows that hold whole ones; row: of the table, where they begin."""
+def _tasks(columns: dict[str, Any], label: str, row: int, before: TaskNames) -> TableTasks:
+    """The tasks in rows that hold whole ones; row: of the table, where they begin.
+
+    before: the names of the tasks above; raises E108 where a task is there already.
+    """
     from pyarrow import types  # noqa: PLC0415
 
     names = columns["task"]
@@ -238,11 +253,10 @@ def _tasks(columns: dict[str, Any], label: str, row: int) -> TableTasks:
         seen: set[Any] = set()
         for start, name in zip(starts, first.to_pylist(), strict=True):
             if name in seen:
-                message = f"the rows of task {shown(str(name))} do not stand together"
-                help = "sort the table by its column task"
-                where = f"{label}, row {row + start + 1}"
-                raise InputError("E108", message, where=where, help=help)
+                raise _apart(name, label, row + start)
             seen.add(name)
+    if (again := before.repeated(first, row)) is not None:
+        raise _apart(again, label, row + starts[first.to_pylist().index(again)])
     angle = "angle_deg" if "angle_deg" in columns else "angle_rad"
     return TableTasks(
         first.to_numpy() if types.is_int64(first.type) else tuple(first.to_pylist()),
@@ -253,3 +267,9 @@ def _tasks(columns: dict[str, Any], label: str, row: int) -> TableTasks:
         angle == "angle_deg",
         label,
     )
+
+
+def _apart(name: Any, label: str, row: int) -> InputError:
+    message = f"the rows of task {shown(str(name))} do not stand together"
+    help = "sort the table by its column task"
+    return InputError("E108", message, where=f"{label}, row {row + 1}", help=help)
