@@ -108,7 +108,8 @@ def circle_minima(
             failed &= stuck
         size = 1 + np.abs(there.z).max(axis=-1)
         moved = np.abs(there.z - here.z).max(axis=-1)
-        settled = convex & ((moved < SETTLED_STEP * size) | (before < (ROUNDING * size) ** 2))
+        settled = (moved < SETTLED_STEP * size) | (before < (ROUNDING * size) ** 2)
+        settled &= convex & (size <= longest)
         ended = settled | (failed & ~convex) | (size > longest)
         return there._replace(settled=settled), ended
 

@@ -311,9 +311,9 @@ def steps_down(
             z[k, i] += share * circle.step[i]
             size = max(size, 1 + fabs(z[k, i]))
             moved = max(moved, fabs(z[k, i] - circle.z[i]))
-        rest: cython.bint = circle.convex and (
-            moved < SETTLED_STEP * size or cost[k] < ROUNDING * size * (ROUNDING * size)
-        )
-        settled[k] = rest
-        ended[k] = rest or (stuck and not circle.convex) or size > longest[task[k]]
+        left: cython.bint = size > longest[task[k]]
+        rest: cython.bint = moved < SETTLED_STEP * size
+        rest = rest or cost[k] < ROUNDING * size * (ROUNDING * size)
+        settled[k] = rest and circle.convex and not left
+        ended[k] = settled[k] or (stuck and not circle.convex) or left
         cost[k] = after

@@ -19,6 +19,7 @@ from burmester.wording import figure, listed
 
 __all__ = ["in_words_of_tolerances", "most_used", "percent", "share_texts"]
 
+SHARE_DIGITS = 6  # decimals by which shares are compared: of equal ones the first is named
 MAX_NAMED = 3  # number of poses that a reason names; more are counted
 
 
@@ -38,6 +39,7 @@ def in_words_of_tolerances(verdict: Verdict, shares: FloatArray, names: Sequence
 
 def _too_far(defect: Defect, shares: FloatArray, names: Sequence[str]) -> str:
     """Which tolerances are exceeded, the most exceeded one by how much."""
+    shares = np.round(shares, SHARE_DIGITS)
     poses = sorted(defect.poses, key=lambda pose: -shares[pose].max())
     worst, component = poses[0], int(shares[poses[0]].argmax())
     text = f"outside the tolerance of pose {names[worst]} ({COMPONENTS[component]} is off by "
@@ -53,7 +55,8 @@ def most_used(found: FoundLinkage, task: Task) -> str:
     """How much of the tolerances a linkage uses: "at most 83 % (x at pose 3)"."""
     assert found.within_tolerance is not None
     shares = np.where(_exact(task), 0.0, found.within_tolerance)
-    pose, component = np.unravel_index(int(shares.argmax()), shares.shape)
+    most = int(np.round(shares, SHARE_DIGITS).argmax())
+    pose, component = np.unravel_index(most, shares.shape)
     label = pose_labels(task, [int(pose)])[0]
     return f"at most {percent(float(shares.max()))} ({COMPONENTS[component]} at pose {label})"
 

@@ -42,8 +42,6 @@ def concatenate(bundles: Sequence[Bundle]) -> Bundle:
 
 def where(mask: NDArray[np.bool_], chosen: Bundle, other: Bundle) -> Bundle:
     """The rows of `chosen` where a mask (k,) is true, else those of `other`."""
-    if mask.all():
-        return chosen
 
     def merged(one: Any, two: Any) -> Any:
         return np.where(mask.reshape(-1, *[1] * (two.ndim - 1)), one, two)
