@@ -11,7 +11,7 @@ import multiprocessing
 import os
 import signal
 from collections.abc import Callable, Iterator
-from concurrent.futures import Future, ProcessPoolExecutor
+from concurrent.futures import CancelledError, Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager, suppress
 from typing import Any, Protocol, final
@@ -152,13 +152,28 @@ class Cluster:
     @property
     def size(self) -> int:
         """The threads of all workers that are there now."""
-        threads: int = sum(self._client.nthreads().values())
+        with self._there():
+            threads: int = sum(self._client.nthreads().values())
         return max(1, threads)
 
     def submit(self, work: Callable[..., Any], *arguments: Any) -> Future[Any]:
         """Begin a call on one of the workers."""
-        future: Future[Any] = self._executor.submit(work, *arguments)
+        with self._there():
+            future: Future[Any] = self._executor.submit(work, *arguments)
         return future
+
+    @contextmanager
+    def _there(self) -> Iterator[None]:
+        """A block that asks the scheduler; raises E182 where it does not answer any more."""
+        try:
+            yield
+        except (OSError, RuntimeError, CancelledError) as error:
+            raise InputError(
+                "E182",
+                f"the cluster at {self._address} does not answer any more",
+                why=str(error).partition("\n")[0][:200] or type(error).__name__,
+                help="start it again, and run the batch again: it goes on",
+            ) from None
 
     def renew(self) -> None:
         """The cluster sees to its workers."""
