@@ -22,6 +22,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--tools", nargs="+", choices=NAMES, default=list(NAMES))
     parser.add_argument("--tasks", nargs="+", metavar="NAME", help="tasks of these names only")
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--count", type=int, default=2, help="generated tasks of each kind")
     parser.add_argument("--limit", type=float, help="seconds of processor time, 15 if not given")
     parser.add_argument("--out", type=Path, help="results.json beside this module if not given")
     parser.add_argument("--page", action="store_true", help="only make the page from the results")
@@ -34,7 +35,7 @@ def main(arguments: list[str] | None = None) -> int:
     names = [name for name in given.tools if version(tool(name).PACKAGE) is not None]
     for name in sorted(set(given.tools) - set(names)):
         print(f"{tool(name).PACKAGE} is not installed: {name} is left out", file=sys.stderr)
-    every = tasks(given.seed, one_of_each=given.quick)
+    every = tasks(given.seed, given.count, one_of_each=given.quick)
     if given.tasks:
         every = [task for task in every if task.name in given.tasks]
     limit = given.limit or (QUICK if given.quick else LIMIT)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from pathlib import Path
 from statistics import median
 from string import Template
@@ -147,14 +148,23 @@ def better(data: dict[str, Any]) -> list[str]:
 
 
 def _solves_what_ours_does_not(results: Results, name: str) -> list[str]:
-    out = []
+    """Tasks by name, and how many of the kinds that ours does not take."""
+    out, not_taken = [], Counter[str]()
     for task in results.tasks.values():
         theirs = results.records.get((name, task["name"]), {})
         ours = results.records.get((OURS, task["name"]), {})
         if _solved(theirs) and not _solved(ours):
-            takes = ours.get("status") != "does not apply"
-            out.append(task["name"] + ("" if takes else " (which burmester does not take)"))
+            if ours.get("status") == "does not apply":
+                not_taken[task["kind"]] += 1
+            else:
+                out.append(task["name"])
+    for kind, count in not_taken.items():
+        out.append(f"{_tasks(count)} of “{kind}”, which burmester does not take")
     return out
+
+
+def _tasks(count: int) -> str:
+    return f"{count} task{'' if count == 1 else 's'}"
 
 
 def _quicker(results: Results, name: str) -> list[str]:
@@ -169,7 +179,7 @@ def _quicker(results: Results, name: str) -> list[str]:
         if both:
             theirs, ours = (median(column) for column in zip(*both, strict=True))
             if theirs < ours:
-                out.append(f"{kind} ({theirs:.2g} s beside {ours:.2g} s, {len(both)} tasks)")
+                out.append(f"{kind} ({theirs:.2g} s beside {ours:.2g} s, {_tasks(len(both))})")
     return out
 
 
@@ -257,7 +267,8 @@ def pictures(data: dict[str, Any]) -> None:
         for j, name in enumerate(results.names):
             part = results.of(name, kind)
             words = f"{sum(map(_solved, part))} of {len(part)}" if part else "–"
-            axes.text(j, i, words, ha="center", va="center", fontsize=9)
+            colour = "white" if share[i, j] > 0.6 else "black"
+            axes.text(j, i, words, ha="center", va="center", fontsize=9, color=colour)
     axes.set_xticks(range(len(results.names)), [SHORT[name] for name in results.names], fontsize=9)
     axes.set_yticks(range(len(results.kinds)), results.kinds, fontsize=9)
     axes.xaxis.tick_top()

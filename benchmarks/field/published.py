@@ -21,7 +21,7 @@ SHELF = {
     "ge2012-exact": (kinds.MANY, EXACT),
     "ge2012-approximate": (kinds.SMOOTH, NO_LINKAGE),
     "motiongen-shoulder": (kinds.FIVE, EXACT),
-    "motiongen-mixed5": (kinds.DEFECTS, 3e-2),
+    "motiongen-mixed5": (kinds.DEFECTS, NO_LINKAGE),
     "motiongen-four-line": (kinds.BOX, EXACT),
     "motiongen-three-pivots": (kinds.GIVEN, EXACT),
     "motiongen-prpr": (kinds.SLIDERS, EXACT),

@@ -30,14 +30,14 @@ LAST_WORDS = 300  # characters of the last line of a tool that crashed
 ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
-def tasks(seed: int, *, one_of_each: bool = False) -> list[FieldTask]:
-    """Published tasks, then generated ones; or the first of every kind."""
+def tasks(seed: int, count: int, *, one_of_each: bool = False) -> list[FieldTask]:
+    """Published tasks, then so many generated ones of every kind; or the first of every kind."""
     if not one_of_each:
-        return [*published(), *generated(seed)]
+        return [*published(), *generated(seed, count)]
     first: dict[str, FieldTask] = {}
     for task in published():
         first.setdefault(task.kind, task)
-    more = [make(seed, 0) for kind, (make, _) in MAKERS.items() if kind not in first]
+    more = [make(seed, 0) for kind, make in MAKERS.items() if kind not in first]
     return [*first.values(), *more]
 
 

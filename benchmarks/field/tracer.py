@@ -263,6 +263,3 @@ def _ascending(errors: np.ndarray) -> float:
     for row in errors[1:]:
         best = np.maximum(np.minimum.accumulate(best), row)
     return float(best.min())
-
-
-__all__ = ["Branch", "Trace", "branches", "held", "missed", "trace"]

@@ -179,12 +179,13 @@ def test_what_crashes_or_takes_too_long_is_recorded(shelf):
     assert "E103" in crash["reason"]
 
 
-def record(tool, task, **more):
-    return {"tool": tool, "task": task, "status": "answered", **more}
+def record(tool, task, status="answered", **more):
+    return {"tool": tool, "task": task, "status": status, **more}
 
 
 def test_where_another_tool_is_better_the_page_says_so():
-    kinds = {"a": "noisy poses", "b": "noisy poses", "c": "sliders"}
+    path = "paths: points without angles"
+    kinds = {"a": "noisy poses", "b": "noisy poses", "c": "sliders", "d": path}
     about = {name: {"title": name.title()} for name in (page.OURS, "scipy_starts", "pencil")}
     tasks = [{"name": name, "kind": kind} for name, kind in kinds.items()]
     won = {"solved": True, "best_error": 1e-3, "cpu": 1.0}
@@ -195,12 +196,16 @@ def test_where_another_tool_is_better_the_page_says_so():
         record("scipy_starts", "a", **won | {"best_error": 5e-4, "cpu": 3.0}),
         record("scipy_starts", "b", **won | {"best_error": 2e-3, "cpu": 3.0}),
         record("scipy_starts", "c", **won),
+        record(page.OURS, "d", status="does not apply"),
+        record("pencil", "d", **won),
         record("pencil", "a", **won | {"cpu": 0.1}),
         record("pencil", "b", **won | {"solved": False, "cpu": 0.1, "best_error": 1e-9}),
     ]
     lines = page.better({"tools": about, "tasks": tasks, "records": records})
     assert lines == [
-        "**Pencil** is faster in the median: noisy poses (0.1 s beside 1 s, 1 tasks).",
+        f"**Pencil** solves what burmester does not: 1 task of “{path}”, which burmester does not "
+        "take.",
+        "**Pencil** is faster in the median: noisy poses (0.1 s beside 1 s, 1 task).",
         "**Scipy_Starts** solves what burmester does not: c.",
         "**Scipy_Starts** comes nearer, both solving: a (0.0005 beside 0.001).",
     ]
