@@ -22,7 +22,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--tools", nargs="+", choices=NAMES, default=list(NAMES))
     parser.add_argument("--tasks", nargs="+", metavar="NAME", help="tasks of these names only")
     parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--count", type=int, default=2, help="generated tasks of each kind")
+    parser.add_argument("--count", type=int, default=3, help="generated tasks of each kind")
     parser.add_argument("--limit", type=float, help="seconds of processor time, 15 if not given")
     parser.add_argument("--out", type=Path, help="results.json beside this module if not given")
     parser.add_argument("--page", action="store_true", help="only make the page from the results")

@@ -16,7 +16,7 @@ from benchmarks.field.linkage import Dyad, FourBar
 from benchmarks.field.task import EXACT, NO_LINKAGE, FieldTask, Pivots
 
 CASES = Path(__file__).parents[2] / "src" / "burmester" / "cases"
-PATHS = Path(__file__).with_name("published.json")
+PAPERS = Path(__file__).with_name("published.json")
 SHELF = {
     "ge2012-exact": (kinds.MANY, EXACT),
     "ge2012-approximate": (kinds.SMOOTH, NO_LINKAGE),
@@ -33,11 +33,13 @@ SHELF = {
 def published() -> Iterator[FieldTask]:
     for name, (kind, tolerance) in SHELF.items():
         yield _of_case(json.loads((CASES / f"{name}.json").read_text()), kind, tolerance)
-    for data in json.loads(PATHS.read_text()):
+    for data in json.loads(PAPERS.read_text()):
         pivots = _pivots(data["pivots"]) if "pivots" in data else None
-        points = np.array(data["points"], dtype=float)
-        names = (data["name"], kinds.PATH, data["source"])
-        yield FieldTask(*names, points, data["tolerance"], pivots)
+        rows = np.array(data["rows"], dtype=float)
+        if rows.shape[1] == 3:  # poses, their angles in degrees
+            rows[:, 2] = np.unwrap(np.radians(rows[:, 2]))
+        names = (data["name"], data["kind"], data["source"])
+        yield FieldTask(*names, rows, data["tolerance"], pivots)
 
 
 def _pivots(data: dict[str, Any]) -> Pivots:
