@@ -91,6 +91,25 @@ def test_a_dead_point_between_poses_is_told():
     assert over.one_branch > 0.1
 
 
+# The crank, 2, swings on either side of the ground, 3, and passes it on neither: two circuits.
+SWINGING = FourBar(Dyad("RR", 0j, 0j, 2.0), Dyad("RR", 3 + 0j, 2.6 + 0j, 1.4))
+
+
+def swung(angles):
+    """By the law of cosines, the coupler always to the left of the way to the other ground pin."""
+    d = 2 * np.exp(1j * np.array(angles))
+    length = abs(3 - d)
+    corner = np.arccos((length**2 + 2.6**2 - 1.4**2) / (2 * length * 2.6))
+    return task_of(d, np.angle(3 - d) + corner)
+
+
+def test_poses_on_two_circuits_are_told():
+    assert trace(SWINGING, swung([0.8, 1.1, 1.4])).in_order < NEAR
+    both = trace(SWINGING, swung([-0.8, 0.8, 1.1]))
+    assert both.anywhere < NEAR
+    assert both.one_branch > 0.1
+
+
 def test_an_error_is_that_of_the_worst_pose():
     task = through_pin([0.2, 1.0, 2.5, 4.0])
     for column, weight in ((0, 1.0), (2, DISC * task.span)):
