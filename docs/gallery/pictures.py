@@ -7,25 +7,26 @@ The page's own cells say which one that is.  Run it from the project's root:
 
 import os
 import re
+import runpy
 import shutil
 import tempfile
 from pathlib import Path
 
 from burmester.web.still import still
 
-HERE = Path(__file__).parent
+HERE = Path(__file__).resolve().parent
 TEMPLATES = HERE.parents[1] / "src" / "burmester" / "templates"
 CELL = re.compile(r"(?ms)^```\{code-cell\}[^\n]*\n(.*?)^```$")
 
 
 def chosen(page):
     """What the cells of a page call `chosen`; films and drawings are left out."""
-    names = {}
-    for cell in CELL.findall(page.read_text(encoding="utf-8")):
-        if "animate" in cell:
-            return names["chosen"]
-        exec(cell, names)
-    raise ValueError(f"{page.name} chooses nothing")
+    script = Path(f"{page.stem}.py")
+    cells = CELL.findall(page.read_text(encoding="utf-8"))
+    script.write_text(
+        "".join(each for each in cells if not re.search(r"\.(animate|export)\(", each))
+    )
+    return runpy.run_path(str(script))["chosen"]
 
 
 def main():

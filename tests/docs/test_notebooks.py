@@ -7,14 +7,14 @@ Figures, films and drawings have tests of their own: here only that they are ask
 The files beside a notebook are those of `burmester new`, the examples, and its own.
 """
 
-import ast
 import re
+import runpy
 import shutil
 from pathlib import Path
 
 import pytest
 
-from burmester.api.linkage import _Handover
+import burmester
 from tests.oracles.markdown import Document
 
 ROOT = Path(__file__).parents[2]
@@ -47,8 +47,8 @@ def beside(tmp_path, monkeypatch):
         self.saved()
         return Path(path)
 
-    monkeypatch.setattr(_Handover, "export", export)
-    monkeypatch.setattr(_Handover, "animate", lambda self, **how: self.saved())
+    monkeypatch.setattr(burmester.ResultLinkage, "export", export)
+    monkeypatch.setattr(burmester.ResultLinkage, "animate", lambda self, **how: self.saved())
     return tmp_path
 
 
@@ -57,10 +57,13 @@ def beside(tmp_path, monkeypatch):
 def test_every_cell_runs(page, beside):
     pyplot = pytest.importorskip("matplotlib.pyplot")
     pyplot.switch_backend("agg")
-    names: dict[str, object] = {"__name__": "__main__"}
-    for text, line in cells(page):
-        tree = ast.increment_lineno(ast.parse(text), line - 1)
-        exec(compile(tree, str(page), "exec"), names)
+    lines = [""] * len(page.read_text(encoding="utf-8").splitlines())
+    for text, line in cells(page):  # where they stand on the page, so that a fault names its line
+        code = text.splitlines()
+        lines[line - 1 : line - 1 + len(code)] = code
+    script = beside / f"{page.stem}.py"
+    script.write_text("\n".join(lines), encoding="utf-8")
+    runpy.run_path(str(script))
     pyplot.close("all")
 
 
