@@ -25,6 +25,7 @@ BESIDE = {  # files outside docs/ that are pages, or files, of the site
 }
 NOT_COPIED = ("building", "__pycache__", "*.py", "README.md", "*.ipynb")
 CODE = re.compile(r"\(([EWR]\d{3})\)")  # of a message, which has its place on the page of messages
+DOWNLOAD = re.compile(r"\{download\}`([^`<]+?)(?: <[^>]+>)?`")
 LINK = re.compile(r"(\]\(|(?:src|srcset|href)=\")([^)\s\"#]+)(#[^)\s\"]*)?(?=[)\"])")
 
 
@@ -96,4 +97,10 @@ def write_notebook(page: Path):
     """The page as a notebook that Jupyter opens, beside it: not run, without pictures."""
     text = page.read_text(encoding="utf-8")
     notebook = read_myst_markdown_notebook(text, add_source_map=False)
+    for cell in notebook.cells:
+        if cell.cell_type == "markdown":
+            plain = cell.source.replace(
+                f"{{download}}`This page as a notebook <{page.stem}.ipynb>`.", ""
+            )
+            cell.source = DOWNLOAD.sub(r"`\1`", plain).rstrip()
     nbformat.write(notebook, page.with_suffix(".ipynb"))
