@@ -18,18 +18,19 @@ def main(folder: Path) -> int:
     began = time.monotonic()
     os.environ.update(OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1", PYTHONHASHSEED="0")
     laid_out = folder.parent / f"{folder.name}-sources"
-    for each in (folder, laid_out):
+    doctrees = folder.parent / f"{folder.name}-doctrees"
+    for each in (folder, laid_out, doctrees):
         shutil.rmtree(each, ignore_errors=True)
     sources.lay_out(ROOT, laid_out)
     if code := sphinx(
         ["-b", "html", "-W", "--keep-going", "-q", "-j", "2", "-c", str(ROOT / "docs"),
-         "-d", str(folder.parent / "docs-doctrees"), str(laid_out), str(folder)]
+         "-d", str(doctrees), str(laid_out), str(folder)]
     ):  # fmt: skip
         return code
     for each in REMAINS:
         path = folder / each
         shutil.rmtree(path) if path.is_dir() else path.unlink(missing_ok=True)
-    wrong = checks.troubles(folder)
+    wrong = checks.troubles(folder) + checks.formulas_without_links(folder)
     for each in wrong:
         print(f"docs: {each}", file=sys.stderr)
     pages = sum(1 for _ in folder.rglob("*.html"))

@@ -4,10 +4,14 @@ Links lead somewhere, nothing is loaded from elsewhere, and all of it is small.
 """
 
 import re
+from functools import cache
 from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote
 
+from docs.building import formulas
+
+ROOT = Path(__file__).resolve().parents[2]
 MOST_MEGABYTES = 40
 LOADED = {
     "img": "src",
@@ -65,6 +69,26 @@ def troubles(folder: Path):
     if (size := megabytes(folder)) > MOST_MEGABYTES:
         told.append(f"{size:.1f} MB are more than {MOST_MEGABYTES}")
     return sorted(set(told))
+
+
+def formulas_without_links(folder: Path):
+    """Formulas that lead to no function, functions that lead back to no formula, a line each."""
+    theory = ROOT.joinpath("docs", "mathematics.md").read_text("utf-8")
+    told = []
+    for formula, function in sorted(formulas.on_page(theory)):
+        there, back = f"#{formulas.on_site(function)}", f"mathematics.html#formula-{formula}"
+        to = [link for link in links_of(folder / "mathematics.html") if link.endswith(there)]
+        if not to:
+            told.append(f"mathematics.html: {formula} does not lead to {function}")
+        elif not any(link.endswith(back) for link in links_of(folder / to[0].partition("#")[0])):
+            told.append(f"{to[0]} does not lead back to the formula {formula}")
+    return told
+
+
+@cache
+def links_of(page: Path):
+    """The links of a page."""
+    return Page(page.read_text("utf-8")).links
 
 
 def megabytes(folder: Path):

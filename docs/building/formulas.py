@@ -60,13 +60,9 @@ def owner(function):
 
 def on_site(function):
     """The full name under which the reference describes it: the short one where there is one."""
-    module, _, rest = function.rpartition(".")
-    top, _, attribute = rest, "", ""
-    if module.rpartition(".")[2][:1].isupper():  # a method: room.module.Class.method
-        module, _, top = module.rpartition(".")
-        attribute = f".{rest}"
-    if burmester._ROOMS.get(top) == module:
-        return f"burmester.{top}{attribute}"
+    room, module, top, *attribute = function.split(".")
+    if top in burmester.__all__ and getattr(burmester, top) is owner(f"{room}.{module}.{top}"):
+        return ".".join(["burmester", top, *attribute])
     return f"burmester.{function}"
 
 
@@ -130,6 +126,3 @@ def setup(app):
     """Sphinx calls this."""
     app.connect("autodoc-process-docstring", link_docstring, priority=400)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}
-
-
-__all__ = ["functions_apart", "in_docstrings", "linked", "on_page", "on_site", "owner"]

@@ -1,9 +1,12 @@
 """Each formula of the theory names the functions that compute it, and their docstrings name it."""
 
+import re
 from pathlib import Path
 
 import pytest
 from docs.building import formulas
+
+import burmester
 
 ROOT = Path(__file__).parents[2]
 THEORY = ROOT / "docs" / "mathematics.md"
@@ -48,3 +51,10 @@ def test_links_of_the_site_take_the_short_name_where_there_is_one():
     assert formulas.on_site("dyads.local_minima.best_dyads") == "burmester.best_dyads"
     assert formulas.on_site("dyads.pencil.fit_pencil") == "burmester.dyads.pencil.fit_pencil"
     assert formulas.on_site("dyads.pencil.Pencil.at") == "burmester.dyads.pencil.Pencil.at"
+
+
+def test_the_page_of_the_api_has_every_public_name():
+    page = (ROOT / "docs" / "reference" / "api.md").read_text(encoding="utf-8")
+    described = set(re.findall(r"(?m)^\.\. auto\w+:: burmester\.(\w+)$", page))
+    assert set(burmester.__all__) - described == {"__version__"}
+    assert {name for name in described if not hasattr(burmester, name)} == set()
