@@ -254,11 +254,12 @@ def test_a_search_that_ends_while_a_hand_goes_on_leaves_the_task_to_the_hand(wid
 
 @pytest.mark.parametrize("hears", [True, False], ids=["at once", "too late"])
 def test_a_newer_search_calls_off_the_one_before(widget, hears):
-    page, seen, found = Page(widget), changes(widget), []
+    page, seen, begun, found = Page(widget), changes(widget), [], []
     page.ask("solve", document=page.document)
     last, solved = page.moved(0.02), widget.solved
 
     def kept(task, progress):
+        begun.append(task)
         found.append(solved(task, progress=progress if hears else None))
         return found[-1]
 
@@ -266,6 +267,8 @@ def test_a_newer_search_calls_off_the_one_before(widget, hears):
 
     async def two():
         first = page.ask("solve", document=page.moved(0.01))
+        while not (hears or begun):
+            await asyncio.sleep(0.001)
         followed = page.ask("follow", document=last, shown=[])
         second = page.ask("solve", document=last)
         while widget._pages._under_way:

@@ -4,7 +4,7 @@ A page is one view of the widget; there may be none, or several.  Messages are o
 what a page wants, `kind` what it is told, `n` the page's number of the message that is answered,
 `view` the page.
 
-    open                         document and id of the selected linkage: "opened"
+    open                         the document: "opened"
     follow  document, shown      a frame: "followed"; of several that wait only the newest counts
     solve   document             "progress" and "solved", which a newer one calls off
     cancel
@@ -33,7 +33,6 @@ from burmester.errors import InputError
 from burmester.live.answers import LiveAnswers
 from burmester.live.document import TaskReader
 from burmester.live.fault import fault_data
-from burmester.numerics.linear_algebra import one_thread
 from burmester.progress import Progress
 from burmester.tasks.motion_task import Task
 from burmester.web.data import report_data
@@ -45,6 +44,11 @@ __all__ = ["Pages"]
 
 PROGRESS_S: Final = 0.1  # between two words of progress
 NOT_DRAWN: Final = ("pivot_map", "family_map")  # parts of a report that a widget has no room for
+
+
+# One search after the other: what is called off ends at its next step, and two at once that keep
+# BLAS to one thread would leave it so.
+_one_road = threading.Lock()
 
 
 class _CalledOffError(Exception):
@@ -146,8 +150,9 @@ class Pages:
         """Answer the newest follow of each page, until there are none."""
         while self._waiting:
             await asyncio.sleep(0)  # what waits is heard before: it may be newer
-            for view in [*self._waiting][:1]:
-                self._follow(self._waiting.pop(view))
+            if self._waiting:
+                _, newest = self._waiting.popitem()
+                self._follow(newest)
 
     def _follow(self, message: dict[str, Any]) -> None:
         view, n, document = message["view"], message["n"], message["document"]
@@ -191,13 +196,15 @@ class Pages:
         search.say = lambda text: loop.call_soon_threadsafe(self._progress, view, n, text)
 
         def road(task: Task) -> tuple[Result, dict[str, Any]]:
-            result = self._studio.solved(task, progress=search.listen)
-            return result, _report_of(result)
+            with _one_road:
+                if not search.is_wanted:
+                    raise _CalledOffError
+                result = self._studio.solved(task, progress=search.listen)
+                return result, _report_of(result)
 
         try:
             task = self._reader.task_of(document)
-            with one_thread():  # held here, as holds of two threads would undo each other
-                result, report = await asyncio.to_thread(road, task)
+            result, report = await asyncio.to_thread(road, task)
         except Exception as error:
             if search.is_wanted:
                 self._search = None

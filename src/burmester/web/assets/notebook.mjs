@@ -784,7 +784,10 @@ join("; "):`${drive.turns_fully?"turns fully":"reaches every pose"}${least2===nu
 this.note,`Driven by ${driver.id}: ${said}.`)}dress(){this.driversKey=null}hush(){const quiet=this.store.state==="dragging"||this.player.playing;put(this.player.
 readout,"aria-live",quiet?"off":"polite")}};function playOnce(store,answers,{player}){if(matchMedia(REDUCED_MOTION).matches)return;let first=true;answers.on("an\
 swers",()=>{if(first&&player.path){first=false;player.playOnce()}});store.on("document selection",()=>{first=false;if(player.remaining!==null)player.play(false)})}function withKeys(object,changes){const copy={...object,...changes};for(const[key,value]of Object.entries(changes))if(value===void 0)delete copy[key];return copy}
-var replaced=(list,index,value)=>list.map((each,k)=>k===index?value:each);var without=(list,index)=>list.filter((_,k)=>k!==index);var setPose=(document2,index,changes)=>withKeys(document2,{poses:replaced(document2.poses,index,withKeys(document2.poses[index],changes))});var removePose=(document2,index)=>withKeys(document2,{poses:without(document2.poses,index)});function component(poses,index,key){if(Number.isFinite(poses[index][key]))return poses[index][key];const before=poses.slice(0,index).findLastIndex(pose=>Number.
+var replaced=(list,index,value)=>list.map((each,k)=>k===index?value:each);var without=(list,index)=>list.filter((_,k)=>k!==index);var inserted=(list,index,value)=>[
+...list.slice(0,index),value,...list.slice(index)];var setPose=(document2,index,changes)=>withKeys(document2,{poses:replaced(document2.poses,index,withKeys(document2.poses[index],changes))});var addPose=(document2,pose,index=document2.
+poses.length)=>withKeys(document2,{poses:inserted(document2.poses,index,pose)});var removePose=(document2,index)=>withKeys(document2,{poses:without(document2.poses,
+index)});function component(poses,index,key){if(Number.isFinite(poses[index][key]))return poses[index][key];const before=poses.slice(0,index).findLastIndex(pose=>Number.
 isFinite(pose[key]));const behind=poses.slice(index+1).findIndex(pose=>Number.isFinite(pose[key]))+index+1;const[a,b]=[poses[before]?.[key],behind>index?poses[behind][key]:
 void 0];if(a===void 0||b===void 0)return a??b??0;return a+(index-before)/(behind-before)*(b-a)}function standing({poses},index){const{x,y,angle}=poses[index];if(Number.
 isFinite(x)&&Number.isFinite(y)&&Number.isFinite(angle))return{x,y,angle};return{x:component(poses,index,"x"),y:component(poses,index,"y"),angle:component(poses,
@@ -882,7 +885,14 @@ ctrlKey||event.metaKey)return;if(arrow2){if(!event.repeat)this.keyed=Symbol("key
 step);if(turning)this.set(k,{angle:stepped(angle,by*(arrow2[0]===0?arrow2[1]:-arrow2[0]))},this.keyed);else this.set(k,{x:stepped(x,by*arrow2[0]),y:stepped(y,by*
 arrow2[1])},this.keyed)}else if(event.key==="Delete"||event.key==="Backspace"){store.edit(document2=>removePose(document2,k));const left=store.document.poses.length;
 store.select(left?{kind:"pose",index:Math.min(k,left-1)}:null);this.focus(Math.min(k,left-1))}else{return}event.preventDefault()}focus(k){this.element.querySelector(
-`[data-pose="${k+1}"]`)?.focus({preventScroll:true})}};var ORDERS={rank:{name:"best first",of:linkage=>linkage.rank??Infinity},worst:{name:"worst miss",of:linkage=>linkage.worst??Infinity},least:{name:"transmission \
+`[data-pose="${k+1}"]`)?.focus({preventScroll:true})}};var PoseTool=class{constructor(store,scene){Object.assign(this,{store,scene,name:"pose",gesture:null});this.
+hint="Click where the pose is to stand, and click again to turn it. Escape ends."}click(point){const{store,scene}=this;if(this.gesture){this.turn(point);this.gesture=
+null;return}this.gesture=Symbol("add a pose");const angle=store.document.poses.at(-1)?.angle??0;store.edit(document2=>addPose(document2,{x:scene.rounded(point.x),
+y:scene.rounded(point.y),angle}),{gesture:this.gesture});store.select({kind:"pose",index:store.document.poses.length-1})}hover(point){if(this.gesture&&point)this.
+turn(point)}turn(point){const{store,gesture}=this,k=store.document.poses.length-1,{x,y,angle}=standing(store.document,k);const away=Math.hypot(point.x-x,point.y-
+y)*this.scene.view.scale;if(away<6)return;const next=tenths(unwrapped(degrees(Math.atan2(point.y-y,point.x-x)),angle));store.edit(document2=>setPose(document2,k,
+{angle:next}),{gesture})}key(event){if(event.key!=="Escape")return false;if(this.gesture)this.store.abandon(this.gesture);this.gesture=null;this.scene.use(null);
+return true}};var ORDERS={rank:{name:"best first",of:linkage=>linkage.rank??Infinity},worst:{name:"worst miss",of:linkage=>linkage.worst??Infinity},least:{name:"transmission \
 angle",of:linkage=>-(linkage.least??-1)},size:{name:"size",of:linkage=>linkage.quality?.extent??Infinity},sensitivity:{name:"sensitivity",of:linkage=>linkage.quality?.
 sensitivity??Infinity}};var FILTERS={all:{name:"all",holds:()=>true},usable:{name:"usable",holds:linkage=>linkage.usable},pinned:{name:"pinned",holds:(linkage,pinned)=>pinned.
 has(linkage.id)}};function arranged(linkages,{order,filter,type,pinned}){const{of}=ORDERS[order],{holds}=FILTERS[filter];return linkages.filter(each=>holds(each,
@@ -1041,8 +1051,8 @@ node.parentElement??node.getRootNode().host){const colour=getComputedStyle(node)
 map(Number):[0,0,0,0];if(a>.5)return .299*r+.587*g+.114*b<128}return matchMedia(DARK_SCHEME).matches}var MOST_FLYING2=2;var PATIENCE2=700;var BUSY="The kernel is busy: what is done here is answered when it is free.";var HINT="Drag a pose by its point, turn it b\
 y the tip of its arrow.";function render({model,el}){const ended=new AbortController,{signal}=ended,kernel=new Kernel(model);const host=h("div",{}),frame=h("div",
 {class:"bm bs bn"},h("p",{class:"bn-line"},"Waiting for the kernel…"));host.attachShadow({mode:"open"}).append(frame);el.replaceChildren(host);dress(host.shadowRoot,
-[widget_default,studio_default,notebook_default],signal);keepKeys(host,signal);let studio=null;kernel.on("message",message=>{if(message.kind==="opened"&&!studio)
-studio=layOut(frame,kernel,message,turn)});kernel.on("told",message=>{if(message.kind==="task"&&message.by!==kernel.view)studio?.replace(message.document);else if(message.
+[widget_default,studio_default,notebook_default],signal);keepKeys(host);let studio=null;kernel.on("message",message=>{if(message.kind==="opened"&&!studio)studio=
+layOut(frame,kernel,message,turn)});kernel.on("told",message=>{if(message.kind==="task"&&message.by!==kernel.view)studio?.replace(message.document);else if(message.
 kind==="chosen"&&message.id)studio?.store.choose(message.id)});const turn=()=>{model.set("turn",model.get("turn")+1);model.save_changes()};kernel.send({do:"open"});
 return()=>{ended.abort();kernel.close();studio?.playing.player.play(false);el.replaceChildren()}}function layOut(frame,kernel,{document:task},turn){const store=new Store(
 {connection:kernel,document:task,mostFlying:MOST_FLYING2});const scene=new Scene(store,{zoomKey:true}),answers=new Answers(store),playing=new Playing(store,answers);
@@ -1053,13 +1063,13 @@ scene);listenToKeys(store,scene,null,frame);listenToSpace(playing,frame);playOnc
 chosen,basis:store.basis});turn()});kernel.emit("open");const replace=document2=>{if(JSON.stringify(document2)!==JSON.stringify(store.document)){store.replace({
 document:document2});refit()}else if(store.solvedFor===store.document){return}store.solve()};return{store,playing,replace}}function bar(store,scene,kernel){const undo=button(
 "↶",()=>store.undo(),{"data-do":"undo",title:"Undo (Ctrl+Z)","aria-label":"Undo"});const redo=button("↷",()=>store.redo(),{"data-do":"redo",title:"Redo (Ctr\
-l+Shift+Z)","aria-label":"Redo"});const stop=button("Stop",()=>store.cancel(),{"data-do":"cancel",title:"Stop solving",hidden:true});const line=h("p",{class:"bn\
--line",role:"status"});let isBusy=false;const show=()=>{give(undo,"disabled",!store.history.canUndo);give(redo,"disabled",!store.history.canRedo);const[said]=store.
-messages,solving=store.state==="solving"&&store.progress;const text=isBusy?BUSY:said?[said.message,said.help].filter(Boolean).join("; "):solving?`Solving: ${store.
-progress}`:HINT;if(line.textContent!==text)line.textContent=text;line.classList.toggle("bn-refused",Boolean(said))};kernel.on("busy",on=>{if(on===isBusy)return;
-isBusy=on;show()});let waiting;store.on("state",()=>{clearTimeout(waiting);if(store.state==="solving")waiting=setTimeout(()=>give(stop,"hidden",false),PATIENCE2);else
-give(stop,"hidden",true)});store.on("document state messages solved",show);show();return h("div",{class:"bn-bar"},undo,redo,button("Fit",()=>scene.fitAgain(),{"\
-data-do":"fit",title:"Show all poses and pivots (0)"}),stop,line)}function fitOnceSolved(store,scene){let waits=true;store.on("solved",()=>{if(waits&&scene.isFitted)
-scene.fit();waits=false});return()=>waits=true}function keepKeys(host,signal){const isOwn=({ctrlKey,metaKey,key})=>!(ctrlKey||metaKey)||/^[zy]$/i.test(key);window.
-addEventListener("keydown",event=>{if(event.composedPath().includes(host))host.toggleAttribute("data-lm-suppress-shortcuts",isOwn(event))},{capture:true,signal});
-host.addEventListener("keydown",event=>isOwn(event)&&event.stopPropagation())}var notebook_default2={render};export{notebook_default2 as default};
+l+Shift+Z)","aria-label":"Redo"});const stop=button("Stop",()=>store.cancel(),{"data-do":"cancel",title:"Stop solving",hidden:true});const pose=button("Add pose\
+s",()=>scene.use(scene.tool?null:new PoseTool(store,scene)),{"data-do":"add-poses","aria-pressed":"false"});const line=h("p",{class:"bn-line",role:"status"});let isBusy=false;
+const show=()=>{give(undo,"disabled",!store.history.canUndo);give(redo,"disabled",!store.history.canRedo);const[said]=store.messages,solving=store.state==="solv\
+ing"&&store.progress;put(pose,"aria-pressed",Boolean(scene.tool));const text=isBusy?BUSY:said?[said.message,said.help].filter(Boolean).join("; "):scene.tool?scene.
+tool.hint:solving?`Solving: ${store.progress}`:HINT;if(line.textContent!==text)line.textContent=text;line.classList.toggle("bn-refused",Boolean(said))};kernel.on(
+"busy",on=>{if(on===isBusy)return;isBusy=on;show()});let waiting;store.on("state",()=>{clearTimeout(waiting);if(store.state==="solving")waiting=setTimeout(()=>give(
+stop,"hidden",false),PATIENCE2);else give(stop,"hidden",true)});store.on("document state messages solved",show);scene.on("tool",show);show();return h("div",{class:"\
+bn-bar"},undo,redo,pose,button("Fit",()=>scene.fitAgain(),{"data-do":"fit",title:"Show all poses and pivots (0)"}),stop,line)}function fitOnceSolved(store,scene){
+let waits=true;store.on("solved",()=>{if(waits&&scene.isFitted)scene.fit();waits=false});return()=>waits=true}function keepKeys(host){host.addEventListener("key\
+down",event=>{if(!(event.ctrlKey||event.metaKey)||/^[zy]$/i.test(event.key))event.stopPropagation()})}var notebook_default2={render};export{notebook_default2 as default};

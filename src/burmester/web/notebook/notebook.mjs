@@ -7,11 +7,11 @@ import { button } from "../studio/fields.mjs";
 import { listenToKeys, listenToSpace } from "../studio/keyboard.mjs";
 import { LiveLinkage } from "../studio/live_linkage.mjs";
 import { Playing, playOnce } from "../studio/playing.mjs";
-import { PoseHandles } from "../studio/pose_handles.mjs";
+import { PoseHandles, PoseTool } from "../studio/pose_handles.mjs";
 import { Results } from "../studio/results.mjs";
 import { Scene } from "../studio/scene.mjs";
 import { Store } from "../studio/store.mjs";
-import { give, h } from "../widget/dom.mjs";
+import { give, h, put } from "../widget/dom.mjs";
 import { Kernel } from "./kernel.mjs";
 import ownStyle from "./notebook.css";
 import { dress } from "./theme.mjs";
@@ -27,7 +27,7 @@ function render({ model, el }) {
   host.attachShadow({ mode: "open" }).append(frame);
   el.replaceChildren(host);
   dress(host.shadowRoot, [sharedStyle, studioStyle, ownStyle], signal);
-  keepKeys(host, signal);
+  keepKeys(host);
   let studio = null;
   kernel.on("message", (message) => {
     if (message.kind === "opened" && !studio) studio = layOut(frame, kernel, message, turn);
@@ -87,13 +87,15 @@ function bar(store, scene, kernel) {
   const undo = button("↶", () => store.undo(), { "data-do": "undo", title: "Undo (Ctrl+Z)", "aria-label": "Undo" });
   const redo = button("↷", () => store.redo(), { "data-do": "redo", title: "Redo (Ctrl+Shift+Z)", "aria-label": "Redo" });
   const stop = button("Stop", () => store.cancel(), { "data-do": "cancel", title: "Stop solving", hidden: true });
+  const pose = button("Add poses", () => scene.use(scene.tool ? null : new PoseTool(store, scene)), { "data-do": "add-poses", "aria-pressed": "false" });
   const line = h("p", { class: "bn-line", role: "status" });
   let isBusy = false;
   const show = () => {
     give(undo, "disabled", !store.history.canUndo);
     give(redo, "disabled", !store.history.canRedo);
     const [said] = store.messages, solving = store.state === "solving" && store.progress;
-    const text = isBusy ? BUSY : said ? [said.message, said.help].filter(Boolean).join("; ") : solving ? `Solving: ${store.progress}` : HINT;
+    put(pose, "aria-pressed", Boolean(scene.tool));
+    const text = isBusy ? BUSY : said ? [said.message, said.help].filter(Boolean).join("; ") : scene.tool ? scene.tool.hint : solving ? `Solving: ${store.progress}` : HINT;
     if (line.textContent !== text) line.textContent = text;
     line.classList.toggle("bn-refused", Boolean(said));
   };
@@ -109,8 +111,9 @@ function bar(store, scene, kernel) {
     else give(stop, "hidden", true);
   });
   store.on("document state messages solved", show);
+  scene.on("tool", show);
   show();
-  return h("div", { class: "bn-bar" }, undo, redo, button("Fit", () => scene.fitAgain(), { "data-do": "fit", title: "Show all poses and pivots (0)" }), stop, line);
+  return h("div", { class: "bn-bar" }, undo, redo, pose, button("Fit", () => scene.fitAgain(), { "data-do": "fit", title: "Show all poses and pivots (0)" }), stop, line);
 }
 
 /** The first answer to a task brings pivots that its first view did not know; calling what is returned waits for another. */
@@ -124,12 +127,10 @@ function fitOnceSolved(store, scene) {
 }
 
 /** Keys in the widget are its own; those with Ctrl or Cmd are the notebook's, but for undo and redo. */
-function keepKeys(host, signal) {
-  const isOwn = ({ ctrlKey, metaKey, key }) => !(ctrlKey || metaKey) || /^[zy]$/i.test(key);
-  window.addEventListener("keydown", (event) => {
-    if (event.composedPath().includes(host)) host.toggleAttribute("data-lm-suppress-shortcuts", isOwn(event));
-  }, { capture: true, signal });
-  host.addEventListener("keydown", (event) => isOwn(event) && event.stopPropagation());
+function keepKeys(host) {
+  host.addEventListener("keydown", (event) => {
+    if (!(event.ctrlKey || event.metaKey) || /^[zy]$/i.test(event.key)) event.stopPropagation();
+  });
 }
 
 export default { render };
