@@ -37,7 +37,9 @@ def label(lab, pose):
 
 
 def is_solved(lab):
-    return lab.until("widget.result.task is widget.task")
+    """Wait until both sides have the whole answer: a choice before that may be of the one before."""
+    lab.until("widget.result.task is widget.task")
+    lab.page.wait_for_selector(".bn .bs-results:not(.bs-stale)")
 
 
 def test_a_drag_in_the_cell_changes_the_task_in_python(lab):
@@ -78,7 +80,7 @@ def test_a_card_that_is_picked_is_selected_in_python_and_back(lab):
     # The linkage that is shown goes on, and both sides know it by the same id.
     lab.page.locator('.bn .bs-origin[data-pose="2"]').focus()
     lab.page.keyboard.press("ArrowUp")
-    lab.until("widget.result.task is widget.task")
+    is_solved(lab)
     lab.page.wait_for_selector(f'.bn [data-linkage="{lab.value("widget.selected")}"].bs-chosen')
     assert lab.page.wrong == []
 
