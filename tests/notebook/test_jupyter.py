@@ -37,7 +37,7 @@ def label(lab, pose):
 
 
 def is_solved(lab):
-    """Wait until both sides have the whole answer: a choice before that may be of the one before."""
+    """Wait until both sides have the whole answer: a choice before may be of the one before."""
     lab.until("widget.result.task is widget.task")
     lab.page.wait_for_selector(".bn .bs-results:not(.bs-stale)")
 
