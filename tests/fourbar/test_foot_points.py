@@ -8,8 +8,8 @@ import pytest
 from burmester.fourbar.foot_points import foot_points, newton_steps
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
-from tests.fourbar.test_linkage_batch import KINDS, a_dyad
 from tests.oracles.hard_tasks import assembled
+from tests.oracles.small_dyads import KINDS, a_dyad
 
 LENGTH = 0.7  # what a radian counts as
 PAIRS = list(itertools.product(KINDS, KINDS))

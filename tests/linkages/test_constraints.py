@@ -25,20 +25,13 @@ from burmester.linkages.kept_limits import DyadLimitsConstraint
 from burmester.tasks.limits import Limits
 from burmester.tasks.requirements import Requirements
 from tests.oracles.hard_tasks import assembled, sines
+from tests.oracles.small_dyads import KINDS, a_dyad
 from tests.oracles.witness import random_four_bar
 
-KINDS = (RR, PR, RP)
 PAIRS = list(itertools.product(KINDS, KINDS))
 LENGTH = 0.7  # what a radian counts as
 PLAIN = CanonicalFrames.identity()
 ANY = Requirements()
-
-
-def a_dyad(kind, rng):
-    a, b, normal = rng.normal(size=2), rng.normal(size=2), rng.uniform(-3, 3)
-    if kind is RR:
-        return RR(a, b, rng.uniform(0.5, 2.0))
-    return PR(normal, rng.normal(), b) if kind is PR else RP(a, normal, rng.normal())
 
 
 def swept(first, second, drive):

@@ -7,10 +7,11 @@ whatever circles it is computed with.
 """
 
 import cython
-from cython.cimports.libc.math import INFINITY, fabs, isfinite, sqrt
 
 if not cython.compiled:
     raise ImportError("burmester's kernels are not compiled: install it again, by scripts/setup")
+
+from cython.cimports.libc.math import INFINITY, fabs, isfinite, sqrt
 
 SIZE = cython.declare(cython.int, 5)  # of a circle
 SETTLED_STEP = cython.declare(cython.double, 1e-9)  # relative; a shorter step is the last one

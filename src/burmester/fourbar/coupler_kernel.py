@@ -12,10 +12,11 @@ by 1, so that f is near its zero the distance from the constraint.
 """
 
 import cython
-from cython.cimports.libc.math import NAN, atan2, cos, fabs, hypot, isnan, sin, sqrt
 
 if not cython.compiled:
     raise ImportError("burmester's kernels are not compiled: install it again, by scripts/setup")
+
+from cython.cimports.libc.math import NAN, atan2, cos, fabs, hypot, isnan, sin, sqrt
 
 RR = cython.declare(cython.int, 0)  # kinds of dyads, as in `linkage_batch.DYAD_KINDS`
 PR = cython.declare(cython.int, 1)

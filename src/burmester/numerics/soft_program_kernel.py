@@ -8,10 +8,11 @@ stacks of arrays many times over.  What is solved, and by which methods: see `qu
 
 import cython
 import numpy as np
-from cython.cimports.libc.math import fabs, sqrt
 
 if not cython.compiled:
     raise ImportError("burmester's kernels are not compiled: install it again, by scripts/setup")
+
+from cython.cimports.libc.math import fabs, sqrt
 
 STEPS_FROM_START = cython.declare(cython.int, 4)  # of projected Newton, from multipliers far off
 STEPS_FROM_INSIDE = cython.declare(cython.int, 2)  # of it from where the interior point led
