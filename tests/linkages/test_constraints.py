@@ -25,10 +25,10 @@ from burmester.linkages.kept_limits import DyadLimitsConstraint
 from burmester.tasks.limits import Limits
 from burmester.tasks.requirements import Requirements
 from tests.oracles.hard_tasks import assembled, sines
-from tests.oracles.small_dyads import KINDS, a_dyad
+from tests.oracles.random_dyads import random_dyad
 from tests.oracles.witness import random_four_bar
 
-PAIRS = list(itertools.product(KINDS, KINDS))
+PAIRS = list(itertools.product((RR, PR, RP), repeat=2))
 LENGTH = 0.7  # what a radian counts as
 PLAIN = CanonicalFrames.identity()
 ANY = Requirements()
@@ -51,7 +51,7 @@ def test_the_lever_is_the_sine_of_the_transmission_angle(pair):
     rng = np.random.default_rng(0)
     seen = 0
     for _ in range(30):
-        linkage = Linkage(a_dyad(pair[0], rng), a_dyad(pair[1], rng))
+        linkage = Linkage(random_dyad(pair[0], rng), random_dyad(pair[1], rng))
         rows = swept(linkage.first, linkage.second, np.sort(rng.uniform(-2.5, 2.5, 25)))
         for side in (0, 1):
             own = rows[side][np.isfinite(rows[side]).all(axis=1)]
@@ -72,7 +72,7 @@ def test_its_sign_tells_the_two_assemblies_apart(pair):
     rng = np.random.default_rng(1)
     seen = 0
     for _ in range(40):
-        linkage = Linkage(a_dyad(pair[0], rng), a_dyad(pair[1], rng))
+        linkage = Linkage(random_dyad(pair[0], rng), random_dyad(pair[1], rng))
         rows = swept(linkage.first, linkage.second, rng.uniform(-2.5, 2.5, 40))
         sound = np.isfinite(rows).all(axis=(0, 2))
         if sound.any():
@@ -88,7 +88,7 @@ def test_drives_are_those_the_linkage_is_assembled_at(pair):
     rng = np.random.default_rng(2)
     seen = 0
     for _ in range(20):
-        linkage = Linkage(a_dyad(pair[0], rng), a_dyad(pair[1], rng))
+        linkage = Linkage(random_dyad(pair[0], rng), random_dyad(pair[1], rng))
         drive = rng.uniform(-3, 3, 10)
         both = DrivenLoop.of(linkage).closed_at(drive)
         batch = LinkageBatch.of([linkage])
@@ -111,7 +111,7 @@ def test_the_least_sine_of_a_stretch_is_at_its_ends_or_where_it_is_said(pair):
     rng = np.random.default_rng(3)
     seen = inner = 0
     for _ in range(150):
-        linkage = Linkage(a_dyad(pair[0], rng), a_dyad(pair[1], rng))
+        linkage = Linkage(random_dyad(pair[0], rng), random_dyad(pair[1], rng))
         start, reach = rng.uniform(-3, 3), rng.uniform(0.5, 5)
         drive = np.linspace(start, start + reach, 2001)
         rows = swept(linkage.first, linkage.second, drive)[0]
@@ -370,7 +370,7 @@ def test_derivatives_by_all_unknowns(ways):
             continue
         rows = np.full((1, number, 3), np.nan)
         while not np.isfinite(rows).all():
-            linkage = Linkage(a_dyad(pair[0], rng), a_dyad(pair[1], rng))
+            linkage = Linkage(random_dyad(pair[0], rng), random_dyad(pair[1], rng))
             rows = swept(linkage.first, linkage.second, np.sort(rng.uniform(-2, 2, number)))[:1]
         batch = LinkageBatch.of([linkage])
         by_place = np.zeros((1, number, 3, 10 + number * ways))
