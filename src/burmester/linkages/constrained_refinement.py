@@ -43,7 +43,6 @@ START_PENALTY, PENALTY_GROWTH, MAX_PENALTY = 1.0, 4.0, 1e5
 MULTIPLIER_FACTOR = 3.0
 # Floor on the column norms used to scale the damping, relative to the largest one.
 MIN_COLUMN_NORM = 1e-3
-LEAST_CURVATURE = 1e-10  # of the scaled Hessian, added in all directions
 FEASIBLE = 1e-9  # lengths; a constraint violated by less is met
 # A step that promises to take less than this share off the cost ends a descent, unless the damping
 # holds it back.
@@ -172,8 +171,9 @@ class _Descent:
 
     def program(self, rows: NDArray[np.intp], here: _Point, damping: FloatArray) -> _ScaledProgram:
         """The quadratic programs of linkages `rows` (r,) at their points."""
-        bent = np.flatnonzero(self.good_steps[rows] >= STEPS_BEFORE_CURVATURE)
-        hessian, size = _hessian(here.model.jacobian, bent, self.hessian_estimate[rows[bent]])
+        use_curvature = (self.good_steps[rows] >= STEPS_BEFORE_CURVATURE)[:, None, None]
+        estimate = np.where(use_curvature, self.hessian_estimate[rows], 0.0)
+        hessian, size = _hessian(here.model.jacobian, estimate)
         hessian = hessian + damping[:, None, None] * np.eye(hessian.shape[-1])
         gradient = (here.model.residual[:, None] @ here.model.jacobian)[:, 0] / size
         value, jacobian = here.constraints
@@ -356,22 +356,15 @@ def _greatest_violation(value: FloatArray, equal: NDArray[np.bool_]) -> FloatArr
     return np.asarray(np.nan_to_num(off, nan=np.inf).max(axis=-1, initial=0))
 
 
-def _hessian(
-    jacobian: FloatArray, bent: NDArray[np.intp], estimate: FloatArray
-) -> tuple[FloatArray, FloatArray]:
-    """The Hessian (k, n, n) of half the squares, made positive, in unknowns scaled by (k, n).
-
-    With the curvature of the residuals, `estimate` (b, n, n), of some of the linkages, `bent` (b,).
-    """
+def _hessian(jacobian: FloatArray, estimate: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """The Hessian (k, n, n) of half the squares, made positive, in unknowns scaled by (k, n)."""
     flat = np.swapaxes(jacobian, -1, -2) @ jacobian
     size = np.sqrt(np.einsum("kii->ki", flat))
     size = np.maximum(size, MIN_COLUMN_NORM * size.max(axis=1, keepdims=True))
     size = np.where(size > 0, size, 1.0)  # every pose is exact, and nothing else counts
-    out = flat / (size[:, None] * size[..., None])
-    own = size[bent]
-    values, axes = np.linalg.eigh(out[bent] + estimate / (own[:, None] * own[..., None]))
-    out[bent] = (axes * np.abs(values)[:, None]) @ np.swapaxes(axes, -1, -2)
-    return out + LEAST_CURVATURE * np.eye(out.shape[-1]), size
+    values, axes = np.linalg.eigh((flat + estimate) / (size[:, None] * size[..., None]))
+    values = np.maximum(np.abs(values), 1e-10)
+    return (axes * values[:, None]) @ np.swapaxes(axes, -1, -2), size
 
 
 def _made_feasible(
