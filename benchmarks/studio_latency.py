@@ -41,6 +41,7 @@ from unittest import mock
 from playwright.async_api import async_playwright
 
 from benchmarks.studio_drags import executable, percentile
+from burmester.live import answers
 from burmester.studio import road as roads
 
 # Processes by what their commands hold; the first that is found counts.
@@ -318,9 +319,9 @@ def alone(sent):
     road, totals, parts = roads.Road(), [], defaultdict(list)
     head = {"do": "solve", "time_limit": 60}
     road.do(head, json.dumps({**json.loads(sent[0]), "do": "solve"}).encode(), NoJob())
-    names = {"follow": "follow", "branches_of": "ways", "followed_frame": "encode"}
+    names = {"follow": "follow", "followed_frame": "encode"}
     patches = [
-        mock.patch.object(roads, each, timed(name, getattr(roads, each)))
+        mock.patch.object(answers, each, timed(name, getattr(answers, each)))
         for each, name in names.items()
     ]
     for each in patches:
