@@ -179,7 +179,6 @@ def notebook(browser, folder, code, *, width=1000, height=900, before=None, **op
             yield Notebook(page, client)
             client.stop_channels()
         except Exception:
-            page.screenshot(path="/tmp/w19/nbtry/fail.png")
             print(wrong)
             raise
         finally:

@@ -49,6 +49,14 @@ class Circle:
     convex: cython.bint
 
     @cython.cfunc
+    def take(self, z: cython.double[:], seen: cython.const[cython.double][:, :]) -> cython.void:
+        """Be a circle of a task, whose poses (5, N) are cosine, sine, x, y, share."""
+        self.count = seen.shape[1]
+        self.cos, self.sin, self.x, self.y, self.share = seen[0], seen[1], seen[2], seen[3], seen[4]
+        for i in range(SIZE):
+            self.z[i] = z[i]
+
+    @cython.cfunc
     @cython.nogil
     @cython.exceptval(check=False)
     def sum(self, share: cython.double) -> cython.double:
@@ -248,17 +256,7 @@ def sums_of_squares(
     for i in range(SIZE):
         circle.step[i] = 0.0
     for k in range(z.shape[0]):
-        seen = poses[task[k]]
-        circle.count = seen.shape[1]
-        circle.cos, circle.sin, circle.x, circle.y, circle.share = (
-            seen[0],
-            seen[1],
-            seen[2],
-            seen[3],
-            seen[4],
-        )
-        for i in range(SIZE):
-            circle.z[i] = z[k, i]
+        circle.take(z[k], poses[task[k]])
         cost[k] = circle.sum(0.0)
 
 
@@ -282,17 +280,7 @@ def steps_down(
     circle: Circle = Circle()
     for number in range(run.shape[0]):
         k = run[number]
-        seen = poses[task[k]]
-        circle.count = seen.shape[1]
-        circle.cos, circle.sin, circle.x, circle.y, circle.share = (
-            seen[0],
-            seen[1],
-            seen[2],
-            seen[3],
-            seen[4],
-        )
-        for i in range(SIZE):
-            circle.z[i] = z[k, i]
+        circle.take(z[k], poses[task[k]])
         gain: cython.double = circle.newton_step()
         # Newton's last steps gain so little that the sum would tell by its rounding only.
         checked: cython.bint = not (circle.convex and gain < NEGLIGIBLE_GAIN * cost[k])
