@@ -143,7 +143,7 @@ class Circle:
     @cython.cfunc
     @cython.nogil
     @cython.exceptval(check=False)
-    def turned(self, lower: cython.pointer[cython.double]) -> cython.bint:
+    def diagonalised(self, lower: cython.pointer[cython.double]) -> cython.bint:
         """Set `left` to a diagonal of eigenvalues and `axes`, by Jacobi's rotations.
 
         Returns whether all of them are above 0; they are infinite where something is not finite.
@@ -225,14 +225,14 @@ class Circle:
         self.differentiate()
         definite: cython.int = self.solved(self.hessian)
         if definite == -1:
-            self.convex = self.turned(self.hessian)
+            self.convex = self.diagonalised(self.hessian)
             if not self.convex:
-                self.turned(self.flat)
+                self.diagonalised(self.flat)
             self.along_axes()
         elif definite == 0:
             self.convex = False
             if self.solved(self.flat) == -1:
-                self.turned(self.flat)
+                self.diagonalised(self.flat)
                 self.along_axes()
         else:
             self.convex = True
