@@ -1,0 +1,1 @@
+"""Coupler curves: linkages whose coupler point comes nearest to many points of a path."""

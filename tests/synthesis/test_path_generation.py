@@ -1,0 +1,119 @@
+"""Paths: from points to linkages that work, each driven by the witness."""
+
+import numpy as np
+import pytest
+
+from burmester.describe.digits import worst_errors
+from burmester.fourbar.cognates import cognates
+from burmester.geometry.displacement import Displacement
+from burmester.geometry.regions import Polygon
+from burmester.linkages.explanation import nearness
+from burmester.synthesis.motion_generation import synthesize
+from burmester.tasks.limits import Limits
+from burmester.tasks.motion_task import Task
+from burmester.tasks.requirements import Requirements
+from burmester.tasks.traced_path import TracedPath
+from tests.oracles.coupler_curves import CABRERA, CABRERA_TURNS, distances, dyads_of, random_crank
+from tests.oracles.coupler_curves import traced as witnessed
+from tests.oracles.witness import places
+
+
+def task(points, *, closed=False, turns=None, **given):
+    poses = Displacement(points, np.zeros(len(points)))
+    return Task(poses, path=TracedPath(closed, turns), **given)
+
+
+def path(seed, t, noise):
+    rng = np.random.default_rng(seed)
+    z, side = random_crank(rng)
+    p = witnessed(dyads_of(z), side, t)
+    size = noise * np.sqrt(np.var(p))
+    p = p + size * (rng.normal(size=len(t)) + 1j * rng.normal(size=len(t)))
+    return np.column_stack([p.real, p.imag])
+
+
+ROUND = np.linspace(0, 2 * np.pi, 40, endpoint=False)
+
+
+def test_closed_curve_from_the_nearest_linkage_to_the_best_one():
+    points = path(0, ROUND, 0.01)
+    found = synthesize(task(points, closed=True))
+    assert found.outcome.code == "R350"
+    assert [each.code for each in found.warnings] == ["W226"]
+    assert len(found.usable) > 3
+    for each in found.usable:
+        one = each.driver_first
+        away, told = distances((one.first, one.second), points), each.error.position
+        # Where another stretch of the curve is nearer, the error is that of the stretch in order.
+        assert (away < told + 1e-8).all()
+        assert (away > told - 1e-5).mean() > 0.9
+        turn = places(one.first, one.second, np.linspace(0, 2 * np.pi, 721))[0]
+        assert np.isfinite(turn).all()  # the driver goes all the way round
+    nearest = min(found.usable, key=lambda each: each.error.rms)
+    best = found.usable[0]
+    assert best.driven.least_over_range > np.radians(40) > 2 * nearest.driven.least_over_range
+    assert best.error.worst < 3.1 * nearest.error.worst
+    # No angle is asked for, so that none is missed, and none is met.
+    assert {worst_errors(found, each)[1] for each in found.usable} == {"free"}
+    assert not any("°" in nearness(each, found.task, found.length) for each in found.usable)
+
+
+def test_cognates_of_the_answer_trace_the_same_points():
+    points = path(2, 0.7 + np.linspace(0, 2.5, 15), 0.01)
+    best = synthesize(task(points)).usable[0].driver_first
+    own = distances((best.first, best.second), points)
+    for each in cognates(best):
+        pairs = [(each.first, each.second), (each.second, each.first)]
+        assert np.allclose(np.min([distances(pair, points) for pair in pairs], axis=0), own,
+                           atol=3e-4)  # fmt: skip
+
+
+def test_pivots_stay_within_limits():
+    points = path(0, ROUND, 0.01)
+    low = points[:, 1].min()
+    box = Polygon([[-9, -9], [9, -9], [9, low], [-9, low]])
+    found = synthesize(task(points, closed=True, limits=(Limits(fixed_pivot=box),)))
+    assert found.usable
+    for each in found.usable:
+        one = each.driver_first
+        assert max(one.first.fixed_pivot[1], one.second.fixed_pivot[1]) < low + 1e-6
+        away, told = distances((one.first, one.second), points), each.error.position
+        assert (away < told + 1e-8).all()
+        assert (away > told - 1e-5).mean() > 0.9
+
+
+def test_what_is_asked_of_the_linkage():
+    points = path(0, ROUND, 0.01)
+    wanted = Requirements(transmission_deg=50, link_ratio=4)
+    found = synthesize(task(points, closed=True, requirements=wanted))
+    best = found.usable[0]
+    assert np.degrees(best.driven.least_over_range) > 50 - 1e-4
+    links = [float(link) for link in best.linkage.links]
+    assert max(links) < 4 * min(links) * (1 + 1e-6)
+    none = synthesize(task(points, closed=True, requirements=Requirements(within=1e-4)))
+    assert (none.outcome.code, none.usable) == ("R351", ())
+
+
+@pytest.mark.parametrize("count", [5, 18])
+def test_timed_points(count):
+    points, turns = CABRERA, CABRERA_TURNS
+    if count == 5:
+        turns = np.array([0.0, 0.7, 1.5, 2.6, 4.0])
+        points = path(4, turns + 1.0, 0.0)
+    found = synthesize(task(points, turns=turns))
+    assert found.outcome.code == "R350"
+    wanted = points[:, 0] + 1j * points[:, 1]
+    for each in found.usable:
+        away = []
+        for one in (each.linkage, each.driver_first):
+            first = each.error.places[0]
+            pin = first.act(one.first.moving_pivot) - one.first.fixed_pivot
+            begin = np.arctan2(pin[1], pin[0])
+            away.append(np.abs(places(one.first, one.second, begin + turns)[0] - wanted))
+        least = np.nanmin(np.concatenate(away), axis=0)
+        assert least == pytest.approx(each.error.position, abs=1e-6)
+    best = found.usable[0]
+    if count == 18:
+        assert (best.error.position**2).sum() == pytest.approx(9.02888e-3, rel=1e-4)
+    else:
+        assert best.error.worst < 1e-9
