@@ -1,0 +1,236 @@
+"""From pairs of angles, or a function, to function generators in one call."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, final
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from burmester.api.result import Result
+from burmester.api.synthesize import require_callable
+from burmester.errors import Advice, InputError
+from burmester.functions.found_generator import FoundGenerator
+from burmester.io import files
+from burmester.io.function_result import function_data
+from burmester.io.reading.functions.function_options import (
+    FunctionSettings,
+    Spacing,
+    task_of_function,
+    task_of_pairs,
+)
+from burmester.io.result import json_line
+from burmester.numerics.arrays import FloatArray
+from burmester.progress import Listener, shown
+from burmester.synthesis.function_generation import (
+    FunctionSynthesis,
+    coupler_synthesis,
+    generate_function,
+)
+from burmester.synthesis.result import Outcome
+from burmester.tasks.motion_task import AngleUnit
+from burmester.values import real_numbers
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+__all__ = ["FunctionGenerators", "synthesize_function"]
+
+
+@final
+class FunctionGenerators:
+    """What came of a function task: the generators by rank, to look at, save and hand over.
+
+    Examples
+    --------
+    >>> import burmester
+    >>> found = burmester.synthesize_function(
+    ...     "log10(x)", (1, 2), input_deg=60, output_deg=60, pairs=5
+    ... )
+    >>> found.best.type
+    'double-rocker'
+    """
+
+    __slots__ = ("_synthesis",)
+
+    def __init__(self, synthesis: FunctionSynthesis) -> None:
+        self._synthesis = synthesis
+
+    @property
+    def synthesis(self) -> FunctionSynthesis:
+        """All that came of the task."""
+        return self._synthesis
+
+    @property
+    def outcome(self) -> Outcome:
+        """What came of the task, as a code and a sentence."""
+        return self._synthesis.outcome
+
+    @property
+    def warnings(self) -> tuple[Advice, ...]:
+        """What is to be told beside it."""
+        return self._synthesis.warnings
+
+    @property
+    def generators(self) -> tuple[FoundGenerator, ...]:
+        """All generators, the best one first."""
+        return self._synthesis.generators
+
+    @property
+    def usable(self) -> tuple[FoundGenerator, ...]:
+        """Those that go through the whole range on one branch."""
+        return self._synthesis.usable
+
+    @property
+    def best(self) -> FoundGenerator | None:
+        """The best one that works; None where none does."""
+        return next(iter(self.usable), None)
+
+    def __len__(self) -> int:
+        return len(self.generators)
+
+    def __getitem__(self, which: int | str) -> FoundGenerator:
+        """A generator by its place in the ranking, or by its id; raises E151."""
+        for place, each in enumerate(self.generators):
+            if which in (place, each.id):
+                return each
+        known = ", ".join(each.id for each in self.generators)
+        raise InputError(
+            "E151",
+            f"there is no linkage {which} in this result",
+            why=f"it has {known}" if known else self.outcome.message,
+            help="choose one of them, such as L1" if known else self.outcome.help,
+        )
+
+    def coupler_motion(self, which: int | str = 0) -> Result:
+        """A generator as a linkage that guides its coupler, to draw, animate and export."""
+        return Result.of(coupler_synthesis(self._synthesis.task, self[which]))
+
+    def to_dict(self) -> dict[str, Any]:
+        """The object of `burmester synthesize --json`."""
+        return function_data(self._synthesis)
+
+    def save(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:
+        """Write that object to a file; raises E140 and E141."""
+        files.write(os.fspath(path), json_line(self.to_dict()), force=force)
+        return Path(path)
+
+    def plot(self) -> Figure:
+        """The structural error over the input, by Matplotlib."""
+        from burmester import plot  # noqa: PLC0415  Matplotlib may be missing
+
+        with plot.house_style():
+            return plot.structural_error_figure(self._synthesis)
+
+    def __repr__(self) -> str:
+        lines = [self.outcome.message]
+        for each in self.generators[:8]:
+            error = np.degrees(each.max_error)
+            said = "works" if each.usable else each.defects[0].message
+            lines.append(f"{each.id}  {each.type}: {error:.3g} deg at most, {said}")
+        return "\n".join(lines)
+
+
+def synthesize_function(
+    function: str | Callable[[FloatArray], FloatArray] | ArrayLike,
+    x: tuple[float, float] | None = None,
+    *,
+    input_deg: float | None = None,
+    output_deg: float | None = None,
+    angle_unit: AngleUnit | None = None,
+    pairs: int | None = None,
+    spacing: Spacing | None = None,
+    opposite: bool = False,
+    minimax: bool = False,
+    input_phase_deg: float | None = None,
+    output_phase_deg: float | None = None,
+    ground: float = 1.0,
+    transmission_deg: float | None = None,
+    link_ratio: float | None = None,
+    progress: Listener | None = None,
+) -> FunctionGenerators:
+    """The four-bars whose output angle is a function of the input angle, judged and ranked.
+
+    Parameters
+    ----------
+    function : str, callable, or (N, 2) array_like
+        An expression in x such as "log10(x)", a function of arrays, or pairs of input and output
+        angles in rows.
+    x : (float, float)
+        The range of x, for an expression or a function.
+    input_deg, output_deg : float
+        How far the two links turn over that range, in degrees.
+    angle_unit : {"deg", "rad"}
+        The unit of pairs in rows; it is never guessed.
+    pairs : int, optional
+        How many pairs are taken from a function: 3 to 5 are met exactly.  By default 61, met as
+        nearly as possible.
+    spacing : {"chebyshev", "even"}, optional
+        Where they are: by default Chebyshev's spacing up to 5, even beyond.
+    opposite : bool
+        Whether the output link turns against the input link.
+    minimax : bool
+        Whether the greatest error is to be least, instead of the sum of squares.
+    input_phase_deg, output_phase_deg : float, optional
+        The angles of the links, from the ground link, where input and output are 0.  They are found
+        where they are not given.
+    ground : float
+        The length of the ground link.
+    transmission_deg, link_ratio : float, optional
+        What a linkage has to keep: the least transmission angle, and the longest link over the
+        shortest.
+    progress : callable, optional
+        Called with a `Progress` where something begins.
+
+    Raises
+    ------
+    InputError
+        E110 (pairs without an angle unit), E125 (no numbers, or of a wrong shape), E190 (an
+        expression that cannot be read), E191 (a task that makes no sense), E192 (infinitely many
+        linkages), E194 (settings that are missing or make no sense).
+
+    Examples
+    --------
+    >>> import burmester
+    >>> rows = [(0, 0), (15, 10), (30, 25), (45, 45), (60, 75)]
+    >>> found = burmester.synthesize_function(rows, angle_unit="deg")
+    >>> print(found.outcome.message)
+    2 function generators of the 3 that such pairs have, 1 of them usable
+    """
+    require_callable(progress)
+    settings = FunctionSettings(
+        input_phase_deg, output_phase_deg, ground, minimax, transmission_deg, link_ratio
+    )
+    if isinstance(function, str) or callable(function):
+        if x is None or input_deg is None or output_deg is None:
+            raise InputError(
+                "E194",
+                "a function needs x, input_deg and output_deg",
+                help="give all three, such as x=(1, 2), input_deg=60, output_deg=60",
+            )
+        task = task_of_function(
+            function,
+            x,
+            input_deg,
+            output_deg,
+            pairs=pairs,
+            spacing=spacing,
+            opposite=opposite,
+            settings=settings,
+        )
+    else:
+        if angle_unit not in ("deg", "rad"):
+            raise InputError(
+                "E110",
+                "the angle unit is not stated",
+                why="the unit of angles is never guessed",
+                help='say angle_unit="deg" or angle_unit="rad"',
+            )
+        rows = real_numbers(function, (None, 2), "the pairs")
+        rows = rows if angle_unit == "deg" else np.degrees(rows)
+        task = task_of_pairs(rows[:, 0], rows[:, 1], None, settings)
+    with shown(progress):
+        return FunctionGenerators(generate_function(task))

@@ -1,0 +1,312 @@
+"""Function tasks on the command line: `synthesize`, `report`, `judge` and `export` ask here.
+
+A task is a function's by --function, or by the columns or the table [function] of its file.
+"""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any, Final
+
+import click
+
+from burmester.cli.output import EXIT_FOUND, EXIT_NOTHING, console, print_json
+
+if TYPE_CHECKING:
+    from burmester.functions.found_generator import FoundGenerator
+    from burmester.functions.function_task import FunctionTask
+    from burmester.io.saved import SavedLinkage
+    from burmester.synthesis.function_generation import FunctionSynthesis
+
+__all__ = ["export_choice", "function_task", "hand_over_function", "judge_function", "page_of_best"]
+
+OWN: Final = (
+    "function", "x", "input_range", "opposite", "pairs", "spacing", "minimax", "input_phase",
+    "output_phase", "ground", "plot",
+)  # fmt: skip
+SHARED: Final = ("poses", "min_transmission", "link_ratio", "as_json", "file", "output", "force",
+                 "everything", "title", "linkage", "id")  # fmt: skip
+FIGURES: Final = {".png": {}, ".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
+
+
+def function_task(poses: str | None, given: dict[str, Any]) -> FunctionTask | None:
+    """The task of a function, if the options or the file state one; else None.
+
+    What standard input held is put into `given` as "data".  Raises E190, E191, E192 and E194.
+    """
+    if given.get("function") is not None:
+        if poses is not None:
+            raise _contradiction(
+                "a file and --function are given", "give one of the two", f"the file is {poses}"
+            )
+        _require_own()
+        return _of_expression(given)
+    if poses is None:
+        raise click.UsageError("Missing argument 'POSES'.")
+    data = _function_bytes(poses, given)
+    if data is None:
+        _require_none()
+        return None
+    _require_own()
+    for name in ("x", "input_range", "opposite", "pairs", "spacing"):
+        if given.get(name):
+            raise _contradiction(
+                f"{_option(name)} is given, and the file states the pairs",
+                f"leave {_option(name)} out, or write it into the table [function] of a TOML file",
+            )
+    from burmester.io.reading.functions.function_file import read_function
+
+    return read_function(data, poses, _settings(given))
+
+
+def _function_bytes(poses: str, given: dict[str, Any]) -> bytes | None:
+    from burmester.cli.progress_line import working
+    from burmester.errors import InputError
+    from burmester.io.reading.file_content import read_source
+    from burmester.io.reading.functions.function_file import is_function
+
+    if poses.startswith("case:"):
+        return None
+    try:
+        with working("reading the poses"):
+            data = read_source(poses)
+    except InputError:
+        return None  # it is read again as poses, and refused there
+    if poses == "-":
+        given["data"] = data
+    return data if is_function(data, poses) else None
+
+
+def _of_expression(given: dict[str, Any]) -> FunctionTask:
+    from burmester.io.reading.functions.function_options import task_of_function
+    from burmester.io.reading.pose_table import Source
+
+    for name in ("x", "input_range", "output"):
+        if given.get(name) is None:
+            raise _contradiction(
+                f"{_option(name)} is missing",
+                f'give {_option(name)}, as in `burmester synthesize --function "log10(x)" --x 1:2 '
+                "--input 60 --output 60`",
+            )
+    text = given["function"]
+    return task_of_function(
+        text,
+        _ends(given["x"]),
+        _number("--input", given["input_range"]),
+        _number("--output", given["output"]),
+        pairs=given["pairs"],
+        spacing=given["spacing"],
+        opposite=given["opposite"],
+        settings=_settings(given),
+        source=Source("--function", text),
+    )
+
+
+def _settings(given: dict[str, Any]) -> Any:
+    from burmester.io.reading.functions.function_options import FunctionSettings
+
+    def number(name: str) -> float | None:
+        value = given.get(name)
+        return None if value is None else _number(_option(name), value)
+
+    ground = number("ground")
+    return FunctionSettings(
+        number("input_phase"),
+        number("output_phase"),
+        1.0 if ground is None else ground,
+        bool(given.get("minimax")),
+        number("min_transmission"),
+        number("link_ratio"),
+    )
+
+
+def _ends(text: str) -> tuple[float, float]:
+    from burmester.io.reading.functions.expression import read_number
+    from burmester.io.reading.pose_table import Source
+
+    low, colon, high = text.partition(":")
+    source = Source("--x", text)
+    if not colon:
+        raise _contradiction("--x has no range", "give both ends, such as --x 1:2")
+    return read_number(source, 0, low), read_number(source, len(low) + 1, high)
+
+
+def _number(option: str, text: str) -> float:
+    from burmester.io.reading.functions.expression import read_number
+    from burmester.io.reading.pose_table import Source
+
+    return read_number(Source(option, text), 0, text)
+
+
+def _option(name: str) -> str:
+    return {"input_range": "--input", "file": "-o"}.get(name, f"--{name.replace('_', '-')}")
+
+
+def _contradiction(message: str, help: str, why: str | None = None) -> Exception:
+    from burmester.errors import InputError
+
+    return InputError("E194", message, why=why, help=help)
+
+
+def _stated() -> list[str]:
+    """The names of options that were given on the command line."""
+    context = click.get_current_context()
+    source = click.core.ParameterSource.COMMANDLINE
+    return [name for name in context.params if context.get_parameter_source(name) is source]
+
+
+def _require_own() -> None:
+    """Refuse options that are for poses: E194."""
+    for name in _stated():
+        if name not in (*OWN, *SHARED):
+            option = next(
+                (p.opts[-1] for p in click.get_current_context().command.params if p.name == name),
+                _option(name),
+            )
+            raise _contradiction(
+                f"{option} is for poses, and this is a function", f"leave {option} out"
+            )
+
+
+def _require_none() -> None:
+    """Refuse options of functions where poses are given: E194."""
+    for name in _stated():
+        if name in OWN:
+            raise _contradiction(
+                f"{_option(name)} is for functions, and these are poses",
+                f"leave {_option(name)} out, or give pairs of angles under the columns "
+                "input_deg,output_deg",
+            )
+
+
+# --- what comes out
+
+
+def hand_over_function(
+    task: FunctionTask,
+    file: str | None,
+    *,
+    poses: str | None,
+    force: bool,
+    as_json: bool,
+    plot: str | None,
+    everything: bool,
+) -> int:
+    """Solve a function task, and write, draw and show what comes of it; returns the exit code."""
+    from burmester.cli.progress_line import working
+    from burmester.io import files
+    from burmester.io.function_result import function_data
+    from burmester.io.result import json_line
+    from burmester.printable import printable
+    from burmester.synthesis.function_generation import generate_function
+
+    for each in (file, plot):
+        if each is not None:
+            files.require_writable(each, force=force, source=poses or "")
+    suffix = _figure_format(plot)
+    with working("looking for function generators"):
+        synthesis = generate_function(task)
+    if file is not None:
+        files.write(file, json_line(function_data(synthesis)), force=force)
+        click.echo(f"wrote {printable(file)}", err=True)
+    if plot is not None:
+        files.write(plot, _figure(synthesis, suffix), force=force)
+        click.echo(f"wrote {printable(plot)}", err=True)
+    if as_json:
+        print_json(function_data(synthesis))
+    else:
+        from burmester.io.function_table import show_function
+
+        show_function(synthesis, console(), everything=everything)
+    return EXIT_FOUND if synthesis.usable else EXIT_NOTHING
+
+
+def _figure_format(path: str | None) -> str:
+    from burmester.errors import InputError
+
+    suffix = ".png" if path is None else os.path.splitext(path)[1].lower()
+    if suffix not in FIGURES:
+        raise InputError(
+            "E161",
+            f"the name {path} does not determine a format",
+            why=f"a figure is written as {', '.join(each[1:] for each in FIGURES)}",
+            help="give a name such as error.png",
+        )
+    return suffix
+
+
+def _figure(synthesis: FunctionSynthesis, suffix: str) -> bytes:
+    from io import BytesIO
+
+    from burmester import plot
+
+    content = BytesIO()
+    with plot.house_style():
+        drawing = plot.structural_error_figure(synthesis)
+        drawing.savefig(content, format=suffix[1:], metadata=FIGURES[suffix])
+    return content.getvalue()
+
+
+def page_of_best(task: FunctionTask, title: str) -> tuple[str, str, bool]:
+    """The page on which the best function generator moves, its headline, and whether it works."""
+    from burmester.report import page
+    from burmester.synthesis.function_generation import coupler_synthesis, generate_function
+
+    synthesis = generate_function(task)
+    if not synthesis.generators:
+        from burmester.errors import InputError
+
+        raise InputError(
+            "E151",
+            "there is no linkage to show",
+            why=synthesis.outcome.why,
+            help=synthesis.outcome.help,
+        )
+    best = synthesis.generators[0]
+    return page(coupler_synthesis(task, best), title), f"{synthesis.outcome.message}.", best.usable
+
+
+def export_choice(data: bytes, path: str, id: str | None) -> SavedLinkage:
+    """A linkage of a function's result as exports take it: the coupler is the body."""
+    from dataclasses import replace
+
+    from burmester.io.function_result import read_function_result
+    from burmester.io.result import json_line, synthesis_data
+    from burmester.io.saved import read_result
+    from burmester.synthesis.function_generation import coupler_synthesis
+
+    result = read_function_result(data, path)
+    chosen = result.choose(id)
+    judged = coupler_synthesis(result.task, chosen)
+    saved = read_result(path, json_line(synthesis_data(judged)).encode()).choose()
+    return replace(saved, id=chosen.id, usable=chosen.usable)
+
+
+def judge_function(
+    task: FunctionTask,
+    linkage: str,
+    id: str | None,
+    *,
+    file: str | None,
+    force: bool,
+    as_json: bool,
+) -> int:
+    """Judge a linkage of a function's result at other pairs; returns the exit code."""
+    from burmester.io import files
+    from burmester.io.function_result import function_data, read_function_result
+    from burmester.io.function_table import show_function
+    from burmester.io.reading.file_content import read_source
+    from burmester.io.result import json_line
+    from burmester.synthesis.function_generation import judge_generator
+
+    if file is not None:
+        files.require_writable(file, force=force, source=linkage)
+    chosen: FoundGenerator = read_function_result(read_source(linkage), linkage).choose(id)
+    synthesis = judge_generator(task, chosen.generator)
+    if file is not None:
+        files.write(file, json_line(function_data(synthesis)), force=force)
+    if as_json:
+        print_json(function_data(synthesis))
+    else:
+        show_function(synthesis, console(), everything=True)
+    return EXIT_FOUND if synthesis.usable else EXIT_NOTHING

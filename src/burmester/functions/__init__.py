@@ -1,0 +1,1 @@
+"""Functions: linkages whose output angle is a given function of the input angle."""

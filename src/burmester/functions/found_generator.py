@@ -1,0 +1,197 @@
+"""A function generator with all that is known of it: errors, verdict, transmission, room."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Final, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burmester.errors import Advice
+from burmester.fourbar.linkage import Linkage
+from burmester.functions.function_task import FunctionTask
+from burmester.functions.generator import Generator
+from burmester.functions.refinement import MOST_SIZE, at_bounds
+from burmester.numerics.arrays import FloatArray
+from burmester.wording import figure, in_runs
+
+__all__ = ["LEAST_TRANSMISSION", "MOST_LINK_RATIO", "FoundGenerator", "found_generators"]
+
+LEAST_TRANSMISSION: Final = 30.0  # degrees; below it friction and play grow quickly
+MOST_LINK_RATIO: Final = 10.0  # longest over shortest of four links
+CLOSE: Final = 3.0  # times the least error; a sound linkage as close as this comes first
+MET: Final = 1e-7  # radians; a pair missed by less is met exactly
+MOST_PAIRS: Final = 6  # pairs or runs of them that a message names
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class FoundGenerator:
+    """A function generator of a task.
+
+    generator: one, without leading axes.
+    errors: (N,), of the output at the pairs, radians; nan where the linkage is open.
+    range_errors: (M,), at the inputs of `FunctionTask.compared`.
+    usable: whether it goes through the whole range of the input on one branch, without a dead
+        point, meets the pairs there and keeps what the task asks; defects: why not, after "it".
+    shortcomings: what keeps it from being one to build, likewise.
+    least_transmission: over the range of the input, radians; nan where it does not go through it.
+    extent: the diagonal of the box around all four pivots over the range, in ground links.
+    """
+
+    id: str
+    rank: int
+    generator: Generator
+    type: str
+    errors: FloatArray
+    range_errors: FloatArray
+    usable: bool
+    defects: tuple[Advice, ...]
+    shortcomings: tuple[str, ...]
+    least_transmission: float
+    extent: float
+
+    @property
+    def max_error(self) -> float:
+        """The greatest structural error, radians; nan where the linkage is open somewhere."""
+        return float(np.abs(self.range_errors).max())
+
+    @property
+    def rms_error(self) -> float:
+        """The root of the mean squared structural error, radians."""
+        return float(np.sqrt((self.range_errors**2).mean()))
+
+    def linkage(self, task: FunctionTask) -> Linkage:
+        """The four-bar: its input link is the first dyad, its coupler the body."""
+        return self.generator.linkage(task.ground)
+
+
+def found_generators(
+    generators: Generator, task: FunctionTask, *, exact: bool
+) -> tuple[FoundGenerator, ...]:
+    """Generators (k,), judged and ranked: usable ones first, then sound ones, then by error.
+
+    exact: whether all pairs have to be met.
+    """
+    every = [_found(generators[k], task, exact=exact) for k in range(len(generators))]
+    errors = [each.max_error for each in every if each.usable]
+    least = max(min(errors, default=math.inf), MET)
+
+    def order(each: FoundGenerator) -> tuple[bool, bool, float, float]:
+        sound = not each.shortcomings and each.max_error <= CLOSE * least
+        error = each.max_error if each.max_error > MET else 0.0
+        transmission = each.least_transmission
+        return (
+            not each.usable,
+            not sound,
+            error if math.isfinite(error) else math.inf,
+            -transmission if math.isfinite(transmission) else 0.0,
+        )
+
+    every.sort(key=order)
+    return tuple(
+        FoundGenerator(
+            f"L{rank}", rank, *(getattr(each, n) for n in FoundGenerator.__match_args__[2:])
+        )
+        for rank, each in enumerate(every, start=1)
+    )
+
+
+def _found(generator: Generator, task: FunctionTask, *, exact: bool) -> FoundGenerator:
+    errors = generator.error(task.inputs, task.outputs)
+    inputs, outputs = task.compared()
+    low, high = task.input_ends
+    least = float(generator.least_transmission(low, high))
+    defects = _defects(generator, task, errors, exact=exact)
+    ratio = float(generator.link_ratio)
+    asked = []
+    if task.least_transmission is not None and not least >= task.least_transmission:
+        asked.append(
+            Advice(
+                "transmission",
+                f"transmits at {_degrees(least)} only" if math.isfinite(least) else "locks",
+                "",
+            )
+        )
+    if task.link_ratio is not None and ratio > task.link_ratio:
+        asked.append(
+            Advice("link-ratio", f"has a link {figure(ratio)} times as long as another", "")
+        )
+    shortcomings = []
+    if task.least_transmission is None and not least >= math.radians(LEAST_TRANSMISSION):
+        shortcomings.append(f"transmits at {_degrees(least)} only")
+    if task.link_ratio is None and ratio > MOST_LINK_RATIO:
+        shortcomings.append(f"has a link {figure(ratio)} times as long as another")
+    if not exact and bool(at_bounds(generator)):
+        shortcomings.append(
+            f"has a link at the bound of {figure(MOST_SIZE)} ground links, or its inverse"
+        )
+    return FoundGenerator(
+        "",
+        0,
+        generator,
+        generator.linkage().type,
+        errors,
+        generator.error(inputs, outputs),
+        not defects and not asked,
+        (*defects, *asked),
+        tuple(shortcomings),
+        least,
+        _extent(generator, np.linspace(low, high, len(inputs) if task.function else 181)),
+    )
+
+
+def _defects(
+    generator: Generator, task: FunctionTask, errors: FloatArray, *, exact: bool
+) -> tuple[Advice, ...]:
+    """Why the linkage does not go through the range and the pairs; kinds as codes."""
+    out = []
+    low, high = task.input_ends
+    names = [str(k + 1) for k in range(len(errors))]
+    open_at = np.flatnonzero(np.isnan(errors))
+    if len(open_at):
+        out.append(Advice("assembly", f"cannot be assembled at {_pairs(open_at, names)}", ""))
+    missed = np.flatnonzero(exact & (np.abs(errors) > MET))
+    if len(missed):
+        out.append(Advice("branch", f"meets {_pairs(missed, names)} on another branch", ""))
+    if not bool(generator.runs_through(low, high)):
+        locks = _dead_inputs(generator, low, high)
+        where = " and ".join(_degrees(each) for each in locks)
+        message = f"locks at an input of {where}" if locks else "cannot be assembled over the range"
+        out.append(Advice("dead-point", message, ""))
+    return tuple(out)
+
+
+def _dead_inputs(generator: Generator, low: float, high: float) -> list[float]:
+    """The inputs between low and high at which coupler and output link are in line, radians."""
+    a, b, r = (float(v) for v in (generator.input_link, generator.output_link, generator.coupler))
+    found = []
+    for length in (abs(b - r), b + r):
+        cosine = (1 + a * a - length * length) / (2 * a)
+        if abs(cosine) > 1:
+            continue
+        for theta in {math.acos(cosine), -math.acos(cosine)}:
+            at = low + (theta - float(generator.input_phase) - low) % (2 * math.pi)
+            if at <= high:
+                found.append(at)
+    return sorted(found)
+
+
+def _extent(generator: Generator, inputs: FloatArray) -> float:
+    """The diagonal of the box around all four pivots at inputs (M,), in ground links."""
+    pin = 1 - generator.diagonal(inputs)
+    phi = generator.output_phase + generator.outputs(inputs)
+    other = 1 + generator.output_link * np.exp(1j * phi)
+    points = np.concatenate([[0, 1], pin, other[np.isfinite(other)]])
+    return float(np.hypot(np.ptp(points.real), np.ptp(points.imag)))
+
+
+def _pairs(at: NDArray[np.intp], names: list[str]) -> str:
+    named = in_runs([names[int(k)] for k in at], MOST_PAIRS)
+    return f"pair {named}" if len(at) == 1 else f"pairs {named}"
+
+
+def _degrees(angle: float) -> str:
+    return f"{math.degrees(angle):.1f} deg" if math.isfinite(angle) else "no angle"

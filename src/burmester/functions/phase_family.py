@@ -1,0 +1,88 @@
+"""Fewer pairs than phases and ratios: the generators of a grid of phases, and the best of them.
+
+Three pairs leave both phases open, or one where the other is given; four pairs leave one.  Each
+choice of phases on a grid has its generators in closed form; what works is judged for all at once.
+"""
+
+from __future__ import annotations
+
+from typing import Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burmester.functions.exact_pairs import generators_of_phases, other_phases
+from burmester.functions.function_task import FunctionTask
+from burmester.functions.generator import Generator
+
+__all__ = ["PhaseFamily", "best_of_phases"]
+
+GRID: Final = 72  # phases within half a turn; half a turn more is the same link drawn backwards
+FINE_GRID: Final = 360  # the same where one phase is open only
+MOST_RATIO: Final = 10.0  # of the longest link to the shortest
+KEPT: Final = 6  # generators that are told
+APART: Final = np.radians(15)  # phases; of generators nearer to each other the best is told
+EXACT: Final = 1e-7  # radians; a pair missed by less is met
+
+
+class PhaseFamily(NamedTuple):
+    """generators: (k,), the best first; tried: how many there were; working: how many worked."""
+
+    generators: Generator
+    tried: int
+    working: int
+
+
+def best_of_phases(task: FunctionTask) -> PhaseFamily:
+    """The best generators of three or four pairs that leave phases open.
+
+    Best is the least greatest structural error of a function; where only pairs are given, which all
+    of these meet, the greatest least transmission angle.  A grid is searched, and nothing
+    is said of what lies between its phases.
+    """
+    found = _of_grid(task)
+    found = found[np.isfinite(found.sizes).all(axis=-1)]
+    found = found.with_better_side(task.inputs, task.outputs)
+    tried, (low, high) = len(found), task.input_ends
+    error = np.abs(found.error(task.inputs, task.outputs)).max(axis=-1)
+    works = found.runs_through(low, high) & (error < EXACT) & (found.link_ratio <= MOST_RATIO)
+    found = found[works]
+    if task.function is not None:
+        merit = np.abs(found.error(*task.compared())).max(axis=-1)
+    else:
+        merit = -found.least_transmission(low, high)
+    order = np.argsort(merit, kind="stable")
+    return PhaseFamily(found[order[_apart(found[order])]], tried, len(found))
+
+
+def _of_grid(task: FunctionTask) -> Generator:
+    """The generators (k,) of all phases of the grid; nan where there are none."""
+    inputs, outputs = task.input_phase, task.output_phase
+    both = task.free_phases == 2
+    size = GRID if both and len(task.inputs) == 3 else FINE_GRID
+    grid = np.arange(size) * np.pi / size
+    if both and len(task.inputs) > 3:
+        second, _ = other_phases(task, grid, "input")
+        first = np.broadcast_to(grid[:, None], second.shape)
+        some = np.isfinite(second)
+        first, second = first[some], second[some]
+    elif both:
+        first, second = (each.ravel() for each in np.meshgrid(grid, grid, indexing="ij"))
+    else:
+        first = grid if inputs is None else np.full(size, inputs)
+        second = grid if outputs is None else np.full(size, outputs)
+    found, determined = generators_of_phases(task, first, second)
+    return found[determined]
+
+
+def _apart(sorted_generators: Generator) -> NDArray[np.intp]:
+    """The indices of the best generators whose phases are APART from those of all better ones."""
+    chosen: list[int] = []
+    phases = np.stack([sorted_generators.input_phase, sorted_generators.output_phase], axis=-1)
+    left = np.ones(len(phases), dtype=bool)
+    while left.any() and len(chosen) < KEPT:
+        best = int(left.argmax())
+        chosen.append(best)
+        away = np.abs(np.angle(np.exp(1j * (phases - phases[best])))).max(axis=-1)
+        left &= away > APART
+    return np.array(chosen, dtype=np.intp)

@@ -1,0 +1,136 @@
+"""A function synthesis on a terminal."""
+
+from __future__ import annotations
+
+import math
+
+from rich.console import Console
+from rich.text import Text
+
+from burmester.functions.found_generator import FoundGenerator
+from burmester.functions.function_task import FunctionTask
+from burmester.io.linkage_table import new_table
+from burmester.io.message import draw, message, note, print_trimmed, show, wrapped
+from burmester.synthesis.function_generation import FunctionSynthesis
+from burmester.wording import figure, listed, with_article
+
+__all__ = ["show_function"]
+
+NARROW = 76  # columns; in a narrower terminal the table has fewer
+MOST_ROWS = 8  # linkages in the table where not all are asked for
+EXACT = 1e-9  # radians; an error below is rounding
+
+
+def show_function(
+    synthesis: FunctionSynthesis, console: Console, *, everything: bool = False
+) -> None:
+    """What to build first, then the other linkages, and what has been found in all."""
+    outcome, task = synthesis.outcome, synthesis.task
+    usable = synthesis.usable
+    if usable:
+        _best(usable[0], task, console)
+        shown = list(synthesis.generators if everything else usable[:MOST_ROWS])
+    else:
+        draw(message("result", outcome.code, outcome.message, width=console.width), console)
+        for head, text in (("why", outcome.why), ("help", outcome.help)):
+            if text:
+                draw(note(head, text, console.width), console)
+        shown = list(synthesis.generators if everything else synthesis.generators[:MOST_ROWS])
+    if len(shown) > 1 or (shown and not usable):
+        _table(shown, task, console)
+    if usable:
+        console.print()
+        draw(message("result", outcome.code, outcome.message, width=console.width), console)
+        if (rest := len(synthesis.generators) - len(shown)) and not everything:
+            print_trimmed(Text(f"{rest} more: --all."), console)
+    if synthesis.warnings:
+        console.print()
+    for warning in synthesis.warnings:
+        show("warning", warning, console)
+
+
+def _best(found: FoundGenerator, task: FunctionTask, console: Console) -> None:
+    """The linkage to build, with its dimensions."""
+    kind = with_article(found.type)
+    where = "over the range" if task.function else "at the pairs"
+    error = (
+        "meets all pairs exactly"
+        if found.max_error < EXACT
+        else f"misses by {_degrees(found.max_error)} deg at most {where} "
+        f"({figure(100 * found.max_error / task.output_span)} % of the output's range), "
+        f"{_degrees(found.rms_error)} deg rms"
+    )
+    head = f"Build {found.id}: {kind} that {error}."
+    print_trimmed(Text(head, style="bold"), console)
+    one, ground = found.generator, task.ground
+    lengths = (1.0, float(one.input_link), float(one.coupler), float(one.output_link))
+    names = ("ground link", "input link", "coupler", "output link")
+    table = new_table(gap=1)
+    table.show_header = False
+    for _ in range(2):
+        table.add_column(no_wrap=True)
+    table.add_column(justify="right", no_wrap=True)
+    table.add_column()
+    at = {
+        "input link": (one.input_phase, "where the input is 0"),
+        "output link": (one.output_phase, "where the output is 0"),
+    }
+    for name, length in zip(names, lengths, strict=True):
+        phase = at.get(name)
+        text = (
+            "" if phase is None else f"at {math.degrees(float(phase[0])) % 360:.4f} deg {phase[1]}"
+        )
+        table.add_row("", name, f"{length * ground:.6g}", text)
+    print_trimmed(table, console)
+    side = "left" if float(one.side) > 0 else "right"
+    notes = [
+        "Angles are from the ground link, counter-clockwise. Seen from the input link's pin to "
+        f"the output's pivot, the coupler's other pin lies on the {side}.",
+        f"Least transmission angle over the range: {math.degrees(found.least_transmission):.1f} "
+        f"deg. The box of all pivots has a diagonal of {figure(found.extent * ground)}.",
+    ]
+    if found.shortcomings:
+        notes.append(f"It {listed(found.shortcomings)}.")
+    for text in notes:
+        print_trimmed(Text(text), console)
+
+
+def _table(shown: list[FoundGenerator], task: FunctionTask, console: Console) -> None:
+    wide = console.width >= NARROW
+    table = new_table("Function generators, the best first", gap=1 if wide else 0)
+    table.add_column("", no_wrap=True)
+    table.add_column("type")
+    for name in ("input", "coupler", "output"):
+        table.add_column(name, justify="right", no_wrap=True)
+    for name in ("max error", "%", "rms", "transm.")[:: 1 if wide else 3]:
+        table.add_column(name, justify="right", no_wrap=True)
+    for each in shown:
+        one = each.generator
+        lengths = (one.input_link, one.coupler, one.output_link)
+        percent = figure(100 * each.max_error / task.output_span)
+        figures = [
+            f"{_degrees(each.max_error)}°",
+            percent,
+            f"{_degrees(each.rms_error)}°",
+            f"{math.degrees(each.least_transmission):.0f}°"
+            if math.isfinite(each.least_transmission)
+            else "-",
+        ]
+        table.add_row(
+            each.id,
+            each.type,
+            *(f"{float(v) * task.ground:.4g}" for v in lengths),
+            *figures[:: 1 if wide else 3],
+        )
+    print_trimmed(table, console)
+    for each in shown:
+        if not each.usable:
+            reasons = f"{each.id} {listed([d.message for d in each.defects])}"
+            draw(wrapped(reasons, console.width, hang=4), console)
+
+
+def _degrees(angle: float) -> str:
+    """An error in degrees, "exact" where it is rounding, "open" where there is none."""
+    if not math.isfinite(angle):
+        return "-"
+    return "0" if angle < EXACT else figure(math.degrees(angle))

@@ -1,0 +1,1 @@
+"""Function tasks: expressions, and pairs of angles from files."""

@@ -1,0 +1,207 @@
+"""A function task as options, keywords and trees state it: all of them come here.
+
+E191 a function task that makes no sense      E194 settings that are missing or exclude each other
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Final, Literal, NamedTuple, TypeAlias
+
+import numpy as np
+
+from burmester.errors import InputError
+from burmester.functions.function_task import (
+    FUNCTION_SAMPLES,
+    FunctionTask,
+    SampledFunction,
+    chebyshev_spacing,
+    even_spacing,
+)
+from burmester.io.reading.functions.expression import read_expression
+from burmester.io.reading.pose_table import Source, shown
+from burmester.numerics.arrays import FloatArray
+
+__all__ = ["FunctionSettings", "Spacing", "task_of_function", "task_of_pairs"]
+
+Spacing: TypeAlias = Literal["chebyshev", "even"]
+SAMPLES: Final = 61  # of a function whose number of pairs is not given
+MOST_PAIRS: Final = 1000
+MOST_RANGE: Final = 350.0  # degrees, of an input or an output
+MOST_EXACT: Final = 5  # pairs; from more the spacing is even where none is given
+LEAST_STEP: Final = 1e-9  # radians; inputs that differ less are one
+
+
+class FunctionSettings(NamedTuple):
+    """What is asked of a function generator beside its pairs; angles in degrees."""
+
+    input_phase: float | None = None
+    output_phase: float | None = None
+    ground: float = 1.0
+    minimax: bool = False
+    least_transmission: float | None = None
+    link_ratio: float | None = None
+
+
+def task_of_function(
+    function: str | Callable[[FloatArray], FloatArray],
+    x: tuple[float, float],
+    input_range: float,
+    output_range: float,
+    *,
+    pairs: int | None = None,
+    spacing: Spacing | None = None,
+    opposite: bool = False,
+    settings: FunctionSettings = FunctionSettings(),  # noqa: B008  frozen
+    source: Source | None = None,
+) -> FunctionTask:
+    """The task of a function over a range of x, by angles in degrees; raises E190, E191 and E194.
+
+    source: where the expression stands, for carets.
+    """
+    low, high = (float(each) for each in x)
+    if not (math.isfinite(low) and math.isfinite(high) and low != high):
+        raise InputError(
+            "E191",
+            f"x runs from {low:g} to {high:g}, which is no range",
+            help="give two different numbers, such as --x 1:2",
+        )
+    for name, value in (("input", input_range), ("output", output_range)):
+        if not 0 < value <= MOST_RANGE:
+            raise InputError(
+                "E191",
+                f"the {name} link is to turn by {value:g} deg",
+                why=f"a range is above 0 and at most {MOST_RANGE:g} deg",
+                help=f"give the range of the {name} in degrees, such as --{name} 60; for an output "
+                "that turns against the input, say --opposite",
+            )
+    if pairs is not None and not 3 <= pairs <= MOST_PAIRS:
+        raise InputError(
+            "E192" if pairs < 3 else "E191",
+            f"{pairs} pairs of angles are asked for",
+            why=f"from 3 to {MOST_PAIRS} are taken",
+            help="give --pairs 5 for five pairs that are met exactly, or leave --pairs out",
+        )
+    text = function if isinstance(function, str) else getattr(function, "__name__", "f")
+    source = source or Source("--function", text)
+    values = read_expression(source) if isinstance(function, str) else _checked(function)
+    every = np.asarray(values(np.linspace(low, high, FUNCTION_SAMPLES)), dtype=float)
+    if not np.isfinite(every).all():
+        at = float(np.linspace(low, high, FUNCTION_SAMPLES)[int((~np.isfinite(every)).argmax())])
+        raise InputError(
+            "E191",
+            f"{text} has no finite value at x = {at:g}",
+            where=source.where(0, len(source.text)),
+            help="give a range of x where it has, or another function",
+        )
+    if not np.ptp(every) > 1e-12 * np.abs(every).max():
+        raise InputError(
+            "E191",
+            f"{text} is the same all over the range of x, so the output does not move",
+            where=source.where(0, len(source.text)),
+            help="give a function of x, such as log10(x), or another range of x",
+        )
+    sampled = SampledFunction(
+        text,
+        values,
+        (low, high),
+        math.radians(input_range),
+        math.radians(-output_range if opposite else output_range),
+        isinstance(function, str),
+    )
+    number = pairs or SAMPLES
+    chosen = spacing or ("chebyshev" if number <= MOST_EXACT else "even")
+    shares = chebyshev_spacing(number) if chosen == "chebyshev" else even_spacing(number)
+    inputs, outputs = sampled.at(shares)
+    return _task(inputs, outputs, settings, sampled, None)
+
+
+def task_of_pairs(
+    inputs: FloatArray,
+    outputs: FloatArray,
+    weights: FloatArray | None = None,
+    settings: FunctionSettings = FunctionSettings(),  # noqa: B008  frozen
+    where: Callable[[int], str] | None = None,
+) -> FunctionTask:
+    """The task of pairs of angles in degrees; raises E191 and E194.
+
+    where: the location of a pair, by its number from 0.
+    """
+    if len(inputs) > MOST_PAIRS:
+        raise InputError(
+            "E191",
+            f"there are {len(inputs)} pairs of angles, and {MOST_PAIRS} are the most",
+            help="take one pair in ten, say",
+        )
+    theta, phi = np.radians(inputs), np.radians(outputs)
+    for k in range(len(theta)):
+        same = np.flatnonzero(np.abs(np.angle(np.exp(1j * (theta[:k] - theta[k])))) < LEAST_STEP)
+        if len(same):
+            raise InputError(
+                "E191",
+                f"pairs {int(same[0]) + 1} and {k + 1} have the same input, {inputs[k]:g} deg",
+                where=where and where(k),
+                why="at one input the linkage has one output; inputs that differ by full turns "
+                "are one",
+                help="delete one of the two pairs",
+            )
+    if len(phi) and np.ptp(phi) < LEAST_STEP:
+        raise InputError(
+            "E191",
+            "all outputs are the same, so the output does not move",
+            help="give outputs that differ",
+        )
+    return _task(theta, phi, settings, None, weights)
+
+
+def _task(
+    inputs: FloatArray,
+    outputs: FloatArray,
+    settings: FunctionSettings,
+    function: SampledFunction | None,
+    weights: FloatArray | None,
+) -> FunctionTask:
+    for name, value, most in (
+        ("the length of the ground link", settings.ground, 1e9),
+        ("the least transmission angle", settings.least_transmission, 90.0),
+        ("the link ratio", settings.link_ratio, 1e9),
+    ):
+        least = 1.0 if name == "the link ratio" else 0.0
+        if value is not None and not least < value < most:
+            raise InputError(
+                "E194",
+                f"{name} is {value:g}",
+                help=f"give a number above {least:g} and below {most:g}",
+            )
+    for name, value in (("input", settings.input_phase), ("output", settings.output_phase)):
+        if value is not None and not math.isfinite(value):
+            raise InputError(
+                "E194", f"the {name} phase is {shown(value)}", help="give an angle in degrees"
+            )
+    return FunctionTask(
+        inputs,
+        outputs,
+        _radians(settings.input_phase),
+        _radians(settings.output_phase),
+        weights,
+        settings.ground,
+        function,
+        settings.minimax,
+        _radians(settings.least_transmission),
+        settings.link_ratio,
+    )
+
+
+def _radians(degrees: float | None) -> float | None:
+    return None if degrees is None else math.radians(degrees)
+
+
+def _checked(function: Callable[[FloatArray], FloatArray]) -> Callable[[FloatArray], FloatArray]:
+    """A function of arrays, whatever shape it gives back."""
+
+    def values(x: FloatArray) -> FloatArray:
+        with np.errstate(all="ignore"):
+            return np.broadcast_to(np.asarray(function(x), dtype=np.float64), np.shape(x))
+
+    return values

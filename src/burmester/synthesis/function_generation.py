@@ -1,0 +1,269 @@
+"""From pairs of angles, or a function, to its four-bars: the whole road of a function generator.
+
+As many pairs as unknowns are met exactly, by all linkages that there are; fewer leave phases open,
+and a grid of them is searched; more are met by all critical points of Freudenstein's residual,
+refined by the true error of the output angle.
+
+E192 too few pairs, or pairs that infinitely many linkages meet
+W230 critical points that were not reached      W231 phases chosen from a grid
+W232 solutions without end                      W233 a linkage at the bound of its sizes
+R360 function generators that work              R361 none that does
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final, Literal, TypeAlias, final
+
+import numpy as np
+
+from burmester.errors import Advice, InputError
+from burmester.functions.critical_generators import critical_generators
+from burmester.functions.exact_pairs import exact_generators, generators_of_phases
+from burmester.functions.found_generator import FoundGenerator, found_generators
+from burmester.functions.function_task import FunctionTask
+from burmester.functions.generator import Generator
+from burmester.functions.phase_family import best_of_phases
+from burmester.functions.refinement import at_bounds, different, least_squares, minimax
+from burmester.geometry.regions import Point
+from burmester.numerics.linear_algebra import one_thread
+from burmester.progress import step
+from burmester.synthesis.judgement import judge_linkage
+from burmester.synthesis.result import Outcome, Synthesis
+from burmester.tasks.limits import Limits
+from burmester.tasks.motion_task import Task
+from burmester.tasks.requirements import Requirements
+from burmester.wording import count, listed
+
+__all__ = ["FunctionSynthesis", "coupler_synthesis", "generate_function", "judge_generator"]
+
+LEAST_PAIRS: Final = 3
+SAME_ANGLE: Final = 1e-9  # radians; outputs that turn with the input but for less do so exactly
+LEVELLED: Final = 5  # generators of least squares that minimax goes on from
+_HELP: Final = (
+    "change the range of the input or of the output, turn the output the other way (--opposite for "
+    "a function), or leave the phases open"
+)
+COUPLER_PLACES: Final = 13  # of the coupler over the range of a function, for export and report
+FunctionMethod: TypeAlias = Literal["exact", "phases", "least squares", "minimax", "judged"]
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class FunctionSynthesis:
+    """All that came of a function task.
+
+    method: how it was solved.  generators: by rank.
+    solutions: how many solutions or critical points generic pairs have, real or not; found: how
+        many of them were reached; real: how many of these are linkages.  None for a grid.
+    """
+
+    task: FunctionTask
+    method: FunctionMethod
+    outcome: Outcome
+    generators: tuple[FoundGenerator, ...]
+    warnings: tuple[Advice, ...] = ()
+    solutions: int | None = None
+    found: int | None = None
+    real: int | None = None
+
+    @property
+    def usable(self) -> tuple[FoundGenerator, ...]:
+        """The linkages that work."""
+        return tuple(each for each in self.generators if each.usable)
+
+
+def generate_function(task: FunctionTask) -> FunctionSynthesis:
+    """The four-bars of a function task, judged and ranked; raises E192."""
+    with one_thread():
+        pairs = len(task.inputs)
+        if pairs < LEAST_PAIRS:
+            raise InputError(
+                "E192",
+                f"{count(pairs, 'pair')} of angles leave infinitely many linkages",
+                why="three lengths are to be found even where both phases are given",
+                help=f"give {LEAST_PAIRS} pairs or more",
+            )
+        _require_no_parallelogram(task)
+        if pairs < task.exact_count:
+            return _by_phases(task)
+        if pairs == task.exact_count:
+            return _exactly(task)
+        return _nearly(task)
+
+
+def judge_generator(task: FunctionTask, generator: Generator) -> FunctionSynthesis:
+    """One generator that exists, judged by the pairs or the function of a task."""
+    found = found_generators(_stacked([generator]), task, exact=False)
+    (one,) = found
+    if one.usable:
+        outcome = Outcome("R360", "the function generator works")
+    else:
+        reasons = listed([each.message for each in one.defects])
+        outcome = Outcome("R361", "the function generator does not work", _HELP, f"it {reasons}")
+    return FunctionSynthesis(task, "judged", outcome, found)
+
+
+def _require_no_parallelogram(task: FunctionTask) -> None:
+    """Refuse an output that turns as the input does: every parallelogram does that."""
+    if np.ptp(task.outputs - task.inputs) < SAME_ANGLE:
+        raise InputError(
+            "E192",
+            "infinitely many linkages meet these pairs",
+            why="the output turns as the input does, and so it does in every parallelogram",
+            help="take a coupler as long as the ground link, and two other links of one length; or "
+            "give outputs that differ",
+        )
+
+
+def _exactly(task: FunctionTask) -> FunctionSynthesis:
+    step("solving for the exact pairs")
+    every = exact_generators(task)
+    if not every.determined:
+        raise InputError(
+            "E192",
+            "infinitely many linkages meet these pairs",
+            why="the equations of the pairs depend on each other",
+            help="give other pairs, or one more",
+        )
+    found = found_generators(every.generators, task, exact=True)
+    warnings = []
+    if every.sliders:
+        warnings.append(
+            Advice(
+                "W232",
+                f"{count(every.sliders, 'solution')} with a link without end "
+                f"{'is' if every.sliders == 1 else 'are'} left out",
+                "change an angle a little if such a long link may stand for the slider",
+                "a link without end is a slider, and a function generator with one is not made",
+            )
+        )
+    real = len(found) + every.sliders
+    head = f"{_number(found)} of the {every.expected} that such pairs have"
+    return FunctionSynthesis(
+        task,
+        "exact",
+        _outcome(found, task, head),
+        found,
+        tuple(warnings),
+        every.expected,
+        every.expected,
+        real,
+    )
+
+
+def _by_phases(task: FunctionTask) -> FunctionSynthesis:
+    step("looking through the phases")
+    family = best_of_phases(task)
+    found = found_generators(family.generators, task, exact=True)
+    best = "the structural error is least" if task.function else "transmission is best"
+    needed = task.exact_count - len(task.inputs)
+    note = Advice(
+        "W231",
+        f"phases were chosen from a grid, where {best}",
+        f"give {count(needed, 'pair')} more, or phases with --input-phase and --output-phase",
+        f"{count(len(task.inputs), 'pair')} and {count(task.free_phases, 'open phase')} leave "
+        f"infinitely many linkages; {family.tried} were tried, and {family.working} work",
+    )
+    head = f"{_number(found)} of infinitely many"
+    return FunctionSynthesis(task, "phases", _outcome(found, task, head), found, (note,))
+
+
+def _nearly(task: FunctionTask) -> FunctionSynthesis:
+    warnings: list[Advice] = []
+    solutions, reached, real = 1, 1, 1
+    if task.free_phases:
+        step("following paths to all critical points")
+        points = critical_generators(task)
+        phases, which = (points.input_phase, points.output_phase), points.real
+        solutions, reached, real = points.expected, points.found, int(which.sum())
+        if reached < solutions:
+            warnings.append(
+                Advice(
+                    "W230",
+                    f"{reached} of {solutions} critical points of the residual were reached",
+                    "change a range a little and compare, or ask for five pairs (--pairs 5), of "
+                    "which no solution is missing",
+                    "the others lie at infinity, or too close together to be told apart",
+                )
+            )
+    else:
+        phases = (np.array([task.input_phase]), np.array([task.output_phase]))
+    start, _ = generators_of_phases(task, *phases)
+    start = start[np.isfinite(start.sizes).all(axis=-1)]
+    start = start.with_better_side(task.inputs, task.outputs, task.weights)
+    step("refining the output angle")
+    refined, arrived = least_squares(start, task)
+    refined = refined[arrived]
+    refined = refined[different(refined)]
+    found = found_generators(refined, task, exact=False)
+    if task.minimax and found:
+        step("levelling the greatest errors")
+        chosen = found[:LEVELLED]
+        best = _stacked([each.generator for each in chosen])
+        best = minimax(best, task)
+        best = best[different(best)]
+        found = found_generators(best, task, exact=False)
+    if found and found[0].usable and bool(at_bounds(found[0].generator)):
+        warnings.append(
+            Advice(
+                "W233",
+                f"{found[0].id} would be closer still with a link beyond the bound",
+                "take another range of the input or of the output",
+                "no link is longer than 10 ground links, or shorter than a tenth of one",
+            )
+        )
+    norm = "the least greatest error" if task.minimax else "the least squared error"
+    head = f"{_number(found)} with {norm}, from {count(reached, 'critical point')} ({real} real)"
+    return FunctionSynthesis(
+        task,
+        "minimax" if task.minimax else "least squares",
+        _outcome(found, task, head),
+        found,
+        tuple(warnings),
+        solutions,
+        reached,
+        real,
+    )
+
+
+def _number(found: tuple[FoundGenerator, ...]) -> str:
+    return count(len(found), "function generator")
+
+
+def _outcome(found: tuple[FoundGenerator, ...], task: FunctionTask, head: str) -> Outcome:
+    usable = sum(each.usable for each in found)
+    if usable:
+        return Outcome("R360", f"{head}, {usable} of them usable")
+    if not found:
+        return Outcome("R361", head, _HELP, "no real linkage meets the pairs")
+    reasons = [f"{each.id} {each.defects[0].message}" for each in found[:3]]
+    return Outcome("R361", f"{head}, none of them usable", _HELP, listed(reasons))
+
+
+def _stacked(each: list[Generator]) -> Generator:
+    names = Generator.__match_args__
+    return Generator(*(np.stack([getattr(one, name) for one in each]) for name in names))
+
+
+def coupler_synthesis(task: FunctionTask, found: FoundGenerator) -> Synthesis:
+    """A function generator as a linkage that guides its coupler: the judgement of that motion.
+
+    The places of the coupler at the pairs are the poses; of a function, places at even distances
+    over the range.  So reports and exports show and write it like every other linkage.
+    """
+    low, high = task.input_ends
+    inputs = np.sort(task.inputs)
+    if task.function is not None or len(inputs) > COUPLER_PLACES:
+        inputs = np.linspace(low, high, COUPLER_PLACES)
+    poses = found.generator.coupler_poses(inputs, task.ground)
+    poses = poses[np.isfinite(poses).all(axis=-1)]
+    # Each pivot where it is: so the input link is the first, and drives.
+    pivots = np.array([[0.0, 0.0], [task.ground, 0.0]])
+    motion = Task.from_rows(
+        poses,
+        angle_unit="rad",
+        limits=tuple(Limits(fixed_pivot=Point(each)) for each in pivots),
+        requirements=Requirements(driver="first"),
+    )
+    return judge_linkage(motion, found.linkage(task))
