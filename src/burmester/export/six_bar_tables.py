@@ -1,0 +1,121 @@
+"""CSV of a six-bar's motion, and JSON of the six-bar, each read back.
+
+They are checked by the bars alone: every row keeps the distances between joints of one link, and
+the body where its two joints are.
+
+E160 the file does not contain the six-bar
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+
+from burmester.export.numbers import number
+from burmester.export.options import Options
+from burmester.export.reference import require_equal
+from burmester.geometry.displacement import Displacement
+from burmester.io.pose_data import poses_data
+from burmester.io.saved_six_bars import SavedSixBar
+from burmester.io.six_bar_data import six_bar_data
+from burmester.numerics.arrays import FloatArray
+from burmester.sixbar.watt import BARS, JOINTS
+
+__all__ = ["check_csv", "check_json", "write_csv", "write_json"]
+
+SCHEMA: Final = "burmester.six-bar/1"
+MOTION_ROWS: Final = 361  # along the motion, beside those of the poses
+CLOSE: Final = 1e-9  # of the greatest length; a table keeps bars and poses this well
+
+
+def write_csv(chosen: SavedSixBar, path: Path, options: Options) -> None:
+    """A row for each step from the first pose to the last, and one for each pose."""
+    found = chosen.found
+    marked = [(value, 0) for value in found.along(MOTION_ROWS).tolist()]
+    marked = [each for each in marked if np.abs(found.drive - each[0]).min() > 1e-9]
+    marked += [(value, k + 1) for k, value in enumerate(found.drive.tolist())]
+    backwards = bool(found.drive[-1] < found.drive[0])
+    marked.sort(key=lambda each: each[0], reverse=backwards)
+    drives = np.array([value for value, _ in marked])
+    joints, places = found.joints(drives), poses_data(found.body(drives))
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(
+            ["drive_deg", "x", "y", "angle_deg"]
+            + [f"{name}_{axis}" for name in JOINTS for axis in "xy"]
+            + ["pose"]
+        )
+        for k, (value, pose) in enumerate(marked):
+            at = [float(each) for name in JOINTS for each in joints[name][k]]
+            row = [math.degrees(value), *places[k].values(), *at]
+            table.writerow([*map(number, row), pose or ""])
+
+
+def check_csv(chosen: SavedSixBar, path: Path, options: Options) -> None:
+    """Bars, body and driver of each row, and the poses."""
+    with open(path, encoding="utf-8", newline="") as file:
+        _, *rows = list(csv.reader(file))
+    numbers = np.array([[float(cell) for cell in row[:-1]] for row in rows])
+    at = dict(zip(JOINTS, np.moveaxis(numbers[:, 4:].reshape(-1, 7, 2), 1, 0), strict=True))
+    body = Displacement(numbers[:, 1:3], np.radians(numbers[:, 3]))
+    _require_linkage(chosen, at, body, np.radians(numbers[:, 0]))
+    poses = [(k, int(row[-1]) - 1) for k, row in enumerate(rows) if row[-1]]
+    require_equal("the poses", [pose for _, pose in poses], np.arange(len(poses)), 0)
+    _require_poses(chosen, body[[k for k, _ in poses]])
+
+
+def write_json(chosen: SavedSixBar, path: Path, options: Options) -> None:
+    """The six-bar as a result holds it, with the poses of its task."""
+    data: dict[str, Any] = {"schema": SCHEMA, "length_unit": chosen.task.length_unit}
+    data |= six_bar_data(chosen.found)
+    data["poses"] = poses_data(chosen.task.poses)
+    path.write_text(json.dumps(data, indent=2, allow_nan=False) + "\n", encoding="utf-8")
+
+
+def check_json(chosen: SavedSixBar, path: Path, options: Options) -> None:
+    """Joints, drives and poses."""
+    data = json.loads(path.read_text(encoding="utf-8"))
+    at = {name: np.array([each[name] for each in data["joints"]]) for name in JOINTS}
+    rows = [[each["x"], each["y"], math.radians(each["angle_deg"])] for each in data["poses"]]
+    poses = Displacement.from_poses(np.array(rows))
+    _require_linkage(chosen, at, poses, np.radians(data["drive_deg"]))
+    _require_poses(chosen, poses)
+    lengths = [data["lengths"][bar] for bar in BARS]
+    require_equal("the lengths", lengths, chosen.found.linkage.lengths(), CLOSE * _size(chosen))
+
+
+def _require_linkage(
+    chosen: SavedSixBar, at: dict[str, FloatArray], body: Displacement, drives: FloatArray
+) -> None:
+    """Compare rows of joints, of the body and of the driver with the linkage's dimensions."""
+    linkage, off = chosen.found.linkage, CLOSE * _size(chosen)
+    for bar, length in zip(BARS, linkage.lengths().tolist(), strict=True):
+        apart = np.linalg.norm(at[bar[1]] - at[bar[0]], axis=-1)
+        require_equal(f"the length of {bar}", apart, np.full(len(apart), length), off)
+    for name, wanted in (
+        ("A", np.broadcast_to(linkage.fixed_first, at["A"].shape)),
+        ("B", np.broadcast_to(linkage.fixed_second, at["B"].shape)),
+        ("E", body.act(linkage.body_joint)),
+        ("H", body.act(linkage.link_joint)),
+    ):
+        require_equal(f"joint {name}", at[name], wanted, 100 * off)
+    pivot, end = ("A", "C") if chosen.found.driver == "first" else ("B", "D")
+    arm = (at[end] - at[pivot]) @ np.array([1, 1j])
+    turned = np.abs(arm / np.abs(arm) - np.exp(1j * drives)).max()
+    require_equal("the driver", turned, 0, 1e-8)
+
+
+def _require_poses(chosen: SavedSixBar, places: Displacement) -> None:
+    poses = chosen.task.poses
+    require_equal("the poses", places.translation, poses.translation, 1e-6 * _size(chosen))
+    turned = np.abs(np.exp(1j * places.angle) - np.exp(1j * poses.angle)).max()
+    require_equal("the angles of the poses", turned, 0, 1e-6)
+
+
+def _size(chosen: SavedSixBar) -> float:
+    return float(chosen.found.linkage.lengths().max())

@@ -1,0 +1,76 @@
+"""Six-bars as plain data, and that data read back."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from burmester.numerics.arrays import FloatArray
+from burmester.sixbar.found import FoundSixBar
+from burmester.sixbar.six_bars import RULE, SixBars
+from burmester.sixbar.watt import LINKS
+
+__all__ = ["TYPE", "six_bar_data", "six_bars_data"]
+
+TYPE = "Watt I six-bar"
+
+
+def six_bars_data(result: SixBars) -> dict[str, Any]:
+    """What a search for six-bars has found."""
+    return {
+        "rule": RULE,
+        "assumed": [{"message": words, "option": option} for words, option in result.assumed],
+        "chains": result.chains,
+        "designs": result.designs,
+        "working": result.working,
+        "seed": int(result.options.seed),
+        "free_poses": result.free_poses,
+        "found": [six_bar_data(each) for each in result.found],
+    }
+
+
+def six_bar_data(found: FoundSixBar) -> dict[str, Any]:
+    """One six-bar: its dimensions, what it does, and where its joints are at the poses."""
+    linkage = found.linkage
+    origin = [0.0, 0.0]
+    joints = found.joints(found.drive)
+    return {
+        "id": found.id,
+        "type": TYPE,
+        "driver": found.driver,
+        "joints_of_links": {name: list(joints) for name, joints in LINKS.items()},
+        "ground": {"A": _pair(linkage.fixed_first), "B": _pair(linkage.fixed_second)},
+        "coupler": {
+            "C": origin,
+            "D": _pair(linkage.coupler_joint),
+            "E": [float(linkage.coupler_arm), 0.0],
+        },
+        "second_crank": {
+            "B": origin,
+            "D": [float(linkage.second_crank), 0.0],
+            "G": _pair(linkage.crank_joint),
+        },
+        "body": {"E": _pair(linkage.body_joint), "H": _pair(linkage.link_joint)},
+        "lengths": found.lengths,
+        "drive_deg": np.degrees(found.drive).tolist(),
+        "turns_fully": found.turns_fully,
+        "reserve_deg": [
+            math.degrees(each) if math.isfinite(each) else None for each in found.room.tolist()
+        ],
+        "min_transmission_angle_deg": math.degrees(found.transmission),
+        "link_ratio": found.link_ratio,
+        "extent": found.extent,
+        "position_error": {"max": float(found.error.position.max())},
+        "angle_error_deg": {"max": math.degrees(float(found.error.angle.max()))},
+        "shortcomings": list(found.shortcomings),
+        "joints": [
+            {name: _pair(places[k]) for name, places in joints.items()}
+            for k in range(len(found.drive))
+        ],
+    }
+
+
+def _pair(point: FloatArray) -> list[float]:
+    return [float(each) for each in point]

@@ -1,0 +1,284 @@
+"""Six-bars by a random search over 3R chains, and for better ones near the best of them.
+
+Every chain is worked out whole (`added_dyads`); which chains are looked at is left to chance.  So
+the answer is the best that was seen, and no proof that there is no better one.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burmester.geometry.displacement import Displacement
+from burmester.geometry.regions import Line, Point, Region, Segment
+from burmester.linkages.quality import best_first
+from burmester.linkages.standard import LEAST_TRANSMISSION
+from burmester.numerics.arrays import FloatArray, complex_of
+from burmester.progress import goes_on, time_for
+from burmester.sixbar.candidates import Candidates, candidates, joined
+from burmester.sixbar.search_space import POSES, SearchSpace
+from burmester.sixbar.three_r_chain import ThreeRChain
+
+__all__ = ["ChainSearch", "search"]
+
+ROUND = 500  # chains worked out at a time
+DRAWN_SHARE = 0.4  # of the rounds, in which chains are drawn at random; then near the best as well
+VIOLATED = 120.0  # degrees of transmission that a violation of 1 counts as, in what is climbed
+KEPT = 100  # of the best, around which chains are drawn
+STEPS = 0.003, 0.3  # least and greatest deviation of a chain from its parent, in sizes
+MARGIN = 1.002  # of the reach that a chain needs, at least
+LONGEST_REACH = 2.5  # of the reach that a chain needs, at most
+FREE_POSE = 0.15  # deviation of a pose that is free, in sizes and radians
+AROUND = 1.0  # sizes around the poses, in which a pivot on an endless line is looked for
+OUTSIDE = 1e-9  # sizes; as far outside a region a pivot still is in it
+NICHE = 0.05  # sizes; of two six-bars whose joints are all nearer than this the better is kept
+APART = (
+    0.15  # sizes; two six-bars of an answer have a joint that is farther apart at the first pose
+)
+
+
+@final
+class ChainSearch(NamedTuple):
+    """What a search has found: six-bars (n,), the best first, with the poses (n, 5) of each.
+
+    task_poses: (N,), which of the five are the task's.  chains, designs, working: how many were
+    worked out, how many six-bars they made (with a first loop that works), and how many of these
+    work within the regions.
+    """
+
+    best: Candidates
+    poses: Displacement
+    task_poses: NDArray[np.intp]
+    chains: int
+    designs: int
+    working: int
+
+
+class _Chains(NamedTuple):
+    """Chains (k,) as a search draws them: A, E, the reach in needed ones, how unequal the links.
+
+    poses: (k, 5); side: (k,), of the elbow.
+    """
+
+    fixed: FloatArray
+    moving: FloatArray
+    reach: FloatArray
+    balance: FloatArray
+    side: FloatArray
+    poses: Displacement
+
+    def take(self, index: NDArray[np.intp]) -> _Chains:
+        """Some of them."""
+        return self._merged(lambda column: column[index])
+
+    def _merged(self, work: Callable[..., FloatArray], *others: _Chains) -> _Chains:
+        """What a function makes of each column of these chains and of others."""
+        columns = zip(*(each._columns() for each in (self, *others)), strict=True)
+        fixed, moving, reach, balance, side, translation, angle = (work(*each) for each in columns)
+        return _Chains(fixed, moving, reach, balance, side, Displacement(translation, angle))
+
+    def _columns(self) -> list[FloatArray]:
+        """Everything, an array each."""
+        own = [self.fixed, self.moving, self.reach, self.balance, self.side]
+        return [*own, self.poses.translation, self.poses.angle]
+
+    def beside(self, other: _Chains) -> _Chains:
+        """These, and others after them."""
+        return self._merged(lambda *pair: np.concatenate(pair), other)
+
+    def where(self, stays: NDArray[np.bool_], other: _Chains) -> _Chains:
+        """Each of these that stays, and for the rest the other one."""
+
+        def chosen(one: FloatArray, two: FloatArray) -> FloatArray:
+            return np.where(stays.reshape(-1, *[1] * (one.ndim - 1)), one, two)
+
+        return self._merged(chosen, other)
+
+    def chains(self) -> ThreeRChain:
+        """As chains that reach all their poses."""
+        ends = complex_of(self.poses.act(self.moving[:, None]))
+        far = np.abs(ends - complex_of(self.fixed)[:, None])
+        total, less = far.max(axis=-1) * self.reach, far.min(axis=-1) * self.balance
+        return ThreeRChain(self.fixed, (total + less) / 2, (total - less) / 2, self.moving)
+
+
+def search(space: SearchSpace, chains: int, seed: int, most: int) -> ChainSearch:
+    """The best six-bars of so many chains, `most` at most.
+
+    The same seed gives the same answer.  A time limit (`progress.limited`) ends it after a round.
+    """
+    random = np.random.default_rng(seed)
+    rounds = -(-chains // ROUND)
+    given = space.poses.shape[0]
+    own = np.round(np.linspace(0, POSES - 1, given)).astype(np.intp)
+    kept: Candidates | None = None
+    drawn: _Chains | None = None
+    looked = designs = working = 0
+    time_for(f"looking for six-bars on {chains} chains")
+    for number in range(rounds):
+        if number and not goes_on(number + 1, rounds, "round"):
+            break
+        count = min(ROUND, chains - looked)
+        fresh = _drawn(space, own, count, random)
+        if drawn is not None and len(drawn.side) and number >= DRAWN_SHARE * rounds:
+            fresh = _varied(space, drawn, fresh, random)
+        found = candidates(fresh.chains(), fresh.poses, fresh.side, space.conditions)
+        looked, designs = looked + count, designs + found.designs
+        working += len(np.unique(found.design[_violation(space, found) == 0]))
+        found = found._replace(chain=found.chain + looked - count)
+        mine = fresh.take(found.chain - (looked - count))
+        if kept is not None and drawn is not None:
+            found = joined([kept, found], designs)
+            mine = drawn.beside(mine)
+        merit = found.merit(space.size)
+        merit -= VIOLATED * _violation(space, found)
+        order = np.argsort(-merit, kind="stable")
+        best = _distinct(found, order, NICHE * space.size, KEPT)
+        kept, drawn = found.take(best), mine.take(best)
+    assert kept is not None
+    assert drawn is not None
+    within = np.flatnonzero(_violation(space, kept) == 0)
+    kept, drawn = kept.take(within), drawn.take(within)
+    order = _ranked(kept, space, most)
+    return ChainSearch(kept.take(order), drawn.take(order).poses, own, looked, designs, working)
+
+
+def _drawn(
+    space: SearchSpace, own: NDArray[np.intp], count: int, random: np.random.Generator
+) -> _Chains:
+    """Chains drawn at random."""
+    origins, around = space.poses.translation, AROUND * space.size
+    low, high = origins.min(axis=0) - around, origins.max(axis=0) + around
+    fixed = _points(space.fixed[0], low, high, count, random)
+    moving = _points(space.moving[0], np.full(2, -around), np.full(2, around), count, random)
+    reach = MARGIN + (LONGEST_REACH - MARGIN) * random.random(count) ** 2
+    balance = random.uniform(-0.98, 0.98, count)
+    side = random.choice([-1.0, 1.0], count)
+    return _Chains(fixed, moving, reach, balance, side, _five(space, own, count, random))
+
+
+def _varied(
+    space: SearchSpace, parents: _Chains, fresh: _Chains, random: np.random.Generator
+) -> _Chains:
+    """Chains near `parents`; one in five stays as it was drawn."""
+    count = len(fresh.side)
+    parent = parents.take((len(parents.side) * random.random(count) ** 2).astype(np.intp))
+    step = np.exp(random.uniform(math.log(STEPS[0]), math.log(STEPS[1]), count))
+    move = space.size * step[:, None]
+    fixed = parent.fixed + move * random.standard_normal((count, 2))
+    moving = parent.moving + move * random.standard_normal((count, 2))
+    reach = 1 + (parent.reach - 1) * np.exp(step * random.standard_normal(count))
+    balance = np.clip(parent.balance + step * random.standard_normal(count), -0.98, 0.98)
+    fixed = _into(space.fixed[0], fixed, parent.fixed, space.size)
+    moving = _into(space.moving[0], moving, parent.moving, space.size)
+    near = _Chains(fixed, moving, np.maximum(reach, MARGIN), balance, parent.side, parent.poses)
+    stays = random.random(count) < 0.2
+    return fresh.where(stays, near)
+
+
+def _five(
+    space: SearchSpace, own: NDArray[np.intp], count: int, random: np.random.Generator
+) -> Displacement:
+    """Five poses (count, 5): the task's at `own`, and between them others that are free."""
+    given = np.column_stack([space.poses.translation, space.poses.angle])
+    rows = np.empty((count, POSES, 3))
+    for k in range(3):
+        rows[..., k] = np.interp(np.arange(POSES), own, given[:, k])
+    free = np.setdiff1d(np.arange(POSES), own)
+    spread = FREE_POSE * np.array([space.size, space.size, 1.0])
+    rows[:, free] += spread * random.standard_normal((count, len(free), 3))
+    return Displacement.from_poses(rows)
+
+
+def _points(
+    region: Region,
+    low: FloatArray,
+    high: FloatArray,
+    count: int,
+    random: np.random.Generator,
+) -> FloatArray:
+    """Points (count, 2) of a region; of an endless line beside the box from low to high."""
+    if isinstance(region, Point):
+        return np.tile(region.at, (count, 1))
+    if isinstance(region, Segment):
+        return np.asarray(region.start + random.random((count, 1)) * (region.end - region.start))
+    if isinstance(region, Line):
+        along = (region.end - region.start) / np.linalg.norm(region.end - region.start)
+        middle = region.start + ((low + high) / 2 - region.start) @ along * along
+        half = np.linalg.norm(high - low) / 2
+        return np.asarray(middle + random.uniform(-half, half, (count, 1)) * along)
+    low, high = region.vertices.min(axis=0), region.vertices.max(axis=0)
+    inside = np.empty((0, 2))
+    while len(inside) < count:
+        more = random.uniform(low, high, (2 * count, 2))
+        inside = np.concatenate([inside, more[region.distance(more) == 0]])
+    return inside[:count]
+
+
+def _into(region: Region, points: FloatArray, before: FloatArray, size: float) -> FloatArray:
+    """Points (k, 2), each brought into a region, or left where it was before (in the region)."""
+    if isinstance(region, Line | Segment):
+        way = region.end - region.start
+        share = ((points - region.start) @ way / (way @ way))[:, None]
+        points = region.start + share * way
+    return np.where(region.distance(points)[:, None] <= OUTSIDE * size, points, before)
+
+
+def _violation(space: SearchSpace, found: Candidates) -> FloatArray:
+    """How far six-bars (n,) are from their regions, lengths and requirements; 0 keeps them all.
+
+    In sizes of the motion, logarithms of ratios, and shares of a transmission angle of 30°.
+    """
+    linkage, slack = found.linkages, OUTSIDE * space.size
+    off = []
+    for region, pivot in (
+        (space.fixed[1], linkage.fixed_second),
+        (space.moving[1], linkage.link_joint),
+    ):
+        far = region.distance(pivot)
+        off.append(np.where(far <= slack, 0.0, far / space.size))
+    for (least, most), length in zip(
+        space.lengths, (linkage.first_crank, linkage.second_crank), strict=True
+    ):
+        far = np.maximum(least - length, length - most)
+        off.append(np.where(far <= slack, 0.0, far / space.size))
+    asked = space.conditions
+    lacking = np.degrees(asked.transmission - found.transmission) / LEAST_TRANSMISSION
+    ratio = np.log(np.maximum(linkage.link_ratio() / asked.link_ratio, 1.0))
+    off += [np.maximum(lacking, 0.0), ratio]
+    return np.asarray(np.sum(off, axis=0))
+
+
+def _distinct(
+    found: Candidates, order: NDArray[np.intp], apart: float, most: int
+) -> NDArray[np.intp]:
+    """Those of `order` whose joints at the first pose differ by more than `apart`, `most` at most.
+
+    Of two that differ by less the one that comes first stays.
+    """
+    joints = found.joints[:, 0]
+    kept: list[int] = []
+    for k in order.tolist():
+        if (np.abs(joints[kept] - joints[k]).max(axis=-1) > apart).all():
+            kept.append(k)
+            if len(kept) == most:
+                break
+    return np.array(kept, dtype=np.intp)
+
+
+def is_sound(found: Candidates, size: float) -> NDArray[np.bool_]:
+    """Which six-bars meet the standard: (n,); size: of the motion."""
+    enough = np.degrees(found.transmission) >= LEAST_TRANSMISSION
+    return np.asarray(enough & (found.excess(size) == 0))
+
+
+def _ranked(found: Candidates, space: SearchSpace, most: int) -> NDArray[np.intp]:
+    """The order to recommend them in: sound ones first, then by transmission and extent."""
+    sound = is_sound(found, space.size)
+    order = best_first(found.transmission, found.extent, np.ones(len(found.chain)))
+    order = order[np.argsort(~sound[order], kind="stable")]
+    return _distinct(found, order, APART * space.size, most)

@@ -1,0 +1,101 @@
+"""A six-bar with all that is known of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from burmester.fourbar.pose_error import PoseError
+from burmester.geometry.displacement import Displacement
+from burmester.numerics.arrays import ComplexArray, FloatArray
+from burmester.sixbar.motion import Sides, joints_at, poses_of
+from burmester.sixbar.watt import BARS, JOINTS, Drive, WattLinkage
+
+__all__ = ["FoundSixBar"]
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class FoundSixBar:
+    """A six-bar that carries the body through the poses on one branch and in order.
+
+    Attributes
+    ----------
+    id : str
+        S1, S2, ..., by rank.
+    linkage : WattLinkage
+        Its dimensions; no leading axes.
+    driver : {"first", "second"}
+        Which crank drives.
+    drive : (N,) array
+        The driver's angle at the poses, in radians, in F, without jumps.
+    room : (2,) array
+        How far the driver goes on below and above the range of the poses before the linkage locks,
+        in radians; infinite where the driver turns fully.
+    sides : Sides
+        On which side both loops are closed.
+    transmission : float
+        The least transmission angle of both loops over the range, in radians.
+    extent : float
+        The diagonal of the box around all joints at places along the range, in the task's unit.
+    error : PoseError
+        At the poses: rounding.
+    shortcomings : tuple of str
+        Where it falls short of the standard, in words that follow "it"; () is good.
+    chain : int
+        The number of its chain in the search.
+    """
+
+    id: str
+    linkage: WattLinkage
+    driver: Drive
+    drive: FloatArray
+    room: FloatArray
+    sides: Sides
+    transmission: float
+    extent: float
+    error: PoseError
+    shortcomings: tuple[str, ...]
+    chain: int
+
+    @property
+    def turns_fully(self) -> bool:
+        """Whether the driver turns fully and nothing locks."""
+        return bool(np.isinf(self.room).all())
+
+    @property
+    def drive_range(self) -> tuple[float, float]:
+        """The least and the greatest angle of the driver at the poses, in radians."""
+        return float(self.drive.min()), float(self.drive.max())
+
+    @property
+    def link_ratio(self) -> float:
+        """The greatest distance between two joints of a link over the least."""
+        return float(self.linkage.link_ratio())
+
+    @property
+    def lengths(self) -> dict[str, float]:
+        """The distances between joints of one link: {"AB": 30.0, ...}."""
+        return dict(zip(BARS, self.linkage.lengths().tolist(), strict=True))
+
+    def joints(self, drive: FloatArray) -> dict[str, FloatArray]:
+        """Where the joints are when the driver is at angles (*,) in radians: {"A": (*, 2), ...}.
+
+        nan beyond where the linkage locks.
+        """
+        there = self._joints(np.asarray(drive, dtype=np.float64))
+        places = np.stack([there.real, there.imag], axis=-1)
+        return {name: places[..., k, :] for k, name in enumerate(JOINTS)}
+
+    def body(self, drive: FloatArray) -> Displacement:
+        """The poses (*,) of the body when the driver is at angles (*,) in radians."""
+        return poses_of(self.linkage, self._joints(np.asarray(drive, dtype=np.float64)))
+
+    def along(self, count: int) -> FloatArray:
+        """So many angles of the driver, evenly from the first pose to the last, in radians."""
+        return np.linspace(self.drive[0], self.drive[-1], count)
+
+    def _joints(self, drive: FloatArray) -> ComplexArray:
+        return joints_at(self.linkage, drive, self.sides, self.driver)

@@ -1,0 +1,157 @@
+"""The way of a six-bar through its poses: whether on one branch and in order, and over what range.
+
+A branch is a piece of the drive between two dead points (`dead_points`), or a whole turn where
+there is none.  Poses on one such piece are reached without taking apart and without locking, which
+is exact: every dead point is known in closed form.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burmester.numerics.arrays import ComplexArray, FloatArray
+from burmester.sixbar.dead_points import FirstLoop, dead_points, turning_points
+from burmester.sixbar.motion import Sides, drive_of, joints_at, sides_of, transmission
+from burmester.sixbar.watt import Drive, WattLinkage
+
+__all__ = ["Travel", "first_loop_works", "least_transmission", "travel"]
+
+TURN = 2 * np.pi
+CLOSE = 1e-9  # radians; a pose as near to a dead point is at it
+
+
+@final
+class Travel(NamedTuple):
+    """How linkages (n,) go through their poses with one driver.
+
+    one_branch: (n,), whether all poses are on one branch; in_order: (n,), whether the drive meets
+    them in their order, forwards or back.
+    drive: (n, N), the drive at the poses, without jumps; nan where not on one branch.  Where the
+    poses are in order it goes one way only.
+    room: (n, 2), how far the driver goes on below and above the range of the poses before it
+    locks; infinite where it turns fully.
+    sides: (n,), of the branch.
+    """
+
+    one_branch: NDArray[np.bool_]
+    in_order: NDArray[np.bool_]
+    drive: FloatArray
+    room: FloatArray
+    sides: Sides
+
+    @property
+    def works(self) -> NDArray[np.bool_]:
+        """Whether linkages go through their poses on one branch and in order: (n,)."""
+        return self.one_branch & self.in_order
+
+    def take(self, index: NDArray[np.intp]) -> Travel:
+        """The ways of some linkages."""
+        return Travel(
+            self.one_branch[index],
+            self.in_order[index],
+            self.drive[index],
+            self.room[index],
+            self.sides.at(index),
+        )
+
+
+def travel(
+    linkage: WattLinkage, joints: ComplexArray, driver: Drive, *, any_order: bool = False
+) -> Travel:
+    """How linkages (n,) go through poses at which their joints are (n, N, 7).
+
+    any_order: whether every order counts as that of the poses.
+    """
+    at_poses = sides_of(joints, driver)
+    sides = Sides(at_poses.first[:, 0], at_poses.second[:, 0])
+    same = (at_poses.first == sides.first[:, None]).all(axis=-1)
+    same &= (at_poses.second == sides.second[:, None]).all(axis=-1)
+    same &= (sides.first != 0) & (sides.second != 0)
+    return _along(
+        drive_of(joints, driver), dead_points(linkage, sides, driver), same, sides, any_order
+    )
+
+
+def first_loop_works(
+    joints: ComplexArray, driver: Drive, *, any_order: bool = False
+) -> NDArray[np.bool_]:
+    """Whether first loops go through poses at which joints A to E are (n, N, 5), as `travel`."""
+    whole = np.concatenate([joints, joints[..., :2]], axis=-1)  # the second loop is not asked
+    at_poses = sides_of(whole, driver)
+    sides = Sides(at_poses.first[:, 0], at_poses.first[:, 0])
+    same = (at_poses.first == sides.first[:, None]).all(axis=-1) & (sides.first != 0)
+    a, b, c, d = joints[:, 0, :4].T
+    locked = FirstLoop.with_lengths(a, b, abs(c - a), abs(d - c), abs(d - b)).locked(driver)
+    return _along(drive_of(whole, driver), locked, same, sides, any_order).works
+
+
+def least_transmission(
+    linkage: WattLinkage, way: Travel, driver: Drive, joints: ComplexArray
+) -> FloatArray:
+    """The least transmission angle of both loops over the range of the poses: (n,), radians.
+
+    Exact: inside the range it is least where a diagonal of a loop turns back, and all these places
+    are known in closed form.  joints: (n, N, 7), at the poses.
+    """
+    low, high = way.drive.min(axis=-1)[:, None], way.drive.max(axis=-1)[:, None]
+    turning = turning_points(linkage, way.sides, driver)
+    with np.errstate(invalid="ignore"):
+        turning = low + np.mod(turning - low, TURN)
+        inside = turning < high
+    turning = np.where(inside, turning, low)
+    there = joints_at(linkage[:, None], turning, way.sides.at((slice(None), None)), driver)
+    least = np.fmin.reduce(transmission(there, driver), axis=-1)
+    return np.asarray(np.minimum(least, transmission(joints, driver).min(axis=-1)))
+
+
+def _along(
+    drive: FloatArray, dead: FloatArray, same: NDArray[np.bool_], sides: Sides, any_order: bool
+) -> Travel:
+    """Poses at drives (n, N) on branches whose dead points are (n, k), where the sides are one."""
+    start = drive[:, :1]
+    with np.errstate(invalid="ignore"):
+        ahead, behind = np.mod(dead - start, TURN), np.mod(start - dead, TURN)
+    full = np.asarray(np.isnan(dead).all(axis=-1))
+    up = np.fmin.reduce(ahead, axis=-1, initial=TURN)
+    down = np.fmin.reduce(behind, axis=-1, initial=TURN)
+    # Between two dead points: every pose as far from the first one as it is, up or down.
+    forward = np.mod(drive - start, TURN)
+    offset = np.where(forward < up[:, None], forward, forward - TURN)
+    held = (offset > CLOSE - down[:, None]) & (offset < up[:, None] - CLOSE)
+    monotone = _goes_one_way(offset)
+    # All the way round: the sum of the steps in one direction is less than a turn.
+    steps = np.mod(np.diff(drive, axis=-1), TURN)
+    ways = [np.cumsum(each, axis=-1) for each in (steps, steps - TURN)]
+    forwards, backwards = ways[0][:, -1] < TURN, ways[1][:, -1] > -TURN
+    round_ = np.concatenate([np.zeros_like(start), np.where(forwards[:, None], *ways)], axis=-1)
+    offset = np.where(full[:, None], round_, offset)
+    in_order = np.where(full, forwards | backwards, monotone) | any_order
+    if any_order:  # the shortest piece of the turn that holds all poses
+        offset = np.where(full[:, None], _shortest(forward), offset)
+    one = same & (full | held.all(axis=-1))
+    low, high = offset.min(axis=-1), offset.max(axis=-1)
+    room = np.stack([down + low, up - high], axis=-1)
+    return Travel(
+        one,
+        in_order,
+        np.where(one[:, None], start + offset, np.nan),
+        np.where(full[:, None], np.inf, room),
+        sides,
+    )
+
+
+def _goes_one_way(offset: FloatArray) -> NDArray[np.bool_]:
+    """Whether rows (n, N) rise or fall all along."""
+    steps = np.diff(offset, axis=-1)
+    return np.asarray((steps > 0).all(axis=-1) | (steps < 0).all(axis=-1))
+
+
+def _shortest(forward: FloatArray) -> FloatArray:
+    """Angles (n, N) in [0, 2 pi) with the greatest gap between them outside of their range."""
+    order = np.sort(forward, axis=-1)
+    gaps = np.diff(np.concatenate([order, order[:, :1] + TURN], axis=-1), axis=-1)
+    last = np.take_along_axis(order, gaps.argmax(axis=-1)[:, None], axis=-1)
+    return np.where(forward > last, forward - TURN, forward)

@@ -1,0 +1,123 @@
+"""Watt's first six-bar: two cranks on the ground, a coupler between them, and the body beyond.
+
+Seven joints and six links, of which two hold three joints each and meet at one of them, D:
+
+    ground         A, B        first crank    A, C        coupler     C, D, E
+    second crank   B, D, G     floating link  G, H        body        E, H
+
+A to D are a four-bar.  Its coupler carries the body at E, its second crank holds it by the link
+from G to H: D, E, H, G are a loop of four again (Soh and McCarthy 2008; the names of the joints
+are ours).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Final, Literal, TypeAlias, final
+
+import numpy as np
+
+from burmester.geometry.displacement import Displacement
+from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
+
+__all__ = ["BARS", "FIGURES", "JOINTS", "LINKS", "Drive", "WattLinkage", "pairs_of"]
+
+Drive: TypeAlias = Literal["first", "second"]
+
+JOINTS: Final = "ABCDEGH"
+LINKS: Final = {
+    "ground": "AB",
+    "first crank": "AC",
+    "coupler": "CDE",
+    "second crank": "BDG",
+    "floating link": "GH",
+    "body": "EH",
+}
+# Every distance between two joints of one link.
+BARS: Final = ("AB", "AC", "CD", "DE", "CE", "BD", "DG", "BG", "GH", "EH")
+FIGURES: Final = 16  # numbers that make a linkage
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class WattLinkage:
+    """Six-bars of Watt's first kind, one or many: leading axes are theirs.
+
+    Attributes
+    ----------
+    fixed_first, fixed_second : (*, 2) array
+        A and B, in F.
+    first_crank : (*,) array
+        The distance from A to C.
+    coupler_arm : (*,) array
+        The distance from C to E; the coupler's frame has its origin at C, and E on its x axis.
+    coupler_joint : (*, 2) array
+        D, in the coupler's frame.
+    second_crank : (*,) array
+        The distance from B to D; the second crank's frame has its origin at B, and D on its x axis.
+    crank_joint : (*, 2) array
+        G, in the second crank's frame.
+    floating_link : (*,) array
+        The distance from G to H.
+    body_joint, link_joint : (*, 2) array
+        E and H, in M.
+
+    Lengths are in the task's unit.
+    """
+
+    fixed_first: FloatArray
+    fixed_second: FloatArray
+    first_crank: FloatArray
+    coupler_arm: FloatArray
+    coupler_joint: FloatArray
+    second_crank: FloatArray
+    crank_joint: FloatArray
+    floating_link: FloatArray
+    body_joint: FloatArray
+    link_joint: FloatArray
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The leading axes: () for one linkage."""
+        return self.first_crank.shape
+
+    def __getitem__(self, index: Any) -> WattLinkage:
+        """Pick along the leading axes (indices, slices, masks)."""
+        return WattLinkage(*(getattr(self, name)[index] for name in self.__match_args__))
+
+    def lengths(self) -> FloatArray:
+        """The distances between joints of one link, in the order of `BARS`: (*, 10)."""
+        a, b = complex_of(self.fixed_first), complex_of(self.fixed_second)
+        d, g = complex_of(self.coupler_joint), complex_of(self.crank_joint)
+        body = complex_of(self.link_joint) - complex_of(self.body_joint)
+        arm, crank = self.coupler_arm, self.second_crank
+        bars = abs(b - a), self.first_crank, abs(d), abs(arm - d), arm, crank, abs(g - crank)
+        return np.stack([*bars, abs(g), self.floating_link, abs(body)], axis=-1)
+
+    def link_ratio(self) -> FloatArray:
+        """The greatest of these distances over the least: (*,)."""
+        lengths = self.lengths()
+        return np.asarray(lengths.max(axis=-1) / lengths.min(axis=-1))
+
+    def through(self, poses: Displacement, joints: ComplexArray) -> FloatArray:
+        """How far distances between joints are off at most where M is at poses (*, N): (*, N).
+
+        joints: (*, N, 7), where a computation has the joints; those on the body are compared with
+        the poses, those on the ground with A and B.
+        """
+        first, second = pairs_of(BARS)
+        lengths = np.abs(joints[..., first] - joints[..., second])
+        off = np.abs(lengths - self.lengths()[..., None, :])
+        held = [
+            joints[..., 0] - complex_of(self.fixed_first)[..., None],
+            joints[..., 1] - complex_of(self.fixed_second)[..., None],
+            joints[..., 4] - complex_of(poses.act(self.body_joint[..., None, :])),
+            joints[..., 6] - complex_of(poses.act(self.link_joint[..., None, :])),
+        ]
+        every = np.concatenate([off, np.abs(np.stack(held, axis=-1))], axis=-1)
+        return np.asarray(every.max(axis=-1))
+
+
+def pairs_of(bars: tuple[str, ...]) -> tuple[list[int], list[int]]:
+    """The numbers of the first and of the second joint of bars such as "AC"."""
+    return [JOINTS.index(bar[0]) for bar in bars], [JOINTS.index(bar[1]) for bar in bars]
