@@ -10,6 +10,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 from PIL import Image, ImageSequence
 
 import burmester
@@ -325,6 +326,19 @@ def test_a_notebook_gets_text_html_and_a_drawing_that_need_no_script(five, tmp_p
         drawing = ElementTree.fromstring(data["image/svg+xml"])  # a file of its own
         assert drawing.tag == "{http://www.w3.org/2000/svg}svg"
         assert data["image/svg+xml"] in data["text/html"]
+
+
+def test_a_figure_is_shown_by_a_notebook_that_never_imported_pyplot(five):
+    formatters = pytest.importorskip("IPython.core.formatters")
+    shown = five.plot()
+    data, details = formatters.DisplayFormatter().format(shown)
+    picture = Image.open(io.BytesIO(data["image/png"]))
+    at = details["image/png"]
+    assert picture.size == (2 * at["width"], 2 * at["height"])
+    dark = np.asarray(picture.convert("L")) < 128
+    assert dark.any(axis=1).mean() > 0.4  # lines on most rows
+    plain, _ = formatters.DisplayFormatter().format(Figure())
+    assert "image/png" not in plain  # else there were no need for it
 
 
 def test_the_figure_shows_the_way_of_the_origin_through_the_poses(five):

@@ -46,7 +46,7 @@ def copy(whole, tmp_path):
 
 
 def test_a_run_that_is_killed_goes_on_and_ends_with_the_same_bytes(tmp_path):
-    """A sample of `benchmarks/batch_kills.py`."""
+    """A sample of `benchmarks/batch_kills.py`, which kills two hundred times."""
     found = campaign(10, 20261123, tmp_path)
     assert found["kills"] == 10
     assert found["half files"] == found["other bytes"] == found["left behind"] == 0

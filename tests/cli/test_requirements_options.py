@@ -43,7 +43,7 @@ def run(monkeypatch, tmp_path):
         assert not rest
         return SimpleNamespace(code=stop.value.code, task=task, options=options)
 
-    run.found = SimpleNamespace(usable=(1,), determined=True)
+    run.found = SimpleNamespace(usable=(1,), determined=True, works=True)
     return run
 
 
@@ -300,5 +300,5 @@ def test_limits_and_requirements_of_file_and_command_line_add_up(run):
     [((), False, (1, 1)), ((1,), False, (0, 1)), ((1,), True, (0, 0))],
 )
 def test_exit_code_0_means_a_usable_linkage(run, usable, determined, codes):
-    run.found = SimpleNamespace(usable=usable, determined=determined)
+    run.found = SimpleNamespace(usable=usable, determined=determined, works=bool(usable))
     assert (run().code, run("--require-determined").code) == codes

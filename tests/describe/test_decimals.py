@@ -26,7 +26,7 @@ from tests.oracles import printed, witness
 GROWTH = 1.1
 ORACLE_ROUNDING = 8 * np.finfo(float).eps  # of coordinates and angles; no error is known better
 SOURCES = [f"case:{name}" for name in cases.names()]
-SOURCES += [f"template:{name}" for name in templates.names()]
+SOURCES += [f"template:{name}" for name in templates.of_poses()]
 
 
 @pytest.fixture(scope="module", params=SOURCES)

@@ -29,6 +29,18 @@ def test_every_formula_has_a_name_and_every_function_exists():
         assert callable(formulas.owner(function)), function
 
 
+def test_the_chapter_names_every_formula_once():
+    chapter = (ROOT / "docs" / "theory.md").read_text(encoding="utf-8")
+    names = formulas.in_prose(chapter)
+    known = {name for name, _ in formulas.on_page(THEORY.read_text(encoding="utf-8"))}
+    assert sorted(names) == sorted(known)
+    linked = formulas.prose_linked("formulas `one`, `two` and `three`, a `word`")
+    assert linked == (
+        "formulas {ref}`one <formula-one>`, {ref}`two <formula-two>` and "
+        "{ref}`three <formula-three>`, a `word`"
+    )
+
+
 def test_a_formula_without_its_function_is_told(tmp_path):
     page = "Formula `one`, computed by `geometry.displacement.image_multiply`, `a.b.gone`.\n"
     assert formulas.on_page(page) == {

@@ -1,11 +1,19 @@
 """The pictures of the documents are those that their scripts draw today."""
 
+import json
 import re
 import runpy
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from matplotlib.font_manager import FontProperties
+from matplotlib.textpath import TextPath
+
+import burmester
+from burmester.fourbar.dyad import RR
+from burmester.fourbar.linkage import Linkage
 
 ROOT = Path(__file__).parents[2]
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
@@ -22,6 +30,27 @@ def test_the_house_shows_the_floors_of_the_contract():
     )
 
 
+def test_no_word_of_the_house_leaves_its_room():
+    """By Matplotlib's metrics of DejaVu Sans, which is wider than the fonts of most screens."""
+    svg = ElementTree.fromstring((ROOT / "docs" / "floors.svg").read_text())
+    rooms = svg.findall("{*}rect")[1:]
+    texts = [each for each in svg.findall("{*}text") if each.find("{*}tspan") is not None]
+    assert len(rooms) == len(texts) > 20
+    for room, text in zip(rooms, texts, strict=True):
+        left, top, wide, high = (float(room.get(key)) for key in ("x", "y", "width", "height"))
+        assert left < float(text.get("x"))
+        right, low = float(text.get("x")), float(text.get("y"))
+        for part in text:
+            if part.get("x") is not None:  # a line of its own
+                right, low = float(part.get("x")), low + float(part.get("dy"))
+            size, weight = part.get("font-size", 15), part.get("font-weight", 400)
+            font = FontProperties(family="DejaVu Sans", size=float(size), weight=int(weight))
+            width = TextPath((0, 0), part.text, prop=font).get_extents().width
+            right += float(part.get("dx", 0)) + width
+            assert right < left + wide, part.text
+            assert top < low < top + high - 3, part.text
+
+
 def test_the_moving_picture_is_that_of_the_example():
     """Its words, and its numbers to the last printed digit but one."""
     for name, drawn in script("picture.py")["pictures"](ROOT / "examples" / "poses.csv").items():
@@ -29,6 +58,42 @@ def test_the_moving_picture_is_that_of_the_example():
         assert NUMBER.sub("#", kept) == NUMBER.sub("#", drawn)
         ours, theirs = (np.array(NUMBER.findall(each), dtype=float) for each in (kept, drawn))
         assert ours == pytest.approx(theirs, abs=0.11)
+
+
+class _TaskIsKnownError(Exception):
+    """The cells of a page have come as far as their task."""
+
+
+def task_of(gallery, page, monkeypatch):
+    """The task that the cells of a page hand to the first search; nothing is searched."""
+
+    def stop(task, **_):
+        raise _TaskIsKnownError(task)
+
+    monkeypatch.setattr(burmester, "synthesize", stop)
+    with pytest.raises(_TaskIsKnownError) as reached:
+        gallery["run"](page)
+    return reached.value.args[0]
+
+
+def test_the_pictures_of_the_gallery_are_those_of_its_tasks(tmp_path, monkeypatch):
+    """Each shows a linkage that does what its task asks today, to a tenth of a pixel."""
+    gallery = script("gallery/pictures.py")
+    gallery["beside"](tmp_path)
+    monkeypatch.chdir(tmp_path)
+    linkages = json.loads(gallery["KEPT"].read_text(encoding="utf-8"))
+    pages = gallery["pages"]()
+    assert [page.stem for page in pages] == sorted(linkages)
+    for page in pages:
+        dyads = [RR(each["fixed"], each["moving"], each["length"]) for each in linkages[page.stem]]
+        task = task_of(gallery, page, monkeypatch)
+        chosen = burmester.judge(task, Linkage(*dyads)).best
+        assert chosen.usable, page.stem
+        kept = page.with_suffix(".svg").read_text(encoding="utf-8")
+        drawn = gallery["drawn"](chosen.saved(), page.stem)
+        assert NUMBER.sub("#", kept) == NUMBER.sub("#", drawn), page.stem
+        ours, theirs = (np.array(NUMBER.findall(each), dtype=float) for each in (kept, drawn))
+        assert ours == pytest.approx(theirs, abs=0.11), page.stem
 
 
 def frames(svg, name):

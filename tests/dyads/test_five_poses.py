@@ -2,11 +2,13 @@
 
 import json
 from importlib import resources
+from itertools import combinations_with_replacement, product
 
 import numpy as np
 import pytest
 from scipy.optimize import fsolve
 
+from burmester.dyads import five_poses
 from burmester.dyads.five_poses import dyads_of_five
 from burmester.dyads.three_poses import dyad_with_fixed_pivot, dyad_with_moving_pivot
 from burmester.errors import InputError
@@ -172,3 +174,24 @@ def test_the_number_of_poses_is_checked(solve):
     with pytest.raises(InputError, match="not 4") as caught:
         solve(Displacement.from_poses(np.zeros((4, 3))))
     assert caught.value.code == "E121"
+
+
+def test_conics_that_share_a_curve_are_told_without_a_decomposition_of_all():
+    """Two conics that nearly have a line in common: what the singular values say is told."""
+    rng = np.random.default_rng(4)
+    quadratic = list(combinations_with_replacement(range(3), 2))
+    common, own = rng.normal(size=(400, 1, 3)), rng.normal(size=(400, 2, 3))
+    outer = common[..., :, None] * own[..., None, :]
+    conics = np.stack([outer[..., i, j] + (i < j) * outer[..., j, i] for i, j in quadratic], -1)
+    conics += 10.0 ** np.linspace(-12, -7, 400)[:, None, None] * rng.normal(size=conics.shape)
+    conics /= np.linalg.norm(conics, axis=-1, keepdims=True)
+    _, isolated = five_poses.conic_intersections(conics)
+    monomials = list(combinations_with_replacement(range(3), 3))
+    rows = np.zeros((400, 6, 10))
+    for row, (k, which) in enumerate(product(range(3), range(2))):
+        for at, pair in enumerate(quadratic):
+            rows[:, row, monomials.index(tuple(sorted((*pair, k))))] = conics[:, which, at]
+    least = np.linalg.svd(rows, compute_uv=False)[:, -1]
+    sure = np.abs(np.log10(least / five_poses.ISOLATED_TOLERANCE)) > 0.1
+    assert (isolated == (least > five_poses.ISOLATED_TOLERANCE))[sure].all()
+    assert 0 < isolated.sum() < 400

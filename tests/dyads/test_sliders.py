@@ -3,6 +3,7 @@
 import json
 from importlib import resources
 
+import mpmath
 import numpy as np
 import pytest
 from scipy.optimize import minimize
@@ -84,3 +85,48 @@ def test_offsets_in_the_plane_do_not_matter():
     assert np.allclose(near_rms, far_rms, rtol=1e-6)
     assert np.allclose(near_lines.moving_pivot, far_lines.moving_pivot, atol=1e-8)
     assert isinstance(moving_lines(poses)[0], RP)
+
+
+@pytest.mark.parametrize("turn", [1.0, 1e-3, 1e-5])
+def test_small_turns_lose_no_digits(turn):
+    """Elimination and eigenvectors with 60 digits."""
+    rng = np.random.default_rng(9)
+    poses = Displacement.from_poses(rng.normal(size=(7, 3)) * [1, 1, turn] + [0, 0, 2])
+    weights = rng.uniform(0.5, 2, 7)
+    with mpmath.workdps(60):
+        angles = [mpmath.mpf(each) for each in poses.angle.tolist()]
+        rows = mpmath.matrix([[mpmath.cos(each), mpmath.sin(each), -1] for each in angles])
+        places = mpmath.matrix(poses.translation.tolist())
+        share = mpmath.diag(weights.tolist())
+        solved = mpmath.inverse(rows.T * share * rows) * rows.T * share * places
+        left = places - rows * solved
+        gram = left.T * share * left
+        steep = mpmath.atan2(2 * gram[0, 1], gram[0, 0] - gram[1, 1]) / 2
+        n = mpmath.matrix([-mpmath.sin(steep), mpmath.cos(steep)])
+        n = n if n[1] >= 0 else -n
+        u, w, h = -(solved * n)
+        pivot = [n[0] * u + n[1] * w, n[1] * u - n[0] * w]
+    lines, _, _ = fixed_lines(poses, weights)
+    assert lines[0].normal_angle == pytest.approx(float(mpmath.atan2(n[1], n[0])), abs=1e-13)
+    assert lines[0].moving_pivot == pytest.approx([float(each) for each in pivot], rel=1e-12)
+    assert lines[0].offset == pytest.approx(float(h), rel=1e-12)
+
+
+@pytest.mark.parametrize("other", [0.3, 2.0, 0.3 + np.pi])
+def test_what_poses_of_two_angles_leave_open_is_the_shortest(other):
+    """As the pseudoinverse has it."""
+    angles, rng = [0.3] * 2 + [other] * 4, np.random.default_rng(10)
+    rows = np.column_stack([rng.normal(size=(6, 2)), angles])
+    poses = Displacement.from_poses(rows)
+    lines, rms, _ = fixed_lines(poses)
+    others = np.column_stack([np.cos(angles), np.sin(angles), -np.ones(6)])
+    places = rows[:, :2] - rows[:, :2].mean(axis=0)
+    solve = np.linalg.pinv(others, rcond=1e-12)
+    rest = places - others @ solve @ places
+    assert rms == pytest.approx(np.linalg.svd(rest, compute_uv=False)[::-1] / np.sqrt(6), abs=1e-12)
+    for line in (lines[0], lines[1]):
+        n = np.array([np.cos(line.normal_angle), np.sin(line.normal_angle)])
+        u, w = n @ line.moving_pivot, n[::-1] @ (line.moving_pivot * [1, -1])
+        h = line.offset - n @ rows[:, :2].mean(axis=0)
+        wanted = -solve @ places @ n
+        assert [u, w, h] == pytest.approx(wanted, abs=1e-12)

@@ -586,9 +586,11 @@ def test_from_poses_to_files(tmp_path):
     result = tmp_path / "result.json"
     result.write_bytes(told)
     kinds = set()
-    for data in json.loads(told)["linkages"][:4]:
+    for data in json.loads(told)["linkages"]:
+        if (kind := frozenset(each["kind"] for each in data["dyads"])) in kinds:
+            continue
+        kinds.add(kind)
         chosen = read_result(result).choose(data["id"])
-        kinds |= {tuple(each["kind"] for each in data["dyads"])}
         for to in FLAT:
             if to == "pylinkage" and any(each["kind"] == "RP" for each in data["dyads"]):
                 continue
@@ -603,7 +605,7 @@ def test_from_poses_to_files(tmp_path):
                 turn = np.exp(1j * np.radians(at["angle_deg"]))
                 pin = complex(at["x"], at["y"]) + complex(*dyad["moving_pivot"]) * turn
                 assert nearest(holes, pin) <= 1e-6
-    assert kinds == {("RR", "RR"), ("RP", "RR"), ("PR", "RR")}
+    assert kinds == {frozenset(each) for each in (["RR"], ["RP", "RR"], ["PR", "RR"], ["PR", "RP"])}
 
 
 def test_a_body_that_only_translates(tmp_path):

@@ -100,7 +100,7 @@ def test_decimal_commas_are_read_right_or_refused(read: Read, form: str) -> None
         ("(1) 30°\n(2) 40°\n", "E104"),
         ("(1, 2, 3, 4) 30°\n", "E104"),
         ("(1, two) 30°\n", "E104"),
-        ("X = 1  Y = 2\n", "E105"),
+        ("X = 1  Y = 2\n", "E120"),
         ("X = 1  Y = 2  Angle = 30 deg  Speed = 7\n", "E107"),
         ("X = 1  X = 2  Y = 3  Angle = 30 deg\n", "E105"),
         ("X = 1  Y = 2  Angle = 30 deg\nX = 1  Angle = 30 deg  Y = 2\n", "E106"),

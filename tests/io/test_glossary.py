@@ -15,6 +15,15 @@ LINES = [
     for line in (Path(__file__).parents[2] / "docs/glossary.md").read_text("utf-8").splitlines()
     if line.startswith("- ")
 ]
+TIMED = "x,y,crank_deg\n0.5,1.1,0\n0.1,0.9,80\n0,0.4,160\n0.2,0.3,240\n0.5,0.7,300\n"
+POINTS = """x,y,angle_deg
+0.973329,1.841643,51.84518
+1.013217,2.219586,38.83281
+0.643693,2.389129,
+0.092623,2.243994,29.85902
+-0.450987,1.760176,
+-0.716342,1.141258,44.56691
+"""
 TASK = {
     "poses": [
         {"x": -0.8253, "y": -1.0329, "angle_deg": 91.91, "weight": 2, "exact": True},
@@ -71,6 +80,14 @@ def test_every_key_is_printed(tmp_path):
     printed = set()
     for task, more in zip(tasks, options, strict=True):
         done = CliRunner().invoke(burmester, ["synthesize", task, "--json", *more])
+        printed |= keys(json.loads(done.stdout))
+    function = "--function x**2 --x 1:2 --input 60 --output 60 --pairs 3 --json"
+    phases = "--input-phase 50 --output-phase 60"
+    done = CliRunner().invoke(burmester, ["synthesize", *function.split(), *phases.split()])
+    printed |= keys(json.loads(done.stdout))
+    for content in (TIMED, POINTS):
+        (tmp_path / "points.csv").write_text(content)
+        done = CliRunner().invoke(burmester, ["synthesize", str(tmp_path / "points.csv"), "--json"])
         printed |= keys(json.loads(done.stdout))
     assert given - printed == set()
 

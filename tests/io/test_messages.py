@@ -43,6 +43,8 @@ from burmester.io.reading.poses import read_task
 from burmester.io.result import failure, synthesis_data
 from burmester.io.saved import read_result
 from burmester.tasks.motion_class import classify_motion
+from burmester.tasks.traced_path import TracedPath
+from tests.oracles.coupler_curves import CABRERA, CABRERA_TURNS
 from tests.oracles.drawings import svg
 from tests.oracles.measured import as_csv, measured
 from tests.oracles.recordings import nexus, recording
@@ -104,10 +106,32 @@ LID = (
 )
 OPENING = "0,0,0 30,77,45 95,110,95"
 FOUR_OPENING = "0,0,0 12.5,40,20 30,77,45 95,110,95"
+LOG = 'synthesize --function "log10(x)" --x 1:2 --input 60 --output 60'
+SQUARE = 'synthesize --function "x**2" --x=-1:1 --input 90 --output 60'
+PAIRS = "input_deg,output_deg\n0,0\n15,10\n30,25\n45,45\n60,75\n"
+LOCKED = "input_deg,output_deg\n0,0\n40,80\n80,20\n120,90\n160,10\n"
 BOXES = "--fixed-pivot box:-50,-100:150,20 --moving-pivot box:-60,-60:60,60"
 WIDE = "--fixed-pivot box:-200,-200:250,250 --moving-pivot box:-150,-150:150,150"
 FEW = {"poses.csv": "\n".join(FIVE.splitlines()[:4])}
 ALL = {"poses.csv": TEN}
+MIXED = (
+    "0.973329,1.841643,51.84518 1.013217,2.219586,38.83281 "
+    "0.643693,2.389129, 0.092623,2.243994,29.85902 "
+    "-0.450987,1.760176, -0.716342,1.141258,44.56691"
+)
+CIRCLE = "x,y\n3,4\n4,3\n5,0\n0,5\n-3,4\n-4,3\n-5,0\n0,-5\n3,-4\n"
+
+
+def timed(*numbers):
+    """Some of Cabrera's points with their crank angles."""
+    crank = np.degrees(CABRERA_TURNS)[list(numbers)].round(9).tolist()
+    data = {"angle_unit": "deg", "path": {"crank_deg": crank}}
+    data["tolerance"] = {"x": 0, "y": 0, "angle": "free"}
+    return json.dumps(data | {"poses": [[x, y, 0] for x, y in CABRERA[list(numbers)].tolist()]})
+
+
+BOW = "M 0 40 C 10 0 50 0 80 30"
+BOWS = {"path.svg": svg(f'<path d="{BOW}"/>')}
 LID_PATH = '<path id="lid" d="M 0 0 L 4 0 L 4 2 L 0 2 z"/>'
 
 
@@ -254,12 +278,18 @@ def other_version(version):
     )
 
 
+def in_help(option, help):
+    """An option with its value, as a help proposes it."""
+    return re.search(rf"{option} \d+", help)[0]
+
+
 def in_backticks(help):
     """What a help puts in backticks, first."""
     return re.search(r"`(.+?)`", help)[1]
 
 
 S = "synthesize poses.csv"
+SIX = "--six-bars --chains"
 J = "judge poses.csv"
 FIRST, SECOND = "--dyad -2.2,0.1:1.24,0.1", "--dyad 1.14,0.39:4.58,1.31"
 CRANK = """\
@@ -993,6 +1023,42 @@ CASES: dict[str, Case] = {
         {"poses.csv": rows(OPENING.replace(" ", " 12.5,40,20 ", 1))},
         exit=1,
     ),
+    "poses and points": Case("R340", S, None, {"poses.csv": rows(MIXED)}, exit=0),
+    "poses and points, none works": Case(
+        "R341",
+        S,
+        Write("poses.csv", rows(MIXED)),
+        {"poses.csv": rows("76,6,0 57,1,12 46,15,56 24,73,27 27,58, 3,82,")},
+        exit=1,
+    ),
+    "poses and points, none real": Case(
+        "R342",
+        S,
+        Write("poses.csv", rows(MIXED)),
+        {"poses.csv": rows("65,87,15 84,7,36 79,40,9 46,54,-40 84,25, 87,33,")},
+        exit=1,
+    ),
+    "points on a circle": Case(
+        "R343",
+        S,
+        Write("poses.csv", FIVE),
+        {"poses.csv": CIRCLE},
+        exit=1,
+    ),
+    "points on a circle, and poses": Case(
+        "W222",
+        S,
+        Write("poses.csv", rows(MIXED)),
+        {"poses.csv": rows("0,0,0 20,5,10 30,20,20 30,40, 40,30, 50,0, 0,50,")},
+        exit=1,
+    ),
+    "solutions that are not there": Case(
+        "W223",
+        S,
+        Write("poses.csv", rows(MIXED)),
+        {"poses.csv": rows("0,0,10 20,5,10 30,22,10 33,41,35 44,63, 71,51,")},
+        exit=1,
+    ),
     "little rotation": Case(
         "R305",
         S,
@@ -1004,6 +1070,28 @@ CASES: dict[str, Case] = {
     "approximate ones": Case(
         "R307", S, None, {"poses.csv": rows("0,0,30 1,1,36 2,4,43 3,9,55 4,16,70")}, exit=0
     ),
+    "an expression with another name": Case("E190", f"{LOG.replace('x)', 'y)')}", Args(LOG)),
+    "a function without a value": Case("E191", LOG.replace("1:2", "0:2"), Args(LOG)),
+    "two pairs of a function": Case(
+        "E192", S, Write("poses.csv", PAIRS), {"poses.csv": "\n".join(PAIRS.split("\n")[:3])}
+    ),
+    "a function where poses are needed": Case(
+        "E193", "check poses.csv", Args(S), {"poses.csv": PAIRS}
+    ),
+    "a function without its range": Case("E194", LOG.replace("--input 60 ", ""), Args(LOG)),
+    "function generators": Case("R360", LOG, None, exit=0),
+    "no function generator that works": Case(
+        "R361", S, Write("poses.csv", PAIRS), {"poses.csv": LOCKED}, exit=1
+    ),
+    "critical points that are not reached": Case("W230", LOG, Args(f"{LOG} --pairs 5"), exit=0),
+    "phases from a grid": Case(
+        "W231",
+        f"{LOG} --pairs 3",
+        Args(f"{LOG} --pairs 3 --input-phase 50 --output-phase 60"),
+        exit=0,
+    ),
+    "a link without end": Case("W232", S, None, {"poses.csv": PAIRS}, exit=0),
+    "a link at its bound": Case("W233", SQUARE, Args(LOG), exit=0),
     "a given linkage that works": Case("R330", f"{J} {FIRST} {SECOND}", None, GOOD, exit=0),
     "a given linkage that does not": Case(
         "R331",
@@ -1219,7 +1307,76 @@ CASES: dict[str, Case] = {
     "pivots at no one distance": Case(
         "W219", f"{J} {FIRST} --dyad 1.14,0.39:1.31,4.58", Args(f"{J} {FIRST} {SECOND}"), GOOD, 1
     ),
+    "crank angles that are few": Case(
+        "E186",
+        lambda: TracedPath(crank_angles=np.radians([0, 30, 60])),
+        Call(lambda: TracedPath(crank_angles=np.radians([0, 30, 60, 90, 120]))),
+    ),
+    "poses that are no path": Case("E187", f"{S} --closed", Args(S), GOOD),
+    "pieces of a path": Case(
+        "E188",
+        "synthesize path.svg",
+        Args("synthesize path.svg:one"),
+        {"path.svg": svg(f'<path id="one" d="{BOW}"/><path d="M 0 60 L 9 60"/>')},
+    ),
+    "a path to trace": Case(
+        "R350", "synthesize path.json", None, {"path.json": timed(0, 4, 8, 12, 15)}, exit=0
+    ),
+    "a path too near": Case(
+        "R351",
+        "synthesize path.json --within 0.001",
+        Args("synthesize path.json --within 0.2"),
+        {"path.json": timed(*range(0, 18, 2))},
+        exit=1,
+    ),
+    "a tolerance of a path": Case(
+        "W226",
+        "synthesize path.json",
+        Args("synthesize path.json --within 0.2"),
+        {"path.json": timed(*range(0, 18, 2))},
+        exit=0,
+    ),
+    "a drawing of a path": Case("W227", "synthesize path.svg", Args(S), BOWS | GOOD, exit=0),
     "no time": Case("W221", f"{S} --time-limit 0.001", Args(f"{S} --time-limit 10"), ALL, exit=0),
+    # --- six-bars
+    "six-bars through ten poses": Case(
+        "E195", f"{S} {SIX} 50", Args(f"{S} {SIX} 50 --every 2"), {"poses.csv": TEN}
+    ),
+    "a type for six-bars": Case(
+        "E196", f"{S} {SIX} 50 --type double-crank", Args(f"{S} {SIX} 50"), GOOD
+    ),
+    "chains of four-bars": Case("E197", f"{S} --chains 50", Args(f"{S} {SIX} 50"), GOOD),
+    "a six-bar as plates": Case(
+        "E198",
+        "export six.json -o a.dxf",
+        lambda help: Args("export six.json -o a.csv " + re.search(r"--to \w+", help)[0]),
+        {"six.json": lambda: six_bars(FIVE)},
+    ),
+    "six-bars": Case("R370", f"{S} {SIX} 100", None, GOOD, exit=0),
+    "no six-bar": Case(
+        "R371",
+        f"{S} {SIX} 10 --min-transmission 30",
+        lambda help: Args(f"{S} --six-bars --min-transmission 30 {in_help('--chains', help)}"),
+        GOOD,
+        exit=1,
+    ),
+    "assumed of six-bars": Case(
+        "W234",
+        f"{S} {SIX} 100",
+        Args(f"{S} {SIX} 100 --fixed-pivot box:-20,-20:20,20 --moving-pivot box:-9,-9:9,9"),
+        GOOD,
+        exit=0,
+    ),
+    "four poses of a six-bar": Case(
+        "W235", f"{S} {SIX} 1000", Write("poses.csv", FIVE), {"poses.csv": FOUR}, exit=0
+    ),
+    "no sound six-bar": Case(
+        "W236",
+        f"{S} {SIX} 10",
+        lambda help: Args(f"{S} --six-bars {in_help('--chains', help)}"),
+        GOOD,
+        exit=0,
+    ),
     "markers on two bodies": Case(
         "W214",
         f"{S} --points M1,M2 --every 5",
@@ -1284,9 +1441,14 @@ def run(folder, monkeypatch, capsys):
 
 @pytest.fixture
 def hurried(monkeypatch):
-    """Leave out the last search, a long one, for linkages that work where those found do not."""
+    """Leave out the last search, a long one, for linkages that work where those found do not.
+
+    Paths end early for the message on paths that were lost.
+    """
 
     def hurried(case):
+        if case.code == "W230":
+            monkeypatch.setattr("burmester.functions.critical_generators.MAX_STEPS", 40)
         if case.code not in ("R301", "R305", "R307"):
             monkeypatch.setattr(
                 "burmester.linkages.from_dyads.defect_free_linkages", lambda *_: None
@@ -1305,6 +1467,14 @@ def result(text):
         poses = Path(folder, "poses.csv")
         poses.write_text(text)
         return json.dumps(synthesis_data(synthesize(read_task(poses))))
+
+
+def six_bars(text):
+    """What `synthesize --six-bars -o` writes for a pose file."""
+    with tempfile.TemporaryDirectory() as folder:
+        poses = Path(folder, "poses.csv")
+        poses.write_text(text)
+        return burmester.synthesize_six_bars(read_task(poses), chains=50).to_json()
 
 
 def with_dyad_twice(text):
@@ -1379,8 +1549,11 @@ def said(case, done, code=None):
     assert done.err == ""
     out = re.sub(r"(?m) +$", "", done.out)  # tables are filled with blanks
     if code in TOLD:  # by what was found, without a code
-        counted = re.search(r"(?m)^\d+ (?:four-bar|pose)s? (?:.*\n)+?(?=\n|\Z)", out)
-        return f"{out[: out.index('L1 in full')]}{counted[0]}"
+        counted = re.search(
+            r"(?m)^\d+ (?:of \d+ )?(?:four-bar|pose|six-bar)s? (?:.*\n)+?(?=\n|\Z)", out
+        )
+        in_full = "Dimensions" if code == "R370" else "L1 in full"
+        return f"{out[: out.index(in_full)]}{counted[0]}"
     found = re.search(rf"(?m)^(warning|result)\[{code}\]: .*\n(?:  .*\n|L\d+ .*\n)*", out)
     return found[0] if found else ""
 
@@ -1409,7 +1582,7 @@ def whole(text):
     return " ".join(" ".join(kept).split())
 
 
-TOLD = ("R300", "R305", "R307", "R308")
+TOLD = ("R300", "R305", "R307", "R308", "R340", "R370")
 ONLY_JSON = ("R320", "R321")  # kinds of motion that say no outcome
 SHOWN = [name for name, case in CASES.items() if case.code not in ONLY_JSON]
 

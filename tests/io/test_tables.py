@@ -730,7 +730,7 @@ def test_the_same_table_in_both_formats(read: Read) -> None:
         ({"X": [1, 2, 3]}, "E108", ": column X"),
         ({"px": [1, 2, 3]}, "E108", ": column px"),
         ({"angle_rad": None, "angle": [1, 2, 3]}, "E110", ": column angle"),
-        ({"angle_rad": None}, "E105", ""),
+        ({"y": None}, "E105", ""),
     ],
 )
 def test_what_parquet_cannot_mean_is_refused(

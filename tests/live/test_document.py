@@ -11,7 +11,7 @@ from burmester.io import cases, templates
 from burmester.io.result import task_data
 from burmester.live.document import TaskReader, document_of, options_of, task_file, task_of
 
-NAMES = [*(f"{name}.toml" for name in templates.names()), *(f"case:{n}" for n in cases.names())]
+NAMES = [*(f"{name}.toml" for name in templates.of_poses()), *(f"case:{n}" for n in cases.names())]
 
 
 def given(name):

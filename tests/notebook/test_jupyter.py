@@ -1,7 +1,10 @@
 """The widget in JupyterLab, in a real browser, under real pointer and key events."""
 
+from pathlib import Path
+
 import pytest
 
+from burmester.io import templates
 from tests.oracles import browser, jupyter
 
 pytest.importorskip("jupyterlab", reason="no JupyterLab for this machine")
@@ -12,7 +15,9 @@ from burmester.notebook import Studio
 widget, seen = Studio(burmester.read_task("case:motiongen-shoulder")), []
 widget.observe(lambda change: seen.append(change["name"]))
 widget"""
+VIEW = ("scale", "left", "top")
 MOVED = (9, -6)  # pixels
+LID = Path(templates.__file__).parents[1] / "templates" / "chest-lid.toml"
 
 
 @pytest.fixture(scope="module")
@@ -93,6 +98,36 @@ def test_a_task_that_python_sets_moves_the_handles(lab):
     assert f"y {y:g}" in label(lab, 10)
     count = lab.value("len(widget.result)")
     lab.page.wait_for_selector(f'.bn [data-linkage="L{count}"]')
+
+
+def test_a_limit_that_is_dragged_is_the_tasks_in_python(lab):
+    """Its box goes as far as the hand, the answers are those within it, and nothing else moves."""
+    lab.run(f"widget.task = burmester.read_task({str(LID)!r})")
+    limit, region = '.bn [data-limit="0"]', '.bn [data-region="1"]'
+    lab.page.wait_for_selector(limit)
+    assert lab.page.locator(region).count() == 1
+    is_solved(lab)
+    box = "widget.task.limits[0].fixed_pivot.vertices.tolist()"
+    before, others = lab.value(box), lab.value("widget.task.poses.translation.tolist()")
+    plane = lab.page.locator(".bn .bs-scene")
+    scale, left, top = (float(plane.get_attribute(f"data-{key}")) for key in VIEW)
+    (low, down), (high, _), *_ = before
+    corner = plane.bounding_box()  # its lower edge is taken hold of, below pivots and links
+    x, y = corner["x"] + left + scale * (low + high) / 2, corner["y"] + top - scale * down
+    lab.page.mouse.move(x, y)
+    lab.page.mouse.down()
+    for step in range(1, 9):
+        lab.page.mouse.move(x + step, y + step / 2)
+    lab.page.mouse.up()
+    lab.until(f"{box} != {before!r}")
+    is_solved(lab)
+    pixels = 2 / scale  # either end of a drag may be rounded to a whole pixel
+    for (x, y), (old_x, old_y) in zip(lab.value(box), before, strict=True):
+        assert x - old_x == pytest.approx(8 / scale, abs=pixels)
+        assert y - old_y == pytest.approx(-4 / scale, abs=pixels)
+    assert lab.value("widget.task.poses.translation.tolist()") == others
+    assert lab.value("widget.result.to_json() == burmester.synthesize(widget.task).to_json()")
+    assert lab.page.wrong == []
 
 
 def test_no_style_leaks(lab):

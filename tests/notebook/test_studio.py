@@ -236,6 +236,16 @@ def test_where_a_hand_comes_back_linkages_are_there_again(widget):
     assert "L1" in gone & there
 
 
+@pytest.mark.parametrize("back", ["solve", "follow"])
+def test_where_a_hand_comes_back_python_has_the_task_of_the_result_again(widget, back):
+    page = Page(widget)
+    page.ask("solve", document=page.document)
+    page.ask("follow", document=page.moved(0.003), shown=["L1"])
+    assert widget.task is not widget.result.task
+    page.ask(back, document=page.document, shown=["L1"])
+    assert widget.task is widget.result.task
+
+
 def test_a_search_that_ends_while_a_hand_goes_on_leaves_the_task_to_the_hand(widget):
     page = Page(widget)
     page.ask("solve", document=page.document)

@@ -9,7 +9,7 @@ from tests.oracles import plain_reader
 
 
 def judged(file, path):
-    """What the package makes of a file: "exact", "unsure" or the code of its refusal.
+    """What the package makes of a file: "exact", "points", "unsure" or the code of its refusal.
 
     "unsure" is a file that is taken and whose meaning neither its maker nor the plain reader
     knows.  Raises AssertionError for a wrong number, for a poor refusal, and for a sound file
@@ -38,7 +38,10 @@ def judged(file, path):
     for meant in (file.key, plain):
         if meant is not None:
             assert (why := plain_reader.wrong(task, meant, unit)) == "", why
-    return "unsure" if file.key is None and plain is None else "exact"
+    if file.key is None and plain is None:
+        points = task.tolerances is not None and bool(task.tolerances.free[:, 2].all())
+        return "points" if points else "unsure"  # points: the column of angles was taken away
+    return "exact"
 
 
 def check_refusal(error):

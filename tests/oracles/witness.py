@@ -83,6 +83,17 @@ def turned(slot, second, phi):
     return foot + along * way
 
 
+def missed(linkage, place):
+    """How far the body is from a place (x, y, angle) when its first link stands as there."""
+    first, second = linkage.first, linkage.second
+    x, y, angle = place
+    pin = x + 1j * y + complex(*first.moving_pivot) * np.exp(1j * angle)
+    drive = np.angle(pin - complex(*first.fixed_pivot))
+    at, phi = places(first, second, np.array([drive]))
+    away = np.abs(at - (x + 1j * y)) + np.abs(np.exp(1j * phi) - np.exp(1j * angle))
+    return np.nanmin(away)
+
+
 def misses(linkage, poses, length):
     """How near (N,) the linkage comes to each pose, driven from either side."""
     pairs = [(linkage.first, linkage.second), (linkage.second, linkage.first)]

@@ -1,5 +1,7 @@
 """Five methods side by side: who gives which dyads, and after how many starts."""
 
+import re
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -44,6 +46,19 @@ def test_no_method_misses_the_circles_by_less_than_the_complete_one(task):
     *_, answers = task
     for answer in answers.values():
         assert (answer.rms_error >= answers["complete"].rms_error * (1 - 1e-6)).all()
+
+
+ROW = re.compile(r"(?m)^\| \w[^|]* \| (0\.\d+) \| (0\.\d+) \|")
+
+
+@pytest.mark.parametrize("task", ["approximate"], indirect=True)
+def test_the_table_of_the_documentation_is_what_comes_out(task):
+    _, _, answers = task
+    page = (Path(__file__).parents[2] / "docs" / "paper.md").read_text(encoding="utf-8")
+    table = ROW.findall(page.partition("## Five methods")[2])
+    assert [[float(each) for each in row] for row in table] == [
+        pytest.approx(answer.rms_error, abs=6e-5) for answer in answers.values()
+    ]
 
 
 def test_every_linkage_meets_the_poses_when_driven(task):

@@ -20,6 +20,8 @@ DATA = (
     "burmester/cases/ge2012-exact.json",
     "burmester/templates/gripper.toml",
     "burmester/io/synthesis.schema.json",
+    "burmester/io/function.schema.json",
+    "burmester/functions/start_points.npz",
     "burmester/io/messages.md",
     "burmester/dyads/elimination_templates.npz",
     "burmester/dyads/start_points.npz",

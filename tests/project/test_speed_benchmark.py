@@ -50,9 +50,9 @@ def test_both_sides_are_measured_by_turns(rows):
     assert before.rounds == after.rounds == 2
     assert 0 < before.seconds < 60
     assert 0.05 < after.seconds / before.seconds < 20
-    assert before.last[0]["usable"] == after.last[0]["usable"] == 1
+    assert before.last[0]["usable"] == after.last[0]["usable"] == 3
     assert before.last[0]["calls"] > 1
-    assert notes(row, [before, after]) == "1 of 1 usable"
+    assert notes(row, [before, after]) == "3 of 6 usable"
 
 
 def test_a_line_of_the_table():

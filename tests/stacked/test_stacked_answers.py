@@ -7,7 +7,15 @@ import pytest
 
 from burmester.errors import InputError
 from burmester.fourbar.dyad import PP, PR, RP, RR
-from burmester.stacked import DyadRows, StackedAnswers, TaskStack, joined, stacked_answers
+from burmester.geometry import constraint_manifold
+from burmester.stacked import (
+    DyadRows,
+    StackedAnswers,
+    TaskStack,
+    found_dyads,
+    joined,
+    stacked_answers,
+)
 from burmester.stacked.one_task import dyads_of_task
 from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.motion_task import Task
@@ -163,3 +171,36 @@ def test_arrays_that_are_no_stack_are_refused(given, code):
     with pytest.raises(InputError) as caught:
         TaskStack(**given)
     assert caught.value.code == code
+
+
+@pytest.mark.parametrize("noise", [0.0, 1e-5, 1e-3, 0.1])
+def test_no_slider_is_ruled_out_that_stands_for_a_circle(noise, monkeypatch):
+    """With every solution compared with its nearest slider the answers are the same bits."""
+    rows, _ = mixed_tasks(9)
+    rows = rows + noise * np.random.default_rng(6).normal(size=rows.shape)
+    few = stacked_answers(TaskStack(rows), "pencil").dyads
+    monkeypatch.setattr(found_dyads, "least_slider_angle", lambda p: np.zeros(len(p)))
+    every = stacked_answers(TaskStack(rows), "pencil").dyads
+    assert (every.kind > 0).any()
+    for name in ("task", "kind", "fixed", "moving", "length", "point", "rms", "worst"):
+        assert getattr(few, name).tobytes() == getattr(every, name).tobytes(), name
+
+
+@pytest.mark.parametrize("of", [PR, RP])
+def test_no_slider_is_nearer_than_the_angle_that_rules_it_out(of):
+    """The angles between sliders and manifolds beside them, in all directions and in each."""
+    rng = np.random.default_rng(7)
+    one, two = rng.normal(size=(2, 320, 2)), rng.normal(size=(2, 320))
+    line = PR(two[0], two[1], one[0]) if of is PR else RP(one[0], two[0], two[1])
+    beside = np.concatenate([rng.normal(size=(160, 8)), np.tile(np.eye(8), (20, 1))])
+    size, metric = constraint_manifold.size, constraint_manifold.INVARIANT
+    q = line.coefficients()
+    # Of the two parts of p3 to p6, the one that a line of the other kind would have.
+    sign = 1.0 if of is RP else -1.0
+    beside[240:] = np.array([0, 0, 1, 0, 0, sign, 0, 0])
+    p = q + 10 ** rng.uniform(-6, 0, (320, 1)) * beside
+    own, line_own = (v / metric / size(v)[:, None] for v in (p, q))
+    sine = np.linalg.norm(own - (own * line_own).sum(axis=1, keepdims=True) * line_own, axis=1)
+    share = found_dyads.least_slider_angle(p) / size(p) / sine
+    assert share.max() <= 1 + 1e-9
+    assert share.max() > 0.9

@@ -50,7 +50,7 @@ def test_a_template_is_opened_and_undone(page):
     page.locator("[data-template=gripper]").click()
     has_poses(page, 7)
     assert page.locator(".bs-task-name").input_value() == "gripper"
-    assert pose(page, 3) == (-7.3, -33.8, -15)
+    assert pose(page, 3) == (-3.45, -27.3, -15)
     page.keyboard.press("Control+z")
     assert rows(page) == 8
     assert pose(page, 8) == before

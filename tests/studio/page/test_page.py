@@ -5,6 +5,7 @@ import signal
 
 import pytest
 
+from burmester.io import templates
 from tests.oracles.studio import served
 from tests.oracles.studio_page import (
     drag,
@@ -13,6 +14,7 @@ from tests.oracles.studio_page import (
     field,
     has_poses,
     kept,
+    paste,
     pose,
     solved,
     studio_page,
@@ -38,6 +40,43 @@ UNNAMED = """() => {
     .filter((node) => node.getAttribute("role") !== "status" && !nameOf(node))
     .map((node) => node.outerHTML.slice(0, 200));
 }"""
+
+
+# Of the names of poses: which cover a handle or another name, and which stand nearer to another
+# pose than to their own.  `letters` are the pixels that a box of text is wider than its letters.
+CROWDED = """(letters) => {
+  const boxOf = (node) => node.getBoundingClientRect();
+  const names = [...document.querySelectorAll(".bs-pose-name")].map((node) => {
+    const { left, top, right, bottom } = boxOf(node);
+    return { text: node.textContent, left, right, top: top + letters, bottom: bottom - letters };
+  });
+  const origins = [...document.querySelectorAll(".bs-origin .bs-dot")].map(boxOf);
+  const tips = [...document.querySelectorAll(".bs-turn .bs-tip")].map(boxOf);
+  const meet = (a, b) =>
+    a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+  const away = (box, dot) => {
+    const x = (dot.left + dot.right) / 2, y = (dot.top + dot.bottom) / 2;
+    return Math.hypot(
+      Math.max(box.left - x, 0, x - box.right), Math.max(box.top - y, 0, y - box.bottom));
+  };
+  return names.filter((name, k) =>
+    [...origins, ...tips].some((dot) => meet(name, dot)) ||
+    names.some((other) => other !== name && meet(name, other)) ||
+    origins.some((dot) => away(name, dot) < away(name, origins[k]) - 1)
+  ).map(({ text }) => text);
+}"""
+
+
+@pytest.mark.parametrize("size", [(1400, 900), (390, 844)])
+def test_names_of_crowded_poses_stand_beside_their_own(browser, visitor, size):
+    with studio_page(browser, visitor, width=size[0], height=size[1]) as page:
+        drop(page, "lid-hinge.toml", templates.text("lid-hinge"))
+        has_poses(page, 8)
+        solved(page)
+        page.wait_for_timeout(300)  # names are placed when the picture has come to rest
+        assert page.locator(".bs-pose-name").count() == 8
+        assert page.evaluate(CROWDED, 4) == []
+        assert page.wrong == []
 
 
 def test_w9_names_are_shown_as_text_everywhere(page):
@@ -203,3 +242,28 @@ def test_no_width_needs_scrolling_sideways_and_every_control_has_a_name(
         unnamed = page.evaluate(UNNAMED)
         assert unnamed == []
         assert page.wrong == []
+
+
+def test_an_empty_task_shows_nothing_of_the_one_before(page):
+    new = page.get_by_role("button", name="New", exact=True)
+    new.click()  # without the limits of the task that the studio opens on
+    has_poses(page, 0)
+    rows = ["x\ty\tangle", "0\t0\t0", "30\t20\t30", "60\t25\t60", "90\t10\t100"]
+    paste(page, "\n".join(rows) + "\n")
+    has_poses(page, 4)
+    solved(page)
+    curves = page.locator(".bs-burmester")
+    assert curves.get_attribute("visibility") == "visible"
+    count = page.locator("[data-linkage]").count()
+    assert count > 0
+    new.click()
+    has_poses(page, 0)
+    page.wait_for_function("() => !document.querySelector('[data-linkage]')")
+    assert curves.get_attribute("visibility") == "hidden"
+    assert page.locator(".bs-mechanism").get_attribute("visibility") == "hidden"
+    assert "Two poses or more" in page.locator(".bs-results-status").inner_text()
+    page.locator("[data-do=undo]").click()
+    has_poses(page, 4)
+    solved(page)
+    assert page.locator("[data-linkage]").count() == count
+    assert curves.get_attribute("visibility") == "visible"
