@@ -19,8 +19,10 @@ linkage; as old frame where the last frame did not judge it; else as wrong.  A d
 the last frame was not of that task, or of another answer.  Cards that ended are named above the
 list.
 
-Memory: that of the server with its workers, without mapped files, which a system drops and loads as
-it likes, and the page's heap after a collection.
+Memory: that of the server and of each of its workers, by the numbers of their processes, without
+mapped files, which a system drops and loads as it likes, and the page's heap after a collection.  A
+worker whose search was called off and does not end is killed, and another one is started when it is
+wanted: only the sizes of processes that stay tell whether anything grows.
 """
 
 import argparse
@@ -146,7 +148,7 @@ class Studio:
         mouse.up()
 
     def resident(self):
-        """Kilobytes of memory of the server and all its workers, without files that are mapped."""
+        """Kilobytes of memory of the server and of each worker, by pid, without mapped files."""
         parents = {}
         for folder in Path("/proc").iterdir():
             if folder.name.isdigit():
@@ -158,14 +160,15 @@ class Studio:
         family = {self.server.pid}
         while more := {pid for pid, parent in parents.items() if parent in family} - family:
             family |= more
-        sizes = []
-        for pid in family:
+        sizes = {}
+        for pid in sorted(family):
             try:
                 text = Path(f"/proc/{pid}/status").read_text()
             except OSError:
                 continue
-            sizes.append(int(re.search(r"RssAnon:\s+(\d+)", text)[1]))
-        return sum(sizes)
+            if found := re.search(r"RssAnon:\s+(\d+)", text):  # a process that ends has none
+                sizes[pid] = int(found[1])
+        return sizes
 
     def heap(self):
         """Kilobytes of the page's heap after a collection."""
@@ -331,7 +334,7 @@ def memory(studio, drags, seed, seconds):
     for k in range(drags + 1):
         over = k == drags or time.monotonic() > end
         if over or k % max(1, drags // 20) == 0:
-            yield k, studio.resident() / 1024, studio.heap() / 1024, studio.nodes()
+            yield k, studio.resident(), studio.heap() / 1024, studio.nodes()
         if over:
             return
         before = studio.solved
@@ -359,8 +362,10 @@ def main():
         if given.drags:
             print(check(studio, given.drags, given.seed, given.seconds), flush=True)
         if given.memory:
-            for k, server, page, nodes in memory(studio, given.memory, given.seed, given.seconds):
-                text = f"server {server:.1f} MB, page {page:.1f} MB, {nodes} nodes"
+            for k, sizes, page, nodes in memory(studio, given.memory, given.seed, given.seconds):
+                each = ", ".join(f"{pid}: {size / 1024:.1f}" for pid, size in sizes.items())
+                text = f"server {sum(sizes.values()) / 1024:.1f} MB ({each}), page {page:.1f} MB"
+                text += f", {nodes} nodes"
                 print(f"  {k:6d} drags: {text}", flush=True)
 
 

@@ -55,6 +55,7 @@ def studio():
     ):
         for _ in range(3):
             page.get_by_role("button", name="Next pose").click()
+        page.wait_for_timeout(300)  # names stand where they stay when the picture has come to rest
         assert page.wrong == []
         return page.screenshot()
 

@@ -6,11 +6,11 @@ import sys
 import time
 from pathlib import Path
 
-from docs.building import checks, sources
+from docs.building import checks, notebooks, sources
 from sphinx.cmd.build import main as sphinx
 
 ROOT = Path(__file__).resolve().parents[2]
-REMAINS = (".buildinfo", "jupyter_execute", "reports")  # what no reader opens
+REMAINS = (".buildinfo", "reports")  # what no reader opens
 
 
 def main(folder: Path) -> int:
@@ -19,14 +19,18 @@ def main(folder: Path) -> int:
     os.environ.update(OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1", PYTHONHASHSEED="0")
     laid_out = folder.parent / f"{folder.name}-sources"
     doctrees = folder.parent / f"{folder.name}-doctrees"
-    for each in (folder, laid_out, doctrees):
+    run = folder.parent / notebooks.RUN
+    for each in (folder, laid_out, doctrees, run):
         shutil.rmtree(each, ignore_errors=True)
     sources.lay_out(ROOT, laid_out)
+    os.environ["IPYTHONDIR"] = str(notebooks.own_settings(doctrees))
     if code := sphinx(
         ["-b", "html", "-W", "--keep-going", "-q", "-j", "2", "-c", str(ROOT / "docs"),
          "-d", str(doctrees), str(laid_out), str(folder)]
     ):  # fmt: skip
         return code
+    notebooks.give_outputs(folder)
+    shutil.rmtree(run, ignore_errors=True)
     for each in REMAINS:
         path = folder / each
         shutil.rmtree(path) if path.is_dir() else path.unlink(missing_ok=True)

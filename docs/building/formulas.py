@@ -1,7 +1,7 @@
 """Formulas of `docs/mathematics.md` and the functions that compute them, linked both ways.
 
 The page says below a formula: Formula `name`, computed by `room.module.function`.  The docstring of
-that function says: Formula `name` of the theory.
+that function says: Formula `name` of the theory.  Prose says: formula `name`.
 """
 
 import ast
@@ -12,6 +12,7 @@ from pathlib import Path
 import burmester
 
 ON_PAGE = re.compile(r"(?m)^Formula `([\w-]+)`, computed by ((?:`[\w.]+`(?:, )?)+)\.$")
+IN_PROSE = re.compile(r"\bformulas? (`[\w-]+`(?:(?:, | and )`[\w-]+`)*)")
 IN_DOCSTRING = re.compile(r"Formulas? ((?:`[\w-]+`,?\s+)+)of the theory\.")
 QUOTED = re.compile(r"`([\w.-]+)`")
 
@@ -88,6 +89,18 @@ def linked(text):
         return f"(formula-{match[1]})=\nFormula `{match[1]}`, computed by {links}."
 
     return ON_PAGE.sub(line, text)
+
+
+def in_prose(text):
+    """The formulas that a chapter names, in order."""
+    return [name for names in IN_PROSE.findall(text) for name in QUOTED.findall(names)]
+
+
+def prose_linked(text):
+    """The chapter with a link to each formula that it names."""
+    return IN_PROSE.sub(
+        lambda told: re.sub(r"`([\w-]+)`", r"{ref}`\1 <formula-\1>`", told[0]), text
+    )
 
 
 def as_rst(lines):

@@ -14,6 +14,7 @@ from PIL import Image
 
 from burmester.cli import burmester as command
 from burmester.paper.reproduction import reproduce
+from burmester.paper.side_by_side import side_by_side
 from burmester.plot import write_figures
 from burmester.plot.paper import NAMES
 
@@ -53,6 +54,28 @@ def help_of(each, name):
     """What a command says with --help, 84 characters wide."""
     context = click.Context(each, info_name=name, terminal_width=84, max_content_width=84)
     return each.get_help(context).rstrip()
+
+
+def methods_table(task):
+    """One of the paper's tasks by five methods; times are no part of it."""
+    rows = [
+        "| method | fixed pivot | moving pivot | length | rms | worst | starts |",
+        "|---|---|---|--:|--:|--:|---|",
+    ]
+    for answer in task.answers:
+        for k in range(len(answer.rms_error)):
+            fixed, moving = (
+                ", ".join(f"{value:.3f}" for value in pivots[k])
+                for pivots in (answer.dyads.fixed_pivot, answer.dyads.moving_pivot)
+            )
+            reached = answer.reached
+            starts = "none needed" if reached is None else f"{reached[min(k, len(reached) - 1)]}"
+            rows.append(
+                f"| {answer.method} | ({fixed}) | ({moving}) | {answer.dyads.radius[k]:.3f} "
+                f"| {answer.rms_error[k]:.1e} | {answer.max_error[k]:.1e} | {starts} |"
+            )
+    words = "rms, worst: the misses of the circle. Starts: how many of 100 random ones lead there."
+    return f"### {task.title}\n\n" + "\n".join(rows) + f"\n\n{words}"
 
 
 def cell(text):
@@ -179,4 +202,5 @@ def paper_page(pictures: Path):
         notes = [f"- {row.item}: {cell(row.note)}" for row in section.rows if row.note]
         parts += [f"### {section.title}", "\n".join(rows) if section.rows else ""]
         parts += ["\n".join(notes), *section.remarks]
+    parts += ["## Five methods", *map(methods_table, side_by_side())]
     return "\n\n".join(part for part in parts if part) + "\n"

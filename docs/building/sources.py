@@ -21,11 +21,13 @@ BESIDE = {  # files outside docs/ that are pages, or files, of the site
     "README.md": "index.md",
     "docs/README.md": "index.md",
     "src/burmester/io/synthesis.schema.json": "reference/synthesis.schema.json",
+    "src/burmester/io/function.schema.json": "reference/function.schema.json",
     "src/burmester/io/family_map.schema.json": "reference/family_map.schema.json",
 }
 NOT_COPIED = ("building", "__pycache__", "*.py", "README.md", "*.ipynb")
 CODE = re.compile(r"\(([EWR]\d{3})\)")  # of a message, which has its place on the page of messages
 DOWNLOAD = re.compile(r"\{download\}`([^`<]+?)(?: <[^>]+>)?`")
+OFFER = re.compile(r"\{download\}`This page as a notebook <[^>]+>`, with what it shows\.")
 LINK = re.compile(r"(\]\(|(?:src|srcset|href)=\")([^)\s\"#]+)(#[^)\s\"]*)?(?=[)\"])")
 
 
@@ -48,6 +50,10 @@ def lay_out(root: Path, folder: Path):
     theory = folder / "mathematics.md"
     text = theory.read_text(encoding="utf-8")
     theory.write_text(formulas.linked(text), encoding="utf-8")
+    chapter = folder / "theory.md"
+    chapter.write_text(
+        without_code(chapter.read_text(encoding="utf-8"), formulas.prose_linked), encoding="utf-8"
+    )
     generated.write_pages(folder, formulas.functions_apart(text))
     for page in folder.rglob("*.md"):
         if is_myst_markdown_notebook(page.read_text(encoding="utf-8")):
@@ -94,13 +100,14 @@ def without_code(text, change):
 
 
 def write_notebook(page: Path):
-    """The page as a notebook that Jupyter opens, beside it: not run, without pictures."""
+    """The page as a notebook that Jupyter opens, beside it; what it shows comes after the build."""
     text = page.read_text(encoding="utf-8")
     notebook = read_myst_markdown_notebook(text, add_source_map=False)
     for cell in notebook.cells:
         if cell.cell_type == "markdown":
             plain = cell.source.replace(
-                f"{{download}}`This page as a notebook <{page.stem}.ipynb>`.", ""
+                f"{{download}}`This page as a notebook <{page.stem}.ipynb>`, with what it shows.",
+                "",
             )
             cell.source = DOWNLOAD.sub(r"`\1`", plain).rstrip()
     nbformat.write(notebook, page.with_suffix(".ipynb"))

@@ -1,10 +1,12 @@
 """Draw the still pictures of the gallery, NAME.svg for each job: the linkage that its page chooses.
 
-The page's own cells say which one that is.  Run it from the project's root:
+The page's own cells say which one that is.  pictures.json keeps its pivots, so that a test can tell
+whether a picture is still true without a search.  Run it from the project's root:
 
     .venv/bin/python -m docs.gallery.pictures
 """
 
+import json
 import os
 import re
 import runpy
@@ -14,31 +16,61 @@ from pathlib import Path
 
 from burmester.web.still import still
 
+KEPT = Path(__file__).with_suffix(".json")
 HERE = Path(__file__).resolve().parent
 TEMPLATES = HERE.parents[1] / "src" / "burmester" / "templates"
 CELL = re.compile(r"(?ms)^```\{code-cell\}[^\n]*\n(.*?)^```$")
 
 
-def chosen(page):
-    """What the cells of a page call `chosen`; films and drawings are left out."""
+def beside(folder):
+    """Lay out in a folder the files that the pages read."""
+    for file in (*TEMPLATES.glob("*.toml"), *HERE.glob("*.toml"), *HERE.glob("*.csv")):
+        shutil.copy(file, folder)
+
+
+def pages():
+    """The pages of the jobs."""
+    return [page for page in sorted(HERE.glob("*.md")) if page.stem != "index"]
+
+
+def run(page):
+    """The names that the cells of a page set; films and drawings are left out."""
     script = Path(f"{page.stem}.py")
     cells = CELL.findall(page.read_text(encoding="utf-8"))
     script.write_text(
         "".join(each for each in cells if not re.search(r"\.(animate|export)\(", each))
     )
-    return runpy.run_path(str(script))["chosen"]
+    return runpy.run_path(str(script))
+
+
+def drawn(saved, name):
+    """The picture of a linkage at its poses."""
+    return still(saved.linkage, saved.error.places, saved.task, name) + "\n"
+
+
+def numbers(linkage):
+    """The pivots and the length of both dyads, the driver's first."""
+    return [
+        {
+            "fixed": dyad.fixed_pivot.tolist(),
+            "moving": dyad.moving_pivot.tolist(),
+            "length": float(dyad.radius),
+        }
+        for dyad in (linkage.first, linkage.second)
+    ]
 
 
 def main():
+    kept = {}
     with tempfile.TemporaryDirectory() as folder:
-        for file in (*TEMPLATES.glob("*.toml"), *HERE.glob("*.toml"), *HERE.glob("*.csv")):
-            shutil.copy(file, folder)
+        beside(folder)
         os.chdir(folder)
-        for page in sorted(HERE.glob("*.md")):
-            if page.stem != "index":
-                saved = chosen(page).saved()
-                drawn = still(saved.linkage, saved.error.places, saved.task, page.stem)
-                page.with_suffix(".svg").write_text(drawn + "\n", encoding="utf-8")
+        for page in pages():
+            saved = run(page)["chosen"].saved()
+            kept[page.stem] = numbers(saved.linkage)
+            page.with_suffix(".svg").write_text(drawn(saved, page.stem), encoding="utf-8")
+    text = json.dumps(kept, indent=1)
+    KEPT.write_text(re.sub(r"\[\s+(\S+)\s+(\S+)\s+\]", r"[\1 \2]", text) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":
