@@ -21,10 +21,13 @@ if TYPE_CHECKING:
     from burmester import notebook as notebook
     from burmester import plot as plot
     from burmester import report as report
+    from burmester.api.function import synthesize_function as synthesize_function
     from burmester.api.judge import judge as judge
     from burmester.api.linkage import ResultLinkage as ResultLinkage
     from burmester.api.result import Result as Result
     from burmester.api.result import read_result as read_result
+    from burmester.api.six_bars import SixBarResult as SixBarResult
+    from burmester.api.six_bars import synthesize_six_bars as synthesize_six_bars
     from burmester.api.synthesize import synthesize as synthesize
     from burmester.certificates.certificate import certify as certify
     from burmester.certificates.certificate import certify_five as certify_five
@@ -100,6 +103,7 @@ _ROOMS = {
     "Result": "api.result",
     "ResultLinkage": "api.linkage",
     "Segment": "geometry.regions",
+    "SixBarResult": "api.six_bars",
     "Surroundings": "tasks.surroundings",
     "Task": "tasks.motion_task",
     "best_dyads": "dyads.local_minima",
@@ -110,6 +114,8 @@ _ROOMS = {
     "read_result": "api.result",
     "read_task": "io.reading.poses",
     "synthesize": "api.synthesize",
+    "synthesize_function": "api.function",
+    "synthesize_six_bars": "api.six_bars",
 }
 # Solvers and parts of results, reachable by their names alone as well.
 _ROOMS_BESIDE = {
@@ -152,10 +158,12 @@ __all__ = [
     "Point",
     "Polygon",
     "PoseError",
+    "Progress",
     "Requirements",
     "Result",
     "ResultLinkage",
     "Segment",
+    "SixBarResult",
     "Surroundings",
     "Task",
     "__version__",
@@ -167,6 +175,8 @@ __all__ = [
     "read_result",
     "read_task",
     "synthesize",
+    "synthesize_function",
+    "synthesize_six_bars",
 ]
 
 

@@ -121,7 +121,8 @@ class _RankedLinkages(Generic[AnyLinkage]):
 
     def _html(self, answer: Sequence[str] = (), warnings: Sequence[str] = ()) -> str:
         outcome, linkages = self._parts()
-        sentences = *answer, outcome.message, *warnings
+        said: list[str] = [outcome.message, *warnings]
+        sentences: list[str] = [*answer, *(f"{each}." for each in said)]
         first: str = "".join(f"<p>{escape(each)}</p>" for each in sentences)
         if not linkages:
             return f"<div>{first}</div>"

@@ -11,6 +11,7 @@ from burmester.describe.digits import angle_error, degrees
 from burmester.describe.dimensions import dimensions_of
 from burmester.describe.quality_words import in_short
 from burmester.io.saved import SavedLinkage
+from burmester.linkages.tolerance_boxes import poses_counted
 from burmester.numerics.arrays import ROUNDING
 from burmester.tasks.length_per_radian import default_length_per_radian
 from burmester.tasks.motion_task import Task, characteristic_length
@@ -29,10 +30,10 @@ def as_line(linkage: SavedLinkage) -> str:
     _, _, _, worst, angle, least, *_, verdict = _cells(linkage)
     if "-" in (worst, angle):
         how = "cannot be assembled near every pose"
-    elif worst == angle == "exact":
+    elif worst == "exact" and angle in ("exact", "free"):
         how = "passes every pose exactly"
     else:
-        how = f"misses by {worst} and {angle}"
+        how = f"misses by {worst}" if angle == "free" else f"misses by {worst} and {angle}"
     sure = f", transmission angle {least} or more" if linkage.usable else f", {verdict}"
     kind = linkage.type
     if linkage.other_types:
@@ -78,7 +79,7 @@ def dimensions_as_html(linkage: SavedLinkage) -> str:
     task, own = linkage.task, linkage.linkage
     decimals = decimals_of_linkage(
         own,
-        task.poses,
+        poses_counted(linkage.error.places, task),
         linkage.error,
         default_length_per_radian(task),
         characteristic_length(task),
@@ -94,12 +95,13 @@ def dimensions_as_html(linkage: SavedLinkage) -> str:
 def _cells(linkage: SavedLinkage) -> tuple[str, ...]:
     """One linkage by columns."""
     error, task = linkage.error, linkage.task
+    angle = "free" if task.angles_are_free else angle_error(float(error.angle.max()))
     return (
         linkage.id,
         linkage.type,
         " ".join(linkage.ids),
         _position(error.worst, task),
-        angle_error(float(error.angle.max())) if math.isfinite(error.worst) else degrees(math.nan),
+        angle if math.isfinite(error.worst) else degrees(math.nan),
         least_angle(linkage.least_transmission),
         *in_short(linkage.quality),
         "" if linkage.usable else "not usable",

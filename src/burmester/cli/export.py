@@ -21,6 +21,8 @@ FORMAT  dxf, svg       plates with their holes for cutting, and the assembly
         csv, json      the coupler's places; the linkage itself
         pylinkage      a Python script
 
+Six-bars: svg (a drawing at the poses), gif, csv, json.
+
 Every file is read back and compared with the linkage before it gets its name.
 Lengths are in the unit of the poses."""
 
@@ -97,17 +99,32 @@ def export(
 
     RESULT is the file of `burmester synthesize POSES -o RESULT`.
     """
+    from burmester.cli.function import export_choice
     from burmester.cli.progress_line import working
     from burmester.export import Options, require_format
     from burmester.export import export as run
     from burmester.io.files import require_writable
+    from burmester.io.function_result import is_function_result
+    from burmester.io.reading.file_content import read_source
     from burmester.io.saved import read_result
     from burmester.printable import printable
 
     name = require_format(output, to)
     require_writable(output, force=force, source=result)
     with working("reading the result"):
-        chosen = read_result(result).choose(linkage)
+        data = read_source(result)
+        if is_function_result(data):
+            chosen = export_choice(data, result, linkage)
+        else:
+            read = read_result(result, data)
+            if (six_bar := read.choose_six_bar(linkage)) is not None:
+                from burmester.export.six_bars import export_six_bar
+
+                [path] = export_six_bar(six_bar, name, output, Options(**options), force)
+                told = f"{six_bar.id}, a six-bar; read back and verified"
+                click.echo(f"wrote {printable(str(path))}: {told}")
+                return EXIT_FOUND
+            chosen = read.choose(linkage)
         paths = run(chosen, name, output, Options(**options), force)
     for path in paths:
         click.echo(

@@ -45,8 +45,12 @@ def judge(
     It is told what `burmester synthesize` tells of its own linkages.  Exit code 0: the linkage
     works; 1: it does not; 2: the input cannot be used.
     """
+    from burmester.cli.function import function_task, judge_function
     from burmester.io import files
 
+    if linkage is not None and (task := function_task(poses, given)) is not None:
+        one = given.get("id")
+        return judge_function(task, linkage, one, file=output, force=force, as_json=as_json)
     if output is not None:
         for source in (poses, linkage):
             if source is not None:

@@ -19,16 +19,20 @@ if TYPE_CHECKING:
     from burmester.tasks.motion_task import Task
 
 __all__ = [
+    "FUNCTION",
     "JUDGEMENT",
     "MANUFACTURING",
     "METHOD",
     "POSES",
     "POSES_HELP",
+    "SIX_BARS",
     "SPECIFICATION",
     "Sectioned",
     "pose_arguments",
     "read_poses",
+    "require_six_bars",
     "run_judgement",
+    "run_six_bars",
     "run_synthesis",
     "with_options",
 ]
@@ -42,6 +46,9 @@ POSES   a CSV, .xlsx, JSON, TOML or Parquet file, "-" for standard input, or
         and the like name a unit; so do X [mm], Winkel [°] and others); the
         columns weight, name and exact may follow.
         Recordings of markers (TRC, CSV, .xlsx) are read by --points.
+        A blank angle is a point of the body. A path to trace is a table x,y
+        of ten points or more, with crank_deg if the crank times it, or the
+        curve in a drawing, FILE.svg or .dxf[:PART].
 REGION  X,Y                    a point
         line:X,Y:X,Y           the endless line through two points
         segment:X,Y:X,Y        the piece between them
@@ -84,8 +91,16 @@ class Sectioned(click.Command):
                     formatter.write_dl(rows)
 
 
-HEADS = ("Linkage", "Poses", "Limits and requirements", "Method", "Manufacturing", "Output")
-_linkage, _poses, _specification, _method, _manufacturing = (
+HEADS = (
+    "Linkage",
+    "Poses",
+    "Function",
+    "Limits and requirements",
+    "Method",
+    "Manufacturing",
+    "Output",
+)
+_linkage, _poses, _function, _specification, _method, _manufacturing = (
     partial(click.option, cls=_Option, section=head) for head in HEADS[:-1]
 )
 
@@ -152,6 +167,11 @@ POSES: tuple[Decorator, ...] = (
     ),
     _poses("--to", "last", metavar="POSE", help="The last pose to take, likewise."),
     _poses(
+        "--closed",
+        is_flag=True,
+        help="Points x,y that are traced lead back to the first one, and the crank turns fully.",
+    ),
+    _poses(
         "--pose-tolerance",
         metavar="X,Y,DEG[,body]",
         help="How far from a pose the body may be: to both sides in x, y and angle, for all poses "
@@ -165,6 +185,61 @@ POSES: tuple[Decorator, ...] = (
         "the number of digits printed.",
     ),
 )
+
+# Of a function generator; a file with the columns input_deg and output_deg states its pairs itself.
+FUNCTION: tuple[Decorator, ...] = (
+    _function(
+        "--function",
+        metavar="EXPRESSION",
+        help="The function y of x that the output link is to make of the input link, such as "
+        '"log10(x)"; see the end of this page.',
+    ),
+    _function("--x", metavar="FROM:TO", help="The range of x, such as 1:2 or 0:pi/2."),
+    _function(
+        "--input",
+        "input_range",
+        metavar="DEG",
+        help="How far the input link turns over the range of x; --output says it of the output.",
+    ),
+    _function("--opposite", is_flag=True, help="The output link turns against the input link."),
+    _function(
+        "--pairs",
+        metavar="N",
+        type=int,
+        help="Take N pairs of angles from the function: 3 to 5 are met exactly; by default 61, as "
+        "nearly as possible.",
+    ),
+    _function(
+        "--spacing",
+        type=click.Choice(["chebyshev", "even"]),
+        help="Where these pairs are; by default Chebyshev's spacing up to 5, even beyond.",
+    ),
+    _function(
+        "--minimax", is_flag=True, help="Make the greatest error least, not the sum of squares."
+    ),
+    _function(
+        "--input-phase",
+        metavar="DEG",
+        help="Angle of the input link from the ground link where the input is 0; by default it is "
+        "found.",
+    ),
+    _function("--output-phase", metavar="DEG", help="The same of the output link."),
+    _function("--ground", metavar="LENGTH", help="Length of the ground link; by default 1."),
+)
+_plot: Decorator = _function(
+    "--plot", metavar="FILE", help="Draw the structural error (.png, .svg, .pdf)."
+)
+FUNCTION_WITH_PLOT = (*FUNCTION, _plot)
+FUNCTION_HELP = """\b
+PAIRS   a CSV file with the columns input_deg and output_deg (or input_rad,
+        output_rad), and weight if wanted: what the two links of a function
+        generator turn to together, each from a zero of its own. It stands
+        in the place of POSES, as does a TOML or JSON file with a table
+        [function].
+EXPRESSION
+        numbers, x, pi, e, + - * / **, brackets, and sin, cos, tan, asin,
+        acos, atan (radians), sqrt, exp, log (natural), log10, abs
+"""
 
 _length: Decorator = _specification(
     "--length",
@@ -310,6 +385,27 @@ METHOD: tuple[Decorator, ...] = (
     TIME_LIMIT,
 )
 
+SIX_BARS: tuple[Decorator, ...] = (
+    _method(
+        "--six-bars",
+        is_flag=True,
+        help="Look for linkages of six bars instead (Watt's first kind), through two to five poses "
+        "exactly, for tasks that no four-bar does.",
+    ),
+    _method(
+        "--chains",
+        metavar="N",
+        type=click.IntRange(min=1),
+        help="How many 3R chains are made six-bars, drawn at random; by default 20,000.",
+    ),
+    _method(
+        "--seed",
+        metavar="N",
+        type=click.IntRange(min=0),
+        help="Seed of these random chains; the same one gives the same answer. By default 0.",
+    ),
+)
+
 MANUFACTURING: tuple[Decorator, ...] = (
     _manufacturing(
         "--tolerance",
@@ -343,9 +439,10 @@ JUDGEMENT = (
 )
 
 
-def with_options(*groups: tuple[Decorator, ...]) -> Decorator:
+def with_options(*groups: tuple[Decorator, ...], poses_required: bool = True) -> Decorator:
     """A decorator that gives a command the argument POSES and groups of options."""
-    options = [click.argument("poses"), *(option for group in groups for option in group)]
+    argument = click.argument("poses", required=poses_required)
+    options = [argument, *(option for group in groups for option in group)]
     return lambda command: reduce(lambda made, option: option(made), reversed(options), command)
 
 
@@ -354,6 +451,9 @@ def pose_arguments(given: dict[str, Any]) -> list[str]:
     words: list[str] = []
     for name, value in given.items():
         option = {"first": "--from", "last": "--to"}.get(name, f"--{name.replace('_', '-')}")
+        if isinstance(value, bool):
+            words += [option] if value else []
+            continue
         values = value if isinstance(value, tuple) else () if value is None else (value,)
         words += [word for each in values for word in (option, str(each))]
     return words
@@ -385,6 +485,7 @@ def read_poses(poses: str, **given: Any) -> Task:
         angle_unit=given["angle_unit"],
         pose_sigma=None if sigma is None else text.pose_sigma(sigma),
         tolerance=None if tolerance is None else text.pose_tolerance(tolerance),
+        data=given.get("data"),
         **{name: given[name] for name in _ROWS if given[name]},
         **further,
     )
@@ -411,6 +512,49 @@ def run_synthesis(poses: str, **given: Any) -> Synthesis:
     )
     with working("reading the poses"):
         return synthesize(read_poses(poses, **given), options)
+
+
+def run_six_bars(poses: str, **given: Any) -> Synthesis:
+    """The six-bars for the file POSES; raises E197 where an option has no meaning for them."""
+    from burmester.cli.progress_line import working
+    from burmester.sixbar.six_bars import SixBarOptions
+    from burmester.synthesis.six_bars import synthesize_six_bars
+    from burmester.tasks.options import SynthesisOptions
+
+    _require_no_option_but_those_of_six_bars()
+    numbers = {name: given[name] for name in ("chains", "seed") if given[name] is not None}
+    options = SynthesisOptions(time_limit=_time_limit(given))
+    with working("reading the poses"):
+        return synthesize_six_bars(read_poses(poses, **given), SixBarOptions(**numbers), options)
+
+
+def require_six_bars(**given: Any) -> None:
+    """Refuse the options of six-bars where no six-bars are looked for; raises E197."""
+    from burmester.errors import InputError
+
+    for name in ("chains", "seed"):
+        if given[name] is not None:
+            raise InputError(
+                "E197",
+                f"--{name} is for six-bars, and they are not looked for",
+                help="give --six-bars as well, or leave it out",
+            )
+
+
+def _require_no_option_but_those_of_six_bars() -> None:
+    from burmester.errors import InputError
+
+    context = click.get_current_context()
+    typed = click.core.ParameterSource.COMMANDLINE
+    for option in context.command.params:
+        if option.name in _NOT_FOR_SIX_BARS and (
+            context.get_parameter_source(option.name) is typed
+        ):
+            raise InputError(
+                "E197",
+                f"{option.opts[0]} has no meaning for six-bars",
+                help=f"leave {option.opts[0]} out, or --six-bars",
+            )
 
 
 def run_judgement(
@@ -458,7 +602,22 @@ def _lengths(given: dict[str, Any]) -> dict[str, Any]:
     }
 
 
-_ROWS = ("columns", "sheet", "points", "plane", "drop", "every", "first", "last")
+_NOT_FOR_SIX_BARS = (
+    "method",
+    "norm",
+    "length_per_radian",
+    "prefer",
+    "certify",
+    "raw",
+    "manufacturing_tolerance",
+    "rounding_step",
+    "stock_lengths",
+    "family_map",
+    "require_determined",
+    "everything",
+    "dyads",
+)
+_ROWS = ("columns", "sheet", "points", "plane", "drop", "every", "first", "last", "closed")
 _LENGTH_OPTIONS = {
     "length_per_radian": "--angle-weight",
     "manufacturing_tolerance": "--tolerance",

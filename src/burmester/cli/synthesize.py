@@ -1,4 +1,4 @@
-"""`burmester synthesize`: from poses to linkages."""
+"""`burmester synthesize`: from poses, or a function, to linkages."""
 
 from __future__ import annotations
 
@@ -7,12 +7,17 @@ from typing import Any
 import click
 
 from burmester.cli.options import (
+    FUNCTION_HELP,
+    FUNCTION_WITH_PLOT,
     MANUFACTURING,
     METHOD,
     POSES,
     POSES_HELP,
+    SIX_BARS,
     SPECIFICATION,
     Sectioned,
+    require_six_bars,
+    run_six_bars,
     run_synthesis,
     with_options,
 )
@@ -21,8 +26,16 @@ from burmester.cli.output import EXIT_FOUND, EXIT_NOTHING, hand_over
 __all__ = ["synthesize"]
 
 
-@click.command(cls=Sectioned, epilog=POSES_HELP)
-@with_options(POSES, SPECIFICATION, METHOD, MANUFACTURING)
+@click.command(cls=Sectioned, epilog=f"{POSES_HELP}\n\n{FUNCTION_HELP}")
+@with_options(
+    POSES,
+    FUNCTION_WITH_PLOT,
+    SPECIFICATION,
+    METHOD,
+    SIX_BARS,
+    MANUFACTURING,
+    poses_required=False,
+)
 @click.option(
     "--all",
     "everything",
@@ -43,37 +56,65 @@ __all__ = ["synthesize"]
     help="Write the map of the family of three or four poses to FILE as well: numbers (.json) or a "
     "figure (.png, .svg, .pdf).",
 )
-@click.option("-o", "--output", metavar="FILE", help="Write that object to FILE as well.")
+@click.option("-o", "file", metavar="FILE", help="Write that object to FILE as well.")
+@click.option(
+    "--output",
+    metavar="FILE|DEG",
+    help="The same as -o; with --function, how far the output link turns, in degrees.",
+)
 @click.option("--force", is_flag=True, help="Write files even if they exist.")
 def synthesize(
-    poses: str,
+    poses: str | None,
     *,
     everything: bool,
     dyads: bool,
     require_determined: bool,
     as_json: bool,
     family_map: str | None,
+    file: str | None,
     output: str | None,
     force: bool,
+    six_bars: bool,
     **given: Any,
 ) -> int:
-    """Find four-bars that guide a body through POSES."""
+    """Find four-bars that guide a body through POSES, or that make a function of angles.
+
+    With --six-bars, six-bars for the poses.
+    """
+    from burmester.cli.function import function_task, hand_over_function
+
+    given["output"] = output
+    task = function_task(poses, given)
+    if task is not None:
+        return hand_over_function(
+            task,
+            file or (None if given["function"] else output),
+            poses=poses,
+            force=force,
+            as_json=as_json,
+            plot=given["plot"],
+            everything=everything,
+        )
+    output = file or output
     from burmester.cli.family_map import require_map_file, write_map
     from burmester.cli.progress_line import working
     from burmester.io import files
 
+    assert poses is not None
     if output is not None:
         files.require_writable(output, force=force, source=poses)
     if family_map is not None:
         require_map_file(family_map)
         files.require_writable(family_map, force=force, source=poses)
-    synthesis = run_synthesis(poses, **given)
+    if not six_bars:
+        require_six_bars(**given)
+    synthesis = (run_six_bars if six_bars else run_synthesis)(poses, **given)
     if family_map is not None:
         with working("drawing the map"):
             click.echo(write_map(synthesis, family_map, force=force), err=True)
     shown = {"everything": everything, "dyads": dyads}
     hand_over(synthesis, output, force=force, as_json=as_json, **shown)
-    good = synthesis.determined if require_determined else bool(synthesis.usable)
+    good = synthesis.determined if require_determined else synthesis.works
     if synthesis.usable and not good:
         reason = "the poses determine the pivots of no usable linkage, and --require-determined is"
         click.echo(f"exit code 1: {reason} given", err=True)

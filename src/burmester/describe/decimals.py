@@ -118,7 +118,7 @@ def decimals_of_linkage(
         return trials[0]
     errors = _errors_of(
         [linkage, *(Linkage(*each.printed(*dyads)) for each in trials)],
-        poses[here],
+        _asked(poses, error)[here],
         error.places[here],
         length,
     )
@@ -144,6 +144,19 @@ def decimals_of_dyad(dyad: Dyad, poses: Displacement, size: float) -> Decimals:
     trials = _trials((dyad,), poses, promised[[0, 0]], 0)
     values = np.array([errors(each.printed(dyad)[0]) for each in trials])
     return _first(trials, np.asarray((values <= GROWTH * promised).all(axis=-1)), values)
+
+
+def _asked(poses: Displacement, error: PoseError) -> Displacement:
+    """Poses (N,), what is free of them where the linkage has it: there its error counts as none."""
+    away = PoseError.at(error.places, poses)
+    turned, moved = (
+        one > other + ROUNDING * (1 + other)
+        for one, other in ((away.angle, error.angle), (away.position, error.position))
+    )
+    return Displacement(
+        np.where(moved[:, None], error.places.translation, poses.translation),
+        np.where(turned, error.places.angle, poses.angle),
+    )
 
 
 def _most_missed(error: PoseError) -> NDArray[np.intp]:

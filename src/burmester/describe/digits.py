@@ -87,9 +87,9 @@ def angle_error(angle: float) -> str:
 
 
 def worst_errors(synthesis: Synthesis, found: FoundLinkage) -> tuple[str, str]:
-    """The greatest position and angle errors at a pose."""
-    angle = float(found.error.angle.max())
-    return position_error(synthesis, found.error.worst), angle_error(angle)
+    """The greatest position and angle errors at a pose; "free" where no angle is asked for."""
+    free, angle = synthesis.task.angles_are_free, float(found.error.angle.max())
+    return position_error(synthesis, found.error.worst), "free" if free else angle_error(angle)
 
 
 def degrees(angle: float) -> str:

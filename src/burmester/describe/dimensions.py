@@ -15,6 +15,7 @@ from burmester.describe.decimals import (
 from burmester.describe.digits import fixed
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.linkages.found_linkage import FoundLinkage
+from burmester.linkages.tolerance_boxes import poses_counted
 from burmester.linkages.uncertainty import DyadUncertainty, PivotRegion
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Synthesis
@@ -49,7 +50,7 @@ def decimals_of(synthesis: Synthesis, found: FoundLinkage) -> Decimals:
     step = synthesis.options.rounding_step if found.error_before_rounding is not None else None
     return decimals_of_linkage(
         found.linkage,
-        synthesis.task.poses,
+        poses_counted(found.error.places, synthesis.task),
         found.error,
         synthesis.problem.length_per_radian,
         synthesis.length,

@@ -127,8 +127,7 @@ def _passes(synthesis: Synthesis, best: FoundLinkage) -> str:
         return "stays inside the tolerance of every pose"
     if explanation.meets_exactly(best, synthesis.length):
         return "passes every pose exactly, up to rounding"
-    worst = notation.length_of(best.error.worst, synthesis.task)
-    return f"passes every pose within {worst} and {degrees(float(best.error.angle.max()))}"
+    return f"passes every pose within {explanation.worst_miss(best, synthesis.task)}"
 
 
 def _nearer(one: FoundLinkage, other: FoundLinkage, size: float) -> bool:
@@ -215,7 +214,8 @@ def digits_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
     if not math.isfinite(position):
         return None
     away = notation.length_of(position, synthesis.task)
-    return f"Built from the digits above, {found.id} misses by {away} and {degrees(angle)} at most."
+    turned = "" if synthesis.task.angles_are_free else f" and {degrees(angle)}"
+    return f"Built from the digits above, {found.id} misses by {away}{turned} at most."
 
 
 def clearance_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:

@@ -25,13 +25,14 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.numerics.linear_algebra import matvec, solve_where_regular
 
-__all__ = ["FivePoseDyads", "dyads_of_five", "require_count"]
+__all__ = ["FivePoseDyads", "conic_intersections", "dyads_of_five", "require_count"]
 
 REAL_TOLERANCE = 1e-7  # of a unit vector; a polished root with less imaginary part is real
 NEWTON_STEPS = 12  # on the poses' own equations, at most; roots that are close together take more
 LAST_STEP = 1e-10  # of a unit vector; the error after a step as short as this is its square
 MAX_NEWTON_STEP = 0.1  # of a unit vector; a longer step has lost its root
 SHARPENING_STEPS = 20  # in the longest floating point, at most
+LAST_SHARPENING = 1e-12  # of a dyad's size; after a step as short as this nothing is left to gain
 MAX_SHARPENING = 1e-3  # of a dyad's size; a longer step does not remove rounding
 SLIDER_LENGTH = 1e6  # characteristic lengths; a longer link is a slider up to rounding
 ISOLATED_TOLERANCE = 1e-10  # singular value of two unit conics; below, they share a curve
@@ -133,7 +134,7 @@ def dyads_of_five(poses: Displacement) -> FivePoseDyads:
     q, triangle = np.linalg.qr(np.swapaxes(design, -1, -2), mode="complete")
     singular_values = np.linalg.svd(triangle[..., :5, :], compute_uv=False)
     basis = np.swapaxes(q[..., 5:], -1, -2)
-    points, determined = _conic_intersections(_conics(basis))
+    points, determined = conic_intersections(_conics(basis))
     p = points @ basis
     p = _polish(p / np.linalg.norm(p, axis=-1, keepdims=True), design)
     largest = np.take_along_axis(p, np.abs(p).argmax(axis=-1)[..., None], axis=-1)
@@ -197,7 +198,7 @@ def _conics(basis: FloatArray) -> FloatArray:
     return unit
 
 
-def _conic_intersections(conics: FloatArray) -> tuple[ComplexArray, NDArray[np.bool_]]:
+def conic_intersections(conics: FloatArray) -> tuple[ComplexArray, NDArray[np.bool_]]:
     """The four common points (*, 4, 3) of two conics (*, 2, 6), and whether they are isolated.
 
     Each conic times each unknown is a row of a 6 x 10 matrix on the cubic monomials; its null
@@ -209,7 +210,6 @@ def _conic_intersections(conics: FloatArray) -> tuple[ComplexArray, NDArray[np.b
         macaulay[..., k, :, _TIMES[k]] = np.moveaxis(conics, -1, 0)
     macaulay = macaulay.reshape(*conics.shape[:-2], 6, 10)
     q, triangle = np.linalg.qr(np.swapaxes(macaulay, -1, -2), mode="complete")
-    least = np.linalg.svd(triangle[..., :6, :], compute_uv=False)[..., 5]
     null = q[..., 6:]
     times = np.stack([null[..., _TIMES[k], :] for k in range(3)])
     first, second = (np.tensordot(_CHART[i], times, axes=1) for i in range(2))
@@ -222,7 +222,21 @@ def _conic_intersections(conics: FloatArray) -> tuple[ComplexArray, NDArray[np.b
     best = np.abs(np.diagonal(outer, axis1=-2, axis2=-1)).argmax(axis=-1)
     points = np.take_along_axis(outer, best[..., None, None], axis=-1)[..., 0]
     unit = points / np.linalg.norm(points, axis=-1, keepdims=True)
-    return unit, np.asarray(least > ISOLATED_TOLERANCE)
+    return unit, _isolated(triangle[..., :6, :])
+
+
+def _isolated(triangle: FloatArray) -> NDArray[np.bool_]:
+    """Whether the least singular values of triangles (*, 6, 6) are no rounding.
+
+    Their columns are unit vectors, so that the squares of the six add up to 6, and the product of
+    the other five is (6/5)^(5/2) at most.  Six make up the determinant: few need be computed.
+    """
+    bound = (5 / 6) ** (5 / 2) * np.abs(np.diagonal(triangle, axis1=-2, axis2=-1).prod(axis=-1))
+    isolated = np.asarray(bound > 2 * ISOLATED_TOLERANCE)
+    if not isolated.all():
+        least = np.linalg.svd(triangle[~isolated], compute_uv=False)[..., 5]
+        isolated[~isolated] = least > ISOLATED_TOLERANCE
+    return isolated
 
 
 def _equations(p: ComplexArray, design: FloatArray) -> ComplexArray:
@@ -277,7 +291,7 @@ def _sharpened(dyads: RR, poses: Displacement, length: FloatArray) -> RR:
     d1, d2 = (poses.translation[..., k].reshape(-1, 5)[task].astype(long) for k in (0, 1))
     angle = poses.angle.astype(long).reshape(-1, 5)
     c, s = np.cos(angle)[task], np.sin(angle)[task]
-    x, least = best[run].astype(long), np.full(len(run), np.inf)
+    x, least, ends = best[run].astype(long), np.full(len(run), np.inf), np.zeros(len(run), bool)
     for _ in range(SHARPENING_STEPS):
         c1, c2, m1, m2 = x.T[..., None]
         a1, a2 = c * m1 - s * m2 + (d1 - c1), s * m1 + c * m2 + (d2 - c2)
@@ -287,7 +301,7 @@ def _sharpened(dyads: RR, poses: Displacement, length: FloatArray) -> RR:
         worst = np.abs(residual).max(axis=-1)
         gains = worst < least
         best[run[gains]], radius[run[gains]] = x[gains], np.sqrt(mean[gains])
-        on = np.flatnonzero(gains)
+        on = np.flatnonzero(gains & ~ends)
         x1, x2, cos, sin = (np.asarray(each[on], dtype=np.float64) for each in (a1, a2, c, s))
         jacobian = np.full((len(on), 5, 5), -1.0)
         jacobian[..., 0], jacobian[..., 1] = -2 * x1, -2 * x2
@@ -298,7 +312,8 @@ def _sharpened(dyads: RR, poses: Displacement, length: FloatArray) -> RR:
             break
         step = step[regular, :4]
         run, d1, d2, c, s, least = run[on], d1[on], d2[on], c[on], s[on], worst[on]
-        small = np.abs(step).max(axis=-1) < MAX_SHARPENING * size[run]
+        length = np.abs(step).max(axis=-1) / size[run]
+        small, ends = length < MAX_SHARPENING, length < LAST_SHARPENING
         x = x[on] - np.where(small[:, None], step, 0.0)
     pivots = best.reshape(*lead, 4)
     return RR(pivots[..., :2], pivots[..., 2:], radius.reshape(lead))

@@ -21,6 +21,7 @@ from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
+from burmester.linkages.tolerance_boxes import poses_counted
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.length_per_radian import default_length_per_radian
 from burmester.tasks.motion_task import characteristic_length
@@ -70,7 +71,7 @@ class Reference:
             scale = MILLIMETRES[unit_of(chosen, options)] / MILLIMETRES[unit]
         places, poses = (
             Displacement(each.translation * scale, each.angle)
-            for each in (chosen.error.places, chosen.task.poses)
+            for each in (chosen.error.places, poses_counted(chosen.error.places, chosen.task))
         )
         fixed: list[FloatArray | None] = []
         moving: list[FloatArray | None] = []

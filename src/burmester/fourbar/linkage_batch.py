@@ -84,6 +84,10 @@ class LinkageBatch:
         """The linkage at an index."""
         return Linkage(*(self._dyads(side, index) for side in (0, 1)))
 
+    def linkage_of_all(self) -> Linkage:
+        """All linkages (k,) of one pair of kinds as one value."""
+        return Linkage(*(self._dyads(side, slice(None)) for side in (0, 1)))
+
     def exchanged(self) -> LinkageBatch:
         """The same with the two dyads exchanged."""
         return LinkageBatch(self.kinds[:, ::-1], self.dimensions[:, ::-1])

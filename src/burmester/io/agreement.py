@@ -55,13 +55,13 @@ __all__ = ["Judged", "judged_again"]
 CLOSENESS = 1e-9  # of the task's size or of a number itself; rounding changes less
 ROUNDING = 1e-14  # of the farthest pivot; rounding of what is computed from it
 SHARE_CLOSENESS = 1e-5  # of a tolerance; shares are of places that are written with all digits
-NOT_USABLE = ("R301", "R304")  # outcomes with linkages of which none is usable
+NOT_USABLE = ("R301", "R304", "R341")  # outcomes with linkages of which none is usable
 PLACE_ERROR = 1e-6  # of the task's size; places are found by iteration, to fewer digits
 # Of a figure of quality: beside a dead point, and for bodies that hardly are determined, rounding
 # changes the last digits.
 QUALITY_CLOSENESS = 1e-5
 ANGLE_CLOSENESS = 1e-5  # degrees; beside a dead point a transmission angle loses half its digits
-WORKING = ("R300", "R305", "R307", "R308")  # outcomes with a usable linkage
+WORKING = ("R300", "R305", "R307", "R308", "R340", "R350")  # outcomes with a usable linkage
 CLEARANCE_ERROR = 2  # times that computed again; the error that a least clearance may state
 AGAIN = "the file has been changed: make it anew with `burmester synthesize POSES -o result.json`"
 
@@ -211,7 +211,7 @@ def _task_parts(result: WrittenResult, task: Task) -> _Parts:
             yield _Part(keys, code, f"{'a' if given else 'no'} usable linkage as given")
     elif result.linkages and code in ("R302", "R303", "R306"):
         yield _Part(keys, code, "linkages")
-    elif usable is not (code in WORKING) and code in (*WORKING, *NOT_USABLE, "R309"):
+    elif usable is not (code in WORKING) and code in (*WORKING, *NOT_USABLE, "R309", "R351"):
         yield _Part(keys, code, "a usable linkage" if usable else "no usable linkage")
 
 

@@ -12,6 +12,7 @@ from rich.table import Table
 from rich.text import Text
 
 from burmester.describe import sentences
+from burmester.describe.cognates import cognate_lines
 from burmester.describe.digits import links, worst_errors
 from burmester.describe.dimensions import certain, decimals_of, dimensions
 from burmester.describe.quality_words import in_short, quality_note
@@ -188,6 +189,10 @@ def in_full(synthesis: Synthesis, best: FoundLinkage, console: Console) -> Itera
         text = note(synthesis, best)
         if text is not None and (best.usable or note not in (uncertainty, sentences.type_note)):
             yield Text(text, style="dim" if note is uncertainty else "")
+    if lines := cognate_lines(synthesis, best):
+        yield Text(f"\nThe curve of {best.id} by its cognates", style="bold")
+        for line in lines:
+            yield Text(f"- {line}")
 
 
 def _dimensions(synthesis: Synthesis, best: FoundLinkage, stacked: bool = False) -> Table:

@@ -19,6 +19,8 @@ from burmester.io.linkage_table import new_table
 from burmester.io.message import print_trimmed, wrapped
 from burmester.io.message import show as show_message
 from burmester.io.result import message_data, motion_data, task_data
+from burmester.numerics.arrays import FloatArray
+from burmester.synthesis.point_generation import in_words, points_of
 from burmester.tasks.motion_kinds import General
 from burmester.tasks.motion_task import Task
 from burmester.tasks.pose_tolerances import PoseTolerances
@@ -51,7 +53,9 @@ def show(diagnosis: Diagnosis, console: Console) -> None:
     for name, text in _facts(diagnosis):
         for line in wrapped(text, console.width, Text(f"{name:10}", style="bold")):
             console.print(line, soft_wrap=True)
-    motion = diagnosis.motion
+    # Free angles say nothing of a motion.
+    turns = task.path is None and points_of(task) is None
+    motion = diagnosis.motion if turns else None
     if motion is not None and not isinstance(motion.kind, General):
         console.print()
         show_message("result", motion.kind, console)
@@ -104,7 +108,8 @@ def _add_tolerances(columns: dict[str, list[str]], tolerances: PoseTolerances, u
 
 def _facts(diagnosis: Diagnosis) -> Iterator[tuple[str, str]]:
     """The facts about the poses as a whole, each with its name."""
-    task, motion = diagnosis.task, diagnosis.motion
+    task = diagnosis.task
+    motion = diagnosis.motion if task.path is None else None
     unit = f" {task.length_unit}" if task.length_unit else ""
     width, height = np.ptp(task.poses.translation, axis=0)
     length, angle = task.resolution
@@ -112,7 +117,12 @@ def _facts(diagnosis: Diagnosis) -> Iterator[tuple[str, str]]:
     if task.read_as:
         yield "read", task.read_as
     yield "extent", f"{size}{unit or ', no unit stated'}"
-    if motion is not None:
+    if task.path is not None:
+        turned = task.path.crank_angles
+        timed = "" if turned is None else f", timed by a crank that turns {_range(turned)}"
+        yield "path", f"{'closed' if task.path.closed else 'open'}{timed}"
+    is_point = points_of(task)
+    if motion is not None and is_point is None:
         yield "rotation", f"{math.degrees(motion.rotation):.4g}°"
     if length or angle:
         positions = f"positions to ±{figure(length)}{unit}" if length else "positions are exact"
@@ -120,10 +130,16 @@ def _facts(diagnosis: Diagnosis) -> Iterator[tuple[str, str]]:
         yield "known", f"{positions}, {angles}"
     else:
         yield "known", "exact, unless --pose-sigma says otherwise"
-    if motion is not None:
+    if is_point is not None:
+        yield "asks", in_words(is_point)
+    elif motion is not None:
         general = isinstance(motion.kind, General)
         yield "motion", motion.kind.message if general else motion.kind.name
         quadrics = {0: "no quadric holds", 1: "1 quadric holds"}.get(
             motion.nullity, f"{motion.nullity} independent quadrics hold"
         )
         yield "rank", f"{8 - motion.nullity} of 8: {quadrics} all poses in image space"
+
+
+def _range(angles: FloatArray) -> str:
+    return f"{math.degrees(float(np.ptp(angles))):.4g}°"

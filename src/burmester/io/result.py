@@ -10,6 +10,7 @@ import json
 import math
 from typing import TYPE_CHECKING, Any
 
+from burmester.describe.cognates import cognates_of
 from burmester.describe.moved_pivots import moved_pivots
 from burmester.dyads.critical_points import COUNT, CriticalDyads
 from burmester.dyads.five_poses import FivePoseDyads
@@ -17,13 +18,14 @@ from burmester.dyads.local_minima import BestDyads
 from burmester.dyads.pencil import Pencil
 from burmester.dyads.selection import Fit
 from burmester.errors import Advice, BurmesterError
+from burmester.fourbar.dyad import RR
 from burmester.geometry.regions import Line, Point, Polygon, Segment
 from burmester.io.linkage_data import (
     dyad_data,
     linkage_data,
     number,
 )
-from burmester.io.pose_data import poses_data, tolerances_data
+from burmester.io.pose_data import degrees_of, poses_data, tolerances_data
 from burmester.io.reading.stated_requirements import requirements_data
 from burmester.io.reading.stated_surroundings import surroundings_data
 from burmester.linkages.found_linkage import FoundLinkage
@@ -33,10 +35,12 @@ from burmester.tasks.limits import KINDS, Limits
 from burmester.tasks.motion_class import MotionClass
 from burmester.tasks.motion_task import Task
 from burmester.tasks.options import Preference
+from burmester.tasks.traced_path import TracedPath
 
-if TYPE_CHECKING:  # few results hold either
+if TYPE_CHECKING:  # few results hold any of these
     from burmester.certificates.certificate import Certificate
     from burmester.families.family import Family
+    from burmester.sixbar.six_bars import SixBars
 
 __all__ = [
     "failure",
@@ -62,7 +66,11 @@ def synthesis_data(synthesis: Synthesis) -> dict[str, Any]:
         "motion": None if motion is None else motion_data(motion),
         "dyads": [dyad_data(dyad, synthesis.task.poses) for dyad in synthesis.dyads],
         "linkages": [
-            {**linkage_data(each, tolerance), **_beside_given(synthesis, each)}
+            {
+                **linkage_data(each, tolerance),
+                **_cognates(synthesis, each),
+                **_beside_given(synthesis, each),
+            }
             for each in synthesis.linkages
         ],
         "warnings": list(map(message_data, synthesis.warnings)),
@@ -70,14 +78,37 @@ def synthesis_data(synthesis: Synthesis) -> dict[str, Any]:
         "length_per_radian": synthesis.length_per_radian,
         "singular_values": _singular_values(synthesis),
         **_critical_points(synthesis),
-        "search": [_search(fit) for fit in synthesis.fits],
+        "search": [*map(_search, synthesis.fits), *_counted(synthesis)],
         "family": None
         if synthesis.family is None
         else _family(synthesis.family, synthesis.options.prefer),
         "certificate": None
         if synthesis.certificate is None
         else _certificate(synthesis.certificate),
+        "six_bars": None if synthesis.six_bars is None else _six_bars(synthesis.six_bars),
     }
+
+
+def _cognates(synthesis: Synthesis, found: FoundLinkage) -> dict[str, Any]:
+    """The other linkages with the same coupler curve, where points are traced."""
+    told = [
+        {
+            "type": each.type,
+            "dyads": [
+                {
+                    "kind": "RR",
+                    "fixed_pivot": side.fixed_pivot.tolist(),
+                    "moving_pivot": side.moving_pivot.tolist(),
+                    "radius": float(side.radius),
+                }
+                for side in (each.first, each.second)
+                if isinstance(side, RR)
+            ],
+        }
+        for each in cognates_of(found, synthesis.task)
+        if each.links is not None
+    ]
+    return {"cognates": told} if told else {}
 
 
 def _beside_given(synthesis: Synthesis, found: FoundLinkage) -> dict[str, Any]:
@@ -128,6 +159,8 @@ def task_data(task: Task) -> dict[str, Any]:
         for pose, stated in zip(poses, tolerances_data(task.tolerances), strict=True):
             pose.update(stated)
     data: dict[str, Any] = {"poses": poses, "length_unit": task.length_unit}
+    if task.path is not None:
+        data["path"] = _path(task.path)
     if task.limits:
         data["limits"] = [_limits(each) for each in task.limits]
     if task.body is not None:
@@ -138,6 +171,14 @@ def task_data(task: Task) -> dict[str, Any]:
         data["requirements"] = requirements_data(task.requirements)
     position, angle = (given / math.sqrt(3) for given in task.resolution)
     data["pose_sigma"] = {"position": position, "angle_deg": math.degrees(angle)}
+    return data
+
+
+def _path(path: TracedPath) -> dict[str, Any]:
+    """How points are traced; crank angles in degrees, with all their digits."""
+    data: dict[str, Any] = {"closed": path.closed}
+    if path.crank_angles is not None:
+        data["crank_deg"] = [degrees_of(each) for each in path.crank_angles.tolist()]
     return data
 
 
@@ -187,6 +228,14 @@ def _critical_points(synthesis: Synthesis) -> dict[str, Any]:
         if isinstance(fit, BestDyads) and isinstance(fit.search, CriticalDyads):
             return {"critical_points": {"found": int(fit.search.found), "expected": COUNT}}
     return {}
+
+
+def _counted(synthesis: Synthesis) -> list[dict[str, Any]]:
+    """The solutions through poses and points that were looked for, found, real and lost."""
+    if (points := synthesis.points) is None:
+        return []
+    names = ("classes", "found", "real", "lost")
+    return [{"kind": "poses and points", **{name: getattr(points, name) for name in names}}]
 
 
 def _search(fit: Fit) -> dict[str, Any]:
@@ -240,6 +289,13 @@ def _certificate(certificate: Certificate) -> dict[str, Any]:
             for dyad in certificate.dyads
         ],
     }
+
+
+def _six_bars(result: SixBars) -> dict[str, Any]:
+    """What a search for six-bars has found."""
+    from burmester.io.six_bar_data import six_bars_data
+
+    return six_bars_data(result)
 
 
 def failure(error: BurmesterError) -> dict[str, Any]:

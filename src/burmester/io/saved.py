@@ -30,6 +30,7 @@ from burmester.tasks.motion_task import Task
 
 if TYPE_CHECKING:
     from burmester.io.saved_model import WrittenLinkage
+    from burmester.io.saved_six_bars import SavedSixBar
 
 __all__ = ["Result", "SavedLinkage", "read_result"]
 
@@ -68,12 +69,35 @@ class SavedLinkage:
 
 
 class Result(NamedTuple):
-    """A result: where it came from, its task, its linkages by rank, and its outcome."""
+    """A result: where it came from, its task, its linkages by rank, and its outcome.
+
+    six_bars: the six-bars by rank, where these were looked for.
+    """
 
     label: str
     task: Task
     linkages: tuple[SavedLinkage, ...]
     outcome: Outcome
+    six_bars: tuple[SavedSixBar, ...] = ()
+
+    def choose_six_bar(self, id: str | None = None) -> SavedSixBar | None:
+        """A six-bar by its id, or the first one; None where this result is of four-bars.
+
+        Raises E151 where it is of six-bars and has none of that id.
+        """
+        known = [each.id for each in self.six_bars]
+        for each in self.six_bars:
+            if id is None or each.id.lower() == id.lower():
+                return each
+        if not known:
+            return None
+        raise InputError(
+            "E151",
+            f"there is no six-bar {id} in this result",
+            where=self.label,
+            why=f"it has {', '.join(known)}",
+            help=f"give --linkage {known[0]}",
+        )
 
     def choose(self, id: str | None = None) -> SavedLinkage:
         """A linkage by its id, or the first; raises E151."""
@@ -150,7 +174,16 @@ def read_result(source: str | os.PathLike[str], data: bytes | None = None) -> Re
     said = written.outcome
     help, why = (text and printable(text) for text in (said.help, said.why))
     outcome = Outcome(said.code, printable(said.message), help, why)
-    return Result(label, task, linkages, outcome)
+    six_bars: tuple[SavedSixBar, ...] = ()
+    if written.six_bars is not None:
+        from burmester.io.saved_six_bars import saved_six_bars
+
+        try:
+            six_bars = saved_six_bars(written.six_bars, task)
+        except InputError as error:
+            error.where = error.where or label
+            raise
+    return Result(label, task, linkages, outcome, six_bars)
 
 
 def _ids(written: WrittenLinkage, driver: Side) -> tuple[str, str]:

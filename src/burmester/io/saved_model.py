@@ -31,6 +31,8 @@ __all__ = [
     "WrittenLinkage",
     "WrittenQuality",
     "WrittenResult",
+    "WrittenSixBar",
+    "WrittenSixBars",
     "path_of",
     "written_result",
 ]
@@ -74,6 +76,7 @@ _Pair = Annotated[list[_Number], Field(min_length=2, max_length=2)]
 _Range = Annotated[list[_Number | None], Field(min_length=2, max_length=2)]
 _OutcomeCode = Annotated[str, Field(pattern="^[ER][0-9]{3}$")]
 _LinkageId = Annotated[str, Field(pattern="^L[1-9][0-9]{0,6}$")]
+_SixBarId = Annotated[str, Field(pattern="^S[1-9][0-9]{0,6}$")]
 _DyadId = Annotated[str, Field(pattern="^[A-Z]{1,3}[1-9][0-9]{0,6}$")]
 _Type = Annotated[str, AfterValidator(_known)]
 
@@ -430,7 +433,7 @@ class _Certificate(_Part):
 
 
 class _Search(_Part):
-    kind: Literal["pencil", "five poses", "critical points", "faces"]
+    kind: Literal["pencil", "five poses", "critical points", "faces", "poses and points"]
 
 
 class _Assumed(_Part):
@@ -444,6 +447,55 @@ class _Family(_Part):
     given_up: bool
     dyads: Annotated[int, Field(ge=0)]
     pairs: Annotated[int, Field(ge=0)]
+
+
+class _SixBarGround(_Part):
+    A: _Pair
+    B: _Pair
+
+
+class _SixBarCoupler(_Part):
+    D: _Pair
+    E: _Pair
+
+
+class _SixBarCrank(_Part):
+    D: _Pair
+    G: _Pair
+
+
+class _SixBarBody(_Part):
+    E: _Pair
+    H: _Pair
+
+
+class _SixBarLengths(_Part):
+    AC: _Size
+    GH: _Size
+
+
+class WrittenSixBar(_Part):
+    """A six-bar as it stands in the file: its dimensions, and the drive at the poses."""
+
+    id: _SixBarId
+    driver: Side
+    ground: _SixBarGround
+    coupler: _SixBarCoupler
+    second_crank: _SixBarCrank
+    body: _SixBarBody
+    lengths: _SixBarLengths
+    drive_deg: Annotated[list[_Number], Field(min_length=2, max_length=5)]
+    extent: _Size
+    shortcomings: _Texts
+
+
+class WrittenSixBars(_Part):
+    """The answer of a search for six-bars."""
+
+    chains: Annotated[int, Field(ge=0)]
+    designs: Annotated[int, Field(ge=0)]
+    working: Annotated[int, Field(ge=0)]
+    found: Annotated[list[WrittenSixBar], Field(max_length=MOST_ITEMS)]
 
 
 class WrittenResult(_Part):
@@ -461,6 +513,7 @@ class WrittenResult(_Part):
     certificate: _Certificate | None = None
     characteristic_length: _Size | None = None
     length_per_radian: _Size | None = None
+    six_bars: WrittenSixBars | None = None
 
 
 def written_result(tree: dict[str, Any], help: str) -> WrittenResult:
@@ -513,7 +566,8 @@ _WANTED = {
 def _example(path: tuple[str | int, ...]) -> str:
     if path[-1] == "code":
         return "codes such as R300"
-    return "ids such as D1" if "dyads" in path else "ids such as L1"
+    kind = "D" if "dyads" in path else "S" if "six_bars" in path else "L"
+    return f"ids such as {kind}1"
 
 
 def path_of(*keys: str | int) -> str:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from importlib import resources
 
 from burmester.errors import InputError
 
-__all__ = ["BLANK", "names", "summary", "text"]
+__all__ = ["BLANK", "names", "of_poses", "summary", "text"]
 
 BLANK = "task"  # the file with every key; not counted among the examples
 
@@ -16,6 +17,12 @@ def names() -> tuple[str, ...]:
     files = (resources.files("burmester") / "templates").iterdir()
     found = {f.name.removesuffix(".toml") for f in files if f.name.endswith(".toml")}
     return tuple(sorted(found - {BLANK}))
+
+
+def of_poses() -> tuple[str, ...]:
+    """The names of those whose tasks are poses: no functions, and no curves to trace."""
+    other = re.compile(r"(?m)^(?:\[function\]|path = )")
+    return tuple(name for name in names() if not other.search(text(name)))
 
 
 def text(name: str = BLANK) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from rich.console import Console
 from rich.table import Table
@@ -17,11 +18,14 @@ from burmester.io.message import draw, message, note, print_trimmed, show
 from burmester.linkages.found_linkage import FoundLinkage
 from burmester.synthesis.result import JUDGED, Synthesis
 
+if TYPE_CHECKING:
+    from burmester.sixbar.six_bars import SixBars
+
 __all__ = ["show_synthesis"]
 
 # Columns; in a narrower terminal both sides of a dyad are in one column, or its length as well.
 NARROW, SLIM = 64, 48
-PLAIN = ("R300", "R305", "R307", "R308")  # outcomes that are told without their code
+PLAIN = ("R300", "R305", "R307", "R308", "R340")  # outcomes that are told without their code
 
 
 def show_synthesis(
@@ -31,9 +35,12 @@ def show_synthesis(
 
     everything: also the linkages that are not usable, with the reasons; dyads: also the dyads.
     """
+    if synthesis.six_bars is not None:
+        _six_bars(synthesis, synthesis.six_bars, console)
+        return
+    rest: list[FoundLinkage] = []
     if synthesis.outcome.code in JUDGED:
         _judged(synthesis, console)
-        rest = []
     elif synthesis.usable:
         _answer(synthesis, console)
         rest = [each for each in synthesis.linkages if not each.usable]
@@ -50,23 +57,40 @@ def show_synthesis(
         print_trimmed(_dyads(synthesis, console.width), console)
     if synthesis.outcome.code not in JUDGED:
         _in_all(synthesis, 0 if everything else len(rest), console, dyads)
-    if synthesis.certificate is not None:
-        for head, lines in (
-            (
-                "Proved, of all digits (--json), for the poses as given",
-                synthesis.certificate.proved,
-            ),
-            ("Computed, not proved", synthesis.certificate.numerical),
-        ):
-            if lines:
-                print_trimmed(Text(f"\n{head}:", style="bold"), console)
-                print_trimmed(_bullets(lines), console)
+    _certificate(synthesis, console)
     if synthesis.warnings:
         console.print()
     for warning in synthesis.warnings:
         show("warning", warning, console)
     if synthesis.dyads:
         print_trimmed(Text(f"\n{sentences.footnotes(synthesis)}", style="dim"), console)
+
+
+def _certificate(synthesis: Synthesis, console: Console) -> None:
+    """What is proved and what is computed, where a certificate was asked for."""
+    if synthesis.certificate is None:
+        return
+    for head, lines in (
+        (
+            "Proved, of all digits (--json), for the poses as given",
+            synthesis.certificate.proved,
+        ),
+        ("Computed, not proved", synthesis.certificate.numerical),
+    ):
+        if lines:
+            print_trimmed(Text(f"\n{head}:", style="bold"), console)
+            print_trimmed(_bullets(lines), console)
+
+
+def _six_bars(synthesis: Synthesis, result: SixBars, console: Console) -> None:
+    """Six-bars, and what is to be warned of."""
+    from burmester.io.six_bar_terminal import show_six_bars
+
+    show_six_bars(synthesis, result, console)
+    if synthesis.warnings:
+        console.print()
+    for warning in synthesis.warnings:
+        show("warning", warning, console)
 
 
 def _answer(synthesis: Synthesis, console: Console) -> None:

@@ -33,11 +33,15 @@ def nearness(found: FoundLinkage, task: Task, size: float) -> str:
         return "cannot be assembled near every pose"
     if meets_exactly(found, size):
         return "passes every pose exactly"
-    return f"misses by {length_of(found.error.worst, task)} and {_worst_angle(found)}"
+    return f"misses by {worst_miss(found, task)}"
 
 
-def _worst_angle(found: FoundLinkage) -> str:
-    return f"{figure(math.degrees(float(found.error.angle.max())))}°"
+def worst_miss(found: FoundLinkage, task: Task) -> str:
+    """The greatest misses at a pose: "0.15 mm and 2.1°", or "0.15 mm" where angles are free."""
+    away = length_of(found.error.worst, task)
+    if task.angles_are_free:
+        return away
+    return f"{away} and {figure(math.degrees(float(found.error.angle.max())))}°"
 
 
 def by_nearness(linkages: Sequence[FoundLinkage], size: float) -> list[FoundLinkage]:

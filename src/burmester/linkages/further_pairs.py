@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.dyads.selection import FoundDyad
-from burmester.fourbar.dyad import RR
+from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.fourbar.foot_points import rows_of
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
@@ -24,6 +24,7 @@ from burmester.linkages.constraints import AllConstraints
 from burmester.linkages.evaluation import Candidates, Evaluation
 from burmester.linkages.found_linkage import FoundLinkage, Pair
 from burmester.linkages.starts import (
+    best_sliders,
     distinct,
     first_order_miss,
     links_of_pivot_map,
@@ -49,12 +50,13 @@ STEPS = (8, 16), (52, 104)  # numbers of steps of both refinements, without and 
 class FurtherPairs:
     """Pairs (k,) beside those of the dyads.
 
-    links: of low errors; given: the dyads.  parts: (k, 2), the numbers of both in the pairs, links
-    first.  batch: (k,).  Links and batch in the frames of the target.
+    links: of low errors, and the best sliders where they are no dyads; given: the dyads.
+    parts: (k, 2), the numbers of both in the pairs, links first.  batch: (k,).  Links and batch in
+        the frames of the target.
     """
 
     evaluation: Evaluation
-    links: list[RR]
+    links: list[RR | PR | RP]
     given: list[FoundDyad]
     parts: NDArray[np.intp]
     batch: LinkageBatch
@@ -63,10 +65,13 @@ class FurtherPairs:
     def of(cls, pairs: list[Pair], evaluation: Evaluation) -> Self:
         """Those beside pairs of dyads, each dyad within its own limits."""
         target, task = evaluation.target.thinned(MAX_POSES_SEARCHED), evaluation.problem.task
-        sides = [
+        sides: list[list[RR | PR | RP]] = [
             links_of_pivot_map(target.poses, target.weights, limits, target.frames)
             for limits in task.limits or (None,)
         ]
+        if evaluation.problem.options.method == "exact" and not task.limits:
+            # The dyads are those that meet five poses, and other sliders may make what works.
+            sides[0] += best_sliders(target.poses, target.weights)
         own = [list({each.id: each for pair in pairs for each in pair}.values())]
         if len(sides) == 2:
             own = [list({pair[side].id: pair[side] for pair in pairs}.values()) for side in (0, 1)]
@@ -94,8 +99,11 @@ class FurtherPairs:
     def _dyad(self, number: int) -> FoundDyad:
         if number >= len(self.links):
             return self.given[number - len(self.links)]
-        frames = self.evaluation.target.frames
-        own = frames.circle_from_canonical(self.links[number][None])[0]
+        frames, link = self.evaluation.target.frames, self.links[number]
+        if isinstance(link, RR):
+            own: Dyad = frames.circle_from_canonical(link[None])[0]
+        else:
+            own = frames.line_from_canonical(link)
         return self.evaluation.dyad(f"M{number + 1}", own)
 
     def beside(

@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.dyads.pivot_map import fixed_pivot_map, grid
+from burmester.dyads.sliders import fixed_lines, moving_lines
 from burmester.fourbar.canonical_frames import CanonicalFrames
-from burmester.fourbar.dyad import RR
+from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.foot_points import newton_steps, places_of, rows_of
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
@@ -21,7 +22,14 @@ from burmester.numerics.arrays import FloatArray
 from burmester.numerics.weights import weights_of_mean_one
 from burmester.tasks.limits import Limits
 
-__all__ = ["distinct", "first_order_miss", "links_of_pivot_map", "projected", "varied"]
+__all__ = [
+    "best_sliders",
+    "distinct",
+    "first_order_miss",
+    "links_of_pivot_map",
+    "projected",
+    "varied",
+]
 
 PROJECTION_STEPS = 12  # number of Newton's steps from the poses onto a linkage
 ON_LINKAGE = 1e-9  # residual, in lengths, of a place on the linkage
@@ -40,7 +48,7 @@ def links_of_pivot_map(
     weights: FloatArray | None = None,
     limits: Limits | None = None,
     frames: CanonicalFrames | None = None,
-) -> list[RR]:
+) -> list[RR | PR | RP]:
     """Links with the least errors for each of many fixed and of many moving pivots.
 
     poses: in the frames of `pose_error.error_frames`, as the links are.  limits: of the pivots and
@@ -85,12 +93,29 @@ def links_of_pivot_map(
     return [RR(pivots[k, :2], pivots[k, 2:], radius[k]) for k in chosen]
 
 
+def best_sliders(poses: Displacement, weights: FloatArray | None = None) -> list[RR | PR | RP]:
+    """The best PR and the best RP dyad of poses (N,), unless their pivots are far away."""
+    lines: list[PR | RP] = [of(poses, weights)[0][0] for of in (fixed_lines, moving_lines)]
+    pivots = [each.moving_pivot if isinstance(each, PR) else each.fixed_pivot for each in lines]
+    return [
+        line for line, pivot in zip(lines, pivots, strict=True) if np.abs(pivot).max() < MAX_LENGTH
+    ]
+
+
 def _grid_of_map(poses: Displacement, weights: FloatArray | None) -> FloatArray:
-    """Pivots (*, 2) around a motion."""
+    """Pivots (*, 2) around the points that stay closest together; around the motion, too, if far.
+
+    Pivots that one would build are not where these points are many lengths away.
+    """
     frames, _ = CanonicalFrames.of(poses, weights)
-    reach = MAP_REACH * float(frames.length)
-    low, high = frames.fixed_origin - reach, frames.fixed_origin + reach
-    return grid(low, high, MAP_POINTS, MAP_POINTS).reshape(-1, 2)
+    around = [(frames.fixed_origin, float(frames.length))]
+    if np.hypot(*frames.fixed_origin) > MAP_REACH:
+        around.append((np.zeros(2), 1.0))
+    parts = [
+        grid(middle - MAP_REACH * size, middle + MAP_REACH * size, MAP_POINTS, MAP_POINTS)
+        for middle, size in around
+    ]
+    return np.concatenate(parts).reshape(-1, 2)
 
 
 def _points_of(region: Region, unit: float) -> FloatArray:

@@ -22,7 +22,7 @@ from burmester.numerics.arrays import FloatArray
 from burmester.tasks.motion_task import Task
 from burmester.tasks.pose_tolerances import PoseTolerances
 
-__all__ = ["EXACT_ROUNDING", "ToleranceBoxes", "counted_error", "shares_used"]
+__all__ = ["EXACT_ROUNDING", "ToleranceBoxes", "counted_error", "poses_counted", "shares_used"]
 
 EXACT_ROUNDING = 1e-7  # motion sizes and radians; an exact component missed by less is met
 INSIDE_MARGIN = 1e-6  # relative; kept from the border of a tolerance
@@ -132,3 +132,14 @@ def counted_error(places: Displacement, task: Task) -> PoseError:
     away = task.tolerances.deviations(places, task.poses)
     away = np.where(task.tolerances.free & np.isfinite(away), 0.0, np.abs(away))
     return PoseError(error.places, np.hypot(away[:, 0], away[:, 1]), away[:, 2])
+
+
+def poses_counted(places: Displacement, task: Task) -> Displacement:
+    """The poses (N,) of a task, free angles being those of places (N,).
+
+    A linkage moved to them turns as it does, not as the angle that the pose is drawn with.
+    """
+    if task.tolerances is None:
+        return task.poses
+    free = task.tolerances.free[:, 2] & np.isfinite(places.angle)
+    return Displacement(task.poses.translation, np.where(free, places.angle, task.poses.angle))

@@ -45,9 +45,7 @@ __all__ = ["Pages"]
 PROGRESS_S: Final = 0.1  # between two words of progress
 NOT_DRAWN: Final = ("pivot_map", "family_map")  # parts of a report that a widget has no room for
 
-
-# One search after the other: what is called off ends at its next step, and two at once that keep
-# BLAS to one thread would leave it so.
+# One search after the other: what is called off ends at its next step.
 _one_road = threading.Lock()
 
 
@@ -162,6 +160,8 @@ class Pages:
                 self._newest = document
                 start = self._basis.get(view, -1)
                 answer = self._live.follow(n, task, document, set(message["shown"]), start=start)
+                if self._result is not None and document == self._document:
+                    task = self._result.task
         except Exception as error:
             self._refuse(view, n, error)
             return
@@ -184,6 +184,9 @@ class Pages:
                 self._live.again()
             self._tell_solved(view, n)
             self._tell(view, kind="chosen", id=self._studio.selected)
+            if self._result is not None:  # the hand is back where it was
+                with _told():
+                    self._studio.follow_hand(self._result.task)
             return
         self._search = _Search(view, n, document)
         self._tell(view, n=n, kind="solving", since=time.time())

@@ -14,6 +14,7 @@ __all__ = [
     "complex_of",
     "even_numbers",
     "median",
+    "pairs_of",
     "wrapped_angle",
 ]
 
@@ -26,6 +27,11 @@ ROUNDING = 1e-11  # errors below this are rounding of the computation, and all e
 def complex_of(pairs: FloatArray) -> ComplexArray:
     """Points (*, 2) as complex numbers (*,)."""
     return pairs[..., 0] + 1j * pairs[..., 1]
+
+
+def pairs_of(numbers: ComplexArray) -> FloatArray:
+    """Complex numbers (*,) as points (*, 2)."""
+    return np.stack([numbers.real, numbers.imag], axis=-1)
 
 
 def median(values: FloatArray, axis: int) -> FloatArray:

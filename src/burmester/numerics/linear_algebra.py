@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from contextlib import AbstractContextManager
 from functools import cache
-from typing import Any, cast
+from threading import Lock
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -70,13 +71,56 @@ def unit_vectors(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(vectors / np.linalg.norm(vectors, axis=-1, keepdims=True))
 
 
-def one_thread() -> AbstractContextManager[object]:
-    """A time in which BLAS keeps to one thread.
+class _OneThread:
+    """Uses of `one_thread` that overlap: the first sets the limit, the last one lifts it.
+
+    The number of BLAS's threads belongs to the process. If each use restored what it met, a use
+    that began inside another and ended after it would leave one thread behind.
+    """
+
+    def __init__(self) -> None:
+        self._turn = Lock()
+        self._uses = 0
+        self._limit: Any = None
+
+    def __enter__(self) -> None:
+        with self._turn:
+            if not self._uses:
+                _let_any_thread_set()
+                self._limit = _blas().limit(limits=1, user_api="blas")
+                _let_any_thread_set()
+            self._uses += 1
+
+    def __exit__(self, *_: object) -> None:
+        with self._turn:
+            self._uses -= 1
+            if not self._uses:
+                _let_any_thread_set()
+                self._limit.restore_original_limits()
+                _let_any_thread_set()
+
+
+def _let_any_thread_set() -> None:
+    """Let the last use lift the limit, which may be in another thread than the first.
+
+    threadpoolctl 3.7 and later take OpenBLAS's limits from one thread of Python only and ignore
+    the others, which take no turns; ours do.
+    """
+    for library in _blas().lib_controllers:
+        if (clear := getattr(library, "clear_controlling_thread", None)) is not None:
+            clear(force=True)
+
+
+_ONE_THREAD = _OneThread()
+
+
+def one_thread() -> AbstractContextManager[None]:
+    """A time in which BLAS keeps to one thread; such times may overlap, in any threads.
 
     On matrices of some hundred columns several threads mostly wait for each other, much so on a
     busy machine.
     """
-    return cast(AbstractContextManager[object], _blas().limit(limits=1, user_api="blas"))
+    return _ONE_THREAD
 
 
 @cache

@@ -29,7 +29,9 @@ from burmester.plot.outlines import body, keep_out
 from burmester.plot.paper import write_figures
 from burmester.plot.partner_curve import partner_curve
 from burmester.plot.plane import achieved, centrodes, coupler_curve, poses
+from burmester.plot.six_bar import six_bar, six_bar_figure
 from burmester.plot.space import image_space
+from burmester.plot.structural_error import structural_error, structural_error_figure
 from burmester.plot.style import figure, finish, house_style, legend
 from burmester.plot.walk import steps, walk, write_gif
 
@@ -56,7 +58,11 @@ __all__ = [
     "pivot_map",
     "pose_errors",
     "poses",
+    "six_bar",
+    "six_bar_figure",
     "steps",
+    "structural_error",
+    "structural_error_figure",
     "transmission",
     "walk",
     "write_figures",

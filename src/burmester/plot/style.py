@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from io import BytesIO
 from itertools import pairwise
 from typing import TYPE_CHECKING, Final, cast
 
@@ -58,6 +59,7 @@ PALETTE: Final = (BLUE, ORANGE, GREEN, PURPLE)
 DASHES: Final = ("-", (0, (5, 2)), (0, (1, 1.5)), (0, (5, 2, 1, 2)))
 
 MOST_CHARACTERS: Final = 100  # of a text of others in a picture; one as wide as ten is cut
+SCREEN_DPI: Final = 80  # pixels per inch of a figure in a notebook; drawn twice as fine
 LABEL_ID: Final = "burmester.label"  # gid of labels that may be moved
 LABEL_STEP: Final = 9.0  # points: first distance between a label and its target
 DRAWING_MARGIN: Final = 0.07  # of a drawing's longer side: space left free around it
@@ -123,6 +125,21 @@ def house_style() -> Iterator[None]:
         yield
 
 
+class ShownFigure(Figure):
+    """A figure that a notebook shows as the last line of a cell.
+
+    Matplotlib tells the notebook how to show its figures only once pyplot is imported. Where it is,
+    the notebook's own settings for figures come first.
+    """
+
+    def _repr_png_(self) -> tuple[bytes, dict[str, int]]:
+        """The picture, and the width and height at which its words are as large as the page's."""
+        picture = BytesIO()
+        self.savefig(picture, format="png", dpi=2 * SCREEN_DPI)
+        width, height = (round(SCREEN_DPI * inches) for inches in self.get_size_inches())
+        return picture.getvalue(), {"width": width, "height": height}
+
+
 def figure(width: float, height: float, dpi: float = 160.0) -> Figure:
     """An empty figure that belongs to no screen and no window.
 
@@ -136,7 +153,7 @@ def figure(width: float, height: float, dpi: float = 160.0) -> Figure:
     Returns
     -------
     Figure
-        A Matplotlib figure with the Agg canvas.
+        A Matplotlib figure with the Agg canvas. A notebook shows it without pyplot.
 
     Examples
     --------
@@ -144,7 +161,7 @@ def figure(width: float, height: float, dpi: float = 160.0) -> Figure:
     >>> plot.figure(4, 3, dpi=100).bbox.size.tolist()
     [400.0, 300.0]
     """
-    out = Figure(figsize=(width, height), dpi=dpi)
+    out = ShownFigure(figsize=(width, height), dpi=dpi)
     FigureCanvasAgg(out)
     return out
 

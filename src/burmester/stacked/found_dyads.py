@@ -33,7 +33,16 @@ from burmester.numerics.bundles import concatenate, take
 from burmester.stacked.task_stack import TaskStack
 from burmester.tasks.motion_task import COARSE
 
-__all__ = ["ANGLES", "Fits", "Found", "Solutions", "beside", "found_in_stack", "same_dyads"]
+__all__ = [
+    "ANGLES",
+    "Fits",
+    "Found",
+    "Solutions",
+    "beside",
+    "found_in_stack",
+    "least_slider_angle",
+    "same_dyads",
+]
 
 NEAR = 1 + 1e-9  # times an angle, so that rounding leaves no slider out
 
@@ -152,9 +161,14 @@ def found_in_stack(
     """
     p, task, radius = solutions.coefficients, solutions.task, solutions.circle.radius
     length, size = fits.length, constraint_manifold.size(solutions.coefficients)
-    # A slider's first coefficient is zero, so that no slider is nearer than this angle.
-    angle, most = np.abs(p[:, 0]) / size, np.minimum(blur[task], MAX_SLIDER_ANGLE)
-    straight = np.flatnonzero(angle < (MAX_SLIDER_ANGLE if fits.minima else NEAR * most))
+    if fits.minima:
+        near = np.abs(p[:, 0]) / size < MAX_SLIDER_ANGLE
+    else:
+        near = (
+            least_slider_angle(p) / size
+            < NEAR * np.minimum(blur[task], MAX_SLIDER_ANGLE) + ROUNDING
+        )
+    straight = np.flatnonzero(near)
     sliders, stands = _nearest_sliders(fits, take(solutions, straight), blur)
     is_circle = np.ones(len(task), dtype=bool)
     is_circle[straight[stands]] = False
@@ -190,6 +204,17 @@ def found_in_stack(
     rows = take(rows, np.lexsort((link, shown, rows.task)))
     left_out = np.bincount(solutions.task[dropped], minlength=len(length))
     return Found(rows.task, rows.kind, rows.dimensions, rows.rms, rows.worst, left_out)
+
+
+def least_slider_angle(p: FloatArray) -> FloatArray:
+    """The sine (k,) of the least angle between manifolds p (k, 8) and a slider, times their size.
+
+    A slider has no first coefficient, and one of its two prismatic parts is zero.
+    """
+    in_f, in_m = constraint_manifold.prismatic_parts(p)
+    # The parts are a quarter of sums of two coefficients: 8 times their squares is what these add.
+    other = 8 * np.minimum((in_f**2).sum(axis=1), (in_m**2).sum(axis=1))
+    return np.asarray(np.sqrt(p[:, 0] ** 2 + other))
 
 
 def _nearest_sliders(fits: Fits, solutions: Solutions, blur: FloatArray) -> tuple[_Rows, Mask]:

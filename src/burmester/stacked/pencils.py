@@ -20,7 +20,8 @@ def pencil_dyads(stack: TaskStack) -> Vouched:
     values = fit.singular_values if stack.weights is None else None
     plain, _ = plain_tasks(stack, values)
     index = np.flatnonzero(plain)
-    stack, fit = stack[index], take(fit, index)
+    if len(index) < len(stack):
+        stack, fit = stack[index], take(fit, index)
     seen = fit.frames.to_canonical(stack.displacements)
     fits = Fits(stack, fit.frames, seen, fit.frames.length)
     found = found_in_stack(fits, Solutions.of(fit), fits.blur(fit.noise, fit.gap))

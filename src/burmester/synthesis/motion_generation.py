@@ -28,6 +28,7 @@ from burmester.synthesis.outcome import (
     dyad_advice,
     family,
     linkage_advice,
+    offering_six_bars,
     sample_advice,
     summary,
     undetermined,
@@ -83,10 +84,16 @@ def _require_few(task: Task) -> None:
 def _synthesis(task: Task, options: SynthesisOptions) -> Synthesis:
     both = task.limits * (2 if len(task.limits) == 1 else 1)
     require_feasible(task.poses, both, task.exact)
+    if task.path is not None:
+        from burmester.synthesis.path_generation import near_points  # noqa: PLC0415  paths only
+
+        return near_points(task, options, task.notes)
     step(f"looking at {task.poses.shape[0]} poses")
     diagnosis = diagnose(task)
     problem = SynthesisProblem.of(task, diagnosis.motion, options)
     known = (*task.notes, *diagnosis.findings)
+    if (points := _of_points(problem, known)) is not None:
+        return points
     open_ = max(problem.missing_conditions) > 0 and options.method in ("auto", "exact")
     if problem.is_special:
         parallel = isinstance(_kind(problem), CircularTranslation)
@@ -107,6 +114,7 @@ def _synthesis(task: Task, options: SynthesisOptions) -> Synthesis:
     if outcome.code == "R305":
         linkages = with_linkages_within_digits(problem, pairs, linkages)
         outcome = summary(problem, search, linkages)
+    outcome = offering_six_bars(problem, outcome)
     warnings = (
         *task.notes,
         *_odd_pose(problem, search),
@@ -123,6 +131,15 @@ def _synthesis(task: Task, options: SynthesisOptions) -> Synthesis:
 
 def _kind(problem: SynthesisProblem) -> MotionKind | None:
     return None if problem.motion is None else problem.motion.kind
+
+
+def _of_points(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthesis | None:
+    """Poses and points that determine finitely many linkages: all of them; None for others."""
+    if problem.given.tolerances is None or problem.options.method not in ("auto", "exact"):
+        return None
+    from burmester.synthesis.point_generation import through_points  # noqa: PLC0415  few need it
+
+    return through_points(problem, findings)
 
 
 def _of_family(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthesis | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 from burmester.dyads.critical_points import COUNT, CriticalDyads
 from burmester.dyads.five_poses import FivePoseDyads
@@ -29,6 +30,7 @@ __all__ = [
     "dyad_advice",
     "family",
     "linkage_advice",
+    "offering_six_bars",
     "sample_advice",
     "summary",
     "undetermined",
@@ -194,6 +196,19 @@ def summary(
         return _undetermined(problem, usable, message)
     approximate = isinstance(search.fits[0], FivePoseDyads) and search.meeting < 2
     return Outcome("R307" if approximate else "R300", message)
+
+
+def offering_six_bars(problem: SynthesisProblem, outcome: Outcome) -> Outcome:
+    """An outcome without a usable four-bar, with what is left to do where six-bars may do it."""
+    task = problem.given
+    asked = task.requirements
+    keeps = task.tolerances is None and task.surroundings is None and asked.footprint is None
+    keeps &= asked.types is None and asked.driver in ("any", "crank")
+    keeps &= all("RR" in each.kinds for each in task.limits)
+    five = task.poses.shape[0] == problem.task.poses.shape[0] == CONDITIONS
+    if outcome.code not in ("R301", "R302", "R306") or not (five and keeps):
+        return outcome
+    return replace(outcome, help=f"{outcome.help}; or let six bars do it: --six-bars")
 
 
 def _dyads(problem: SynthesisProblem, search: DyadSearch) -> tuple[str, str]:

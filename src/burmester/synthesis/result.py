@@ -13,9 +13,11 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.options import Method, SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
 
-if TYPE_CHECKING:  # few tasks have either, and their rooms take long to load
+if TYPE_CHECKING:  # few tasks have any of these, and their rooms take long to load
     from burmester.certificates.certificate import Certificate
     from burmester.families.family import Family
+    from burmester.points.real_linkages import PointLinkages
+    from burmester.sixbar.six_bars import SixBars
 
 __all__ = ["JUDGED", "Outcome", "Synthesis"]
 
@@ -31,7 +33,9 @@ class Outcome:
     R303 infinitely many linkages; R305 usable linkages, but no pivots determined; R306 no dyad
     within the limits; R307 approximate linkages, as two real dyads do not exist; R308 the best of
     infinitely many linkages; R309 none of them works; R310 and above: a special motion, see
-    `motion_kinds` and `special_motions`; R330 a given linkage works, R331 it does not.  why: with
+    `motion_kinds` and `special_motions`; R330 a given linkage works, R331 it does not; R340 usable
+    linkages through poses and points, R341 none usable, R342 none real, R343 points of a line or a
+    circle; R370 six-bars that work, R371 none of them.  why: with
     numbers.
     """
 
@@ -53,6 +57,8 @@ class Synthesis:
     fits: what the method learnt (singular values, all roots); two where the task has two limits.
     certificate: what of it is proved, if the options ask for a certificate.
     family: how linkages were chosen where the poses leave infinitely many.
+    six_bars: what a search for six-bars has found, where one was asked for.
+    points: the solutions that were counted where poses and points determine finitely many.
     """
 
     problem: SynthesisProblem
@@ -63,6 +69,8 @@ class Synthesis:
     fits: tuple[Fit, ...] = ()
     certificate: Certificate | None = None
     family: Family | None = None
+    six_bars: SixBars | None = None
+    points: PointLinkages | None = None
 
     @property
     def task(self) -> Task:
@@ -98,6 +106,11 @@ class Synthesis:
     def usable(self) -> tuple[FoundLinkage, ...]:
         """The linkages that work."""
         return tuple(each for each in self.linkages if each.usable)
+
+    @property
+    def works(self) -> bool:
+        """Whether any linkage works, of four bars or of six."""
+        return bool(self.usable) or (self.six_bars is not None and bool(self.six_bars.found))
 
     @property
     def determined(self) -> bool:

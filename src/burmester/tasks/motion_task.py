@@ -19,6 +19,7 @@ from burmester.tasks.limits import Limits
 from burmester.tasks.pose_tolerances import COMPONENTS, PoseTolerances, nominal_values
 from burmester.tasks.requirements import Requirements, require_possible
 from burmester.tasks.surroundings import Surroundings, require_clear_at_poses
+from burmester.tasks.traced_path import TracedPath
 from burmester.values import real_numbers, require_instance, shown
 from burmester.wording import count as count_of
 
@@ -39,6 +40,7 @@ COARSE = 1e-3  # coarser digits than this count as meant exactly, not as measure
 AngleUnit: TypeAlias = Literal["deg", "rad"]
 
 CONDITIONS = 5  # that a dyad can meet exactly: it has five dimensions
+MOST_POINTS = 9  # of the body, at any angle, that a linkage can meet exactly
 MOST = 1e60  # beyond it, or all below its inverse, fourth powers leave a double's range
 MOST_TURN = 1e9  # radians; of an angle beyond it few digits say where the body points
 MOST_RATIO = 1e12  # of two weights; beyond it the lighter pose is lost in rounding
@@ -88,6 +90,9 @@ class Task:
 
     read_as : str, optional
         How the file was read, in words: its form, and the column of each number.
+    path : TracedPath, optional
+        How the points of a task without angles are traced: closed, or timed by the crank.  More
+        than nine points without angles are a path in any case.
 
     A task keeps its own copy of its numbers, which cannot be written to.
 
@@ -123,6 +128,12 @@ class Task:
     tolerances: PoseTolerances | None = None
     notes: tuple[Advice, ...] = ()
     read_as: str | None = None
+    path: TracedPath | None = None
+
+    @property
+    def angles_are_free(self) -> bool:
+        """Whether only points of the body are asked for, and no angle anywhere."""
+        return self.tolerances is not None and bool(self.tolerances.free[:, 2].all())
 
     def __post_init__(self) -> None:
         self._own_values()
@@ -182,7 +193,13 @@ class Task:
                 help="give one name a pose, or none",
             )
         if self.tolerances is not None:
-            _require_fitting(self.tolerances, count, self.exact)
+            if self.path is None and _are_many_points(self.tolerances):
+                object.__setattr__(self, "path", TracedPath())
+            # Points of a path are met as closely as possible where they are too many.
+            most = 2 * CONDITIONS if self.path is None else 2 * count
+            _require_fitting(self.tolerances, count, self.exact, most)
+        if self.path is not None:
+            self.path.require_fitting(count)
         require_possible(self.requirements, self.limits)
         self._require_clear()
 
@@ -337,8 +354,14 @@ def _with_nominal_values(
     return out
 
 
+def _are_many_points(tolerances: PoseTolerances) -> bool:
+    """Whether only points are asked for, and more of them than a linkage meets exactly."""
+    alone = tolerances.exact[:, :2].all() and tolerances.free[:, 2].all()
+    return bool(alone) and len(tolerances.angle) > MOST_POINTS
+
+
 def _require_fitting(
-    tolerances: PoseTolerances, count: int, exact: NDArray[np.bool_] | None
+    tolerances: PoseTolerances, count: int, exact: NDArray[np.bool_] | None, most: int
 ) -> None:
     """Refuse tolerances that do not fit the poses: E135, E136 (marks), E133 (too many)."""
     if tolerances.shape != (count,):
@@ -357,7 +380,7 @@ def _require_fitting(
             why="an exact pose is met in x, y and angle",
             help="take the mark away, or give this pose the tolerance 0 in all three",
         )
-    if tolerances.conditions > 2 * CONDITIONS:
+    if tolerances.conditions > most:
         raise InputError(
             "E133",
             f"{tolerances.conditions} exact conditions, and a four-bar can meet {2 * CONDITIONS}",

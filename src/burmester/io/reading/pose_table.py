@@ -17,6 +17,7 @@ from burmester.io.reading.stated_surroundings import StatedSurroundings
 from burmester.io.reading.stated_tolerances import DefaultTolerance, StatedTolerances
 from burmester.numerics.arrays import FloatArray
 from burmester.printable import blanked
+from burmester.tasks.traced_path import TracedPath
 
 __all__ = [
     "HEADER",
@@ -75,8 +76,9 @@ class Rows(NamedTuple):
         """The rows in texts by role; raises ValueError where float() does.
 
         The roles are x, y, angle, or px, py, qx, qy; weight, name and exact if there are any;
-        and those of tolerances.
+        and those of tolerances.  Without an angle, or where it is nan, the angle is free.
         """
+        columns = _with_free_angles(columns)
         numeric = [columns[role] for role in numeric_roles(columns)]
         points = 2 if "px" in columns else 0
         printed = [max(map(decimals, column), default=0.0) for column in numeric[: 2 * points or 3]]
@@ -93,9 +95,22 @@ class Rows(NamedTuple):
         values = np.concatenate([part.values for part in parts])
         names = [name for part in parts for name in part.names]
         exact = [mark for part in parts for mark in part.exact]
-        stated = [part.tolerances for part in parts if part.tolerances is not None]
-        tolerances = StatedTolerances.joined(stated) if stated else None
+        tolerances = None
+        if any(part.tolerances is not None for part in parts):
+            tolerances = StatedTolerances.joined(
+                [part.tolerances or StatedTolerances.none(len(part.values)) for part in parts]
+            )
         return cls(values, (max(lengths), max(angles)), names, exact, parts[0].points, tolerances)
+
+
+def _with_free_angles(columns: dict[str, list[str]]) -> dict[str, list[str]]:
+    """Texts by role, with angles, and a column `free` that names those that are blank (nan)."""
+    if "px" in columns:
+        return columns
+    angle = columns.get("angle", ["nan"] * len(columns["x"]))
+    if "nan" not in angle or "free" in columns:
+        return columns
+    return columns | {"angle": angle, "free": ["angle" if a == "nan" else "" for a in angle]}
 
 
 class PoseTable(NamedTuple):
@@ -116,6 +131,7 @@ class PoseTable(NamedTuple):
     notes: tuple[Advice, ...] = ()  # what was assumed in reading
     read_as: str | None = None  # the form of the file and its columns, in words
     times: Callable[[], FloatArray | None] | None = None  # reads those of the rows, in seconds
+    path: TracedPath | None = None  # how points without angles are traced
 
 
 SHEET_HEAD = "sep=\t\n"  # how the text of a sheet begins; row 1 is behind it

@@ -21,6 +21,8 @@ E113 not in one plane               E130 a library is missing
 E114 markers not known or chosen    E135 a malformed tolerance of a pose
 E136 tolerances that contradict themselves
 E170 to E176 drawings and surroundings
+E186 to E188 paths
+E193 the task of a function generator, not of poses
 """
 
 from __future__ import annotations
@@ -59,12 +61,14 @@ from burmester.io.reading.stated_tolerances import (
 from burmester.numerics.arrays import FloatArray
 from burmester.printable import blanked, printable
 from burmester.tasks.motion_task import Task
+from burmester.tasks.traced_path import TracedPath
 
 if TYPE_CHECKING:  # a reader is loaded with the first file that needs it
     from burmester.io.reading.markers.marker_recording import MarkerRecording
 
 __all__ = ["read_task"]
 
+_DRAWING = re.compile(r"\.(?:svg|dxf)(?::|$)", re.IGNORECASE)
 _FORMATS = {".csv": "CSV", ".tsv": "CSV", ".txt": "CSV", ".json": "JSON", ".toml": "TOML"}
 
 
@@ -84,14 +88,15 @@ def read_task(
     every: int | None = None,
     first: str | None = None,
     last: str | None = None,
+    closed: bool = False,
     outlines: OutlineOptions = OutlineOptions(),  # noqa: B008  frozen
     data: bytes | None = None,
 ) -> Task:
     """Read the task in a file, on standard input or in a carried case.
 
     A file that begins as Parquet files and .xlsx workbooks do is read as such; .csv, .tsv and .txt
-    are CSV; .json and .toml are JSON and TOML; any other file is JSON if it begins with a bracket,
-    else CSV.
+    are CSV; .json and .toml are JSON and TOML; of a .svg or .dxf drawing the curve is the path to
+    trace; any other file is JSON if it begins with a bracket, else CSV.
 
     Parameters
     ----------
@@ -132,6 +137,9 @@ def read_task(
         Take the poses from the first to the last one, both included, written as those of `exact`,
         or as a time such as "1.5s" where the file has times.
 
+    closed : bool
+        The points of a path lead back to the first one, and the crank goes all the way round.
+
     Poses are numbered as in the file, whichever are left out, and take these numbers as their
     names if they have none.  In a recording they are the numbers of its frames.
     outlines : OutlineOptions
@@ -165,9 +173,9 @@ def read_task(
     path = os.fspath(source)
     label = "<stdin>" if path == "-" else printable(path)
     try:
-        table = _table(
-            label, read_source(path) if data is None else data, columns, sheet=sheet, points=points
-        )
+        table = _table(path, data, columns, sheet=sheet, points=points, closed=closed)
+        if closed:
+            table = _closed(table)
         return _task(
             *_selected(table, RowSelection(every, first, last, drop), exact, plane),
             angle_unit=angle_unit,
@@ -185,11 +193,36 @@ def read_task(
         raise
 
 
+def _refuse_function(label: str, text: str) -> None:
+    """E193, for the task of a function generator, which has no poses."""
+    from burmester.io.reading.functions.function_file import is_function_text
+
+    if is_function_text(text, label):
+        raise InputError(
+            "E193",
+            "this is the task of a function generator, and poses are needed here",
+            why="it has pairs of input and output angles, or a function, and no places of a body",
+            help="solve it with `burmester synthesize`, which also writes a result to export",
+        )
+
+
 class _Recording(NamedTuple):
     """A recording of markers, and whether those were chosen without --points."""
 
     markers: MarkerRecording
     chosen: bool
+
+
+def _closed(table: PoseTable | _Recording) -> PoseTable:
+    """The points of a table as a closed path; raises E187."""
+    if isinstance(table, _Recording) or table.path is None:
+        raise InputError(
+            "E187",
+            "--closed is for points that are traced, and this file has poses",
+            why="the angle of the body counts, so that the points are no path alone",
+            help="leave --closed out, or give the points alone, in columns x and y",
+        )
+    return table._replace(path=TracedPath(True, table.path.crank_angles))
 
 
 def _require_no_sheet(sheet: str | None) -> None:
@@ -199,9 +232,26 @@ def _require_no_sheet(sheet: str | None) -> None:
 
 
 def _table(
-    label: str, data: bytes, columns: str | None, *, sheet: str | None, points: str | None
+    path: str,
+    data: bytes | None,
+    columns: str | None,
+    *,
+    sheet: str | None,
+    points: str | None,
+    closed: bool,
 ) -> PoseTable | _Recording:
     """The table in a file, by its first bytes and its suffix."""
+    label = "<stdin>" if path == "-" else printable(path)
+    if _DRAWING.search(path):
+        from burmester.io.reading.outlines.drawn_path import drawing_named, read_drawn_path
+
+        if (drawing := drawing_named(path)) is not None:
+            for option, value in {"columns": columns, "sheet": sheet, "points": points}.items():
+                if value is not None:
+                    message = f"--{option} is for tables, and this file is a drawing"
+                    raise InputError("E108", message, help=f"leave --{option} out")
+            return read_drawn_path(drawing, data)
+    data = read_source(path) if data is None else data
     if columns is not None and points is not None:
         message = "--columns names the columns of poses, --points markers of a recording"
         raise InputError("E108", message, where=label, help="leave one of the two out")
@@ -223,8 +273,10 @@ def _table(
         by_content = "JSON" if source.text.lstrip().startswith(("{", "[")) else "CSV"
         language = "CSV" if source.sheet else _FORMATS.get(suffix, by_content)
         require_moderate(source.text, tree=language != "CSV")
+        if not source.sheet and columns is None:
+            _refuse_function(label, source.text)
         if language == "CSV":
-            return _rows(source, columns, points)
+            return _rows(source, columns, points, closed=closed)
         from burmester.io.reading.trees.documents import read_json, read_toml
 
         read = functools.partial(read_json if language == "JSON" else read_toml, source)
@@ -235,17 +287,22 @@ def _table(
     return read()
 
 
-def _rows(source: Source, columns: str | None, points: str | None) -> PoseTable | _Recording:
+def _rows(
+    source: Source, columns: str | None, points: str | None, *, closed: bool
+) -> PoseTable | _Recording:
     """The table in CSV or in a sheet: poses, markers, or rows pasted from CAD."""
     from burmester.io.reading.markers.marker_header import read_marker_header
     from burmester.io.reading.tables.cad_rows import is_cad_text, read_cad_rows
     from burmester.io.reading.tables.csv_poses import read_csv
+    from burmester.io.reading.tables.path_table import read_path_table
 
     if columns is None and (header := read_marker_header(source)) is not None:
         from burmester.io.reading.markers.marker_choice import chosen_markers
 
         return _Recording(*chosen_markers(header, points))
     _require_no_points(source.label, points)
+    if columns is None and (path := read_path_table(source, closed=closed)) is not None:
+        return path
     if columns is None and is_cad_text(source.text):
         return read_cad_rows(source)
     return read_csv(source, columns)
@@ -301,7 +358,8 @@ def _selected(
             rows = table.rows._replace(
                 values=table.rows.values[kept], tolerances=stated and stated.at(kept)
             )
-            poses = table._replace(rows=rows)
+            path = table.path and table.path.at(kept)
+            poses = table._replace(rows=rows, path=path)
         tracked = TrackedRows(kept, table.locate_row)
         marks = _marked(table, labels, exact)
     if marks is not None:
@@ -378,6 +436,7 @@ def _task(
             tolerances=tolerances,
             notes=table.notes + body_notes + region_notes,
             read_as=table.read_as,
+            path=table.path,
         )
     except InputError as error:
         if error.code in ("E132", "E134"):  # limits and requirements, not the poses

@@ -34,7 +34,7 @@ OptionalKinds: TypeAlias = frozenset[Kind] | None
 # The keys at the top of a task in a file.
 TOP_KEYS = (
     "poses", "angle_unit", "length_unit", "pose_sigma", "tolerance", "body", "keep_out",
-    "surroundings", "limits", "requirements",
+    "surroundings", "limits", "requirements", "path",
 )  # fmt: skip
 
 # `limits`, and keys that may stand beside the poses by mistake, where they would limit nothing.

@@ -67,6 +67,11 @@ class StatedTolerances(NamedTuple):
         return cls(bounds, list(columns.get("tol_axes", [""] * count)), stated)
 
     @classmethod
+    def none(cls, count: int) -> StatedTolerances:
+        """Nothing stated for `count` poses."""
+        return cls(np.full((count, 3), np.nan), [""] * count)
+
+    @classmethod
     def joined(cls, parts: Sequence[StatedTolerances]) -> StatedTolerances:
         """Those of all parts, one after the other."""
         axes = [each for part in parts for each in part.axes]

@@ -116,10 +116,10 @@ i: plaintext; }
 .bs-poses { border-collapse: collapse; width: 100%; font-size: 0.88rem; margin-top: 6px; table-layout: fixed; }
 .bs-poses th { text-align: left; font-weight: 600; color: var(--bm-muted); font-size: 0.8rem; padding: 0 3px 2px; }
 .bs-poses th:first-child { width: 28px; }
-.bs-poses th:nth-child(2) { width: 27%; }
-.bs-poses .bs-number { padding: 2px 4px; font-size: 0.84rem; }
+.bs-poses th:nth-child(2) { width: 22%; }
+.bs-poses .bs-number { padding: 2px 3px; font-size: 0.82rem; }
 .bs-poses th:nth-child(n + 3) { text-align: right; padding-right: 6px; }
-.bs-poses td { padding: 1px 2px; vertical-align: top; }
+.bs-poses td { padding: 1px; vertical-align: top; }
 .bs-poses tbody th { padding: 1px 2px; vertical-align: top; }
 .bs-pose-row.bs-selected { background: var(--bm-wash); }
 .bs-index { font: inherit; font-size: 0.82rem; width: 100%; min-height: 28px; color: var(--bm-muted); background: none; border: 1px solid transparent; border-ra\
@@ -522,16 +522,16 @@ this.store.chosen)??(this.store.chosen===PLACED?void 0:this.linkages[0])}get(id)
 store.solvedFor!==this.store.document}takePoses(){const poses=posesOf(this.store.document);Object.assign(this.data,{poses,...surroundingsOf(this.store.document,
 this.data)});this.emit("poses")}takeSolved(){const{solved,document:document2}=this.store,before=this.linkages.filter(each=>!each.gone);const{renamed:names,moved}=this.
 store;const was=new Map([...names].map(([old,id])=>[id,this.byId.get(old)]));const{poses,body,keep_out,...rest}=solved;Object.assign(this.data,{body,keep_out,...rest,
-poses:posesOf(document2)});this.gone=before.filter(each=>!names.has(each.id)).map(each=>each.id);this.byId=new Map;this.linkages=solved.linkages.map(fresh=>{const kept=was.
-get(fresh.id),now=kept??{};const stood=kept&&kept.rank!==Infinity;const before2=stood&&kept.id!==fresh.id?kept.id:null;for(const key of Object.keys(now))delete now[key];
-Object.assign(now,figured(linked(fresh)),{was:before2,shift:moved.get(fresh.id)??0,isNew:this.known&&!stood,followed:false,gone:null,change:null});this.byId.set(
-now.id,now);return now});this.known=true;this.emit("answers")}takeFollowed(){const frame=this.store.followed;if(!frame)return;for(const each of frame.linkages){
-let now=this.byId.get(each.id);if(now&&each.fresh===false)continue;if(!now){now=appeared(each);this.byId.set(each.id,now);this.linkages.push(now);this.hasNew=true}
-follow(now,each,this.data)}for(const{id,message}of frame.vanished??[]){const now=this.byId.get(id);if(now)Object.assign(now,{gone:message,usable:false})}for(const{
-id,kind,message}of frame.changes??[]){const now=this.byId.get(id);if(now&&kind!=="vanished")now.change=message}if(this.hasNew){this.hasNew=false;this.emit("answ\
-ers")}else{this.emit("moved")}}takePlaced(){const placed=this.store.placed?.linkage;const before=this.placed;this.placed=placed?Object.assign(before??{},figured(
-renamed(linked(placed))),{id:PLACED,gone:null,followed:false}):null;this.emit("placed");if(this.store.chosen===PLACED)this.emit(before&&placed?"moved":"shown")}};
-var linked=linkage=>({...linkage,pose_errors:linkage.pose_errors.map(row=>({...row,at:row.way===null?null:linkage.ways[row.way]}))});var figured=linkage=>Object.
+poses:posesOf(document2)});this.gone=this.store.isEmpty?[]:before.filter(each=>!names.has(each.id)).map(each=>each.id);this.byId=new Map;this.linkages=solved.linkages.
+map(fresh=>{const kept=was.get(fresh.id),now=kept??{};const stood=kept&&kept.rank!==Infinity;const before2=stood&&kept.id!==fresh.id?kept.id:null;for(const key of Object.
+keys(now))delete now[key];Object.assign(now,figured(linked(fresh)),{was:before2,shift:moved.get(fresh.id)??0,isNew:this.known&&!stood,followed:false,gone:null,change:null});
+this.byId.set(now.id,now);return now});this.known=!this.store.isEmpty;this.emit("answers")}takeFollowed(){const frame=this.store.followed;if(!frame)return;for(const each of frame.
+linkages){let now=this.byId.get(each.id);if(now&&each.fresh===false)continue;if(!now){now=appeared(each);this.byId.set(each.id,now);this.linkages.push(now);this.
+hasNew=true}follow(now,each,this.data)}for(const{id,message}of frame.vanished??[]){const now=this.byId.get(id);if(now)Object.assign(now,{gone:message,usable:false})}
+for(const{id,kind,message}of frame.changes??[]){const now=this.byId.get(id);if(now&&kind!=="vanished")now.change=message}if(this.hasNew){this.hasNew=false;this.
+emit("answers")}else{this.emit("moved")}}takePlaced(){const placed=this.store.placed?.linkage;const before=this.placed;this.placed=placed?Object.assign(before??
+{},figured(renamed(linked(placed))),{id:PLACED,gone:null,followed:false}):null;this.emit("placed");if(this.store.chosen===PLACED)this.emit(before&&placed?"moved":
+"shown")}};var linked=linkage=>({...linkage,pose_errors:linkage.pose_errors.map(row=>({...row,at:row.way===null?null:linkage.ways[row.way]}))});var figured=linkage=>Object.
 assign(linkage,{worst:linkage.position_error.max,least:linkage.min_transmission_angle_deg.range});function renamed(linkage){const names=new Map(linkage.dyads.map(
 (dyad,k)=>[dyad.id,`P${k+1}`]));const named=dyad=>({...dyad,id:names.get(dyad.id)??dyad.id});const dimensions=linkage.said.dimensions.map(row=>({...row,dyad:names.
 get(row.dyad)??row.dyad}));return{...linkage,dyads:linkage.dyads.map(named),led:linkage.led.map(named),said:{...linkage.said,dimensions}}}function posesOf({poses=[]}){
@@ -547,21 +547,13 @@ said:{met:"",in_short:each.reason??"",reasons:[],quality:{},dimensions:[],notes:
 worst===void 0)return"–";if(!linkage.followed)return linkage.said.worst==="-"?"–":linkage.said.worst==="exact"?"exact":`${linkage.said.worst}${data.unit?` ${data.
 unit}`:""}`;return linkage.worst<FOLLOWED*data.scene?"exact":`${figure(linkage.worst)}${data.unit?` ${data.unit}`:""}`}function leastOf(linkage){if(!linkage.followed)
 return linkage.said.transmission==="-"?"–":linkage.said.transmission;return linkage.least===null||linkage.least===void 0?"–":`${Math.floor(10*linkage.least+
-1e-6)/10}°`}var ANGLES={"°":1,deg:1,degree:1,degrees:1,rad:180/Math.PI,mrad:.18/Math.PI};var stepOf=(event,step)=>step*(event.shiftKey?10:event.altKey?.1:1);var stepped=(value,by)=>Number((value+by).toPrecision(12));var button=(text,onclick,attributes={})=>h("button",{type:"button",class:"bm-button",onclick,...attributes},text);var TYPED_IN="button, input, select, textarea, summary, a, [role=button], [role=slider]";var written2=element=>element?.matches?.("input:not([type=checkbox]):no\
-t([type=radio]):not([type=range]), textarea");function listenToKeys(store,scene,files=null,root=document){const acts=event=>({z:()=>event.shiftKey?store.redo():
-store.undo(),y:()=>store.redo(),...files&&{s:()=>files.save(),o:()=>files.chooser.click()}});root.addEventListener("keydown",event=>{const{key,target}=event,control=(event.
-ctrlKey||event.metaKey)&&!event.altKey;if(control){const act2=acts(event)[key.toLowerCase()];if(!act2||written2(target)&&target.dataset.typing==="true"&&/^[zy]$/i.
-test(key))return;event.preventDefault();act2()}else if(scene.dragged&&key==="Escape"){event.preventDefault();scene.dragged.cancel()}else if(scene.tool&&!written2(
-target)&&scene.tool.key(event)){event.preventDefault();event.stopPropagation()}else if(key==="Escape"&&!written2(target)&&store.selection){store.select(null)}},
-true);root.addEventListener("input",({target})=>target.dataset&&(target.dataset.typing="true"));for(const name of["change","focusout"])root.addEventListener(name,
-({target})=>target.dataset&&delete target.dataset.typing)}function listenToSpace({player},root=document){root.addEventListener("keydown",event=>{if(event.key!==
-" "||event.ctrlKey||event.metaKey||event.altKey||event.target.closest?.(TYPED_IN)||!player.path)return;event.preventDefault();player.play(!player.playing)})}function act(place,[x,y]){const c=Math.cos(place.a),d=Math.sin(place.a);return[place.x+c*x-d*y,place.y+d*x+c*y]}function back(place,[x,y]){const c=Math.cos(place.
+1e-6)/10}°`}function act(place,[x,y]){const c=Math.cos(place.a),d=Math.sin(place.a);return[place.x+c*x-d*y,place.y+d*x+c*y]}function back(place,[x,y]){const c=Math.cos(place.
 a),d=Math.sin(place.a);return[c*(x-place.x)+d*(y-place.y),-d*(x-place.x)+c*(y-place.y)]}var normalOf=dyad=>{const angle=radians(dyad.line.normal_deg);return[Math.
 cos(angle),Math.sin(angle)]};function constraint(dyad,place){if(dyad.kind==="PP"){const away=place.a-radians(dyad.angle_deg);return[away-2*Math.PI*Math.round(away/
 (2*Math.PI)),0,0,1]}if(dyad.kind==="RP"){const[nx2,ny2]=normalOf(dyad);const c=Math.cos(place.a),d=Math.sin(place.a);const tx=c*nx2-d*ny2,ty=d*nx2+c*ny2;const ax=dyad.
 fixed_pivot[0]-place.x,ay=dyad.fixed_pivot[1]-place.y;return[tx*ax+ty*ay-dyad.line.offset,-tx,-ty,tx*ay-ty*ax]}const[x,y]=act(place,dyad.moving_pivot);let nx,ny,
-residual;if(dyad.kind==="RR"){const ax=x-dyad.fixed_pivot[0],ay=y-dyad.fixed_pivot[1];const size=Math.hypot(ax,ay)||1;[nx,ny,residual]=[ax/size,ay/size,size-dyad.
-radius]}else{[nx,ny]=normalOf(dyad);residual=nx*x+ny*y-dyad.line.offset}return[residual,nx,ny,(x-place.x)*ny-(y-place.y)*nx]}function project(dyads,place,length){let{x,y,a}=place;for(let step=0;step<4;step+=1){const[f,...p]=constraint(dyads[0],{x,y,a});const[g,...q]=constraint(dyads[1],
+residual;if(dyad.kind==="RR"){const ax=x-dyad.fixed_pivot[0],ay=y-dyad.fixed_pivot[1];const size2=Math.hypot(ax,ay)||1;[nx,ny,residual]=[ax/size2,ay/size2,size2-
+dyad.radius]}else{[nx,ny]=normalOf(dyad);residual=nx*x+ny*y-dyad.line.offset}return[residual,nx,ny,(x-place.x)*ny-(y-place.y)*nx]}function project(dyads,place,length){let{x,y,a}=place;for(let step=0;step<4;step+=1){const[f,...p]=constraint(dyads[0],{x,y,a});const[g,...q]=constraint(dyads[1],
 {x,y,a});p[2]/=length;q[2]/=length;const pp=p[0]*p[0]+p[1]*p[1]+p[2]*p[2];const pq=p[0]*q[0]+p[1]*q[1]+p[2]*q[2];const qq=q[0]*q[0]+q[1]*q[1]+q[2]*q[2];const det=pp*
 qq-pq*pq;if(!(det>1e-9*pp*qq))return{x,y,a};const u=(f*qq-g*pq)/det,v=(g*pp-f*pq)/det;x-=u*p[0]+v*q[0];y-=u*p[1]+v*q[1];a-=(u*p[2]+v*q[2])/length;if(Math.abs(f)+
 Math.abs(g)<1e-14*length)break}return{x,y,a}}function catmullRom(values,i,share,round){const last=values.length-1;const at=k=>{if(k>=0&&k<=last)return values[k];
@@ -571,14 +563,35 @@ pose_errors.find(row=>row.at===way&&Math.abs(row.frame-u)<1e-6);if(stop)return{x
 length-2),share=u-i;const place={x:catmullRom(way.x,i,share,way.round),y:catmullRom(way.y,i,share,way.round),a:catmullRom(way.angle,i,share,way.round)};return project(
 linkage.led,place,length)}function linear(values,u){const i=clamp(Math.floor(u),0,values.length-2),share=u-i;if(values[i]===null||values[i+1]===null)return null;
 const value=values[i]+share*(values[i+1]-values[i]);return Number.isNaN(value)?null:value}function frameAt(values,wanted){let low=0,high=values.length-1;if(wanted<=
-values[low])return low;if(wanted>=values[high])return high;while(high-low>1){const middle=low+high>>1;if(values[middle]<=wanted)low=middle;else high=middle}const step=values[high]-
-values[low];return low+(step>0?(wanted-values[low])/step:0)}function alongLine(dyad,place){const[nx,ny]=normalOf(dyad);const[x,y]=dyad.kind==="PR"?act(place,dyad.moving_pivot):back(place,dyad.fixed_pivot);return nx*y-ny*
-x}function travelOf(dyad,places){const along=places.map(place=>alongLine(dyad,place));return[along.reduce((a,b)=>Math.min(a,b)),along.reduce((a,b)=>Math.max(a,b))]}
-function pointOnLine(dyad,along){const[nx,ny]=normalOf(dyad),{offset}=dyad.line;return[offset*nx-along*ny,offset*ny+along*nx]}var AXIS=26;var BLOCK=[22,14];var transform=(x,y,angle)=>`translate(${px(x)} ${px(y)}) rotate(${px(degrees(-angle))})`;function foot(){let hatch="";for(let k=-2;k<=2;k+=1)hatch+=`M${5.5*k+3}\
+values[low])return low;if(wanted>=values[high])return high;while(high-low>1){const middle2=low+high>>1;if(values[middle2]<=wanted)low=middle2;else high=middle2}
+const step=values[high]-values[low];return low+(step>0?(wanted-values[low])/step:0)}function alongLine(dyad,place){const[nx,ny]=normalOf(dyad);const[x,y]=dyad.kind==="PR"?act(place,dyad.moving_pivot):back(place,dyad.fixed_pivot);return nx*y-ny*
+x}function travelOf(dyad,places){const along2=places.map(place=>alongLine(dyad,place));return[along2.reduce((a,b)=>Math.min(a,b)),along2.reduce((a,b)=>Math.max(
+a,b))]}function pointOnLine(dyad,along2){const[nx,ny]=normalOf(dyad),{offset}=dyad.line;return[offset*nx-along2*ny,offset*ny+along2*nx]}var AXIS=26;var BLOCK=[22,14];var transform=(x,y,angle)=>`translate(${px(x)} ${px(y)}) rotate(${px(degrees(-angle))})`;function foot(){let hatch="";for(let k=-2;k<=2;k+=1)hatch+=`M${5.5*k+3}\
  16l-6 7`;return s("g",{class:"bm-foot"},s("path",{class:"bm-solid",d:"M0 0L-10 16H10Z"}),s("path",{class:"bm-ground",d:`M-16 16H16${hatch}`}))}function axes(length){
 const l=length,head=Math.max(4,.22*length);return`M0 0H${l}m${-head} ${-head/2}l${head} ${head/2}l${-head} ${head/2}M0 0V${-.6*l}`}function hull(points){const sorted=[...points].sort((p,q)=>p[0]-q[0]||p[1]-q[1]);const half=list=>{const kept=[];for(const point of list){while(kept.length>1){const[
 a,b]=kept.slice(-2);if((b[0]-a[0])*(point[1]-a[1])-(b[1]-a[1])*(point[0]-a[0])>0)break;kept.pop()}kept.push(point)}return kept.slice(0,-1)};const corners=[...half(
-sorted),...half(sorted.reverse())];return corners.length?corners:sorted.slice(0,1)}var closed=(points,view,[x,y])=>`M${points.map(each=>`${px(x+view.scale*each[0])} ${px(y-view.scale*each[1])}`).join("L")}Z`;var bodyOutline=(data,view)=>closed(
+sorted),...half(sorted.reverse())];return corners.length?corners:sorted.slice(0,1)}function withKeys(object,changes){const copy={...object,...changes};for(const[key,value]of Object.entries(changes))if(value===void 0)delete copy[key];return copy}
+var replaced=(list,index,value)=>list.map((each,k)=>k===index?value:each);var without=(list,index)=>list.filter((_,k)=>k!==index);var inserted=(list,index,value)=>[
+...list.slice(0,index),value,...list.slice(index)];var withList=(document2,key,list)=>withKeys(document2,{[key]:list.length?list:void 0});var filled=table=>Object.
+keys(table).length?table:void 0;var setPose=(document2,index,changes)=>withKeys(document2,{poses:replaced(document2.poses,index,withKeys(document2.poses[index],
+changes))});var addPose=(document2,pose,index=document2.poses.length)=>withKeys(document2,{poses:inserted(document2.poses,index,pose)});var removePose=(document2,index)=>withKeys(
+document2,{poses:without(document2.poses,index)});var setBody=(document2,corners)=>withList(document2,"body",corners);var bodyOf=document2=>Array.isArray(document2.body)?document2.body:[];var regionsOf=document2=>document2.
+keep_out===void 0?[]:[document2.keep_out].flat();var addRegion=(document2,region)=>withList(document2,"keep_out",[...regionsOf(document2),region]);var setRegion=(document2,index,changes)=>withList(
+document2,"keep_out",replaced(regionsOf(document2),index,withKeys(regionsOf(document2)[index],changes)));var removeRegion=(document2,index)=>withList(document2,
+"keep_out",without(regionsOf(document2),index));var limitsOf=document2=>document2.limits===void 0?[]:[document2.limits].flat();function setLimit(document2,index,changes){const tables=limitsOf(document2),changed=withKeys(
+tables[index]??{},changes);const all=index<tables.length?replaced(tables,index,changed):[...tables,changed];const kept=all.length>1||filled(changed)?all:[];return withKeys(
+document2,{limits:kept.length>1?kept:kept[0]})}var limitRegions=document2=>limitsOf(document2).flatMap((table,index)=>["fixed_pivot","moving_pivot"].filter(key=>table[key]).map(key=>{const[[shape,points]]=Object.
+entries(table[key]);return{table:index,key,shape,points:shape==="point"?[points]:points}}));var shapeOf=(shape,points)=>({[shape]:shape==="point"?points[0]:points});
+var setRequirement=(document2,key,value)=>withKeys(document2,{requirements:filled(withKeys(document2.requirements??{},{[key]:value}))});function component(poses,index,key){
+if(Number.isFinite(poses[index][key]))return poses[index][key];const before=poses.slice(0,index).findLastIndex(pose=>Number.isFinite(pose[key]));const behind=poses.
+slice(index+1).findIndex(pose=>Number.isFinite(pose[key]))+index+1;const[a,b]=[poses[before]?.[key],behind>index?poses[behind][key]:void 0];if(a===void 0||b===void 0)
+return a??b??0;return a+(index-before)/(behind-before)*(b-a)}function standing({poses},index){const{x,y,angle}=poses[index];if(Number.isFinite(x)&&Number.isFinite(
+y)&&Number.isFinite(angle))return{x,y,angle};return{x:component(poses,index,"x"),y:component(poses,index,"y"),angle:component(poses,index,"angle")}}var poseName2=({
+poses},index)=>poses[index]?.name??String(index+1);var statedOf=(pose,changes)=>Object.fromEntries(Object.entries(changes).filter(([key])=>Number.isFinite(pose[key])));var LEAST=250;var SHARE=8;var Pace=class{constructor(work,wanted=()=>true){this.work=work;this.wanted=wanted;this.free=0;this.timer=null;paces.add(this)}ask(){if(this.
+timer!==null||!this.wanted())return;this.timer=setTimeout(()=>this.now(),Math.max(0,this.free-performance.now()))}catchUp(){if(this.timer!==null)this.now()}now(){
+clearTimeout(this.timer);this.timer=null;const start=performance.now();this.work();const end=performance.now();this.free=end+Math.max(LEAST,SHARE*(end-start))}};
+var shown=new WeakMap;function isOther(element,facts){const before=shown.get(element);shown.set(element,facts);return before?.length!==facts.length||facts.some(
+(fact,k)=>!Object.is(fact,before[k]))}var paces=new Set;var closed=(points,view,[x,y])=>`M${points.map(each=>`${px(x+view.scale*each[0])} ${px(y-view.scale*each[1])}`).join("L")}Z`;var bodyOutline=(data,view)=>closed(
 data.body,view,[0,0]);var BODY_AXIS=AXIS+10;var LETTER=14;var BLOCK_IN_SLOT=[18,10];var SPARE=5;var ARROW=24;var Mechanism=class{constructor({led}){this.kinds=kindsOf(led);this.outline=s("path",{class:"bm-body-outline"});this.links=s("g");this.blocks=s("g");this.pins=s(
 "g");this.coupler=s("g",{class:"bm-coupler"});this.arrow=s("path",{class:"bm-drive-mark bm-side0"});this.letter=s("text",{class:"bm-letter","text-anchor":"middl\
 e"},"M");this.plates=[s("path",{class:"bm-plate-rim"}),s("path",{class:"bm-plate"})];this.coupler.append(...this.plates);this.parts=led.map((dyad,side)=>new PARTS[dyad.
@@ -606,10 +619,214 @@ this.block=block(side,...BLOCK);this.pin=s("circle",{class:"bm-pin",r:4.5});bloc
 blocks,pins,coupler},side){this.strokes=["rim","plate","edge"].map(name=>s("path",{class:`bm-slot-${name}`}));this.strokes.push(s("path",{class:"bm-slot"}));this.
 block=block(side,...BLOCK_IN_SLOT);this.ground=s("circle",{class:"bm-pin bm-fixed-pin",r:4});coupler.append(...this.strokes);blocks.append(this.block);pins.append(
 this.ground)}shape(dyad,view,places){this.dyad=dyad;this.view=view;const[low,high]=places.length?travelOf(dyad,places):[0,0],end=(BLOCK_IN_SLOT[0]/2+SPARE)/view.
-scale;const seen=along=>inBody(pointOnLine(dyad,along),view);const d=`M${[seen(low-end),seen(high+end)].map(each=>each.map(px).join(" ")).join("L")}`;for(const stroke of this.
-strokes)put(stroke,"d",d);for(const part of[this.strokes[3],this.block])put(part,"data-dyad",dyad.id);setPin(this.ground,inGround(dyad.fixed_pivot,view),dyad);return seen(
+scale;const seen2=along2=>inBody(pointOnLine(dyad,along2),view);const d=`M${[seen2(low-end),seen2(high+end)].map(each=>each.map(px).join(" ")).join("L")}`;for(const stroke of this.
+strokes)put(stroke,"d",d);for(const part of[this.strokes[3],this.block])put(part,"data-dyad",dyad.id);setPin(this.ground,inGround(dyad.fixed_pivot,view),dyad);return seen2(
 (low+high)/2)}show(place){const{dyad,view}=this,[nx,ny]=normalOf(dyad),[cx,cy]=dyad.fixed_pivot;put(this.block,"transform",transform(view.X(cx),view.Y(cy),place.
-a+Math.atan2(nx,-ny)))}};var Nothing=class{shape(){}show(){}};var PARTS={RR:Bar,PR:BlockOnRail,RP:Slot,PP:Nothing};var LONGEST=4e3;function railOf(dyad,places,view){const[nx,ny]=normalOf(dyad),[low,high]=travelOf(dyad,places);const half=view.scale*(high-low)/2+BLOCK[0],edge=BLOCK[1]/
+a+Math.atan2(nx,-ny)))}};var Nothing=class{shape(){}show(){}};var PARTS={RR:Bar,PR:BlockOnRail,RP:Slot,PP:Nothing};var ANGLES={"°":1,deg:1,degree:1,degrees:1,rad:180/Math.PI,mrad:.18/Math.PI};var stepOf=(event,step)=>step*(event.shiftKey?10:event.altKey?.1:1);var stepped=(value,by)=>Number((value+by).toPrecision(12));var button=(text,onclick,attributes={})=>h("button",{type:"button",class:"bm-button",onclick,...attributes},text);var LETTER2=7.2;var HEIGHT=14;var REST=80;var MANY=60;var OUTSIDE=500;var HABIT=6;var MISLEADING=60;var SAME=2;function around(text,toward,distance,few=false){const half=(LETTER2*
+text.length+4)/2,places=[],count=few?8:16;for(let ring=0;ring<(few?1:3);ring+=1){for(let k=0;k<count;k+=1){const turn=(k%2?1:-1)*Math.ceil(k/2)*(2*Math.PI/count),
+angle=toward+turn,away=distance+9*ring;places.push([(away+half-5)*Math.cos(angle),away*Math.sin(angle),3*Math.abs(turn)+14*ring])}}return places}function along(up,width){
+const reach=Math.max(0,width/2-30);return[0,-.5,.5,-1,1].flatMap(share=>[[share*reach,up,8*Math.abs(share)],[share*reach,-up,10+8*Math.abs(share)]])}var NamePlaces=class{constructor(scene){
+this.scene=scene;this.names=new Map;this.obstacles=[];this.timer=null;scene.on("dropped",()=>this.ask())}avoid(fn){this.obstacles.push(fn)}get areMany(){return this.
+names.size>MANY}put(element,x,y,text,places){const before=this.names.get(element),name={x,y,text,places,at:before?.text===text?before.at:places[0]};this.names.set(
+element,name);this.show(element,name);this.ask()}ask(){clearTimeout(this.timer);if(!this.scene.dragged)this.timer=setTimeout(()=>this.place(),REST)}show(element,{
+x,y,at}){put(element,"text-anchor","middle");put(element,"transform",`translate(${px(x+at[0])} ${px(y-at[1]+4)})`)}place(){if(this.scene.dragged)return;for(const element of[
+...this.names.keys()])if(!element.isConnected)this.names.delete(element);const{width,height}=this.scene.view;const seen2=[...this.names].filter(([element,{x,y}])=>x>
+-20&&y>-20&&x<width+20&&y<height+20&&element.getAttribute("display")!=="none");const taken=this.obstacles.flatMap(fn=>fn()).map(boxOf),stands=new Map;for(let pass=0;pass<
+(this.areMany?1:2);pass+=1){for(const[element,name]of seen2){stands.delete(element);const others=[...stands.values()];let best=null;for(const at of name.places){
+const box=boxAt(name,at);const habit=at[0]===name.at[0]&&at[1]===name.at[1]?HABIT:0;let cost=at[2]-habit;if(box[0]<2||box[1]<2||box[2]>width-2||box[3]>height-2)
+cost+=OUTSIDE;for(const other of taken)cost+=overlap(box,other);for(const other of others)cost+=SAME*overlap(box,other);const own=awayFrom(box,name);if(seen2.some(
+([,other])=>other!==name&&awayFrom(box,other)<own+1))cost+=MISLEADING;if(!best||cost<best.cost)best={cost,at,box}}name.at=best.at;stands.set(element,best.box)}}
+for(const[element,name]of seen2)this.show(element,name)}};var boxOf=([x,y,width,height])=>[x-width/2,y-height/2,x+width/2,y+height/2];var boxAt=({x,y,text},at)=>boxOf(
+[x+at[0],y-at[1],LETTER2*text.length+4,HEIGHT]);var awayFrom=(box,{x,y})=>Math.hypot(Math.max(box[0]-x,0,x-box[2]),Math.max(box[1]-y,0,y-box[3]));function overlap(one,other){
+const across=Math.min(one[2],other[2])-Math.max(one[0],other[0]),down=Math.min(one[3],other[3])-Math.max(one[1],other[1]);return across>0&&down>0?across*down:0}var LAYERS=["grid","regions","ghosts","map","curves","paths","mechanism","limits","pivots","poses","labels","tool"];var MARGIN=46;var ZOOM=1.0018;var WIDEST=1e6;
+var CLICK=4;var RAW=8;var SPARE2=.5;var Scene=class{constructor(store,{zoomKey=false}={}){this.store=store;this.zoomKey=zoomKey;this.listeners={view:[],click:[],
+tool:[],dropped:[]};this.tool=null;this.dragged=null;this.layers=new Map(LAYERS.map(name=>[name,s("g",{class:`bs-layer bs-layer-${name}`})]));this.layers.get("g\
+rid").setAttribute("aria-hidden","true");this.svg=s("svg",{class:"bs-scene",tabindex:0,role:"group","aria-label":"The plane: poses, linkage and limits. Arrow ke\
+ys pan, plus and minus zoom, 0 fits."},...this.layers.values());this.element=h("div",{class:"bs-plane"},this.svg);this.size={width:640,height:480};this.origin={
+scale:1,left:320,top:240};this.isFitted=true;this.pointers=new Map;this.boxes=[];this.names=new NamePlaces(this);this.update();this.listen();store.on("document",
+()=>this.unit===store.document.length_unit||this.grid());new ResizeObserver(()=>this.resize()).observe(this.element);addEventListener("scroll",()=>this.box=null,
+{capture:true,passive:true})}layer(name){return this.layers.get(name)}on(name,fn){this.listeners[name].push(fn)}emit(name,...values){return this.listeners[name].
+map(fn=>fn(...values)).some(Boolean)}hold(fn,far=false){this.boxes.push({fn,far})}update(){const{width,height}=this.size,{scale,left,top}=this.origin;this.view=
+{scale,left,top,width,height,X:x=>left+scale*x,Y:y=>top-scale*y,x:X=>(X-left)/scale,y:Y=>(top-Y)/scale};Object.assign(this.svg.dataset,{scale,left,top,fit:this.
+isFitted?this.isWhole?"all":"near":""});this.grid();this.emit("view",this.view)}resize(){this.box=null;const{width,height}=this.svg.getBoundingClientRect();if(!width||
+!height||width===this.size.width&&height===this.size.height)return;this.origin={...this.origin,left:this.origin.left+(width-this.size.width)/2,top:this.origin.top+
+(height-this.size.height)/2};this.size={width,height};put(this.svg,"viewBox",`0 0 ${width} ${height}`);if(this.isFitted)this.fit(this.isWhole);else this.update()}pan(dx,dy){
+this.isFitted=false;this.origin={...this.origin,left:this.origin.left+dx,top:this.origin.top+dy};this.update()}zoom(factor,X,Y){const fitted=this.fittedScale??this.
+origin.scale;const scale=clamp(this.origin.scale*factor,fitted/WIDEST,fitted*WIDEST),by=scale/this.origin.scale;this.isFitted=false;this.origin={scale,left:X+by*
+(this.origin.left-X),top:Y+by*(this.origin.top-Y)};this.update()}fit(whole=false){const pointsOf=isFar=>this.boxes.filter(({far:far2})=>far2===isFar).flatMap(({
+fn})=>fn());const near2=pointsOf(false),far=pointsOf(true),all=bounds([...near2,...far]);let[x,y,u,v]=near2.length&&!whole?bounds(near2):Number.isFinite(all[0])?
+all:[-50,-50,50,50];const size2=Math.max(u-x,v-y)||Math.max(1,Math.abs(u),Math.abs(v));if(near2.length&&far.length&&!whole){const reach=SPARE2*size2;[x,y,u,v]=[
+Math.max(all[0],x-reach),Math.max(all[1],y-reach),Math.min(all[2],u+reach),Math.min(all[3],v+reach)]}this.isWhole=whole;const{width,height}=this.size,margin=Math.
+min(MARGIN,width/8);const scale=Math.min((width-2*margin)/Math.max(u-x,.1*size2),(height-2*margin)/Math.max(v-y,.1*size2));this.fittedScale=scale;this.origin={scale,
+left:width/2-scale*(x+u)/2,top:height/2+scale*(y+v)/2};this.isFitted=true;this.update()}fitAgain(){this.fit(this.isFitted&&!this.isWhole)}grid(){const{view}=this,
+{width,height}=view,group=this.layer("grid");const name=this.unit=this.store.document.length_unit,unit=name?` ${name}`:"";const across=ticks(view.x(0),view.x(width),
+width/110),up=ticks(view.y(height),view.y(0),height/80);const lines=[...across.map(({at})=>`M${px(view.X(at))} 0V${height}`),...up.map(({at})=>`M0 ${px(view.Y(at))}\
+H${width}`)];const origin=`M${px(clamp(view.X(0),-9,width+9))} 0V${height}M0 ${px(clamp(view.Y(0),-9,height+9))}H${width}`;group.replaceChildren(s("path",{class:"\
+bs-grid-line",d:lines.join("")}),s("path",{class:"bs-grid-axis",d:origin}),...across.filter(({at})=>view.X(at)>46&&view.X(at)<width-(unit?54:30)).map(({at,text})=>s(
+"text",{x:px(view.X(at)),y:height-6,"text-anchor":"middle"},text)),...up.filter(({at})=>view.Y(at)>30&&view.Y(at)<height-24).map(({at,text})=>s("text",{x:6,y:px(
+view.Y(at)-4)},text)),s("text",{x:6,y:14},`y${unit}`),s("text",{x:width-6,y:height-6,"text-anchor":"end"},`x${unit}`))}get grain(){return 10**Math.floor(Math.log10(
+.35/this.view.scale))}rounded(value){const{grain}=this,digits=clamp(-Math.round(Math.log10(grain)),0,12);return Number((Math.round(value/grain)*grain).toFixed(digits))+
+0}get step(){const[x,y,u,v]=bounds(this.store.document.poses.map(pose=>[pose.x??0,pose.y??0]));const span=Math.hypot(u-x,v-y);return Number.isFinite(span)&&span>
+0?10**Math.floor(Math.log10(span/50)):1}at(event){if(!this.box){this.box=this.svg.getBoundingClientRect();if(!this.dragged)requestAnimationFrame(()=>this.dragged||
+(this.box=null))}const{left,top}=this.box,X=event.clientX-left,Y=event.clientY-top;return{X,Y,x:this.view.x(X),y:this.view.y(Y)}}drag(element,{start=()=>true,move,
+end=()=>{},cancel=()=>{},click=()=>{}}){element.addEventListener("pointerdown",event=>{if(event.button!==0||this.tool||this.dragged)return;event.preventDefault();
+event.stopPropagation();element.focus?.({preventScroll:true});const from=this.at(event),ended=new AbortController,{signal}=ended;let begun=false;const stop=finish=>{
+ended.abort();this.dragged=this.box=null;this.svg.classList.remove("bs-grasped");if(this.svg.hasPointerCapture?.(event.pointerId))this.svg.releasePointerCapture(
+event.pointerId);finish();this.emit("dropped")};this.dragged={cancel:()=>stop(()=>begun&&cancel())};this.capture(event);const on=(name,fn)=>this.svg.addEventListener(
+name,each=>each.pointerId===event.pointerId&&fn(each),{signal});let last=from,then=event.timeStamp;const go=each=>{const point=this.at(each);if(point.X===last.X&&
+point.Y===last.Y)return;last=point;then=each.timeStamp;if(!begun){if(Math.hypot(point.X-from.X,point.Y-from.Y)<CLICK)return;begun=start(from,event)!==false;if(!begun)
+return stop(()=>{});this.svg.classList.add("bs-grasped")}move(point,each)};on("pointermove",go);on("pointerrawupdate",each=>each.timeStamp-then>=RAW&&go(each));
+on("pointerup",each=>stop(()=>begun?end(this.at(each)):click(event)));on("pointercancel",()=>stop(()=>begun&&cancel()))})}use(tool){const before=this.tool;this.
+tool=tool??null;before?.end?.();this.svg.classList.toggle("bs-drawing",Boolean(tool));this.emit("tool",this.tool);if(tool)this.svg.focus({preventScroll:true})}listen(){
+const{svg}=this;svg.addEventListener("wheel",event=>{if(this.zoomKey&&!event.ctrlKey&&!event.metaKey)return;event.preventDefault();const{X,Y}=this.at(event),unit=event.
+deltaMode===1?16:1;this.zoom(ZOOM**(-event.deltaY*unit*(event.ctrlKey&&!this.zoomKey?4:1)),X,Y)},{passive:false});svg.addEventListener("pointerdown",event=>this.
+press(event));svg.addEventListener("pointermove",event=>this.moved(event));for(const name of["pointerup","pointercancel"])svg.addEventListener(name,event=>this.
+released(event));svg.addEventListener("keydown",event=>this.key(event))}capture({pointerId}){try{this.svg.setPointerCapture(pointerId)}catch{}}press(event){if(event.
+button!==0&&event.button!==1)return;const{X,Y}=this.at(event);this.pointers.set(event.pointerId,{X,Y,from:{X,Y},button:event.button});if(this.pointers.size>1)for(const each of this.
+pointers.values())each.panned=true;this.capture(event)}moved(event){const point=this.at(event),held=this.pointers.get(event.pointerId);if(!held){if(!this.dragged)
+this.tool?.hover?.(point);return}const before={X:held.X,Y:held.Y};Object.assign(held,{X:point.X,Y:point.Y});if(this.pointers.size===2){const[one,other]=this.pointers.
+values(),still=held===one?other:one;const[now,then]=[point,before].map(({X,Y})=>Math.hypot(X-still.X,Y-still.Y));if(then>0)this.zoom(now/then,(point.X+still.X)/
+2,(point.Y+still.Y)/2);return}held.panned||=Math.hypot(point.X-held.from.X,point.Y-held.from.Y)>CLICK;if(!held.panned)return;if(this.tool?.drag?.(point,held))return;
+this.svg.classList.add("bs-grasped");this.pan(point.X-before.X,point.Y-before.Y)}released(event){const held=this.pointers.get(event.pointerId);if(!held)return;this.
+pointers.delete(event.pointerId);this.svg.classList.remove("bs-grasped");const point=this.at(event);if(event.type==="pointercancel")this.tool?.hover?.(null);else if(held.
+panned)this.tool?.release?.(point,held);else if(held.button===0)this.tool?this.tool.click(point,event):this.emit("click",point,event)}key(event){if(event.target!==
+this.svg||event.ctrlKey||event.metaKey||event.altKey)return;const by=event.shiftKey?160:40,{width,height}=this.size;const steps={ArrowLeft:[by,0],ArrowRight:[-by,
+0],ArrowUp:[0,by],ArrowDown:[0,-by]};if(steps[event.key])this.pan(...steps[event.key]);else if(event.key==="+"||event.key==="=")this.zoom(1.25,width/2,height/2);else if(event.
+key==="-")this.zoom(.8,width/2,height/2);else if(event.key==="0")this.fitAgain();else return;event.preventDefault()}};var bounds=points=>points.reduce(([x,y,u,v],[
+a,b])=>Number.isFinite(a+b)?[Math.min(x,a),Math.min(y,b),Math.max(u,a),Math.max(v,b)]:[x,y,u,v],[Infinity,Infinity,-Infinity,-Infinity]);var Kept=class{constructor(group,make,show){
+Object.assign(this,{group,make,show,elements:new Map})}draw(items){const kept=new Map;for(const[key,item]of items){const element=this.elements.get(key)??this.make(
+key,item);kept.set(key,element);this.show(element,item)}for(const[key,element]of this.elements)if(!kept.has(key))element.remove();let before=null;for(const element of kept.
+values()){const next=before?before.nextSibling:this.group.firstChild;if(element!==next||element.parentNode!==this.group)this.group.insertBefore(element,next);before=
+element}this.elements=kept}};var LONGEST_ARM=46;var SHORTEST_ARM=27;var FEW=24;var MOST=240;var ROOM=14;var NAME=14;var LONGEST_NAME2=18;var ARROWS={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowUp:[
+0,1],ArrowDown:[0,-1]};var tenths=angle=>Number(angle.toFixed(1))+0;var unwrapped=(angle,near2)=>angle+360*Math.round((near2-angle)/360);function drawnPoses({document:document2,
+selection},scale){const{poses}=document2,count=poses.length,all=[...poses.keys()];if(count<=FEW)return all;const length=poses.slice(1).reduce((sum,{x,y},k)=>sum+
+(Math.hypot(x-poses[k].x,y-poses[k].y)||0),0);const stride=Math.ceil(count/clamp(scale*length/ROOM,FEW,MOST)),chosen=selection?.kind==="pose"?selection.index:-1;
+return all.filter(k=>k%stride===0||k===count-1||k===chosen)}var PoseHandles=class{constructor(store,scene){this.store=store;this.scene=scene;this.element=scene.
+layer("poses");this.names=scene.layer("labels");this.kept=new Kept(this.element,k=>this.make(k),(group,k)=>this.show(group,k));this.labels=new Kept(this.names,()=>s(
+"text",{class:"bs-pose-name"}),(text,k)=>this.showName(text,k));store.on("document selection",()=>this.draw());scene.on("view",()=>this.draw());scene.hold(()=>store.
+document.poses.map((_,k)=>standing(store.document,k)).map(({x,y})=>[x,y]));scene.on("click",()=>store.select(null));scene.names.avoid(()=>this.obstacles());this.
+draw()}get arm(){const{document:document2}=this.store,{scale}=this.scene.view,places=drawnPoses(this.store,scale).map(k=>standing(document2,k));const away=places.
+slice(1).map(({x,y},k)=>scale*Math.hypot(x-places[k].x,y-places[k].y)).sort((a,b)=>a-b);return away.length?clamp(1.2*away[away.length>>1],SHORTEST_ARM,LONGEST_ARM):
+LONGEST_ARM}draw(){this.length=this.scene.dragged?this.length??this.arm:this.arm;const poses=drawnPoses(this.store,this.scene.view.scale).map(k=>[k,k]);this.kept.
+draw(poses);this.labels.draw(poses)}make(k){const origin=s("g",{class:"bs-origin","data-pose":k+1,tabindex:0,role:"button"},s("circle",{class:"bs-hold",r:12}),s(
+"circle",{class:"bs-dot",r:5.5}));const turn=s("g",{class:"bs-turn","data-turn":k+1,tabindex:0,role:"slider","aria-valuemin":-360,"aria-valuemax":360},s("circle",
+{class:"bs-hold",r:12}),s("circle",{class:"bs-tip",r:5}));const group=s("g",{class:"bs-pose"},s("path",{class:"bs-axes"}),origin,turn);this.dragOrigin(origin,k);
+this.dragTurn(turn,k);for(const part of[origin,turn])part.addEventListener("focus",()=>this.store.select({kind:"pose",index:k}));origin.addEventListener("keydow\
+n",event=>this.key(event,k,false));turn.addEventListener("keydown",event=>this.key(event,k,true));return group}show(group,k){const{store,scene:{view}}=this,{x,y,
+angle}=standing(store.document,k),pose=store.document.poses[k];const selected=store.selection?.kind==="pose"&&store.selection.index===k,unit=store.document.length_unit??
+"",name=poseName2(store.document,k);if(!isOther(group,[view,this.length,x,y,angle,Boolean(pose.exact),pose.name,name,unit,selected]))return;const[arrow2,origin,
+turn]=group.children;put(group,"transform",transform(view.X(x),view.Y(y),radians(angle)));put(arrow2,"d",axes(this.length-8));put(turn,"transform",`translate(${px(
+this.length)} 0)`);group.classList.toggle("bs-selected",selected);group.classList.toggle("bs-exact",Boolean(pose.exact));const called=pose.name?`Pose ${k+1}, ${name}`:
+`Pose ${k+1}`;put(origin,"aria-label",`${called}: x ${x} ${unit}, y ${y} ${unit}, angle ${angle}°. Drag, or use the arrow keys; Delete removes it.`);put(origin,
+"aria-pressed",selected);put(turn,"aria-label",`Turn ${called}`);put(turn,"aria-valuenow",angle);put(turn,"aria-valuetext",`${angle}°`)}obstacles(){const{store,
+scene:{view},length}=this,boxes=[];for(const k of drawnPoses(store,view.scale)){const{x,y,angle}=standing(store.document,k),a=radians(angle),[c,d]=[Math.cos(a),
+Math.sin(a)];const at=(along2,across,size2)=>boxes.push([view.X(x)+along2*c-across*d,view.Y(y)-along2*d-across*c,size2,size2]);at(0,0,13);at(length,0,12);at(LETTER,
+-LETTER,12);for(const share of[.35,.7])at(share*length,0,6);for(const share of[.3,.6])at(0,share*(length-8),6)}return boxes}showName(text,k){const{store,scene}=this,
+{view}=scene,{x,y,angle}=standing(store.document,k),name=shortened(poseName2(store.document,k),LONGEST_NAME2);if(!isOther(text,[view,x,y,angle,name]))return;say(
+text,name);scene.names.put(text,view.X(x),view.Y(y),name,around(name,radians(angle+215),NAME,scene.names.areMany))}set(k,changes,gesture){this.store.edit(document2=>setPose(
+document2,k,statedOf(document2.poses[k],changes)),{gesture})}dragOrigin(element,k){const{store,scene}=this;let gesture,off;scene.drag(element,{start:from=>{const{
+x,y}=standing(store.document,k);gesture=Symbol("move a pose");off=[x-from.x,y-from.y]},move:point=>this.set(k,{x:scene.rounded(point.x+off[0]),y:scene.rounded(point.
+y+off[1])},gesture),cancel:()=>store.abandon(gesture)})}dragTurn(element,k){const{store,scene}=this;let gesture,off;const angleTo=point=>{const{x,y}=standing(store.
+document,k);return degrees(Math.atan2(point.y-y,point.x-x))};scene.drag(element,{start:from=>{gesture=Symbol("turn a pose");off=standing(store.document,k).angle-
+angleTo(from)},move:point=>this.set(k,{angle:tenths(unwrapped(angleTo(point)+off,standing(store.document,k).angle))},gesture),cancel:()=>store.abandon(gesture)})}key(event,k,turning){
+const{store,scene}=this,arrow2=ARROWS[event.key];if(event.ctrlKey||event.metaKey)return;if(arrow2){if(!event.repeat)this.keyed=Symbol("keys");const{x,y,angle}=standing(
+store.document,k),by=stepOf(event,turning?1:scene.step);if(turning)this.set(k,{angle:stepped(angle,by*(arrow2[0]===0?arrow2[1]:-arrow2[0]))},this.keyed);else this.
+set(k,{x:stepped(x,by*arrow2[0]),y:stepped(y,by*arrow2[1])},this.keyed)}else if(event.key==="Delete"||event.key==="Backspace"){store.edit(document2=>removePose(
+document2,k));const left=store.document.poses.length;store.select(left?{kind:"pose",index:Math.min(k,left-1)}:null);this.focus(Math.min(k,left-1))}else{return}event.
+preventDefault()}focus(k){this.element.querySelector(`[data-pose="${k+1}"]`)?.focus({preventScroll:true})}};var PoseTool=class{constructor(store,scene){Object.assign(
+this,{store,scene,name:"pose",gesture:null});this.hint="Click where the pose is to stand, and click again to turn it. Escape ends."}click(point){const{store,scene}=this;
+if(this.gesture){this.turn(point);this.gesture=null;return}this.gesture=Symbol("add a pose");const angle=store.document.poses.at(-1)?.angle??0;store.edit(document2=>addPose(
+document2,{x:scene.rounded(point.x),y:scene.rounded(point.y),angle}),{gesture:this.gesture});store.select({kind:"pose",index:store.document.poses.length-1})}hover(point){
+if(this.gesture&&point)this.turn(point)}turn(point){const{store,gesture}=this,k=store.document.poses.length-1,{x,y,angle}=standing(store.document,k);const away=Math.
+hypot(point.x-x,point.y-y)*this.scene.view.scale;if(away<6)return;const next=tenths(unwrapped(degrees(Math.atan2(point.y-y,point.x-x)),angle));store.edit(document2=>setPose(
+document2,k,{angle:next}),{gesture})}key(event){if(event.key!=="Escape")return false;if(this.gesture)this.store.abandon(this.gesture);this.gesture=null;this.scene.
+use(null);return true}};var cross=([a,b],[c,d])=>a*d-b*c;var minus=([a,b],[c,d])=>[a-c,b-d];var size=([a,b])=>Math.hypot(a,b);function fromSegment(point,start,end){const along2=minus(end,
+start),away=minus(point,start),square=along2[0]**2+along2[1]**2;const share=square>0?Math.min(1,Math.max(0,(along2[0]*away[0]+along2[1]*away[1])/square)):0;return size(
+minus(away,[share*along2[0],share*along2[1]]))}var boxCorners=([[a,b],[c,d]])=>[[a,b],[c,b],[c,d],[a,d]];var outlineOf=(shape,points)=>shape==="box"?boxCorners(
+points):points;function isInside([x,y],corners){let inside=false;corners.forEach(([a,b],k)=>{const[c,d]=corners[(k+1)%corners.length];if(b>y!==d>y&&x<a+(y-b)/(d-
+b)*(c-a))inside=!inside});return inside}function distanceTo(point,shape,points){if(shape==="point")return size(minus(point,points[0]));if(shape==="segment")return fromSegment(
+point,...points);if(shape==="line"){const along2=minus(points[1],points[0]);return Math.abs(cross(along2,minus(point,points[0])))/size(along2)}const corners=outlineOf(
+shape,points);if(isInside(point,corners))return 0;return Math.min(...corners.map((corner,k)=>fromSegment(point,corner,corners[(k+1)%corners.length])))}var crosses=(a,b,c,d)=>{
+const turn=(p,q,r)=>Math.sign(cross(minus(q,p),minus(r,p)));return turn(a,b,c)*turn(a,b,d)<0&&turn(c,d,a)*turn(c,d,b)<0};var edges=corners=>corners.map((corner,k)=>[
+corner,corners[(k+1)%corners.length]]);function overlap2(one,other){if(isInside(one[0],other)||isInside(other[0],one))return true;return edges(one).some(([a,b])=>edges(
+other).some(([c,d])=>crosses(a,b,c,d)))}function segmentFromPolygon([start,end],corners){if(isInside(start,corners)||edges(corners).some(([c,d])=>crosses(start,
+end,c,d)))return 0;return Math.min(...edges(corners).map(([c,d])=>Math.min(fromSegment(start,c,d),fromSegment(end,c,d),fromSegment(c,start,end),fromSegment(d,start,
+end))))}var ARROWS2={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowUp:[0,1],ArrowDown:[0,-1]};var LEAST_CORNERS=3;var CLOSED=new Set(["box","polygon"]);var GROUND={x:0,y:0,a:0};
+function pathOf(shape,points,place,view){const seen2=outlineOf(shape,points).map(point=>act(place,point)).map(([x,y])=>[view.X(x),view.Y(y)]);if(shape==="point")
+return`M${px(seen2[0][0]-7)} ${px(seen2[0][1])}h14m-7 -7v14`;if(shape==="line"){const[[a,b],[c,d]]=seen2,size2=Math.hypot(c-a,d-b)||1,far=view.width+view.height+
+Math.hypot(a,b);const[u,v]=[far*(c-a)/size2,far*(d-b)/size2];return`M${px(a-u)} ${px(b-v)}L${px(c+u)} ${px(d+v)}`}return`M${seen2.map(point=>point.map(px).join(
+" ")).join("L")}${CLOSED.has(shape)?"Z":""}`}function withCorner(shape,points,k,to){if(shape!=="box")return points.map((point,i)=>i===k?to:point);const opposite=boxCorners(
+points)[(k+2)%4];return[[Math.min(to[0],opposite[0]),Math.min(to[1],opposite[1])],[Math.max(to[0],opposite[0]),Math.max(to[1],opposite[1])]]}var ShapeHandles=class{constructor(scene,{
+what,set,remove,select,abandon,className=""}){Object.assign(this,{scene,what,set,remove,select,abandon});this.title=s("title");this.area=s("path",{class:"bs-sha\
+pe-area",tabindex:0,role:"button"},this.title);this.line=s("path",{class:"bs-shape-line"});this.element=s("g",{class:`bs-shape ${className}`},this.line,this.area);
+this.middles=new Kept(s("g"),(key,k)=>this.makeMiddle(k),(element,k)=>this.showMiddle(element,k));this.corners=new Kept(s("g"),(key,k)=>this.makeCorner(k),(element,k)=>this.
+showCorner(element,k));this.handles=s("g",{class:"bs-corners"},this.middles.group,this.corners.group);this.dragWhole();this.area.addEventListener("focus",()=>this.
+select());this.area.addEventListener("keydown",event=>this.keys(event,(points,by)=>points.map(([x,y])=>[stepped(x,by[0]),stepped(y,by[1])]),()=>this.remove()))}draw(){
+const{shape,points,place,name,selected,state,data}=this.now=this.what();const d=pathOf(shape,points,place,this.scene.view);put(this.line,"d",d);put(this.area,"d",
+d);this.area.classList.toggle("bs-open",!CLOSED.has(shape));put(this.area,"aria-label",`${name}${state?`, ${state} by the chosen linkage`:""}. Drag, or use the \
+arrow keys; Delete removes it.`);put(this.area,"aria-pressed",Boolean(selected));say(this.title,name);for(const[key2,value2]of Object.entries({...data,shape}))put(
+this.element,`data-${key2}`,value2);this.element.classList.toggle("bs-selected",Boolean(selected));this.element.classList.toggle("bs-met",state==="met");this.element.
+classList.toggle("bs-broken",state==="broken");const[[key,value]]=Object.entries(data);put(this.handles,"data-handles",`${key} ${value}`.trim());if(!this.handles.
+parentNode)this.scene.layer("tool").append(this.handles);const count=selected?outlineOf(shape,points).length:0,edges2=shape==="polygon"?count:0;this.corners.draw(
+[...Array(count).keys()].map(k=>[k,k]));this.middles.draw([...Array(edges2).keys()].map(k=>[k,k]))}clear(){this.element.remove();this.handles.remove()}at([x,y]){
+const[u,v]=act(this.now.place,[x,y]);return{cx:px(this.scene.view.X(u)),cy:px(this.scene.view.Y(v))}}point({x,y}){return back(this.now.place,[x,y]).map(each=>this.
+scene.rounded(each))}dragWhole(){let gesture,from,before;this.scene.drag(this.area,{start:point=>{gesture=Symbol("move a shape");from=back(this.now.place,[point.
+x,point.y]);before=this.now.points},move:point=>{const to=back(this.now.place,[point.x,point.y]),by=[to[0]-from[0],to[1]-from[1]];this.set(before.map(([x,y])=>[
+this.scene.rounded(x+by[0]),this.scene.rounded(y+by[1])]),gesture)},cancel:()=>this.abandon(gesture),click:()=>this.select()})}makeCorner(k){const circle=s("cir\
+cle",{class:"bs-corner",r:6,tabindex:0,role:"button","data-corner":k+1});let gesture;this.scene.drag(circle,{start:()=>(gesture=Symbol("move a corner"))&&true,move:point=>this.
+set(withCorner(this.now.shape,this.now.points,k,this.point(point)),gesture),cancel:()=>this.abandon(gesture)});circle.addEventListener("keydown",event=>this.keys(
+event,(points,by)=>{const[x,y]=outlineOf(this.now.shape,points)[k];return withCorner(this.now.shape,points,k,[stepped(x,by[0]),stepped(y,by[1])])},()=>this.removeCorner(
+k)));return circle}removeCorner(k){const{shape,points}=this.now;if(shape!=="polygon"||points.length<=LEAST_CORNERS)return;this.set(points.filter((_,i)=>i!==k),null)}makeMiddle(k){
+const circle=s("circle",{class:"bs-middle",r:4.5,"data-edge":k+1});let gesture;this.scene.drag(circle,{start:()=>{gesture=Symbol("add a corner");this.set([...this.
+now.points.slice(0,k+1),this.now.points[k],...this.now.points.slice(k+1)],gesture)},move:point=>this.set(withCorner("polygon",this.now.points,k+1,this.point(point)),
+gesture),cancel:()=>this.abandon(gesture)});return circle}showCorner(element,k){const corner=outlineOf(this.now.shape,this.now.points)[k];for(const[name,value]of Object.
+entries(this.at(corner)))put(element,name,value);put(element,"aria-label",`Corner ${k+1} of ${this.now.name}: ${corner.join(", ")}`)}showMiddle(element,k){const{
+points}=this.now,next=points[(k+1)%points.length];const middle2=this.at([(points[k][0]+next[0])/2,(points[k][1]+next[1])/2]);for(const[name,value]of Object.entries(
+middle2))put(element,name,value)}keys(event,moved,remove){if(event.ctrlKey||event.metaKey)return;const arrow2=ARROWS2[event.key];if(arrow2){if(!event.repeat)this.
+keyed=Symbol("keys");const by=stepOf(event,this.scene.step);this.set(moved(this.now.points,[by*arrow2[0],by*arrow2[1]]),this.keyed)}else if(event.key==="Delete"||
+event.key==="Backspace"){remove()}else{return}event.preventDefault();event.stopPropagation()}};var CLOSE=12;var PAIRS=new Set(["segment","line","box"]);var HINTS={point:"Click the point. Enter puts it in the middle, Escape gives up.",segment:"Click both e\
+nds. Enter puts one in the middle, Escape gives up.",line:"Click two points of the line. Enter puts one in the middle, Escape gives up.",box:"Drag from corner t\
+o corner, or click both. Enter puts one in the middle, Escape gives up.",polygon:"Click the corners; Enter or a click on the first one closes. Backspace takes t\
+he last one back, Escape gives up."};var MIDDLE={point:[[0,0]],segment:[[-1,0],[1,0]],line:[[-1,0],[1,0]],box:[[-1,-1],[1,1]],polygon:[[-1,-1],[1,-1],[0,1]]};var SHARE2=.12;
+var ordered=([[a,b],[c,d]])=>[[Math.min(a,c),Math.min(b,d)],[Math.max(a,c),Math.max(b,d)]];var isFlat=([[a,b],[c,d]])=>a===c&&b===d;var ShapeTool=class{constructor(scene,{
+shape,place,done,name}){Object.assign(this,{scene,shape,place,done,name,points:[],next:null});this.hint=HINTS[shape];this.path=s("path",{class:"bs-draft"});this.
+dots=s("g");this.element=s("g",{},this.path,this.dots);scene.layer("tool").append(this.element)}point({x,y}){return back(this.place(),[x,y]).map(each=>this.scene.
+rounded(each))}click(point,event){const next=this.point(point);if(this.shape==="polygon"){if(this.points.length>2&&(this.isFirst(point)||event?.detail>1))return this.
+finish(this.points);if(this.points.length&&isFlat([this.points.at(-1),next]))return void 0}this.points.push(next);if(this.shape==="point"||PAIRS.has(this.shape)&&
+this.points.length===2)return this.finish(this.points);return this.draw()}isFirst({X,Y}){const[x,y]=act(this.place(),this.points[0]),{view}=this.scene;return Math.
+hypot(view.X(x)-X,view.Y(y)-Y)<CLOSE}hover(point){this.next=point&&this.point(point);this.draw()}drag(point,held){if(!PAIRS.has(this.shape)||this.points.length)
+return false;this.dragging=[this.point(this.inPlane(held.from)),this.point(point)];this.draw();return true}inPlane({X,Y}){return{x:this.scene.view.x(X),y:this.scene.
+view.y(Y)}}inMiddle(){const{width,height}=this.scene.size,half=SHARE2*Math.min(width,height);return MIDDLE[this.shape].map(([x,y])=>this.point(this.inPlane({X:width/
+2+half*x,Y:height/2-half*y})))}release(){if(!this.dragging)return;const pair=this.dragging;this.dragging=null;this.finish(pair)}finish(points){if(PAIRS.has(this.
+shape)&&isFlat(points)){this.points=points.slice(0,1);return this.draw()}this.scene.use(null);return this.done(this.shape==="box"?ordered(points):points)}key(event){
+if(event.key==="Escape")this.scene.use(null);else if(event.key==="Backspace")this.points.pop();else if(event.key==="Enter"&&!this.points.length)this.finish(this.
+inMiddle());else if(event.key==="Enter"&&this.points.length>2)this.finish(this.points);else return false;this.draw();return true}draw(){const{scene:{view},shape}=this,
+shown2=this.dragging??[...this.points,...this.next?[this.next]:[]];const place=this.place(),whole=shape==="polygon"?"open polygon":shape;const complete=shown2.length>
+1||shape==="point";put(this.path,"d",complete&&shown2.length?pathOf(whole,shown2,place,view):"");this.dots.replaceChildren(...(this.dragging??this.points).map(point=>act(
+place,point)).map(([x,y],k)=>s("circle",{class:k?"bs-draft-dot":"bs-draft-dot bs-first",r:4,cx:px(view.X(x)),cy:px(view.Y(y))})))}end(){this.element.remove()}};var MOST_GHOSTS=60;var PALEST=.4;function referenceIndex(store){const{selection,document:document2}=store;if(selection?.kind==="pose"&&selection.index<document2.
+poses.length)store.reference=selection.index;return Math.min(store.reference??0,document2.poses.length-1)}function referencePlace(store){const k=referenceIndex(
+store);if(k<0)return{x:0,y:0,a:0};const{x,y,angle}=standing(store.document,k);return{x,y,a:radians(angle)}}var BodyEditor=class{constructor(store,scene){this.store=
+store;this.scene=scene;this.ghosts=new Kept(s("g",{class:"bs-ghosts","aria-hidden":"true"}),()=>s("path",{class:"bs-ghost"}),(path,item)=>this.showGhost(path,item));
+scene.layer("ghosts").append(this.ghosts.group);this.handles=new ShapeHandles(scene,{className:"bs-body-shape",what:()=>({shape:"polygon",points:bodyOf(store.document),
+place:referencePlace(store),name:"Outline of the body",selected:store.selection?.kind==="body",data:{body:""}}),set:(points,gesture)=>store.edit(document2=>setBody(
+document2,points),{gesture}),remove:()=>store.edit(document2=>setBody(document2,[])),select:()=>store.select({kind:"body",index:0}),abandon:gesture=>store.abandon(
+gesture)});store.on("document selection",()=>this.draw());scene.on("view",()=>this.draw());scene.hold(()=>this.corners(),true);this.draw()}corners(){const body=bodyOf(
+this.store.document);return this.indices().flatMap(k=>{const{x,y,angle}=standing(this.store.document,k);return body.map(corner=>act({x,y,a:radians(angle)},corner))})}indices(){
+const drawn=drawnPoses(this.store,this.scene.view.scale),stride=Math.ceil(drawn.length/MOST_GHOSTS);return drawn.filter((_,i)=>i%stride===0||i===drawn.length-1)}draw(){
+const body=bodyOf(this.store.document),{scale}=this.scene.view;this.path=body.length?`M${body.map(([x,y])=>`${px(scale*x)} ${px(-scale*y)}`).join("L")}Z`:"";this.
+ghosts.draw(body.length?this.indices().map(k=>[k,k]):[]);if(!body.length||!this.store.document.poses.length)return this.handles.clear();if(!this.handles.element.
+parentNode)this.scene.layer("ghosts").append(this.handles.element);return this.handles.draw()}showGhost(path,k){const{view}=this.scene,{x,y,angle}=standing(this.
+store.document,k),last=Math.max(1,this.store.document.poses.length-1);if(!isOther(path,[view,x,y,angle,k/last,this.path]))return;put(path,"d",this.path);put(path,
+"opacity",(PALEST+(1-PALEST)*k/last).toFixed(3));put(path,"transform",transform(view.X(x),view.Y(y),radians(angle)))}tool(){return new ShapeTool(this.scene,{shape:"\
+polygon",name:"body",place:()=>referencePlace(this.store),done:points=>{this.store.edit(document2=>setBody(document2,points));this.store.select({kind:"body",index:0})}})}};var TYPED_IN="button, input, select, textarea, summary, a, [role=button], [role=slider]";var written2=element=>element?.matches?.("input:not([type=checkbox]):no\
+t([type=radio]):not([type=range]), textarea");function listenToKeys(store,scene,files=null,root=document){const acts=event=>({z:()=>event.shiftKey?store.redo():
+store.undo(),y:()=>store.redo(),...files&&{s:()=>files.save(),o:()=>files.chooser.click()}});root.addEventListener("keydown",event=>{const{key,target}=event,control=(event.
+ctrlKey||event.metaKey)&&!event.altKey;if(control){const act2=acts(event)[key.toLowerCase()];if(!act2||written2(target)&&target.dataset.typing==="true"&&/^[zy]$/i.
+test(key))return;event.preventDefault();act2()}else if(scene.dragged&&key==="Escape"){event.preventDefault();scene.dragged.cancel()}else if(scene.tool&&!written2(
+target)&&scene.tool.key(event)){event.preventDefault();event.stopPropagation()}else if(key==="Escape"&&!written2(target)&&store.selection){store.select(null)}},
+true);root.addEventListener("input",({target})=>target.dataset&&(target.dataset.typing="true"));for(const name of["change","focusout"])root.addEventListener(name,
+({target})=>target.dataset&&delete target.dataset.typing)}function listenToSpace({player},root=document){root.addEventListener("keydown",event=>{if(event.key!==
+" "||event.ctrlKey||event.metaKey||event.altKey||event.target.closest?.(TYPED_IN)||!player.path)return;event.preventDefault();player.play(!player.playing)})}var LONGEST=4e3;function railOf(dyad,places,view){const[nx,ny]=normalOf(dyad),[low,high]=travelOf(dyad,places);const half=view.scale*(high-low)/2+BLOCK[0],edge=BLOCK[1]/
 2+1;const[x,y]=(at=>[view.X(at[0]),view.Y(at[1])])(pointOnLine(dyad,(low+high)/2));const bodySide=places.reduce((sum,place)=>sum+nx*place.x+ny*place.y-dyad.line.
 offset,0);const turned=Math.atan2(nx,-ny)+(bodySide>0?Math.PI:0);const drawn=Math.min(half,LONGEST);let hatch="";for(let k=-drawn+4;k<drawn-2;k+=8)hatch+=`M${px(
 k+4)} ${edge}l-6 7`;return{x,y,half,drawn,turned,paths:[`M${px(-half)} ${edge}H${px(half)}${hatch}`,`M${px(-half)} ${-edge}H${px(half)}`]}}var FACTORS=[0,1,10,100,1e3,1e4,1e5];function factorFor(data,linkage){const worst=Math.max(0,...linkage.pose_errors.map(row=>row.position??0));if(!(worst>1e-9*data.
@@ -617,43 +834,46 @@ scene))return 0;const fits=FACTORS.filter(factor=>factor>=1&&factor*worst<.3*dat
 last?values[k+1]:closed2?values[1]:2*values[last]-values[last-1];const behind=(values,k)=>k>0?values[k-1]:closed2?values[last-1]:2*values[0]-values[1];let d=`M${hundredths(
 X[0])} ${hundredths(Y[0])}`;let[u,v]=[(ahead(X,0)-behind(X,0))/6,(ahead(Y,0)-behind(Y,0))/6];for(let k=0;k<last;k+=1){const p=(ahead(X,k+1)-X[k])/6,q=(ahead(Y,k+
 1)-Y[k])/6;d+=`C${hundredths(X[k]+u)} ${hundredths(Y[k]+v)} ${hundredths(X[k+1]-p)} ${hundredths(Y[k+1]-q)} ${hundredths(X[k+1])} ${hundredths(Y[k+1])}`;[u,v]=[
-p,q]}return d}var MOST_ACHIEVED=240;var BELOW=38;var LEAST_ARROW=1.5;var LiveLinkage=class{constructor(answers,playing,scene){Object.assign(this,{answers,playing,scene,factor:0});
-this.beyond=s("path",{class:"bm-curve bm-beyond"});this.others=s("path",{class:"bm-curve bm-other"});this.here=s("path",{class:"bm-curve bm-here"});this.pivotPaths=
-[0,1].map(side=>s("path",{class:`bm-pivot-path bm-side${side}`}));this.paths=s("g",{class:"bs-paths","aria-hidden":"true"},this.others,this.beyond,...this.pivotPaths,
-this.here);this.feet=[0,1].map(side=>{const at=foot();at.classList.add(`bm-side${side}`);return at});this.rails=[0,1].map(side=>s("g",{class:`bm-rail bm-side${side}`},
-s("path",{class:"bm-ground"}),s("path",{class:"bm-ground bm-thin"})));this.achieved=s("g",{class:"bs-achieved"});this.arrows=s("path",{});this.names=[0,1].map(side=>s(
-"text",{class:`bm-name bm-side${side}`,"text-anchor":"middle"}));this.mechanism=null;this.holder=s("g",{class:"bs-mechanism"},...this.rails,...this.feet,this.achieved,
-s("g",{class:"bm-errors"},this.arrows));this.labels=s("g",{class:"bs-dyad-names"},this.names);scene.layer("paths").append(this.paths);scene.layer("mechanism").append(
-this.holder);scene.layer("labels").append(this.labels);scene.hold?.(()=>this.points());playing.on("shape",()=>this.shape());playing.on("place",({place})=>this.mechanism?.
-show(place));scene.on("view",()=>this.redraw());this.redraw()}points(){const{linkage}=this.playing,{data}=this.answers;if(!linkage)return[];const[pose]=data.poses,
-near2=([x,y])=>pose&&Math.hypot(x-pose.x,y-pose.y)<3*data.scene;const pins=linkage.led.flatMap(dyad=>dyad.fixed_pivot?[dyad.fixed_pivot]:[]);const moving=linkage.
-pose_errors.filter(row=>row.x!==null).flatMap(row=>linkage.led.filter(dyad=>dyad.moving_pivot).map(dyad=>act({x:row.x,y:row.y,a:radians(row.angle_deg)},dyad.moving_pivot)));
-return[...pins,...moving].filter(near2)}enlarge(){const{linkage}=this.playing,{data}=this.answers;const seen=linkage?.pose_errors.length&&!(linkage.followed&&linkage.
-worst<UNSEEN*data.scene);const fits=seen?factorFor(data,linkage):0;this.factor=this.answers.isOld&&this.factor&&fits?Math.min(this.factor,fits):fits}redraw(){this.
-shape();if(this.playing.here&&this.playing.path)this.mechanism?.show(this.playing.here.place)}shape(){const{playing,answers,scene}=this,{linkage,path}=playing,{
-view}=scene;const there=Boolean(linkage)&&!linkage.gone;for(const part of[this.paths,this.holder,this.labels])put(part,"visibility",there?"visible":"hidden");if(!there)
-return;const places=path?framesOf(path):[];this.enlarge();this.curves(linkage,path,places,view);this.ground(linkage,places,view);this.atPoses(linkage,view);if(!path){
-this.mechanism?.group.remove();this.mechanism=null;return}if(!this.mechanism?.fits(linkage)){this.mechanism?.group.remove();this.mechanism=new Mechanism(linkage);
-this.holder.append(this.mechanism.group)}this.mechanism.shape(answers.data,linkage,view,places)}curves(linkage,path,places,view){const set=(element,list2,closed2)=>put(
-element,"d",smoothPath(list2.map(([x])=>view.X(x)),list2.map(([,y])=>view.Y(y)),closed2));const others=linkage.ways.filter(way=>way!==path);put(this.others,"d",
-others.map(way=>pathOf(way,view)).join(""));put(this.beyond,"d",path?pathOf(path,view):"");this.pivotPaths.forEach((element,side)=>{const dyad=linkage.led[side];
-if(!path||!dyad.moving_pivot||dyad.kind==="PR")put(element,"d","");else set(element,places.map(place=>act(place,dyad.moving_pivot)),path.round)});if(!path){put(
-this.here,"d","");return}const{low,high}=this.playing.player.stretch,{length}=this.answers.data.chart,list=[];const end=u=>(place=>[place.x,place.y])(placeAt(linkage,
-path,u,length));list.push(end(low));for(let k=Math.floor(low)+1;k<high;k+=1)list.push([path.x[k],path.y[k]]);list.push(end(high));set(this.here,list,path.round&&
-high-low>path.x.length-1-1e-6)}ground(linkage,places,view){linkage.led.forEach((dyad,side)=>{const[rail,at,name]=[this.rails[side],this.feet[side],this.names[side]];
-const slides=dyad.kind==="PR"&&places.length>0;put(rail,"display",slides?"inline":"none");put(at,"display",dyad.fixed_pivot?"inline":"none");put(name,"display",
-slides||dyad.fixed_pivot?"inline":"none");say(name,dyad.id);let x,y;if(slides){const drawn=railOf(dyad,places,view);({x,y}=drawn);put(rail,"transform",transform(
-x,y,drawn.turned));drawn.paths.forEach((d,k)=>put(rail.children[k],"d",d));put(rail,"data-dyad",dyad.id)}else if(dyad.fixed_pivot){[x,y]=[view.X(dyad.fixed_pivot[0]),
-view.Y(dyad.fixed_pivot[1])];put(at,"transform",`translate(${px(x)} ${px(y)})`)}else{return}put(name,"transform",`translate(${px(x)} ${px(y+BELOW)})`)})}atPoses(linkage,view){
-const{achieved,answers:{data}}=this,rows=linkage.pose_errors;const count=Math.min(rows.length,MOST_ACHIEVED),small=count>24?.6:1;while(achieved.children.length>
-count)achieved.lastChild.remove();while(achieved.children.length<count)achieved.append(s("g",{class:"bm-achieved"},s("path",{}),s("circle",{})));let arrows="";for(let k=0;k<
-count;k+=1){const row=rows[k],group=achieved.children[k];if(group.dataset.size!==String(small)){group.dataset.size=small;put(group.children[0],"d",axes(.72*AXIS*
-small));put(group.children[1],"r",2.2*small)}if(row.x===null){put(group,"display","none");continue}put(group,"display","inline");put(group,"transform",transform(
-view.X(row.x),view.Y(row.y),radians(row.angle_deg)));group.classList.toggle("bm-elsewhere",row.at!==this.playing.path);if(this.factor&&data.poses[k])arrows+=arrow(
-view,data.poses[k],row,this.factor)}put(this.arrows,"d",arrows)}};var framesOf=way=>Array.from(way.x,(x,k)=>({x,y:way.y[k],a:way.angle[k]}));var pathOf=(way,view)=>smoothPath(
+p,q]}return d}var MOST_ACHIEVED=240;var OFF=27;var FOOT=11;var LEAST_ARROW=1.5;var LiveLinkage=class{constructor(answers,playing,scene){Object.assign(this,{answers,playing,scene,
+factor:0});this.beyond=s("path",{class:"bm-curve bm-beyond"});this.others=s("path",{class:"bm-curve bm-other"});this.here=s("path",{class:"bm-curve bm-here"});this.
+pivotPaths=[0,1].map(side=>s("path",{class:`bm-pivot-path bm-side${side}`}));this.paths=s("g",{class:"bs-paths","aria-hidden":"true"},this.others,this.beyond,...this.
+pivotPaths,this.here);this.feet=[0,1].map(side=>{const at=foot();at.classList.add(`bm-side${side}`);return at});this.rails=[0,1].map(side=>s("g",{class:`bm-rail\
+ bm-side${side}`},s("path",{class:"bm-ground"}),s("path",{class:"bm-ground bm-thin"})));this.achieved=s("g",{class:"bs-achieved"});this.arrows=s("path",{});this.
+names=[0,1].map(side=>s("text",{class:`bm-name bm-side${side}`,"text-anchor":"middle"}));this.mechanism=null;this.holder=s("g",{class:"bs-mechanism"},...this.rails,
+...this.feet,this.achieved,s("g",{class:"bm-errors"},this.arrows));this.labels=s("g",{class:"bs-dyad-names"},this.names);scene.layer("paths").append(this.paths);
+scene.layer("mechanism").append(this.holder);scene.layer("labels").append(this.labels);scene.hold?.(()=>this.points());playing.on("shape",()=>this.shape());playing.
+on("place",({place})=>this.mechanism?.show(place));scene.on("view",()=>this.redraw());scene.names?.avoid(()=>this.obstacles());this.redraw()}points(){const{linkage}=this.
+playing,{data}=this.answers;if(!linkage)return[];const[pose]=data.poses,near2=([x,y])=>pose&&Math.hypot(x-pose.x,y-pose.y)<3*data.scene;const pins=linkage.led.flatMap(
+dyad=>dyad.fixed_pivot?[dyad.fixed_pivot]:[]);const moving=linkage.pose_errors.filter(row=>row.x!==null).flatMap(row=>linkage.led.filter(dyad=>dyad.moving_pivot).
+map(dyad=>act({x:row.x,y:row.y,a:radians(row.angle_deg)},dyad.moving_pivot)));return[...pins,...moving].filter(near2)}obstacles(){const{playing:{linkage},scene:{
+view}}=this,pins=linkage&&!linkage.gone?linkage.led.filter(dyad=>dyad.fixed_pivot):[];return pins.map(({fixed_pivot:[x,y]})=>[view.X(x),view.Y(y)+FOOT,34,36])}enlarge(){
+const{linkage}=this.playing,{data}=this.answers;const seen2=linkage?.pose_errors.length&&!(linkage.followed&&linkage.worst<UNSEEN*data.scene);const fits=seen2?factorFor(
+data,linkage):0;this.factor=this.answers.isOld&&this.factor&&fits?Math.min(this.factor,fits):fits}redraw(){this.shape();if(this.playing.here&&this.playing.path)
+this.mechanism?.show(this.playing.here.place)}shape(){const{playing,answers,scene}=this,{linkage,path}=playing,{view}=scene;const there=Boolean(linkage)&&!linkage.
+gone;for(const part of[this.paths,this.holder,this.labels])put(part,"visibility",there?"visible":"hidden");if(!there)return;const places=path?framesOf(path):[];
+this.enlarge();this.curves(linkage,path,places,view);this.ground(linkage,places,view);this.atPoses(linkage,view);if(!path){this.mechanism?.group.remove();this.mechanism=
+null;return}if(!this.mechanism?.fits(linkage)){this.mechanism?.group.remove();this.mechanism=new Mechanism(linkage);this.holder.append(this.mechanism.group)}this.
+mechanism.shape(answers.data,linkage,view,places)}curves(linkage,path,places,view){const set=(element,list2,closed2)=>put(element,"d",smoothPath(list2.map(([x])=>view.
+X(x)),list2.map(([,y])=>view.Y(y)),closed2));const others=linkage.ways.filter(way=>way!==path);put(this.others,"d",others.map(way=>pathOf2(way,view)).join(""));
+put(this.beyond,"d",path?pathOf2(path,view):"");this.pivotPaths.forEach((element,side)=>{const dyad=linkage.led[side];if(!path||!dyad.moving_pivot||dyad.kind===
+"PR")put(element,"d","");else set(element,places.map(place=>act(place,dyad.moving_pivot)),path.round)});if(!path){put(this.here,"d","");return}const{low,high}=this.
+playing.player.stretch,{length}=this.answers.data.chart,list=[];const end=u=>(place=>[place.x,place.y])(placeAt(linkage,path,u,length));list.push(end(low));for(let k=Math.
+floor(low)+1;k<high;k+=1)list.push([path.x[k],path.y[k]]);list.push(end(high));set(this.here,list,path.round&&high-low>path.x.length-1-1e-6)}ground(linkage,places,view){
+const{scene}=this;linkage.led.forEach((dyad,side)=>{const[rail,at,name]=[this.rails[side],this.feet[side],this.names[side]];const slides=dyad.kind==="PR"&&places.
+length>0;put(rail,"display",slides?"inline":"none");put(at,"display",dyad.fixed_pivot?"inline":"none");put(name,"display",slides||dyad.fixed_pivot?"inline":"non\
+e");say(name,dyad.id);let x,y;if(slides){const drawn=railOf(dyad,places,view);({x,y}=drawn);put(rail,"transform",transform(x,y,drawn.turned));drawn.paths.forEach(
+(d,k)=>put(rail.children[k],"d",d));put(rail,"data-dyad",dyad.id)}else if(dyad.fixed_pivot){[x,y]=[view.X(dyad.fixed_pivot[0]),view.Y(dyad.fixed_pivot[1])];put(
+at,"transform",`translate(${px(x)} ${px(y)})`)}else{return}scene.names.put(name,x,y+FOOT,dyad.id,around(dyad.id,-Math.PI/2,OFF))})}atPoses(linkage,view){const{achieved,
+answers:{data}}=this,rows=linkage.pose_errors;const count=Math.min(rows.length,MOST_ACHIEVED),small=count>24?.6:1;while(achieved.children.length>count)achieved.
+lastChild.remove();while(achieved.children.length<count)achieved.append(s("g",{class:"bm-achieved"},s("path",{}),s("circle",{})));let arrows="";for(let k=0;k<count;k+=
+1){const row=rows[k],group=achieved.children[k];if(group.dataset.size!==String(small)){group.dataset.size=small;put(group.children[0],"d",axes(.72*AXIS*small));
+put(group.children[1],"r",2.2*small)}if(row.x===null){put(group,"display","none");continue}put(group,"display","inline");put(group,"transform",transform(view.X(
+row.x),view.Y(row.y),radians(row.angle_deg)));group.classList.toggle("bm-elsewhere",row.at!==this.playing.path);if(this.factor&&data.poses[k])arrows+=arrow(view,
+data.poses[k],row,this.factor)}put(this.arrows,"d",arrows)}};var framesOf=way=>Array.from(way.x,(x,k)=>({x,y:way.y[k],a:way.angle[k]}));var pathOf2=(way,view)=>smoothPath(
 Array.from(way.x,view.X),Array.from(way.y,view.Y),way.round);function arrow(view,pose,row,factor){const x=view.X(pose.x),y=view.Y(pose.y),by=factor*view.scale;const dx=by*
-(row.x-pose.x),dy=-by*(row.y-pose.y),size=Math.hypot(dx,dy);if(!(size>=LEAST_ARROW))return"";const head=Math.min(7,.5*size),ux=dx/size,uy=dy/size,tip=`${px(x+dx)}\
- ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(y+dy-head*(uy+sign*.5*ux))}`;return`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}`}function wayStory(way,poses){const names=poses.map(pose=>pose.label);const all=way.poses.length===names.length;const here=all?"all poses":way.poses.length?`pose${way.
+(row.x-pose.x),dy=-by*(row.y-pose.y),size2=Math.hypot(dx,dy);if(!(size2>=LEAST_ARROW))return"";const head=Math.min(7,.5*size2),ux=dx/size2,uy=dy/size2,tip=`${px(
+x+dx)} ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(y+dy-head*(uy+sign*.5*ux))}`;return`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(
+-1)}`}function wayStory(way,poses){const names=poses.map(pose=>pose.label);const all=way.poses.length===names.length;const here=all?"all poses":way.poses.length?`pose${way.
 poses.length>1?"s":""} ${runs(way.poses,names)}`:"no pose";const dead=way.dead.filter(Boolean).length;const ends=way.round?"turns round":dead===2?"between two d\
 ead points":dead?"up to a dead point":"open";return`${here}; ${ends}`}var Assemblies=class{constructor(data,take){this.data=data;this.take=take;this.name=`bm-way-${Math.random().toString(36).slice(2)}`;this.element=h("fieldset",{class:"\
 bm-ways"})}build(linkage,index){const one=(way,k)=>h("label",{},h("input",{type:"radio",name:this.name,value:k,checked:k===index,onchange:()=>this.take(k)}),h("\
@@ -680,35 +900,35 @@ stopsOnWay.filter(row=>this.data.poses[row.k]);const rows=known.sort((a,b)=>a.fr
 rows.map(({x,pose})=>({x,text:shortened(poseName(pose),LONGEST_TICK)})),width,NAME_ROWS);const texts=named.every(({at})=>at>=0)?named:laidOut(rows.map(({x,pose})=>({
 x,text:pose.label})),width,rows.length>MANY_POSES?1:NUMBER_ROWS);const deepest=Math.max(0,...texts.map(({at})=>at));const one=(k,pose,...parts)=>s("g",{"data-po\
 se":k+1},s("title",{},`pose ${poseName(pose)}`),...parts);rows.forEach(({k,x,pose},i)=>stops.append(one(k,pose,s("path",{d:`M${px(x)} 0V${4+ROW*Math.max(0,texts[i].
-at)}`}))));rows.forEach(({k,pose},i)=>{const{at,middle,text}=texts[i];if(at>=0)stops.append(one(k,pose,s("text",{x:px(middle),y:14+ROW*at,"text-anchor":"middle"},
-text)))});put(stops,"viewBox",`0 0 ${width} ${16+ROW*deepest}`);put(stops,"height",16+ROW*deepest)}play(on){if(on&&!this.path)return;this.remaining=null;if(on===
-this.playing&&this.isDressed)return;this.isDressed=true;this.playing=on;put(this.readout,"aria-live",on?"off":"polite");this.button.replaceChildren(icon(on),on?
-"Pause":"Play");put(this.button,"aria-label",on?"Pause":"Play");this.button.title=on?"Pause (space)":"Play (space)";cancelAnimationFrame(this.tick);if(!on)return;
-let before=null;const run=now=>{if(!this.playing)return;if(before!==null)this.advance(Math.min(.1,(now-before)/1e3));before=now;if(this.playing)this.tick=requestAnimationFrame(
-run)};this.tick=requestAnimationFrame(run)}playOnce(){if(!this.path)return;const{low,high}=this.stretch;this.play(true);this.remaining=(this.goesRound?1:2)*(high-
-low)}get goesRound(){return this.path.round&&this.stretch.high-this.stretch.low>this.path.x.length-1-LEAST_STRETCH}advance(seconds){const{low,high}=this.stretch;
-const step=seconds*(high-low)/(this.goesRound?TURN_SECONDS:TURN_SECONDS/2);if(this.remaining!==null){this.remaining-=step;if(this.remaining<=0){this.play(false);
-this.u=this.firstStop();this.show();return}}this.u+=this.heading*step;if(this.goesRound)this.u=around(this.u,high);else if(this.u>=high||this.u<=low){this.heading=
-this.u>=high?-1:1;this.u=clamp(this.u,low,high)}this.show()}step(steps){if(!this.path)return;const{low,high}=this.stretch;const u=this.u+steps*Math.max(.001,(high-
-low)/STEPS);this.go(this.goesRound?around(u,high):u)}go(u){if(!this.path)return;this.play(false);this.u=clamp(u,this.stretch.low,this.stretch.high);this.show()}toPose(sense){
-const all=this.linkage.pose_errors.map((row,k)=>({...row,k})).filter(row=>row.way!==null);if(!all.length)return;const here=this.atPose??(sense>0?-1:this.data.poses.
-length);const next=sense>0?all.find(row=>row.k>here)??all[0]:[...all].reverse().find(row=>row.k<here)??all[all.length-1];this.play(false);if(next.way!==this.way){
-this.way=next.way;this.u=next.frame;this.draw.rebuild()}this.go(next.frame);this.atPose=next.k}nearest(place){let near2=0,least2=Infinity;this.data.poses.forEach(
-(pose,k)=>{const turn=place.a-radians(pose.angle_deg);const away=Math.hypot(place.x-pose.x,place.y-pose.y,this.data.chart.length*(turn-2*Math.PI*Math.round(turn/
-(2*Math.PI))));if(away<least2)[near2,least2]=[k,away]});return near2}show(told=true){const{path,linkage,data}=this;if(!path){for(const part of this.parts)part.textContent=
-"";return}const place=placeAt(linkage,path,this.u,data.chart.length);const drive=linear(path.drive,this.u),transmission=linear(path.transmission,this.u);const near2=this.
-atPose=this.nearest(place);if(told){give(this.slider,"min",this.stretch.low);give(this.slider,"max",this.stretch.high);give(this.slider,"value",this.u);this.tell(
-place,drive,transmission,near2)}this.draw.show(place,drive,transmission,near2)}tell(place,drive,transmission,near2){const{data,linkage}=this;const unit=data.unit?
-` ${data.unit}`:"",digits=decimalsOf(data);const driver=linkage.led[0].kind==="PR"?`${fixed(drive,digits)}${unit}`:`${fixed(drive,1)}°`;const pose=data.poses[near2],
-row=linkage.pose_errors[near2];const at=row?.at===this.path&&Math.abs(row.frame-this.u)<1e-6;const away=()=>`${figure(Math.hypot(place.x-pose.x,place.y-pose.y))}${unit}\
- from pose ${poseName(pose)}`;const missed=()=>`at pose ${poseName(pose)}, ${row.said.position==="exact"?"":"off by "}${missOf(row.said.position,row.said.turned,
-unit)}`;const said=!pose?"between the poses":at?missed():away();const texts=[`driver ${driver}`,`body (${fixed(place.x,digits)}, ${fixed(place.y,digits)})${unit}\
-, ${fixed(((degrees(place.a)+180)%360+360)%360-180,2)}°`,`transmission ${transmission===null?"–":`${fixed(transmission,1)}°`}`,said];texts.forEach((text,k)=>{
-const whole=k+1<texts.length?`${text} ·`:text;if(this.parts[k].textContent!==whole)this.parts[k].textContent=whole});put(this.slider,"aria-valuetext",`driver ${driver}\
-, ${texts[3]}`)}};function laidOut(texts,width,count){const ends=Array(count).fill(-99);return texts.map(({x,text})=>{const size=6.4*text.length,left=clamp(x-size/
-2,0,Math.max(0,width-size));const at=ends.findIndex(end=>left>end+4);if(at>=0)ends[at]=left+size;return{text,at,middle:left+size/2}})}var around=(u,turn)=>(u%turn+
-turn)%turn;function icon(pause){return s("svg",{width:12,height:12,viewBox:"0 0 12 12","aria-hidden":"true"},s("path",{d:pause?"M1 0h3.5v12H1zM7.5 0H11v12H7.5z":
-"M1 0l11 6l-11 6z"}))}function driveOf(dyad,place){if(dyad.kind==="PR")return alongLine(dyad,place);if(dyad.kind==="RP")return place.a+radians(dyad.line.normal_deg);const[x,y]=act(place,
+at)}`}))));rows.forEach(({k,pose},i)=>{const{at,middle:middle2,text}=texts[i];if(at>=0)stops.append(one(k,pose,s("text",{x:px(middle2),y:14+ROW*at,"text-anchor":"\
+middle"},text)))});put(stops,"viewBox",`0 0 ${width} ${16+ROW*deepest}`);put(stops,"height",16+ROW*deepest)}play(on){if(on&&!this.path)return;this.remaining=null;
+if(on===this.playing&&this.isDressed)return;this.isDressed=true;this.playing=on;put(this.readout,"aria-live",on?"off":"polite");this.button.replaceChildren(icon(
+on),on?"Pause":"Play");put(this.button,"aria-label",on?"Pause":"Play");this.button.title=on?"Pause (space)":"Play (space)";cancelAnimationFrame(this.tick);if(!on)
+return;let before=null;const run=now=>{if(!this.playing)return;if(before!==null)this.advance(Math.min(.1,(now-before)/1e3));before=now;if(this.playing)this.tick=
+requestAnimationFrame(run)};this.tick=requestAnimationFrame(run)}playOnce(){if(!this.path)return;const{low,high}=this.stretch;this.play(true);this.remaining=(this.
+goesRound?1:2)*(high-low)}get goesRound(){return this.path.round&&this.stretch.high-this.stretch.low>this.path.x.length-1-LEAST_STRETCH}advance(seconds){const{low,
+high}=this.stretch;const step=seconds*(high-low)/(this.goesRound?TURN_SECONDS:TURN_SECONDS/2);if(this.remaining!==null){this.remaining-=step;if(this.remaining<=
+0){this.play(false);this.u=this.firstStop();this.show();return}}this.u+=this.heading*step;if(this.goesRound)this.u=around2(this.u,high);else if(this.u>=high||this.
+u<=low){this.heading=this.u>=high?-1:1;this.u=clamp(this.u,low,high)}this.show()}step(steps){if(!this.path)return;const{low,high}=this.stretch;const u=this.u+steps*
+Math.max(.001,(high-low)/STEPS);this.go(this.goesRound?around2(u,high):u)}go(u){if(!this.path)return;this.play(false);this.u=clamp(u,this.stretch.low,this.stretch.
+high);this.show()}toPose(sense){const all=this.linkage.pose_errors.map((row,k)=>({...row,k})).filter(row=>row.way!==null);if(!all.length)return;const here=this.
+atPose??(sense>0?-1:this.data.poses.length);const next=sense>0?all.find(row=>row.k>here)??all[0]:[...all].reverse().find(row=>row.k<here)??all[all.length-1];this.
+play(false);if(next.way!==this.way){this.way=next.way;this.u=next.frame;this.draw.rebuild()}this.go(next.frame);this.atPose=next.k}nearest(place){let near2=0,least2=Infinity;
+this.data.poses.forEach((pose,k)=>{const turn=place.a-radians(pose.angle_deg);const away=Math.hypot(place.x-pose.x,place.y-pose.y,this.data.chart.length*(turn-2*
+Math.PI*Math.round(turn/(2*Math.PI))));if(away<least2)[near2,least2]=[k,away]});return near2}show(told=true){const{path,linkage,data}=this;if(!path){for(const part of this.
+parts)part.textContent="";return}const place=placeAt(linkage,path,this.u,data.chart.length);const drive=linear(path.drive,this.u),transmission=linear(path.transmission,
+this.u);const near2=this.atPose=this.nearest(place);if(told){give(this.slider,"min",this.stretch.low);give(this.slider,"max",this.stretch.high);give(this.slider,
+"value",this.u);this.tell(place,drive,transmission,near2)}this.draw.show(place,drive,transmission,near2)}tell(place,drive,transmission,near2){const{data,linkage}=this;
+const unit=data.unit?` ${data.unit}`:"",digits=decimalsOf(data);const driver=linkage.led[0].kind==="PR"?`${fixed(drive,digits)}${unit}`:`${fixed(drive,1)}°`;const pose=data.
+poses[near2],row=linkage.pose_errors[near2];const at=row?.at===this.path&&Math.abs(row.frame-this.u)<1e-6;const away=()=>`${figure(Math.hypot(place.x-pose.x,place.
+y-pose.y))}${unit} from pose ${poseName(pose)}`;const missed2=()=>`at pose ${poseName(pose)}, ${row.said.position==="exact"?"":"off by "}${missOf(row.said.position,
+row.said.turned,unit)}`;const said=!pose?"between the poses":at?missed2():away();const texts=[`driver ${driver}`,`body (${fixed(place.x,digits)}, ${fixed(place.
+y,digits)})${unit}, ${fixed(((degrees(place.a)+180)%360+360)%360-180,2)}°`,`transmission ${transmission===null?"–":`${fixed(transmission,1)}°`}`,said];texts.
+forEach((text,k)=>{const whole=k+1<texts.length?`${text} ·`:text;if(this.parts[k].textContent!==whole)this.parts[k].textContent=whole});put(this.slider,"aria-v\
+aluetext",`driver ${driver}, ${texts[3]}`)}};function laidOut(texts,width,count){const ends=Array(count).fill(-99);return texts.map(({x,text})=>{const size2=6.4*
+text.length,left=clamp(x-size2/2,0,Math.max(0,width-size2));const at=ends.findIndex(end=>left>end+4);if(at>=0)ends[at]=left+size2;return{text,at,middle:left+size2/
+2}})}var around2=(u,turn)=>(u%turn+turn)%turn;function icon(pause){return s("svg",{width:12,height:12,viewBox:"0 0 12 12","aria-hidden":"true"},s("path",{d:pause?
+"M1 0h3.5v12H1zM7.5 0H11v12H7.5z":"M1 0l11 6l-11 6z"}))}function driveOf(dyad,place){if(dyad.kind==="PR")return alongLine(dyad,place);if(dyad.kind==="RP")return place.a+radians(dyad.line.normal_deg);const[x,y]=act(place,
 dyad.moving_pivot);return Math.atan2(y-dyad.fixed_pivot[1],x-dyad.fixed_pivot[0])}function transmissionOf(driver,follower,place){if(driver.kind==="PP"||follower.
 kind==="PP")return null;const slot=dyad=>{const[nx,ny]=normalOf(dyad),c=Math.cos(place.a),d=Math.sin(place.a);return[c*nx-d*ny,d*nx+c*ny]};if(driver.kind==="RP"&&
 follower.kind==="RP")return 90;if(follower.kind==="RP"){const pin=act(place,driver.moving_pivot),[x,y]=follower.fixed_pivot;return between(slot(follower),[x-pin[0],
@@ -749,11 +969,7 @@ dead].reverse():piece.dead,poses:[],falls,drive:drive.map(value=>slides?value:de
 ({a})=>a),transmission:places.map(place=>transmissionOf(...led,place))}}function frameIn({stations},{way,frame},last){for(let k=0;k+1<stations.length;k+=1){const[
 a,b]=[stations[k],stations[k+1]];if(a.way!==way||b.way!==way){if(a.way===way&&Math.abs(a.u-frame)<1e-9)return k;if(b.way===way&&Math.abs(b.u-frame)<1e-9)return k+
 1;continue}const[u,v]=Math.abs(b.u-a.u)>last/2?[a,b].map(each=>each.u+(each.u<last/2?last:0)):[a.u,b.u];for(const at of[frame,frame+last]){if(at>=Math.min(u,v)-
-1e-9&&at<=Math.max(u,v)+1e-9)return u===v?k:k+(at-u)/(v-u);if(Math.max(u,v)<=last)break}}return null}var LEAST=250;var SHARE=8;var Pace=class{constructor(work,wanted=()=>true){this.work=work;this.wanted=wanted;this.free=0;this.timer=null;paces.add(this)}ask(){if(this.
-timer!==null||!this.wanted())return;this.timer=setTimeout(()=>this.now(),Math.max(0,this.free-performance.now()))}catchUp(){if(this.timer!==null)this.now()}now(){
-clearTimeout(this.timer);this.timer=null;const start=performance.now();this.work();const end=performance.now();this.free=end+Math.max(LEAST,SHARE*(end-start))}};
-var shown=new WeakMap;function isOther(element,facts){const before=shown.get(element);shown.set(element,facts);return before?.length!==facts.length||facts.some(
-(fact,k)=>!Object.is(fact,before[k]))}var paces=new Set;var REDUCED_MOTION="(prefers-reduced-motion: reduce)";var AT_POSE=1e-6;var Playing=class extends Events{constructor(store,answers){super();this.store=store;this.
+1e-9&&at<=Math.max(u,v)+1e-9)return u===v?k:k+(at-u)/(v-u);if(Math.max(u,v)<=last)break}}return null}var REDUCED_MOTION="(prefers-reduced-motion: reduce)";var AT_POSE=1e-6;var Playing=class extends Events{constructor(store,answers){super();this.store=store;this.
 answers=answers;this.isOther=false;this.here=null;this.player=new Player(answers.data,(place,drive,transmission,near2)=>this.placed({place,drive,transmission,near:near2}),
 ()=>this.rebuild());this.assemblies=new Assemblies(answers.data,index=>this.player.take(index));this.drivers=h("fieldset",{class:"bm-ways bs-drivers",hidden:true});
 this.note=h("p",{class:"bs-quiet bs-driver-note"});this.element=h("div",{class:"bs-player"},this.player.element,h("div",{class:"bs-player-ways"},this.drivers,this.
@@ -768,8 +984,8 @@ null;this.takeBest();this.rebuild();this.tellDriver()}takeBest(){const counts=th
 Math.max(...counts)));this.player.u=this.player.firstStop()}follow(){const{base,player}=this;if(!base)return;player.linkage=this.driven();const row=this.at?.pose===
 void 0?null:player.linkage.pose_errors[this.at.pose];if(row&&row.way!==null){player.way=row.way;player.u=row.frame}else if(!player.path){if(player.linkage.ways.
 length)this.takeBest()}else if(this.at){player.u=this.frameOf(player.path,this.at.drive)}player.rebuild();this.emit("shape",true);player.show(false);this.words.
-ask();this.marks.ask()}frameOf(way,drive){if(drive===null||this.linkage.led[0].kind==="PR")return frameAt(way.drive,drive??way.drive[0]);const middle=(way.drive[0]+
-way.drive[way.drive.length-1])/2;return frameAt(way.drive,drive-360*Math.round((drive-middle)/360))}rebuild(){const{player}=this;player.rebuild();this.assemblies.
+ask();this.marks.ask()}frameOf(way,drive){if(drive===null||this.linkage.led[0].kind==="PR")return frameAt(way.drive,drive??way.drive[0]);const middle2=(way.drive[0]+
+way.drive[way.drive.length-1])/2;return frameAt(way.drive,drive-360*Math.round((drive-middle2)/360))}rebuild(){const{player}=this;player.rebuild();this.assemblies.
 build(this.linkage,player.way);this.buildDrivers();this.emit("shape",false);this.marks.ask();player.show()}placed(here){this.here=here;const{path,u}=this.player;
 const pose=this.linkage.pose_errors.findIndex(row=>row.at===path&&Math.abs(row.frame-u)<AT_POSE);this.at={drive:here.drive,pose:pose<0?void 0:pose};this.emit("p\
 lace",here)}goToSelected(){const{selection}=this.store,{player}=this;if(selection?.kind!=="pose"||player.playing)return;const row=this.linkage?.pose_errors[selection.
@@ -783,116 +999,77 @@ id?base.drives.first:base.drives.second;const least2=drive.min_transmission_angl
 join("; "):`${drive.turns_fully?"turns fully":"reaches every pose"}${least2===null?"":`, transmission angle ${fixed(least2,1)}° or more between the poses`}`;say(
 this.note,`Driven by ${driver.id}: ${said}.`)}dress(){this.driversKey=null}hush(){const quiet=this.store.state==="dragging"||this.player.playing;put(this.player.
 readout,"aria-live",quiet?"off":"polite")}};function playOnce(store,answers,{player}){if(matchMedia(REDUCED_MOTION).matches)return;let first=true;answers.on("an\
-swers",()=>{if(first&&player.path){first=false;player.playOnce()}});store.on("document selection",()=>{first=false;if(player.remaining!==null)player.play(false)})}function withKeys(object,changes){const copy={...object,...changes};for(const[key,value]of Object.entries(changes))if(value===void 0)delete copy[key];return copy}
-var replaced=(list,index,value)=>list.map((each,k)=>k===index?value:each);var without=(list,index)=>list.filter((_,k)=>k!==index);var inserted=(list,index,value)=>[
-...list.slice(0,index),value,...list.slice(index)];var setPose=(document2,index,changes)=>withKeys(document2,{poses:replaced(document2.poses,index,withKeys(document2.poses[index],changes))});var addPose=(document2,pose,index=document2.
-poses.length)=>withKeys(document2,{poses:inserted(document2.poses,index,pose)});var removePose=(document2,index)=>withKeys(document2,{poses:without(document2.poses,
-index)});function component(poses,index,key){if(Number.isFinite(poses[index][key]))return poses[index][key];const before=poses.slice(0,index).findLastIndex(pose=>Number.
-isFinite(pose[key]));const behind=poses.slice(index+1).findIndex(pose=>Number.isFinite(pose[key]))+index+1;const[a,b]=[poses[before]?.[key],behind>index?poses[behind][key]:
-void 0];if(a===void 0||b===void 0)return a??b??0;return a+(index-before)/(behind-before)*(b-a)}function standing({poses},index){const{x,y,angle}=poses[index];if(Number.
-isFinite(x)&&Number.isFinite(y)&&Number.isFinite(angle))return{x,y,angle};return{x:component(poses,index,"x"),y:component(poses,index,"y"),angle:component(poses,
-index,"angle")}}var poseName2=({poses},index)=>poses[index]?.name??String(index+1);var statedOf=(pose,changes)=>Object.fromEntries(Object.entries(changes).filter(
-([key])=>Number.isFinite(pose[key])));var LAYERS=["grid","regions","ghosts","map","curves","paths","mechanism","limits","pivots","poses","labels","tool"];var MARGIN=46;var ZOOM=1.0018;var WIDEST=1e6;
-var CLICK=4;var RAW=8;var SPARE2=.5;var Scene=class{constructor(store,{zoomKey=false}={}){this.store=store;this.zoomKey=zoomKey;this.listeners={view:[],click:[],
-tool:[],dropped:[]};this.tool=null;this.dragged=null;this.layers=new Map(LAYERS.map(name=>[name,s("g",{class:`bs-layer bs-layer-${name}`})]));this.layers.get("g\
-rid").setAttribute("aria-hidden","true");this.svg=s("svg",{class:"bs-scene",tabindex:0,role:"group","aria-label":"The plane: poses, linkage and limits. Arrow ke\
-ys pan, plus and minus zoom, 0 fits."},...this.layers.values());this.element=h("div",{class:"bs-plane"},this.svg);this.size={width:640,height:480};this.origin={
-scale:1,left:320,top:240};this.isFitted=true;this.pointers=new Map;this.boxes=[];this.update();this.listen();store.on("document",()=>this.unit===store.document.
-length_unit||this.grid());new ResizeObserver(()=>this.resize()).observe(this.element);addEventListener("scroll",()=>this.box=null,{capture:true,passive:true})}layer(name){
-return this.layers.get(name)}on(name,fn){this.listeners[name].push(fn)}emit(name,...values){return this.listeners[name].map(fn=>fn(...values)).some(Boolean)}hold(fn,far=false){
-this.boxes.push({fn,far})}update(){const{width,height}=this.size,{scale,left,top}=this.origin;this.view={scale,left,top,width,height,X:x=>left+scale*x,Y:y=>top-
-scale*y,x:X=>(X-left)/scale,y:Y=>(top-Y)/scale};Object.assign(this.svg.dataset,{scale,left,top,fit:this.isFitted?this.isWhole?"all":"near":""});this.grid();this.
-emit("view",this.view)}resize(){this.box=null;const{width,height}=this.svg.getBoundingClientRect();if(!width||!height||width===this.size.width&&height===this.size.
-height)return;this.origin={...this.origin,left:this.origin.left+(width-this.size.width)/2,top:this.origin.top+(height-this.size.height)/2};this.size={width,height};
-put(this.svg,"viewBox",`0 0 ${width} ${height}`);if(this.isFitted)this.fit(this.isWhole);else this.update()}pan(dx,dy){this.isFitted=false;this.origin={...this.
-origin,left:this.origin.left+dx,top:this.origin.top+dy};this.update()}zoom(factor,X,Y){const fitted=this.fittedScale??this.origin.scale;const scale=clamp(this.origin.
-scale*factor,fitted/WIDEST,fitted*WIDEST),by=scale/this.origin.scale;this.isFitted=false;this.origin={scale,left:X+by*(this.origin.left-X),top:Y+by*(this.origin.
-top-Y)};this.update()}fit(whole=false){const pointsOf=isFar=>this.boxes.filter(({far:far2})=>far2===isFar).flatMap(({fn})=>fn());const near2=pointsOf(false),far=pointsOf(
-true),all=bounds([...near2,...far]);let[x,y,u,v]=near2.length&&!whole?bounds(near2):Number.isFinite(all[0])?all:[-50,-50,50,50];const size=Math.max(u-x,v-y)||Math.
-max(1,Math.abs(u),Math.abs(v));if(near2.length&&far.length&&!whole){const reach=SPARE2*size;[x,y,u,v]=[Math.max(all[0],x-reach),Math.max(all[1],y-reach),Math.min(
-all[2],u+reach),Math.min(all[3],v+reach)]}this.isWhole=whole;const{width,height}=this.size,margin=Math.min(MARGIN,width/8);const scale=Math.min((width-2*margin)/
-Math.max(u-x,.1*size),(height-2*margin)/Math.max(v-y,.1*size));this.fittedScale=scale;this.origin={scale,left:width/2-scale*(x+u)/2,top:height/2+scale*(y+v)/2};
-this.isFitted=true;this.update()}fitAgain(){this.fit(this.isFitted&&!this.isWhole)}grid(){const{view}=this,{width,height}=view,group=this.layer("grid");const name=this.
-unit=this.store.document.length_unit,unit=name?` ${name}`:"";const across=ticks(view.x(0),view.x(width),width/110),up=ticks(view.y(height),view.y(0),height/80);
-const lines=[...across.map(({at})=>`M${px(view.X(at))} 0V${height}`),...up.map(({at})=>`M0 ${px(view.Y(at))}H${width}`)];const origin=`M${px(clamp(view.X(0),-9,
-width+9))} 0V${height}M0 ${px(clamp(view.Y(0),-9,height+9))}H${width}`;group.replaceChildren(s("path",{class:"bs-grid-line",d:lines.join("")}),s("path",{class:"\
-bs-grid-axis",d:origin}),...across.filter(({at})=>view.X(at)>46&&view.X(at)<width-(unit?54:30)).map(({at,text})=>s("text",{x:px(view.X(at)),y:height-6,"text-anc\
-hor":"middle"},text)),...up.filter(({at})=>view.Y(at)>30&&view.Y(at)<height-24).map(({at,text})=>s("text",{x:6,y:px(view.Y(at)-4)},text)),s("text",{x:6,y:14},`y${unit}`),
-s("text",{x:width-6,y:height-6,"text-anchor":"end"},`x${unit}`))}get grain(){return 10**Math.floor(Math.log10(.35/this.view.scale))}rounded(value){const{grain}=this,
-digits=clamp(-Math.round(Math.log10(grain)),0,12);return Number((Math.round(value/grain)*grain).toFixed(digits))+0}get step(){const[x,y,u,v]=bounds(this.store.document.
-poses.map(pose=>[pose.x??0,pose.y??0]));const span=Math.hypot(u-x,v-y);return Number.isFinite(span)&&span>0?10**Math.floor(Math.log10(span/50)):1}at(event){if(!this.
-box){this.box=this.svg.getBoundingClientRect();if(!this.dragged)requestAnimationFrame(()=>this.dragged||(this.box=null))}const{left,top}=this.box,X=event.clientX-
-left,Y=event.clientY-top;return{X,Y,x:this.view.x(X),y:this.view.y(Y)}}drag(element,{start=()=>true,move,end=()=>{},cancel=()=>{},click=()=>{}}){element.addEventListener(
-"pointerdown",event=>{if(event.button!==0||this.tool||this.dragged)return;event.preventDefault();event.stopPropagation();element.focus?.({preventScroll:true});const from=this.
-at(event),ended=new AbortController,{signal}=ended;let begun=false;const stop=finish=>{ended.abort();this.dragged=this.box=null;this.svg.classList.remove("bs-gr\
-asped");if(this.svg.hasPointerCapture?.(event.pointerId))this.svg.releasePointerCapture(event.pointerId);finish();this.emit("dropped")};this.dragged={cancel:()=>stop(
-()=>begun&&cancel())};this.capture(event);const on=(name,fn)=>this.svg.addEventListener(name,each=>each.pointerId===event.pointerId&&fn(each),{signal});let last=from,
-then=event.timeStamp;const go=each=>{const point=this.at(each);if(point.X===last.X&&point.Y===last.Y)return;last=point;then=each.timeStamp;if(!begun){if(Math.hypot(
-point.X-from.X,point.Y-from.Y)<CLICK)return;begun=start(from,event)!==false;if(!begun)return stop(()=>{});this.svg.classList.add("bs-grasped")}move(point,each)};
-on("pointermove",go);on("pointerrawupdate",each=>each.timeStamp-then>=RAW&&go(each));on("pointerup",each=>stop(()=>begun?end(this.at(each)):click(event)));on("p\
-ointercancel",()=>stop(()=>begun&&cancel()))})}use(tool){const before=this.tool;this.tool=tool??null;before?.end?.();this.svg.classList.toggle("bs-drawing",Boolean(
-tool));this.emit("tool",this.tool);if(tool)this.svg.focus({preventScroll:true})}listen(){const{svg}=this;svg.addEventListener("wheel",event=>{if(this.zoomKey&&!event.
-ctrlKey&&!event.metaKey)return;event.preventDefault();const{X,Y}=this.at(event),unit=event.deltaMode===1?16:1;this.zoom(ZOOM**(-event.deltaY*unit*(event.ctrlKey&&
-!this.zoomKey?4:1)),X,Y)},{passive:false});svg.addEventListener("pointerdown",event=>this.press(event));svg.addEventListener("pointermove",event=>this.moved(event));
-for(const name of["pointerup","pointercancel"])svg.addEventListener(name,event=>this.released(event));svg.addEventListener("keydown",event=>this.key(event))}capture({
-pointerId}){try{this.svg.setPointerCapture(pointerId)}catch{}}press(event){if(event.button!==0&&event.button!==1)return;const{X,Y}=this.at(event);this.pointers.
-set(event.pointerId,{X,Y,from:{X,Y},button:event.button});if(this.pointers.size>1)for(const each of this.pointers.values())each.panned=true;this.capture(event)}moved(event){
-const point=this.at(event),held=this.pointers.get(event.pointerId);if(!held){if(!this.dragged)this.tool?.hover?.(point);return}const before={X:held.X,Y:held.Y};
-Object.assign(held,{X:point.X,Y:point.Y});if(this.pointers.size===2){const[one,other]=this.pointers.values(),still=held===one?other:one;const[now,then]=[point,before].
-map(({X,Y})=>Math.hypot(X-still.X,Y-still.Y));if(then>0)this.zoom(now/then,(point.X+still.X)/2,(point.Y+still.Y)/2);return}held.panned||=Math.hypot(point.X-held.
-from.X,point.Y-held.from.Y)>CLICK;if(!held.panned)return;if(this.tool?.drag?.(point,held))return;this.svg.classList.add("bs-grasped");this.pan(point.X-before.X,
-point.Y-before.Y)}released(event){const held=this.pointers.get(event.pointerId);if(!held)return;this.pointers.delete(event.pointerId);this.svg.classList.remove(
-"bs-grasped");const point=this.at(event);if(event.type==="pointercancel")this.tool?.hover?.(null);else if(held.panned)this.tool?.release?.(point,held);else if(held.
-button===0)this.tool?this.tool.click(point,event):this.emit("click",point,event)}key(event){if(event.target!==this.svg||event.ctrlKey||event.metaKey||event.altKey)
-return;const by=event.shiftKey?160:40,{width,height}=this.size;const steps={ArrowLeft:[by,0],ArrowRight:[-by,0],ArrowUp:[0,by],ArrowDown:[0,-by]};if(steps[event.
-key])this.pan(...steps[event.key]);else if(event.key==="+"||event.key==="=")this.zoom(1.25,width/2,height/2);else if(event.key==="-")this.zoom(.8,width/2,height/
-2);else if(event.key==="0")this.fitAgain();else return;event.preventDefault()}};var bounds=points=>points.reduce(([x,y,u,v],[a,b])=>Number.isFinite(a+b)?[Math.min(
-x,a),Math.min(y,b),Math.max(u,a),Math.max(v,b)]:[x,y,u,v],[Infinity,Infinity,-Infinity,-Infinity]);var Kept=class{constructor(group,make,show){Object.assign(this,
-{group,make,show,elements:new Map})}draw(items){const kept=new Map;for(const[key,item]of items){const element=this.elements.get(key)??this.make(key,item);kept.set(
-key,element);this.show(element,item)}for(const[key,element]of this.elements)if(!kept.has(key))element.remove();let before=null;for(const element of kept.values()){
-const next=before?before.nextSibling:this.group.firstChild;if(element!==next||element.parentNode!==this.group)this.group.insertBefore(element,next);before=element}
-this.elements=kept}};var LONGEST_ARM=46;var SHORTEST_ARM=27;var FEW=24;var MOST=240;var ROOM=14;var LONGEST_NAME2=18;var ARROWS={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowUp:[0,1],ArrowDown:[
-0,-1]};var tenths=angle=>Number(angle.toFixed(1))+0;var unwrapped=(angle,near2)=>angle+360*Math.round((near2-angle)/360);function drawnPoses({document:document2,
-selection},scale){const{poses}=document2,count=poses.length,all=[...poses.keys()];if(count<=FEW)return all;const length=poses.slice(1).reduce((sum,{x,y},k)=>sum+
-(Math.hypot(x-poses[k].x,y-poses[k].y)||0),0);const stride=Math.ceil(count/clamp(scale*length/ROOM,FEW,MOST)),chosen=selection?.kind==="pose"?selection.index:-1;
-return all.filter(k=>k%stride===0||k===count-1||k===chosen)}var PoseHandles=class{constructor(store,scene){this.store=store;this.scene=scene;this.element=scene.
-layer("poses");this.names=scene.layer("labels");this.kept=new Kept(this.element,k=>this.make(k),(group,k)=>this.show(group,k));this.labels=new Kept(this.names,()=>s(
-"text",{class:"bs-pose-name"}),(text,k)=>this.showName(text,k));store.on("document selection",()=>this.draw());scene.on("view",()=>this.draw());scene.hold(()=>store.
-document.poses.map((_,k)=>standing(store.document,k)).map(({x,y})=>[x,y]));scene.on("click",()=>store.select(null));this.draw()}get arm(){const{document:document2}=this.
-store,{scale}=this.scene.view,places=drawnPoses(this.store,scale).map(k=>standing(document2,k));const away=places.slice(1).map(({x,y},k)=>scale*Math.hypot(x-places[k].
-x,y-places[k].y)).sort((a,b)=>a-b);return away.length?clamp(1.2*away[away.length>>1],SHORTEST_ARM,LONGEST_ARM):LONGEST_ARM}draw(){this.length=this.scene.dragged?
-this.length??this.arm:this.arm;const poses=drawnPoses(this.store,this.scene.view.scale).map(k=>[k,k]);this.kept.draw(poses);this.labels.draw(poses)}make(k){const origin=s(
-"g",{class:"bs-origin","data-pose":k+1,tabindex:0,role:"button"},s("circle",{class:"bs-hold",r:12}),s("circle",{class:"bs-dot",r:5.5}));const turn=s("g",{class:"\
-bs-turn","data-turn":k+1,tabindex:0,role:"slider","aria-valuemin":-360,"aria-valuemax":360},s("circle",{class:"bs-hold",r:12}),s("circle",{class:"bs-tip",r:5}));
-const group=s("g",{class:"bs-pose"},s("path",{class:"bs-axes"}),origin,turn);this.dragOrigin(origin,k);this.dragTurn(turn,k);for(const part of[origin,turn])part.
-addEventListener("focus",()=>this.store.select({kind:"pose",index:k}));origin.addEventListener("keydown",event=>this.key(event,k,false));turn.addEventListener("\
-keydown",event=>this.key(event,k,true));return group}show(group,k){const{store,scene:{view}}=this,{x,y,angle}=standing(store.document,k),pose=store.document.poses[k];
-const selected=store.selection?.kind==="pose"&&store.selection.index===k,unit=store.document.length_unit??"",name=poseName2(store.document,k);if(!isOther(group,
-[view,this.length,x,y,angle,Boolean(pose.exact),pose.name,name,unit,selected]))return;const[arrow2,origin,turn]=group.children;put(group,"transform",transform(view.
-X(x),view.Y(y),radians(angle)));put(arrow2,"d",axes(this.length-8));put(turn,"transform",`translate(${px(this.length)} 0)`);group.classList.toggle("bs-selected",
-selected);group.classList.toggle("bs-exact",Boolean(pose.exact));const called=pose.name?`Pose ${k+1}, ${name}`:`Pose ${k+1}`;put(origin,"aria-label",`${called}:\
- x ${x} ${unit}, y ${y} ${unit}, angle ${angle}°. Drag, or use the arrow keys; Delete removes it.`);put(origin,"aria-pressed",selected);put(turn,"aria-label",`\
-Turn ${called}`);put(turn,"aria-valuenow",angle);put(turn,"aria-valuetext",`${angle}°`)}showName(text,k){const{store,scene:{view}}=this,{x,y,angle}=standing(store.
-document,k),a=radians(angle+215);if(!isOther(text,[view,x,y,angle,poseName2(store.document,k)]))return;say(text,shortened(poseName2(store.document,k),LONGEST_NAME2));
-put(text,"text-anchor",Math.cos(a)<-.3?"end":Math.cos(a)>.3?"start":"middle");put(text,"transform",`translate(${px(view.X(x)+13*Math.cos(a))} ${px(view.Y(y)-13*
-Math.sin(a)+4)})`)}set(k,changes,gesture){this.store.edit(document2=>setPose(document2,k,statedOf(document2.poses[k],changes)),{gesture})}dragOrigin(element,k){
-const{store,scene}=this;let gesture,off;scene.drag(element,{start:from=>{const{x,y}=standing(store.document,k);gesture=Symbol("move a pose");off=[x-from.x,y-from.
-y]},move:point=>this.set(k,{x:scene.rounded(point.x+off[0]),y:scene.rounded(point.y+off[1])},gesture),cancel:()=>store.abandon(gesture)})}dragTurn(element,k){const{
-store,scene}=this;let gesture,off;const angleTo=point=>{const{x,y}=standing(store.document,k);return degrees(Math.atan2(point.y-y,point.x-x))};scene.drag(element,
-{start:from=>{gesture=Symbol("turn a pose");off=standing(store.document,k).angle-angleTo(from)},move:point=>this.set(k,{angle:tenths(unwrapped(angleTo(point)+off,
-standing(store.document,k).angle))},gesture),cancel:()=>store.abandon(gesture)})}key(event,k,turning){const{store,scene}=this,arrow2=ARROWS[event.key];if(event.
-ctrlKey||event.metaKey)return;if(arrow2){if(!event.repeat)this.keyed=Symbol("keys");const{x,y,angle}=standing(store.document,k),by=stepOf(event,turning?1:scene.
-step);if(turning)this.set(k,{angle:stepped(angle,by*(arrow2[0]===0?arrow2[1]:-arrow2[0]))},this.keyed);else this.set(k,{x:stepped(x,by*arrow2[0]),y:stepped(y,by*
-arrow2[1])},this.keyed)}else if(event.key==="Delete"||event.key==="Backspace"){store.edit(document2=>removePose(document2,k));const left=store.document.poses.length;
-store.select(left?{kind:"pose",index:Math.min(k,left-1)}:null);this.focus(Math.min(k,left-1))}else{return}event.preventDefault()}focus(k){this.element.querySelector(
-`[data-pose="${k+1}"]`)?.focus({preventScroll:true})}};var PoseTool=class{constructor(store,scene){Object.assign(this,{store,scene,name:"pose",gesture:null});this.
-hint="Click where the pose is to stand, and click again to turn it. Escape ends."}click(point){const{store,scene}=this;if(this.gesture){this.turn(point);this.gesture=
-null;return}this.gesture=Symbol("add a pose");const angle=store.document.poses.at(-1)?.angle??0;store.edit(document2=>addPose(document2,{x:scene.rounded(point.x),
-y:scene.rounded(point.y),angle}),{gesture:this.gesture});store.select({kind:"pose",index:store.document.poses.length-1})}hover(point){if(this.gesture&&point)this.
-turn(point)}turn(point){const{store,gesture}=this,k=store.document.poses.length-1,{x,y,angle}=standing(store.document,k);const away=Math.hypot(point.x-x,point.y-
-y)*this.scene.view.scale;if(away<6)return;const next=tenths(unwrapped(degrees(Math.atan2(point.y-y,point.x-x)),angle));store.edit(document2=>setPose(document2,k,
-{angle:next}),{gesture})}key(event){if(event.key!=="Escape")return false;if(this.gesture)this.store.abandon(this.gesture);this.gesture=null;this.scene.use(null);
-return true}};var ORDERS={rank:{name:"best first",of:linkage=>linkage.rank??Infinity},worst:{name:"worst miss",of:linkage=>linkage.worst??Infinity},least:{name:"transmission \
+swers",()=>{if(first&&player.path){first=false;player.playOnce()}});store.on("document selection",()=>{first=false;if(player.remaining!==null)player.play(false)})}var ROUNDING=1e-6;var MOST_PLACES=90;var KEYS=["fixed_pivot","moving_pivot"];function currentLinkage(store){if(store.chosen==="placed")return store.placed?.linkage??
+null;const followed=store.followed?.linkages.find(({id})=>id===store.chosen);if(followed?.led)return followed;if(store.followed?.vanished?.some(({id})=>id===store.
+chosen))return null;return store.solved?.linkages.find(({id})=>id===store.chosen)??null}var PIVOT={fixed_pivot:"fixed pivot",moving_pivot:"moving pivot"};function missed(table,dyad,slack){
+const found=[];for(const key of KEYS){if(!table[key])continue;const[[shape,stated]]=Object.entries(table[key]),points=shape==="point"?[stated]:stated;const away=dyad[key]?
+distanceTo(dyad[key],shape,points):Infinity;if(away>slack)found.push({key,dyad:dyad.id,away})}const{least:least2=0,most=Infinity}=table.length??{};if(table.length&&
+dyad.kind==="RR"&&(dyad.radius<least2-slack||dyad.radius>most+slack)){found.push({key:"length",dyad:dyad.id,away:Math.max(least2-dyad.radius,dyad.radius-most)})}
+if(table.kinds&&!table.kinds.includes(dyad.kind))found.push({key:"kinds",dyad:dyad.id,away:Infinity});return found}function limitsMissed(document2,linkage,size2){
+const tables=limitsOf(document2),slack=ROUNDING*size2,[one,other]=linkage.led;if(tables.length<2)return tables.map(table=>[...missed(table,one,slack),...missed(
+table,other,slack)]);const pairings=[[one,other],[other,one]].map(dyads=>dyads.map((dyad,k)=>missed(tables[k],dyad,slack)));const total=lists=>lists.flat().length;
+return total(pairings[1])<total(pairings[0])?pairings[1]:pairings[0]}function missedSentence({key,dyad,away},unit){const by=`${Number(away.toPrecision(2))}${unit?
+` ${unit}`:""}`;if(key==="kinds")return`${dyad} is of another kind.`;if(key==="length")return`The link of ${dyad} is ${by} beyond its range.`;return away===Infinity?
+`${dyad} has no ${PIVOT[key]}.`:`The ${PIVOT[key]} of ${dyad} is ${by} outside.`}function usedPlaces(linkage){const rows=(linkage.pose_errors??[]).filter(row=>row.
+way!==null&&row.frame!==null);if(!rows.length||!linkage.ways?.length)return[];const counts=new Map;for(const{way:way2}of rows)counts.set(way2,(counts.get(way2)??
+0)+1);const[best]=[...counts].sort((a,b)=>b[1]-a[1])[0],way=linkage.ways[best];const frames=rows.filter(row=>row.way===best).map(({frame})=>frame);const low=Math.
+floor(Math.min(...frames)),high=Math.ceil(Math.max(...frames)),stride=Math.max(1,Math.ceil((high-low)/MOST_PLACES));const places=[];for(let k=low;k<=high&&k<way.
+x.length;k+=stride)places.push({x:way.x[k],y:way.y[k],a:way.angle[k]});return places}var regionCorners=region=>region.polygon??(region.box?boxCorners(region.box):
+null);var seen=(body,place)=>body.map(corner=>act(place,corner));function posePlace(document2,k){const{x,y,angle}=standing(document2,k);return{x,y,a:radians(angle)}}
+function regionsTouched(document2,linkage,body){const places=usedPlaces(linkage),width=document2.surroundings?.link_width??0,margin=document2.surroundings?.margin??
+0;const apart=Math.ceil(document2.poses.length/MOST_PLACES),some=[...document2.poses.keys()].filter(k=>k%apart===0);return regionsOf(document2).map(region=>{const corners=regionCorners(
+region);if(!corners)return"";const pose=body.length>2?some.find(k=>overlap2(seen(body,posePlace(document2,k)),corners)):void 0;if(pose!==void 0)return`The body \
+touches it at pose ${poseName2(document2,pose)}.`;if(!places.length)return"";if(body.length>2&&places.some(place=>overlap2(seen(body,place),corners)))return"The\
+ body touches it.";for(const dyad of linkage.led){if(dyad.kind!=="RR")continue;const near2=Math.min(...places.map(place=>segmentFromPolygon([dyad.fixed_pivot,act(
+place,dyad.moving_pivot)],corners)));if(near2===0||near2<width/2)return`The link of ${dyad.id} touches it.`;if(near2<width/2+margin)return`The link of ${dyad.id}\
+ comes nearer than the margin.`}return""})}var LONGEST_NAME3=22;var ABOVE=10;var HATCH=9;var PIVOT2={fixed_pivot:"Fixed pivot",moving_pivot:"Moving pivot"};function limitName(document2,{table,key}){return`${PIVOT2[key]}${limitsOf(
+document2).length>1?` of dyad ${table+1}`:""}`}function regionShape(region){if(region.box)return{shape:"box",points:region.box};return region.polygon?{shape:"po\
+lygon",points:region.polygon}:null}var Regions=class{constructor(store,scene){this.store=store;this.scene=scene;this.shapes=new Map;scene.layer("regions").append(
+s("defs",{},s("pattern",{id:"bs-hatch",width:HATCH,height:HATCH,patternUnits:"userSpaceOnUse",patternTransform:"rotate(45)"},s("path",{class:"bm-hatch",d:`M0 0V${HATCH}`}))));
+this.regions=new Kept(s("g"),(key,k)=>this.makeRegion(k),element=>this.shapes.get(element).draw());this.footprint=new Kept(s("g"),()=>this.makeFootprint(),element=>this.
+shapes.get(element).draw());this.limits=new Kept(s("g"),(key,limit)=>this.makeLimit(limit),element=>this.shapes.get(element).draw());this.names=new Kept(s("g",{
+class:"bs-region-names","aria-hidden":"true"}),()=>s("text",{}),(text,name)=>this.showName(text,name));scene.layer("regions").append(this.regions.group,this.footprint.
+group);scene.layer("limits").append(this.limits.group);scene.layer("labels").append(this.names.group);store.on("document",()=>this.judge(store.state==="dragging"&&
+!this.isOther()));store.on("selection",()=>this.draw());store.on("solved followed chosen placed",()=>this.judge());scene.on("view",()=>this.draw());scene.hold(()=>limitRegions(
+store.document).filter(({shape})=>shape!=="line").flatMap(each=>this.corners(each)));scene.hold(()=>regionsOf(store.document).map(regionShape).filter(Boolean).flatMap(
+({shape,points})=>outlineOf(shape,points)),true);this.judge()}place({key}){return key==="moving_pivot"?referencePlace(this.store):GROUND}corners(limit){return outlineOf(
+limit.shape,limit.points).map(point=>act(this.place(limit),point))}isOther(){const{body,keep_out,surroundings}=this.store.document,now=[body,keep_out,surroundings];
+return now.some((each,k)=>each!==this.judged?.[k])}judge(pivots=false){const{document:document2,solved}=this.store,linkage=currentLinkage(this.store);this.broken=
+linkage?.led?limitsMissed(document2,linkage,solved?.scene??1):null;if(!pivots){this.judged=[document2.body,document2.keep_out,document2.surroundings];this.touched=
+linkage?.led?regionsTouched(document2,linkage,bodyOf(document2)):null}this.draw();this.onjudged?.()}said(table,key){return this.broken?.[table]?.filter(each=>each.
+key===key).map(each=>missedSentence(each,this.store.document.length_unit))??null}draw(){const{document:document2}=this.store,regions=regionsOf(document2),limits=limitRegions(
+document2),{footprint}=document2.requirements??{};this.regions.draw(regions.map((region,k)=>[k,k]).filter(([k])=>regionShape(regions[k])));this.limits.draw(limits.
+map(limit=>[`${limit.table} ${limit.key}`,limit]));this.footprint.draw(footprint?[["footprint",footprint]]:[]);for(const[element,handles]of this.shapes){if(element.
+parentNode)continue;handles.clear();this.shapes.delete(element)}this.names.draw([...regions.map((region,k)=>[`region ${k}`,region.name&&regionShape(region)?{text:region.
+name,at:middle(outlineOf(...Object.values(regionShape(region))))}:null]),...limits.map(limit=>[`limit ${limit.table} ${limit.key}`,{text:limitName(document2,limit),
+at:middleOf(this.corners(limit),limit.key==="moving_pivot"),off:limit.key==="moving_pivot"?ABOVE:-ABOVE,width:widthOf(this.corners(limit))}]),["footprint",footprint?
+{text:"Footprint",at:middleOf(footprint.polygon??outlineOf("box",footprint.box),true),off:ABOVE,width:widthOf(footprint.polygon??footprint.box)}:null]].filter(([
+,name])=>name))}kept(handles){this.shapes.set(handles.element,handles);return handles.element}makeRegion(k){const{store}=this;const handles=new ShapeHandles(this.
+scene,{className:"bs-region",what:()=>{const region=regionsOf(store.document)[k];return{...regionShape(region),place:GROUND,name:region.name?`Keep out: ${region.
+name}`:`Region ${k+1} to keep out of`,selected:store.selection?.kind==="region"&&store.selection.index===k,state:this.touched?this.touched[k]?"broken":"met":"",
+data:{region:k}}},set:(points,gesture)=>store.edit(document2=>setRegion(document2,k,shapeOf(regionShape(regionsOf(document2)[k]).shape,points)),{gesture}),remove:()=>this.
+removeRegion(k),select:()=>store.select({kind:"region",index:k}),abandon:gesture=>store.abandon(gesture)});handles.element.insertBefore(s("path",{class:"bs-hatc\
+hed",fill:"url(#bs-hatch)"}),handles.area);const draw=handles.draw.bind(handles);handles.draw=()=>{draw();handles.element.querySelector(".bs-hatched").setAttribute(
+"d",handles.line.getAttribute("d"))};return this.kept(handles)}removeRegion(k){this.store.edit(document2=>removeRegion(document2,k));this.store.select(null);this.
+scene.svg.focus({preventScroll:true})}makeLimit({table,key}){const{store}=this,place=()=>this.place({key});const at=()=>limitRegions(store.document).findIndex(each=>each.
+table===table&&each.key===key);return this.kept(new ShapeHandles(this.scene,{className:`bs-limit bs-${key.replace("_","-")}`,what:()=>{const index=at(),limit=limitRegions(
+store.document)[index],said=this.said(table,key);return{...limit,place:place(),name:`Limit: ${limitName(store.document,limit)}`,selected:store.selection?.kind===
+"limit"&&store.selection.index===index,state:said?said.length?"broken":"met":"",data:{limit:index,plane:key==="moving_pivot"?"M":"F"}}},set:(points,gesture)=>store.
+edit(document2=>setLimit(document2,table,{[key]:shapeOf(Object.keys(limitsOf(document2)[table][key])[0],points)}),{gesture}),remove:()=>this.removeLimit(table,key),
+select:()=>store.select({kind:"limit",index:at()}),abandon:gesture=>store.abandon(gesture)}))}removeLimit(table,key){this.store.edit(document2=>setLimit(document2,
+table,{[key]:void 0}));this.store.select(null);this.scene.svg.focus({preventScroll:true})}makeFootprint(){const{store}=this,shape=()=>Object.keys(store.document.
+requirements.footprint)[0];return this.kept(new ShapeHandles(this.scene,{className:"bs-footprint",what:()=>({shape:shape(),points:store.document.requirements.footprint[shape()],
+place:GROUND,name:"Footprint: holds all pivots",selected:store.selection?.kind==="footprint",data:{footprint:""}}),set:(points,gesture)=>store.edit(document2=>setRequirement(
+document2,"footprint",{[shape()]:points}),{gesture}),remove:()=>{store.edit(document2=>setRequirement(document2,"footprint",void 0));store.select(null)},select:()=>store.
+select({kind:"footprint",index:0}),abandon:gesture=>store.abandon(gesture)}))}showName(text,{text:name,at:[x,y],off,width}){const{scene}=this,{view}=scene,shown2=shortened(
+name,LONGEST_NAME3);say(text,shown2);put(text,"class",off?"bs-limit-name":"bs-region-name");scene.names.put(text,view.X(x),view.Y(y),shown2,off?along(off,view.scale*
+(width??0)):[[0,0,0]])}regionTool(shape){const{store}=this;return new ShapeTool(this.scene,{shape,name:`region ${shape}`,place:()=>GROUND,done:points=>{store.edit(
+document2=>addRegion(document2,{[shape]:points}));store.select({kind:"region",index:regionsOf(store.document).length-1})}})}limitTool(table,key,shape){const{store}=this;
+return new ShapeTool(this.scene,{shape,name:`limit ${table} ${key} ${shape}`,place:()=>this.place({key}),done:points=>{store.edit(document2=>setLimit(document2,
+table,{[key]:shapeOf(shape,points)}));store.select({kind:"limit",index:limitRegions(store.document).findIndex(each=>each.table===table&&each.key===key)})}})}footprintTool(shape){
+const{store}=this;return new ShapeTool(this.scene,{shape,name:`footprint ${shape}`,place:()=>GROUND,done:points=>{store.edit(document2=>setRequirement(document2,
+"footprint",{[shape]:points}));store.select({kind:"footprint",index:0})}})}};function middle(points){const[x,y,u,v]=bounds(points);return[(x+u)/2,(y+v)/2]}function middleOf(points,upper){
+const[x,y,u,v]=bounds(points);return[(x+u)/2,upper?v:y]}function widthOf(points){const[x,,u]=bounds(points);return Number.isFinite(u-x)?u-x:0}var ORDERS={rank:{name:"best first",of:linkage=>linkage.rank??Infinity},worst:{name:"worst miss",of:linkage=>linkage.worst??Infinity},least:{name:"transmission \
 angle",of:linkage=>-(linkage.least??-1)},size:{name:"size",of:linkage=>linkage.quality?.extent??Infinity},sensitivity:{name:"sensitivity",of:linkage=>linkage.quality?.
 sensitivity??Infinity}};var FILTERS={all:{name:"all",holds:()=>true},usable:{name:"usable",holds:linkage=>linkage.usable},pinned:{name:"pinned",holds:(linkage,pinned)=>pinned.
 has(linkage.id)}};function arranged(linkages,{order,filter,type,pinned}){const{of}=ORDERS[order],{holds}=FILTERS[filter];return linkages.filter(each=>holds(each,
@@ -961,57 +1138,59 @@ changes");var sentence=text=>text?`${text[0].toUpperCase()}${text.slice(1)}.`:""
 gesture===gesture)return;this.past.push({value,gesture});if(this.past.length>MOST3)this.past.shift()}undo(value){const last=this.past.pop();if(!last)return null;
 this.future.push(value);return last.value}redo(value){const next=this.future.pop();if(next===void 0)return null;this.past.push({value,gesture:null});return next}abandon(gesture){
 if(this.past.at(-1)?.gesture!==gesture)return null;return this.past.pop().value}get canUndo(){return this.past.length>0}get canRedo(){return this.future.length>
-0}};var REST=150;var MOST_REST=1e3;var MOST_FLYING=1;var MOST_SHOWN=6;var PLACED2="placed";var Store=class{constructor({connection,document:document2,options={},name="\
-task",settings={},mostFlying=MOST_FLYING}){this.connection=connection;this.mostFlying=mostFlying;this.renamed=new Map;this.moved=new Map;this.document=document2;
-this.options=options;this.name=name;this.settings=settings;this.history=new History;this.solved=null;this.solvedFor=null;this.followed=null;this.followedFor=null;
-this.state="resting";this.progress="";this.chosen=null;this.pinned=new Set;this.compared=null;this.placed=null;this.selection=null;this.messages=[];this.listeners=
-new Map;this.basis=null;this.pending=null;this.flying=new Map;this.placing=null;this.solving=null;this.improving=null;this.improved=null;connection.on("message",
-message=>this.take(message));connection.on("open",()=>this.opened());connection.on("closed",()=>this.closed())}on(names,fn){for(const name of[names].flat().join(
-" ").split(/\s+/)){if(!this.listeners.has(name))this.listeners.set(name,[]);this.listeners.get(name).push(fn)}}emit(...names){const told=new Set;for(const name of names){
-for(const fn of this.listeners.get(name)??[]){if(told.has(fn))continue;told.add(fn);fn(name)}}}edit(change,{gesture=null}={}){const next=change(this.document);if(next===
-this.document)return;this.history.record(this.version,gesture);this.document=next;this.changed()}option(name,value){this.history.record(this.version,null);const{
-[name]:_,...rest}=this.options;this.options=value===void 0?rest:{...rest,[name]:value};this.changed()}setting(name,value){this.history.record(this.version,null);
-this.settings=withKeys(this.settings,{[name]:value});this.emit("document")}rename(name){this.history.record(this.version,null);this.name=name;this.emit("documen\
-t")}replace({document:document2,options={},name=this.name,settings=this.settings}){this.history.record(this.version,null);Object.assign(this,{document:document2,
-options,name,settings,selection:null,placed:null});this.changed();this.emit("selection","placed")}undo(){this.goTo(this.history.undo(this.version))}redo(){this.
-goTo(this.history.redo(this.version))}abandon(gesture){this.goTo(this.history.abandon(gesture))}get version(){return{document:this.document,options:this.options,
-name:this.name,settings:this.settings}}goTo(version){if(!version)return;const isSame=version.document===this.document&&version.options===this.options;Object.assign(
-this,version);if(isSame)this.emit("document");else this.changed()}changed(){this.follow();this.emit("document");if(this.state!=="offline")this.setState("draggin\
-g");this.solveAfterRest()}get shown(){return[...new Set([this.chosen,this.compared,...this.pinned])].filter(id=>id&&id!==PLACED2).slice(0,MOST_SHOWN)}follow(){if(!this.
-solved||this.flying.size>=this.mostFlying)return;const{document:document2,options,shown:shown2}=this;const n=this.connection.send({do:"follow",document:document2,
-options,shown:shown2});if(n!==null)this.flying.set(n,{document:document2,isOld:false})}solveAfterRest(){clearTimeout(this.resting);const since=performance.now();
-const rest=()=>{if(this.flying.size&&performance.now()-since<MOST_REST)this.resting=setTimeout(rest,REST/3);else this.solve()};this.resting=setTimeout(rest,REST)}solve(){
-clearTimeout(this.resting);const{document:document2,options}=this;const n=this.connection.send({do:"solve",document:document2,options});if(n===null)return;this.
-solving={n,document:document2,options};this.setState("solving","")}cancel(){this.connection.send({do:"cancel"})}place(pivots){this.placeWanted=pivots?.length?pivots:
-null;if(!this.placeWanted){this.placed=null;this.emit("placed")}else if(!this.placing){this.sendPlace()}}sendPlace(){const{document:document2,options,placeWanted:pivots}=this;
-const n=this.connection.send({do:"place",document:document2,options,pivots});this.placing=n===null?null:{n,pivots}}take(message){const{n,kind}=message;if(kind===
-"followed")this.takeFollowed(message);else if(this.flying.has(n))this.followRefused(message);else if(n===this.placing?.n)this.takePlaced(message);else if(n===this.
-improving?.n)this.takeImproved(message);else if(n===this.solving?.n||kind==="cancelled"&&this.solving&&n>this.solving.n)this.takeSolving(message)}takeFollowed(frame){
-const asked=this.flying.get(frame.n);if(!asked)return;const{document:document2,isOld}=asked,from=frame.from??(isOld?null:this.basis);this.flying.delete(frame.n);
-if(this.pending&&from===this.pending.n)this.install(this.pending);this.goOn(document2);const isThere=document2===this.solvedFor&&!this.followed;if(from===this.basis&&
-!isThere){this.followed=frame;this.followedFor=document2;this.emit("followed")}if(!this.flying.size&&![this.followedFor,this.solvedFor].includes(this.document))
-this.follow()}goOn(document2){const asked=[document2,...[...this.flying.values()].map(each=>each.document)];if(!asked.includes(this.document))this.follow()}followRefused({
-n,kind,messages=[],solve=false}){const{document:document2}=this.flying.get(n);this.flying.delete(n);if(kind==="refused"&&!solve)this.say(messages);this.goOn(document2)}takePlaced(message){
-const{pivots}=this.placing;this.placing=null;if(this.placeWanted&&message.kind==="placed"){this.placed={...message,pivots};this.emit("placed")}else if(message.kind===
-"refused"){this.say(message.messages)}if(this.placeWanted&&this.placeWanted!==pivots)this.sendPlace()}takeSolving(message){const{document:document2}=this.solving,
-isNow=document2===this.document;if(message.kind==="progress"||message.kind==="waiting"){const before=`waiting for ${message.before} other${message.before===1?"":
-"s"}`;if(isNow)this.setState("solving",message.kind==="progress"?message.text:before);return}if(message.kind==="solving")return;this.solving=null;if(message.kind===
-"solved"){const answer={...message,document:document2};if(isNow)this.install(answer);else this.pending=answer}else if(message.kind==="refused"){this.say(message.
-messages)}else{const[said]=[message.message].flat();this.say([{tone:message.kind,...typeof said==="string"?{message:said}:said}])}if(isNow)this.setState("restin\
-g","")}improve(linkage){const{document:document2,options}=this,n=this.connection.send({do:"improve",document:document2,options,linkage});this.improving=n===null?
-null:{n,linkage};this.emit("improved")}takeImproved(message){if(message.kind==="progress"||message.kind==="waiting"||message.kind==="solving")return;this.improving=
-null;if(message.kind==="improved")this.improved=message;else if(message.messages)this.say(message.messages);this.emit("improved")}install({n,result,document:document2,
-seconds,was}){const told=Object.entries(was??{});this.renamed=new Map(told.map(([now,{id}])=>[id,now]));this.moved=new Map(told.map(([now,{moved}])=>[now,moved]));
-if(!told.length&&document2===this.solvedFor&&!this.followed)for(const{id}of result.linkages)this.renamed.set(id,id);const carried=id=>id===PLACED2&&this.placed?.
-linkage?id:this.renamed.get(id)??null;Object.assign(this,{solved:result,solvedFor:document2,seconds,basis:n,pending:null,followed:null,followedFor:null});for(const each of this.
-flying.values())each.isOld=true;this.chosen=carried(this.chosen)??result.linkages[0]?.id??null;this.compared=carried(this.compared);this.pinned=new Set([...this.
-pinned].map(carried).filter(Boolean));this.messages=[];this.emit("solved","chosen","pinned","messages");if(document2!==this.document)this.follow()}opened(){this.
-flying.clear();this.solving=this.placing=this.improving=null;this.setState("resting","");this.basis=null;this.solve()}closed(){clearTimeout(this.resting);this.flying.
-clear();this.solving=this.placing=this.improving=null;this.setState("offline","")}setState(state,progress=""){if(state===this.state&&progress===this.progress)return;
-this.state=state;this.progress=progress;this.emit("state")}say(messages){this.messages=messages;this.emit("messages")}choose(id){if(id===this.chosen)return;this.
-chosen=id;this.emit("chosen");if(this.state==="dragging"||this.document!==this.solvedFor)this.follow()}pin(id){if(!this.pinned.delete(id))this.pinned.add(id);this.
-emit("pinned")}compare(id){this.compared=id===this.compared?null:id;this.emit("chosen")}select(selection){if(selection?.kind===this.selection?.kind&&selection?.
-index===this.selection?.index)return;this.selection=selection;this.emit("selection")}};var WAY=["x","y","angle","drive","transmission"];var POSE=["x","y","angle_deg","position","turned_deg","transmission_deg"];function decodeFrame(buffer){const length=new DataView(
+0}};var REST2=150;var MOST_REST=1e3;var MOST_FLYING=1;var MOST_SHOWN=6;var FEWEST=2;var NO_ANSWER={linkages:[],dyads:[],best:[],warnings:[],pivot_map:null,family_map:null,
+outcome:{message:"Two poses or more make a task"}};var PLACED2="placed";var Store=class{constructor({connection,document:document2,options={},name="task",settings={},
+mostFlying=MOST_FLYING}){this.connection=connection;this.mostFlying=mostFlying;this.renamed=new Map;this.moved=new Map;this.document=document2;this.options=options;
+this.name=name;this.settings=settings;this.history=new History;this.solved=null;this.solvedFor=null;this.followed=null;this.followedFor=null;this.state="resting";
+this.progress="";this.chosen=null;this.pinned=new Set;this.compared=null;this.placed=null;this.selection=null;this.messages=[];this.listeners=new Map;this.basis=
+null;this.pending=null;this.flying=new Map;this.placing=null;this.solving=null;this.improving=null;this.improved=null;connection.on("message",message=>this.take(
+message));connection.on("open",()=>this.opened());connection.on("closed",()=>this.closed())}on(names,fn){for(const name of[names].flat().join(" ").split(/\s+/)){
+if(!this.listeners.has(name))this.listeners.set(name,[]);this.listeners.get(name).push(fn)}}emit(...names){const told=new Set;for(const name of names){for(const fn of this.
+listeners.get(name)??[]){if(told.has(fn))continue;told.add(fn);fn(name)}}}edit(change,{gesture=null}={}){const next=change(this.document);if(next===this.document)
+return;this.history.record(this.version,gesture);this.document=next;this.changed()}option(name,value){this.history.record(this.version,null);const{[name]:_,...rest}=this.
+options;this.options=value===void 0?rest:{...rest,[name]:value};this.changed()}setting(name,value){this.history.record(this.version,null);this.settings=withKeys(
+this.settings,{[name]:value});this.emit("document")}rename(name){this.history.record(this.version,null);this.name=name;this.emit("document")}replace({document:document2,
+options={},name=this.name,settings=this.settings}){this.history.record(this.version,null);Object.assign(this,{document:document2,options,name,settings,selection:null,
+placed:null});this.changed();this.emit("selection","placed")}undo(){this.goTo(this.history.undo(this.version))}redo(){this.goTo(this.history.redo(this.version))}abandon(gesture){
+this.goTo(this.history.abandon(gesture))}get version(){return{document:this.document,options:this.options,name:this.name,settings:this.settings}}goTo(version){if(!version)
+return;const isSame=version.document===this.document&&version.options===this.options;Object.assign(this,version);if(isSame)this.emit("document");else this.changed()}changed(){
+this.follow();this.emit("document");if(this.isEmpty)this.forget();if(this.state!=="offline")this.setState("dragging");this.solveAfterRest()}get shown(){return[...new Set(
+[this.chosen,this.compared,...this.pinned])].filter(id=>id&&id!==PLACED2).slice(0,MOST_SHOWN)}follow(){if(!this.solved||this.flying.size>=this.mostFlying)return;
+const{document:document2,options,shown:shown2}=this;const n=this.connection.send({do:"follow",document:document2,options,shown:shown2});if(n!==null)this.flying.
+set(n,{document:document2,isOld:false})}solveAfterRest(){clearTimeout(this.resting);const since=performance.now();const rest=()=>{if(this.flying.size&&performance.
+now()-since<MOST_REST)this.resting=setTimeout(rest,REST2/3);else this.solve()};this.resting=setTimeout(rest,REST2)}solve(){clearTimeout(this.resting);const{document:document2,
+options}=this;const n=this.connection.send({do:"solve",document:document2,options});if(n===null)return;this.solving={n,document:document2,options};this.setState(
+"solving","")}cancel(){this.connection.send({do:"cancel"})}place(pivots){this.placeWanted=pivots?.length?pivots:null;if(!this.placeWanted){this.placed=null;this.
+emit("placed")}else if(!this.placing){this.sendPlace()}}sendPlace(){const{document:document2,options,placeWanted:pivots}=this;const n=this.connection.send({do:"\
+place",document:document2,options,pivots});this.placing=n===null?null:{n,pivots}}take(message){const{n,kind}=message;if(kind==="followed")this.takeFollowed(message);else if(this.
+flying.has(n))this.followRefused(message);else if(n===this.placing?.n)this.takePlaced(message);else if(n===this.improving?.n)this.takeImproved(message);else if(n===
+this.solving?.n||kind==="cancelled"&&this.solving&&n>this.solving.n)this.takeSolving(message)}takeFollowed(frame){const asked=this.flying.get(frame.n);if(!asked)
+return;const{document:document2,isOld}=asked,from=frame.from??(isOld?null:this.basis);this.flying.delete(frame.n);if(this.pending&&from===this.pending.n)this.install(
+this.pending);this.goOn(document2);const isThere=document2===this.solvedFor&&!this.followed;if(from===this.basis&&!isThere){this.followed=frame;this.followedFor=
+document2;this.emit("followed")}if(!this.flying.size&&![this.followedFor,this.solvedFor].includes(this.document))this.follow()}goOn(document2){const asked=[document2,
+...[...this.flying.values()].map(each=>each.document)];if(!asked.includes(this.document))this.follow()}followRefused({n,kind,messages=[],solve=false}){const{document:document2}=this.
+flying.get(n);this.flying.delete(n);if(kind==="refused"&&!solve)this.say(messages);this.goOn(document2)}takePlaced(message){const{pivots}=this.placing;this.placing=
+null;if(this.placeWanted&&message.kind==="placed"){this.placed={...message,pivots};this.emit("placed")}else if(message.kind==="refused"){this.say(message.messages)}
+if(this.placeWanted&&this.placeWanted!==pivots)this.sendPlace()}takeSolving(message){const{document:document2}=this.solving,isNow=document2===this.document;if(message.
+kind==="progress"||message.kind==="waiting"){const before=`waiting for ${message.before} other${message.before===1?"":"s"}`;if(isNow)this.setState("solving",message.
+kind==="progress"?message.text:before);return}if(message.kind==="solving")return;this.solving=null;if(message.kind==="solved"){const answer={...message,document:document2};
+if(isNow)this.install(answer);else this.pending=answer}else if(message.kind==="refused"){this.say(message.messages)}else{const[said]=[message.message].flat();this.
+say([{tone:message.kind,...typeof said==="string"?{message:said}:said}])}if(isNow)this.setState("resting","")}improve(linkage){const{document:document2,options}=this,
+n=this.connection.send({do:"improve",document:document2,options,linkage});this.improving=n===null?null:{n,linkage};this.emit("improved")}takeImproved(message){if(message.
+kind==="progress"||message.kind==="waiting"||message.kind==="solving")return;this.improving=null;if(message.kind==="improved")this.improved=message;else if(message.
+messages)this.say(message.messages);this.emit("improved")}get isEmpty(){return this.document.poses.length<FEWEST}forget(){if(!this.solved)return;const result={...this.
+solved,...NO_ANSWER,space:{...this.solved.space,quadrics:[]}};this.install({n:null,result,document:this.document,seconds:null});if(this.placed)this.place([])}install({
+n,result,document:document2,seconds,was}){const told=Object.entries(was??{});this.renamed=new Map(told.map(([now,{id}])=>[id,now]));this.moved=new Map(told.map(
+([now,{moved}])=>[now,moved]));if(!told.length&&document2===this.solvedFor&&!this.followed)for(const{id}of result.linkages)this.renamed.set(id,id);const carried=id=>id===
+PLACED2&&this.placed?.linkage?id:this.renamed.get(id)??null;Object.assign(this,{solved:result,solvedFor:document2,seconds,basis:n,pending:null,followed:null,followedFor:null});
+for(const each of this.flying.values())each.isOld=true;this.chosen=carried(this.chosen)??result.linkages[0]?.id??null;this.compared=carried(this.compared);this.
+pinned=new Set([...this.pinned].map(carried).filter(Boolean));this.messages=[];this.emit("solved","chosen","pinned","messages");if(document2!==this.document)this.
+follow()}opened(){this.flying.clear();this.solving=this.placing=this.improving=null;this.setState("resting","");this.basis=null;this.solve()}closed(){clearTimeout(
+this.resting);this.flying.clear();this.solving=this.placing=this.improving=null;this.setState("offline","")}setState(state,progress=""){if(state===this.state&&progress===
+this.progress)return;this.state=state;this.progress=progress;this.emit("state")}say(messages){this.messages=messages;this.emit("messages")}choose(id){if(id===this.
+chosen)return;this.chosen=id;this.emit("chosen");if(this.state==="dragging"||this.document!==this.solvedFor)this.follow()}pin(id){if(!this.pinned.delete(id))this.
+pinned.add(id);this.emit("pinned")}compare(id){this.compared=id===this.compared?null:id;this.emit("chosen")}select(selection){if(selection?.kind===this.selection?.
+kind&&selection?.index===this.selection?.index)return;this.selection=selection;this.emit("selection")}};var WAY=["x","y","angle","drive","transmission"];var POSE=["x","y","angle_deg","position","turned_deg","transmission_deg"];function decodeFrame(buffer){const length=new DataView(
 buffer).getUint32(0,true);const header=JSON.parse(new TextDecoder().decode(new Uint8Array(buffer,4,length)));const numbers=floats(buffer,4+length);for(const linkage of header.
 linkages??[]){if(linkage.ways)linkage.ways=linkage.ways.map(way=>({...way,...pieces(numbers,way,WAY)}));if(!linkage.poses)continue;const{count}=linkage.poses;const columns=pieces(
 numbers,linkage.poses,POSE);linkage.pose_errors=Array.from({length:count},(_,pose)=>{const at=linkage.at?.[pose]??null;const row={way:at?at[0]:null,frame:at?at[1]:
@@ -1030,33 +1209,35 @@ d-template-columns: minmax(0, 1fr) 236px; }\n.bn-left { display: grid; gap: 5px;
 , 1fr) auto / minmax(0, 1fr); }\n.bn-bar { display: flex; gap: 5px; align-items: center; min-width: 0; }\n.bs .bn-bar .bm-button { min-height: 28px; min-width: 30\
 px; padding: 1px 8px; font-size: 0.82rem; }\n.bm .bn-line { flex: 1; min-width: 0; min-height: 2.6em; max-height: 2.6em; overflow: auto; display: flex; align-ite\
 ms: center; margin-left: 5px; font-size: 0.78rem; line-height: 1.3; color: var(--bm-muted); }\n.bm .bn-line.bn-refused { color: var(--bm-bad); }\n.bn .bs-plane { \
-height: auto; min-height: 0; }\n.bn .bs-scene { touch-action: pan-y; }\n.bn .bs-origin, .bn .bs-turn { touch-action: none; }\n.bn .bs-player { gap: 0; }\n.bn .bs-pl\
-ayer .bm-row { gap: 4px 8px; }\n.bn .bm-now { font-size: 0.76rem; }\n.bn .bs-driver-note { display: none; }\n.bn-ways { font-size: 0.78rem; }\n.bn-ways summary { cu\
-rsor: pointer; color: var(--bm-accent); width: fit-content; }\n.bs.bn .bm-controls { gap: 3px; margin: 0; }\n.bs.bn .bm-controls .bm-button { min-height: 28px; pa\
-dding: 1px 10px; font-size: 0.82rem; }\n.bn .bm-controls, .bn .bm-row { font-size: 0.82rem; }\n.bn .bs-results { padding: 8px 8px 8px 10px; min-height: 0; align-c\
-ontent: start; grid-template-rows: auto minmax(0, 1fr); gap: 6px; border-left: 1px solid var(--bm-line); background: var(--bm-bg); }\n.bn .bs-results .bs-choices\
-, .bn .bs-card-tools, .bn .bs-better { display: none; }\n.bm.bn .bs-results-status { font-size: 0.76rem; max-height: 6.2em; overflow: auto; }\n.bn .bs-cards { gri\
-d-template-columns: minmax(0, 1fr); overflow: auto; scrollbar-width: thin; padding: 1px; }\n.bn .bs-card { font-size: 0.8rem; }\n.bn .bs-card-main { padding-botto\
-m: 9px; }\n.bn .bs-card .bm-choice-head { font-size: 0.88rem; }\n.bn .bs-figures, .bs.bn .bs-card-note, .bs.bn .bm-reason, .bs.bn .bs-help { font-size: 0.77rem; }\
-\n.bn .bm-whole { font-size: 0.8rem; }\n.bn .bs-figures dd { white-space: nowrap; }\n.bn .bs-gone-note { display: none; }\n@container (max-width: 559px) {\n  .bn-mai\
-n { height: auto; grid-template-columns: minmax(0, 1fr); }\n  .bn .bs-plane { height: 270px; }\n  .bn .bs-results { border-left: 0; border-top: 1px solid var(--bm\
--line); }\n  .bn .bs-cards { display: flex; align-items: stretch; overflow-x: auto; padding-bottom: 5px; }\n  .bn .bs-card.bm-choice { flex: 0 0 212px; }\n}\n/* Wha\
-t changes under a hand is laid out by itself. */\n.bn { contain: layout style paint; }\n.bn .bs-player, .bn .bs-results, .bn-bar { contain: layout style; }\n";var DARK_SCHEME="(prefers-color-scheme: dark)";var REM=16;var LATE=400;function dress(root,texts,signal){const sheets=texts.map(text=>{const sheet=new CSSStyleSheet;
-sheet.replaceSync(text.replace(/([\d.]+)rem\b/g,(_,size)=>`${REM*size}px`));return sheet});const dark=sheets.flatMap(({cssRules})=>[...cssRules]).filter(rule=>rule.
+height: auto; min-height: 0; }\n.bn .bs-scene { touch-action: pan-y; }\n.bn .bs-origin, .bn .bs-turn, .bn .bs-corner, .bn .bs-middle { touch-action: none; }\n.bn .\
+bs-player { gap: 0; }\n.bn .bs-player .bm-row { gap: 4px 8px; }\n.bn .bm-now { font-size: 0.76rem; }\n.bn .bs-driver-note { display: none; }\n.bn-ways { font-size: \
+0.78rem; }\n.bn-ways summary { cursor: pointer; color: var(--bm-accent); width: fit-content; }\n.bs.bn .bm-controls { gap: 3px; margin: 0; }\n.bs.bn .bm-controls .\
+bm-button { min-height: 28px; padding: 1px 10px; font-size: 0.82rem; }\n.bn .bm-controls, .bn .bm-row { font-size: 0.82rem; }\n.bn .bs-results { padding: 8px 8px \
+8px 10px; min-height: 0; align-content: start; grid-template-rows: auto minmax(0, 1fr); gap: 6px; border-left: 1px solid var(--bm-line); background: var(--bm-bg\
+); }\n.bn .bs-results .bs-choices, .bn .bs-card-tools, .bn .bs-better { display: none; }\n.bm.bn .bs-results-status { font-size: 0.76rem; max-height: 6.2em; overf\
+low: auto; }\n.bn .bs-cards { grid-template-columns: minmax(0, 1fr); overflow: auto; scrollbar-width: thin; padding: 1px; }\n.bn .bs-card { font-size: 0.8rem; }\n.\
+bn .bs-card-main { padding-bottom: 9px; }\n.bn .bs-card .bm-choice-head { font-size: 0.88rem; }\n.bn .bs-figures, .bs.bn .bs-card-note, .bs.bn .bm-reason, .bs.bn \
+.bs-help { font-size: 0.77rem; }\n.bn .bm-whole { font-size: 0.8rem; }\n.bn .bs-figures dd { white-space: nowrap; }\n.bn .bs-gone-note { display: none; }\n@containe\
+r (max-width: 559px) {\n  .bn-main { height: auto; grid-template-columns: minmax(0, 1fr); }\n  .bn-bar { flex-wrap: wrap; }\n  .bm .bn-line { flex-basis: 100%; mar\
+gin-left: 0; max-height: 4em; }\n  .bn .bs-plane { height: 270px; }\n  .bn .bs-results { border-left: 0; border-top: 1px solid var(--bm-line); }\n  .bn .bs-cards {\
+ display: flex; align-items: stretch; overflow-x: auto; padding-bottom: 5px; }\n  .bn .bs-card.bm-choice { flex: 0 0 212px; }\n}\n/* What changes under a hand is l\
+aid out by itself. */\n.bn { contain: layout style paint; }\n.bn .bs-player, .bn .bs-results, .bn-bar { contain: layout style; }\n";var DARK_SCHEME="(prefers-color-scheme: dark)";var REM=16;var LATE=400;function dress(root,texts,signal){const sheets=texts.map(text=>{const sheet=new CSSStyleSheet;
+sheet.replaceSync(text.replace(/([\d.]+)rem\b/g,(_,size2)=>`${REM*size2}px`));return sheet});const dark=sheets.flatMap(({cssRules})=>[...cssRules]).filter(rule=>rule.
 media?.mediaText===DARK_SCHEME);const follow2=()=>{const on=isDark(root.host);for(const rule of dark)rule.media.mediaText=on?"all":"not all";root.host.style.colorScheme=
-on?"dark":"light"};const both=()=>{follow2();setTimeout(follow2,LATE)};const seen=new MutationObserver(both);for(const element of[document.documentElement,document.
-body])seen.observe(element,{attributes:true});matchMedia(DARK_SCHEME).addEventListener("change",both,{signal});const placed=new ResizeObserver(follow2);placed.observe(
-root.host);signal.addEventListener("abort",()=>[seen,placed].forEach(each=>each.disconnect()));root.adoptedStyleSheets=sheets;both()}function isDark(element){for(let node=element;node;node=
-node.parentElement??node.getRootNode().host){const colour=getComputedStyle(node).backgroundColor;const[r,g,b,a=1]=colour.startsWith("rgb")?colour.match(/[\d.]+/g).
-map(Number):[0,0,0,0];if(a>.5)return .299*r+.587*g+.114*b<128}return matchMedia(DARK_SCHEME).matches}var MOST_FLYING2=2;var PATIENCE2=700;var BUSY="The kernel is busy: what is done here is answered when it is free.";var HINT="Drag a pose by its point, turn it b\
-y the tip of its arrow.";function render({model,el}){const ended=new AbortController,{signal}=ended,kernel=new Kernel(model);const host=h("div",{}),frame=h("div",
-{class:"bm bs bn"},h("p",{class:"bn-line"},"Waiting for the kernel…"));host.attachShadow({mode:"open"}).append(frame);el.replaceChildren(host);dress(host.shadowRoot,
-[widget_default,studio_default,notebook_default],signal);keepKeys(host);let studio=null;kernel.on("message",message=>{if(message.kind==="opened"&&!studio)studio=
-layOut(frame,kernel,message,turn)});kernel.on("told",message=>{if(message.kind==="task"&&message.by!==kernel.view)studio?.replace(message.document);else if(message.
-kind==="chosen"&&message.id)studio?.store.choose(message.id)});const turn=()=>{model.set("turn",model.get("turn")+1);model.save_changes()};kernel.send({do:"open"});
-return()=>{ended.abort();kernel.close();studio?.playing.player.play(false);el.replaceChildren()}}function layOut(frame,kernel,{document:task},turn){const store=new Store(
-{connection:kernel,document:task,mostFlying:MOST_FLYING2});const scene=new Scene(store,{zoomKey:true}),answers=new Answers(store),playing=new Playing(store,answers);
-new LiveLinkage(answers,playing,scene);new PoseHandles(store,scene);const results=new Results(store,answers),left=h("div",{class:"bn-left"},bar(store,scene,kernel),
+on?"dark":"light"};const both=()=>{follow2();setTimeout(follow2,LATE)};const seen2=new MutationObserver(both);for(const element of[document.documentElement,document.
+body])seen2.observe(element,{attributes:true});matchMedia(DARK_SCHEME).addEventListener("change",both,{signal});const placed=new ResizeObserver(follow2);placed.
+observe(root.host);signal.addEventListener("abort",()=>[seen2,placed].forEach(each=>each.disconnect()));root.adoptedStyleSheets=sheets;both()}function isDark(element){
+for(let node=element;node;node=node.parentElement??node.getRootNode().host){const colour=getComputedStyle(node).backgroundColor;const[r,g,b,a=1]=colour.startsWith(
+"rgb")?colour.match(/[\d.]+/g).map(Number):[0,0,0,0];if(a>.5)return .299*r+.587*g+.114*b<128}return matchMedia(DARK_SCHEME).matches}var MOST_FLYING2=2;var PATIENCE2=700;var BUSY="The kernel is busy: what is done here is answered when it is free.";var HINT="Drag a pose by its point, turn it b\
+y the tip of its arrow.";var ROOM2="Drag poses by their points, turn them by the tips of their arrows; limits, regions and the body are dragged, too.";function render({
+model,el}){const ended=new AbortController,{signal}=ended,kernel=new Kernel(model);const host=h("div",{}),frame=h("div",{class:"bm bs bn"},h("p",{class:"bn-line"},
+"Waiting for the kernel…"));host.attachShadow({mode:"open"}).append(frame);el.replaceChildren(host);dress(host.shadowRoot,[widget_default,studio_default,notebook_default],
+signal);keepKeys(host);let studio=null;kernel.on("message",message=>{if(message.kind==="opened"&&!studio)studio=layOut(frame,kernel,message,turn)});kernel.on("t\
+old",message=>{if(message.kind==="task"&&message.by!==kernel.view)studio?.replace(message.document);else if(message.kind==="chosen"&&message.id)studio?.store.choose(
+message.id)});const turn=()=>{model.set("turn",model.get("turn")+1);model.save_changes()};kernel.send({do:"open"});return()=>{ended.abort();kernel.close();studio?.
+playing.player.play(false);el.replaceChildren()}}function layOut(frame,kernel,{document:task},turn){const store=new Store({connection:kernel,document:task,mostFlying:MOST_FLYING2});
+const scene=new Scene(store,{zoomKey:true}),answers=new Answers(store),playing=new Playing(store,answers);new LiveLinkage(answers,playing,scene);new BodyEditor(
+store,scene);new Regions(store,scene);new PoseHandles(store,scene);const results=new Results(store,answers),left=h("div",{class:"bn-left"},bar(store,scene,kernel),
 scene.element,playing.element);const ways=playing.element.querySelector(".bs-player-ways"),fold=h("details",{class:"bn-ways"},h("summary",{},"Driver and assembl\
 y"));ways.replaceWith(fold);fold.append(ways);frame.replaceChildren(h("div",{class:"bn-main"},left,results.element));scene.resize();const refit=fitOnceSolved(store,
 scene);listenToKeys(store,scene,null,frame);listenToSpace(playing,frame);playOnce(store,answers,playing);store.on("chosen",()=>{kernel.send({do:"choose",id:store.
@@ -1067,9 +1248,10 @@ l+Shift+Z)","aria-label":"Redo"});const stop=button("Stop",()=>store.cancel(),{"
 s",()=>scene.use(scene.tool?null:new PoseTool(store,scene)),{"data-do":"add-poses","aria-pressed":"false"});const line=h("p",{class:"bn-line",role:"status"});let isBusy=false;
 const show=()=>{give(undo,"disabled",!store.history.canUndo);give(redo,"disabled",!store.history.canRedo);const[said]=store.messages,solving=store.state==="solv\
 ing"&&store.progress;put(pose,"aria-pressed",Boolean(scene.tool));const text=isBusy?BUSY:said?[said.message,said.help].filter(Boolean).join("; "):scene.tool?scene.
-tool.hint:solving?`Solving: ${store.progress}`:HINT;if(line.textContent!==text)line.textContent=text;line.classList.toggle("bn-refused",Boolean(said))};kernel.on(
-"busy",on=>{if(on===isBusy)return;isBusy=on;show()});let waiting;store.on("state",()=>{clearTimeout(waiting);if(store.state==="solving")waiting=setTimeout(()=>give(
-stop,"hidden",false),PATIENCE2);else give(stop,"hidden",true)});store.on("document state messages solved",show);scene.on("tool",show);show();return h("div",{class:"\
-bn-bar"},undo,redo,pose,button("Fit",()=>scene.fitAgain(),{"data-do":"fit",title:"Show all poses and pivots (0)"}),stop,line)}function fitOnceSolved(store,scene){
-let waits=true;store.on("solved",()=>{if(waits&&scene.isFitted)scene.fit();waits=false});return()=>waits=true}function keepKeys(host){host.addEventListener("key\
-down",event=>{if(!(event.ctrlKey||event.metaKey)||/^[zy]$/i.test(event.key))event.stopPropagation()})}var notebook_default2={render};export{notebook_default2 as default};
+tool.hint:solving?`Solving: ${store.progress}`:hint(store.document);if(line.textContent!==text)line.textContent=text;line.classList.toggle("bn-refused",Boolean(
+said))};kernel.on("busy",on=>{if(on===isBusy)return;isBusy=on;show()});let waiting;store.on("state",()=>{clearTimeout(waiting);if(store.state==="solving")waiting=
+setTimeout(()=>give(stop,"hidden",false),PATIENCE2);else give(stop,"hidden",true)});store.on("document state messages solved",show);scene.on("tool",show);show();
+return h("div",{class:"bn-bar"},undo,redo,pose,button("Fit",()=>scene.fitAgain(),{"data-do":"fit",title:"Show all poses and pivots (0)"}),stop,line)}function hint(document2){
+return limitRegions(document2).length||regionsOf(document2).length||bodyOf(document2).length?ROOM2:HINT}function fitOnceSolved(store,scene){let waits=true;store.
+on("solved",()=>{if(waits&&scene.isFitted)scene.fit();waits=false});return()=>waits=true}function keepKeys(host){host.addEventListener("keydown",event=>{if(!(event.
+ctrlKey||event.metaKey)||/^[zy]$/i.test(event.key))event.stopPropagation()})}var notebook_default2={render};export{notebook_default2 as default};

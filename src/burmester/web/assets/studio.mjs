@@ -99,9 +99,9 @@ const step=values[high]-values[low];return low+(step>0?(wanted-values[low])/step
 placeAt(linkage,way,u,data.chart.length);const places=[at(low)];let before=low;const goTo=u=>{const next=at(u),last=places[places.length-1];const count=Math.min(
 MOST_BETWEEN,Math.floor(Math.hypot(next.x-last.x,next.y-last.y)/(LONGEST_STEP*data.scene)));for(let k=1;k<=count;k+=1)places.push(at(before+k/(count+1)*(u-before)));
 places.push(next);before=u};for(let k=Math.floor(low)+1;k<high;k+=1)goTo(k);goTo(high);return places}function alongLine(dyad,place){const[nx,ny]=normalOf(dyad);
-const[x,y]=dyad.kind==="PR"?act(place,dyad.moving_pivot):back(place,dyad.fixed_pivot);return nx*y-ny*x}function travelOf(dyad,places){const along=places.map(place=>alongLine(
-dyad,place));return[along.reduce((a,b)=>Math.min(a,b)),along.reduce((a,b)=>Math.max(a,b))]}function pointOnLine(dyad,along){const[nx,ny]=normalOf(dyad),{offset}=dyad.
-line;return[offset*nx-along*ny,offset*ny+along*nx]}var AXIS=26;var BLOCK=[22,14];var WIDEST=4;function farFrom(data){const[x,y]=["x","y"].map(k=>{const[low,high]=data.poses.reduce(([a,b],pose)=>[Math.min(a,pose[k]),
+const[x,y]=dyad.kind==="PR"?act(place,dyad.moving_pivot):back(place,dyad.fixed_pivot);return nx*y-ny*x}function travelOf(dyad,places){const along2=places.map(place=>alongLine(
+dyad,place));return[along2.reduce((a,b)=>Math.min(a,b)),along2.reduce((a,b)=>Math.max(a,b))]}function pointOnLine(dyad,along2){const[nx,ny]=normalOf(dyad),{offset}=dyad.
+line;return[offset*nx-along2*ny,offset*ny+along2*nx]}var AXIS=26;var BLOCK=[22,14];var WIDEST=4;function farFrom(data){const[x,y]=["x","y"].map(k=>{const[low,high]=data.poses.reduce(([a,b],pose)=>[Math.min(a,pose[k]),
 Math.max(b,pose[k])],[Infinity,-Infinity]);return(low+high)/2});return point2=>!(Math.hypot(point2[0]-x,point2[1]-y)<WIDEST*data.scene)}function pivotsAt(linkage,places){
 const found=[];for(const dyad of linkage.led){if(dyad.fixed_pivot)found.push({dyad,fixed:true,at:dyad.fixed_pivot});const own=dyad.moving_pivot?[dyad.moving_pivot]:
 dyad.kind==="RP"&&places.length?travelOf(dyad,places).map(end=>pointOnLine(dyad,end)):[];for(const point2 of own)for(const place of places)found.push({dyad,fixed:false,
@@ -179,118 +179,184 @@ digits:5))]))});const points=table(`Image points of the poses${unitOf(data)}, Z3
 led.map((dyad,k)=>h("tr",{},cells([dyad.id,...linkage.said.manifolds[k]])));const heads=["",...[1,2,3,4,5,6,7,8].map(k=>`p${k}`)];const caption="Surfaces: p1 (Z\
 1² + Z2²) + p2 Z3² + p3 Z1 Z3 + p4 Z2 Z3 + p5 Z1 Z4 + p6 Z2 Z4 + p7 Z3 Z4 + p8 Z4² = 0";return[points,table(caption,heads,surfaces)]}function wayName(way,linkage){
 const circuits=new Set(linkage.ways.map(each=>each.circuit)).size;const parts=[];if(circuits>1||way.branches<2)parts.push(`assembly ${way.circuit}`);if(way.branches>
-1)parts.push(`branch ${way.branch}`);return parts.join(", ")}var LAYERS=["grid","regions","ghosts","map","curves","paths","mechanism","limits","pivots","poses","labels","tool"];var MARGIN=46;var ZOOM=1.0018;var WIDEST2=1e6;
-var CLICK=4;var RAW=8;var SPARE=.5;var Scene=class{constructor(store,{zoomKey=false}={}){this.store=store;this.zoomKey=zoomKey;this.listeners={view:[],click:[],
+1)parts.push(`branch ${way.branch}`);return parts.join(", ")}var HATCH=9;var PALEST=.45;var LONGEST_NAME=28;var LEAST_LINKAGE=110;var MOST_PLACES=400;var patterns=0;var closed=(points,view,[x,y])=>`M${points.map(each=>`${px(
+x+view.scale*each[0])} ${px(y-view.scale*each[1])}`).join("L")}Z`;var bodyOutline=(data,view)=>closed(data.body,view,[0,0]);var placesAtPoses=(data,linkage)=>data.
+poses.map((pose,k)=>{const row=linkage?.pose_errors[k],at=row&&row.x!==null?row:pose;return{x:at.x,y:at.y,a:radians(at.angle_deg)}});function ghosts(data,linkage,view){
+const group=s("g",{class:"bm-ghosts"});if(!data.body)return group;const places=placesAtPoses(data,linkage),last=Math.max(1,places.length-1);places.forEach(({x,y,
+a},k)=>{const opacity=(PALEST+(1-PALEST)*k/last).toFixed(3);group.append(s("path",{class:"bm-ghost",d:bodyOutline(data,view),"data-pose":k+1,opacity,transform:transform(
+view.X(x),view.Y(y),a)}))});return group}function keepOut(data,view){const group=s("g",{class:"bm-keep-out"});if(!data.keep_out.length)return group;const id=`bm\
+-hatch-${patterns+=1}`;group.append(s("defs",{},s("pattern",{id,width:HATCH,height:HATCH,patternUnits:"userSpaceOnUse",patternTransform:"rotate(45)"},s("path",{
+class:"bm-hatch",d:`M0 0V${HATCH}`}))));for(const region of data.keep_out){const d=closed(region.outline,view,[view.left,view.top]);group.append(s("g",{class:"b\
+m-region"},s("title",{},region.name||"keep out"),s("path",{class:"bm-region-plain",d}),s("path",{class:"bm-region-edge",d,fill:`url(#${id})`})))}return group}function keepOutNames(data,view,labels){
+return data.keep_out.filter(({name})=>name).map(({name,at:[x,y]})=>{const text=shortened(name,LONGEST_NAME);labels.block(view.X(x),view.Y(y),7.2*text.length,14);
+return s("text",{class:"bm-region-name",x:px(view.X(x)),y:px(view.Y(y)+4),"text-anchor":"middle"},text)})}function bodyCorners(data,linkage,places){if(!data.body)
+return[];const some=places.filter((_,k)=>k%Math.ceil(places.length/MOST_PLACES)===0);return[...placesAtPoses(data,linkage),...some].flatMap(place=>data.body.map(
+corner=>act(place,corner)))}var sizeOf=([x,y,u,v])=>Math.max(u-x,v-y);var including=(box,points)=>points.reduce(([x,y,u,v],[a,b])=>[Math.min(x,a),Math.min(y,b),
+Math.max(u,a),Math.max(v,b)],box);function widened(box,data,linkage,places,width,all){const withBody=including(box,bodyCorners(data,linkage,places));const whole=including(
+withBody,data.keep_out.flatMap(region=>region.outline));const most=Math.max(2,width/LEAST_LINKAGE)*sizeOf(box);if(all||!linkage||sizeOf(whole)<=most)return whole;
+const inner=sizeOf(withBody)<=most?withBody:box,reach=(most-sizeOf(inner))/2;return whole.map((each,k)=>k<2?Math.max(each,inner[k]-reach):Math.min(each,inner[k]+
+reach))}var BODY_AXIS=AXIS+10;var LETTER=14;var BLOCK_IN_SLOT=[18,10];var SPARE=5;var ARROW=24;function mechanism(data,linkage,view,places){const drawn=new Mechanism(linkage);
+drawn.shape(data,linkage,view,places);return drawn}var Mechanism=class{constructor({led}){this.kinds=kindsOf(led);this.outline=s("path",{class:"bm-body-outline"});
+this.links=s("g");this.blocks=s("g");this.pins=s("g");this.coupler=s("g",{class:"bm-coupler"});this.arrow=s("path",{class:"bm-drive-mark bm-side0"});this.letter=
+s("text",{class:"bm-letter","text-anchor":"middle"},"M");this.plates=[s("path",{class:"bm-plate-rim"}),s("path",{class:"bm-plate"})];this.coupler.append(...this.
+plates);this.parts=led.map((dyad,side)=>new PARTS[dyad.kind](this,side));this.coupler.append(s("path",{class:"bm-body-frame",d:axes(BODY_AXIS)}),s("circle",{class:"\
+bm-origin",r:4}));for(const part of this.parts)if(part.pin)this.coupler.append(part.pin);this.group=s("g",{class:"bm-linkage"},this.arrow,this.links,this.coupler,
+this.blocks,this.pins,this.letter)}fits({led}){return kindsOf(led)===this.kinds}shape(data,linkage,view,places){this.view=view;this.led=linkage.led;this.hasBody=
+Boolean(data.body);if(this.hasBody){put(this.outline,"d",bodyOutline(data,view));if(!this.outline.parentNode)this.group.prepend(this.outline)}else{this.outline.
+remove()}const corners=[[0,0]];linkage.led.forEach((dyad,side)=>{if(dyad.moving_pivot)corners.push(inBody(dyad.moving_pivot,view));const more=this.parts[side].shape(
+dyad,view,places);if(more)corners.push(more)});const d=`M${hull(corners).map(corner=>corner.map(px).join(" ")).join("L")}Z`;for(const plate of this.plates)put(plate,
+"d",d);this.shapeArrow()}show(place){const{view}=this,at=transform(view.X(place.x),view.Y(place.y),place.a);put(this.coupler,"transform",at);if(this.hasBody)put(
+this.outline,"transform",at);for(const part of this.parts)part.show(place);const[x,y]=act(place,[LETTER/view.scale,-LETTER/view.scale]);put(this.letter,"transfo\
+rm",`translate(${px(view.X(x))} ${px(view.Y(y)+4)})`);const[driver]=this.led;if(driver.kind==="PR")put(this.arrow,"transform",`${onRail(driver,place,view)} tran\
+slate(0 ${-ARROW})`)}shapeArrow(){const{arrow:arrow2,view}=this,[driver]=this.led;if(driver.kind==="PR")put(arrow2,"d","M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6 5");
+if(!driver.fixed_pivot)return;const[x,y]=driver.fixed_pivot;put(arrow2,"d","M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9");put(arrow2,"transform",`transl\
+ate(${px(view.X(x))} ${px(view.Y(y))}) rotate(-90)`)}};var kindsOf=led=>led.map(dyad=>dyad.kind).join();var inBody=([x,y],view)=>[view.scale*x,-view.scale*y];function onRail(dyad,place,view){
+const[x,y]=act(place,dyad.moving_pivot),[nx,ny]=normalOf(dyad);return transform(view.X(x),view.Y(y),Math.atan2(nx,-ny))}var block=(side,width,height)=>s("g",{class:`\
+bm-block bm-side${side}`},s("rect",{x:-width/2,y:-height/2,width,height,rx:2}));function setPin(pin,[x,y],dyad){put(pin,"cx",px(x));put(pin,"cy",px(y));put(pin,
+"data-dyad",dyad.id)}var inGround=([x,y],view)=>[view.X(x),view.Y(y)];var Bar=class{constructor({links,pins},side){this.strokes=[s("path",{class:"bm-bar"}),s("p\
+ath",{class:"bm-core"})];this.bar=s("g",{class:`bm-link bm-side${side}`},this.strokes);this.ground=s("circle",{class:"bm-pin bm-fixed-pin",r:4.5});this.pin=s("c\
+ircle",{class:"bm-pin",r:4.5});links.append(this.bar);pins.append(this.ground)}shape(dyad,view){this.dyad=dyad;this.view=view;for(const stroke of this.strokes)put(
+stroke,"d",`M0 0H${px(view.scale*dyad.radius)}`);setPin(this.ground,inGround(dyad.fixed_pivot,view),dyad);setPin(this.pin,inBody(dyad.moving_pivot,view),dyad)}show(place){
+const{dyad,view}=this,[cx,cy]=dyad.fixed_pivot,[x,y]=act(place,dyad.moving_pivot);put(this.bar,"transform",transform(view.X(cx),view.Y(cy),Math.atan2(y-cy,x-cx)))}};
+var BlockOnRail=class{constructor({blocks},side){this.block=block(side,...BLOCK);this.pin=s("circle",{class:"bm-pin",r:4.5});blocks.append(this.block)}shape(dyad,view){
+this.dyad=dyad;this.view=view;put(this.block,"data-dyad",dyad.id);setPin(this.pin,inBody(dyad.moving_pivot,view),dyad)}show(place){put(this.block,"transform",onRail(
+this.dyad,place,this.view))}};var Slot=class{constructor({blocks,pins,coupler},side){this.strokes=["rim","plate","edge"].map(name=>s("path",{class:`bm-slot-${name}`}));
+this.strokes.push(s("path",{class:"bm-slot"}));this.block=block(side,...BLOCK_IN_SLOT);this.ground=s("circle",{class:"bm-pin bm-fixed-pin",r:4});coupler.append(
+...this.strokes);blocks.append(this.block);pins.append(this.ground)}shape(dyad,view,places){this.dyad=dyad;this.view=view;const[low,high]=places.length?travelOf(
+dyad,places):[0,0],end=(BLOCK_IN_SLOT[0]/2+SPARE)/view.scale;const seen2=along2=>inBody(pointOnLine(dyad,along2),view);const d=`M${[seen2(low-end),seen2(high+end)].
+map(each=>each.map(px).join(" ")).join("L")}`;for(const stroke of this.strokes)put(stroke,"d",d);for(const part of[this.strokes[3],this.block])put(part,"data-dy\
+ad",dyad.id);setPin(this.ground,inGround(dyad.fixed_pivot,view),dyad);return seen2((low+high)/2)}show(place){const{dyad,view}=this,[nx,ny]=normalOf(dyad),[cx,cy]=dyad.
+fixed_pivot;put(this.block,"transform",transform(view.X(cx),view.Y(cy),place.a+Math.atan2(nx,-ny)))}};var Nothing=class{shape(){}show(){}};var PARTS={RR:Bar,PR:BlockOnRail,
+RP:Slot,PP:Nothing};var LETTER2=7.2;var HEIGHT=14;var REST=80;var MANY=60;var OUTSIDE=500;var HABIT=6;var MISLEADING=60;var SAME=2;function around(text,toward,distance,few=false){const half=(LETTER2*
+text.length+4)/2,places=[],count=few?8:16;for(let ring=0;ring<(few?1:3);ring+=1){for(let k=0;k<count;k+=1){const turn=(k%2?1:-1)*Math.ceil(k/2)*(2*Math.PI/count),
+angle=toward+turn,away=distance+9*ring;places.push([(away+half-5)*Math.cos(angle),away*Math.sin(angle),3*Math.abs(turn)+14*ring])}}return places}function along(up,width){
+const reach=Math.max(0,width/2-30);return[0,-.5,.5,-1,1].flatMap(share=>[[share*reach,up,8*Math.abs(share)],[share*reach,-up,10+8*Math.abs(share)]])}var NamePlaces=class{constructor(scene){
+this.scene=scene;this.names=new Map;this.obstacles=[];this.timer=null;scene.on("dropped",()=>this.ask())}avoid(fn){this.obstacles.push(fn)}get areMany(){return this.
+names.size>MANY}put(element,x,y,text,places){const before=this.names.get(element),name={x,y,text,places,at:before?.text===text?before.at:places[0]};this.names.set(
+element,name);this.show(element,name);this.ask()}ask(){clearTimeout(this.timer);if(!this.scene.dragged)this.timer=setTimeout(()=>this.place(),REST)}show(element,{
+x,y,at}){put(element,"text-anchor","middle");put(element,"transform",`translate(${px(x+at[0])} ${px(y-at[1]+4)})`)}place(){if(this.scene.dragged)return;for(const element of[
+...this.names.keys()])if(!element.isConnected)this.names.delete(element);const{width,height}=this.scene.view;const seen2=[...this.names].filter(([element,{x,y}])=>x>
+-20&&y>-20&&x<width+20&&y<height+20&&element.getAttribute("display")!=="none");const taken=this.obstacles.flatMap(fn=>fn()).map(boxOf),stands=new Map;for(let pass=0;pass<
+(this.areMany?1:2);pass+=1){for(const[element,name]of seen2){stands.delete(element);const others=[...stands.values()];let best=null;for(const at of name.places){
+const box=boxAt(name,at);const habit=at[0]===name.at[0]&&at[1]===name.at[1]?HABIT:0;let cost=at[2]-habit;if(box[0]<2||box[1]<2||box[2]>width-2||box[3]>height-2)
+cost+=OUTSIDE;for(const other of taken)cost+=overlap(box,other);for(const other of others)cost+=SAME*overlap(box,other);const own=awayFrom(box,name);if(seen2.some(
+([,other])=>other!==name&&awayFrom(box,other)<own+1))cost+=MISLEADING;if(!best||cost<best.cost)best={cost,at,box}}name.at=best.at;stands.set(element,best.box)}}
+for(const[element,name]of seen2)this.show(element,name)}};var boxOf=([x,y,width,height])=>[x-width/2,y-height/2,x+width/2,y+height/2];var boxAt=({x,y,text},at)=>boxOf(
+[x+at[0],y-at[1],LETTER2*text.length+4,HEIGHT]);var awayFrom=(box,{x,y})=>Math.hypot(Math.max(box[0]-x,0,x-box[2]),Math.max(box[1]-y,0,y-box[3]));function overlap(one,other){
+const across=Math.min(one[2],other[2])-Math.max(one[0],other[0]),down=Math.min(one[3],other[3])-Math.max(one[1],other[1]);return across>0&&down>0?across*down:0}var LAYERS=["grid","regions","ghosts","map","curves","paths","mechanism","limits","pivots","poses","labels","tool"];var MARGIN=46;var ZOOM=1.0018;var WIDEST2=1e6;
+var CLICK=4;var RAW=8;var SPARE2=.5;var Scene=class{constructor(store,{zoomKey=false}={}){this.store=store;this.zoomKey=zoomKey;this.listeners={view:[],click:[],
 tool:[],dropped:[]};this.tool=null;this.dragged=null;this.layers=new Map(LAYERS.map(name=>[name,s("g",{class:`bs-layer bs-layer-${name}`})]));this.layers.get("g\
 rid").setAttribute("aria-hidden","true");this.svg=s("svg",{class:"bs-scene",tabindex:0,role:"group","aria-label":"The plane: poses, linkage and limits. Arrow ke\
 ys pan, plus and minus zoom, 0 fits."},...this.layers.values());this.element=h("div",{class:"bs-plane"},this.svg);this.size={width:640,height:480};this.origin={
-scale:1,left:320,top:240};this.isFitted=true;this.pointers=new Map;this.boxes=[];this.update();this.listen();store.on("document",()=>this.unit===store.document.
-length_unit||this.grid());new ResizeObserver(()=>this.resize()).observe(this.element);addEventListener("scroll",()=>this.box=null,{capture:true,passive:true})}layer(name){
-return this.layers.get(name)}on(name,fn){this.listeners[name].push(fn)}emit(name,...values){return this.listeners[name].map(fn=>fn(...values)).some(Boolean)}hold(fn,far=false){
-this.boxes.push({fn,far})}update(){const{width,height}=this.size,{scale,left,top}=this.origin;this.view={scale,left,top,width,height,X:x=>left+scale*x,Y:y=>top-
-scale*y,x:X=>(X-left)/scale,y:Y=>(top-Y)/scale};Object.assign(this.svg.dataset,{scale,left,top,fit:this.isFitted?this.isWhole?"all":"near":""});this.grid();this.
-emit("view",this.view)}resize(){this.box=null;const{width,height}=this.svg.getBoundingClientRect();if(!width||!height||width===this.size.width&&height===this.size.
-height)return;this.origin={...this.origin,left:this.origin.left+(width-this.size.width)/2,top:this.origin.top+(height-this.size.height)/2};this.size={width,height};
-put(this.svg,"viewBox",`0 0 ${width} ${height}`);if(this.isFitted)this.fit(this.isWhole);else this.update()}pan(dx,dy){this.isFitted=false;this.origin={...this.
-origin,left:this.origin.left+dx,top:this.origin.top+dy};this.update()}zoom(factor,X,Y){const fitted=this.fittedScale??this.origin.scale;const scale=clamp(this.origin.
-scale*factor,fitted/WIDEST2,fitted*WIDEST2),by=scale/this.origin.scale;this.isFitted=false;this.origin={scale,left:X+by*(this.origin.left-X),top:Y+by*(this.origin.
-top-Y)};this.update()}fit(whole=false){const pointsOf=isFar=>this.boxes.filter(({far:far2})=>far2===isFar).flatMap(({fn})=>fn());const near2=pointsOf(false),far=pointsOf(
-true),all=bounds([...near2,...far]);let[x,y,u,v]=near2.length&&!whole?bounds(near2):Number.isFinite(all[0])?all:[-50,-50,50,50];const size2=Math.max(u-x,v-y)||Math.
-max(1,Math.abs(u),Math.abs(v));if(near2.length&&far.length&&!whole){const reach=SPARE*size2;[x,y,u,v]=[Math.max(all[0],x-reach),Math.max(all[1],y-reach),Math.min(
-all[2],u+reach),Math.min(all[3],v+reach)]}this.isWhole=whole;const{width,height}=this.size,margin=Math.min(MARGIN,width/8);const scale=Math.min((width-2*margin)/
-Math.max(u-x,.1*size2),(height-2*margin)/Math.max(v-y,.1*size2));this.fittedScale=scale;this.origin={scale,left:width/2-scale*(x+u)/2,top:height/2+scale*(y+v)/2};
-this.isFitted=true;this.update()}fitAgain(){this.fit(this.isFitted&&!this.isWhole)}grid(){const{view}=this,{width,height}=view,group=this.layer("grid");const name=this.
-unit=this.store.document.length_unit,unit2=name?` ${name}`:"";const across=ticks(view.x(0),view.x(width),width/110),up=ticks(view.y(height),view.y(0),height/80);
-const lines=[...across.map(({at})=>`M${px(view.X(at))} 0V${height}`),...up.map(({at})=>`M0 ${px(view.Y(at))}H${width}`)];const origin=`M${px(clamp(view.X(0),-9,
-width+9))} 0V${height}M0 ${px(clamp(view.Y(0),-9,height+9))}H${width}`;group.replaceChildren(s("path",{class:"bs-grid-line",d:lines.join("")}),s("path",{class:"\
-bs-grid-axis",d:origin}),...across.filter(({at})=>view.X(at)>46&&view.X(at)<width-(unit2?54:30)).map(({at,text})=>s("text",{x:px(view.X(at)),y:height-6,"text-an\
-chor":"middle"},text)),...up.filter(({at})=>view.Y(at)>30&&view.Y(at)<height-24).map(({at,text})=>s("text",{x:6,y:px(view.Y(at)-4)},text)),s("text",{x:6,y:14},`\
-y${unit2}`),s("text",{x:width-6,y:height-6,"text-anchor":"end"},`x${unit2}`))}get grain(){return 10**Math.floor(Math.log10(.35/this.view.scale))}rounded(value){
-const{grain}=this,digits=clamp(-Math.round(Math.log10(grain)),0,12);return Number((Math.round(value/grain)*grain).toFixed(digits))+0}get step(){const[x,y,u,v]=bounds(
-this.store.document.poses.map(pose=>[pose.x??0,pose.y??0]));const span=Math.hypot(u-x,v-y);return Number.isFinite(span)&&span>0?10**Math.floor(Math.log10(span/50)):
-1}at(event){if(!this.box){this.box=this.svg.getBoundingClientRect();if(!this.dragged)requestAnimationFrame(()=>this.dragged||(this.box=null))}const{left,top}=this.
-box,X=event.clientX-left,Y=event.clientY-top;return{X,Y,x:this.view.x(X),y:this.view.y(Y)}}drag(element,{start=()=>true,move,end=()=>{},cancel=()=>{},click=()=>{}}){
-element.addEventListener("pointerdown",event=>{if(event.button!==0||this.tool||this.dragged)return;event.preventDefault();event.stopPropagation();element.focus?.(
-{preventScroll:true});const from=this.at(event),ended=new AbortController,{signal}=ended;let begun=false;const stop=finish=>{ended.abort();this.dragged=this.box=
-null;this.svg.classList.remove("bs-grasped");if(this.svg.hasPointerCapture?.(event.pointerId))this.svg.releasePointerCapture(event.pointerId);finish();this.emit(
-"dropped")};this.dragged={cancel:()=>stop(()=>begun&&cancel())};this.capture(event);const on=(name,fn)=>this.svg.addEventListener(name,each=>each.pointerId===event.
-pointerId&&fn(each),{signal});let last=from,then=event.timeStamp;const go=each=>{const point2=this.at(each);if(point2.X===last.X&&point2.Y===last.Y)return;last=
-point2;then=each.timeStamp;if(!begun){if(Math.hypot(point2.X-from.X,point2.Y-from.Y)<CLICK)return;begun=start(from,event)!==false;if(!begun)return stop(()=>{});
-this.svg.classList.add("bs-grasped")}move(point2,each)};on("pointermove",go);on("pointerrawupdate",each=>each.timeStamp-then>=RAW&&go(each));on("pointerup",each=>stop(
-()=>begun?end(this.at(each)):click(event)));on("pointercancel",()=>stop(()=>begun&&cancel()))})}use(tool){const before=this.tool;this.tool=tool??null;before?.end?.();
-this.svg.classList.toggle("bs-drawing",Boolean(tool));this.emit("tool",this.tool);if(tool)this.svg.focus({preventScroll:true})}listen(){const{svg}=this;svg.addEventListener(
-"wheel",event=>{if(this.zoomKey&&!event.ctrlKey&&!event.metaKey)return;event.preventDefault();const{X,Y}=this.at(event),unit2=event.deltaMode===1?16:1;this.zoom(
-ZOOM**(-event.deltaY*unit2*(event.ctrlKey&&!this.zoomKey?4:1)),X,Y)},{passive:false});svg.addEventListener("pointerdown",event=>this.press(event));svg.addEventListener(
-"pointermove",event=>this.moved(event));for(const name of["pointerup","pointercancel"])svg.addEventListener(name,event=>this.released(event));svg.addEventListener(
-"keydown",event=>this.key(event))}capture({pointerId}){try{this.svg.setPointerCapture(pointerId)}catch{}}press(event){if(event.button!==0&&event.button!==1)return;
-const{X,Y}=this.at(event);this.pointers.set(event.pointerId,{X,Y,from:{X,Y},button:event.button});if(this.pointers.size>1)for(const each of this.pointers.values())
-each.panned=true;this.capture(event)}moved(event){const point2=this.at(event),held=this.pointers.get(event.pointerId);if(!held){if(!this.dragged)this.tool?.hover?.(
-point2);return}const before={X:held.X,Y:held.Y};Object.assign(held,{X:point2.X,Y:point2.Y});if(this.pointers.size===2){const[one,other]=this.pointers.values(),still=held===
-one?other:one;const[now,then]=[point2,before].map(({X,Y})=>Math.hypot(X-still.X,Y-still.Y));if(then>0)this.zoom(now/then,(point2.X+still.X)/2,(point2.Y+still.Y)/
-2);return}held.panned||=Math.hypot(point2.X-held.from.X,point2.Y-held.from.Y)>CLICK;if(!held.panned)return;if(this.tool?.drag?.(point2,held))return;this.svg.classList.
-add("bs-grasped");this.pan(point2.X-before.X,point2.Y-before.Y)}released(event){const held=this.pointers.get(event.pointerId);if(!held)return;this.pointers.delete(
-event.pointerId);this.svg.classList.remove("bs-grasped");const point2=this.at(event);if(event.type==="pointercancel")this.tool?.hover?.(null);else if(held.panned)
-this.tool?.release?.(point2,held);else if(held.button===0)this.tool?this.tool.click(point2,event):this.emit("click",point2,event)}key(event){if(event.target!==this.
-svg||event.ctrlKey||event.metaKey||event.altKey)return;const by=event.shiftKey?160:40,{width,height}=this.size;const steps={ArrowLeft:[by,0],ArrowRight:[-by,0],
-ArrowUp:[0,by],ArrowDown:[0,-by]};if(steps[event.key])this.pan(...steps[event.key]);else if(event.key==="+"||event.key==="=")this.zoom(1.25,width/2,height/2);else if(event.
-key==="-")this.zoom(.8,width/2,height/2);else if(event.key==="0")this.fitAgain();else return;event.preventDefault()}};var bounds=points=>points.reduce(([x,y,u,v],[
-a,b])=>Number.isFinite(a+b)?[Math.min(x,a),Math.min(y,b),Math.max(u,a),Math.max(v,b)]:[x,y,u,v],[Infinity,Infinity,-Infinity,-Infinity]);var Kept=class{constructor(group,make,show){
+scale:1,left:320,top:240};this.isFitted=true;this.pointers=new Map;this.boxes=[];this.names=new NamePlaces(this);this.update();this.listen();store.on("document",
+()=>this.unit===store.document.length_unit||this.grid());new ResizeObserver(()=>this.resize()).observe(this.element);addEventListener("scroll",()=>this.box=null,
+{capture:true,passive:true})}layer(name){return this.layers.get(name)}on(name,fn){this.listeners[name].push(fn)}emit(name,...values){return this.listeners[name].
+map(fn=>fn(...values)).some(Boolean)}hold(fn,far=false){this.boxes.push({fn,far})}update(){const{width,height}=this.size,{scale,left,top}=this.origin;this.view=
+{scale,left,top,width,height,X:x=>left+scale*x,Y:y=>top-scale*y,x:X=>(X-left)/scale,y:Y=>(top-Y)/scale};Object.assign(this.svg.dataset,{scale,left,top,fit:this.
+isFitted?this.isWhole?"all":"near":""});this.grid();this.emit("view",this.view)}resize(){this.box=null;const{width,height}=this.svg.getBoundingClientRect();if(!width||
+!height||width===this.size.width&&height===this.size.height)return;this.origin={...this.origin,left:this.origin.left+(width-this.size.width)/2,top:this.origin.top+
+(height-this.size.height)/2};this.size={width,height};put(this.svg,"viewBox",`0 0 ${width} ${height}`);if(this.isFitted)this.fit(this.isWhole);else this.update()}pan(dx,dy){
+this.isFitted=false;this.origin={...this.origin,left:this.origin.left+dx,top:this.origin.top+dy};this.update()}zoom(factor,X,Y){const fitted=this.fittedScale??this.
+origin.scale;const scale=clamp(this.origin.scale*factor,fitted/WIDEST2,fitted*WIDEST2),by=scale/this.origin.scale;this.isFitted=false;this.origin={scale,left:X+
+by*(this.origin.left-X),top:Y+by*(this.origin.top-Y)};this.update()}fit(whole=false){const pointsOf=isFar=>this.boxes.filter(({far:far2})=>far2===isFar).flatMap(
+({fn})=>fn());const near2=pointsOf(false),far=pointsOf(true),all=bounds([...near2,...far]);let[x,y,u,v]=near2.length&&!whole?bounds(near2):Number.isFinite(all[0])?
+all:[-50,-50,50,50];const size2=Math.max(u-x,v-y)||Math.max(1,Math.abs(u),Math.abs(v));if(near2.length&&far.length&&!whole){const reach=SPARE2*size2;[x,y,u,v]=[
+Math.max(all[0],x-reach),Math.max(all[1],y-reach),Math.min(all[2],u+reach),Math.min(all[3],v+reach)]}this.isWhole=whole;const{width,height}=this.size,margin=Math.
+min(MARGIN,width/8);const scale=Math.min((width-2*margin)/Math.max(u-x,.1*size2),(height-2*margin)/Math.max(v-y,.1*size2));this.fittedScale=scale;this.origin={scale,
+left:width/2-scale*(x+u)/2,top:height/2+scale*(y+v)/2};this.isFitted=true;this.update()}fitAgain(){this.fit(this.isFitted&&!this.isWhole)}grid(){const{view}=this,
+{width,height}=view,group=this.layer("grid");const name=this.unit=this.store.document.length_unit,unit2=name?` ${name}`:"";const across=ticks(view.x(0),view.x(width),
+width/110),up=ticks(view.y(height),view.y(0),height/80);const lines=[...across.map(({at})=>`M${px(view.X(at))} 0V${height}`),...up.map(({at})=>`M0 ${px(view.Y(at))}\
+H${width}`)];const origin=`M${px(clamp(view.X(0),-9,width+9))} 0V${height}M0 ${px(clamp(view.Y(0),-9,height+9))}H${width}`;group.replaceChildren(s("path",{class:"\
+bs-grid-line",d:lines.join("")}),s("path",{class:"bs-grid-axis",d:origin}),...across.filter(({at})=>view.X(at)>46&&view.X(at)<width-(unit2?54:30)).map(({at,text})=>s(
+"text",{x:px(view.X(at)),y:height-6,"text-anchor":"middle"},text)),...up.filter(({at})=>view.Y(at)>30&&view.Y(at)<height-24).map(({at,text})=>s("text",{x:6,y:px(
+view.Y(at)-4)},text)),s("text",{x:6,y:14},`y${unit2}`),s("text",{x:width-6,y:height-6,"text-anchor":"end"},`x${unit2}`))}get grain(){return 10**Math.floor(Math.
+log10(.35/this.view.scale))}rounded(value){const{grain}=this,digits=clamp(-Math.round(Math.log10(grain)),0,12);return Number((Math.round(value/grain)*grain).toFixed(
+digits))+0}get step(){const[x,y,u,v]=bounds(this.store.document.poses.map(pose=>[pose.x??0,pose.y??0]));const span=Math.hypot(u-x,v-y);return Number.isFinite(span)&&
+span>0?10**Math.floor(Math.log10(span/50)):1}at(event){if(!this.box){this.box=this.svg.getBoundingClientRect();if(!this.dragged)requestAnimationFrame(()=>this.dragged||
+(this.box=null))}const{left,top}=this.box,X=event.clientX-left,Y=event.clientY-top;return{X,Y,x:this.view.x(X),y:this.view.y(Y)}}drag(element,{start=()=>true,move,
+end=()=>{},cancel=()=>{},click=()=>{}}){element.addEventListener("pointerdown",event=>{if(event.button!==0||this.tool||this.dragged)return;event.preventDefault();
+event.stopPropagation();element.focus?.({preventScroll:true});const from=this.at(event),ended=new AbortController,{signal}=ended;let begun=false;const stop=finish=>{
+ended.abort();this.dragged=this.box=null;this.svg.classList.remove("bs-grasped");if(this.svg.hasPointerCapture?.(event.pointerId))this.svg.releasePointerCapture(
+event.pointerId);finish();this.emit("dropped")};this.dragged={cancel:()=>stop(()=>begun&&cancel())};this.capture(event);const on=(name,fn)=>this.svg.addEventListener(
+name,each=>each.pointerId===event.pointerId&&fn(each),{signal});let last=from,then=event.timeStamp;const go=each=>{const point2=this.at(each);if(point2.X===last.
+X&&point2.Y===last.Y)return;last=point2;then=each.timeStamp;if(!begun){if(Math.hypot(point2.X-from.X,point2.Y-from.Y)<CLICK)return;begun=start(from,event)!==false;
+if(!begun)return stop(()=>{});this.svg.classList.add("bs-grasped")}move(point2,each)};on("pointermove",go);on("pointerrawupdate",each=>each.timeStamp-then>=RAW&&
+go(each));on("pointerup",each=>stop(()=>begun?end(this.at(each)):click(event)));on("pointercancel",()=>stop(()=>begun&&cancel()))})}use(tool){const before=this.
+tool;this.tool=tool??null;before?.end?.();this.svg.classList.toggle("bs-drawing",Boolean(tool));this.emit("tool",this.tool);if(tool)this.svg.focus({preventScroll:true})}listen(){
+const{svg}=this;svg.addEventListener("wheel",event=>{if(this.zoomKey&&!event.ctrlKey&&!event.metaKey)return;event.preventDefault();const{X,Y}=this.at(event),unit2=event.
+deltaMode===1?16:1;this.zoom(ZOOM**(-event.deltaY*unit2*(event.ctrlKey&&!this.zoomKey?4:1)),X,Y)},{passive:false});svg.addEventListener("pointerdown",event=>this.
+press(event));svg.addEventListener("pointermove",event=>this.moved(event));for(const name of["pointerup","pointercancel"])svg.addEventListener(name,event=>this.
+released(event));svg.addEventListener("keydown",event=>this.key(event))}capture({pointerId}){try{this.svg.setPointerCapture(pointerId)}catch{}}press(event){if(event.
+button!==0&&event.button!==1)return;const{X,Y}=this.at(event);this.pointers.set(event.pointerId,{X,Y,from:{X,Y},button:event.button});if(this.pointers.size>1)for(const each of this.
+pointers.values())each.panned=true;this.capture(event)}moved(event){const point2=this.at(event),held=this.pointers.get(event.pointerId);if(!held){if(!this.dragged)
+this.tool?.hover?.(point2);return}const before={X:held.X,Y:held.Y};Object.assign(held,{X:point2.X,Y:point2.Y});if(this.pointers.size===2){const[one,other]=this.
+pointers.values(),still=held===one?other:one;const[now,then]=[point2,before].map(({X,Y})=>Math.hypot(X-still.X,Y-still.Y));if(then>0)this.zoom(now/then,(point2.
+X+still.X)/2,(point2.Y+still.Y)/2);return}held.panned||=Math.hypot(point2.X-held.from.X,point2.Y-held.from.Y)>CLICK;if(!held.panned)return;if(this.tool?.drag?.(
+point2,held))return;this.svg.classList.add("bs-grasped");this.pan(point2.X-before.X,point2.Y-before.Y)}released(event){const held=this.pointers.get(event.pointerId);
+if(!held)return;this.pointers.delete(event.pointerId);this.svg.classList.remove("bs-grasped");const point2=this.at(event);if(event.type==="pointercancel")this.tool?.
+hover?.(null);else if(held.panned)this.tool?.release?.(point2,held);else if(held.button===0)this.tool?this.tool.click(point2,event):this.emit("click",point2,event)}key(event){
+if(event.target!==this.svg||event.ctrlKey||event.metaKey||event.altKey)return;const by=event.shiftKey?160:40,{width,height}=this.size;const steps={ArrowLeft:[by,
+0],ArrowRight:[-by,0],ArrowUp:[0,by],ArrowDown:[0,-by]};if(steps[event.key])this.pan(...steps[event.key]);else if(event.key==="+"||event.key==="=")this.zoom(1.25,
+width/2,height/2);else if(event.key==="-")this.zoom(.8,width/2,height/2);else if(event.key==="0")this.fitAgain();else return;event.preventDefault()}};var bounds=points=>points.
+reduce(([x,y,u,v],[a,b])=>Number.isFinite(a+b)?[Math.min(x,a),Math.min(y,b),Math.max(u,a),Math.max(v,b)]:[x,y,u,v],[Infinity,Infinity,-Infinity,-Infinity]);var Kept=class{constructor(group,make,show){
 Object.assign(this,{group,make,show,elements:new Map})}draw(items){const kept=new Map;for(const[key,item]of items){const element=this.elements.get(key)??this.make(
 key,item);kept.set(key,element);this.show(element,item)}for(const[key,element]of this.elements)if(!kept.has(key))element.remove();let before=null;for(const element of kept.
 values()){const next=before?before.nextSibling:this.group.firstChild;if(element!==next||element.parentNode!==this.group)this.group.insertBefore(element,next);before=
-element}this.elements=kept}};var LONGEST_ARM=46;var SHORTEST_ARM=27;var FEW=24;var MOST=240;var ROOM=14;var LONGEST_NAME=18;var ARROWS={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowUp:[0,1],ArrowDown:[
-0,-1]};var tenths=angle=>Number(angle.toFixed(1))+0;var unwrapped=(angle,near2)=>angle+360*Math.round((near2-angle)/360);function drawnPoses({document:document2,
+element}this.elements=kept}};var LONGEST_ARM=46;var SHORTEST_ARM=27;var FEW=24;var MOST=240;var ROOM=14;var NAME=14;var LONGEST_NAME2=18;var ARROWS={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowUp:[
+0,1],ArrowDown:[0,-1]};var tenths=angle=>Number(angle.toFixed(1))+0;var unwrapped=(angle,near2)=>angle+360*Math.round((near2-angle)/360);function drawnPoses({document:document2,
 selection},scale){const{poses}=document2,count=poses.length,all=[...poses.keys()];if(count<=FEW)return all;const length=poses.slice(1).reduce((sum,{x,y},k)=>sum+
 (Math.hypot(x-poses[k].x,y-poses[k].y)||0),0);const stride=Math.ceil(count/clamp(scale*length/ROOM,FEW,MOST)),chosen=selection?.kind==="pose"?selection.index:-1;
 return all.filter(k=>k%stride===0||k===count-1||k===chosen)}var PoseHandles=class{constructor(store,scene){this.store=store;this.scene=scene;this.element=scene.
 layer("poses");this.names=scene.layer("labels");this.kept=new Kept(this.element,k=>this.make(k),(group,k)=>this.show(group,k));this.labels=new Kept(this.names,()=>s(
 "text",{class:"bs-pose-name"}),(text,k)=>this.showName(text,k));store.on("document selection",()=>this.draw());scene.on("view",()=>this.draw());scene.hold(()=>store.
-document.poses.map((_,k)=>standing(store.document,k)).map(({x,y})=>[x,y]));scene.on("click",()=>store.select(null));this.draw()}get arm(){const{document:document2}=this.
-store,{scale}=this.scene.view,places=drawnPoses(this.store,scale).map(k=>standing(document2,k));const away=places.slice(1).map(({x,y},k)=>scale*Math.hypot(x-places[k].
-x,y-places[k].y)).sort((a,b)=>a-b);return away.length?clamp(1.2*away[away.length>>1],SHORTEST_ARM,LONGEST_ARM):LONGEST_ARM}draw(){this.length=this.scene.dragged?
-this.length??this.arm:this.arm;const poses=drawnPoses(this.store,this.scene.view.scale).map(k=>[k,k]);this.kept.draw(poses);this.labels.draw(poses)}make(k){const origin=s(
-"g",{class:"bs-origin","data-pose":k+1,tabindex:0,role:"button"},s("circle",{class:"bs-hold",r:12}),s("circle",{class:"bs-dot",r:5.5}));const turn=s("g",{class:"\
-bs-turn","data-turn":k+1,tabindex:0,role:"slider","aria-valuemin":-360,"aria-valuemax":360},s("circle",{class:"bs-hold",r:12}),s("circle",{class:"bs-tip",r:5}));
-const group=s("g",{class:"bs-pose"},s("path",{class:"bs-axes"}),origin,turn);this.dragOrigin(origin,k);this.dragTurn(turn,k);for(const part of[origin,turn])part.
-addEventListener("focus",()=>this.store.select({kind:"pose",index:k}));origin.addEventListener("keydown",event=>this.key(event,k,false));turn.addEventListener("\
-keydown",event=>this.key(event,k,true));return group}show(group,k){const{store,scene:{view}}=this,{x,y,angle}=standing(store.document,k),pose=store.document.poses[k];
-const selected=store.selection?.kind==="pose"&&store.selection.index===k,unit2=store.document.length_unit??"",name=poseName(store.document,k);if(!isOther(group,
-[view,this.length,x,y,angle,Boolean(pose.exact),pose.name,name,unit2,selected]))return;const[arrow2,origin,turn]=group.children;put(group,"transform",transform(
-view.X(x),view.Y(y),radians(angle)));put(arrow2,"d",axes(this.length-8));put(turn,"transform",`translate(${px(this.length)} 0)`);group.classList.toggle("bs-sele\
-cted",selected);group.classList.toggle("bs-exact",Boolean(pose.exact));const called=pose.name?`Pose ${k+1}, ${name}`:`Pose ${k+1}`;put(origin,"aria-label",`${called}\
-: x ${x} ${unit2}, y ${y} ${unit2}, angle ${angle}°. Drag, or use the arrow keys; Delete removes it.`);put(origin,"aria-pressed",selected);put(turn,"aria-label",
-`Turn ${called}`);put(turn,"aria-valuenow",angle);put(turn,"aria-valuetext",`${angle}°`)}showName(text,k){const{store,scene:{view}}=this,{x,y,angle}=standing(store.
-document,k),a=radians(angle+215);if(!isOther(text,[view,x,y,angle,poseName(store.document,k)]))return;say(text,shortened(poseName(store.document,k),LONGEST_NAME));
-put(text,"text-anchor",Math.cos(a)<-.3?"end":Math.cos(a)>.3?"start":"middle");put(text,"transform",`translate(${px(view.X(x)+13*Math.cos(a))} ${px(view.Y(y)-13*
-Math.sin(a)+4)})`)}set(k,changes,gesture){this.store.edit(document2=>setPose(document2,k,statedOf(document2.poses[k],changes)),{gesture})}dragOrigin(element,k){
-const{store,scene}=this;let gesture,off;scene.drag(element,{start:from=>{const{x,y}=standing(store.document,k);gesture=Symbol("move a pose");off=[x-from.x,y-from.
-y]},move:point2=>this.set(k,{x:scene.rounded(point2.x+off[0]),y:scene.rounded(point2.y+off[1])},gesture),cancel:()=>store.abandon(gesture)})}dragTurn(element,k){
-const{store,scene}=this;let gesture,off;const angleTo=point2=>{const{x,y}=standing(store.document,k);return degrees(Math.atan2(point2.y-y,point2.x-x))};scene.drag(
-element,{start:from=>{gesture=Symbol("turn a pose");off=standing(store.document,k).angle-angleTo(from)},move:point2=>this.set(k,{angle:tenths(unwrapped(angleTo(
-point2)+off,standing(store.document,k).angle))},gesture),cancel:()=>store.abandon(gesture)})}key(event,k,turning){const{store,scene}=this,arrow2=ARROWS[event.key];
-if(event.ctrlKey||event.metaKey)return;if(arrow2){if(!event.repeat)this.keyed=Symbol("keys");const{x,y,angle}=standing(store.document,k),by=stepOf(event,turning?
-1:scene.step);if(turning)this.set(k,{angle:stepped(angle,by*(arrow2[0]===0?arrow2[1]:-arrow2[0]))},this.keyed);else this.set(k,{x:stepped(x,by*arrow2[0]),y:stepped(
-y,by*arrow2[1])},this.keyed)}else if(event.key==="Delete"||event.key==="Backspace"){store.edit(document2=>removePose(document2,k));const left=store.document.poses.
-length;store.select(left?{kind:"pose",index:Math.min(k,left-1)}:null);this.focus(Math.min(k,left-1))}else{return}event.preventDefault()}focus(k){this.element.querySelector(
-`[data-pose="${k+1}"]`)?.focus({preventScroll:true})}};var PoseTool=class{constructor(store,scene){Object.assign(this,{store,scene,name:"pose",gesture:null});this.
-hint="Click where the pose is to stand, and click again to turn it. Escape ends."}click(point2){const{store,scene}=this;if(this.gesture){this.turn(point2);this.
-gesture=null;return}this.gesture=Symbol("add a pose");const angle=store.document.poses.at(-1)?.angle??0;store.edit(document2=>addPose(document2,{x:scene.rounded(
-point2.x),y:scene.rounded(point2.y),angle}),{gesture:this.gesture});store.select({kind:"pose",index:store.document.poses.length-1})}hover(point2){if(this.gesture&&
-point2)this.turn(point2)}turn(point2){const{store,gesture}=this,k=store.document.poses.length-1,{x,y,angle}=standing(store.document,k);const away=Math.hypot(point2.
-x-x,point2.y-y)*this.scene.view.scale;if(away<6)return;const next=tenths(unwrapped(degrees(Math.atan2(point2.y-y,point2.x-x)),angle));store.edit(document2=>setPose(
-document2,k,{angle:next}),{gesture})}key(event){if(event.key!=="Escape")return false;if(this.gesture)this.store.abandon(this.gesture);this.gesture=null;this.scene.
-use(null);return true}};var cross=([a,b],[c,d])=>a*d-b*c;var minus=([a,b],[c,d])=>[a-c,b-d];var size=([a,b])=>Math.hypot(a,b);function fromSegment(point2,start,end){const along=minus(end,
-start),away=minus(point2,start),square=along[0]**2+along[1]**2;const share=square>0?Math.min(1,Math.max(0,(along[0]*away[0]+along[1]*away[1])/square)):0;return size(
-minus(away,[share*along[0],share*along[1]]))}var boxCorners=([[a,b],[c,d]])=>[[a,b],[c,b],[c,d],[a,d]];var outlineOf=(shape,points)=>shape==="box"?boxCorners(points):
-points;function isInside([x,y],corners){let inside2=false;corners.forEach(([a,b],k)=>{const[c,d]=corners[(k+1)%corners.length];if(b>y!==d>y&&x<a+(y-b)/(d-b)*(c-
-a))inside2=!inside2});return inside2}function distanceTo(point2,shape,points){if(shape==="point")return size(minus(point2,points[0]));if(shape==="segment")return fromSegment(
-point2,...points);if(shape==="line"){const along=minus(points[1],points[0]);return Math.abs(cross(along,minus(point2,points[0])))/size(along)}const corners=outlineOf(
-shape,points);if(isInside(point2,corners))return 0;return Math.min(...corners.map((corner,k)=>fromSegment(point2,corner,corners[(k+1)%corners.length])))}var crosses=(a,b,c,d)=>{
-const turn=(p,q,r)=>Math.sign(cross(minus(q,p),minus(r,p)));return turn(a,b,c)*turn(a,b,d)<0&&turn(c,d,a)*turn(c,d,b)<0};var edges=corners=>corners.map((corner,k)=>[
-corner,corners[(k+1)%corners.length]]);function overlap(one,other){if(isInside(one[0],other)||isInside(other[0],one))return true;return edges(one).some(([a,b])=>edges(
-other).some(([c,d])=>crosses(a,b,c,d)))}function segmentFromPolygon([start,end],corners){if(isInside(start,corners)||edges(corners).some(([c,d])=>crosses(start,
-end,c,d)))return 0;return Math.min(...edges(corners).map(([c,d])=>Math.min(fromSegment(start,c,d),fromSegment(end,c,d),fromSegment(c,start,end),fromSegment(d,start,
-end))))}var ARROWS2={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowUp:[0,1],ArrowDown:[0,-1]};var LEAST_CORNERS=3;var CLOSED=new Set(["box","polygon"]);var GROUND={x:0,y:0,a:0};
+document.poses.map((_,k)=>standing(store.document,k)).map(({x,y})=>[x,y]));scene.on("click",()=>store.select(null));scene.names.avoid(()=>this.obstacles());this.
+draw()}get arm(){const{document:document2}=this.store,{scale}=this.scene.view,places=drawnPoses(this.store,scale).map(k=>standing(document2,k));const away=places.
+slice(1).map(({x,y},k)=>scale*Math.hypot(x-places[k].x,y-places[k].y)).sort((a,b)=>a-b);return away.length?clamp(1.2*away[away.length>>1],SHORTEST_ARM,LONGEST_ARM):
+LONGEST_ARM}draw(){this.length=this.scene.dragged?this.length??this.arm:this.arm;const poses=drawnPoses(this.store,this.scene.view.scale).map(k=>[k,k]);this.kept.
+draw(poses);this.labels.draw(poses)}make(k){const origin=s("g",{class:"bs-origin","data-pose":k+1,tabindex:0,role:"button"},s("circle",{class:"bs-hold",r:12}),s(
+"circle",{class:"bs-dot",r:5.5}));const turn=s("g",{class:"bs-turn","data-turn":k+1,tabindex:0,role:"slider","aria-valuemin":-360,"aria-valuemax":360},s("circle",
+{class:"bs-hold",r:12}),s("circle",{class:"bs-tip",r:5}));const group=s("g",{class:"bs-pose"},s("path",{class:"bs-axes"}),origin,turn);this.dragOrigin(origin,k);
+this.dragTurn(turn,k);for(const part of[origin,turn])part.addEventListener("focus",()=>this.store.select({kind:"pose",index:k}));origin.addEventListener("keydow\
+n",event=>this.key(event,k,false));turn.addEventListener("keydown",event=>this.key(event,k,true));return group}show(group,k){const{store,scene:{view}}=this,{x,y,
+angle}=standing(store.document,k),pose=store.document.poses[k];const selected=store.selection?.kind==="pose"&&store.selection.index===k,unit2=store.document.length_unit??
+"",name=poseName(store.document,k);if(!isOther(group,[view,this.length,x,y,angle,Boolean(pose.exact),pose.name,name,unit2,selected]))return;const[arrow2,origin,
+turn]=group.children;put(group,"transform",transform(view.X(x),view.Y(y),radians(angle)));put(arrow2,"d",axes(this.length-8));put(turn,"transform",`translate(${px(
+this.length)} 0)`);group.classList.toggle("bs-selected",selected);group.classList.toggle("bs-exact",Boolean(pose.exact));const called=pose.name?`Pose ${k+1}, ${name}`:
+`Pose ${k+1}`;put(origin,"aria-label",`${called}: x ${x} ${unit2}, y ${y} ${unit2}, angle ${angle}°. Drag, or use the arrow keys; Delete removes it.`);put(origin,
+"aria-pressed",selected);put(turn,"aria-label",`Turn ${called}`);put(turn,"aria-valuenow",angle);put(turn,"aria-valuetext",`${angle}°`)}obstacles(){const{store,
+scene:{view},length}=this,boxes=[];for(const k of drawnPoses(store,view.scale)){const{x,y,angle}=standing(store.document,k),a=radians(angle),[c,d]=[Math.cos(a),
+Math.sin(a)];const at=(along2,across,size2)=>boxes.push([view.X(x)+along2*c-across*d,view.Y(y)-along2*d-across*c,size2,size2]);at(0,0,13);at(length,0,12);at(LETTER,
+-LETTER,12);for(const share of[.35,.7])at(share*length,0,6);for(const share of[.3,.6])at(0,share*(length-8),6)}return boxes}showName(text,k){const{store,scene}=this,
+{view}=scene,{x,y,angle}=standing(store.document,k),name=shortened(poseName(store.document,k),LONGEST_NAME2);if(!isOther(text,[view,x,y,angle,name]))return;say(
+text,name);scene.names.put(text,view.X(x),view.Y(y),name,around(name,radians(angle+215),NAME,scene.names.areMany))}set(k,changes,gesture){this.store.edit(document2=>setPose(
+document2,k,statedOf(document2.poses[k],changes)),{gesture})}dragOrigin(element,k){const{store,scene}=this;let gesture,off;scene.drag(element,{start:from=>{const{
+x,y}=standing(store.document,k);gesture=Symbol("move a pose");off=[x-from.x,y-from.y]},move:point2=>this.set(k,{x:scene.rounded(point2.x+off[0]),y:scene.rounded(
+point2.y+off[1])},gesture),cancel:()=>store.abandon(gesture)})}dragTurn(element,k){const{store,scene}=this;let gesture,off;const angleTo=point2=>{const{x,y}=standing(
+store.document,k);return degrees(Math.atan2(point2.y-y,point2.x-x))};scene.drag(element,{start:from=>{gesture=Symbol("turn a pose");off=standing(store.document,
+k).angle-angleTo(from)},move:point2=>this.set(k,{angle:tenths(unwrapped(angleTo(point2)+off,standing(store.document,k).angle))},gesture),cancel:()=>store.abandon(
+gesture)})}key(event,k,turning){const{store,scene}=this,arrow2=ARROWS[event.key];if(event.ctrlKey||event.metaKey)return;if(arrow2){if(!event.repeat)this.keyed=Symbol(
+"keys");const{x,y,angle}=standing(store.document,k),by=stepOf(event,turning?1:scene.step);if(turning)this.set(k,{angle:stepped(angle,by*(arrow2[0]===0?arrow2[1]:
+-arrow2[0]))},this.keyed);else this.set(k,{x:stepped(x,by*arrow2[0]),y:stepped(y,by*arrow2[1])},this.keyed)}else if(event.key==="Delete"||event.key==="Backspace"){
+store.edit(document2=>removePose(document2,k));const left=store.document.poses.length;store.select(left?{kind:"pose",index:Math.min(k,left-1)}:null);this.focus(
+Math.min(k,left-1))}else{return}event.preventDefault()}focus(k){this.element.querySelector(`[data-pose="${k+1}"]`)?.focus({preventScroll:true})}};var PoseTool=class{constructor(store,scene){
+Object.assign(this,{store,scene,name:"pose",gesture:null});this.hint="Click where the pose is to stand, and click again to turn it. Escape ends."}click(point2){
+const{store,scene}=this;if(this.gesture){this.turn(point2);this.gesture=null;return}this.gesture=Symbol("add a pose");const angle=store.document.poses.at(-1)?.angle??
+0;store.edit(document2=>addPose(document2,{x:scene.rounded(point2.x),y:scene.rounded(point2.y),angle}),{gesture:this.gesture});store.select({kind:"pose",index:store.
+document.poses.length-1})}hover(point2){if(this.gesture&&point2)this.turn(point2)}turn(point2){const{store,gesture}=this,k=store.document.poses.length-1,{x,y,angle}=standing(
+store.document,k);const away=Math.hypot(point2.x-x,point2.y-y)*this.scene.view.scale;if(away<6)return;const next=tenths(unwrapped(degrees(Math.atan2(point2.y-y,
+point2.x-x)),angle));store.edit(document2=>setPose(document2,k,{angle:next}),{gesture})}key(event){if(event.key!=="Escape")return false;if(this.gesture)this.store.
+abandon(this.gesture);this.gesture=null;this.scene.use(null);return true}};var cross=([a,b],[c,d])=>a*d-b*c;var minus=([a,b],[c,d])=>[a-c,b-d];var size=([a,b])=>Math.hypot(a,b);function fromSegment(point2,start,end){const along2=minus(
+end,start),away=minus(point2,start),square=along2[0]**2+along2[1]**2;const share=square>0?Math.min(1,Math.max(0,(along2[0]*away[0]+along2[1]*away[1])/square)):0;
+return size(minus(away,[share*along2[0],share*along2[1]]))}var boxCorners=([[a,b],[c,d]])=>[[a,b],[c,b],[c,d],[a,d]];var outlineOf=(shape,points)=>shape==="box"?
+boxCorners(points):points;function isInside([x,y],corners){let inside2=false;corners.forEach(([a,b],k)=>{const[c,d]=corners[(k+1)%corners.length];if(b>y!==d>y&&
+x<a+(y-b)/(d-b)*(c-a))inside2=!inside2});return inside2}function distanceTo(point2,shape,points){if(shape==="point")return size(minus(point2,points[0]));if(shape===
+"segment")return fromSegment(point2,...points);if(shape==="line"){const along2=minus(points[1],points[0]);return Math.abs(cross(along2,minus(point2,points[0])))/
+size(along2)}const corners=outlineOf(shape,points);if(isInside(point2,corners))return 0;return Math.min(...corners.map((corner,k)=>fromSegment(point2,corner,corners[(k+
+1)%corners.length])))}var crosses=(a,b,c,d)=>{const turn=(p,q,r)=>Math.sign(cross(minus(q,p),minus(r,p)));return turn(a,b,c)*turn(a,b,d)<0&&turn(c,d,a)*turn(c,d,
+b)<0};var edges=corners=>corners.map((corner,k)=>[corner,corners[(k+1)%corners.length]]);function overlap2(one,other){if(isInside(one[0],other)||isInside(other[0],
+one))return true;return edges(one).some(([a,b])=>edges(other).some(([c,d])=>crosses(a,b,c,d)))}function segmentFromPolygon([start,end],corners){if(isInside(start,
+corners)||edges(corners).some(([c,d])=>crosses(start,end,c,d)))return 0;return Math.min(...edges(corners).map(([c,d])=>Math.min(fromSegment(start,c,d),fromSegment(
+end,c,d),fromSegment(c,start,end),fromSegment(d,start,end))))}var ARROWS2={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowUp:[0,1],ArrowDown:[0,-1]};var LEAST_CORNERS=3;var CLOSED=new Set(["box","polygon"]);var GROUND={x:0,y:0,a:0};
 function pathOf(shape,points,place,view){const seen2=outlineOf(shape,points).map(point2=>act(place,point2)).map(([x,y])=>[view.X(x),view.Y(y)]);if(shape==="poin\
 t")return`M${px(seen2[0][0]-7)} ${px(seen2[0][1])}h14m-7 -7v14`;if(shape==="line"){const[[a,b],[c,d]]=seen2,size2=Math.hypot(c-a,d-b)||1,far=view.width+view.height+
 Math.hypot(a,b);const[u,v]=[far*(c-a)/size2,far*(d-b)/size2];return`M${px(a-u)} ${px(b-v)}L${px(c+u)} ${px(d+v)}`}return`M${seen2.map(point2=>point2.map(px).join(
@@ -342,7 +408,7 @@ if(event.key==="Escape")this.scene.use(null);else if(event.key==="Backspace")thi
 inMiddle());else if(event.key==="Enter"&&this.points.length>2)this.finish(this.points);else return false;this.draw();return true}draw(){const{scene:{view},shape}=this,
 shown2=this.dragging??[...this.points,...this.next?[this.next]:[]];const place=this.place(),whole=shape==="polygon"?"open polygon":shape;const complete=shown2.length>
 1||shape==="point";put(this.path,"d",complete&&shown2.length?pathOf(whole,shown2,place,view):"");this.dots.replaceChildren(...(this.dragging??this.points).map(point2=>act(
-place,point2)).map(([x,y],k)=>s("circle",{class:k?"bs-draft-dot":"bs-draft-dot bs-first",r:4,cx:px(view.X(x)),cy:px(view.Y(y))})))}end(){this.element.remove()}};var MOST_GHOSTS=60;var PALEST=.4;function referenceIndex(store){const{selection,document:document2}=store;if(selection?.kind==="pose"&&selection.index<document2.
+place,point2)).map(([x,y],k)=>s("circle",{class:k?"bs-draft-dot":"bs-draft-dot bs-first",r:4,cx:px(view.X(x)),cy:px(view.Y(y))})))}end(){this.element.remove()}};var MOST_GHOSTS=60;var PALEST2=.4;function referenceIndex(store){const{selection,document:document2}=store;if(selection?.kind==="pose"&&selection.index<document2.
 poses.length)store.reference=selection.index;return Math.min(store.reference??0,document2.poses.length-1)}function referencePlace(store){const k=referenceIndex(
 store);if(k<0)return{x:0,y:0,a:0};const{x,y,angle}=standing(store.document,k);return{x,y,a:radians(angle)}}var BodyEditor=class{constructor(store,scene){this.store=
 store;this.scene=scene;this.ghosts=new Kept(s("g",{class:"bs-ghosts","aria-hidden":"true"}),()=>s("path",{class:"bs-ghost"}),(path2,item)=>this.showGhost(path2,
@@ -356,8 +422,9 @@ const body=bodyOf(this.store.document),{scale}=this.scene.view;this.path=body.le
 ghosts.draw(body.length?this.indices().map(k=>[k,k]):[]);if(!body.length||!this.store.document.poses.length)return this.handles.clear();if(!this.handles.element.
 parentNode)this.scene.layer("ghosts").append(this.handles.element);return this.handles.draw()}showGhost(path2,k){const{view}=this.scene,{x,y,angle}=standing(this.
 store.document,k),last=Math.max(1,this.store.document.poses.length-1);if(!isOther(path2,[view,x,y,angle,k/last,this.path]))return;put(path2,"d",this.path);put(path2,
-"opacity",(PALEST+(1-PALEST)*k/last).toFixed(3));put(path2,"transform",transform(view.X(x),view.Y(y),radians(angle)))}tool(){return new ShapeTool(this.scene,{shape:"\
-polygon",name:"body",place:()=>referencePlace(this.store),done:points=>{this.store.edit(document2=>setBody(document2,points));this.store.select({kind:"body",index:0})}})}};var ROUNDING=1e-6;var MOST_PLACES=90;var KEYS=["fixed_pivot","moving_pivot"];function currentLinkage(store){if(store.chosen==="placed")return store.placed?.linkage??
+"opacity",(PALEST2+(1-PALEST2)*k/last).toFixed(3));put(path2,"transform",transform(view.X(x),view.Y(y),radians(angle)))}tool(){return new ShapeTool(this.scene,{
+shape:"polygon",name:"body",place:()=>referencePlace(this.store),done:points=>{this.store.edit(document2=>setBody(document2,points));this.store.select({kind:"bo\
+dy",index:0})}})}};var ROUNDING=1e-6;var MOST_PLACES2=90;var KEYS=["fixed_pivot","moving_pivot"];function currentLinkage(store){if(store.chosen==="placed")return store.placed?.linkage??
 null;const followed=store.followed?.linkages.find(({id})=>id===store.chosen);if(followed?.led)return followed;if(store.followed?.vanished?.some(({id})=>id===store.
 chosen))return null;return store.solved?.linkages.find(({id})=>id===store.chosen)??null}var PIVOT={fixed_pivot:"fixed pivot",moving_pivot:"moving pivot"};function missed(table3,dyad,slack){
 const found=[];for(const key of KEYS){if(!table3[key])continue;const[[shape,stated]]=Object.entries(table3[key]),points=shape==="point"?[stated]:stated;const away=dyad[key]?
@@ -371,16 +438,16 @@ return total(pairings[1])<total(pairings[0])?pairings[1]:pairings[0]}function mi
 `${dyad} has no ${PIVOT[key]}.`:`The ${PIVOT[key]} of ${dyad} is ${by} outside.`}function usedPlaces(linkage){const rows=(linkage.pose_errors??[]).filter(row=>row.
 way!==null&&row.frame!==null);if(!rows.length||!linkage.ways?.length)return[];const counts=new Map;for(const{way:way2}of rows)counts.set(way2,(counts.get(way2)??
 0)+1);const[best]=[...counts].sort((a,b)=>b[1]-a[1])[0],way=linkage.ways[best];const frames=rows.filter(row=>row.way===best).map(({frame})=>frame);const low=Math.
-floor(Math.min(...frames)),high=Math.ceil(Math.max(...frames)),stride=Math.max(1,Math.ceil((high-low)/MOST_PLACES));const places=[];for(let k=low;k<=high&&k<way.
+floor(Math.min(...frames)),high=Math.ceil(Math.max(...frames)),stride=Math.max(1,Math.ceil((high-low)/MOST_PLACES2));const places=[];for(let k=low;k<=high&&k<way.
 x.length;k+=stride)places.push({x:way.x[k],y:way.y[k],a:way.angle[k]});return places}var regionCorners=region=>region.polygon??(region.box?boxCorners(region.box):
 null);var seen=(body,place)=>body.map(corner=>act(place,corner));function posePlace(document2,k){const{x,y,angle}=standing(document2,k);return{x,y,a:radians(angle)}}
 function regionsTouched(document2,linkage,body){const places=usedPlaces(linkage),width=document2.surroundings?.link_width??0,margin=document2.surroundings?.margin??
-0;const apart=Math.ceil(document2.poses.length/MOST_PLACES),some=[...document2.poses.keys()].filter(k=>k%apart===0);return regionsOf(document2).map(region=>{const corners=regionCorners(
-region);if(!corners)return"";const pose=body.length>2?some.find(k=>overlap(seen(body,posePlace(document2,k)),corners)):void 0;if(pose!==void 0)return`The body t\
-ouches it at pose ${poseName(document2,pose)}.`;if(!places.length)return"";if(body.length>2&&places.some(place=>overlap(seen(body,place),corners)))return"The bo\
-dy touches it.";for(const dyad of linkage.led){if(dyad.kind!=="RR")continue;const near2=Math.min(...places.map(place=>segmentFromPolygon([dyad.fixed_pivot,act(place,
-dyad.moving_pivot)],corners)));if(near2===0||near2<width/2)return`The link of ${dyad.id} touches it.`;if(near2<width/2+margin)return`The link of ${dyad.id} come\
-s nearer than the margin.`}return""})}var AGAIN=[250,500,1e3,2e3,4e3];var UNFINISHED=new Set(["solving","progress","waiting"]);var Refused=class extends Error{constructor(status,messages){super(messages.
+0;const apart=Math.ceil(document2.poses.length/MOST_PLACES2),some=[...document2.poses.keys()].filter(k=>k%apart===0);return regionsOf(document2).map(region=>{const corners=regionCorners(
+region);if(!corners)return"";const pose=body.length>2?some.find(k=>overlap2(seen(body,posePlace(document2,k)),corners)):void 0;if(pose!==void 0)return`The body \
+touches it at pose ${poseName(document2,pose)}.`;if(!places.length)return"";if(body.length>2&&places.some(place=>overlap2(seen(body,place),corners)))return"The \
+body touches it.";for(const dyad of linkage.led){if(dyad.kind!=="RR")continue;const near2=Math.min(...places.map(place=>segmentFromPolygon([dyad.fixed_pivot,act(
+place,dyad.moving_pivot)],corners)));if(near2===0||near2<width/2)return`The link of ${dyad.id} touches it.`;if(near2<width/2+margin)return`The link of ${dyad.id}\
+ comes nearer than the margin.`}return""})}var AGAIN=[250,500,1e3,2e3,4e3];var UNFINISHED=new Set(["solving","progress","waiting"]);var Refused=class extends Error{constructor(status,messages){super(messages.
 map(each=>each.message).join(" ")||`the server answered ${status}`);this.status=status;this.messages=messages}};async function messagesOf(response){try{return(await response.
 json()).messages??[]}catch{return[]}}var Connection=class{constructor(decode){this.decode=decode;this.listeners={message:[],open:[],closed:[]};this.asked=new Map;
 this.n=0;this.tries=0;this.socket=null}on(name,fn){this.listeners[name].push(fn)}emit(name,value){for(const fn of this.listeners[name])fn(value)}get isOpen(){return this.
@@ -539,56 +606,58 @@ length])&&!this.details.contains(document.activeElement))return;this.title.repla
 give(this.exact.box,"checked",Boolean(pose.exact));this.weight.turnTo(k,pose.weight);this.weight.show(pose.weight);for(const{component:component2,key,field,free}of this.
 bounds){const isFree=this.isFree(k,component2)||pose.tolerance?.[component2]==="free";give(free.box,"checked",isFree);give(field.input,"disabled",isFree);const stated=pose.
 tolerance?.[key],bound=typeof stated==="number"?stated:void 0;field.turnTo(k,bound);field.show(bound)}give(this.axes,"hidden",!pose.tolerance);give(this.axes,"v\
-alue",pose.tolerance?.axes??"fixed");give(this.up,"disabled",k===0);give(this.down,"disabled",k===poses.length-1)}};var LONGEST_NAME2=22;var HATCH=9;var PIVOT2={fixed_pivot:"Fixed pivot",moving_pivot:"Moving pivot"};function limitName(document2,{table:table3,key}){return`${PIVOT2[key]}${limitsOf(
-document2).length>1?` of dyad ${table3+1}`:""}`}function regionShape(region){if(region.box)return{shape:"box",points:region.box};return region.polygon?{shape:"p\
-olygon",points:region.polygon}:null}var Regions=class{constructor(store,scene){this.store=store;this.scene=scene;this.shapes=new Map;scene.layer("regions").append(
-s("defs",{},s("pattern",{id:"bs-hatch",width:HATCH,height:HATCH,patternUnits:"userSpaceOnUse",patternTransform:"rotate(45)"},s("path",{class:"bm-hatch",d:`M0 0V${HATCH}`}))));
-this.regions=new Kept(s("g"),(key,k)=>this.makeRegion(k),element=>this.shapes.get(element).draw());this.footprint=new Kept(s("g"),()=>this.makeFootprint(),element=>this.
-shapes.get(element).draw());this.limits=new Kept(s("g"),(key,limit)=>this.makeLimit(limit),element=>this.shapes.get(element).draw());this.names=new Kept(s("g",{
-class:"bs-region-names","aria-hidden":"true"}),()=>s("text",{}),(text,name)=>this.showName(text,name));scene.layer("regions").append(this.regions.group,this.footprint.
-group);scene.layer("limits").append(this.limits.group);scene.layer("labels").append(this.names.group);store.on("document",()=>this.judge(store.state==="dragging"&&
-!this.isOther()));store.on("selection",()=>this.draw());store.on("solved followed chosen placed",()=>this.judge());scene.on("view",()=>this.draw());scene.hold(()=>limitRegions(
-store.document).filter(({shape})=>shape!=="line").flatMap(each=>this.corners(each)));scene.hold(()=>regionsOf(store.document).map(regionShape).filter(Boolean).flatMap(
-({shape,points})=>outlineOf(shape,points)),true);this.judge()}place({key}){return key==="moving_pivot"?referencePlace(this.store):GROUND}corners(limit){return outlineOf(
-limit.shape,limit.points).map(point2=>act(this.place(limit),point2))}isOther(){const{body,keep_out,surroundings}=this.store.document,now=[body,keep_out,surroundings];
-return now.some((each,k)=>each!==this.judged?.[k])}judge(pivots=false){const{document:document2,solved}=this.store,linkage=currentLinkage(this.store);this.broken=
-linkage?.led?limitsMissed(document2,linkage,solved?.scene??1):null;if(!pivots){this.judged=[document2.body,document2.keep_out,document2.surroundings];this.touched=
-linkage?.led?regionsTouched(document2,linkage,bodyOf(document2)):null}this.draw();this.onjudged?.()}said(table3,key){return this.broken?.[table3]?.filter(each=>each.
-key===key).map(each=>missedSentence(each,this.store.document.length_unit))??null}draw(){const{document:document2}=this.store,regions=regionsOf(document2),limits=limitRegions(
-document2),{footprint}=document2.requirements??{};this.regions.draw(regions.map((region,k)=>[k,k]).filter(([k])=>regionShape(regions[k])));this.limits.draw(limits.
-map(limit=>[`${limit.table} ${limit.key}`,limit]));this.footprint.draw(footprint?[["footprint",footprint]]:[]);for(const[element,handles]of this.shapes){if(element.
-parentNode)continue;handles.clear();this.shapes.delete(element)}this.names.draw([...regions.map((region,k)=>[`region ${k}`,region.name&&regionShape(region)?{text:region.
-name,at:middle(outlineOf(...Object.values(regionShape(region))))}:null]),...limits.map(limit=>[`limit ${limit.table} ${limit.key}`,{text:limitName(document2,limit),
-at:middleOf(this.corners(limit),limit.key==="moving_pivot"),off:limit.key==="moving_pivot"?-5:14}]),["footprint",footprint?{text:"Footprint",at:middleOf(footprint.
-polygon??outlineOf("box",footprint.box),true),off:-5}:null]].filter(([,name])=>name))}kept(handles){this.shapes.set(handles.element,handles);return handles.element}makeRegion(k){
-const{store}=this;const handles=new ShapeHandles(this.scene,{className:"bs-region",what:()=>{const region=regionsOf(store.document)[k];return{...regionShape(region),
-place:GROUND,name:region.name?`Keep out: ${region.name}`:`Region ${k+1} to keep out of`,selected:store.selection?.kind==="region"&&store.selection.index===k,state:this.
-touched?this.touched[k]?"broken":"met":"",data:{region:k}}},set:(points,gesture)=>store.edit(document2=>setRegion(document2,k,shapeOf(regionShape(regionsOf(document2)[k]).
-shape,points)),{gesture}),remove:()=>this.removeRegion(k),select:()=>store.select({kind:"region",index:k}),abandon:gesture=>store.abandon(gesture)});handles.element.
-insertBefore(s("path",{class:"bs-hatched",fill:"url(#bs-hatch)"}),handles.area);const draw=handles.draw.bind(handles);handles.draw=()=>{draw();handles.element.querySelector(
-".bs-hatched").setAttribute("d",handles.line.getAttribute("d"))};return this.kept(handles)}removeRegion(k){this.store.edit(document2=>removeRegion(document2,k));
-this.store.select(null);this.scene.svg.focus({preventScroll:true})}makeLimit({table:table3,key}){const{store}=this,place=()=>this.place({key});const at=()=>limitRegions(
-store.document).findIndex(each=>each.table===table3&&each.key===key);return this.kept(new ShapeHandles(this.scene,{className:`bs-limit bs-${key.replace("_","-")}`,
-what:()=>{const index=at(),limit=limitRegions(store.document)[index],said=this.said(table3,key);return{...limit,place:place(),name:`Limit: ${limitName(store.document,
-limit)}`,selected:store.selection?.kind==="limit"&&store.selection.index===index,state:said?said.length?"broken":"met":"",data:{limit:index,plane:key==="moving_\
-pivot"?"M":"F"}}},set:(points,gesture)=>store.edit(document2=>setLimit(document2,table3,{[key]:shapeOf(Object.keys(limitsOf(document2)[table3][key])[0],points)}),
-{gesture}),remove:()=>this.removeLimit(table3,key),select:()=>store.select({kind:"limit",index:at()}),abandon:gesture=>store.abandon(gesture)}))}removeLimit(table3,key){
-this.store.edit(document2=>setLimit(document2,table3,{[key]:void 0}));this.store.select(null);this.scene.svg.focus({preventScroll:true})}makeFootprint(){const{store}=this,
-shape=()=>Object.keys(store.document.requirements.footprint)[0];return this.kept(new ShapeHandles(this.scene,{className:"bs-footprint",what:()=>({shape:shape(),
-points:store.document.requirements.footprint[shape()],place:GROUND,name:"Footprint: holds all pivots",selected:store.selection?.kind==="footprint",data:{footprint:""}}),
-set:(points,gesture)=>store.edit(document2=>setRequirement(document2,"footprint",{[shape()]:points}),{gesture}),remove:()=>{store.edit(document2=>setRequirement(
-document2,"footprint",void 0));store.select(null)},select:()=>store.select({kind:"footprint",index:0}),abandon:gesture=>store.abandon(gesture)}))}showName(text,{
-text:name,at:[x,y],off}){const{view}=this.scene,shown2=shortened(name,LONGEST_NAME2);say(text,shown2);put(text,"class",off?"bs-limit-name":"bs-region-name");put(
-text,"text-anchor","middle");put(text,"x",px(view.X(x)));put(text,"y",px(view.Y(y)+(off??4)))}regionTool(shape){const{store}=this;return new ShapeTool(this.scene,
-{shape,name:`region ${shape}`,place:()=>GROUND,done:points=>{store.edit(document2=>addRegion(document2,{[shape]:points}));store.select({kind:"region",index:regionsOf(
-store.document).length-1})}})}limitTool(table3,key,shape){const{store}=this;return new ShapeTool(this.scene,{shape,name:`limit ${table3} ${key} ${shape}`,place:()=>this.
-place({key}),done:points=>{store.edit(document2=>setLimit(document2,table3,{[key]:shapeOf(shape,points)}));store.select({kind:"limit",index:limitRegions(store.document).
-findIndex(each=>each.table===table3&&each.key===key)})}})}footprintTool(shape){const{store}=this;return new ShapeTool(this.scene,{shape,name:`footprint ${shape}`,
-place:()=>GROUND,done:points=>{store.edit(document2=>setRequirement(document2,"footprint",{[shape]:points}));store.select({kind:"footprint",index:0})}})}};function middle(points){
-const[x,y,u,v]=bounds(points);return[(x+u)/2,(y+v)/2]}function middleOf(points,upper){const[x,y,u,v]=bounds(points);return[(x+u)/2,upper?v:y]}function unfoldForPrint(root,signal){window.addEventListener("beforeprint",()=>{for(const part of root.querySelectorAll("details:not([open])")){part.open=true;part.
+alue",pose.tolerance?.axes??"fixed");give(this.up,"disabled",k===0);give(this.down,"disabled",k===poses.length-1)}};var LONGEST_NAME3=22;var ABOVE=10;var HATCH2=9;var PIVOT2={fixed_pivot:"Fixed pivot",moving_pivot:"Moving pivot"};function limitName(document2,{table:table3,key}){
+return`${PIVOT2[key]}${limitsOf(document2).length>1?` of dyad ${table3+1}`:""}`}function regionShape(region){if(region.box)return{shape:"box",points:region.box};
+return region.polygon?{shape:"polygon",points:region.polygon}:null}var Regions=class{constructor(store,scene){this.store=store;this.scene=scene;this.shapes=new Map;
+scene.layer("regions").append(s("defs",{},s("pattern",{id:"bs-hatch",width:HATCH2,height:HATCH2,patternUnits:"userSpaceOnUse",patternTransform:"rotate(45)"},s("\
+path",{class:"bm-hatch",d:`M0 0V${HATCH2}`}))));this.regions=new Kept(s("g"),(key,k)=>this.makeRegion(k),element=>this.shapes.get(element).draw());this.footprint=
+new Kept(s("g"),()=>this.makeFootprint(),element=>this.shapes.get(element).draw());this.limits=new Kept(s("g"),(key,limit)=>this.makeLimit(limit),element=>this.
+shapes.get(element).draw());this.names=new Kept(s("g",{class:"bs-region-names","aria-hidden":"true"}),()=>s("text",{}),(text,name)=>this.showName(text,name));scene.
+layer("regions").append(this.regions.group,this.footprint.group);scene.layer("limits").append(this.limits.group);scene.layer("labels").append(this.names.group);
+store.on("document",()=>this.judge(store.state==="dragging"&&!this.isOther()));store.on("selection",()=>this.draw());store.on("solved followed chosen placed",()=>this.
+judge());scene.on("view",()=>this.draw());scene.hold(()=>limitRegions(store.document).filter(({shape})=>shape!=="line").flatMap(each=>this.corners(each)));scene.
+hold(()=>regionsOf(store.document).map(regionShape).filter(Boolean).flatMap(({shape,points})=>outlineOf(shape,points)),true);this.judge()}place({key}){return key===
+"moving_pivot"?referencePlace(this.store):GROUND}corners(limit){return outlineOf(limit.shape,limit.points).map(point2=>act(this.place(limit),point2))}isOther(){
+const{body,keep_out,surroundings}=this.store.document,now=[body,keep_out,surroundings];return now.some((each,k)=>each!==this.judged?.[k])}judge(pivots=false){const{
+document:document2,solved}=this.store,linkage=currentLinkage(this.store);this.broken=linkage?.led?limitsMissed(document2,linkage,solved?.scene??1):null;if(!pivots){
+this.judged=[document2.body,document2.keep_out,document2.surroundings];this.touched=linkage?.led?regionsTouched(document2,linkage,bodyOf(document2)):null}this.draw();
+this.onjudged?.()}said(table3,key){return this.broken?.[table3]?.filter(each=>each.key===key).map(each=>missedSentence(each,this.store.document.length_unit))??null}draw(){
+const{document:document2}=this.store,regions=regionsOf(document2),limits=limitRegions(document2),{footprint}=document2.requirements??{};this.regions.draw(regions.
+map((region,k)=>[k,k]).filter(([k])=>regionShape(regions[k])));this.limits.draw(limits.map(limit=>[`${limit.table} ${limit.key}`,limit]));this.footprint.draw(footprint?
+[["footprint",footprint]]:[]);for(const[element,handles]of this.shapes){if(element.parentNode)continue;handles.clear();this.shapes.delete(element)}this.names.draw(
+[...regions.map((region,k)=>[`region ${k}`,region.name&&regionShape(region)?{text:region.name,at:middle(outlineOf(...Object.values(regionShape(region))))}:null]),
+...limits.map(limit=>[`limit ${limit.table} ${limit.key}`,{text:limitName(document2,limit),at:middleOf(this.corners(limit),limit.key==="moving_pivot"),off:limit.
+key==="moving_pivot"?ABOVE:-ABOVE,width:widthOf(this.corners(limit))}]),["footprint",footprint?{text:"Footprint",at:middleOf(footprint.polygon??outlineOf("box",
+footprint.box),true),off:ABOVE,width:widthOf(footprint.polygon??footprint.box)}:null]].filter(([,name])=>name))}kept(handles){this.shapes.set(handles.element,handles);
+return handles.element}makeRegion(k){const{store}=this;const handles=new ShapeHandles(this.scene,{className:"bs-region",what:()=>{const region=regionsOf(store.document)[k];
+return{...regionShape(region),place:GROUND,name:region.name?`Keep out: ${region.name}`:`Region ${k+1} to keep out of`,selected:store.selection?.kind==="region"&&
+store.selection.index===k,state:this.touched?this.touched[k]?"broken":"met":"",data:{region:k}}},set:(points,gesture)=>store.edit(document2=>setRegion(document2,
+k,shapeOf(regionShape(regionsOf(document2)[k]).shape,points)),{gesture}),remove:()=>this.removeRegion(k),select:()=>store.select({kind:"region",index:k}),abandon:gesture=>store.
+abandon(gesture)});handles.element.insertBefore(s("path",{class:"bs-hatched",fill:"url(#bs-hatch)"}),handles.area);const draw=handles.draw.bind(handles);handles.
+draw=()=>{draw();handles.element.querySelector(".bs-hatched").setAttribute("d",handles.line.getAttribute("d"))};return this.kept(handles)}removeRegion(k){this.store.
+edit(document2=>removeRegion(document2,k));this.store.select(null);this.scene.svg.focus({preventScroll:true})}makeLimit({table:table3,key}){const{store}=this,place=()=>this.
+place({key});const at=()=>limitRegions(store.document).findIndex(each=>each.table===table3&&each.key===key);return this.kept(new ShapeHandles(this.scene,{className:`\
+bs-limit bs-${key.replace("_","-")}`,what:()=>{const index=at(),limit=limitRegions(store.document)[index],said=this.said(table3,key);return{...limit,place:place(),
+name:`Limit: ${limitName(store.document,limit)}`,selected:store.selection?.kind==="limit"&&store.selection.index===index,state:said?said.length?"broken":"met":"",
+data:{limit:index,plane:key==="moving_pivot"?"M":"F"}}},set:(points,gesture)=>store.edit(document2=>setLimit(document2,table3,{[key]:shapeOf(Object.keys(limitsOf(
+document2)[table3][key])[0],points)}),{gesture}),remove:()=>this.removeLimit(table3,key),select:()=>store.select({kind:"limit",index:at()}),abandon:gesture=>store.
+abandon(gesture)}))}removeLimit(table3,key){this.store.edit(document2=>setLimit(document2,table3,{[key]:void 0}));this.store.select(null);this.scene.svg.focus({
+preventScroll:true})}makeFootprint(){const{store}=this,shape=()=>Object.keys(store.document.requirements.footprint)[0];return this.kept(new ShapeHandles(this.scene,
+{className:"bs-footprint",what:()=>({shape:shape(),points:store.document.requirements.footprint[shape()],place:GROUND,name:"Footprint: holds all pivots",selected:store.
+selection?.kind==="footprint",data:{footprint:""}}),set:(points,gesture)=>store.edit(document2=>setRequirement(document2,"footprint",{[shape()]:points}),{gesture}),
+remove:()=>{store.edit(document2=>setRequirement(document2,"footprint",void 0));store.select(null)},select:()=>store.select({kind:"footprint",index:0}),abandon:gesture=>store.
+abandon(gesture)}))}showName(text,{text:name,at:[x,y],off,width}){const{scene}=this,{view}=scene,shown2=shortened(name,LONGEST_NAME3);say(text,shown2);put(text,
+"class",off?"bs-limit-name":"bs-region-name");scene.names.put(text,view.X(x),view.Y(y),shown2,off?along(off,view.scale*(width??0)):[[0,0,0]])}regionTool(shape){
+const{store}=this;return new ShapeTool(this.scene,{shape,name:`region ${shape}`,place:()=>GROUND,done:points=>{store.edit(document2=>addRegion(document2,{[shape]:points}));
+store.select({kind:"region",index:regionsOf(store.document).length-1})}})}limitTool(table3,key,shape){const{store}=this;return new ShapeTool(this.scene,{shape,name:`\
+limit ${table3} ${key} ${shape}`,place:()=>this.place({key}),done:points=>{store.edit(document2=>setLimit(document2,table3,{[key]:shapeOf(shape,points)}));store.
+select({kind:"limit",index:limitRegions(store.document).findIndex(each=>each.table===table3&&each.key===key)})}})}footprintTool(shape){const{store}=this;return new ShapeTool(
+this.scene,{shape,name:`footprint ${shape}`,place:()=>GROUND,done:points=>{store.edit(document2=>setRequirement(document2,"footprint",{[shape]:points}));store.select(
+{kind:"footprint",index:0})}})}};function middle(points){const[x,y,u,v]=bounds(points);return[(x+u)/2,(y+v)/2]}function middleOf(points,upper){const[x,y,u,v]=bounds(
+points);return[(x+u)/2,upper?v:y]}function widthOf(points){const[x,,u]=bounds(points);return Number.isFinite(u-x)?u-x:0}function unfoldForPrint(root,signal){window.addEventListener("beforeprint",()=>{for(const part of root.querySelectorAll("details:not([open])")){part.open=true;part.
 dataset.opened=""}},{signal});window.addEventListener("afterprint",()=>{for(const part of root.querySelectorAll("details[data-opened]")){part.open=false;delete part.
 dataset.opened}},{signal})}var Events=class{on(names,fn){this.heard??=new Map;for(const name of names.split(" "))this.heard.set(name,[...this.heard.get(name)??[],fn])}emit(name,...values){
-for(const fn of this.heard?.get(name)??[])fn(...values)}};var LONGEST_NAME3=5;var FOLLOWED=1e-7;var EXACT_TURN=1e-5;var UNSEEN=1e-6;var PLACED="placed";var NOTHING={poses:[],body:null,keep_out:[],scene:1,unit:null,dyads:[],
+for(const fn of this.heard?.get(name)??[])fn(...values)}};var LONGEST_NAME4=5;var FOLLOWED=1e-7;var EXACT_TURN=1e-5;var UNSEEN=1e-6;var PLACED="placed";var NOTHING={poses:[],body:null,keep_out:[],scene:1,unit:null,dyads:[],
 linkages:[],dyads_title:"Dyads",chart:{origin:[0,0],angle:0,length:1},space:{centre:[0,0,0],half:[1,1,1],quadrics:[]},pivot_map:null,family_map:null,asked_transmission_deg:null,
 best:[],warnings:[],footnotes:""};var Answers=class extends Events{constructor(store){super();this.store=store;this.data={...NOTHING};this.linkages=[];this.gone=
 [];this.byId=new Map;this.placed=null;store.on("solved",()=>this.takeSolved());store.on("followed",()=>this.takeFollowed());store.on("document",()=>this.takePoses());
@@ -597,20 +666,20 @@ this.store.chosen)??(this.store.chosen===PLACED?void 0:this.linkages[0])}get(id)
 store.solvedFor!==this.store.document}takePoses(){const poses=posesOf(this.store.document);Object.assign(this.data,{poses,...surroundingsOf(this.store.document,
 this.data)});this.emit("poses")}takeSolved(){const{solved,document:document2}=this.store,before=this.linkages.filter(each=>!each.gone);const{renamed:names,moved}=this.
 store;const was=new Map([...names].map(([old,id])=>[id,this.byId.get(old)]));const{poses,body,keep_out,...rest}=solved;Object.assign(this.data,{body,keep_out,...rest,
-poses:posesOf(document2)});this.gone=before.filter(each=>!names.has(each.id)).map(each=>each.id);this.byId=new Map;this.linkages=solved.linkages.map(fresh=>{const kept=was.
-get(fresh.id),now=kept??{};const stood=kept&&kept.rank!==Infinity;const before2=stood&&kept.id!==fresh.id?kept.id:null;for(const key of Object.keys(now))delete now[key];
-Object.assign(now,figured(linked(fresh)),{was:before2,shift:moved.get(fresh.id)??0,isNew:this.known&&!stood,followed:false,gone:null,change:null});this.byId.set(
-now.id,now);return now});this.known=true;this.emit("answers")}takeFollowed(){const frame=this.store.followed;if(!frame)return;for(const each of frame.linkages){
-let now=this.byId.get(each.id);if(now&&each.fresh===false)continue;if(!now){now=appeared(each);this.byId.set(each.id,now);this.linkages.push(now);this.hasNew=true}
-follow(now,each,this.data)}for(const{id,message}of frame.vanished??[]){const now=this.byId.get(id);if(now)Object.assign(now,{gone:message,usable:false})}for(const{
-id,kind,message}of frame.changes??[]){const now=this.byId.get(id);if(now&&kind!=="vanished")now.change=message}if(this.hasNew){this.hasNew=false;this.emit("answ\
-ers")}else{this.emit("moved")}}takePlaced(){const placed=this.store.placed?.linkage;const before=this.placed;this.placed=placed?Object.assign(before??{},figured(
-renamed(linked(placed))),{id:PLACED,gone:null,followed:false}):null;this.emit("placed");if(this.store.chosen===PLACED)this.emit(before&&placed?"moved":"shown")}};
-var linked=linkage=>({...linkage,pose_errors:linkage.pose_errors.map(row=>({...row,at:row.way===null?null:linkage.ways[row.way]}))});var figured=linkage=>Object.
+poses:posesOf(document2)});this.gone=this.store.isEmpty?[]:before.filter(each=>!names.has(each.id)).map(each=>each.id);this.byId=new Map;this.linkages=solved.linkages.
+map(fresh=>{const kept=was.get(fresh.id),now=kept??{};const stood=kept&&kept.rank!==Infinity;const before2=stood&&kept.id!==fresh.id?kept.id:null;for(const key of Object.
+keys(now))delete now[key];Object.assign(now,figured(linked(fresh)),{was:before2,shift:moved.get(fresh.id)??0,isNew:this.known&&!stood,followed:false,gone:null,change:null});
+this.byId.set(now.id,now);return now});this.known=!this.store.isEmpty;this.emit("answers")}takeFollowed(){const frame=this.store.followed;if(!frame)return;for(const each of frame.
+linkages){let now=this.byId.get(each.id);if(now&&each.fresh===false)continue;if(!now){now=appeared(each);this.byId.set(each.id,now);this.linkages.push(now);this.
+hasNew=true}follow(now,each,this.data)}for(const{id,message}of frame.vanished??[]){const now=this.byId.get(id);if(now)Object.assign(now,{gone:message,usable:false})}
+for(const{id,kind,message}of frame.changes??[]){const now=this.byId.get(id);if(now&&kind!=="vanished")now.change=message}if(this.hasNew){this.hasNew=false;this.
+emit("answers")}else{this.emit("moved")}}takePlaced(){const placed=this.store.placed?.linkage;const before=this.placed;this.placed=placed?Object.assign(before??
+{},figured(renamed(linked(placed))),{id:PLACED,gone:null,followed:false}):null;this.emit("placed");if(this.store.chosen===PLACED)this.emit(before&&placed?"moved":
+"shown")}};var linked=linkage=>({...linkage,pose_errors:linkage.pose_errors.map(row=>({...row,at:row.way===null?null:linkage.ways[row.way]}))});var figured=linkage=>Object.
 assign(linkage,{worst:linkage.position_error.max,least:linkage.min_transmission_angle_deg.range});function renamed(linkage){const names=new Map(linkage.dyads.map(
 (dyad,k)=>[dyad.id,`P${k+1}`]));const named=dyad=>({...dyad,id:names.get(dyad.id)??dyad.id});const dimensions=linkage.said.dimensions.map(row=>({...row,dyad:names.
 get(row.dyad)??row.dyad}));return{...linkage,dyads:linkage.dyads.map(named),led:linkage.led.map(named),said:{...linkage.said,dimensions}}}function posesOf({poses=[]}){
-const names=poses.map((pose,k)=>pose.name||String(k+1));const short=names.every(name=>name.length<=LONGEST_NAME3);return poses.map((pose,k)=>({...pose,angle_deg:pose.
+const names=poses.map((pose,k)=>pose.name||String(k+1));const short=names.every(name=>name.length<=LONGEST_NAME4);return poses.map((pose,k)=>({...pose,angle_deg:pose.
 angle,name:names[k],label:short?names[k]:String(k+1)}))}var surroundingsOf=(document2,data)=>({body:Array.isArray(document2.body)?document2.body:document2.body===
 void 0?null:data.body});function follow(now,each,data){now.usable=each.usable;now.led=each.led;now.worst=each.worst;now.least=each.transmission_deg;now.reason=each.
 reason;now.followed=true;now.gone=null;if(each.type)now.type=each.type;if(!each.ways?.length){now.ways=now.ways??[];return}now.ways=each.ways;now.pose_errors=each.
@@ -637,55 +706,7 @@ kind==="PP"||follower.kind==="PP")return null;const slot=dyad=>{const[nx,ny]=nor
 if(driver.kind==="RP"&&follower.kind==="RP")return 90;if(follower.kind==="RP"){const pin=act(place,driver.moving_pivot),[x,y]=follower.fixed_pivot;return between(
 slot(follower),[x-pin[0],y-pin[1]])}const end=act(place,follower.moving_pivot);const lever=follower.kind==="PR"?normalOf(follower):[end[0]-follower.fixed_pivot[0],
 end[1]-follower.fixed_pivot[1]];if(driver.kind==="RP")return between(slot(driver),lever);const start=act(place,driver.moving_pivot);return between([end[0]-start[0],
-end[1]-start[1]],lever)}var between=(a,b)=>Math.atan2(Math.abs(a[0]*b[1]-a[1]*b[0]),Math.abs(a[0]*b[0]+a[1]*b[1]))*180/Math.PI;var HATCH2=9;var PALEST2=.45;var LONGEST_NAME4=28;var LEAST_LINKAGE=110;var MOST_PLACES2=400;var patterns=0;var closed=(points,view,[x,y])=>`M${points.map(each=>`${px(
-x+view.scale*each[0])} ${px(y-view.scale*each[1])}`).join("L")}Z`;var bodyOutline=(data,view)=>closed(data.body,view,[0,0]);var placesAtPoses=(data,linkage)=>data.
-poses.map((pose,k)=>{const row=linkage?.pose_errors[k],at=row&&row.x!==null?row:pose;return{x:at.x,y:at.y,a:radians(at.angle_deg)}});function ghosts(data,linkage,view){
-const group=s("g",{class:"bm-ghosts"});if(!data.body)return group;const places=placesAtPoses(data,linkage),last=Math.max(1,places.length-1);places.forEach(({x,y,
-a},k)=>{const opacity=(PALEST2+(1-PALEST2)*k/last).toFixed(3);group.append(s("path",{class:"bm-ghost",d:bodyOutline(data,view),"data-pose":k+1,opacity,transform:transform(
-view.X(x),view.Y(y),a)}))});return group}function keepOut(data,view){const group=s("g",{class:"bm-keep-out"});if(!data.keep_out.length)return group;const id=`bm\
--hatch-${patterns+=1}`;group.append(s("defs",{},s("pattern",{id,width:HATCH2,height:HATCH2,patternUnits:"userSpaceOnUse",patternTransform:"rotate(45)"},s("path",
-{class:"bm-hatch",d:`M0 0V${HATCH2}`}))));for(const region of data.keep_out){const d=closed(region.outline,view,[view.left,view.top]);group.append(s("g",{class:"\
-bm-region"},s("title",{},region.name||"keep out"),s("path",{class:"bm-region-plain",d}),s("path",{class:"bm-region-edge",d,fill:`url(#${id})`})))}return group}function keepOutNames(data,view,labels){
-return data.keep_out.filter(({name})=>name).map(({name,at:[x,y]})=>{const text=shortened(name,LONGEST_NAME4);labels.block(view.X(x),view.Y(y),7.2*text.length,14);
-return s("text",{class:"bm-region-name",x:px(view.X(x)),y:px(view.Y(y)+4),"text-anchor":"middle"},text)})}function bodyCorners(data,linkage,places){if(!data.body)
-return[];const some=places.filter((_,k)=>k%Math.ceil(places.length/MOST_PLACES2)===0);return[...placesAtPoses(data,linkage),...some].flatMap(place=>data.body.map(
-corner=>act(place,corner)))}var sizeOf=([x,y,u,v])=>Math.max(u-x,v-y);var including=(box,points)=>points.reduce(([x,y,u,v],[a,b])=>[Math.min(x,a),Math.min(y,b),
-Math.max(u,a),Math.max(v,b)],box);function widened(box,data,linkage,places,width,all){const withBody=including(box,bodyCorners(data,linkage,places));const whole=including(
-withBody,data.keep_out.flatMap(region=>region.outline));const most=Math.max(2,width/LEAST_LINKAGE)*sizeOf(box);if(all||!linkage||sizeOf(whole)<=most)return whole;
-const inner=sizeOf(withBody)<=most?withBody:box,reach=(most-sizeOf(inner))/2;return whole.map((each,k)=>k<2?Math.max(each,inner[k]-reach):Math.min(each,inner[k]+
-reach))}var BODY_AXIS=AXIS+10;var LETTER=14;var BLOCK_IN_SLOT=[18,10];var SPARE2=5;var ARROW=24;function mechanism(data,linkage,view,places){const drawn=new Mechanism(linkage);
-drawn.shape(data,linkage,view,places);return drawn}var Mechanism=class{constructor({led}){this.kinds=kindsOf(led);this.outline=s("path",{class:"bm-body-outline"});
-this.links=s("g");this.blocks=s("g");this.pins=s("g");this.coupler=s("g",{class:"bm-coupler"});this.arrow=s("path",{class:"bm-drive-mark bm-side0"});this.letter=
-s("text",{class:"bm-letter","text-anchor":"middle"},"M");this.plates=[s("path",{class:"bm-plate-rim"}),s("path",{class:"bm-plate"})];this.coupler.append(...this.
-plates);this.parts=led.map((dyad,side)=>new PARTS[dyad.kind](this,side));this.coupler.append(s("path",{class:"bm-body-frame",d:axes(BODY_AXIS)}),s("circle",{class:"\
-bm-origin",r:4}));for(const part of this.parts)if(part.pin)this.coupler.append(part.pin);this.group=s("g",{class:"bm-linkage"},this.arrow,this.links,this.coupler,
-this.blocks,this.pins,this.letter)}fits({led}){return kindsOf(led)===this.kinds}shape(data,linkage,view,places){this.view=view;this.led=linkage.led;this.hasBody=
-Boolean(data.body);if(this.hasBody){put(this.outline,"d",bodyOutline(data,view));if(!this.outline.parentNode)this.group.prepend(this.outline)}else{this.outline.
-remove()}const corners=[[0,0]];linkage.led.forEach((dyad,side)=>{if(dyad.moving_pivot)corners.push(inBody(dyad.moving_pivot,view));const more=this.parts[side].shape(
-dyad,view,places);if(more)corners.push(more)});const d=`M${hull(corners).map(corner=>corner.map(px).join(" ")).join("L")}Z`;for(const plate of this.plates)put(plate,
-"d",d);this.shapeArrow()}show(place){const{view}=this,at=transform(view.X(place.x),view.Y(place.y),place.a);put(this.coupler,"transform",at);if(this.hasBody)put(
-this.outline,"transform",at);for(const part of this.parts)part.show(place);const[x,y]=act(place,[LETTER/view.scale,-LETTER/view.scale]);put(this.letter,"transfo\
-rm",`translate(${px(view.X(x))} ${px(view.Y(y)+4)})`);const[driver]=this.led;if(driver.kind==="PR")put(this.arrow,"transform",`${onRail(driver,place,view)} tran\
-slate(0 ${-ARROW})`)}shapeArrow(){const{arrow:arrow2,view}=this,[driver]=this.led;if(driver.kind==="PR")put(arrow2,"d","M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6 5");
-if(!driver.fixed_pivot)return;const[x,y]=driver.fixed_pivot;put(arrow2,"d","M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9");put(arrow2,"transform",`transl\
-ate(${px(view.X(x))} ${px(view.Y(y))}) rotate(-90)`)}};var kindsOf=led=>led.map(dyad=>dyad.kind).join();var inBody=([x,y],view)=>[view.scale*x,-view.scale*y];function onRail(dyad,place,view){
-const[x,y]=act(place,dyad.moving_pivot),[nx,ny]=normalOf(dyad);return transform(view.X(x),view.Y(y),Math.atan2(nx,-ny))}var block=(side,width,height)=>s("g",{class:`\
-bm-block bm-side${side}`},s("rect",{x:-width/2,y:-height/2,width,height,rx:2}));function setPin(pin,[x,y],dyad){put(pin,"cx",px(x));put(pin,"cy",px(y));put(pin,
-"data-dyad",dyad.id)}var inGround=([x,y],view)=>[view.X(x),view.Y(y)];var Bar=class{constructor({links,pins},side){this.strokes=[s("path",{class:"bm-bar"}),s("p\
-ath",{class:"bm-core"})];this.bar=s("g",{class:`bm-link bm-side${side}`},this.strokes);this.ground=s("circle",{class:"bm-pin bm-fixed-pin",r:4.5});this.pin=s("c\
-ircle",{class:"bm-pin",r:4.5});links.append(this.bar);pins.append(this.ground)}shape(dyad,view){this.dyad=dyad;this.view=view;for(const stroke of this.strokes)put(
-stroke,"d",`M0 0H${px(view.scale*dyad.radius)}`);setPin(this.ground,inGround(dyad.fixed_pivot,view),dyad);setPin(this.pin,inBody(dyad.moving_pivot,view),dyad)}show(place){
-const{dyad,view}=this,[cx,cy]=dyad.fixed_pivot,[x,y]=act(place,dyad.moving_pivot);put(this.bar,"transform",transform(view.X(cx),view.Y(cy),Math.atan2(y-cy,x-cx)))}};
-var BlockOnRail=class{constructor({blocks},side){this.block=block(side,...BLOCK);this.pin=s("circle",{class:"bm-pin",r:4.5});blocks.append(this.block)}shape(dyad,view){
-this.dyad=dyad;this.view=view;put(this.block,"data-dyad",dyad.id);setPin(this.pin,inBody(dyad.moving_pivot,view),dyad)}show(place){put(this.block,"transform",onRail(
-this.dyad,place,this.view))}};var Slot=class{constructor({blocks,pins,coupler},side){this.strokes=["rim","plate","edge"].map(name=>s("path",{class:`bm-slot-${name}`}));
-this.strokes.push(s("path",{class:"bm-slot"}));this.block=block(side,...BLOCK_IN_SLOT);this.ground=s("circle",{class:"bm-pin bm-fixed-pin",r:4});coupler.append(
-...this.strokes);blocks.append(this.block);pins.append(this.ground)}shape(dyad,view,places){this.dyad=dyad;this.view=view;const[low,high]=places.length?travelOf(
-dyad,places):[0,0],end=(BLOCK_IN_SLOT[0]/2+SPARE2)/view.scale;const seen2=along=>inBody(pointOnLine(dyad,along),view);const d=`M${[seen2(low-end),seen2(high+end)].
-map(each=>each.map(px).join(" ")).join("L")}`;for(const stroke of this.strokes)put(stroke,"d",d);for(const part of[this.strokes[3],this.block])put(part,"data-dy\
-ad",dyad.id);setPin(this.ground,inGround(dyad.fixed_pivot,view),dyad);return seen2((low+high)/2)}show(place){const{dyad,view}=this,[nx,ny]=normalOf(dyad),[cx,cy]=dyad.
-fixed_pivot;put(this.block,"transform",transform(view.X(cx),view.Y(cy),place.a+Math.atan2(nx,-ny)))}};var Nothing=class{shape(){}show(){}};var PARTS={RR:Bar,PR:BlockOnRail,
-RP:Slot,PP:Nothing};var Labels=class{constructor(view){this.view=view;this.taken=[]}block(x,y,width,height){this.taken.push([x-width/2,y-height/2,x+width/2,y+height/2])}put(x,y,text,distance,attributes){
+end[1]-start[1]],lever)}var between=(a,b)=>Math.atan2(Math.abs(a[0]*b[1]-a[1]*b[0]),Math.abs(a[0]*b[0]+a[1]*b[1]))*180/Math.PI;var Labels=class{constructor(view){this.view=view;this.taken=[]}block(x,y,width,height){this.taken.push([x-width/2,y-height/2,x+width/2,y+height/2])}put(x,y,text,distance,attributes){
 const width=7.2*text.length+4,height=14;let best=null;for(let ring=0;ring<3;ring+=1){for(let k=0;k<16;k+=1){const angle=Math.PI/8*k+Math.PI/4;const away=distance+
 9*ring;const cx=x+(away+width/2-6)*Math.cos(angle);const cy=y-away*Math.sin(angle);const box=[cx-width/2,cy-height/2,cx+width/2,cy+height/2];let cost=.02*k+6*ring;
 for(const other of this.taken){const across=Math.min(box[2],other[2])-Math.max(box[0],other[0]);const down=Math.min(box[3],other[3])-Math.max(box[1],other[1]);if(across>
@@ -740,34 +761,36 @@ x+share*dx,y+share*dy,8,8)});return arrows}show(place){this.moving?.show(place)}
 last?values[k+1]:closed2?values[1]:2*values[last]-values[last-1];const behind=(values,k)=>k>0?values[k-1]:closed2?values[last-1]:2*values[0]-values[1];let d=`M${hundredths(
 X[0])} ${hundredths(Y[0])}`;let[u,v]=[(ahead(X,0)-behind(X,0))/6,(ahead(Y,0)-behind(Y,0))/6];for(let k=0;k<last;k+=1){const p=(ahead(X,k+1)-X[k])/6,q=(ahead(Y,k+
 1)-Y[k])/6;d+=`C${hundredths(X[k]+u)} ${hundredths(Y[k]+v)} ${hundredths(X[k+1]-p)} ${hundredths(Y[k+1]-q)} ${hundredths(X[k+1])} ${hundredths(Y[k+1])}`;[u,v]=[
-p,q]}return d}var MOST_ACHIEVED=240;var BELOW=38;var LEAST_ARROW=1.5;var LiveLinkage=class{constructor(answers,playing,scene){Object.assign(this,{answers,playing,scene,factor:0});
-this.beyond=s("path",{class:"bm-curve bm-beyond"});this.others=s("path",{class:"bm-curve bm-other"});this.here=s("path",{class:"bm-curve bm-here"});this.pivotPaths=
-[0,1].map(side=>s("path",{class:`bm-pivot-path bm-side${side}`}));this.paths=s("g",{class:"bs-paths","aria-hidden":"true"},this.others,this.beyond,...this.pivotPaths,
-this.here);this.feet=[0,1].map(side=>{const at=foot();at.classList.add(`bm-side${side}`);return at});this.rails=[0,1].map(side=>s("g",{class:`bm-rail bm-side${side}`},
-s("path",{class:"bm-ground"}),s("path",{class:"bm-ground bm-thin"})));this.achieved=s("g",{class:"bs-achieved"});this.arrows=s("path",{});this.names=[0,1].map(side=>s(
-"text",{class:`bm-name bm-side${side}`,"text-anchor":"middle"}));this.mechanism=null;this.holder=s("g",{class:"bs-mechanism"},...this.rails,...this.feet,this.achieved,
-s("g",{class:"bm-errors"},this.arrows));this.labels=s("g",{class:"bs-dyad-names"},this.names);scene.layer("paths").append(this.paths);scene.layer("mechanism").append(
-this.holder);scene.layer("labels").append(this.labels);scene.hold?.(()=>this.points());playing.on("shape",()=>this.shape());playing.on("place",({place})=>this.mechanism?.
-show(place));scene.on("view",()=>this.redraw());this.redraw()}points(){const{linkage}=this.playing,{data}=this.answers;if(!linkage)return[];const[pose]=data.poses,
-near2=([x,y])=>pose&&Math.hypot(x-pose.x,y-pose.y)<3*data.scene;const pins=linkage.led.flatMap(dyad=>dyad.fixed_pivot?[dyad.fixed_pivot]:[]);const moving=linkage.
-pose_errors.filter(row=>row.x!==null).flatMap(row=>linkage.led.filter(dyad=>dyad.moving_pivot).map(dyad=>act({x:row.x,y:row.y,a:radians(row.angle_deg)},dyad.moving_pivot)));
-return[...pins,...moving].filter(near2)}enlarge(){const{linkage}=this.playing,{data}=this.answers;const seen2=linkage?.pose_errors.length&&!(linkage.followed&&linkage.
-worst<UNSEEN*data.scene);const fits=seen2?factorFor(data,linkage):0;this.factor=this.answers.isOld&&this.factor&&fits?Math.min(this.factor,fits):fits}redraw(){this.
-shape();if(this.playing.here&&this.playing.path)this.mechanism?.show(this.playing.here.place)}shape(){const{playing,answers,scene}=this,{linkage,path:path2}=playing,
-{view}=scene;const there=Boolean(linkage)&&!linkage.gone;for(const part of[this.paths,this.holder,this.labels])put(part,"visibility",there?"visible":"hidden");if(!there)
-return;const places=path2?framesOf(path2):[];this.enlarge();this.curves(linkage,path2,places,view);this.ground(linkage,places,view);this.atPoses(linkage,view);if(!path2){
-this.mechanism?.group.remove();this.mechanism=null;return}if(!this.mechanism?.fits(linkage)){this.mechanism?.group.remove();this.mechanism=new Mechanism(linkage);
-this.holder.append(this.mechanism.group)}this.mechanism.shape(answers.data,linkage,view,places)}curves(linkage,path2,places,view){const set=(element,list2,closed2)=>put(
-element,"d",smoothPath(list2.map(([x])=>view.X(x)),list2.map(([,y])=>view.Y(y)),closed2));const others=linkage.ways.filter(way=>way!==path2);put(this.others,"d",
-others.map(way=>pathOf2(way,view)).join(""));put(this.beyond,"d",path2?pathOf2(path2,view):"");this.pivotPaths.forEach((element,side)=>{const dyad=linkage.led[side];
-if(!path2||!dyad.moving_pivot||dyad.kind==="PR")put(element,"d","");else set(element,places.map(place=>act(place,dyad.moving_pivot)),path2.round)});if(!path2){put(
-this.here,"d","");return}const{low,high}=this.playing.player.stretch,{length}=this.answers.data.chart,list=[];const end=u=>(place=>[place.x,place.y])(placeAt(linkage,
-path2,u,length));list.push(end(low));for(let k=Math.floor(low)+1;k<high;k+=1)list.push([path2.x[k],path2.y[k]]);list.push(end(high));set(this.here,list,path2.round&&
-high-low>path2.x.length-1-1e-6)}ground(linkage,places,view){linkage.led.forEach((dyad,side)=>{const[rail,at,name]=[this.rails[side],this.feet[side],this.names[side]];
+p,q]}return d}var MOST_ACHIEVED=240;var OFF=27;var FOOT=11;var LEAST_ARROW=1.5;var LiveLinkage=class{constructor(answers,playing,scene){Object.assign(this,{answers,playing,scene,
+factor:0});this.beyond=s("path",{class:"bm-curve bm-beyond"});this.others=s("path",{class:"bm-curve bm-other"});this.here=s("path",{class:"bm-curve bm-here"});this.
+pivotPaths=[0,1].map(side=>s("path",{class:`bm-pivot-path bm-side${side}`}));this.paths=s("g",{class:"bs-paths","aria-hidden":"true"},this.others,this.beyond,...this.
+pivotPaths,this.here);this.feet=[0,1].map(side=>{const at=foot();at.classList.add(`bm-side${side}`);return at});this.rails=[0,1].map(side=>s("g",{class:`bm-rail\
+ bm-side${side}`},s("path",{class:"bm-ground"}),s("path",{class:"bm-ground bm-thin"})));this.achieved=s("g",{class:"bs-achieved"});this.arrows=s("path",{});this.
+names=[0,1].map(side=>s("text",{class:`bm-name bm-side${side}`,"text-anchor":"middle"}));this.mechanism=null;this.holder=s("g",{class:"bs-mechanism"},...this.rails,
+...this.feet,this.achieved,s("g",{class:"bm-errors"},this.arrows));this.labels=s("g",{class:"bs-dyad-names"},this.names);scene.layer("paths").append(this.paths);
+scene.layer("mechanism").append(this.holder);scene.layer("labels").append(this.labels);scene.hold?.(()=>this.points());playing.on("shape",()=>this.shape());playing.
+on("place",({place})=>this.mechanism?.show(place));scene.on("view",()=>this.redraw());scene.names?.avoid(()=>this.obstacles());this.redraw()}points(){const{linkage}=this.
+playing,{data}=this.answers;if(!linkage)return[];const[pose]=data.poses,near2=([x,y])=>pose&&Math.hypot(x-pose.x,y-pose.y)<3*data.scene;const pins=linkage.led.flatMap(
+dyad=>dyad.fixed_pivot?[dyad.fixed_pivot]:[]);const moving=linkage.pose_errors.filter(row=>row.x!==null).flatMap(row=>linkage.led.filter(dyad=>dyad.moving_pivot).
+map(dyad=>act({x:row.x,y:row.y,a:radians(row.angle_deg)},dyad.moving_pivot)));return[...pins,...moving].filter(near2)}obstacles(){const{playing:{linkage},scene:{
+view}}=this,pins=linkage&&!linkage.gone?linkage.led.filter(dyad=>dyad.fixed_pivot):[];return pins.map(({fixed_pivot:[x,y]})=>[view.X(x),view.Y(y)+FOOT,34,36])}enlarge(){
+const{linkage}=this.playing,{data}=this.answers;const seen2=linkage?.pose_errors.length&&!(linkage.followed&&linkage.worst<UNSEEN*data.scene);const fits=seen2?factorFor(
+data,linkage):0;this.factor=this.answers.isOld&&this.factor&&fits?Math.min(this.factor,fits):fits}redraw(){this.shape();if(this.playing.here&&this.playing.path)
+this.mechanism?.show(this.playing.here.place)}shape(){const{playing,answers,scene}=this,{linkage,path:path2}=playing,{view}=scene;const there=Boolean(linkage)&&
+!linkage.gone;for(const part of[this.paths,this.holder,this.labels])put(part,"visibility",there?"visible":"hidden");if(!there)return;const places=path2?framesOf(
+path2):[];this.enlarge();this.curves(linkage,path2,places,view);this.ground(linkage,places,view);this.atPoses(linkage,view);if(!path2){this.mechanism?.group.remove();
+this.mechanism=null;return}if(!this.mechanism?.fits(linkage)){this.mechanism?.group.remove();this.mechanism=new Mechanism(linkage);this.holder.append(this.mechanism.
+group)}this.mechanism.shape(answers.data,linkage,view,places)}curves(linkage,path2,places,view){const set=(element,list2,closed2)=>put(element,"d",smoothPath(list2.
+map(([x])=>view.X(x)),list2.map(([,y])=>view.Y(y)),closed2));const others=linkage.ways.filter(way=>way!==path2);put(this.others,"d",others.map(way=>pathOf2(way,
+view)).join(""));put(this.beyond,"d",path2?pathOf2(path2,view):"");this.pivotPaths.forEach((element,side)=>{const dyad=linkage.led[side];if(!path2||!dyad.moving_pivot||
+dyad.kind==="PR")put(element,"d","");else set(element,places.map(place=>act(place,dyad.moving_pivot)),path2.round)});if(!path2){put(this.here,"d","");return}const{
+low,high}=this.playing.player.stretch,{length}=this.answers.data.chart,list=[];const end=u=>(place=>[place.x,place.y])(placeAt(linkage,path2,u,length));list.push(
+end(low));for(let k=Math.floor(low)+1;k<high;k+=1)list.push([path2.x[k],path2.y[k]]);list.push(end(high));set(this.here,list,path2.round&&high-low>path2.x.length-
+1-1e-6)}ground(linkage,places,view){const{scene}=this;linkage.led.forEach((dyad,side)=>{const[rail,at,name]=[this.rails[side],this.feet[side],this.names[side]];
 const slides=dyad.kind==="PR"&&places.length>0;put(rail,"display",slides?"inline":"none");put(at,"display",dyad.fixed_pivot?"inline":"none");put(name,"display",
 slides||dyad.fixed_pivot?"inline":"none");say(name,dyad.id);let x,y;if(slides){const drawn=railOf(dyad,places,view);({x,y}=drawn);put(rail,"transform",transform(
 x,y,drawn.turned));drawn.paths.forEach((d,k)=>put(rail.children[k],"d",d));put(rail,"data-dyad",dyad.id)}else if(dyad.fixed_pivot){[x,y]=[view.X(dyad.fixed_pivot[0]),
-view.Y(dyad.fixed_pivot[1])];put(at,"transform",`translate(${px(x)} ${px(y)})`)}else{return}put(name,"transform",`translate(${px(x)} ${px(y+BELOW)})`)})}atPoses(linkage,view){
+view.Y(dyad.fixed_pivot[1])];put(at,"transform",`translate(${px(x)} ${px(y)})`)}else{return}scene.names.put(name,x,y+FOOT,dyad.id,around(dyad.id,-Math.PI/2,OFF))})}atPoses(linkage,view){
 const{achieved,answers:{data}}=this,rows=linkage.pose_errors;const count=Math.min(rows.length,MOST_ACHIEVED),small=count>24?.6:1;while(achieved.children.length>
 count)achieved.lastChild.remove();while(achieved.children.length<count)achieved.append(s("g",{class:"bm-achieved"},s("path",{}),s("circle",{})));let arrows="";for(let k=0;k<
 count;k+=1){const row=rows[k],group=achieved.children[k];if(group.dataset.size!==String(small)){group.dataset.size=small;put(group.children[0],"d",axes(.72*AXIS*
@@ -834,11 +857,12 @@ at));svg.append(s("path",{class:"bm-rule",d:`M${x} ${y0}V${base}`}));if(labelled
 ddle"},text));last=x}}}rule(y,text){this.svg.append(s("path",{class:"bm-rule",d:`M${LEFT} ${px(y)}H${this.width-RIGHT}`}),s("text",{class:"bm-tick",x:LEFT-6,y:px(
 y)+4,"text-anchor":"end"},text))}show(drive,transmission){if(!this.cursor)return;this.cursor.setAttribute("transform",`translate(${px(this.X(drive))} 0)`);if(transmission!==
 null)this.mark.setAttribute("cy",px(this.Y(transmission)))}};var Charts=class{constructor(answers,playing){this.playing=playing;const fill=h("div",{class:"bm-fill"});this.plots=new Plots(answers.data,fill,u=>playing.player.
-go(u));this.element=fill;this.pace=new Pace(()=>this.build(),()=>isSeen(fill));playing.on("shape",()=>this.pace.ask());playing.on("place",({drive,transmission})=>{
-if(this.isFresh&&isSeen(fill))this.plots.show(drive,transmission)});answers.on("poses",()=>this.isFresh=false);new ResizeObserver(()=>this.pace.ask()).observe(fill);
-watch(fill,()=>this.pace.ask())}build(){const{playing,plots}=this,{linkage,path:path2,player}=playing;if(!linkage||!path2||linkage.gone||linkage.pose_errors.length!==
-plots.data.poses.length){plots.svg.replaceChildren();plots.way=plots.cursor=null;return}plots.build(linkage,player.way,player.stretch);this.isFresh=true;if(playing.
-here)plots.show(playing.here.drive,playing.here.transmission)}};var stopsOf=(linkage,index)=>linkage.pose_errors.map((row,k)=>({k,way:row.way,frame:row.frame})).filter(stop=>stop.way===index).sort((a,b)=>a.frame-b.frame);function stageOf(linkage,index,u){
+go(u));this.nothing=h("p",{class:"bs-quiet",hidden:true},"No linkage is there whose motion could be shown.");this.element=h("div",{},this.nothing,fill);this.pace=
+new Pace(()=>this.build(),()=>isSeen(fill));playing.on("shape",()=>this.pace.ask());playing.on("place",({drive,transmission})=>{if(this.isFresh&&isSeen(fill))this.
+plots.show(drive,transmission)});answers.on("poses",()=>this.isFresh=false);new ResizeObserver(()=>this.pace.ask()).observe(fill);watch(fill,()=>this.pace.ask())}build(){
+const{playing,plots}=this,{linkage,path:path2,player}=playing;give(this.nothing,"hidden",Boolean(linkage&&path2&&!linkage.gone));if(!linkage||!path2||linkage.gone||
+linkage.pose_errors.length!==plots.data.poses.length){plots.svg.replaceChildren();plots.way=plots.cursor=null;return}plots.build(linkage,player.way,player.stretch);
+this.isFresh=true;if(playing.here)plots.show(playing.here.drive,playing.here.transmission)}};var stopsOf=(linkage,index)=>linkage.pose_errors.map((row,k)=>({k,way:row.way,frame:row.frame})).filter(stop=>stop.way===index).sort((a,b)=>a.frame-b.frame);function stageOf(linkage,index,u){
 const stops=stopsOf(linkage,index);if(!stops.length)return null;if(stops.length===1)return{from:stops[0].k,to:stops[0].k,share:0};let at=0;while(at+2<stops.length&&
 stops[at+1].frame<=u)at+=1;const[a,b]=[stops[at],stops[at+1]],step=b.frame-a.frame;const share=step>0?(u-a.frame)/step:0;return{from:a.k,to:b.k,share:Math.min(Math.
 max(share,-1),2)}}function frameAtStage(linkage,stage){if(!stage)return null;const[a,b]=[stage.from,stage.to].map(k=>linkage.pose_errors[k]);const there=row=>Boolean(
@@ -931,7 +955,7 @@ ion angle",leastOf(linkage)],["driver",linkage.led[0].id]])]}linkages(){const{an
 data);return table2("All linkages, followed",["","verdict","type","worst miss","least transmission"],answers.linkages.map(each=>[each.id,each.gone?"gone":each.usable?
 "usable":"not usable",each.type,worstOf(each,data),leastOf(each)]))}placedTable(){const{placed}=this.store,unit2=this.answers.data.unit?`, in ${this.answers.data.
 unit}`:"";return table2(`Their dyads${unit2}`,["","on the ground (F)","on the body (M)","length","rms miss","worst miss"],placed.dyads.map(dyad=>[dyad.id,dyad.said.
-ground,dyad.said.body,dyad.said.length,dyad.said.rms,dyad.said.worst]))}};var CLASSES=7;var OUTSIDE=2;var FamilyPairs=class{constructor(data){this.data=data;this.map=data.family_map;this.isCurve=this.map.kind==="curve";this.columns=this.isCurve?this.map.fixed.length:
+ground,dyad.said.body,dyad.said.length,dyad.said.rms,dyad.said.worst]))}};var CLASSES=7;var OUTSIDE2=2;var FamilyPairs=class{constructor(data){this.data=data;this.map=data.family_map;this.isCurve=this.map.kind==="curve";this.columns=this.isCurve?this.map.fixed.length:
 this.map.columns;this.rows=this.isCurve?this.columns:this.map.rows;this.starts=[];(this.map.loops??[]).reduce((start,size2)=>(this.starts.push(start),start+size2),
 0)}letter(loop){return this.starts.length>1?`${"ABCDEFGH"[loop]} `:""}pair([i,j]){const{cells:cells2}=this.map;if(!this.isCurve)return this.decoded(cells2[j*this.
 columns+i]);if(i===j)return{kind:CLASSES-1,driver:0,degrees:0};const[a,b]=[Math.min(i,j),Math.max(i,j)],n=this.columns;const pair=this.decoded(cells2[a*n-a*(a+1)/
@@ -955,30 +979,31 @@ const places=poses.map(pose=>({x:pose.x,y:pose.y,a:radians(pose.angle_deg)}));co
 place,at2)));const step=1e-6*scene;let at=point2;for(let k=0;k<NEWTON_STEPS;k+=1){const slope=[0,1].map(axis=>{const[up,down]=[1,-1].map(sense=>value(at.map((each,n)=>each+
 (n===axis?sense*step:0))));return(up-down)/(2*step)});const squared=slope[0]**2+slope[1]**2,here=value(at);if(!(squared>0))return at;at=at.map((each,n)=>each-here*
 slope[n]/squared)}return Math.hypot(at[0]-point2[0],at[1]-point2[1])<FARTHEST_STEP*scene?at:point2}var worthOf=pairs=>Array.from({length:pairs.columns},(_,k)=>worth(
-pairs.bestPartner(k).kind));var worth=kind=>kind<OUTSIDE?"works":kind===OUTSIDE?"outside":"fails";function curvesOf({loops}){const curves={fixed:[],moving:[],loops:[],
-worth:[]};for(const loop of loops){const kept=loop.fixed.map((_,k)=>k).filter(k=>[...loop.fixed[k],...loop.moving[k]].every(Number.isFinite));curves.loops.push(
-kept.length);for(const k of kept){curves.fixed.push(loop.fixed[k]);curves.moving.push(loop.moving[k]);curves.worth.push(loop.class?worth(loop.class[k]):"plain")}}
-return curves}function curvePaths(points,loops,worth2,X,Y,widest){const paths={works:"",outside:"",fails:"",plain:""};const near2=(p,q)=>Math.hypot(p[0]-q[0],p[1]-
-q[1])<=widest;const text=([x,y])=>`${Math.round(X(x)*100)/100} ${Math.round(Y(y)*100)/100}`;const between2=(p,q)=>[(p[0]+q[0])/2,(p[1]+q[1])/2];let start=0;for(const size2 of loops){
-for(let i=0;i<size2;i+=1){const[a,b,c]=[-1,0,1].map(step=>points[start+(i+step+size2)%size2]);const list=[...near2(a,b)?[between2(a,b)]:[],b,...near2(b,c)?[between2(
-b,c)]:[]];if(list.length>1)paths[worth2[start+i]]+=`M${list.map(text).join("L")}`}start+=size2}return paths}var LONGEST_STEP2=.5;var STROKES=["plain","fails","outside","works"];var FamilyCurves=class{constructor(store,answers,playing,scene){Object.assign(this,{store,answers,
+pairs.bestPartner(k).kind));var worth=kind=>kind<OUTSIDE2?"works":kind===OUTSIDE2?"outside":"fails";function curvesOf({loops}){const curves={fixed:[],moving:[],
+loops:[],worth:[]};for(const loop of loops){const kept=loop.fixed.map((_,k)=>k).filter(k=>[...loop.fixed[k],...loop.moving[k]].every(Number.isFinite));curves.loops.
+push(kept.length);for(const k of kept){curves.fixed.push(loop.fixed[k]);curves.moving.push(loop.moving[k]);curves.worth.push(loop.class?worth(loop.class[k]):"pl\
+ain")}}return curves}function curvePaths(points,loops,worth2,X,Y,widest){const paths={works:"",outside:"",fails:"",plain:""};const near2=(p,q)=>Math.hypot(p[0]-
+q[0],p[1]-q[1])<=widest;const text=([x,y])=>`${Math.round(X(x)*100)/100} ${Math.round(Y(y)*100)/100}`;const between2=(p,q)=>[(p[0]+q[0])/2,(p[1]+q[1])/2];let start=0;
+for(const size2 of loops){for(let i=0;i<size2;i+=1){const[a,b,c]=[-1,0,1].map(step=>points[start+(i+step+size2)%size2]);const list=[...near2(a,b)?[between2(a,b)]:
+[],b,...near2(b,c)?[between2(b,c)]:[]];if(list.length>1)paths[worth2[start+i]]+=`M${list.map(text).join("L")}`}start+=size2}return paths}var LONGEST_STEP2=.5;var STROKES=["plain","fails","outside","works"];var FamilyCurves=class{constructor(store,answers,playing,scene){Object.assign(this,{store,answers,
 playing,scene,known:null,live:null,asking:false});this.curves=["F","M"].map(plane=>s("g",{class:`bs-curve bs-curve-${plane}`},STROKES.map(name=>s("path",{class:`\
 bs-curve-${name}`}))));this.group=s("g",{class:"bs-burmester",visibility:"hidden","aria-hidden":"true"},this.curves);scene.layer("curves").append(this.group);this.
 box=h("input",{type:"checkbox",checked:true,"data-tool":"burmester-curves",onchange:()=>this.draw()});this.label=h("label",{hidden:true},this.box," Burmester cu\
 rves of the four poses, in the drawing");this.legend=h("p",{class:"bm-legend",hidden:true},h("span",{class:"bs-key-works"})," works with a partner; ",h("span",{
 class:"bs-key-outside"})," works outside limits or standard; ",h("span",{class:"bs-key-fails"})," no partner works. Solid: centre points in F; dashed: circle po\
-ints in M, where the body is now.");answers.on("poses",()=>this.ask());playing.on("place",()=>this.move());scene.on("view",()=>this.draw())}get family(){const{data,
-isOld}=this.answers;if(data.poses.length!==4)return null;if(this.live&&(isOld||!this.known))return this.live;return this.known}renew(){const{data}=this.answers,
-map=data.family_map;this.known=map?.kind==="curve"?{...map,worth:worthOf(new FamilyPairs(data))}:null;this.live=null;if(!this.known)this.ask();give(this.label,"\
-hidden",data.poses.length!==4);this.draw()}async ask(){const{store,answers}=this,{document:document2,options}=store;if(document2.poses.length!==4||!this.box.checked||
-this.asking||!store.connection?.isOpen)return;this.asking=true;try{const answer=await store.connection.ask({do:"curve",document:document2,options,judged:store.state!==
-"dragging"});if(answer.kind==="curve"&&store.document.poses.length===4){this.live=curvesOf(answer);this.draw()}}catch{}this.asking=false;if(store.document!==document2&&
-answers.isOld)this.ask()}get widest(){return LONGEST_STEP2*this.answers.data.scene}onto(plane,point2){const map=this.family,{poses,scene}=this.answers.data;if(!map||
-!this.box.checked)return null;const near2=nearestOnCurve(plane==="F"?map.fixed:map.moving,map.loops,point2,this.widest);return near2?ontoCurve(poses,plane,near2.
-at,scene):point2}draw(){const map=this.family,on=Boolean(map)&&this.box.checked;put(this.group,"visibility",on?"visible":"hidden");give(this.legend,"hidden",!on);
-if(!on)return;const{view}=this.scene,planes=[[map.fixed,view.X,view.Y],[map.moving,x=>view.scale*x,y=>-view.scale*y]];planes.forEach(([points,X,Y],n)=>{const paths=curvePaths(
-points,map.loops,map.worth,X,Y,this.widest);[...this.curves[n].children].forEach((path2,k)=>put(path2,"d",paths[STROKES[k]]))});this.move()}move(){const{view}=this.
-scene,place=this.playing.here?.place;if(place&&this.family)put(this.curves[1],"transform",transform(view.X(place.x),view.Y(place.y),place.a))}};var MAX_BANDS=12;var PivotMap=class{constructor(data,parent){this.data=data;this.parent=parent;this.canvas=h("canvas",{"aria-hidden":"true"});const name=`bm-map\
+ints in M, where the body is now.");answers.on("poses",()=>answers.data.poses.length===4?this.ask():this.draw());playing.on("place",()=>this.move());scene.on("v\
+iew",()=>this.draw())}get family(){const{data,isOld}=this.answers;if(data.poses.length!==4)return null;if(this.live&&(isOld||!this.known))return this.live;return this.
+known}renew(){const{data}=this.answers,map=data.family_map;this.known=map?.kind==="curve"?{...map,worth:worthOf(new FamilyPairs(data))}:null;this.live=null;if(!this.
+known)this.ask();give(this.label,"hidden",data.poses.length!==4);this.draw()}async ask(){const{store,answers}=this,{document:document2,options}=store;if(document2.
+poses.length!==4||!this.box.checked||this.asking||!store.connection?.isOpen)return;this.asking=true;try{const answer=await store.connection.ask({do:"curve",document:document2,
+options,judged:store.state!=="dragging"});if(answer.kind==="curve"&&store.document.poses.length===4){this.live=curvesOf(answer);this.draw()}}catch{}this.asking=
+false;if(store.document!==document2&&answers.isOld)this.ask()}get widest(){return LONGEST_STEP2*this.answers.data.scene}onto(plane,point2){const map=this.family,
+{poses,scene}=this.answers.data;if(!map||!this.box.checked)return null;const near2=nearestOnCurve(plane==="F"?map.fixed:map.moving,map.loops,point2,this.widest);
+return near2?ontoCurve(poses,plane,near2.at,scene):point2}draw(){const map=this.family,on=Boolean(map)&&this.box.checked;put(this.group,"visibility",on?"visible":
+"hidden");give(this.legend,"hidden",!on);if(!on)return;const{view}=this.scene,planes=[[map.fixed,view.X,view.Y],[map.moving,x=>view.scale*x,y=>-view.scale*y]];planes.
+forEach(([points,X,Y],n)=>{const paths=curvePaths(points,map.loops,map.worth,X,Y,this.widest);[...this.curves[n].children].forEach((path2,k)=>put(path2,"d",paths[STROKES[k]]))});
+this.move()}move(){const{view}=this.scene,place=this.playing.here?.place;if(place&&this.family)put(this.curves[1],"transform",transform(view.X(place.x),view.Y(place.
+y),place.a))}};var MAX_BANDS=12;var PivotMap=class{constructor(data,parent){this.data=data;this.parent=parent;this.canvas=h("canvas",{"aria-hidden":"true"});const name=`bm-map\
 -${Math.random().toString(36).slice(2)}`;this.svg=s("svg",{class:"bm-map-picture",role:"application",tabindex:"0","aria-roledescription":"map","aria-describedby":name,
 "aria-label":"Pivot map: the error of the best link for every fixed pivot. Arrow keys move a cursor, with Shift by ten steps; the error there is told."});this.readout=
 h("output",{class:"bm-readout",id:name});this.cursor=null;this.legend=h("p",{class:"bm-legend"});parent.append(h("div",{class:"bm-map"},this.canvas,this.svg),this.
@@ -1109,9 +1134,9 @@ return;let before=null;const run=now=>{if(!this.playing)return;if(before!==null)
 requestAnimationFrame(run)};this.tick=requestAnimationFrame(run)}playOnce(){if(!this.path)return;const{low,high}=this.stretch;this.play(true);this.remaining=(this.
 goesRound?1:2)*(high-low)}get goesRound(){return this.path.round&&this.stretch.high-this.stretch.low>this.path.x.length-1-LEAST_STRETCH}advance(seconds){const{low,
 high}=this.stretch;const step=seconds*(high-low)/(this.goesRound?TURN_SECONDS:TURN_SECONDS/2);if(this.remaining!==null){this.remaining-=step;if(this.remaining<=
-0){this.play(false);this.u=this.firstStop();this.show();return}}this.u+=this.heading*step;if(this.goesRound)this.u=around(this.u,high);else if(this.u>=high||this.
+0){this.play(false);this.u=this.firstStop();this.show();return}}this.u+=this.heading*step;if(this.goesRound)this.u=around2(this.u,high);else if(this.u>=high||this.
 u<=low){this.heading=this.u>=high?-1:1;this.u=clamp(this.u,low,high)}this.show()}step(steps){if(!this.path)return;const{low,high}=this.stretch;const u=this.u+steps*
-Math.max(.001,(high-low)/STEPS);this.go(this.goesRound?around(u,high):u)}go(u){if(!this.path)return;this.play(false);this.u=clamp(u,this.stretch.low,this.stretch.
+Math.max(.001,(high-low)/STEPS);this.go(this.goesRound?around2(u,high):u)}go(u){if(!this.path)return;this.play(false);this.u=clamp(u,this.stretch.low,this.stretch.
 high);this.show()}toPose(sense){const all=this.linkage.pose_errors.map((row,k)=>({...row,k})).filter(row=>row.way!==null);if(!all.length)return;const here=this.
 atPose??(sense>0?-1:this.data.poses.length);const next=sense>0?all.find(row=>row.k>here)??all[0]:[...all].reverse().find(row=>row.k<here)??all[all.length-1];this.
 play(false);if(next.way!==this.way){this.way=next.way;this.u=next.frame;this.draw.rebuild()}this.go(next.frame);this.atPose=next.k}nearest(place){let near2=0,least2=Infinity;
@@ -1128,7 +1153,7 @@ row.said.position,row.said.turned,unit2)}`;const said=!pose?"between the poses":
 °`}`,said];texts.forEach((text,k)=>{const whole=k+1<texts.length?`${text} ·`:text;if(this.parts[k].textContent!==whole)this.parts[k].textContent=whole});put(this.
 slider,"aria-valuetext",`driver ${driver}, ${texts[3]}`)}};function laidOut(texts,width,count){const ends=Array(count).fill(-99);return texts.map(({x,text})=>{const size2=6.4*
 text.length,left=clamp(x-size2/2,0,Math.max(0,width-size2));const at=ends.findIndex(end=>left>end+4);if(at>=0)ends[at]=left+size2;return{text,at,middle:left+size2/
-2}})}var around=(u,turn)=>(u%turn+turn)%turn;function icon(pause){return s("svg",{width:12,height:12,viewBox:"0 0 12 12","aria-hidden":"true"},s("path",{d:pause?
+2}})}var around2=(u,turn)=>(u%turn+turn)%turn;function icon(pause){return s("svg",{width:12,height:12,viewBox:"0 0 12 12","aria-hidden":"true"},s("path",{d:pause?
 "M1 0h3.5v12H1zM7.5 0H11v12H7.5z":"M1 0l11 6l-11 6z"}))}var APART=3;var GOLDEN=.381966011250105;var HALVINGS=24;function drivenByOther(linkage,length){const led=[linkage.led[1],linkage.led[0]];if(led[0].kind==="PP"||
 !linkage.ways.length)return{...linkage,led,ways:[],pose_errors:linkage.pose_errors.map(row=>({...row,way:null,frame:null,at:null}))};const ways=[],places=linkage.
 pose_errors.map(()=>null);for(const chain of chainsOf(linkage.ways)){for(const piece of piecesOf(linkage,led[0],chain,length)){const way=wayOf(linkage,led,piece,
@@ -1393,8 +1418,8 @@ space??this.data.space;this.poses=this.data.poses.map(pose=>this.point({x:pose.x
 here:k===index,points:Array.from(way.x,(x,i)=>this.point({x,y:way.y[i],a:way.angle[i]}))}));const{centre,half}=this.space;const angleOf=q=>degrees(2*Math.atan(centre[2]+
 half[2]*q)+this.data.chart.angle);this.marks=angleTicks(angleOf(-1),angleOf(1),7);const width=Math.max(240,this.parent.clientWidth);this.width=width;this.height=
 Math.round(clamp(.8*width,240,520));this.svg.setAttribute("viewBox",`0 0 ${width} ${this.height}`);this.box.style.height=`${this.height}px`;this.draw(quick)}camera(){
-const{around:around2,above,zoom}=this.turn;const ahead=[-Math.cos(above)*Math.sin(around2),Math.cos(above)*Math.cos(around2),-Math.sin(above)];const right=[Math.
-cos(around2),Math.sin(around2),0];const up=cross2(right,ahead);const eye=scaled(ahead,-EYE_DISTANCE);const least2=Math.min(this.width,this.height);const focal=least2/
+const{around:around3,above,zoom}=this.turn;const ahead=[-Math.cos(above)*Math.sin(around3),Math.cos(above)*Math.cos(around3),-Math.sin(above)];const right=[Math.
+cos(around3),Math.sin(around3),0];const up=cross2(right,ahead);const eye=scaled(ahead,-EYE_DISTANCE);const least2=Math.min(this.width,this.height);const focal=least2/
 2*FOCAL_LENGTH*zoom*1.02;return{ahead,right,up,eye,focal,reach:[this.width/2/focal,this.height/2/focal]}}draw(turning){this.view=this.camera();const scene=this.
 sceneOf(this.view);if(this.shader)this.shader.draw(scene,this,turning);else drawStill(this.canvas,scene,this,turning);this.overlay();if(this.place)this.show(this.
 place)}sceneOf(camera){const style=getComputedStyle(this.parent);const paint=["--bm-driver-solid","--bm-follower-solid"].map(name=>rgb(style.getPropertyValue(name)).
@@ -1426,10 +1451,10 @@ length,(d*dyad.moving_pivot[0]+c*dyad.moving_pivot[1])/length];const foot2=dyad.
 "RR"){const[x,y]=hand,[xc,yc]=foot2,squared=(dyad.radius/length)**2/4;const s1=-(x+xc)/2,s2=-(y+yc)/2,t1=-(y-yc)/2,t2=(x-xc)/2;return[1,s1*s1+s2*s2-squared,2*s1,
 2*s2,2*t1,2*t2,2*(s1*t1+s2*t2),t1*t1+t2*t2-squared]}const normal=radians(dyad.line.normal_deg);if(dyad.kind==="PR"){const n=[Math.cos(normal),Math.sin(normal)];
 return line(normal,(dyad.line.offset-n[0]*origin[0]-n[1]*origin[1])/length,hand)}return line(normal+angle,dyad.line.offset/length,foot2).map((value,k)=>k>=4&&k<
-7?-value:value)}function line(normal,offset,[x,y]){const n1=Math.cos(normal),n2=Math.sin(normal),along=n1*x+n2*y,across=n2*x-n1*y;return[0,-along-offset,2*n1,2*
-n2,-2*n2,2*n1,2*across,along-offset]}function matrixOf(dyad,chart){if(dyad.kind==="PP"){const half=(radians(dyad.angle_deg)-chart.angle)/2;return[0,0,0,0,0,0,0,
-0,0,0,0,Math.cos(half)/2,0,0,Math.cos(half)/2,-Math.sin(half)]}const[p1,p2,p3,p4,p5,p6,p7,p8]=coefficients(dyad,chart);return[p1,0,p3/2,p5/2,0,p1,p4/2,p6/2,p3/2,
-p4/2,p2,p7/2,p5/2,p6/2,p7/2,p8]}function quadricOf(dyad,chart,{centre,half}){const c=matrixOf(dyad,chart),to=(r,k)=>r===k?k<3?half[k]:1:k===3?centre[r]:0;const out=new Array(
+7?-value:value)}function line(normal,offset,[x,y]){const n1=Math.cos(normal),n2=Math.sin(normal),along2=n1*x+n2*y,across=n2*x-n1*y;return[0,-along2-offset,2*n1,
+2*n2,-2*n2,2*n1,2*across,along2-offset]}function matrixOf(dyad,chart){if(dyad.kind==="PP"){const half=(radians(dyad.angle_deg)-chart.angle)/2;return[0,0,0,0,0,0,
+0,0,0,0,0,Math.cos(half)/2,0,0,Math.cos(half)/2,-Math.sin(half)]}const[p1,p2,p3,p4,p5,p6,p7,p8]=coefficients(dyad,chart);return[p1,0,p3/2,p5/2,0,p1,p4/2,p6/2,p3/
+2,p4/2,p2,p7/2,p5/2,p6/2,p7/2,p8]}function quadricOf(dyad,chart,{centre,half}){const c=matrixOf(dyad,chart),to=(r,k)=>r===k?k<3?half[k]:1:k===3?centre[r]:0;const out=new Array(
 16).fill(0);for(let i=0;i<4;i+=1){for(let j=0;j<4;j+=1){for(let r=0;r<4;r+=1)for(let k=0;k<4;k+=1)out[4*i+j]+=to(r,i)*c[4*r+k]*to(k,j)}}const greatest=Math.max(
 ...out.map(Math.abs));return out.map(value=>value/greatest)}var CALM=200;var SpacePanel=class{constructor(answers,playing){Object.assign(this,{answers,playing});this.story=h("p",{class:"bm-story"});const fill=h("div",{class:"\
 bm-fill"});this.element=h("div",{},this.story,fill);this.fill=fill;this.space=new ImageSpace(answers.data,fill,true);this.quick=new Pace(()=>this.build(true),()=>isSeen(
@@ -1453,57 +1478,59 @@ answers,playing,live,surface,centrodes,curves,cards,charts,space,compare,facts}}
 gesture===gesture)return;this.past.push({value,gesture});if(this.past.length>MOST4)this.past.shift()}undo(value){const last=this.past.pop();if(!last)return null;
 this.future.push(value);return last.value}redo(value){const next=this.future.pop();if(next===void 0)return null;this.past.push({value,gesture:null});return next}abandon(gesture){
 if(this.past.at(-1)?.gesture!==gesture)return null;return this.past.pop().value}get canUndo(){return this.past.length>0}get canRedo(){return this.future.length>
-0}};var REST=150;var MOST_REST=1e3;var MOST_FLYING=1;var MOST_SHOWN=6;var PLACED2="placed";var Store=class{constructor({connection,document:document2,options={},name="\
-task",settings={},mostFlying=MOST_FLYING}){this.connection=connection;this.mostFlying=mostFlying;this.renamed=new Map;this.moved=new Map;this.document=document2;
-this.options=options;this.name=name;this.settings=settings;this.history=new History;this.solved=null;this.solvedFor=null;this.followed=null;this.followedFor=null;
-this.state="resting";this.progress="";this.chosen=null;this.pinned=new Set;this.compared=null;this.placed=null;this.selection=null;this.messages=[];this.listeners=
-new Map;this.basis=null;this.pending=null;this.flying=new Map;this.placing=null;this.solving=null;this.improving=null;this.improved=null;connection.on("message",
-message=>this.take(message));connection.on("open",()=>this.opened());connection.on("closed",()=>this.closed())}on(names,fn){for(const name of[names].flat().join(
-" ").split(/\s+/)){if(!this.listeners.has(name))this.listeners.set(name,[]);this.listeners.get(name).push(fn)}}emit(...names){const told=new Set;for(const name of names){
-for(const fn of this.listeners.get(name)??[]){if(told.has(fn))continue;told.add(fn);fn(name)}}}edit(change,{gesture=null}={}){const next=change(this.document);if(next===
-this.document)return;this.history.record(this.version,gesture);this.document=next;this.changed()}option(name,value){this.history.record(this.version,null);const{
-[name]:_,...rest}=this.options;this.options=value===void 0?rest:{...rest,[name]:value};this.changed()}setting(name,value){this.history.record(this.version,null);
-this.settings=withKeys(this.settings,{[name]:value});this.emit("document")}rename(name){this.history.record(this.version,null);this.name=name;this.emit("documen\
-t")}replace({document:document2,options={},name=this.name,settings=this.settings}){this.history.record(this.version,null);Object.assign(this,{document:document2,
-options,name,settings,selection:null,placed:null});this.changed();this.emit("selection","placed")}undo(){this.goTo(this.history.undo(this.version))}redo(){this.
-goTo(this.history.redo(this.version))}abandon(gesture){this.goTo(this.history.abandon(gesture))}get version(){return{document:this.document,options:this.options,
-name:this.name,settings:this.settings}}goTo(version){if(!version)return;const isSame=version.document===this.document&&version.options===this.options;Object.assign(
-this,version);if(isSame)this.emit("document");else this.changed()}changed(){this.follow();this.emit("document");if(this.state!=="offline")this.setState("draggin\
-g");this.solveAfterRest()}get shown(){return[...new Set([this.chosen,this.compared,...this.pinned])].filter(id=>id&&id!==PLACED2).slice(0,MOST_SHOWN)}follow(){if(!this.
-solved||this.flying.size>=this.mostFlying)return;const{document:document2,options,shown:shown2}=this;const n=this.connection.send({do:"follow",document:document2,
-options,shown:shown2});if(n!==null)this.flying.set(n,{document:document2,isOld:false})}solveAfterRest(){clearTimeout(this.resting);const since=performance.now();
-const rest=()=>{if(this.flying.size&&performance.now()-since<MOST_REST)this.resting=setTimeout(rest,REST/3);else this.solve()};this.resting=setTimeout(rest,REST)}solve(){
-clearTimeout(this.resting);const{document:document2,options}=this;const n=this.connection.send({do:"solve",document:document2,options});if(n===null)return;this.
-solving={n,document:document2,options};this.setState("solving","")}cancel(){this.connection.send({do:"cancel"})}place(pivots){this.placeWanted=pivots?.length?pivots:
-null;if(!this.placeWanted){this.placed=null;this.emit("placed")}else if(!this.placing){this.sendPlace()}}sendPlace(){const{document:document2,options,placeWanted:pivots}=this;
-const n=this.connection.send({do:"place",document:document2,options,pivots});this.placing=n===null?null:{n,pivots}}take(message){const{n,kind}=message;if(kind===
-"followed")this.takeFollowed(message);else if(this.flying.has(n))this.followRefused(message);else if(n===this.placing?.n)this.takePlaced(message);else if(n===this.
-improving?.n)this.takeImproved(message);else if(n===this.solving?.n||kind==="cancelled"&&this.solving&&n>this.solving.n)this.takeSolving(message)}takeFollowed(frame){
-const asked=this.flying.get(frame.n);if(!asked)return;const{document:document2,isOld}=asked,from=frame.from??(isOld?null:this.basis);this.flying.delete(frame.n);
-if(this.pending&&from===this.pending.n)this.install(this.pending);this.goOn(document2);const isThere=document2===this.solvedFor&&!this.followed;if(from===this.basis&&
-!isThere){this.followed=frame;this.followedFor=document2;this.emit("followed")}if(!this.flying.size&&![this.followedFor,this.solvedFor].includes(this.document))
-this.follow()}goOn(document2){const asked=[document2,...[...this.flying.values()].map(each=>each.document)];if(!asked.includes(this.document))this.follow()}followRefused({
-n,kind,messages=[],solve=false}){const{document:document2}=this.flying.get(n);this.flying.delete(n);if(kind==="refused"&&!solve)this.say(messages);this.goOn(document2)}takePlaced(message){
-const{pivots}=this.placing;this.placing=null;if(this.placeWanted&&message.kind==="placed"){this.placed={...message,pivots};this.emit("placed")}else if(message.kind===
-"refused"){this.say(message.messages)}if(this.placeWanted&&this.placeWanted!==pivots)this.sendPlace()}takeSolving(message){const{document:document2}=this.solving,
-isNow=document2===this.document;if(message.kind==="progress"||message.kind==="waiting"){const before=`waiting for ${message.before} other${message.before===1?"":
-"s"}`;if(isNow)this.setState("solving",message.kind==="progress"?message.text:before);return}if(message.kind==="solving")return;this.solving=null;if(message.kind===
-"solved"){const answer={...message,document:document2};if(isNow)this.install(answer);else this.pending=answer}else if(message.kind==="refused"){this.say(message.
-messages)}else{const[said]=[message.message].flat();this.say([{tone:message.kind,...typeof said==="string"?{message:said}:said}])}if(isNow)this.setState("restin\
-g","")}improve(linkage){const{document:document2,options}=this,n=this.connection.send({do:"improve",document:document2,options,linkage});this.improving=n===null?
-null:{n,linkage};this.emit("improved")}takeImproved(message){if(message.kind==="progress"||message.kind==="waiting"||message.kind==="solving")return;this.improving=
-null;if(message.kind==="improved")this.improved=message;else if(message.messages)this.say(message.messages);this.emit("improved")}install({n,result,document:document2,
-seconds,was}){const told=Object.entries(was??{});this.renamed=new Map(told.map(([now,{id}])=>[id,now]));this.moved=new Map(told.map(([now,{moved}])=>[now,moved]));
-if(!told.length&&document2===this.solvedFor&&!this.followed)for(const{id}of result.linkages)this.renamed.set(id,id);const carried=id=>id===PLACED2&&this.placed?.
-linkage?id:this.renamed.get(id)??null;Object.assign(this,{solved:result,solvedFor:document2,seconds,basis:n,pending:null,followed:null,followedFor:null});for(const each of this.
-flying.values())each.isOld=true;this.chosen=carried(this.chosen)??result.linkages[0]?.id??null;this.compared=carried(this.compared);this.pinned=new Set([...this.
-pinned].map(carried).filter(Boolean));this.messages=[];this.emit("solved","chosen","pinned","messages");if(document2!==this.document)this.follow()}opened(){this.
-flying.clear();this.solving=this.placing=this.improving=null;this.setState("resting","");this.basis=null;this.solve()}closed(){clearTimeout(this.resting);this.flying.
-clear();this.solving=this.placing=this.improving=null;this.setState("offline","")}setState(state,progress=""){if(state===this.state&&progress===this.progress)return;
-this.state=state;this.progress=progress;this.emit("state")}say(messages){this.messages=messages;this.emit("messages")}choose(id){if(id===this.chosen)return;this.
-chosen=id;this.emit("chosen");if(this.state==="dragging"||this.document!==this.solvedFor)this.follow()}pin(id){if(!this.pinned.delete(id))this.pinned.add(id);this.
-emit("pinned")}compare(id){this.compared=id===this.compared?null:id;this.emit("chosen")}select(selection){if(selection?.kind===this.selection?.kind&&selection?.
-index===this.selection?.index)return;this.selection=selection;this.emit("selection")}};var FEW2=40;var PointFields=class{constructor({name,options,step,set}){Object.assign(this,{name,options,step,set,fields:[]});this.shape=h("span",{class:"bs-hint"});
+0}};var REST2=150;var MOST_REST=1e3;var MOST_FLYING=1;var MOST_SHOWN=6;var FEWEST=2;var NO_ANSWER={linkages:[],dyads:[],best:[],warnings:[],pivot_map:null,family_map:null,
+outcome:{message:"Two poses or more make a task"}};var PLACED2="placed";var Store=class{constructor({connection,document:document2,options={},name="task",settings={},
+mostFlying=MOST_FLYING}){this.connection=connection;this.mostFlying=mostFlying;this.renamed=new Map;this.moved=new Map;this.document=document2;this.options=options;
+this.name=name;this.settings=settings;this.history=new History;this.solved=null;this.solvedFor=null;this.followed=null;this.followedFor=null;this.state="resting";
+this.progress="";this.chosen=null;this.pinned=new Set;this.compared=null;this.placed=null;this.selection=null;this.messages=[];this.listeners=new Map;this.basis=
+null;this.pending=null;this.flying=new Map;this.placing=null;this.solving=null;this.improving=null;this.improved=null;connection.on("message",message=>this.take(
+message));connection.on("open",()=>this.opened());connection.on("closed",()=>this.closed())}on(names,fn){for(const name of[names].flat().join(" ").split(/\s+/)){
+if(!this.listeners.has(name))this.listeners.set(name,[]);this.listeners.get(name).push(fn)}}emit(...names){const told=new Set;for(const name of names){for(const fn of this.
+listeners.get(name)??[]){if(told.has(fn))continue;told.add(fn);fn(name)}}}edit(change,{gesture=null}={}){const next=change(this.document);if(next===this.document)
+return;this.history.record(this.version,gesture);this.document=next;this.changed()}option(name,value){this.history.record(this.version,null);const{[name]:_,...rest}=this.
+options;this.options=value===void 0?rest:{...rest,[name]:value};this.changed()}setting(name,value){this.history.record(this.version,null);this.settings=withKeys(
+this.settings,{[name]:value});this.emit("document")}rename(name){this.history.record(this.version,null);this.name=name;this.emit("document")}replace({document:document2,
+options={},name=this.name,settings=this.settings}){this.history.record(this.version,null);Object.assign(this,{document:document2,options,name,settings,selection:null,
+placed:null});this.changed();this.emit("selection","placed")}undo(){this.goTo(this.history.undo(this.version))}redo(){this.goTo(this.history.redo(this.version))}abandon(gesture){
+this.goTo(this.history.abandon(gesture))}get version(){return{document:this.document,options:this.options,name:this.name,settings:this.settings}}goTo(version){if(!version)
+return;const isSame=version.document===this.document&&version.options===this.options;Object.assign(this,version);if(isSame)this.emit("document");else this.changed()}changed(){
+this.follow();this.emit("document");if(this.isEmpty)this.forget();if(this.state!=="offline")this.setState("dragging");this.solveAfterRest()}get shown(){return[...new Set(
+[this.chosen,this.compared,...this.pinned])].filter(id=>id&&id!==PLACED2).slice(0,MOST_SHOWN)}follow(){if(!this.solved||this.flying.size>=this.mostFlying)return;
+const{document:document2,options,shown:shown2}=this;const n=this.connection.send({do:"follow",document:document2,options,shown:shown2});if(n!==null)this.flying.
+set(n,{document:document2,isOld:false})}solveAfterRest(){clearTimeout(this.resting);const since=performance.now();const rest=()=>{if(this.flying.size&&performance.
+now()-since<MOST_REST)this.resting=setTimeout(rest,REST2/3);else this.solve()};this.resting=setTimeout(rest,REST2)}solve(){clearTimeout(this.resting);const{document:document2,
+options}=this;const n=this.connection.send({do:"solve",document:document2,options});if(n===null)return;this.solving={n,document:document2,options};this.setState(
+"solving","")}cancel(){this.connection.send({do:"cancel"})}place(pivots){this.placeWanted=pivots?.length?pivots:null;if(!this.placeWanted){this.placed=null;this.
+emit("placed")}else if(!this.placing){this.sendPlace()}}sendPlace(){const{document:document2,options,placeWanted:pivots}=this;const n=this.connection.send({do:"\
+place",document:document2,options,pivots});this.placing=n===null?null:{n,pivots}}take(message){const{n,kind}=message;if(kind==="followed")this.takeFollowed(message);else if(this.
+flying.has(n))this.followRefused(message);else if(n===this.placing?.n)this.takePlaced(message);else if(n===this.improving?.n)this.takeImproved(message);else if(n===
+this.solving?.n||kind==="cancelled"&&this.solving&&n>this.solving.n)this.takeSolving(message)}takeFollowed(frame){const asked=this.flying.get(frame.n);if(!asked)
+return;const{document:document2,isOld}=asked,from=frame.from??(isOld?null:this.basis);this.flying.delete(frame.n);if(this.pending&&from===this.pending.n)this.install(
+this.pending);this.goOn(document2);const isThere=document2===this.solvedFor&&!this.followed;if(from===this.basis&&!isThere){this.followed=frame;this.followedFor=
+document2;this.emit("followed")}if(!this.flying.size&&![this.followedFor,this.solvedFor].includes(this.document))this.follow()}goOn(document2){const asked=[document2,
+...[...this.flying.values()].map(each=>each.document)];if(!asked.includes(this.document))this.follow()}followRefused({n,kind,messages=[],solve=false}){const{document:document2}=this.
+flying.get(n);this.flying.delete(n);if(kind==="refused"&&!solve)this.say(messages);this.goOn(document2)}takePlaced(message){const{pivots}=this.placing;this.placing=
+null;if(this.placeWanted&&message.kind==="placed"){this.placed={...message,pivots};this.emit("placed")}else if(message.kind==="refused"){this.say(message.messages)}
+if(this.placeWanted&&this.placeWanted!==pivots)this.sendPlace()}takeSolving(message){const{document:document2}=this.solving,isNow=document2===this.document;if(message.
+kind==="progress"||message.kind==="waiting"){const before=`waiting for ${message.before} other${message.before===1?"":"s"}`;if(isNow)this.setState("solving",message.
+kind==="progress"?message.text:before);return}if(message.kind==="solving")return;this.solving=null;if(message.kind==="solved"){const answer={...message,document:document2};
+if(isNow)this.install(answer);else this.pending=answer}else if(message.kind==="refused"){this.say(message.messages)}else{const[said]=[message.message].flat();this.
+say([{tone:message.kind,...typeof said==="string"?{message:said}:said}])}if(isNow)this.setState("resting","")}improve(linkage){const{document:document2,options}=this,
+n=this.connection.send({do:"improve",document:document2,options,linkage});this.improving=n===null?null:{n,linkage};this.emit("improved")}takeImproved(message){if(message.
+kind==="progress"||message.kind==="waiting"||message.kind==="solving")return;this.improving=null;if(message.kind==="improved")this.improved=message;else if(message.
+messages)this.say(message.messages);this.emit("improved")}get isEmpty(){return this.document.poses.length<FEWEST}forget(){if(!this.solved)return;const result={...this.
+solved,...NO_ANSWER,space:{...this.solved.space,quadrics:[]}};this.install({n:null,result,document:this.document,seconds:null});if(this.placed)this.place([])}install({
+n,result,document:document2,seconds,was}){const told=Object.entries(was??{});this.renamed=new Map(told.map(([now,{id}])=>[id,now]));this.moved=new Map(told.map(
+([now,{moved}])=>[now,moved]));if(!told.length&&document2===this.solvedFor&&!this.followed)for(const{id}of result.linkages)this.renamed.set(id,id);const carried=id=>id===
+PLACED2&&this.placed?.linkage?id:this.renamed.get(id)??null;Object.assign(this,{solved:result,solvedFor:document2,seconds,basis:n,pending:null,followed:null,followedFor:null});
+for(const each of this.flying.values())each.isOld=true;this.chosen=carried(this.chosen)??result.linkages[0]?.id??null;this.compared=carried(this.compared);this.
+pinned=new Set([...this.pinned].map(carried).filter(Boolean));this.messages=[];this.emit("solved","chosen","pinned","messages");if(document2!==this.document)this.
+follow()}opened(){this.flying.clear();this.solving=this.placing=this.improving=null;this.setState("resting","");this.basis=null;this.solve()}closed(){clearTimeout(
+this.resting);this.flying.clear();this.solving=this.placing=this.improving=null;this.setState("offline","")}setState(state,progress=""){if(state===this.state&&progress===
+this.progress)return;this.state=state;this.progress=progress;this.emit("state")}say(messages){this.messages=messages;this.emit("messages")}choose(id){if(id===this.
+chosen)return;this.chosen=id;this.emit("chosen");if(this.state==="dragging"||this.document!==this.solvedFor)this.follow()}pin(id){if(!this.pinned.delete(id))this.
+pinned.add(id);this.emit("pinned")}compare(id){this.compared=id===this.compared?null:id;this.emit("chosen")}select(selection){if(selection?.kind===this.selection?.
+kind&&selection?.index===this.selection?.index)return;this.selection=selection;this.emit("selection")}};var FEW2=40;var PointFields=class{constructor({name,options,step,set}){Object.assign(this,{name,options,step,set,fields:[]});this.shape=h("span",{class:"bs-hint"});
 this.more=h("p",{class:"bs-hint"});this.pairs=h("div",{class:"bs-coordinates"});this.element=h("div",{class:"bs-point-fields"},this.shape,this.pairs,this.more)}show(shape,points){
 const count=Math.min(points.length,FEW2);if(shape!==this.shape.textContent)this.fields=[];say(this.shape,shape);while(this.fields.length<count)this.fields.push(
 this.make(this.fields.length));this.fields.length=count;const wanted=this.fields.map(each=>each.element);if(wanted.length!==this.pairs.children.length||wanted.some(

@@ -3,11 +3,14 @@
 import studioStyle from "../assets/studio.css";
 import sharedStyle from "../assets/widget.css";
 import { Answers } from "../studio/answers.mjs";
+import { BodyEditor } from "../studio/body_editor.mjs";
+import { bodyOf, limitRegions, regionsOf } from "../studio/document.mjs";
 import { button } from "../studio/fields.mjs";
 import { listenToKeys, listenToSpace } from "../studio/keyboard.mjs";
 import { LiveLinkage } from "../studio/live_linkage.mjs";
 import { Playing, playOnce } from "../studio/playing.mjs";
 import { PoseHandles, PoseTool } from "../studio/pose_handles.mjs";
+import { Regions } from "../studio/regions.mjs";
 import { Results } from "../studio/results.mjs";
 import { Scene } from "../studio/scene.mjs";
 import { Store } from "../studio/store.mjs";
@@ -20,6 +23,7 @@ const MOST_FLYING = 2; // follows on their way: while one is answered the next o
 const PATIENCE = 700; // milliseconds until solving may be stopped
 const BUSY = "The kernel is busy: what is done here is answered when it is free.";
 const HINT = "Drag a pose by its point, turn it by the tip of its arrow.";
+const ROOM = "Drag poses by their points, turn them by the tips of their arrows; limits, regions and the body are dragged, too.";
 
 function render({ model, el }) {
   const ended = new AbortController(), { signal } = ended, kernel = new Kernel(model);
@@ -54,6 +58,8 @@ function layOut(frame, kernel, { document: task }, turn) {
   const store = new Store({ connection: kernel, document: task, mostFlying: MOST_FLYING });
   const scene = new Scene(store, { zoomKey: true }), answers = new Answers(store), playing = new Playing(store, answers);
   new LiveLinkage(answers, playing, scene);
+  new BodyEditor(store, scene);
+  new Regions(store, scene);
   new PoseHandles(store, scene);
   const results = new Results(store, answers), left = h("div", { class: "bn-left" }, bar(store, scene, kernel), scene.element, playing.element);
   const ways = playing.element.querySelector(".bs-player-ways"), fold = h("details", { class: "bn-ways" }, h("summary", {}, "Driver and assembly"));
@@ -95,7 +101,7 @@ function bar(store, scene, kernel) {
     give(redo, "disabled", !store.history.canRedo);
     const [said] = store.messages, solving = store.state === "solving" && store.progress;
     put(pose, "aria-pressed", Boolean(scene.tool));
-    const text = isBusy ? BUSY : said ? [said.message, said.help].filter(Boolean).join("; ") : scene.tool ? scene.tool.hint : solving ? `Solving: ${store.progress}` : HINT;
+    const text = isBusy ? BUSY : said ? [said.message, said.help].filter(Boolean).join("; ") : scene.tool ? scene.tool.hint : solving ? `Solving: ${store.progress}` : hint(store.document);
     if (line.textContent !== text) line.textContent = text;
     line.classList.toggle("bn-refused", Boolean(said));
   };
@@ -114,6 +120,11 @@ function bar(store, scene, kernel) {
   scene.on("tool", show);
   show();
   return h("div", { class: "bn-bar" }, undo, redo, pose, button("Fit", () => scene.fitAgain(), { "data-do": "fit", title: "Show all poses and pivots (0)" }), stop, line);
+}
+
+/** What can be dragged. */
+function hint(document) {
+  return limitRegions(document).length || regionsOf(document).length || bodyOf(document).length ? ROOM : HINT;
 }
 
 /** The first answer to a task brings pivots that its first view did not know; calling what is returned waits for another. */

@@ -71,7 +71,7 @@ export class Answers extends Events {
     const was = new Map([...names].map(([old, id]) => [id, this.byId.get(old)]));
     const { poses, body, keep_out, ...rest } = solved;
     Object.assign(this.data, { body, keep_out, ...rest, poses: posesOf(document) });
-    this.gone = before.filter((each) => !names.has(each.id)).map((each) => each.id);
+    this.gone = this.store.isEmpty ? [] : before.filter((each) => !names.has(each.id)).map((each) => each.id);
     this.byId = new Map();
     this.linkages = solved.linkages.map((fresh) => {
       const kept = was.get(fresh.id), now = kept ?? {};
@@ -82,7 +82,7 @@ export class Answers extends Events {
       this.byId.set(now.id, now);
       return now;
     });
-    this.known = true;
+    this.known = !this.store.isEmpty;
     this.emit("answers");
   }
 

@@ -1,6 +1,6 @@
 // Errors at the poses and the transmission angle along the motion, which follow at a slower pace.
 
-import { h } from "../widget/dom.mjs";
+import { give, h } from "../widget/dom.mjs";
 import { Plots } from "../widget/plots.mjs";
 import { Pace, isSeen, watch } from "./pacing.mjs";
 
@@ -9,7 +9,8 @@ export class Charts {
     this.playing = playing;
     const fill = h("div", { class: "bm-fill" });
     this.plots = new Plots(answers.data, fill, (u) => playing.player.go(u));
-    this.element = fill;
+    this.nothing = h("p", { class: "bs-quiet", hidden: true }, "No linkage is there whose motion could be shown.");
+    this.element = h("div", {}, this.nothing, fill);
     this.pace = new Pace(() => this.build(), () => isSeen(fill));
     playing.on("shape", () => this.pace.ask());
     playing.on("place", ({ drive, transmission }) => {
@@ -22,6 +23,7 @@ export class Charts {
 
   build() {
     const { playing, plots } = this, { linkage, path, player } = playing;
+    give(this.nothing, "hidden", Boolean(linkage && path && !linkage.gone));
     if (!linkage || !path || linkage.gone || linkage.pose_errors.length !== plots.data.poses.length) {
       plots.svg.replaceChildren();
       plots.way = plots.cursor = null;

@@ -17,7 +17,7 @@ export class FamilyCurves {
     this.box = h("input", { type: "checkbox", checked: true, "data-tool": "burmester-curves", onchange: () => this.draw() });
     this.label = h("label", { hidden: true }, this.box, " Burmester curves of the four poses, in the drawing");
     this.legend = h("p", { class: "bm-legend", hidden: true }, h("span", { class: "bs-key-works" }), " works with a partner; ", h("span", { class: "bs-key-outside" }), " works outside limits or standard; ", h("span", { class: "bs-key-fails" }), " no partner works. Solid: centre points in F; dashed: circle points in M, where the body is now.");
-    answers.on("poses", () => this.ask());
+    answers.on("poses", () => (answers.data.poses.length === 4 ? this.ask() : this.draw())); // fewer or more have no curves
     playing.on("place", () => this.move());
     scene.on("view", () => this.draw());
   }

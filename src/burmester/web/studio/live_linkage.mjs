@@ -10,9 +10,11 @@ import { factorFor } from "../widget/plane.mjs";
 import { railOf } from "../widget/rail.mjs";
 import { smoothPath } from "../widget/smooth_path.mjs";
 import { UNSEEN } from "./answers.mjs";
+import { around } from "./name_places.mjs";
 
 const MOST_ACHIEVED = 240; // places at poses that are drawn
-const BELOW = 38; // pixels: how far the name of a fixed pivot stands below it
+const OFF = 27; // pixels from the middle of a foot to the name of its dyad
+const FOOT = 11; // pixels from a fixed pivot down to that middle
 const LEAST_ARROW = 1.5; // pixels
 
 export class LiveLinkage {
@@ -42,6 +44,7 @@ export class LiveLinkage {
     playing.on("shape", () => this.shape());
     playing.on("place", ({ place }) => this.mechanism?.show(place));
     scene.on("view", () => this.redraw());
+    scene.names?.avoid(() => this.obstacles());
     this.redraw();
   }
 
@@ -53,6 +56,12 @@ export class LiveLinkage {
     const pins = linkage.led.flatMap((dyad) => (dyad.fixed_pivot ? [dyad.fixed_pivot] : []));
     const moving = linkage.pose_errors.filter((row) => row.x !== null).flatMap((row) => linkage.led.filter((dyad) => dyad.moving_pivot).map((dyad) => act({ x: row.x, y: row.y, a: radians(row.angle_deg) }, dyad.moving_pivot)));
     return [...pins, ...moving].filter(near);
+  }
+
+  /** What names keep off: the feet of fixed pivots. */
+  obstacles() {
+    const { playing: { linkage }, scene: { view } } = this, pins = linkage && !linkage.gone ? linkage.led.filter((dyad) => dyad.fixed_pivot) : [];
+    return pins.map(({ fixed_pivot: [x, y] }) => [view.X(x), view.Y(y) + FOOT, 34, 36]);
   }
 
   /** How errors are enlarged: while a hand drags never more than before, so that arrows do not flicker. */
@@ -116,6 +125,7 @@ export class LiveLinkage {
   }
 
   ground(linkage, places, view) {
+    const { scene } = this;
     linkage.led.forEach((dyad, side) => {
       const [rail, at, name] = [this.rails[side], this.feet[side], this.names[side]];
       const slides = dyad.kind === "PR" && places.length > 0;
@@ -136,7 +146,7 @@ export class LiveLinkage {
       } else {
         return;
       }
-      put(name, "transform", `translate(${px(x)} ${px(y + BELOW)})`);
+      scene.names.put(name, x, y + FOOT, dyad.id, around(dyad.id, -Math.PI / 2, OFF));
     });
   }
 

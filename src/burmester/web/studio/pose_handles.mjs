@@ -2,10 +2,12 @@
 
 import { put, s, say } from "../widget/dom.mjs";
 import { axes, transform } from "../widget/drawing.mjs";
+import { LETTER } from "../widget/mechanism.mjs";
 import { clamp, degrees, px, radians } from "../widget/numbers.mjs";
 import { shortened } from "../widget/tables.mjs";
 import { addPose, poseName, removePose, setPose, standing, statedOf } from "./document.mjs";
 import { stepOf, stepped } from "./fields.mjs";
+import { around } from "./name_places.mjs";
 import { isOther } from "./pacing.mjs";
 import { Kept } from "./scene.mjs";
 
@@ -14,6 +16,7 @@ const SHORTEST_ARM = 27; // the same where poses are crowded
 const FEW = 24; // poses that all have handles; of more, those that have room, the last and the selected one
 const MOST = 240; // poses that have handles
 const ROOM = 14; // pixels from a handle to the next
+const NAME = 14; // pixels from the origin of a pose to its name
 const LONGEST_NAME = 18; // characters of a name that the drawing has room for
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 const tenths = (angle) => Number(angle.toFixed(1)) + 0;
@@ -42,6 +45,7 @@ export class PoseHandles {
     scene.on("view", () => this.draw());
     scene.hold(() => store.document.poses.map((_, k) => standing(store.document, k)).map(({ x, y }) => [x, y]));
     scene.on("click", () => store.select(null));
+    scene.names.avoid(() => this.obstacles());
     this.draw();
   }
 
@@ -94,13 +98,27 @@ export class PoseHandles {
     put(turn, "aria-valuetext", `${angle}°`);
   }
 
-  /** Names stand behind the origin, away from the x axis. */
+  /** What names keep off: origins, both axes, the handles that turn, and where the letter M stands at a pose. */
+  obstacles() {
+    const { store, scene: { view }, length } = this, boxes = [];
+    for (const k of drawnPoses(store, view.scale)) {
+      const { x, y, angle } = standing(store.document, k), a = radians(angle), [c, d] = [Math.cos(a), Math.sin(a)];
+      const at = (along, across, size) => boxes.push([view.X(x) + along * c - across * d, view.Y(y) - along * d - across * c, size, size]);
+      at(0, 0, 13);
+      at(length, 0, 12);
+      at(LETTER, -LETTER, 12);
+      for (const share of [0.35, 0.7]) at(share * length, 0, 6);
+      for (const share of [0.3, 0.6]) at(0, share * (length - 8), 6);
+    }
+    return boxes;
+  }
+
+  /** Names stand behind the origin, away from the x axis, where there is room. */
   showName(text, k) {
-    const { store, scene: { view } } = this, { x, y, angle } = standing(store.document, k), a = radians(angle + 215);
-    if (!isOther(text, [view, x, y, angle, poseName(store.document, k)])) return;
-    say(text, shortened(poseName(store.document, k), LONGEST_NAME));
-    put(text, "text-anchor", Math.cos(a) < -0.3 ? "end" : Math.cos(a) > 0.3 ? "start" : "middle");
-    put(text, "transform", `translate(${px(view.X(x) + 13 * Math.cos(a))} ${px(view.Y(y) - 13 * Math.sin(a) + 4)})`); // its letters are not set anew
+    const { store, scene } = this, { view } = scene, { x, y, angle } = standing(store.document, k), name = shortened(poseName(store.document, k), LONGEST_NAME);
+    if (!isOther(text, [view, x, y, angle, name])) return;
+    say(text, name);
+    scene.names.put(text, view.X(x), view.Y(y), name, around(name, radians(angle + 215), NAME, scene.names.areMany));
   }
 
   /** A change of one pose; what is free and not stated stays free. */

@@ -2,17 +2,18 @@
 
 import { put, s, say } from "../widget/dom.mjs";
 import { act } from "../widget/kinematics.mjs";
-import { px } from "../widget/numbers.mjs";
 import { shortened } from "../widget/tables.mjs";
 import { referencePlace } from "./body_editor.mjs";
 import { currentLinkage, limitsMissed, missedSentence, regionsTouched } from "./conditions.mjs";
 import { addRegion, bodyOf, limitRegions, limitsOf, regionsOf, removeRegion, setLimit, setRegion, setRequirement, shapeOf } from "./document.mjs";
+import { along } from "./name_places.mjs";
 import { outlineOf } from "./region_geometry.mjs";
 import { Kept, bounds } from "./scene.mjs";
 import { GROUND, ShapeHandles } from "./shape_handles.mjs";
 import { ShapeTool } from "./shape_tool.mjs";
 
 const LONGEST_NAME = 22;
+const ABOVE = 10; // pixels from an edge to the middle of a name
 const HATCH = 9; // pixels between the lines of a hatch
 const PIVOT = { fixed_pivot: "Fixed pivot", moving_pivot: "Moving pivot" };
 
@@ -95,8 +96,8 @@ export class Regions {
     }
     this.names.draw([
       ...regions.map((region, k) => [`region ${k}`, region.name && regionShape(region) ? { text: region.name, at: middle(outlineOf(...Object.values(regionShape(region)))) } : null]),
-      ...limits.map((limit) => [`limit ${limit.table} ${limit.key}`, { text: limitName(document, limit), at: middleOf(this.corners(limit), limit.key === "moving_pivot"), off: limit.key === "moving_pivot" ? -5 : 14 }]),
-      ["footprint", footprint ? { text: "Footprint", at: middleOf(footprint.polygon ?? outlineOf("box", footprint.box), true), off: -5 } : null],
+      ...limits.map((limit) => [`limit ${limit.table} ${limit.key}`, { text: limitName(document, limit), at: middleOf(this.corners(limit), limit.key === "moving_pivot"), off: limit.key === "moving_pivot" ? ABOVE : -ABOVE, width: widthOf(this.corners(limit)) }]),
+      ["footprint", footprint ? { text: "Footprint", at: middleOf(footprint.polygon ?? outlineOf("box", footprint.box), true), off: ABOVE, width: widthOf(footprint.polygon ?? footprint.box) } : null],
     ].filter(([, name]) => name));
   }
 
@@ -176,13 +177,11 @@ export class Regions {
     }));
   }
 
-  showName(text, { text: name, at: [x, y], off }) {
-    const { view } = this.scene, shown = shortened(name, LONGEST_NAME);
+  showName(text, { text: name, at: [x, y], off, width }) {
+    const { scene } = this, { view } = scene, shown = shortened(name, LONGEST_NAME);
     say(text, shown);
     put(text, "class", off ? "bs-limit-name" : "bs-region-name");
-    put(text, "text-anchor", "middle");
-    put(text, "x", px(view.X(x)));
-    put(text, "y", px(view.Y(y) + (off ?? 4)));
+    scene.names.put(text, view.X(x), view.Y(y), shown, off ? along(off, view.scale * (width ?? 0)) : [[0, 0, 0]]);
   }
 
   // Tools that draw a new one
@@ -230,4 +229,10 @@ function middle(points) {
 function middleOf(points, upper) {
   const [x, y, u, v] = bounds(points);
   return [(x + u) / 2, upper ? v : y];
+}
+
+/** How wide what points span is. */
+function widthOf(points) {
+  const [x, , u] = bounds(points);
+  return Number.isFinite(u - x) ? u - x : 0;
 }

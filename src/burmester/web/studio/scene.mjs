@@ -2,6 +2,7 @@
 
 import { h, put, s } from "../widget/dom.mjs";
 import { clamp, px, ticks } from "../widget/numbers.mjs";
+import { NamePlaces } from "./name_places.mjs";
 
 const LAYERS = ["grid", "regions", "ghosts", "map", "curves", "paths", "mechanism", "limits", "pivots", "poses", "labels", "tool"];
 const MARGIN = 46; // pixels around what a fit shows
@@ -31,6 +32,7 @@ export class Scene {
     this.isFitted = true; // until a hand moves it
     this.pointers = new Map(); // on the empty plane: one pans, two pinch
     this.boxes = []; // functions that say what a fit has to hold
+    this.names = new NamePlaces(this);
     this.update();
     this.listen();
     store.on("document", () => this.unit === store.document.length_unit || this.grid());

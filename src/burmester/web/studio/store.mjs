@@ -11,6 +11,8 @@ const REST = 150; // milliseconds without an edit before the whole road runs
 const MOST_REST = 1000; // the same where what was asked before is not answered yet
 const MOST_FLYING = 1; // follows on their way, as a rule: of two the second would wait, and answer to an older task than one asked later
 const MOST_SHOWN = 6; // linkages whose motion is asked for while dragging
+const FEWEST = 2; // poses that make a task
+const NO_ANSWER = { linkages: [], dyads: [], best: [], warnings: [], pivot_map: null, family_map: null, outcome: { message: "Two poses or more make a task" } };
 const PLACED = "placed"; // chosen: the linkage whose pivots were put down by hand
 
 /** Events: document, solved, followed, state, chosen, pinned, placed, improved, selection, messages. */
@@ -142,6 +144,7 @@ export class Store {
   changed() {
     this.follow(); // the server works while the page draws
     this.emit("document");
+    if (this.isEmpty) this.forget();
     if (this.state !== "offline") this.setState("dragging");
     this.solveAfterRest();
   }
@@ -290,6 +293,19 @@ export class Store {
     if (message.kind === "improved") this.improved = message;
     else if (message.messages) this.say(message.messages);
     this.emit("improved");
+  }
+
+  /** Whether the task has too few poses for any linkage. */
+  get isEmpty() {
+    return this.document.poses.length < FEWEST;
+  }
+
+  /** No linkage of an older task stays on the page of an empty one. */
+  forget() {
+    if (!this.solved) return;
+    const result = { ...this.solved, ...NO_ANSWER, space: { ...this.solved.space, quadrics: [] } };
+    this.install({ n: null, result, document: this.document, seconds: null });
+    if (this.placed) this.place([]);
   }
 
   /** A whole answer becomes what is shown; what was chosen goes on as the same linkage, whatever its id. */

@@ -11,7 +11,7 @@ import { bodyOutline } from "./outlines.mjs";
 import { pointOnLine, travelOf } from "./travel.mjs";
 
 const BODY_AXIS = AXIS + 10; // pixels: the x axis of the body
-const LETTER = 14; // pixels: how far the letter M stands from the origin of M, along x and against y: names of poses stand elsewhere
+export const LETTER = 14; // pixels: how far the letter M stands from the origin of M, along x and against y: names of poses stand elsewhere
 const BLOCK_IN_SLOT = [18, 10]; // pixels: its length and height
 const SPARE = 5; // pixels: how far a slot goes on beyond its block
 const ARROW = 24; // pixels: how far the arrow of a sliding driver stands from its block

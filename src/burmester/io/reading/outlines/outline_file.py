@@ -35,7 +35,15 @@ from burmester.io.reading.pose_table import shown
 from burmester.printable import printable
 from burmester.wording import count, figure, listed
 
-__all__ = ["FROM_PAGE", "OutlineFile", "folder_of", "outline_named", "read_outline"]
+__all__ = [
+    "FROM_PAGE",
+    "OutlineFile",
+    "drawing_in",
+    "folder_of",
+    "only_closed_curve",
+    "outline_named",
+    "read_outline",
+]
 
 FROM_PAGE: Final = "<page>/"  # in front of the name of a task that a page sent
 
@@ -93,8 +101,8 @@ def read_outline(
     """
     label = printable(file.path)
     try:
-        drawing = _drawing(file, _content(file, folder) if data is None else data)
-        curve, size, left_open = _only_curve(drawing, file.part)
+        drawing = drawing_in(file, data, folder)
+        curve, size, left_open = only_closed_curve(drawing, file.part)
         factor = _factor(drawing.unit, length_unit)
         points, shortened = _few_corners(curve.points * factor, FLATNESS * size * factor)
         outline = Polygon(points)
@@ -124,6 +132,11 @@ def read_outline(
         "task",
         "; ".join(said) or None,
     )
+
+
+def drawing_in(file: OutlineFile, data: bytes | None = None, folder: str = "") -> Drawing:
+    """The drawing in a file, or its part; raises E130, E170 and E173."""
+    return _drawing(file, _content(file, folder) if data is None else data)
 
 
 def _require_drawing(file: OutlineFile) -> None:
@@ -170,7 +183,7 @@ def _drawing(file: OutlineFile, data: bytes) -> Drawing:
     return drawing
 
 
-def _only_curve(drawing: Drawing, part: str | None) -> tuple[Curve, float, int]:
+def only_closed_curve(drawing: Drawing, part: str | None) -> tuple[Curve, float, int]:
     """The one closed curve, the extent of the drawing, and the number of open curves beside it."""
     size = extent(drawing.curves)
     closed, ends, left_open = joined(drawing.curves, JOINT * size)

@@ -1,7 +1,8 @@
 """Columns by the names that people give them: what stands in each, and in which unit.
 
-`column_words` holds the names: x, y and an angle, or two points of the body (px, py, qx, qy);
-weight; exact; name.  A column of numbers, such as `Nr.`, holds the names where no other does.
+`column_words` holds the names: x, y and an angle (without it: points of the body, at any angle), or
+two points of the body (px, py, qx, qy); weight; exact; name.  A column of numbers, such as `Nr.`,
+holds the names where no other does.
 Times, frames and remarks are passed over, and so is what begins with #.
 """
 
@@ -89,9 +90,9 @@ class Columns(NamedTuple):
 
 
 def is_header(names: Sequence[str]) -> bool:
-    """Whether all these are names of columns, and of enough of them for a pose."""
+    """Whether all these are names of columns, and of enough of them for a pose or a point."""
     words = list(map(_known, names))
-    return None not in words and _have_poses(words)
+    return None not in words and (_have_poses(words) or _have_points(words))
 
 
 def has_poses(names: Sequence[str]) -> bool:
@@ -102,6 +103,11 @@ def has_poses(names: Sequence[str]) -> bool:
 def _have_poses(words: Sequence[Word | None]) -> bool:
     roles = {word.role for word in words if word}
     return any(roles.issuperset(needed) for needed in (NUMERIC[:3], POINTS))
+
+
+def _have_points(words: Sequence[Word | None]) -> bool:
+    """Whether x and y are there: points of the body, without its angle."""
+    return {word.role for word in words if word}.issuperset(NUMERIC[:2])
 
 
 def _known(name: str) -> Word | None:
@@ -175,7 +181,10 @@ def _require_poses(
         where_point = where(indices[points[0]])
         raise InputError("E108", message, where=where_point, help=help)
     needed = POINTS if points else NUMERIC[:3]
-    if missing := [role for role in needed if role not in indices]:
+    missing = [role for role in needed if role not in indices]
+    if missing == ["angle"] and not unknown:
+        return NUMERIC[:2]
+    if missing:
         message = f"the header has no column for {' and '.join(missing)}"
         more = f" and {len(names) - MAX_NAMES} more" if len(names) > MAX_NAMES else ""
         why = f"it has: {', '.join(map(shown, names[:MAX_NAMES]))}{more}"

@@ -298,10 +298,12 @@ def _require_header(source: Source, first: re.Match[str], where: str) -> None:
     if separator is None:
         return
     cells = split_cells(first[0], separator)
-    names = [*HEADER.split(","), *(f"#{i}" for i in range(4, len(cells) + 1))]
+    names = HEADER.split(",")[: max(2, len(cells))]
+    names = [*names, *(f"#{i}" for i in range(4, len(cells) + 1))]
     points = " or `px,py,qx,qy` for two points" if len(cells) == 4 else ""
+    radians = " (or angle_rad in it)" if len(names) > 2 else " for points without angles"
     help = (
-        f"put this line on top: `{separator.join(names)}` (or angle_rad in it), or pass "
+        f"put this line on top: `{separator.join(names)}`{radians}, or pass "
         f"--columns {','.join(names)}{points}"
     )
     if len(names) > MAX_NAMES:

@@ -123,7 +123,10 @@ def _plain_rows(block: str, header: Header, marks: dict[str, str]) -> Rows | Non
         rows = Rows.read(columns)
     except ValueError:
         return None
-    return rows if np.isfinite(rows.values).all() else None
+    given = np.isfinite(rows.values)
+    if "angle" not in indices and "px" not in indices:
+        given[:, 2] = True  # a point: its angle is free
+    return rows if given.all() else None
 
 
 def _checked_rows(
@@ -146,8 +149,8 @@ def _checked_rows(
             _require_width(line, cells, header, row + count)
         for role, index in single:
             cell = unquoted(cells[index])
-            if tolerant and (special := special_text(cell, role)) is not None:
-                columns[role].append(special)
+            if (tolerant or role == "angle") and (special := special_text(cell, role)) is not None:
+                columns[role].append(special)  # a blank angle is free: a point of the body
                 continue
             if role == "exact" and cell.lower() not in pose_table.MARKS:
                 where = cell_location(header.source, line.start(), cells, index, role)

@@ -69,8 +69,13 @@ def read_parquet(label: str, data: bytes) -> PoseTable:
             printed[role] = max((decimals(text) for text in texts if text), default=0.0)
     angle = printed.pop("angle", 0.0)
     tolerances = None
+    if "angle" not in indices and "px" not in indices:  # points of the body
+        numbers.insert(2, np.full(stored.num_rows, np.nan))
     if columns.may_be_free:
         tolerances = _tolerances(stored, names, columns, where)
+    if "angle" not in indices and "px" not in indices:
+        tolerances = tolerances or StatedTolerances.none(stored.num_rows)
+        tolerances.bounds[:, 2] = np.inf
     given_names = _list(stored, names, indices.get("name"), where)
     names_of = columns.row_names([str(value) if value is not None else "" for value in given_names])
     exact = _marks(stored, names, indices.get("exact"), where)

@@ -20,6 +20,7 @@ from burmester.io.reading.stated_requirements import REQUIREMENT_KEYS
 from burmester.io.reading.stated_surroundings import StatedSurroundings
 from burmester.io.reading.stated_tolerances import TOLERANCE_ROLES, DefaultTolerance
 from burmester.io.reading.trees.locations import Document, close_match
+from burmester.io.reading.trees.path_tree import read_path
 from burmester.io.reading.trees.plain_poses import POINT_KEYS, XY_ANGLE_KEYS, plain_poses
 from burmester.tasks.pose_tolerances import COMPONENTS
 
@@ -114,6 +115,7 @@ def read_tree(tree: Any, document: Document, example: str) -> PoseTable:
         pose_sigma=given and (given.position, math.radians(given.angle_deg)),
         locate_row=locate_row,
         notes=drawn,
+        path=read_path(tree, document) if tree.get("path") is not None else None,
     )
 
 
