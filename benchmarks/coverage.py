@@ -34,9 +34,9 @@ from burmester.fourbar.nearest_places import nearest, on_circuits
 from burmester.fourbar.pose_error import error_frames
 from burmester.geometry.displacement import Displacement
 from burmester.linkages import from_dyads
-from burmester.linkages.refinement import refine
-from burmester.linkages.uncertainty import covariance, uncertainties
+from burmester.refinement.least_error import refine
 from burmester.tasks.motion_task import Task
+from burmester.verdicts.uncertainty import covariance, uncertainties
 
 LEVELS = 1e-5, 1e-4, 1e-3  # of the span, and in radians
 

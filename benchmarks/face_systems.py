@@ -16,11 +16,11 @@ from tests.oracles.bilinear_systems import SHAPES, of_poses, stacked
 from tests.oracles.limits_problems import SORTS, random_region
 from tests.oracles.witness import random_four_bar, random_poses
 
-from burmester.dyads import stationary_points as module
 from burmester.dyads.minima_within_limits import limited_dyads
-from burmester.dyads.parameter_homotopy import tracked_points
-from burmester.dyads.stationary_points import stationary_points
 from burmester.geometry.displacement import Displacement
+from burmester.polynomials import stationary_points as module
+from burmester.polynomials.parameter_homotopy import tracked_points
+from burmester.polynomials.stationary_points import stationary_points
 from burmester.tasks.limits import Limits
 
 LENGTHS = [(0.0, np.inf), (0.5, 2.0), (1.0, 1.0)]

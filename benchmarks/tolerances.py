@@ -23,7 +23,7 @@ from burmester.fourbar.dyad import RR
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
-from burmester.linkages.tolerances import sensitivity, spread
+from burmester.verdicts.tolerances import sensitivity, spread
 
 CORNERS = np.array(list(product((-1.0, 1.0), repeat=10)))
 WORSE = 1.05  # times the greatest error that is told; a linkage beyond breaks it

@@ -1,4 +1,4 @@
-"""Make src/burmester/dyads/elimination_templates.npz: rows and columns of each shape's matrix.
+"""Make `FILE`: the rows and columns of the Macaulay matrix of each shape of task.
 
 Pure monomials are sums of supports (of the features, of one pivot, of the squares) of some sizes,
 smallest first.  Columns are these and what the equations times monomials bring in besides; rows all
@@ -19,18 +19,18 @@ from itertools import product
 import numpy as np
 from tests.oracles.bilinear_systems import SHAPES, of_poses, one
 
-from burmester.dyads.elimination import in_chart
-from burmester.dyads.elimination_template import (
+from burmester.numerics.unique_rows import unique_rows
+from burmester.polynomials.elimination import in_chart
+from burmester.polynomials.elimination_template import (
     Chart,
     isotropic,
     lagrangian,
     matrix_terms,
     monomials_by_parts,
 )
-from burmester.dyads.parameter_homotopy import ARRIVED, tracked_points
-from burmester.numerics.unique_rows import unique_rows
+from burmester.polynomials.parameter_homotopy import ARRIVED, tracked_points
 
-FILE = "src/burmester/dyads/elimination_templates.npz"
+FILE = "src/burmester/polynomials/elimination_templates.npz"
 MAX_PURE = 330  # monomials without multipliers that are tried
 RANK_ROUNDING = 1e-8  # relative; lower singular values are zero
 AT_ONCE = 16  # columns that are left out together, then by halves

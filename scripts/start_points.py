@@ -1,4 +1,4 @@
-"""Make src/burmester/dyads/start_points.npz: all solutions of each shape, for generic parameters.
+"""Make polynomials/start_points.npz: all solutions of each shape, for generic parameters.
 
 Monodromy: one solution is easy, for parameters can be chosen to fit it.  Carried around loops in
 the space of parameters it turns into others; when ten loops bring no new one, they are taken to be
@@ -13,9 +13,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from burmester.dyads.bilinear_fit import Parameters, circle_shape, equations, line_shape
-from burmester.dyads.parameter_homotopy import ARRIVED, follow
 from burmester.numerics.unique_rows import unique_rows
+from burmester.polynomials.bilinear_fit import Parameters, circle_shape, equations, line_shape
+from burmester.polynomials.parameter_homotopy import ARRIVED, follow
 
 SAME_POINT = 1e-6  # relative; solutions nearer than this are one
 QUIET = 10  # loops without a new solution
@@ -108,4 +108,4 @@ if __name__ == "__main__":
         for part, value in zip(Parameters._fields, parameters, strict=True):
             table[f"{shape.name}/{part}"] = value
         table[f"{shape.name}/points"] = points
-    np.savez_compressed("src/burmester/dyads/start_points.npz", **table)
+    np.savez_compressed("src/burmester/polynomials/start_points.npz", **table)

@@ -66,7 +66,6 @@ if TYPE_CHECKING:
     from burmester.geometry.regions import Segment as Segment
     from burmester.geometry.regions import box as box
     from burmester.io.reading.poses import read_task as read_task
-    from burmester.linkages.found_linkage import FoundLinkage as FoundLinkage
     from burmester.progress import Progress as Progress
     from burmester.synthesis.result import Synthesis as Synthesis
     from burmester.tasks.limits import Limits as Limits
@@ -74,6 +73,7 @@ if TYPE_CHECKING:
     from burmester.tasks.requirements import Requirements as Requirements
     from burmester.tasks.surroundings import KeepOut as KeepOut
     from burmester.tasks.surroundings import Surroundings as Surroundings
+    from burmester.verdicts.found_linkage import FoundLinkage as FoundLinkage
 if TYPE_CHECKING:
     from typing import Any
 
@@ -119,7 +119,7 @@ _ROOMS = {
 }
 # Solvers and parts of results, reachable by their names alone as well.
 _ROOMS_BESIDE = {
-    "FoundLinkage": "linkages.found_linkage",
+    "FoundLinkage": "verdicts.found_linkage",
     "Synthesis": "synthesis.result",
     "algebraic_fit": "dyads.image_space_fits",
     "certify": "certificates.certificate",

@@ -11,9 +11,9 @@ from burmester.describe.dimensions import dimensions
 from burmester.describe.sentences import notes
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.io.reading.poses import read_task
-from burmester.linkages.uncertainty import DyadUncertainty, LineRegion, PivotRegion
 from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.options import SynthesisOptions
+from burmester.verdicts.uncertainty import DyadUncertainty, LineRegion, PivotRegion
 
 NUMBER = re.compile(r"-?\d+(?:\.(\d+))?")
 FIGURE = 0.051  # relative error of a figure of two digits, at most

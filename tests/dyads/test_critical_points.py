@@ -8,10 +8,10 @@ from scipy.optimize import least_squares
 
 from burmester.dyads.critical_points import critical_dyads
 from burmester.dyads.five_poses import dyads_of_five
-from burmester.dyads.macaulay import CHARTS, eigen_points
 from burmester.errors import InputError
 from burmester.fourbar.dyad import PR, RP
 from burmester.geometry.displacement import Displacement
+from burmester.polynomials.macaulay import CHARTS, eigen_points
 from tests.oracles.cases import poses_of
 from tests.oracles.critical_paths import against_the_paths
 from tests.oracles.elsewhere import judged

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from burmester import KeepOut, Surroundings, Task, box, synthesize
-from burmester.linkages.found_linkage import FoundLinkage
+from burmester.verdicts.found_linkage import FoundLinkage
 from tests.oracles.clearance_sweep import Moved, sweep
 
 ROWS = [(0, 0, 0), (160, 60, 60)]

@@ -8,9 +8,9 @@ import pytest
 
 from burmester import read_task
 from burmester.describe.sentences import best_sentences
-from burmester.linkages.quality import SAME_TRANSMISSION
-from burmester.linkages.ranking import closest_usable, ranked
 from burmester.synthesis.motion_generation import synthesize
+from burmester.verdicts.quality import SAME_TRANSMISSION
+from burmester.verdicts.ranking import closest_usable, ranked
 from tests.oracles.witness import misses
 
 WITHIN = 0.03

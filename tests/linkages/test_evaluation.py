@@ -11,10 +11,10 @@ from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.pose_error import error_frames
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import box
-from burmester.linkages.uncertainty import covariance, pose_sigma, uncertainties
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.requirements import Requirements
+from burmester.verdicts.uncertainty import covariance, pose_sigma, uncertainties
 from tests.oracles.witness import misses, random_four_bar, random_poses, span
 
 pytestmark = pytest.mark.slow

@@ -6,8 +6,8 @@ import numpy as np
 
 from burmester import Displacement, read_task
 from burmester.linkages.from_dyads import linkages_from_dyads
-from burmester.linkages.target import Target
 from burmester.progress import shown
+from burmester.refinement.target import Target
 from burmester.synthesis.dyad_search import search_dyads
 from burmester.synthesis.method import with_method
 from burmester.synthesis.motion_generation import synthesize

@@ -6,7 +6,7 @@ exactly.
 
 import numpy as np
 
-from burmester.dyads.bilinear_fit import Parameters, circle_shape, line_shape
+from burmester.polynomials.bilinear_fit import Parameters, circle_shape, line_shape
 
 SHAPES = [
     circle_shape(i, j, k, kind)

@@ -23,8 +23,8 @@ DATA = (
     "burmester/io/function.schema.json",
     "burmester/functions/start_points.npz",
     "burmester/io/messages.md",
-    "burmester/dyads/elimination_templates.npz",
-    "burmester/dyads/start_points.npz",
+    "burmester/polynomials/elimination_templates.npz",
+    "burmester/polynomials/start_points.npz",
     "burmester/web/assets/page.html",
     "burmester/web/assets/widget.mjs",
 )

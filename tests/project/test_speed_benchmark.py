@@ -51,7 +51,7 @@ def test_both_sides_are_measured_by_turns(rows):
     assert 0 < before.seconds < 60
     assert 0.05 < after.seconds / before.seconds < 20
     assert before.last[0]["usable"] == after.last[0]["usable"] == 3
-    assert before.last[0]["calls"] > 1
+    assert 1 <= before.last[0]["calls"] <= 9
     assert notes(row, [before, after]) == "3 of 6 usable"
 
 

@@ -7,12 +7,12 @@ from burmester.describe.digits import worst_errors
 from burmester.fourbar.cognates import cognates
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
-from burmester.linkages.explanation import nearness
 from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.requirements import Requirements
 from burmester.tasks.traced_path import TracedPath
+from burmester.verdicts.explanation import nearness
 from tests.oracles.coupler_curves import CABRERA, CABRERA_TURNS, distances, dyads_of, random_crank
 from tests.oracles.coupler_curves import traced as witnessed
 from tests.oracles.witness import places

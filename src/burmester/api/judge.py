@@ -17,7 +17,6 @@ from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.io.linkage_file import read_linkage
 from burmester.io.saved import SavedLinkage
-from burmester.linkages.found_linkage import FoundLinkage
 from burmester.progress import Listener
 from burmester.progress import shown as told
 from burmester.synthesis.given_linkage import GivenDyad, OpenLink
@@ -25,6 +24,7 @@ from burmester.synthesis.judgement import judge_linkage
 from burmester.tasks.motion_task import AngleUnit, Task
 from burmester.tasks.options import Norm, SynthesisOptions
 from burmester.values import real_numbers, shown
+from burmester.verdicts.found_linkage import FoundLinkage
 
 __all__ = ["judge"]
 

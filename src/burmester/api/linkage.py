@@ -14,8 +14,8 @@ from burmester.api.python_words import in_python_words
 from burmester.api.table import as_line, dimensions_as_html
 from burmester.errors import InputError
 from burmester.io.saved import SavedLinkage
-from burmester.linkages.found_linkage import FoundLinkage
 from burmester.tasks.motion_task import Task
+from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.web.still import still
 from burmester.wording import with_article
 

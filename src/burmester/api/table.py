@@ -11,8 +11,8 @@ from burmester.describe.digits import angle_error, degrees
 from burmester.describe.dimensions import dimensions_of
 from burmester.describe.quality_words import in_short
 from burmester.io.saved import SavedLinkage
-from burmester.linkages.tolerance_boxes import poses_counted
 from burmester.numerics.arrays import ROUNDING
+from burmester.refinement.tolerance_boxes import poses_counted
 from burmester.tasks.length_per_radian import default_length_per_radian
 from burmester.tasks.motion_task import Task, characteristic_length
 from burmester.tasks.notation import least_angle, length_of

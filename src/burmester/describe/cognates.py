@@ -9,9 +9,9 @@ from burmester.describe.dimensions import decimals_of
 from burmester.fourbar.cognates import cognates
 from burmester.fourbar.dyad import RR
 from burmester.fourbar.linkage import Linkage
-from burmester.linkages.found_linkage import FoundLinkage
 from burmester.synthesis.result import Synthesis
 from burmester.tasks.motion_task import Task
+from burmester.verdicts.found_linkage import FoundLinkage
 
 __all__ = ["cognate_lines", "cognates_of"]
 

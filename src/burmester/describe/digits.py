@@ -6,9 +6,9 @@ import math
 
 from burmester.describe.decimals import Decimals, decimals_of_dyad, direction_deg
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
-from burmester.linkages.found_linkage import FoundLinkage
 from burmester.numerics.arrays import ROUNDING, FloatArray
 from burmester.synthesis.result import Synthesis
+from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.wording import figure
 
 __all__ = [

@@ -14,11 +14,11 @@ from burmester.describe.decimals import (
 )
 from burmester.describe.digits import fixed
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
-from burmester.linkages.found_linkage import FoundLinkage
-from burmester.linkages.tolerance_boxes import poses_counted
-from burmester.linkages.uncertainty import DyadUncertainty, PivotRegion
 from burmester.numerics.arrays import FloatArray
+from burmester.refinement.tolerance_boxes import poses_counted
 from burmester.synthesis.result import Synthesis
+from burmester.verdicts.found_linkage import FoundLinkage
+from burmester.verdicts.uncertainty import DyadUncertainty, PivotRegion
 from burmester.wording import figure
 
 __all__ = ["Dimension", "certain", "decimals_of", "dimensions", "dimensions_of"]

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from burmester.linkages import explanation
-from burmester.linkages.found_linkage import FoundLinkage
 from burmester.linkages.nearby_linkages import Move, greatest_move, moves
 from burmester.synthesis.result import JUDGED, Synthesis
 from burmester.tasks import notation
 from burmester.tasks.motion_task import Task
+from burmester.verdicts import explanation
+from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.wording import figure, listed
 
 __all__ = ["improvements", "moved_pivots"]

@@ -6,10 +6,10 @@ import math
 
 from burmester.describe.digits import degrees
 from burmester.fourbar.dyad import PR
-from burmester.linkages.found_linkage import FoundLinkage
-from burmester.linkages.quality import Quality
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of
+from burmester.verdicts.found_linkage import FoundLinkage
+from burmester.verdicts.quality import Quality
 from burmester.wording import figure, listed
 
 __all__ = ["COLUMNS", "facts", "in_short", "quality_note"]

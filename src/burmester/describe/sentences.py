@@ -8,23 +8,23 @@ from collections.abc import Iterator
 from burmester.describe import quality_words
 from burmester.describe.digits import degrees, fitted_decimals, sides, worst_errors
 from burmester.describe.dimensions import certain, decimals_of
-from burmester.linkages import explanation
-from burmester.linkages.built_linkages import DRAWS
-from burmester.linkages.clearance_check import clearance_in_words
-from burmester.linkages.found_linkage import FoundLinkage
-from burmester.linkages.quality import RULE
-from burmester.linkages.ranking import (
+from burmester.numerics.arrays import ROUNDING
+from burmester.synthesis.result import JUDGED, Synthesis
+from burmester.tasks import notation
+from burmester.verdicts import explanation
+from burmester.verdicts.built_linkages import DRAWS
+from burmester.verdicts.clearance_check import clearance_in_words
+from burmester.verdicts.found_linkage import FoundLinkage
+from burmester.verdicts.quality import RULE
+from burmester.verdicts.ranking import (
     TRADE_GAIN,
     closest_usable,
     digits_leave_open,
     is_trade,
     states_tolerance,
 )
-from burmester.linkages.tolerance_words import most_used
-from burmester.linkages.uncertainty import pose_sigma
-from burmester.numerics.arrays import ROUNDING
-from burmester.synthesis.result import JUDGED, Synthesis
-from burmester.tasks import notation
+from burmester.verdicts.tolerance_words import most_used
+from burmester.verdicts.uncertainty import pose_sigma
 from burmester.wording import figure, listed, with_article
 
 __all__ = [

@@ -1,6 +1,6 @@
 """Linkages fitted to poses by Sampson distances: hundreds at once, each to poses of its own.
 
-`linkages.refinement` follows the places of the coupler and has the same poses for all linkages.
+`refinement.least_error` follows the places of the coupler and has the same poses for all linkages.
 Here every linkage has its own poses and weights, so distances are taken to first order (Sampson):
 |f| over its gradient, without the places.  They differ from the true ones by squares of the
 distances.  Numbers for users come from `refine_best`, by true distances.
@@ -17,13 +17,13 @@ from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.foot_points import foot_points, places_of, rows_of
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.geometry.displacement import Displacement
-from burmester.linkages.refinement import refine
-from burmester.linkages.residuals import SIZE
 from burmester.numerics.arrays import FloatArray, median
 from burmester.numerics.bundles import take
 from burmester.numerics.least_squares import Attempt, damped_descent
 from burmester.numerics.linear_algebra import matvec, solve
 from burmester.numerics.weights import weights_of_mean_one
+from burmester.refinement.least_error import refine
+from burmester.refinement.residuals import SIZE
 
 __all__ = [
     "EQUAL_ERRORS",

@@ -9,18 +9,18 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.dyads.bilinear_fit import Condition, Parameters, Shape, circle_shape
 from burmester.dyads.critical_points import residual_rows
 from burmester.dyads.face_search import Descents, FaceSearch
 from burmester.dyads.geometric_fit import circle_distances
 from burmester.dyads.limited_block import Block, LengthRange
-from burmester.dyads.stationary_points import StationaryPoints
 from burmester.fourbar.dyad import RR
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Face
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import concatenate
 from burmester.numerics.linear_algebra import matvec
+from burmester.polynomials.bilinear_fit import Condition, Parameters, Shape, circle_shape
+from burmester.polynomials.stationary_points import StationaryPoints
 from burmester.tasks.limits import Limits
 
 __all__ = ["circles_within_limits"]

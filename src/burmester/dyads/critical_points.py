@@ -21,7 +21,6 @@ from typing import Any, NamedTuple, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.dyads.macaulay import CHARTS, eigen_points
 from burmester.dyads.sliders import fixed_lines, moving_lines
 from burmester.errors import InputError
 from burmester.fourbar.canonical_frames import CanonicalFrames
@@ -33,6 +32,7 @@ from burmester.numerics.iteration import iterate
 from burmester.numerics.linear_algebra import matvec, one_thread, solve_or_shortest
 from burmester.numerics.unique_rows import unique_rows
 from burmester.numerics.weights import shares, weights_or_ones
+from burmester.polynomials.macaulay import CHARTS, eigen_points
 
 __all__ = [
     "COUNT",

@@ -10,16 +10,16 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.dyads.bilinear_fit import Parameters, Shape
 from burmester.dyads.face_descent import descend, inside
 from burmester.dyads.geometric_fit import DistanceFunction, FitProblem, GeometricFit, Point
 from burmester.dyads.least_powers import free_minima, least_squares_step
 from burmester.dyads.least_worst import least_worst
 from burmester.dyads.limited_block import Block
-from burmester.dyads.stationary_points import StationaryPoints, stationary_points
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import Bundle, concatenate
 from burmester.numerics.unique_rows import unique_rows
+from burmester.polynomials.bilinear_fit import Parameters, Shape
+from burmester.polynomials.stationary_points import StationaryPoints, stationary_points
 from burmester.tasks.options import Norm
 
 __all__ = ["Descents", "FaceSearch"]

@@ -10,7 +10,6 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.dyads.bilinear_fit import Parameters, circle_shape
 from burmester.dyads.critical_points import (
     COUNT,
     LAST_STEP,
@@ -21,12 +20,13 @@ from burmester.dyads.critical_points import (
     balancing_length,
     residual_triangle,
 )
-from burmester.dyads.elimination import eigen_points
-from burmester.dyads.elimination_template import CHARTS
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.numerics.linear_algebra import one_thread, solve_where_regular
 from burmester.numerics.unique_rows import unique_index
+from burmester.polynomials.bilinear_fit import Parameters, circle_shape
+from burmester.polynomials.elimination import eigen_points
+from burmester.polynomials.elimination_template import CHARTS
 
 __all__ = ["many_critical_points"]
 

@@ -16,7 +16,6 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.dyads.bilinear_fit import Parameters, Shape, line_shape
 from burmester.dyads.circles_within_limits import circles_within_limits
 from burmester.dyads.face_search import Descents, FaceSearch
 from burmester.dyads.geometric_fit import line_distances
@@ -27,6 +26,7 @@ from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Face, Region
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.weights import shares
+from burmester.polynomials.bilinear_fit import Parameters, Shape, line_shape
 from burmester.tasks.frames import frames_of
 from burmester.tasks.limits import Limits
 from burmester.tasks.options import Norm

@@ -21,8 +21,8 @@ from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
-from burmester.linkages.tolerance_boxes import poses_counted
 from burmester.numerics.arrays import FloatArray
+from burmester.refinement.tolerance_boxes import poses_counted
 from burmester.tasks.length_per_radian import default_length_per_radian
 from burmester.tasks.motion_task import characteristic_length
 from burmester.wording import with_article

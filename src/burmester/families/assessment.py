@@ -26,9 +26,9 @@ from burmester.fourbar.traversal import (
 )
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
-from burmester.linkages.tolerances import sensitivity_bound
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import take
+from burmester.verdicts.tolerances import sensitivity_bound
 
 __all__ = ["AIMS", "Assessment", "assessed", "costs"]
 
@@ -52,7 +52,7 @@ class Assessment(NamedTuple):
     violation: (k,), 0 where a linkage meets all conditions, else how far it is from that.
     transmission: (k,), the least transmission angle over the range, radians; below zero off the
         branch.
-    extent, sensitivity: (k,), as in `linkages.quality`.
+    extent, sensitivity: (k,), as in `verdicts.quality`.
     """
 
     violation: FloatArray

@@ -15,16 +15,16 @@ from typing import Final, Self, final
 import numpy as np
 
 from burmester.geometry.regions import Polygon
-from burmester.linkages.standard import (
+from burmester.numerics.arrays import FloatArray
+from burmester.tasks.limits import Limits
+from burmester.tasks.notation import length_of, span
+from burmester.tasks.problem import SynthesisProblem
+from burmester.verdicts.standard import (
     LEAST_TRANSMISSION,
     LONGEST_LINK,
     MOST_LINK_RATIO,
     SHORTEST_LINK,
 )
-from burmester.numerics.arrays import FloatArray
-from burmester.tasks.limits import Limits
-from burmester.tasks.notation import length_of, span
-from burmester.tasks.problem import SynthesisProblem
 from burmester.wording import figure
 
 __all__ = ["LINK_RATIO", "Assumptions", "Bound"]

@@ -13,13 +13,13 @@ from burmester.fourbar.dyad import RR
 from burmester.fourbar.linkage import TYPE_OF_SIGNS
 from burmester.fourbar.linkage_batch import DYAD_KINDS
 from burmester.geometry.regions import Polygon
-from burmester.linkages.standard import Standard
-from burmester.linkages.target import Target
 from burmester.numerics.arrays import FloatArray
+from burmester.refinement.target import Target
 from burmester.tasks.options import Preference
 from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.requirements import TYPES
 from burmester.tasks.surroundings import KeepOut, Surroundings
+from burmester.verdicts.standard import Standard
 
 __all__ = ["Conditions"]
 

@@ -23,13 +23,13 @@ from burmester.families.open_task import OpenTask, Trials
 from burmester.families.pairing import promising_pairs
 from burmester.fourbar.dyad import RP, RR
 from burmester.fourbar.linkage_batch import DYAD_KINDS, LinkageBatch
-from burmester.linkages.quality import best_first
-from burmester.linkages.target import Target
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import concatenate, take, where
 from burmester.progress import time_for
+from burmester.refinement.target import Target
 from burmester.tasks.options import Preference
 from burmester.tasks.problem import SynthesisProblem
+from burmester.verdicts.quality import best_first
 
 __all__ = ["RULES", "Family", "best_of_family"]
 

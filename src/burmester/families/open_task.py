@@ -16,8 +16,8 @@ from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.foot_points import places_of, rows_of
 from burmester.fourbar.linkage_batch import DIMENSIONS, DYAD_KINDS, LinkageBatch
 from burmester.geometry.displacement import Displacement
-from burmester.linkages.target import Target
 from burmester.numerics.arrays import FloatArray
+from burmester.refinement.target import Target
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.problem import SynthesisProblem

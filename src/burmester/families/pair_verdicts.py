@@ -31,12 +31,12 @@ from burmester.fourbar.traversal import (
 )
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
-from burmester.linkages.standard import CHANGE_POINT, LONGEST_LINK, Standard
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import concatenate, take
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import span
+from burmester.verdicts.standard import CHANGE_POINT, LONGEST_LINK, Standard
 
 __all__ = [
     "CLASS_WORDS",
@@ -104,7 +104,7 @@ class PairBounds:
 
     @classmethod
     def of(cls, task: Task) -> Self:
-        """The standard of `linkages.standard`, and what the task asks."""
+        """The standard of `verdicts.standard`, and what the task asks."""
         standard, asked = Standard.of(task), task.requirements
         both = standard.requirements(asked)
         return cls(

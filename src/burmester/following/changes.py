@@ -6,10 +6,10 @@ from collections.abc import Mapping, Sequence
 
 from burmester.dyads.selection import FoundDyad
 from burmester.following.followed import Change
-from burmester.linkages.explanation import reasons
-from burmester.linkages.found_linkage import FoundLinkage
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of
+from burmester.verdicts.explanation import reasons
+from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.wording import listed
 
 __all__ = ["dyad_changes", "linkage_changes"]

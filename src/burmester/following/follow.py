@@ -16,13 +16,13 @@ from burmester.following.likeness import require_followable, require_like
 from burmester.following.linkage_strands import LinkageStrands, NewLinkages
 from burmester.fourbar.dyad import PP
 from burmester.linkages.evaluation import Candidates, Evaluation, at_given_poses
-from burmester.linkages.found_linkage import FoundLinkage, Pair
 from burmester.linkages.from_dyads import target_of
 from burmester.synthesis.result import Synthesis
 from burmester.tasks.motion_class import classify_motion
 from burmester.tasks.motion_task import Task
 from burmester.tasks.problem import SynthesisProblem
 from burmester.values import require_instance
+from burmester.verdicts.found_linkage import FoundLinkage, Pair
 
 __all__ = ["follow"]
 

@@ -10,11 +10,11 @@ from burmester.dyads.selection import FoundDyad
 from burmester.following.dyad_strands import DyadStrands
 from burmester.following.linkage_strands import LinkageStrands
 from burmester.linkages.evaluation import Evaluation
-from burmester.linkages.found_linkage import FoundLinkage
 from burmester.linkages.from_dyads import target_of
-from burmester.linkages.quality import Quality
 from burmester.tasks.motion_task import Task
 from burmester.tasks.problem import SynthesisProblem
+from burmester.verdicts.found_linkage import FoundLinkage
+from burmester.verdicts.quality import Quality
 from burmester.wording import count
 
 __all__ = ["Change", "ChangeKind", "Followed"]

@@ -11,10 +11,10 @@ from burmester.following.face_table import Held
 from burmester.following.minimum_step import saddle_system
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.geometry.displacement import Displacement
-from burmester.linkages.residuals import SIZE, Linearisation, Problem, State, linearised, secant
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import take, where
 from burmester.numerics.linear_algebra import matvec, solve_or_shortest
+from burmester.refinement.residuals import SIZE, Linearisation, Problem, State, linearised, secant
 
 __all__ = ["Least", "curvatures", "gains", "least_errors", "moved_with_places"]
 

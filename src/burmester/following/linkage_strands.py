@@ -36,15 +36,15 @@ from burmester.fourbar.foot_points import rows_of
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.geometry.displacement import Displacement
-from burmester.linkages.constraints import AllConstraints
 from burmester.linkages.evaluation import sizable
-from burmester.linkages.found_linkage import FoundLinkage, Pair
-from burmester.linkages.residuals import SIZE, Problem
-from burmester.linkages.target import Target
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import concatenate, take
 from burmester.numerics.weights import weights_of_mean_one
+from burmester.refinement.constraints import AllConstraints
+from burmester.refinement.residuals import SIZE, Problem
+from burmester.refinement.target import Target
 from burmester.tasks.limits import Limits
+from burmester.verdicts.found_linkage import FoundLinkage, Pair
 
 __all__ = ["LinkageStrands", "NewLinkages", "Way"]
 

@@ -33,12 +33,9 @@ from burmester.io.saved_model import (
     WrittenResult,
     path_of,
 )
-from burmester.linkages.clearance_check import clearance_of, too_close
 from burmester.linkages.evaluation import Evaluation
-from burmester.linkages.found_linkage import Side, with_driver_first
 from burmester.linkages.from_dyads import target_of
-from burmester.linkages.quality import Quality
-from burmester.linkages.tolerance_boxes import counted_error, shares_used
+from burmester.refinement.tolerance_boxes import counted_error, shares_used
 from burmester.synthesis.result import JUDGED
 from burmester.tasks.motion_class import classify_motion
 from burmester.tasks.motion_task import Task, characteristic_length
@@ -46,6 +43,9 @@ from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.pose_tolerances import COMPONENTS
 from burmester.tasks.problem import SynthesisProblem
 from burmester.values import shown
+from burmester.verdicts.clearance_check import clearance_of, too_close
+from burmester.verdicts.found_linkage import Side, with_driver_first
+from burmester.verdicts.quality import Quality
 
 if TYPE_CHECKING:
     from burmester.clearance.least_clearance import Clearance

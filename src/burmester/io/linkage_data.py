@@ -17,10 +17,10 @@ from burmester.fourbar.defects import Defect, Driven
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.geometry.displacement import Displacement
 from burmester.io.pose_data import poses_data
-from burmester.linkages.found_linkage import FoundLinkage
-from burmester.linkages.tolerances import Spread
-from burmester.linkages.uncertainty import DyadUncertainty, PivotRegion
 from burmester.tasks.pose_tolerances import COMPONENTS
+from burmester.verdicts.found_linkage import FoundLinkage
+from burmester.verdicts.tolerances import Spread
+from burmester.verdicts.uncertainty import DyadUncertainty, PivotRegion
 
 if TYPE_CHECKING:
     from burmester.clearance.least_clearance import Clearance

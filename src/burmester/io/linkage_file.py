@@ -33,11 +33,11 @@ from burmester.io.reading.dyads_text import line_through
 from burmester.io.reading.file_content import read_source
 from burmester.io.result import SCHEMA
 from burmester.io.saved import read_result
-from burmester.linkages.found_linkage import with_driver_first
 from burmester.numerics.arrays import FloatArray
 from burmester.printable import printable
 from burmester.synthesis.given_linkage import GivenDyad, OpenLink
 from burmester.values import shown
+from burmester.verdicts.found_linkage import with_driver_first
 
 __all__ = ["read_linkage"]
 

@@ -18,11 +18,11 @@ from burmester.describe.dimensions import certain, decimals_of, dimensions
 from burmester.describe.quality_words import in_short, quality_note
 from burmester.io.message import wrapped
 from burmester.io.sketch import sketch
-from burmester.linkages import explanation
-from burmester.linkages.found_linkage import FoundLinkage
-from burmester.linkages.tolerance_words import share_texts
 from burmester.synthesis.result import Synthesis
 from burmester.tasks import notation
+from burmester.verdicts import explanation
+from burmester.verdicts.found_linkage import FoundLinkage
+from burmester.verdicts.tolerance_words import share_texts
 from burmester.wording import count, figure
 
 __all__ = [

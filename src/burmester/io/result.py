@@ -28,7 +28,6 @@ from burmester.io.linkage_data import (
 from burmester.io.pose_data import degrees_of, poses_data, tolerances_data
 from burmester.io.reading.stated_requirements import requirements_data
 from burmester.io.reading.stated_surroundings import surroundings_data
-from burmester.linkages.found_linkage import FoundLinkage
 from burmester.linkages.nearby_linkages import Move, greatest_move, moves
 from burmester.synthesis.result import JUDGED, Outcome, Synthesis
 from burmester.tasks.limits import KINDS, Limits
@@ -36,6 +35,7 @@ from burmester.tasks.motion_class import MotionClass
 from burmester.tasks.motion_task import Task
 from burmester.tasks.options import Preference
 from burmester.tasks.traced_path import TracedPath
+from burmester.verdicts.found_linkage import FoundLinkage
 
 if TYPE_CHECKING:  # few results hold any of these
     from burmester.certificates.certificate import Certificate

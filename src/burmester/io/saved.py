@@ -22,11 +22,11 @@ from burmester.fourbar.pose_error import PoseError
 from burmester.io.reading.file_content import read_source
 from burmester.io.reading.poses import read_task
 from burmester.io.result import SCHEMA
-from burmester.linkages.found_linkage import Side
-from burmester.linkages.quality import Quality
 from burmester.printable import printable
 from burmester.synthesis.result import Outcome
 from burmester.tasks.motion_task import Task
+from burmester.verdicts.found_linkage import Side
+from burmester.verdicts.quality import Quality
 
 if TYPE_CHECKING:
     from burmester.io.saved_model import WrittenLinkage

@@ -16,13 +16,13 @@ from pydantic_core import PydanticCustomError
 
 from burmester.errors import InputError
 from burmester.fourbar.defects import DefectKind
-from burmester.linkages.found_linkage import Side
-from burmester.linkages.requirement_check import ViolationKind
 from burmester.tasks.limits import KINDS
 from burmester.tasks.motion_task import MOST_NAME, MOST_UNIT
 from burmester.tasks.pose_tolerances import Component, ToleranceAxes
 from burmester.tasks.requirements import TYPES
 from burmester.values import shown
+from burmester.verdicts.found_linkage import Side
+from burmester.verdicts.requirement_check import ViolationKind
 
 __all__ = [
     "WrittenClearance",

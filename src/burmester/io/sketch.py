@@ -11,8 +11,8 @@ from collections.abc import Iterable
 import numpy as np
 
 from burmester.fourbar.dyad import PR, RP, RR, Dyad
-from burmester.linkages.found_linkage import FoundLinkage
 from burmester.numerics.arrays import FloatArray
+from burmester.verdicts.found_linkage import FoundLinkage
 
 __all__ = ["MOST_ROWS", "sketch"]
 

@@ -15,8 +15,8 @@ from burmester.describe.moved_pivots import improvements
 from burmester.io import linkage_table
 from burmester.io.linkage_table import new_table
 from burmester.io.message import draw, message, note, print_trimmed, show
-from burmester.linkages.found_linkage import FoundLinkage
 from burmester.synthesis.result import JUDGED, Synthesis
+from burmester.verdicts.found_linkage import FoundLinkage
 
 if TYPE_CHECKING:
     from burmester.sixbar.six_bars import SixBars

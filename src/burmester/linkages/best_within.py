@@ -18,15 +18,15 @@ from numpy.typing import NDArray
 
 from burmester.fourbar.foot_points import rows_of
 from burmester.fourbar.linkage_batch import LinkageBatch
-from burmester.linkages.defect_free_search import driving_sides, refined_on_branch
 from burmester.linkages.evaluation import Candidates, Evaluation
-from burmester.linkages.found_linkage import FoundLinkage, Pair
 from burmester.linkages.further_pairs import MAX_POSES_SEARCHED
-from burmester.linkages.ranking import by_quality
-from burmester.linkages.standard import Standard
-from burmester.linkages.target import Target
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import concatenate, take
+from burmester.refinement.defect_free_search import driving_sides, refined_on_branch
+from burmester.refinement.target import Target
+from burmester.verdicts.found_linkage import FoundLinkage, Pair
+from burmester.verdicts.ranking import by_quality
+from burmester.verdicts.standard import Standard
 
 __all__ = ["best_within"]
 

@@ -15,13 +15,13 @@ from burmester.fourbar.circuits import circuit_of
 from burmester.fourbar.foot_points import rows_of
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.nearest_places import nearest, on_circuits
-from burmester.linkages.constraints import AllConstraints
 from burmester.linkages.evaluation import Candidates, Evaluation
-from burmester.linkages.found_linkage import FoundLinkage
-from burmester.linkages.ranking import ranked
-from burmester.linkages.target import Target
 from burmester.numerics.arrays import FloatArray
+from burmester.refinement.constraints import AllConstraints
+from burmester.refinement.target import Target
 from burmester.tasks.pose_sample import PoseSample
+from burmester.verdicts.found_linkage import FoundLinkage
+from burmester.verdicts.ranking import ranked
 
 __all__ = ["judged_at_all", "refined_by_all", "worst_left_out"]
 

@@ -17,33 +17,33 @@ from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
-from burmester.linkages.clearance_check import clearance_of, too_close
-from burmester.linkages.constraints import AllConstraints
-from burmester.linkages.found_linkage import FoundLinkage, Pair, Side, with_driver_first
-from burmester.linkages.limit_check import limit_violations
-from burmester.linkages.possible_types import links_covariance, possible_types
-from burmester.linkages.quality import Quality
-from burmester.linkages.ranking import DEFAULT_TOLERANCE, ranked
-from burmester.linkages.requirement_check import Violation, violations
-from burmester.linkages.rounding import rounded
-from burmester.linkages.standard import Standard
-from burmester.linkages.target import Target
-from burmester.linkages.tolerance_boxes import ToleranceBoxes, counted_error, shares_used
-from burmester.linkages.tolerance_words import in_words_of_tolerances
-from burmester.linkages.tolerances import sensitivity_bound, spread
-from burmester.linkages.uncertainty import (
+from burmester.numerics.arrays import FloatArray, even_numbers
+from burmester.numerics.bundles import concatenate, take
+from burmester.numerics.weights import weights_or_ones
+from burmester.progress import goes_on, step
+from burmester.refinement.constraints import AllConstraints
+from burmester.refinement.rounding import rounded
+from burmester.refinement.target import Target
+from burmester.refinement.tolerance_boxes import ToleranceBoxes, counted_error, shares_used
+from burmester.tasks.motion_task import Task
+from burmester.tasks.pose_sample import PoseSample
+from burmester.tasks.problem import SynthesisProblem
+from burmester.verdicts.clearance_check import clearance_of, too_close
+from burmester.verdicts.found_linkage import FoundLinkage, Pair, Side, with_driver_first
+from burmester.verdicts.limit_check import limit_violations
+from burmester.verdicts.possible_types import links_covariance, possible_types
+from burmester.verdicts.quality import Quality
+from burmester.verdicts.ranking import DEFAULT_TOLERANCE, ranked
+from burmester.verdicts.requirement_check import Violation, violations
+from burmester.verdicts.standard import Standard
+from burmester.verdicts.tolerance_words import in_words_of_tolerances
+from burmester.verdicts.tolerances import sensitivity_bound, spread
+from burmester.verdicts.uncertainty import (
     DETERMINED_SHARE,
     covariance,
     pose_sigma,
     uncertainties,
 )
-from burmester.numerics.arrays import FloatArray, even_numbers
-from burmester.numerics.bundles import concatenate, take
-from burmester.numerics.weights import weights_or_ones
-from burmester.progress import goes_on, step
-from burmester.tasks.motion_task import Task
-from burmester.tasks.pose_sample import PoseSample
-from burmester.tasks.problem import SynthesisProblem
 from burmester.wording import count
 
 __all__ = [

@@ -23,37 +23,37 @@ from burmester.fourbar.nearest_places import nearest, on_circuits, on_own_circui
 from burmester.fourbar.pose_error import error_frames
 from burmester.linkages.best_within import best_within
 from burmester.linkages.by_all_poses import judged_at_all, refined_by_all, worst_left_out
-from burmester.linkages.constraints import AllConstraints, Constraints
-from burmester.linkages.defect_free_search import (
-    FEW_POSES,
-    MAX_CONTINUED,
-    defect_free_linkages,
-    on_more_poses,
-)
 from burmester.linkages.evaluation import Candidates, Evaluation
-from burmester.linkages.found_linkage import FoundLinkage, Pair
 from burmester.linkages.further_pairs import (
     FurtherPairs,
     PairsToSearch,
     closer_linkages,
 )
-from burmester.linkages.kept_limits import DyadLimitsConstraint
-from burmester.linkages.ranking import (
+from burmester.linkages.sound_linkages import sound_linkages
+from burmester.linkages.tolerance_search import into_boxes
+from burmester.linkages.trade import trades
+from burmester.numerics.arrays import ROUNDING, FloatArray
+from burmester.progress import goes_on, step, time_for
+from burmester.refinement.constraints import AllConstraints, Constraints
+from burmester.refinement.defect_free_search import (
+    FEW_POSES,
+    MAX_CONTINUED,
+    defect_free_linkages,
+    on_more_poses,
+)
+from burmester.refinement.kept_limits import DyadLimitsConstraint
+from burmester.refinement.target import Target
+from burmester.refinement.tolerance_boxes import ToleranceBoxes
+from burmester.tasks.pose_sample import PoseSample
+from burmester.tasks.problem import SynthesisProblem
+from burmester.verdicts.found_linkage import FoundLinkage, Pair
+from burmester.verdicts.ranking import (
     closest_usable,
     digits_leave_open,
     farthest_recommended,
     ranked,
     states_tolerance,
 )
-from burmester.linkages.sound_linkages import sound_linkages
-from burmester.linkages.target import Target
-from burmester.linkages.tolerance_boxes import ToleranceBoxes
-from burmester.linkages.tolerance_search import into_boxes
-from burmester.linkages.trade import trades
-from burmester.numerics.arrays import ROUNDING, FloatArray
-from burmester.progress import goes_on, step, time_for
-from burmester.tasks.pose_sample import PoseSample
-from burmester.tasks.problem import SynthesisProblem
 from burmester.wording import count
 
 __all__ = [

@@ -20,10 +20,11 @@ from burmester.fourbar.foot_points import rows_of
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.nearest_places import on_own_circuits
-from burmester.linkages.constraints import AllConstraints
 from burmester.linkages.evaluation import Candidates, Evaluation
-from burmester.linkages.found_linkage import FoundLinkage, Pair
-from burmester.linkages.starts import (
+from burmester.numerics.arrays import FloatArray
+from burmester.numerics.bundles import concatenate
+from burmester.refinement.constraints import AllConstraints
+from burmester.refinement.starts import (
     best_sliders,
     distinct,
     first_order_miss,
@@ -31,9 +32,8 @@ from burmester.linkages.starts import (
     projected,
     varied,
 )
-from burmester.linkages.target import Target
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.bundles import concatenate
+from burmester.refinement.target import Target
+from burmester.verdicts.found_linkage import FoundLinkage, Pair
 
 __all__ = ["MAX_POSES_SEARCHED", "FurtherPairs", "PairsToSearch", "closer_linkages"]
 

@@ -19,20 +19,20 @@ import numpy as np
 from burmester.dyads.selection import FoundDyad
 from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.fourbar.linkage_batch import LinkageBatch
-from burmester.linkages.constraints import AllConstraints
-from burmester.linkages.defect_free_search import (
+from burmester.linkages.evaluation import Candidates, Evaluation
+from burmester.numerics.arrays import FloatArray, wrapped_angle
+from burmester.progress import goes_on, time_for
+from burmester.refinement.constraints import AllConstraints
+from burmester.refinement.defect_free_search import (
     defect_free_linkages,
     driving_sides,
     refined_on_branch,
 )
-from burmester.linkages.evaluation import Candidates, Evaluation
-from burmester.linkages.found_linkage import FoundLinkage
-from burmester.linkages.ranking import digits_leave_open, farthest_recommended
-from burmester.linkages.refinement import Refined
-from burmester.linkages.standard import Standard
-from burmester.linkages.target import Target
-from burmester.numerics.arrays import FloatArray, wrapped_angle
-from burmester.progress import goes_on, time_for
+from burmester.refinement.least_error import Refined
+from burmester.refinement.target import Target
+from burmester.verdicts.found_linkage import FoundLinkage
+from burmester.verdicts.ranking import digits_leave_open, farthest_recommended
+from burmester.verdicts.standard import Standard
 
 __all__ = ["Move", "greatest_move", "moves", "nearby_linkages"]
 

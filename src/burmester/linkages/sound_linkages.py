@@ -13,10 +13,10 @@ from dataclasses import replace
 import numpy as np
 
 from burmester.fourbar.linkage_batch import LinkageBatch
-from burmester.linkages.defect_free_search import driving_sides, refined_on_branch
 from burmester.linkages.evaluation import Candidates, Evaluation
-from burmester.linkages.found_linkage import FoundLinkage
-from burmester.linkages.standard import Standard
+from burmester.refinement.defect_free_search import driving_sides, refined_on_branch
+from burmester.verdicts.found_linkage import FoundLinkage
+from burmester.verdicts.standard import Standard
 
 __all__ = ["sound_linkages"]
 

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from burmester.fourbar.linkage_batch import LinkageBatch
-from burmester.linkages.constraints import AllConstraints
-from burmester.linkages.target import Target
 from burmester.numerics.arrays import FloatArray
+from burmester.refinement.constraints import AllConstraints
+from burmester.refinement.target import Target
 
 if TYPE_CHECKING:
     from burmester.linkages.evaluation import Candidates

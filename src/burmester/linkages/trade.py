@@ -11,11 +11,11 @@ import math
 import numpy as np
 
 from burmester.fourbar.linkage_batch import LinkageBatch
-from burmester.linkages.defect_free_search import refined_on_branch
 from burmester.linkages.evaluation import Candidates, Evaluation
-from burmester.linkages.found_linkage import FoundLinkage
-from burmester.linkages.ranking import digits_leave_open, is_trade
 from burmester.progress import time_for
+from burmester.refinement.defect_free_search import refined_on_branch
+from burmester.verdicts.found_linkage import FoundLinkage
+from burmester.verdicts.ranking import digits_leave_open, is_trade
 
 __all__ = ["trades"]
 

@@ -8,11 +8,11 @@ from typing import Any, Final
 from burmester.errors import InputError
 from burmester.following.follow import follow
 from burmester.following.followed import Followed
-from burmester.linkages.found_linkage import FoundLinkage
 from burmester.live.frames import Drawn, drawn_of, followed_frame
 from burmester.live.identity import matched, standing
 from burmester.synthesis.result import Synthesis
 from burmester.tasks.motion_task import Task
+from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.web.branches import branches_of
 from burmester.web.data import scene_of
 

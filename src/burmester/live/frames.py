@@ -26,10 +26,10 @@ from burmester.following.followed import Followed
 from burmester.fourbar.defects import Driven
 from burmester.io.linkage_data import dyad_data, number
 from burmester.linkages.evaluation import transmission_at_given_poses
-from burmester.linkages.explanation import reasons
-from burmester.linkages.found_linkage import FoundLinkage
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.problem import SynthesisProblem
+from burmester.verdicts.explanation import reasons
+from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.web.branches import Branches
 
 __all__ = ["Drawn", "drawn_of", "followed_frame", "frame"]

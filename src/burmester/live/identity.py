@@ -12,9 +12,9 @@ from typing import Any, Final
 import numpy as np
 
 from burmester.fourbar.dyad import PP, PR, RR, Dyad
-from burmester.linkages.found_linkage import FoundLinkage
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Synthesis
+from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.web.data import scene_of
 
 __all__ = ["matched", "standing"]

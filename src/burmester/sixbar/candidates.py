@@ -8,18 +8,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.geometry.displacement import Displacement
-from burmester.linkages.standard import (
-    LEAST_TRANSMISSION,
-    LONGEST_LINK,
-    MOST_LINK_RATIO,
-    SHORTEST_LINK,
-)
 from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.sixbar.added_dyads import FourBars, with_first_dyad, with_second_dyad
 from burmester.sixbar.motion import Sides, joints_at
 from burmester.sixbar.three_r_chain import ThreeRChain
 from burmester.sixbar.travel import first_loop_works, least_transmission, travel
 from burmester.sixbar.watt import JOINTS, Drive, WattLinkage
+from burmester.verdicts.standard import (
+    LEAST_TRANSMISSION,
+    LONGEST_LINK,
+    MOST_LINK_RATIO,
+    SHORTEST_LINK,
+)
 
 __all__ = ["DRIVERS", "WIDEST", "Candidates", "Conditions", "candidates", "joined"]
 

@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Line, Point, Region, Segment
-from burmester.linkages.quality import best_first
-from burmester.linkages.standard import LEAST_TRANSMISSION
 from burmester.numerics.arrays import FloatArray, complex_of
 from burmester.progress import goes_on, time_for
 from burmester.sixbar.candidates import Candidates, candidates, joined
 from burmester.sixbar.search_space import POSES, SearchSpace
 from burmester.sixbar.three_r_chain import ThreeRChain
+from burmester.verdicts.quality import best_first
+from burmester.verdicts.standard import LEAST_TRANSMISSION
 
 __all__ = ["ChainSearch", "search"]
 

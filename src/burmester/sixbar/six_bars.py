@@ -10,12 +10,6 @@ import numpy as np
 
 from burmester.errors import InputError
 from burmester.fourbar.pose_error import PoseError
-from burmester.linkages.standard import (
-    LEAST_TRANSMISSION,
-    LONGEST_LINK,
-    MOST_LINK_RATIO,
-    SHORTEST_LINK,
-)
 from burmester.sixbar.candidates import DRIVERS, WIDEST
 from burmester.sixbar.chain_search import ChainSearch, search
 from burmester.sixbar.found import FoundSixBar
@@ -26,6 +20,12 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import least_angle, length_of
 from burmester.tasks.problem import SynthesisProblem
 from burmester.values import shown
+from burmester.verdicts.standard import (
+    LEAST_TRANSMISSION,
+    LONGEST_LINK,
+    MOST_LINK_RATIO,
+    SHORTEST_LINK,
+)
 from burmester.wording import figure
 
 __all__ = ["CHAINS", "RULE", "SixBarOptions", "SixBars", "best_six_bars"]

@@ -22,14 +22,14 @@ from burmester.fourbar.pivot_box import extent
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.evaluation import sizable
 from burmester.linkages.from_dyads import ONE_CIRCUIT_RATIO
-from burmester.linkages.ranking import DEFAULT_TOLERANCE
-from burmester.linkages.tolerances import sensitivity_bound
 from burmester.numerics.arrays import ROUNDING, FloatArray, wrapped_angle
 from burmester.numerics.bundles import concatenate, take
 from burmester.numerics.weights import shares
 from burmester.stacked.answers import DyadRows, LinkageRows
 from burmester.stacked.found_dyads import ANGLES
 from burmester.tasks.length_per_radian import lengths_per_radian
+from burmester.verdicts.ranking import DEFAULT_TOLERANCE
+from burmester.verdicts.tolerances import sensitivity_bound
 
 __all__ = ["USABLE", "Scales", "pair_linkages"]
 

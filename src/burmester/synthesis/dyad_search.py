@@ -13,8 +13,8 @@ from burmester.dyads.five_poses import dyads_of_five
 from burmester.dyads.local_minima import best_dyads
 from burmester.dyads.pencil import fit_pencil
 from burmester.dyads.selection import Fit, FoundDyad, found_dyads, same_dyad
-from burmester.linkages.found_linkage import Pair
 from burmester.tasks.problem import SynthesisProblem
+from burmester.verdicts.found_linkage import Pair
 
 __all__ = ["DyadSearch", "exact_dyads", "search_dyads"]
 

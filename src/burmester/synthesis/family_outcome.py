@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from burmester.errors import Advice
 from burmester.families.assumptions import LINK_RATIO
 from burmester.families.family import RULES, Family
-from burmester.linkages.explanation import in_short
-from burmester.linkages.found_linkage import FoundLinkage
-from burmester.linkages.standard import LEAST_TRANSMISSION
 from burmester.synthesis.result import Outcome
 from burmester.tasks.problem import SynthesisProblem
+from burmester.verdicts.explanation import in_short
+from burmester.verdicts.found_linkage import FoundLinkage
+from burmester.verdicts.standard import LEAST_TRANSMISSION
 from burmester.wording import count, listed
 
 __all__ = ["family_summary", "none_within_limits"]

@@ -13,8 +13,6 @@ from burmester.fourbar.dyad import RR, Dyad
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.linkages.evaluation import Candidates, Evaluation, at_given_poses
-from burmester.linkages.explanation import hints, in_short
-from burmester.linkages.found_linkage import FoundLinkage, Pair
 from burmester.linkages.from_dyads import places_to_judge, target_of
 from burmester.linkages.nearby_linkages import greatest_move, nearby_linkages
 from burmester.progress import limited, step, time_for
@@ -26,6 +24,8 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of, poses_in_words
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
+from burmester.verdicts.explanation import hints, in_short
+from burmester.verdicts.found_linkage import FoundLinkage, Pair
 from burmester.wording import count, listed
 
 __all__ = ["judge_linkage"]

@@ -19,7 +19,6 @@ from burmester.errors import Advice, InputError
 from burmester.fourbar.dyad import Dyad
 from burmester.fourbar.linkage import Linkage
 from burmester.linkages.evaluation import Candidates, Evaluation, at_given_poses
-from burmester.linkages.found_linkage import FoundLinkage, Pair
 from burmester.linkages.from_dyads import linkages_from_dyads, target_of
 from burmester.progress import limited, step, time_for
 from burmester.synthesis.dyad_search import DyadSearch, search_dyads
@@ -42,6 +41,7 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.special_motions import CircularTranslation
+from burmester.verdicts.found_linkage import FoundLinkage, Pair
 
 if TYPE_CHECKING:  # loaded where a task asks for it
     from burmester.certificates.certificate import Certificate

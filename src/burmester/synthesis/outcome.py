@@ -14,16 +14,16 @@ from burmester.dyads.minima_within_limits import LimitedDyads
 from burmester.dyads.selection import within_digits
 from burmester.errors import Advice
 from burmester.fourbar.dyad import RR
-from burmester.linkages.explanation import by_nearness, hints, in_short, nearness
-from burmester.linkages.found_linkage import FoundLinkage
 from burmester.linkages.from_dyads import MAX_POSES_REFINED, sample_refined
-from burmester.linkages.standard import LEAST_TRANSMISSION
 from burmester.synthesis.dyad_search import DyadSearch, exact_dyads
 from burmester.synthesis.result import Outcome
 from burmester.tasks.motion_task import CONDITIONS, Task, characteristic_length
 from burmester.tasks.notation import least_angle, length_of, span
 from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.repeated_poses import rotation_range
+from burmester.verdicts.explanation import by_nearness, hints, in_short, nearness
+from burmester.verdicts.found_linkage import FoundLinkage
+from burmester.verdicts.standard import LEAST_TRANSMISSION
 from burmester.wording import count, figure, listed
 
 __all__ = [

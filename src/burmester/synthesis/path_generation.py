@@ -28,20 +28,16 @@ from burmester.fourbar.cognates import cognates
 from burmester.fourbar.dyad import RR
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
-from burmester.linkages.constraints import AllConstraints
-from burmester.linkages.defect_free_search import refined_on_branch
 from burmester.linkages.evaluation import Candidates, Evaluation
-from burmester.linkages.explanation import in_short
-from burmester.linkages.found_linkage import FoundLinkage, Pair
 from burmester.linkages.from_dyads import target_of
-from burmester.linkages.kept_limits import DyadLimitsConstraint
-from burmester.linkages.ranking import ranked
-from burmester.linkages.refinement import Refined
-from burmester.linkages.standard import Standard
-from burmester.linkages.target import Target
 from burmester.numerics.arrays import FloatArray, complex_of, pairs_of
 from burmester.numerics.bundles import concatenate, take
 from burmester.progress import goes_on, step, time_for
+from burmester.refinement.constraints import AllConstraints
+from burmester.refinement.defect_free_search import refined_on_branch
+from burmester.refinement.kept_limits import DyadLimitsConstraint
+from burmester.refinement.least_error import Refined
+from burmester.refinement.target import Target
 from burmester.synthesis.outcome import linkage_advice
 from burmester.synthesis.result import Outcome, Synthesis
 from burmester.tasks.motion_task import Task
@@ -50,6 +46,10 @@ from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.traced_path import LEAST_TIMED, TracedPath
+from burmester.verdicts.explanation import in_short
+from burmester.verdicts.found_linkage import FoundLinkage, Pair
+from burmester.verdicts.ranking import ranked
+from burmester.verdicts.standard import Standard
 from burmester.wording import count
 
 __all__ = ["near_points"]

@@ -18,10 +18,7 @@ from burmester.errors import Advice
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.evaluation import Candidates, Evaluation, at_given_poses
-from burmester.linkages.explanation import in_short
-from burmester.linkages.found_linkage import FoundLinkage, Pair
 from burmester.linkages.from_dyads import target_of
-from burmester.linkages.ranking import ranked
 from burmester.points.point_sets import PointSet, point_set
 from burmester.points.real_linkages import PointLinkages, linkages_through
 from burmester.points.start_systems import CASES, Case
@@ -31,6 +28,9 @@ from burmester.synthesis.result import Outcome, Synthesis
 from burmester.tasks.motion_task import Task, characteristic_length
 from burmester.tasks.notation import length_of
 from burmester.tasks.problem import SynthesisProblem
+from burmester.verdicts.explanation import in_short
+from burmester.verdicts.found_linkage import FoundLinkage, Pair
+from burmester.verdicts.ranking import ranked
 from burmester.wording import count
 
 __all__ = ["in_words", "points_of", "through_points"]

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, final
 
 from burmester.dyads.selection import Fit, FoundDyad
 from burmester.errors import Advice
-from burmester.linkages.found_linkage import FoundLinkage
 from burmester.tasks.motion_class import MotionClass
 from burmester.tasks.motion_task import Task
 from burmester.tasks.options import Method, SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
+from burmester.verdicts.found_linkage import FoundLinkage
 
 if TYPE_CHECKING:  # few tasks have any of these, and their rooms take long to load
     from burmester.certificates.certificate import Certificate

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from burmester.diagnosis.checks import diagnose
 from burmester.errors import Advice
-from burmester.linkages.standard import LEAST_TRANSMISSION
 from burmester.progress import limited, step
 from burmester.sixbar.search_space import POSES
 from burmester.sixbar.six_bars import SixBarOptions, SixBars, best_six_bars
@@ -14,6 +13,7 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import least_angle
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
+from burmester.verdicts.standard import LEAST_TRANSMISSION
 from burmester.wording import count, listed
 
 __all__ = ["synthesize_six_bars"]

@@ -10,13 +10,13 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from burmester.linkages.evaluation import at_given_poses
-from burmester.linkages.found_linkage import FoundLinkage, Pair
 from burmester.linkages.from_dyads import linkages_from_dyads
-from burmester.linkages.ranking import ranked
 from burmester.progress import time_for
 from burmester.tasks.motion_task import Task
 from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.tasks.problem import SynthesisProblem
+from burmester.verdicts.found_linkage import FoundLinkage, Pair
+from burmester.verdicts.ranking import ranked
 
 __all__ = ["tolerances_of_digits", "with_linkages_within_digits"]
 

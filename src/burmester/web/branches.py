@@ -19,8 +19,8 @@ from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.instantaneous import transmission_angle
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
-from burmester.linkages.found_linkage import FoundLinkage
 from burmester.numerics.arrays import FloatArray
+from burmester.verdicts.found_linkage import FoundLinkage
 
 __all__ = ["Branches", "branches_of"]
 

@@ -22,13 +22,13 @@ from burmester.geometry.inner_point import inner_point
 from burmester.io.linkage_data import dyad_data, linkage_data, number
 from burmester.io.pose_data import poses_data
 from burmester.io.result import message_data
-from burmester.linkages import explanation
 from burmester.linkages.evaluation import transmission_at_given_poses
-from burmester.linkages.found_linkage import FoundLinkage
-from burmester.linkages.tolerance_words import share_texts
 from burmester.synthesis.result import Synthesis
 from burmester.tasks import notation
 from burmester.tasks.motion_task import Task
+from burmester.verdicts import explanation
+from burmester.verdicts.found_linkage import FoundLinkage
+from burmester.verdicts.tolerance_words import share_texts
 from burmester.web.branches import Branches, branches_of
 from burmester.web.family_map import family_map
 from burmester.web.image_space import chart_of, space_of

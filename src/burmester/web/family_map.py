@@ -11,10 +11,10 @@ from burmester.families.family_map import FamilyMap
 from burmester.families.pair_verdicts import CLASS_WORDS, PairClass
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
-from burmester.linkages.found_linkage import FoundLinkage
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.family_map import family_map_of
 from burmester.synthesis.result import Synthesis
+from burmester.verdicts.found_linkage import FoundLinkage
 
 __all__ = ["family_map"]
 

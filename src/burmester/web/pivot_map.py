@@ -11,8 +11,8 @@ import numpy as np
 from burmester.dyads.pivot_map import fixed_pivot_map, grid
 from burmester.dyads.selection import FoundDyad
 from burmester.fourbar.dyad import RP, RR
-from burmester.linkages.found_linkage import FoundLinkage
 from burmester.synthesis.result import Synthesis
+from burmester.verdicts.found_linkage import FoundLinkage
 
 __all__ = ["pivot_map"]
 

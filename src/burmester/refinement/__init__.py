@@ -1,0 +1,1 @@
+"""The refinement of whole linkages: what is minimised, under which constraints, from where."""

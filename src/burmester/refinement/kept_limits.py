@@ -1,0 +1,163 @@
+"""The limits of a dyad as constraints on linkages while all their dimensions are refined."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import ClassVar, Final, NamedTuple, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burmester.fourbar.canonical_frames import CanonicalFrames
+from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
+from burmester.geometry.regions import Polygon, Region
+from burmester.numerics.arrays import FloatArray
+from burmester.refinement.constraints import QUOTIENTS, ConstraintSlopes, ConstraintValues
+from burmester.tasks.limits import Limits
+
+__all__ = ["DyadLimitsConstraint"]
+
+MAX_SIDES: Final = 8  # number of sides of a convex polygon that are constraints each
+
+
+class _KeptPivot(NamedTuple):
+    """A pivot's region, in canonical frames.
+
+    at: the number of the pivot's first dimension; line: the kind of dyad that has none there.
+    normals (m, 2), offset (m,): what is to be 0 (the first `equations`) or at most 0 is offset +
+    normals · point.  polygon: one whose signed distance is, seen from origin in its unit; its rows
+    of normals and offset are unused.
+    """
+
+    at: int
+    line: int
+    normals: FloatArray
+    offset: FloatArray
+    equations: int
+    polygon: Polygon | None
+    unit: float
+    origin: FloatArray
+
+    @classmethod
+    def of(cls, region: Region, at: int, line: int, unit: float, origin: FloatArray) -> _KeptPivot:
+        rows, polygon = _half_planes(region), None
+        if rows is None:
+            assert isinstance(region, Polygon)
+            rows, polygon = np.zeros((1, 3)), region
+        offset = (rows[:, 0] + rows[:, 1:] @ origin) / unit
+        number = len(region.equations())
+        return cls(at, line, rows[:, 1:], offset, number, polygon, unit, origin)
+
+    def distances(self, points: FloatArray) -> FloatArray:
+        """The distances (k, m) of points (k, 2) outside."""
+        if self.polygon is None:
+            return np.asarray(points @ self.normals.T + self.offset)
+        out = self.polygon.signed_distance(points * self.unit + self.origin) / self.unit
+        return np.asarray(out)[:, None]
+
+    def differentiated(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Also the derivatives (k, m, 2)."""
+        if self.polygon is None:
+            slope = np.broadcast_to(self.normals, (len(points), *self.normals.shape))
+            return self.distances(points), slope
+        beside = QUOTIENTS.points(points, np.eye(2)[:, None])
+        value = self.distances(beside.reshape(-1, 2)).reshape(3, len(points), 1)
+        return value[0], QUOTIENTS.jacobian(value)
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class DyadLimitsConstraint:
+    """The limits of the dyad on one side, the same for all linkages."""
+
+    side: int
+    limits: Limits
+    frames: CanonicalFrames
+    pivots: tuple[_KeptPivot, ...] = field(init=False, repr=False)
+    uses_places: ClassVar[bool] = False
+
+    def __post_init__(self) -> None:
+        unit, frames = float(self.frames.length), self.frames
+        regions = (
+            (self.limits.fixed_pivot, 0, 1, frames.fixed_origin),
+            (self.limits.moving_pivot, 2, 2, frames.moving_origin),
+        )
+        pivots = tuple(
+            _KeptPivot.of(region, at, line, unit, np.asarray(origin))
+            for region, at, line, origin in regions
+            if region is not None
+        )
+        object.__setattr__(self, "pivots", pivots)
+
+    def __call__(
+        self, batch: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
+    ) -> ConstraintValues:
+        value, _, equal = self.differentiated(
+            batch, rows, which, np.empty((0, 0, 3, 2 * DIMENSIONS))
+        )
+        return value, equal
+
+    def differentiated(
+        self,
+        batch: LinkageBatch,
+        rows: FloatArray,
+        which: NDArray[np.intp],
+        place_jacobian: FloatArray,
+    ) -> ConstraintSlopes:
+        """By the dimensions alone."""
+        kind, z = batch.kinds[:, self.side], batch.dimensions[:, self.side]
+        first, unknowns = DIMENSIONS * self.side, place_jacobian.shape[-1]
+        ends = np.array(self.limits.length) / float(self.frames.length)
+        sense = np.where(np.isfinite(ends), [-1.0, 1.0], 0.0)
+        with np.errstate(invalid="ignore"):
+            link = np.where(sense != 0, sense * (z[:, 4:] - ends), -1.0)
+        rod = (kind == 0)[:, None]
+        slope = np.zeros((len(batch), 2, unknowns))
+        slope[..., first + 4] = np.where(rod, sense, 0.0)
+        values, slopes = [np.where(rod, link, -1.0)], [slope]
+        equal = [np.zeros(2, dtype=bool)]
+        for pivot in self.pivots:
+            off, by_point = pivot.differentiated(z[:, pivot.at : pivot.at + 2])
+            point = (kind != pivot.line)[:, None]
+            slope = np.zeros((*off.shape, unknowns))
+            columns = slice(first + pivot.at, first + pivot.at + 2)
+            slope[..., columns] = np.where(point[..., None], by_point, 0.0)
+            values.append(np.where(point, off, 0.0))
+            slopes.append(slope)
+            equal.append(np.arange(off.shape[1]) < pivot.equations)
+        return (
+            np.concatenate(values, axis=1),
+            np.concatenate(slopes, axis=1),
+            np.concatenate(equal),
+        )
+
+
+def _half_planes(region: Region) -> FloatArray | None:
+    """Rows (m, 3) whose product with (1, X, Y) is 0 (the region's equations) or at most 0 in it.
+
+    Each side of a convex polygon is one by itself: its distance has a kink at a corner, where a
+    descent would be held.  None for other polygons, and such with many sides.
+    """
+    if isinstance(region, Polygon):
+        return _sides(region)
+    rows, ends = region.equations(), region.corners()
+    if len(rows) == 2:
+        return rows
+    beyond = np.array([[-1.0, 0.0, 0.0]] * 2)
+    if ends is not None:
+        along = (ends[1] - ends[0]) / np.linalg.norm(ends[1] - ends[0])
+        beyond = np.array([[ends[0] @ along, *-along], [-ends[1] @ along, *along]])
+    return np.concatenate([rows, beyond])
+
+
+def _sides(polygon: Polygon) -> FloatArray | None:
+    """The sides of a convex polygon, (k, 3): row · (1, X, Y) at most 0; else None."""
+    v = polygon.corners()
+    along = np.roll(v, -1, axis=0) - v
+    along = along / np.linalg.norm(along, axis=1, keepdims=True)
+    after = np.roll(along, -1, axis=0)
+    turn = along[:, 0] * after[:, 1] - along[:, 1] * after[:, 0]
+    if len(v) > MAX_SIDES or (turn < 0).any():
+        return None
+    outward = np.stack([along[:, 1], -along[:, 0]], axis=1)
+    return np.column_stack([-(outward * v).sum(axis=1), outward])

@@ -1,0 +1,173 @@
+"""The explanation of a linkage in words: how near it comes, why it is not usable, what helps."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from burmester.fourbar.defects import Defect
+from burmester.numerics.arrays import ROUNDING
+from burmester.tasks.motion_task import CONDITIONS, Task
+from burmester.tasks.notation import length_of, poses_in_words
+from burmester.tasks.problem import SynthesisProblem
+from burmester.verdicts.found_linkage import FoundLinkage
+from burmester.wording import figure
+
+__all__ = ["by_nearness", "hints", "in_short", "meets_exactly", "nearness", "reasons"]
+
+MAX_NAMED_POSES = 3  # number of poses that a reason names; more are counted
+MAX_HINTS = 2  # number of linkages, with options that would make them usable, in one hint
+
+
+def meets_exactly(found: FoundLinkage, size: float) -> bool:
+    """Whether a linkage meets all poses within rounding; size: the task's characteristic length."""
+    worst = float(np.nan_to_num(found.error.angle, nan=np.inf).max())
+    return found.error.worst < ROUNDING * size and worst < 10 * ROUNDING
+
+
+def nearness(found: FoundLinkage, task: Task, size: float) -> str:
+    """How near a linkage comes: "passes every pose exactly", "misses by 0.15 mm and 2.1°"."""
+    if not math.isfinite(found.error.worst):
+        return "cannot be assembled near every pose"
+    if meets_exactly(found, size):
+        return "passes every pose exactly"
+    return f"misses by {worst_miss(found, task)}"
+
+
+def worst_miss(found: FoundLinkage, task: Task) -> str:
+    """The greatest misses at a pose: "0.15 mm and 2.1°", or "0.15 mm" where angles are free."""
+    away = length_of(found.error.worst, task)
+    if task.angles_are_free:
+        return away
+    return f"{away} and {figure(math.degrees(float(found.error.angle.max())))}°"
+
+
+def by_nearness(linkages: Sequence[FoundLinkage], size: float) -> list[FoundLinkage]:
+    """Sorted by both errors in one; linkages equal within rounding keep their order."""
+
+    def error(each: FoundLinkage) -> float:
+        return float(np.round(each.combined_error / (ROUNDING * size)))
+
+    return sorted(linkages, key=error)
+
+
+def reasons(found: FoundLinkage, task: Task) -> list[str]:
+    """Why a linkage is not usable: its defects, missed poses first; then violated requirements."""
+    defects = [_too_far(found, task, each) or each.message for each in found.defects]
+    # At a dead point there is no transmission angle anyway.
+    locks = any(each.kind == "branch" for each in found.defects)
+    return defects + [
+        each.message for each in found.violations if not (locks and each.kind == "transmission")
+    ]
+
+
+def in_short(found: FoundLinkage, task: Task, size: float) -> str:
+    """Nearness and reasons in one phrase: "misses by 0.15 mm but locks between ..."."""
+    far = any(each.kind == "assembly" for each in found.defects)
+    near = nearness(found, task, size)
+    return f"{near}{':' if far else ' but'} {'; '.join(reasons(found, task))}"
+
+
+def _too_far(found: FoundLinkage, task: Task, defect: Defect) -> str | None:
+    """An assembly defect in terms of the distance, if the linkage has places near those poses."""
+    poses = list(defect.poses)
+    if task.tolerances is not None:
+        return None
+    if defect.kind != "assembly" or not np.isfinite(found.error.position[poses]).all():
+        return None
+    away = length_of(float(found.error.position[poses].max()), task)
+    turned = figure(math.degrees(float(found.error.angle[poses].max())))
+    if len(poses) <= MAX_NAMED_POSES:
+        which = poses_in_words(task, poses)
+    else:
+        total = task.poses.shape[0]
+        which = f"all {total} poses" if len(poses) == total else f"{len(poses)} of {total} poses"
+    return f"too far from {which} ({'' if len(poses) == 1 else 'up to '}{away} and {turned}°)"
+
+
+def hints(linkages: Sequence[FoundLinkage], problem: SynthesisProblem) -> str:
+    """What to change where none of the linkages is usable, so that one becomes usable."""
+    task, near = problem.given, by_nearness(linkages, problem.length)
+    # For each set of options the nearest linkage that they make usable.
+    nearest_with: dict[tuple[str, ...], FoundLinkage] = {}
+    for each in near:
+        options = _options(each, problem)
+        if options:
+            nearest_with.setdefault(tuple(option.split()[0] for option in options), each)
+    nearest = sorted(nearest_with.values(), key=lambda each: len(_options(each, problem)))
+    softer = nearest_with.get(("--min-transmission",))
+    if softer is not None:  # beside the nearest one, the one with the best transmission angle
+        alike = [
+            each
+            for each in near
+            if not each.defects and {why.kind for why in each.violations} == {"transmission"}
+        ]
+        best = max(alike, key=lambda each: each.driven.least_over_range)
+        if best is not softer:
+            nearest.insert(1, best)
+    texts = [_would_do(each, problem) for each in nearest[:MAX_HINTS]]
+    if near[0].error_before_rounding is not None:
+        texts.insert(0, "round less")
+    stuck = next((each for each in near[0].defects if each.kind in ("circuit", "branch")), None)
+    if stuck is not None and stuck.poses and len(texts) < MAX_HINTS:
+        few = len(stuck.poses) <= MAX_NAMED_POSES + 1
+        text = f"move {poses_in_words(task, stuck.poses, 'or')}" if few else "move a pose"
+        if task.poses.shape[0] > CONDITIONS and not task.limits:
+            text += ", or leave one out"
+        texts.append(text)
+    if task.limits:
+        texts.append("give the limits more room")
+    if any(why.kind == "clearance" for why in near[0].violations):
+        texts.append("make room where it touches")
+    return "; or ".join(texts) or "move a pose"
+
+
+def _would_do(found: FoundLinkage, problem: SynthesisProblem) -> str:
+    how = nearness(found, problem.given, problem.length)
+    return f"with {' '.join(_options(found, problem))} {found.id} would do (it {how})"
+
+
+def _options(found: FoundLinkage, problem: SynthesisProblem) -> tuple[str, ...]:
+    """The options that would make the linkage usable; none where no option helps."""
+    asked, options = problem.given.requirements, []
+    for defect in found.defects:
+        if defect.kind == "order" and not asked.any_order:
+            options.append("--any-order")
+        elif defect.kind == "assembly" and math.isfinite(found.error.worst):
+            options += _bounds(found, problem)
+        else:
+            return ()
+    links = found.linkage.links
+    for each in found.violations:
+        if each.kind == "transmission" and np.isfinite(found.driven.least_over_range):
+            degrees = math.floor(10 * math.degrees(found.driven.least_over_range)) / 10
+            options.append(f"--min-transmission {degrees:g}")
+        elif each.kind == "link ratio" and links is not None:
+            lengths = [float(length) for length in links]
+            options.append(f"--link-ratio {_above(max(lengths) / min(lengths))}")
+        elif each.kind == "type":
+            name = found.driver_first.type
+            options.append(f'--type "{name}"' if " " in name else f"--type {name}")
+        elif each.kind == "driver":
+            options.append("--driver any")
+        else:
+            return ()
+    return tuple(sorted(set(options), reverse=True))  # --within first
+
+
+def _bounds(found: FoundLinkage, problem: SynthesisProblem) -> list[str]:
+    """The options that bound both errors of a linkage from above."""
+    asked = problem.given.requirements
+    within = _above(max(found.error.worst, ROUNDING * problem.length))
+    turned = math.degrees(float(found.error.angle.max()))
+    bound = asked.within_deg or math.degrees(float(within) / problem.length_per_radian)
+    options = [f"--within {within}"]
+    return options if turned <= bound else [*options, f"--within-angle {_above(turned)}"]
+
+
+def _above(value: float) -> str:
+    """The value rounded up to three digits."""
+    step = 10.0 ** (math.floor(math.log10(value)) - 2)
+    return f"{math.ceil(value / step) * step:.3g}"

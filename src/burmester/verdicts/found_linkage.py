@@ -1,0 +1,146 @@
+"""One linkage of an answer: dimensions, error at the poses, verdict, uncertainty."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+from burmester.dyads.selection import FoundDyad
+from burmester.fourbar.defects import Defect, Driven, Verdict
+from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.pose_error import PoseError
+from burmester.numerics.arrays import FloatArray
+from burmester.verdicts.quality import Quality
+from burmester.verdicts.requirement_check import Violation
+from burmester.verdicts.tolerances import Spread
+from burmester.verdicts.uncertainty import DyadUncertainty
+
+if TYPE_CHECKING:  # it imports Shapely, which only tasks with surroundings need
+    from burmester.clearance.least_clearance import Clearance
+
+__all__ = ["FoundLinkage", "Pair", "Side", "with_driver_first"]
+
+Pair: TypeAlias = tuple[FoundDyad, FoundDyad]
+Side: TypeAlias = Literal["first", "second"]
+
+
+def with_driver_first(linkage: Linkage, driver: Side) -> Linkage:
+    """The linkage with the dyad that drives first."""
+    return Linkage(linkage.second, linkage.first) if driver == "second" else linkage
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FoundLinkage:
+    """A linkage made of two dyads, refined as a whole, with all that is known of it.
+
+    Attributes
+    ----------
+    id : str
+        "L1", "L2", ... by rank.
+    rank : int
+        From 1; see `ranking`.
+    dyads : tuple of two FoundDyad
+        With their dimensions in this linkage, the preferred driver first, unless the task has two
+        limits, whose order they keep.  The ids name the dyads from which they come.
+    linkage : Linkage
+        The same dimensions.
+    error : PoseError
+        Of the coupler's places nearest to the poses, on one circuit unless there is a circuit
+        defect.
+    combined_error : float
+        What was made least: the weighted root mean square (with the norm "worst" the greatest)
+        over the poses of position and angle error in one, `PoseError.combined`; infinite where
+        some pose is out of reach.
+    verdict : Verdict
+        The defects, and the motion with either driver.
+    preferred_driver : "first" or "second"
+        The better driver, or the only one allowed.
+    usable : bool
+        Whether the linkage, with that driver, leads through all poses and meets all requirements.
+    violations : tuple of Violation
+        The requirements that it violates with that driver.
+    shortcomings : tuple of str
+        Where it falls short of what a linkage to build is to be, where the task asks for nothing
+        (`standard.Standard`).
+    quality : Quality, optional
+        What a designer pays for, with the preferred driver; None where the error is infinite.
+    from_search : bool
+        Whether it comes from the search for defect-free linkages.
+    uncertainty : tuple of two DyadUncertainty, optional
+        The 95 % regions of both dyads that errors of the poses leave.
+    determined : bool
+        Whether these regions are small compared with the motion.
+    other_types : tuple of str
+        The other types of Grashof that errors of the poses leave possible (`possible_types`).
+    within_tolerance : (N, 3) array, optional
+        How much of its tolerance each component of each pose uses, where the task has tolerances:
+        at most 1 inside, 0 for free components.
+    spread : Spread, optional
+        Of the error, for links and pivots built within a tolerance.
+    error_before_rounding : PoseError, optional
+        The error before the dimensions were rounded.
+    clearance : Clearance, optional
+        The least clearance from the surroundings between the poses; None without surroundings,
+        and where it does not come from pose to pose.
+
+    Examples
+    --------
+    >>> from burmester import read_task, synthesize
+    >>> best = synthesize(read_task("case:motiongen-shoulder")).linkages[0]
+    >>> best.id, best.type, best.usable
+    ('L1', 'crank-rocker', True)
+    """
+
+    id: str
+    rank: int
+    dyads: Pair
+    linkage: Linkage
+    error: PoseError
+    combined_error: float
+    verdict: Verdict
+    preferred_driver: Side
+    usable: bool
+    violations: tuple[Violation, ...] = ()
+    shortcomings: tuple[str, ...] = ()
+    quality: Quality | None = None
+    from_search: bool = False
+    uncertainty: tuple[DyadUncertainty, DyadUncertainty] | None = None
+    determined: bool = True
+    other_types: tuple[str, ...] = ()
+    within_tolerance: FloatArray | None = None
+    spread: Spread | None = None
+    error_before_rounding: PoseError | None = None
+    clearance: Clearance | None = None
+
+    @property
+    def type(self) -> str:
+        """Grashof's type of the dimensions, or the slider linkage's name; see `other_types`.
+
+        With the preferred driver.
+        """
+        return self.driver_first.type
+
+    @property
+    def driver(self) -> Side | None:
+        """The dyad that drives; None where the linkage is not usable."""
+        return self.preferred_driver if self.usable else None
+
+    @property
+    def driven(self) -> Driven:
+        """The motion with the preferred driver."""
+        return self.verdict.first if self.preferred_driver == "first" else self.verdict.second
+
+    @property
+    def defects(self) -> tuple[Defect, ...]:
+        """The defects of the linkage and of its preferred driver."""
+        return self.verdict.defects + self.driven.defects
+
+    @property
+    def dyads_driver_first(self) -> Pair:
+        """The dyads, the preferred driver first."""
+        return self.dyads if self.preferred_driver == "first" else (self.dyads[1], self.dyads[0])
+
+    @property
+    def driver_first(self) -> Linkage:
+        """The linkage with the preferred driver first."""
+        return with_driver_first(self.linkage, self.preferred_driver)

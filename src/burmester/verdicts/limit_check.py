@@ -1,0 +1,75 @@
+"""The check of a linkage against the limits of its dyads."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from burmester.fourbar.dyad import PR, RP, RR, Dyad
+from burmester.fourbar.linkage import Linkage
+from burmester.geometry.regions import Polygon, Region
+from burmester.numerics.arrays import FloatArray
+from burmester.tasks.limits import KINDS, Limits
+from burmester.verdicts.requirement_check import Violation
+from burmester.wording import figure, listed
+
+__all__ = ["limit_violations"]
+
+LIMIT_TOLERANCE = 1e-6  # motion sizes; a limit missed by less is met
+
+
+def limit_violations(
+    linkage: Linkage, limits: Sequence[Limits], size: float, unit: str | None = None
+) -> tuple[Violation, ...]:
+    """The limits that a linkage breaks: places of pivots, lengths and kinds.
+
+    limits: none, one for both dyads, or two, in the order of the dyads.  size: of the motion;
+    unit: the task's length unit, for messages.
+    """
+    if not limits:
+        return ()
+    sides = zip((linkage.first, linkage.second), (limits[0], limits[-1]), strict=True)
+    slack = LIMIT_TOLERANCE * size
+    return tuple(
+        Violation("limit", message)
+        for dyad, each in sides
+        for message in _broken(dyad, each, slack, unit)
+    )
+
+
+def _broken(dyad: Dyad, limits: Limits, slack: float, unit: str | None) -> Iterator[str]:
+    """What one dyad does not keep of its limits."""
+    kind = type(dyad).__name__
+    if kind not in limits.allowed:
+        allowed = listed([name for name in KINDS if name in limits.allowed], "or")
+        yield f"its {kind} dyad is not of a kind allowed ({allowed})"
+    pivots: list[tuple[str, Region | None, FloatArray]] = []
+    if isinstance(dyad, RR | RP):
+        pivots.append(("fixed", limits.fixed_pivot, dyad.fixed_pivot))
+    if isinstance(dyad, RR | PR):
+        pivots.append(("moving", limits.moving_pivot, dyad.moving_pivot))
+    for name, region, at in pivots:
+        if region is None:
+            continue
+        out = _outside(region, at)
+        if not out <= slack:
+            x, y = (f"{float(value):.6g}" for value in at)
+            yield f"the {name} pivot at ({x}, {y}) is {_length(out, unit)} outside its region"
+    if isinstance(dyad, RR):
+        radius, (least, most) = float(dyad.radius), limits.length
+        if radius < least - slack:
+            yield f"a link is {radius:.4g} long; at least {least:g} is asked for"
+        elif radius > most + slack:
+            yield f"a link is {radius:.4g} long; at most {most:g} is allowed"
+
+
+def _outside(region: Region, at: FloatArray) -> float:
+    """The distance of a point outside a region; 0 or less inside."""
+    if isinstance(region, Polygon):
+        return float(region.signed_distance(np.asarray(at)))
+    return float(region.distance(np.asarray(at)))
+
+
+def _length(value: float, unit: str | None) -> str:
+    return f"{figure(value)}{f' {unit}' if unit else ''}"
