@@ -23,7 +23,7 @@ __all__ = [
     "function_task",
     "hand_over_function",
     "judge_function",
-    "page_of_best",
+    "page_of_function",
 ]
 
 OWN: Final = (
@@ -253,23 +253,14 @@ def _figure(synthesis: FunctionSynthesis, suffix: str) -> bytes:
     return content.getvalue()
 
 
-def page_of_best(task: FunctionTask, title: str) -> tuple[str, str, bool]:
-    """The page on which the best function generator moves, its headline, and whether it works."""
-    from burmester.report import page
-    from burmester.synthesis.function_generation import coupler_synthesis, generate_function
+def page_of_function(task: FunctionTask, title: str) -> tuple[str, str, bool]:
+    """The page on which function generators move, its headline, and whether one works."""
+    from burmester.report.page import function_page
+    from burmester.synthesis.function_generation import generate_function
 
     synthesis = generate_function(task)
-    if not synthesis.generators:
-        from burmester.errors import InputError
-
-        raise InputError(
-            "E151",
-            "there is no linkage to show",
-            why=synthesis.outcome.why,
-            help=synthesis.outcome.help,
-        )
-    best = synthesis.generators[0]
-    return page(coupler_synthesis(task, best), title), f"{synthesis.outcome.message}.", best.usable
+    good = bool(synthesis.usable)
+    return function_page(synthesis, title), f"{synthesis.outcome.message}.", good
 
 
 def check_function(task: FunctionTask, poses: str | None, *, as_json: bool) -> int:

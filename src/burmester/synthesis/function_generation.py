@@ -27,6 +27,7 @@ from burmester.functions.phase_family import best_of_phases
 from burmester.functions.placed_links import placed_links
 from burmester.functions.refinement import at_bounds, different, least_squares, minimax
 from burmester.geometry.regions import Point
+from burmester.numerics.arrays import FloatArray
 from burmester.numerics.linear_algebra import one_thread
 from burmester.progress import step
 from burmester.synthesis.judgement import judge_linkage
@@ -274,16 +275,19 @@ def _stacked(each: list[Generator]) -> Generator:
     return Generator(*(np.stack([getattr(one, name) for one in each]) for name in names))
 
 
-def coupler_synthesis(task: FunctionTask, found: FoundGenerator) -> Synthesis:
+def coupler_synthesis(
+    task: FunctionTask, found: FoundGenerator, inputs: FloatArray | None = None
+) -> Synthesis:
     """A function generator as a linkage that guides its coupler: the judgement of that motion.
 
     The places of the coupler at the pairs are the poses; of a function, places at even distances
     over the range.  So reports and exports show and write it like every other linkage.
+    inputs: (N,), those of the poses, radians, rising; None: as said.
     """
-    low, high = task.input_ends
-    inputs = np.sort(task.inputs)
-    if task.function is not None or len(inputs) > COUPLER_PLACES:
-        inputs = np.linspace(low, high, COUPLER_PLACES)
+    if inputs is None:
+        inputs = np.sort(task.inputs)
+        if task.function is not None or len(inputs) > COUPLER_PLACES:
+            inputs = np.linspace(*task.input_ends, COUPLER_PLACES)
     poses = found.generator.coupler_poses(inputs, task.ground)
     poses = poses[np.isfinite(poses).all(axis=-1)]
     # Each pivot where it is: so the input link is the first, and drives.
