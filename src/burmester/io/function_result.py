@@ -82,7 +82,7 @@ def _task(task: FunctionTask) -> dict[str, Any]:
             "x": list(function.x),
             "input_deg": _plain_degrees(function.input_range),
             "output_deg": _plain_degrees(abs(function.output_range)),
-            "opposite": function.output_range < 0,
+            "opposite": bool(function.output_range < 0),
             "pairs": len(shares),
             "spacing": "chebyshev" if np.abs(shares - spacing).max() < SAME_SHARE else "even",
         }
