@@ -11,12 +11,12 @@ import pyarrow as pa
 import pyarrow.compute as pc
 from numpy.typing import NDArray
 
-from burmester.batch.schema import DYAD, LINKAGE
+from burmester.batch.schema import DYAD, GENERATOR, LINKAGE
 from burmester.stacked import DyadRows, LinkageRows, StackedAnswers
 
-__all__ = ["Refusal", "refused_rows", "solved_rows", "stacked_rows"]
+__all__ = ["Refusal", "answer_table", "refused_rows", "solved_rows", "stacked_rows"]
 
-_ANSWERS = ("outcome", "code", "reason", "dyads", "linkages", "warnings")
+_ANSWERS = ("outcome", "code", "reason", "dyads", "linkages", "warnings", "generators")
 _WARNINGS = pa.list_(pa.string())
 
 
@@ -39,7 +39,7 @@ def stacked_rows(answers: StackedAnswers, indices: NDArray[np.intp]) -> pa.Table
     told: list[list[str]] = [[] for _ in range(count)]
     for task, code in answers.warnings:
         told[task].append(code)
-    return _table(
+    return answer_table(
         indices,
         _words(StackedAnswers.OUTCOMES, answers.outcome),
         pc.if_else(pc.equal(codes, ""), None, codes),
@@ -55,7 +55,7 @@ def stacked_rows(answers: StackedAnswers, indices: NDArray[np.intp]) -> pa.Table
 def refused_rows(refusals: Sequence[Refusal]) -> pa.Table:
     """The rows of tasks that have no answer."""
     count = len(refusals)
-    return _table(
+    return answer_table(
         np.array([each.index for each in refusals], dtype=np.intp),
         pa.array([each.outcome for each in refusals], pa.string()),
         pa.array([each.code for each in refusals], pa.string()),
@@ -75,7 +75,7 @@ def solved_rows(found: Mapping[int, Mapping[str, Any]]) -> pa.Table:
         way = searches[0]["kind"] if searches else "family" if data["family"] else "motion"
         dyads.append([_dyad(each, way) for each in data["dyads"]])
         linkages.append([_linkage(each, ids, way) for each in data["linkages"]])
-    return _table(
+    return answer_table(
         np.array(list(found), dtype=np.intp),
         pa.array([_outcome(data) for data in found.values()], pa.string()),
         pa.array([data["outcome"]["code"] for data in found.values()], pa.string()),
@@ -88,8 +88,12 @@ def solved_rows(found: Mapping[int, Mapping[str, Any]]) -> pa.Table:
     )
 
 
-def _table(indices: NDArray[np.intp], *columns: Any) -> pa.Table:
-    return pa.table([pa.array(indices, pa.int64()), *columns], names=["index", *_ANSWERS])
+def answer_table(indices: NDArray[np.intp], *columns: Any) -> pa.Table:
+    """Columns of answers with the places of their tasks; without generators for tasks of poses."""
+    every = [pa.array(indices, pa.int64()), *columns]
+    if len(columns) < len(_ANSWERS):
+        every.append(pa.nulls(len(indices), pa.list_(GENERATOR)))
+    return pa.table(every, names=["index", *_ANSWERS])
 
 
 def _words(words: Sequence[str], codes: NDArray[np.integer[Any]]) -> Any:

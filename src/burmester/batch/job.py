@@ -24,10 +24,11 @@ from burmester.errors import InputError
 if TYPE_CHECKING:
     from burmester.batch.sample import Sample
 
-__all__ = ["PART_TASKS", "BatchProgress", "run"]
+__all__ = ["PAIR_TASKS", "PART_TASKS", "BatchProgress", "run"]
 
 # Tasks of a part that take some second on one core.
 PART_TASKS: Mapping[Depth, int] = {"pencil": 50_000, "dyads": 1000, "linkages": 500, "full": 10}
+PAIR_TASKS = 100  # the same of tasks of pairs of angles
 MOST_DRAWN = 5000  # draws of a part: with their curves they are some megabytes
 LIMITS_S: Mapping[Depth, float] = {"pencil": 120, "dyads": 120, "linkages": 120, "full": 600}
 
@@ -80,7 +81,8 @@ def run(
     ----------
     tasks : str, path or Sample
         A table with a row a pose (Parquet or CSV: task, x, y, angle_deg or angle_rad, and weight
-        and exact if wanted), a file with a task a line in JSON, or a folder of task files.
+        and exact if wanted) or a row a pair of angles (task, input_deg, output_deg), a file with a
+        task a line in JSON, or a folder of task files.
         Or a `Sample`: linkages that are drawn at random, with poses on their way.
     output : str or path
         The folder of the parts.  Where it holds a part of this very batch, the rest is done.
@@ -135,6 +137,8 @@ def run(
             source = sample_source(tasks)
         else:
             source = open_source(os.fspath(tasks))
+        if part_tasks is None and source.pairs:
+            size = PAIR_TASKS
         sheet = tasks.datasheet if isinstance(tasks, Sample) else ""
         job = _Job(folder, source, depth, chosen, size, limit, progress, sheet)
         memory = None if worker_memory is None else int(worker_memory * 1e9)

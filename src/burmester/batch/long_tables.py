@@ -1,6 +1,7 @@
 """Tasks in one long table, Parquet or CSV: a row a pose, the rows of a task together.
 
-The columns are `task`, `x`, `y`, `angle_deg` or `angle_rad`, and `weight` and `exact` if wanted.
+The columns are `task`, `x`, `y`, `angle_deg` or `angle_rad`, and `weight` and `exact` if wanted;
+or a row a pair of angles: `task`, `input_deg`, `output_deg` (or both in `_rad`), and `weight`.
 The table is read from front to back, a piece at a time; it may be larger than the memory.
 
 E101 not readable      E104 no numbers, or no names of tasks      E107 a column that is not known
@@ -24,10 +25,12 @@ from burmester.io.reading.trees.locations import close_match
 from burmester.printable import printable
 from burmester.wording import listed
 
-__all__ = ["COLUMNS", "is_parquet_file", "table_parts"]
+__all__ = ["COLUMNS", "is_pair_table", "is_parquet_file", "table_parts"]
 
 COLUMNS = ("task", "x", "y", "angle_deg", "angle_rad", "weight", "exact")
+PAIR_COLUMNS = ("task", "input_deg", "output_deg", "input_rad", "output_rad", "weight")
 EXAMPLE = "task,x,y,angle_deg"
+PAIR_EXAMPLE = "task,input_deg,output_deg"
 WHOLE = re.compile(r"[+-]?[0-9]{1,18}")  # a number that names a task
 PIECE_ROWS = 1 << 16  # rows that are taken from a Parquet file at a time
 PIECE_BYTES = 1 << 22  # bytes that are taken from a CSV file at a time
@@ -44,6 +47,19 @@ def is_parquet_file(path: str) -> bool:
     """Whether a file begins as Parquet files do."""
     with open(path, "rb") as file:
         return file.read(4) == b"PAR1"
+
+
+def is_pair_table(path: str) -> bool:
+    """Whether a table is one of pairs of angles, whatever is wrong with it."""
+    import pyarrow.parquet as pq  # noqa: PLC0415  an extra
+
+    try:
+        if is_parquet_file(path):
+            return _of_pairs(pq.read_schema(path).names)
+        with open(path, "rb") as file:
+            return _of_pairs(_cells(file))
+    except (OSError, ValueError):  # what cannot be read is refused where it is read
+        return False
 
 
 def table_parts(path: str, size: int) -> Iterator[Part]:
@@ -107,7 +123,8 @@ def _pieces(path: str, label: str) -> Iterator[_Piece]:
             task = pa.int64() if WHOLE.fullmatch(first) else pa.string()
             total = max(1, os.fstat(file.fileno()).st_size)
             file.seek(0)
-            kinds = dict.fromkeys(("x", "y", "angle_deg", "angle_rad", "weight"), pa.float64())
+            numeric = {*COLUMNS, *PAIR_COLUMNS} - {"task", "exact"}
+            kinds = dict.fromkeys(sorted(numeric), pa.float64())
             reader = pc.open_csv(
                 file,
                 read_options=pc.ReadOptions(block_size=PIECE_BYTES, use_threads=False),
@@ -137,16 +154,19 @@ def _required(names: list[str], label: str) -> list[str]:
     if not names:
         help = f"write `{EXAMPLE}` on line 1, and a pose on each line below"
         raise InputError("E102", "there are no tasks: the file is empty", where=label, help=help)
+    known = PAIR_COLUMNS if _of_pairs(names) else COLUMNS
     for name in names:
-        if name not in COLUMNS:
-            near = close_match(name, COLUMNS)
+        if name not in known:
+            near = close_match(name, known)
             help = f"write {near} in its place" if near else "delete it"
             message = f"the column {shown(name)} is not known"
-            why = f"a table of tasks has the columns {listed(COLUMNS)}"
+            why = f"a table of tasks has the columns {listed(known)}"
             raise InputError("E107", message, where=label, why=why, help=help)
         if names.count(name) > 1:
             message = f"the column {name} is given twice"
             raise InputError("E108", message, where=label, help="leave one of the two out")
+    if known is PAIR_COLUMNS:
+        return _required_pairs(names, label)
     angles = {"angle_deg", "angle_rad"} & set(names)
     if len(angles) == 2:
         message = "the angles are given in degrees and in radians"
@@ -158,6 +178,26 @@ def _required(names: list[str], label: str) -> list[str]:
         why = "a table of tasks has a row for each pose, with the name of its task"
         help = f"name the columns {EXAMPLE}; one task alone is for `burmester synthesize`"
         raise InputError("E105", message, where=label, why=why, help=help)
+    return names
+
+
+def _of_pairs(names: list[str]) -> bool:
+    """Whether a table is one of pairs of angles."""
+    return not {"x", "y"} & set(names) and bool({*PAIR_COLUMNS[1:5]} & set(names))
+
+
+def _required_pairs(names: list[str], label: str) -> list[str]:
+    """The same of a table of pairs; raises E105."""
+    unit = "rad" if {"input_rad", "output_rad"} & set(names) else "deg"
+    for name in ("task", f"input_{unit}", f"output_{unit}"):
+        if name not in names:
+            message = f"the column {name} is missing"
+            why = "a table of tasks has a row for each pair of angles, with the name of its task"
+            help = f"name the columns {PAIR_EXAMPLE}; one task alone is for `burmester synthesize`"
+            raise InputError("E105", message, where=label, why=why, help=help)
+    if len(names) > 3 + ("weight" in names):
+        message = "the angles are given in degrees and in radians"
+        raise InputError("E108", message, where=label, help="leave the columns of one unit out")
     return names
 
 
@@ -257,15 +297,18 @@ def _tasks(columns: dict[str, Any], label: str, row: int, before: TaskNames) -> 
             seen.add(name)
     if (again := before.repeated(first, row)) is not None:
         raise _apart(again, label, row + starts[first.to_pylist().index(again)])
-    angle = "angle_deg" if "angle_deg" in columns else "angle_rad"
+    pairs = "x" not in columns
+    unit = "deg" if "angle_deg" in columns or "input_deg" in columns else "rad"
+    numeric = [f"input_{unit}", f"output_{unit}"] if pairs else ["x", "y", f"angle_{unit}"]
     return TableTasks(
         first.to_numpy() if types.is_int64(first.type) else tuple(first.to_pylist()),
         np.array([*starts, len(names)], dtype=np.int64),
-        np.stack([columns["x"], columns["y"], columns[angle]], axis=1),
+        np.stack([columns[name] for name in numeric], axis=1),
         columns.get("weight"),
         columns.get("exact"),
-        angle == "angle_deg",
+        unit == "deg",
         label,
+        pairs,
     )
 
 

@@ -2,7 +2,7 @@
 
 Keys at the top are the options of `burmester.synthesize` by their Python names; the others are
 those that a task file holds beside its poses, such as `limits` and `requirements`, and hold for
-every task.
+every task; a table [function] holds the settings of tasks of pairs of angles.
 
 E107 a key that is not known      E108 a key that has no effect here
 E134 a value that makes no sense, and what readers of task files raise
@@ -16,6 +16,8 @@ from functools import lru_cache
 from typing import Any, Final, Literal, TypeAlias, final
 
 from burmester.errors import InputError
+from burmester.io.reading.functions.function_file import settings_of_tree
+from burmester.io.reading.functions.function_options import FunctionSettings
 from burmester.io.reading.pose_table import PoseTable, Source
 from burmester.io.reading.poses import read_task
 from burmester.io.reading.specification import TOP_KEYS
@@ -31,6 +33,7 @@ Depth: TypeAlias = Literal["pencil", "dyads", "linkages", "full"]
 DEPTHS: Final[tuple[Depth, ...]] = ("pencil", "dyads", "linkages", "full")
 
 # The keys of a task file that may stand here, and those that every depth takes account of.
+FUNCTION: Final = "function"
 BESIDE: Final = tuple(key for key in TOP_KEYS if key != "poses")
 AT_EVERY_DEPTH: Final = ("angle_unit", "length_unit", "pose_sigma")
 OF_SYNTHESIS: Final = tuple(
@@ -66,9 +69,9 @@ class BatchOptions:
     def __post_init__(self) -> None:
         document = Document(Source(self.label, self.text), "TOML")
         for key in self.data:
-            if key not in BESIDE and key not in OF_SYNTHESIS:
+            if key not in BESIDE and key not in OF_SYNTHESIS and key != FUNCTION:
                 raise _unknown(key, document)
-        _ = self.synthesis, self.beside
+        _ = self.synthesis, self.beside, self.functions
 
     @property
     def data(self) -> dict[str, Any]:
@@ -81,6 +84,15 @@ class BatchOptions:
         given = {key: value for key, value in self.data.items() if key in OF_SYNTHESIS}
         try:
             return SynthesisOptions(**given)
+        except InputError as error:
+            error.where = error.where or self.label
+            raise
+
+    @property
+    def functions(self) -> FunctionSettings:
+        """What holds for each task of pairs of angles; raises E107 and E191."""
+        try:
+            return settings_of_tree(self.data.get(FUNCTION, {}))
         except InputError as error:
             error.where = error.where or self.label
             raise
@@ -122,7 +134,7 @@ def _beside(text: str, label: str) -> PoseTable:
 
 
 def _unknown(key: str, document: Document) -> InputError:
-    known = (*OF_SYNTHESIS, *BESIDE)
+    known = (*OF_SYNTHESIS, *BESIDE, FUNCTION)
     plain = key.replace("-", "_")
     where = document.where(key, key=True)
     if key == "time_limit":

@@ -11,7 +11,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from io import BytesIO
-from typing import Any, TypeAlias, final
+from typing import Any, NamedTuple, TypeAlias, final
 
 import numpy as np
 import pyarrow as pa
@@ -22,15 +22,18 @@ from numpy.typing import NDArray
 from burmester import __version__
 from burmester.batch import schema
 from burmester.batch.answer_rows import Refusal, refused_rows, solved_rows, stacked_rows
+from burmester.batch.function_rows import NOT_STACKED, function_rows, function_task
 from burmester.batch.options import BatchOptions, Depth, as_task
 from burmester.batch.parts import DrawnTasks, Part, TableTasks, TextTasks
 from burmester.batch.sample import DRAWN, drawn_columns, drawn_table
 from burmester.batch.worker import within
 from burmester.errors import BurmesterError, InputError
+from burmester.io.function_result import function_data
 from burmester.io.result import synthesis_data
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.linear_algebra import one_thread
 from burmester.stacked import TaskStack, stacked_answers
+from burmester.synthesis.function_generation import generate_function
 from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.motion_task import Task
 
@@ -47,6 +50,7 @@ WORDS = [
     *(f"dyads.list.element.{name}" for name in ("kind", "status")),
     *(f"linkages.list.element.{name}" for name in ("verdict", "type")),
     *(f"linkages.list.element.dyads.list.element.{name}" for name in ("kind", "status")),
+    *(f"generators.list.element.{name}" for name in ("verdict", "type")),
 ]
 TOLD = 20  # failed tasks of a part that the manifest names
 
@@ -65,6 +69,13 @@ class Plan:
     run: str
     limit: float
     versions: dict[str, str]
+
+
+class Sizes(NamedTuple):
+    """The poses and the pairs of angles (T,) of each task of a part; 0: none, or nobody knows."""
+
+    poses: Counts
+    pairs: Counts
 
 
 @final
@@ -104,37 +115,41 @@ def work(part: Part, plan: Plan, failed: Mapping[int, str]) -> WorkedPart:
         return _written(part, plan, _answered(part.tasks, plan, failed), [])
 
 
-def _answered(tasks: Tasks, plan: Plan, failed: Mapping[int, str]) -> tuple[pa.Table, Counts]:
-    """The answers of all tasks in their order, and how many poses each has; 0: nobody knows."""
+def _answered(tasks: Tasks, plan: Plan, failed: Mapping[int, str]) -> tuple[pa.Table, Sizes]:
+    """The answers of all tasks in their order, and the sizes of the tasks."""
     refusals = [Refusal(index, "failed", None, why) for index, why in failed.items()]
     wanted = [index for index in range(len(tasks)) if index not in failed]
-    poses = np.zeros(len(tasks), dtype=np.int32)
+    sizes = Sizes(np.zeros(len(tasks), dtype=np.int32), np.zeros(len(tasks), dtype=np.int32))
     if plan.depth == "full":
-        blocks = [_solved(tasks, plan, wanted, poses, refusals)]
+        blocks = _solved(tasks, plan, wanted, sizes, refusals)
     else:
-        blocks = _stacked(tasks, plan, wanted, poses, refusals)
+        blocks = _stacked(tasks, plan, wanted, sizes, refusals)
     if refusals:
         blocks.append(refused_rows(refusals))
     table = pa.concat_tables(blocks)
     index = table.column("index").to_numpy()
     if (index[1:] >= index[:-1]).all():
-        return table, poses
-    return table.take(pa.array(np.argsort(index, kind="stable"))), poses
+        return table, sizes
+    return table.take(pa.array(np.argsort(index, kind="stable"))), sizes
 
 
 def _solved(
-    tasks: Tasks, plan: Plan, wanted: list[int], poses: Counts, refusals: list[Refusal]
-) -> pa.Table:
+    tasks: Tasks, plan: Plan, wanted: list[int], sizes: Sizes, refusals: list[Refusal]
+) -> list[pa.Table]:
     """Whole syntheses, a task after the other."""
-    found = {}
+    found, functions = {}, {}
     for index in wanted:
         try:
+            if (function := function_task(tasks, index, plan.options)) is not None:
+                sizes.pairs[index] = len(function.inputs)
+                functions[index] = function_data(generate_function(function))
+                continue
             task = _task(tasks, index, plan.options)
-            poses[index] = len(task.poses.angle)
+            sizes.poses[index] = len(task.poses.angle)
             found[index] = synthesis_data(synthesize(task, plan.options.synthesis))
         except InputError as error:
             refusals.append(_refusal(index, error))
-    return solved_rows(found)
+    return [solved_rows(found), *([function_rows(functions)] if functions else [])]
 
 
 def _refusal(index: int, error: BurmesterError) -> Refusal:
@@ -163,17 +178,21 @@ def _task(tasks: Tasks, index: int, options: BatchOptions) -> Task:
 
 
 def _stacked(
-    tasks: Tasks, plan: Plan, wanted: list[int], poses: Counts, refusals: list[Refusal]
+    tasks: Tasks, plan: Plan, wanted: list[int], sizes: Sizes, refusals: list[Refusal]
 ) -> list[pa.Table]:
     """Tasks in stacks, by their numbers of poses."""
     if isinstance(tasks, TextTasks):
-        table, kept = _as_table(tasks, plan, wanted, poses, refusals)
+        table, kept = _as_table(tasks, plan, wanted, sizes, refusals)
+    elif tasks.pairs:
+        sizes.pairs[wanted] = tasks.counts[wanted]
+        refusals += [Refusal(k, "not at this depth", None, NOT_STACKED) for k in wanted]
+        return [refused_rows([])]
     else:
         some = tasks if len(wanted) == len(tasks) else tasks.only(wanted)
         table, kept = some, np.array(wanted, dtype=np.intp)
     if not len(kept):
         return [refused_rows([])]
-    poses[kept] = counts = table.counts
+    sizes.poses[kept] = counts = table.counts
     finite = np.isfinite(table.poses).all(axis=1)
     if table.weights is not None:
         finite &= np.isfinite(table.weights)
@@ -205,17 +224,21 @@ def _radians(table: TableTasks) -> FloatArray:
 
 
 def _as_table(
-    tasks: TextTasks, plan: Plan, wanted: list[int], poses: Counts, refusals: list[Refusal]
+    tasks: TextTasks, plan: Plan, wanted: list[int], sizes: Sizes, refusals: list[Refusal]
 ) -> tuple[TableTasks, NDArray[np.intp]]:
     """Texts that state poses alone as a table; those that state more are not for this depth."""
     read, kept = [], []
     for index in wanted:
         try:
+            if (function := function_task(tasks, index, plan.options)) is not None:
+                sizes.pairs[index] = len(function.inputs)
+                refusals.append(Refusal(index, "not at this depth", None, NOT_STACKED))
+                continue
             task = _task(tasks, index, plan.options)
         except InputError as error:
             refusals.append(_refusal(index, error))
             continue
-        poses[index] = len(task.poses.angle)
+        sizes.poses[index] = len(task.poses.angle)
         if states := _beyond_poses(task):
             why = f"{states} of a task count at the depth full only"
             refusals.append(Refusal(index, "not at this depth", None, why))
@@ -254,15 +277,16 @@ def _beyond_poses(task: Task) -> str:
 
 
 def _written(
-    part: Part, plan: Plan, answered: tuple[pa.Table, Counts], drawn: list[Any]
+    part: Part, plan: Plan, answered: tuple[pa.Table, Sizes], drawn: list[Any]
 ) -> WorkedPart:
     """The file of a part."""
-    table, poses = answered
+    table, sizes = answered
+    table = table.append_column("pairs", _known(sizes.pairs))
     given = part.tasks.numbers if isinstance(part.tasks, DrawnTasks) else part.tasks.names
     numbered = isinstance(part.tasks, DrawnTasks) or not isinstance(given, tuple)
     whole = schema.schema(numbered=numbered, drawn=DRAWN if drawn else None)
     names = pa.array(given, whole.field("task").type)
-    columns = [names, pa.array(poses, mask=poses == 0)]
+    columns = [names, _known(sizes.poses)]
     columns += [table.column(field.name) for field in list(schema.SCHEMA)[2:]] + drawn
     told = {
         "schema": schema.VERSION,
@@ -284,6 +308,11 @@ def _written(
     lost = rows.filter(pc.equal(rows.column("outcome"), "failed")).slice(0, TOLD)
     failed = lost.select(["task", "reason"]).to_pylist()
     return WorkedPart(sink.getvalue(), len(names), outcomes, failed)
+
+
+def _known(counts: Counts) -> Any:
+    """Counts, null where there are none."""
+    return pa.array(counts, mask=counts == 0)
 
 
 def _counted(outcomes: Any) -> dict[str, int]:

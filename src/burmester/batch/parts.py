@@ -28,7 +28,8 @@ class TableTasks:
 
     names: of the tasks (T,); starts (T + 1,): the row at which each begins, and the end of the
     last; poses (R, 3): x, y and angle in the unit that `degrees` says; a number that is missing
-    is nan; weights (R,), exact (R,): None where no column has them.
+    is nan; weights (R,), exact (R,): None where no column has them.  pairs: whether they are tasks
+    of function generators; then poses is (R, 2): inputs and outputs in that unit.
     """
 
     names: Names
@@ -38,6 +39,7 @@ class TableTasks:
     exact: NDArray[np.bool_] | None
     degrees: bool
     label: str
+    pairs: bool = False
 
     def __len__(self) -> int:
         return len(self.names)

@@ -1,5 +1,7 @@
 """The table that a batch makes: a row a task, with its dyads and linkages as lists.
 
+Tasks of pairs of angles have their linkages as `generators`.
+
 The schema has a version, which every part and the manifest name.  Columns may be added, none goes
 away and none changes its meaning under the same version.
 """
@@ -12,7 +14,7 @@ import pyarrow as pa
 
 from burmester.stacked import StackedAnswers
 
-__all__ = ["DYAD", "LINKAGE", "OUTCOMES", "POSE", "SCHEMA", "VERSION", "schema"]
+__all__ = ["DYAD", "GENERATOR", "LINKAGE", "OUTCOMES", "POSE", "SCHEMA", "VERSION", "schema"]
 
 VERSION: Final = "burmester.batch/1"
 
@@ -40,6 +42,17 @@ LINKAGE: Final = pa.struct(
         ("dyads", pa.list_(DYAD)),
     ]
 )
+GENERATOR: Final = pa.struct(
+    [
+        ("verdict", pa.string()),
+        ("type", pa.string()),
+        *((name, _NUMBER) for name in ("ground", "input_link", "coupler", "output_link")),
+        *((name, _NUMBER) for name in ("input_phase_deg", "output_phase_deg")),
+        ("side", pa.int32()),
+        *((name, _NUMBER) for name in ("max_error_deg", "rms_error_deg")),
+        *((name, _NUMBER) for name in ("transmission_deg", "link_ratio", "extent")),
+    ]
+)
 POSE: Final = pa.struct([("x", _NUMBER), ("y", _NUMBER), ("angle_deg", _NUMBER)])
 SCHEMA: Final = pa.schema(
     [
@@ -51,6 +64,8 @@ SCHEMA: Final = pa.schema(
         ("dyads", pa.list_(DYAD)),
         ("linkages", pa.list_(LINKAGE)),
         ("warnings", pa.list_(pa.string())),
+        ("pairs", pa.int32()),
+        ("generators", pa.list_(GENERATOR)),
     ]
 )
 

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any, final
 
-from burmester.batch.long_tables import is_parquet_file, table_parts
+from burmester.batch.long_tables import is_pair_table, is_parquet_file, table_parts
 from burmester.batch.parts import Part
 from burmester.batch.task_texts import file_names, file_parts, files_digest, line_parts
 from burmester.errors import InputError
@@ -26,7 +26,7 @@ class Source:
 
     kind: in words; name: of the file or folder; digest: the SHA-256 of all that is read; parts:
     cuts them into parts of a size; unchanged: whether the file is still the one that the digest is
-    of; told: what else the manifest says of them.
+    of; told: what else the manifest says of them; pairs: whether they are pairs of angles.
     """
 
     kind: str
@@ -35,6 +35,7 @@ class Source:
     parts: Callable[[int], Iterator[Part]]
     unchanged: Callable[[], bool] = lambda: True
     told: Mapping[str, Any] = field(default_factory=dict)
+    pairs: bool = False
 
 
 def open_source(path: str) -> Source:
@@ -54,11 +55,19 @@ def open_source(path: str) -> Source:
             return (now.st_size, now.st_mtime_ns) == (before.st_size, before.st_mtime_ns)
 
         if is_parquet_file(path):
-            return Source("table", name, digest, lambda size: table_parts(path, size), unchanged)
+            return Source(
+                "table",
+                name,
+                digest,
+                lambda size: table_parts(path, size),
+                unchanged,
+                pairs=is_pair_table(path),
+            )
         lines = os.path.splitext(path)[1].lower() in LINES or _begins_as_json(path)
         cut = line_parts if lines else table_parts
         kind = "JSON lines" if lines else "table"
-        return Source(kind, name, digest, lambda size: cut(path, size), unchanged)
+        pairs = not lines and is_pair_table(path)
+        return Source(kind, name, digest, lambda size: cut(path, size), unchanged, pairs=pairs)
     except (OSError, ValueError) as error:  # ValueError: a null character in the path
         why = getattr(error, "strerror", None) or str(error)
         help = "give a table (.parquet, .csv), a file of JSON lines (.jsonl) or a folder"

@@ -13,19 +13,25 @@ import click
 from burmester.cli.output import EXIT_FOUND, EXIT_NOTHING, console, print_json
 
 if TYPE_CHECKING:
-    from burmester.functions.found_generator import FoundGenerator
     from burmester.functions.function_task import FunctionTask
     from burmester.io.saved import SavedLinkage
     from burmester.synthesis.function_generation import FunctionSynthesis
 
-__all__ = ["export_choice", "function_task", "hand_over_function", "judge_function", "page_of_best"]
+__all__ = [
+    "check_function",
+    "export_choice",
+    "function_task",
+    "hand_over_function",
+    "judge_function",
+    "page_of_function",
+]
 
 OWN: Final = (
     "function", "x", "input_range", "opposite", "pairs", "spacing", "minimax", "input_phase",
-    "output_phase", "ground", "plot",
+    "output_phase", "ground", "plot", "links", "side",
 )  # fmt: skip
 SHARED: Final = ("poses", "min_transmission", "link_ratio", "as_json", "file", "output", "force",
-                 "everything", "title", "linkage", "id")  # fmt: skip
+                 "everything", "title", "linkage", "id", "sheet")  # fmt: skip
 FIGURES: Final = {".png": {}, ".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
 
 
@@ -56,7 +62,7 @@ def function_task(poses: str | None, given: dict[str, Any]) -> FunctionTask | No
             )
     from burmester.io.reading.functions.function_file import read_function
 
-    return read_function(data, poses, _settings(given))
+    return read_function(data, poses, _settings(given), given.get("sheet"))
 
 
 def _function_bytes(poses: str, given: dict[str, Any]) -> bytes | None:
@@ -74,7 +80,7 @@ def _function_bytes(poses: str, given: dict[str, Any]) -> bytes | None:
         return None  # it is read again as poses, and refused there
     if poses == "-":
         given["data"] = data
-    return data if is_function(data, poses) else None
+    return data if is_function(data, poses, given.get("sheet")) else None
 
 
 def _of_expression(given: dict[str, Any]) -> FunctionTask:
@@ -247,23 +253,32 @@ def _figure(synthesis: FunctionSynthesis, suffix: str) -> bytes:
     return content.getvalue()
 
 
-def page_of_best(task: FunctionTask, title: str) -> tuple[str, str, bool]:
-    """The page on which the best function generator moves, its headline, and whether it works."""
-    from burmester.report import page
-    from burmester.synthesis.function_generation import coupler_synthesis, generate_function
+def page_of_function(task: FunctionTask, title: str) -> tuple[str, str, bool]:
+    """The page on which function generators move, its headline, and whether one works."""
+    from burmester.report.page import function_page
+    from burmester.synthesis.function_generation import generate_function
 
     synthesis = generate_function(task)
-    if not synthesis.generators:
-        from burmester.errors import InputError
+    good = bool(synthesis.usable)
+    return function_page(synthesis, title), f"{synthesis.outcome.message}.", good
 
-        raise InputError(
-            "E151",
-            "there is no linkage to show",
-            why=synthesis.outcome.why,
-            help=synthesis.outcome.help,
-        )
-    best = synthesis.generators[0]
-    return page(coupler_synthesis(task, best), title), f"{synthesis.outcome.message}.", best.usable
+
+def check_function(task: FunctionTask, poses: str | None, *, as_json: bool) -> int:
+    """Show a function task and what stands out in it; returns the exit code."""
+    from burmester.functions.pair_checks import pair_findings
+    from burmester.io.files import quoted
+    from burmester.io.function_overview import function_check_data, show_function_check
+
+    findings = pair_findings(task)
+    if as_json:
+        print_json(function_check_data(task, findings))
+    else:
+        show_function_check(task, findings, console())
+        if not findings and poses is not None:
+            click.echo(f"\nNothing stands out. Next: burmester synthesize {quoted(poses)}")
+        elif not findings:
+            click.echo("\nNothing stands out. Next: burmester synthesize with the same options")
+    return EXIT_NOTHING if findings else EXIT_FOUND
 
 
 def export_choice(data: bytes, path: str, id: str | None) -> SavedLinkage:
@@ -284,25 +299,44 @@ def export_choice(data: bytes, path: str, id: str | None) -> SavedLinkage:
 
 def judge_function(
     task: FunctionTask,
-    linkage: str,
-    id: str | None,
+    linkage: str | None,
+    given: dict[str, Any],
     *,
     file: str | None,
     force: bool,
     as_json: bool,
 ) -> int:
-    """Judge a linkage of a function's result at other pairs; returns the exit code."""
+    """Judge a linkage of a function's result, or one by its links; returns the exit code."""
+    from dataclasses import replace
+
     from burmester.io import files
     from burmester.io.function_result import function_data, read_function_result
     from burmester.io.function_table import show_function
     from burmester.io.reading.file_content import read_source
     from burmester.io.result import json_line
-    from burmester.synthesis.function_generation import judge_generator
+    from burmester.synthesis.function_generation import judge_generator, judge_links
 
     if file is not None:
-        files.require_writable(file, force=force, source=linkage)
-    chosen: FoundGenerator = read_function_result(read_source(linkage), linkage).choose(id)
-    synthesis = judge_generator(task, chosen.generator)
+        files.require_writable(file, force=force, source=linkage or "")
+    if given["links"] is not None:
+        for name, value in {
+            "linkage": linkage,
+            "id": given["id"],
+            "ground": given["ground"],
+        }.items():
+            if value is not None:
+                help = f"leave --{name} out, or --links"
+                raise _contradiction(f"--links and --{name} are given", help)
+        ground, *links = _link_lengths(given["links"])
+        side = {None: None, "left": 1.0, "right": -1.0}[given["side"]]
+        synthesis = judge_links(replace(task, ground=ground), (links[0], links[1], links[2]), side)
+    elif linkage is None:
+        message = "there is no linkage to judge"
+        help = "give its lengths, such as --links 1,0.5,1.2,0.9, or --linkage FILE"
+        raise _contradiction(message, help)
+    else:
+        result = read_function_result(read_source(linkage), linkage)
+        synthesis = judge_generator(task, result.choose(given["id"]).generator)
     if file is not None:
         files.write(file, json_line(function_data(synthesis)), force=force)
     if as_json:
@@ -310,3 +344,27 @@ def judge_function(
     else:
         show_function(synthesis, console(), everything=True)
     return EXIT_FOUND if synthesis.usable else EXIT_NOTHING
+
+
+def _link_lengths(text: str) -> list[float]:
+    """The four lengths of --links; raises E190 and E194."""
+    from burmester.io.reading.functions.expression import read_number
+    from burmester.io.reading.pose_table import Source
+
+    source, at, lengths = Source("--links", text), 0, []
+    parts = text.split(",")
+    if len(parts) != 4:
+        raise _contradiction(
+            f"--links has {len(parts)} numbers, and a four-bar has four links",
+            "give the ground link, the input link, the coupler and the output link, such as "
+            "--links 1,0.5,1.2,0.9",
+        )
+    for part in parts:
+        length = read_number(source, at, part)
+        if not 0 < length < 1e9:
+            raise _contradiction(
+                f"--links has the length {part.strip()}", "give lengths above 0 and below 1e9"
+            )
+        lengths.append(length)
+        at += len(part) + 1
+    return lengths

@@ -6,7 +6,14 @@ from typing import Any
 
 import click
 
-from burmester.cli.options import JUDGEMENT, Sectioned, run_judgement, with_options
+from burmester.cli.options import (
+    FUNCTION,
+    FUNCTION_LINKAGE,
+    JUDGEMENT,
+    Sectioned,
+    run_judgement,
+    with_options,
+)
 from burmester.cli.output import EXIT_FOUND, EXIT_NOTHING, hand_over
 
 __all__ = ["judge"]
@@ -23,24 +30,31 @@ FILE    a result of `burmester synthesize POSES -o FILE`, an export to JSON, or
         two [[dyads]] with fixed_pivot, moving_pivot, length or line, in TOML or
         JSON
 
+PAIRS of angles stand in the place of POSES, for a linkage in a FILE or by --links.
 POSES, REGION and NAME are those of `burmester synthesize`."""
 
 
 @click.command(cls=Sectioned, epilog=DYAD_HELP)
-@with_options(*JUDGEMENT)
+@with_options(*JUDGEMENT, FUNCTION_LINKAGE, FUNCTION, poses_required=False)
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object and nothing else.")
-@click.option("-o", "--output", metavar="FILE", help="Write that object to FILE as well.")
+@click.option("-o", "file", metavar="FILE", help="Write that object to FILE as well.")
+@click.option(
+    "--output",
+    metavar="FILE|DEG",
+    help="The same as -o; with --function, how far the output link turns, in degrees.",
+)
 @click.option("--force", is_flag=True, help="Write FILE even if it exists.")
 def judge(
-    poses: str,
+    poses: str | None,
     *,
     linkage: str | None,
     as_json: bool,
+    file: str | None,
     output: str | None,
     force: bool,
     **given: Any,
 ) -> int:
-    """Judge a linkage that exists, at the poses of a task.
+    """Judge a linkage that exists, at the poses or the pairs of angles of a task.
 
     It is told what `burmester synthesize` tells of its own linkages.  Exit code 0: the linkage
     works; 1: it does not; 2: the input cannot be used.
@@ -48,9 +62,12 @@ def judge(
     from burmester.cli.function import function_task, judge_function
     from burmester.io import files
 
-    if linkage is not None and (task := function_task(poses, given)) is not None:
-        one = given.get("id")
-        return judge_function(task, linkage, one, file=output, force=force, as_json=as_json)
+    given["output"] = output
+    if not given["dyad"] and (task := function_task(poses, given)) is not None:
+        file = file or (None if given["function"] else output)
+        return judge_function(task, linkage, given, file=file, force=force, as_json=as_json)
+    assert poses is not None
+    output = file or output
     if output is not None:
         for source in (poses, linkage):
             if source is not None:

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "FUNCTION",
+    "FUNCTION_LINKAGE",
     "JUDGEMENT",
     "MANUFACTURING",
     "METHOD",
@@ -225,6 +226,21 @@ FUNCTION: tuple[Decorator, ...] = (
     ),
     _function("--output-phase", metavar="DEG", help="The same of the output link."),
     _function("--ground", metavar="LENGTH", help="Length of the ground link; by default 1."),
+)
+# Of a function generator that exists.
+FUNCTION_LINKAGE: tuple[Decorator, ...] = (
+    _function(
+        "--links",
+        metavar="GROUND,INPUT,COUPLER,OUTPUT",
+        help="The lengths of a function generator to judge; phases that are not given are those "
+        "that fit best.",
+    ),
+    _function(
+        "--side",
+        type=click.Choice(["left", "right"]),
+        help="Where its output pin lies, seen from the input link's pin to the output's pivot; by "
+        "default on the better side.",
+    ),
 )
 _plot: Decorator = _function(
     "--plot", metavar="FILE", help="Draw the structural error (.png, .svg, .pdf)."

@@ -48,7 +48,7 @@ def report(
     It is one file, and needs no network.  The options are those of `burmester synthesize`, where
     REGION and NAME are explained.
     """
-    from burmester.cli.function import function_task, page_of_best
+    from burmester.cli.function import function_task, page_of_function
     from burmester.cli.progress_line import working
     from burmester.describe.sentences import headline
     from burmester.io import files
@@ -66,7 +66,9 @@ def report(
     files.require_writable(path, force=force, source=poses or "")
     if task is not None:
         with working("looking for function generators"):
-            text, first, good = page_of_best(task, printable(title or given["function"] or name))
+            text, first, good = page_of_function(
+                task, printable(title or given["function"] or name)
+            )
     else:
         assert poses is not None
         synthesis = run_synthesis(poses, **given)

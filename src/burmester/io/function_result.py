@@ -30,6 +30,7 @@ __all__ = [
     "SCHEMA",
     "FunctionResult",
     "function_data",
+    "function_task_data",
     "is_function_result",
     "read_function_result",
 ]
@@ -46,7 +47,7 @@ def function_data(synthesis: FunctionSynthesis) -> dict[str, Any]:
         "schema": SCHEMA,
         "outcome": message_data(synthesis.outcome),
         "method": synthesis.method,
-        "task": {"function": _task(task), "pairs": _pairs(task)},
+        "task": function_task_data(task),
         "search": {
             "kind": "phases" if synthesis.solutions is None else "solutions",
             "expected": synthesis.solutions,
@@ -56,6 +57,11 @@ def function_data(synthesis: FunctionSynthesis) -> dict[str, Any]:
         "linkages": [_linkage(each, task) for each in synthesis.generators],
         "warnings": list(map(message_data, synthesis.warnings)),
     }
+
+
+def function_task_data(task: FunctionTask) -> dict[str, Any]:
+    """A task: as a file may hold it, and its pairs."""
+    return {"function": _task(task), "pairs": _pairs(task)}
 
 
 def _task(task: FunctionTask) -> dict[str, Any]:
@@ -76,7 +82,7 @@ def _task(task: FunctionTask) -> dict[str, Any]:
             "x": list(function.x),
             "input_deg": _plain_degrees(function.input_range),
             "output_deg": _plain_degrees(abs(function.output_range)),
-            "opposite": function.output_range < 0,
+            "opposite": bool(function.output_range < 0),
             "pairs": len(shares),
             "spacing": "chebyshev" if np.abs(shares - spacing).max() < SAME_SHARE else "even",
         }

@@ -17,6 +17,7 @@ from burmester.wording import figure, listed, with_article
 __all__ = ["show_function"]
 
 NARROW = 76  # columns; in a narrower terminal the table has fewer
+MOST_PAIRS = 20  # of a linkage that is judged, in a table
 MOST_ROWS = 8  # linkages in the table where not all are asked for
 EXACT = 1e-9  # radians; an error below is rounding
 
@@ -28,7 +29,8 @@ def show_function(
     outcome, task = synthesis.outcome, synthesis.task
     usable = synthesis.usable
     if usable:
-        _best(usable[0], task, console)
+        judged = synthesis.method == "judged"
+        _best(usable[0], task, console, f"{usable[0].id} is" if judged else "")
         shown = list(synthesis.generators if everything else usable[:MOST_ROWS])
     else:
         draw(message("result", outcome.code, outcome.message, width=console.width), console)
@@ -38,6 +40,8 @@ def show_function(
         shown = list(synthesis.generators if everything else synthesis.generators[:MOST_ROWS])
     if len(shown) > 1 or (shown and not usable):
         _table(shown, task, console)
+    if synthesis.method == "judged" and len(task.inputs) <= MOST_PAIRS:
+        _pair_errors(shown[0], task, console)
     if usable:
         console.print()
         draw(message("result", outcome.code, outcome.message, width=console.width), console)
@@ -49,8 +53,8 @@ def show_function(
         show("warning", warning, console)
 
 
-def _best(found: FoundGenerator, task: FunctionTask, console: Console) -> None:
-    """The linkage to build, with its dimensions."""
+def _best(found: FoundGenerator, task: FunctionTask, console: Console, named: str = "") -> None:
+    """The linkage to build, with its dimensions; named: what is said in place of `Build`."""
     kind = with_article(found.type)
     where = "over the range" if task.function else "at the pairs"
     error = (
@@ -60,7 +64,7 @@ def _best(found: FoundGenerator, task: FunctionTask, console: Console) -> None:
         f"({figure(100 * found.max_error / task.output_span)} % of the output's range), "
         f"{_degrees(found.rms_error)} deg rms"
     )
-    head = f"Build {found.id}: {kind} that {error}."
+    head = f"{named or f'Build {found.id}:'} {kind} that {error}."
     print_trimmed(Text(head, style="bold"), console)
     one, ground = found.generator, task.ground
     lengths = (1.0, float(one.input_link), float(one.coupler), float(one.output_link))
@@ -93,6 +97,19 @@ def _best(found: FoundGenerator, task: FunctionTask, console: Console) -> None:
         notes.append(f"It {listed(found.shortcomings)}.")
     for text in notes:
         print_trimmed(Text(text), console)
+
+
+def _pair_errors(found: FoundGenerator, task: FunctionTask, console: Console) -> None:
+    """Each pair, and what the linkage makes of it."""
+    table = new_table("At the pairs, in degrees")
+    for name in ("pair", "input", "output", "is made", "error"):
+        table.add_column(name, justify="right", no_wrap=True)
+    rows = zip(task.inputs, task.outputs, found.errors, strict=True)
+    for k, (x, y, error) in enumerate(rows, start=1):
+        made = "-" if math.isnan(error) else f"{math.degrees(y + error):.4f}"
+        angles = f"{math.degrees(x):.10g}", f"{math.degrees(y):.10g}"
+        table.add_row(str(k), *angles, made, _degrees(float(error)))
+    print_trimmed(table, console)
 
 
 def _table(shown: list[FoundGenerator], task: FunctionTask, console: Console) -> None:
@@ -133,4 +150,4 @@ def _degrees(angle: float) -> str:
     """An error in degrees, "exact" where it is rounding, "open" where there is none."""
     if not math.isfinite(angle):
         return "-"
-    return "0" if angle < EXACT else figure(math.degrees(angle))
+    return "0" if abs(angle) < EXACT else figure(math.degrees(angle))

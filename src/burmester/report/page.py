@@ -9,15 +9,22 @@ import json
 from importlib import resources
 from typing import Any
 
+from burmester.synthesis.function_generation import FunctionSynthesis
 from burmester.synthesis.result import Synthesis
 from burmester.web.data import report_data
+from burmester.web.function_data import function_report
 
-__all__ = ["page", "page_of"]
+__all__ = ["function_page", "page", "page_of"]
 
 
 def page(synthesis: Synthesis, title: str) -> str:
     """The report of a synthesis: a whole HTML document, scripts, styles and data within."""
     return page_of(report_data(synthesis), title)
+
+
+def function_page(synthesis: FunctionSynthesis, title: str) -> str:
+    """The same of function generators."""
+    return page_of(function_report(synthesis), title)
 
 
 def page_of(report: dict[str, Any], title: str) -> str:

@@ -24,8 +24,10 @@ from burmester.functions.found_generator import FoundGenerator, found_generators
 from burmester.functions.function_task import FunctionTask
 from burmester.functions.generator import Generator
 from burmester.functions.phase_family import best_of_phases
+from burmester.functions.placed_links import placed_links
 from burmester.functions.refinement import at_bounds, different, least_squares, minimax
 from burmester.geometry.regions import Point
+from burmester.numerics.arrays import FloatArray
 from burmester.numerics.linear_algebra import one_thread
 from burmester.progress import step
 from burmester.synthesis.judgement import judge_linkage
@@ -35,7 +37,13 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.requirements import Requirements
 from burmester.wording import count, listed
 
-__all__ = ["FunctionSynthesis", "coupler_synthesis", "generate_function", "judge_generator"]
+__all__ = [
+    "FunctionSynthesis",
+    "coupler_synthesis",
+    "generate_function",
+    "judge_generator",
+    "judge_links",
+]
 
 LEAST_PAIRS: Final = 3
 SAME_ANGLE: Final = 1e-9  # radians; outputs that turn with the input but for less do so exactly
@@ -92,15 +100,36 @@ def generate_function(task: FunctionTask) -> FunctionSynthesis:
         return _nearly(task)
 
 
-def judge_generator(task: FunctionTask, generator: Generator) -> FunctionSynthesis:
-    """One generator that exists, judged by the pairs or the function of a task."""
+def judge_links(
+    task: FunctionTask, links: tuple[float, float, float], side: float | None = None
+) -> FunctionSynthesis:
+    """Links that exist, judged at the phases of a task or, where it gives none, at the best.
+
+    links: of the input link, the coupler and the output link, in the unit of the ground link.
+    side: 1 or -1, of the output pin, seen from the input pin to the output's pivot; None: the
+        better one.
+    """
+    a, r, b = (each / task.ground for each in links)
+    placed = " at the phases that fit best" if task.free_phases else ""
+    return judge_generator(task, placed_links(a, r, b, task, side), placed)
+
+
+def judge_generator(
+    task: FunctionTask, generator: Generator, placed: str = ""
+) -> FunctionSynthesis:
+    """One generator that exists, judged by the pairs or the function of a task.
+
+    placed: what is said of its phases.
+    """
     found = found_generators(_stacked([generator]), task, exact=False)
     (one,) = found
     if one.usable:
-        outcome = Outcome("R360", "the function generator works")
+        outcome = Outcome("R360", f"the function generator works{placed}")
     else:
         reasons = listed([each.message for each in one.defects])
-        outcome = Outcome("R361", "the function generator does not work", _HELP, f"it {reasons}")
+        outcome = Outcome(
+            "R361", f"the function generator does not work{placed}", _HELP, f"it {reasons}"
+        )
     return FunctionSynthesis(task, "judged", outcome, found)
 
 
@@ -246,16 +275,19 @@ def _stacked(each: list[Generator]) -> Generator:
     return Generator(*(np.stack([getattr(one, name) for one in each]) for name in names))
 
 
-def coupler_synthesis(task: FunctionTask, found: FoundGenerator) -> Synthesis:
+def coupler_synthesis(
+    task: FunctionTask, found: FoundGenerator, inputs: FloatArray | None = None
+) -> Synthesis:
     """A function generator as a linkage that guides its coupler: the judgement of that motion.
 
     The places of the coupler at the pairs are the poses; of a function, places at even distances
     over the range.  So reports and exports show and write it like every other linkage.
+    inputs: (N,), those of the poses, radians, rising; None: as said.
     """
-    low, high = task.input_ends
-    inputs = np.sort(task.inputs)
-    if task.function is not None or len(inputs) > COUPLER_PLACES:
-        inputs = np.linspace(low, high, COUPLER_PLACES)
+    if inputs is None:
+        inputs = np.sort(task.inputs)
+        if task.function is not None or len(inputs) > COUPLER_PLACES:
+            inputs = np.linspace(*task.input_ends, COUPLER_PLACES)
     poses = found.generator.coupler_poses(inputs, task.ground)
     poses = poses[np.isfinite(poses).all(axis=-1)]
     # Each pivot where it is: so the input link is the first, and drives.

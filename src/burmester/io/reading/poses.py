@@ -273,8 +273,8 @@ def _table(
         by_content = "JSON" if source.text.lstrip().startswith(("{", "[")) else "CSV"
         language = "CSV" if source.sheet else _FORMATS.get(suffix, by_content)
         require_moderate(source.text, tree=language != "CSV")
-        if not source.sheet and columns is None:
-            _refuse_function(label, source.text)
+        if columns is None:
+            _refuse_function("" if source.sheet else label, source.text)
         if language == "CSV":
             return _rows(source, columns, points, closed=closed)
         from burmester.io.reading.trees.documents import read_json, read_toml

@@ -238,6 +238,310 @@ function wayName(way, linkage) {
   return parts.join(", ");
 }
 
+// src/burmester/web/widget/cards.mjs
+var CardList = class {
+  constructor(cards) {
+    this.cards = cards;
+    this.element = h(
+      "nav",
+      { class: "bm-list", "aria-label": "Linkages, best first" },
+      h("h2", {}, `${cards.length} linkage${cards.length === 1 ? "" : "s"}`),
+      h("div", { class: "bm-choices" }, this.cards)
+    );
+    this.element.addEventListener("keydown", (event) => {
+      const step = { ArrowDown: 1, ArrowRight: 1, ArrowUp: -1, ArrowLeft: -1 }[event.key];
+      const at = this.cards.indexOf(document.activeElement);
+      if (!step || at < 0) return;
+      event.preventDefault();
+      this.cards[clamp(at + step, 0, this.cards.length - 1)].focus();
+    });
+  }
+  mark(index) {
+    this.cards.forEach((each, k) => each.setAttribute("aria-pressed", String(k === index)));
+  }
+};
+var Cards = class extends CardList {
+  constructor(data, linkages, choose) {
+    const unit2 = data.unit ? ` ${data.unit}` : "";
+    super(linkages.map((each, k) => card(each, unit2, () => choose(k))));
+  }
+};
+function card(linkage, unit2, onclick) {
+  const { said } = linkage;
+  const fact = (name, value, kind = null) => [h("dt", { class: kind }, name), h("dd", { class: kind }, value)];
+  const links = said.links ? Object.values(said.links) : [];
+  return h(
+    "button",
+    { type: "button", class: `bm-choice ${linkage.usable ? "bm-good" : "bm-bad"}`, "aria-pressed": "false", "data-linkage": linkage.id, onclick },
+    h("span", { class: "bm-choice-head" }, h("b", {}, linkage.id), " ", h("span", { class: "bm-type" }, linkage.type)),
+    h("span", { class: "bm-verdict" }, verdictOf(linkage)),
+    h(
+      "dl",
+      {},
+      fact("worst miss", missOf(said.worst, said.angle, unit2).split(" and ").map((part, k) => [k ? ", " : "", h("span", { class: "bm-whole-word" }, part)])),
+      fact("transmission", said.transmission === "-" ? "–" : said.transmission === "0°" ? "down to 0°" : `${said.transmission} or more`),
+      said.quality.extent ? fact("extent, sensitivity", [h("span", { class: "bm-whole-word" }, said.quality.extent), ", ", h("span", { class: "bm-whole-word" }, said.quality.sensitivity)], "bm-detail") : null,
+      fact("driver", `${linkage.led[0].id}${said.turns_fully ? ", turns fully" : ""}`),
+      links.length ? fact("links", links.map((each, k) => [k ? " " : "", h("span", {}, each)]), "bm-detail bm-links") : fact("dyads", linkage.dyads.map((dyad) => `${dyad.id} (${dyad.kind})`).join(" · "), "bm-detail")
+    ),
+    said.freedom ? h("span", { class: "bm-quiet" }, said.freedom) : null,
+    said.reasons.length ? h("span", { class: "bm-reason" }, said.reasons.join("; ")) : null
+  );
+}
+
+// src/burmester/web/widget/function_cards.mjs
+var Cards2 = class extends CardList {
+  constructor(generators, choose) {
+    super(generators.map((each, k) => card2(each, () => choose(k))));
+  }
+};
+function card2(generator, onclick) {
+  const { said } = generator;
+  const fact = (name, value, kind = null) => [h("dt", { class: kind }, name), h("dd", { class: kind }, value)];
+  return h(
+    "button",
+    { type: "button", class: `bm-choice ${generator.usable ? "bm-good" : "bm-bad"}`, "aria-pressed": "false", "data-linkage": generator.id, onclick },
+    h("span", { class: "bm-choice-head" }, h("b", {}, generator.id), " ", h("span", { class: "bm-type" }, generator.type)),
+    h("span", { class: "bm-verdict" }, verdictOf(generator)),
+    h(
+      "dl",
+      {},
+      fact("greatest error", said.max_error),
+      fact("transmission", said.transmission === "–" ? "–" : said.transmission === "0°" ? "down to 0°" : `${said.transmission} or more`),
+      fact("links", said.links.map(([, value], k) => [k ? " " : "", h("span", {}, value)]), "bm-detail bm-links")
+    ),
+    generator.defects.length || generator.shortcomings.length ? h("span", { class: "bm-reason" }, `It ${[...generator.defects, ...generator.shortcomings].join("; ")}`) : null
+  );
+}
+
+// src/burmester/web/widget/header.mjs
+var OPEN = /^R(303|31)/;
+function header(data, good, kind = "linkage report") {
+  const { outcome, warnings } = data, open = OPEN.test(outcome.code);
+  const [best, ...more] = good ? data.best : [];
+  const found = [`${outcome.message[0].toUpperCase()}${outcome.message.slice(1)}. `, h("span", { class: "bm-code" }, outcome.code)];
+  const said = (text) => text && data.best.some((sentence) => sentence.slice(1).startsWith(text.slice(1)));
+  const told = [notes({ why: said(outcome.why) ? null : outcome.why, help: said(outcome.help) ? null : outcome.help }), warnings.length ? h("ul", { class: "bm-warnings", "aria-label": "Warnings" }, warnings.map(warning)) : null];
+  const count = warnings.length ? `, and ${warnings.length} warning${warnings.length === 1 ? "" : "s"}` : "";
+  return h(
+    "header",
+    { class: "bm-head" },
+    h("p", { class: "bm-overline" }, `burmester · ${kind}`),
+    data.title ? h("h1", {}, data.title) : null,
+    h(
+      "p",
+      { class: `bm-outcome ${good ? "bm-good" : open ? "bm-open" : "bm-bad"}` },
+      h("span", { class: "bm-sign", "aria-hidden": "true" }, good ? "✓" : open ? "i" : "✕"),
+      h("span", {}, best ?? found)
+    ),
+    (best ? more : data.best).map((sentence) => h("p", { class: "bm-best" }, sentence)),
+    best ? h("details", { class: "bm-about" }, h("summary", {}, `How it was found${count}`), h("p", { class: "bm-found" }, found), told) : told
+  );
+}
+var warning = (each) => h(
+  "li",
+  {},
+  h("p", {}, h("b", {}, "! Warning "), h("span", { class: "bm-code" }, each.code), ` ${each.message}.`),
+  notes(each)
+);
+var notes = ({ why, help }) => [
+  why ? h("p", { class: "bm-why" }, h("b", {}, "Why: "), why, ".") : null,
+  help ? h("p", { class: "bm-why" }, h("b", {}, "What helps: "), help, ".") : null
+];
+
+// src/burmester/web/widget/error_curves.mjs
+var LEFT = 62;
+var RIGHT = 14;
+var TOP = 22;
+var BOTTOM = 44;
+var HEIGHTS = [110, 130, 84];
+var GAP = 30;
+var INSET = 8;
+var ROUNDING = 1e-7;
+var HEADROOM = 1.15;
+var MOST_DOTS = 40;
+var SAMPLES = 241;
+var SPARE = 0.01;
+var USUAL_LIMIT = 30;
+var ErrorCurves = class {
+  constructor(task, generator, parent, go) {
+    this.task = task;
+    this.generator = generator;
+    this.parent = parent;
+    this.svg = s("svg", { class: "bm-plots", role: "img", "aria-label": `${generator.id}: output, structural error and transmission angle over the input` });
+    parent.append(this.svg);
+    const scrub = (event) => {
+      const box = this.svg.getBoundingClientRect(), { low, high } = generator.range;
+      const share = (event.clientX - box.left - LEFT - INSET) / (this.width - LEFT - RIGHT - 2 * INSET);
+      go(low + clamp(share, 0, 1) * (high - low));
+    };
+    this.svg.addEventListener("pointerdown", (event) => {
+      this.svg.setPointerCapture(event.pointerId);
+      scrub(event);
+    });
+    this.svg.addEventListener("pointermove", (event) => event.buttons & 1 && scrub(event));
+  }
+  build() {
+    const { svg, generator } = this, { low, high } = generator.range;
+    svg.replaceChildren();
+    const width = this.width = Math.max(260, this.parent.clientWidth);
+    const height = TOP + HEIGHTS.reduce((a, b) => a + b) + 2 * GAP + BOTTOM;
+    svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    svg.setAttribute("height", height);
+    this.X = (input) => LEFT + INSET + (input - low) / (high - low) * (width - LEFT - RIGHT - 2 * INSET);
+    this.across = angleTicks(low, high, Math.max(3, width / 90));
+    const { curve, pair_at } = generator;
+    const pairs = pair_at.length <= MOST_DOTS ? pair_at : [];
+    const inputs = Array.from({ length: SAMPLES }, (_, k) => low + k / (SAMPLES - 1) * (high - low));
+    const along = inputs.map(generator.at);
+    this.Yout = this.output(0, curve, inputs, along.map((each) => each.output), pairs);
+    this.Yerr = this.error(1, curve, pairs);
+    this.Ytra = this.transmission(2, inputs, along.map((each) => each.transmission));
+    const base = TOP + HEIGHTS.reduce((a, b) => a + b) + 2 * GAP;
+    svg.append(s("text", { class: "bm-title", x: (LEFT + width - RIGHT) / 2, y: height - 6, "text-anchor": "middle" }, "input (°)"));
+    this.marks = [1, 2, 3].map(() => s("circle", { r: 4.5 }));
+    this.cursor = s("g", { class: "bm-cursor" }, s("path", { d: `M0 ${TOP}V${base}` }), ...this.marks);
+    svg.append(this.cursor);
+  }
+  /** An empty panel with its title; its top and its base. */
+  panel(k, title, labelled = false) {
+    const { svg, width } = this;
+    const y0 = TOP + HEIGHTS.slice(0, k).reduce((a, b) => a + b, 0) + k * GAP, base = y0 + HEIGHTS[k];
+    svg.append(
+      s("rect", { class: "bm-panel", x: LEFT, y: y0, width: width - LEFT - RIGHT, height: base - y0 }),
+      s("text", { class: "bm-title", x: LEFT, y: y0 - 7 }, title)
+    );
+    let last = -99;
+    for (const { at, text } of this.across) {
+      const x = px(this.X(at));
+      svg.append(s("path", { class: "bm-rule", d: `M${x} ${y0}V${base}` }));
+      if (labelled && x - last > 34) {
+        svg.append(s("text", { class: "bm-tick", x, y: base + 15, "text-anchor": "middle" }, text));
+        last = x;
+      }
+    }
+    return [y0, base];
+  }
+  rule(y, text) {
+    this.svg.append(
+      s("path", { class: "bm-rule", d: `M${LEFT} ${px(y)}H${this.width - RIGHT}` }),
+      s("text", { class: "bm-tick", x: LEFT - 6, y: px(y) + 4, "text-anchor": "end" }, text)
+    );
+  }
+  /** A line over inputs, broken where a value is null. */
+  line(inputs, values, Y, name) {
+    let path = "", pen = "M";
+    values.forEach((value, k) => {
+      if (value === null) return pen = "M";
+      path += `${pen}${px(this.X(inputs[k]))} ${px(Y(value))}`;
+      return pen = "L";
+    });
+    this.svg.append(s("path", { class: name, d: path }));
+  }
+  dots(pairs, Y, value, unit2) {
+    for (const pair of pairs) {
+      if (value(pair) === null) continue;
+      const dot3 = s("circle", { class: "bm-dot", cx: px(this.X(pair.input)), cy: px(Y(value(pair))), r: 3.5 });
+      dot3.append(s("title", {}, `pair ${pair.pair}: ${figure(value(pair))}${unit2}`));
+      this.svg.append(dot3);
+    }
+  }
+  output(k, curve, inputs, made, pairs) {
+    const [y0, base] = this.panel(k, `output (°)${pairs.length ? ": wanted as dots, made as a line" : ""}`);
+    const every = [...curve.wanted, ...made.filter((each) => each !== null)];
+    const low = Math.min(...every), high = Math.max(...every), room = 0.08 * (high - low);
+    const Y = (v) => base - (v - low + room) / (high - low + 2 * room) * (base - y0);
+    for (const { at, text } of ticks(low, high, 4)) this.rule(Y(at), text);
+    this.line(inputs, made, Y, "bm-line");
+    this.dots(pairs, Y, (pair) => pair.wanted, "°");
+    return Y;
+  }
+  error(k, curve, pairs) {
+    const [y0, base] = this.panel(k, `structural error of the output (°)${curve.whole ? "" : ", at the pairs"}`);
+    const known = curve.error.filter((each) => each !== null);
+    const greatest = known.reduce((a, b) => Math.max(a, Math.abs(b)), 0), middle = (y0 + base) / 2;
+    const visible = greatest > ROUNDING;
+    const Y = (v) => middle - (visible ? v / (HEADROOM * greatest) : 0) * ((base - y0) / 2);
+    this.svg.append(s("path", { class: "bm-usual", d: `M${LEFT} ${px(middle)}H${this.width - RIGHT}` }));
+    if (!visible) {
+      const text = known.length ? "exact, up to rounding" : "it cannot be assembled";
+      this.svg.append(s("text", { class: "bm-note", x: LEFT + 8, y: middle - 12 }, text));
+    } else {
+      for (const { at, text } of ticks(-greatest, greatest, 4)) this.rule(Y(at), text);
+    }
+    if (curve.whole) this.line(curve.input, curve.error, Y, "bm-line");
+    else
+      for (const pair of pairs) {
+        if (pair.error !== null) this.svg.append(s("path", { class: "bm-stem", d: `M${px(this.X(pair.input))} ${middle}V${px(Y(pair.error))}` }));
+      }
+    this.dots(pairs, Y, (pair) => pair.error, "°");
+    return Y;
+  }
+  transmission(k, inputs, values) {
+    const [y0, base] = this.panel(k, "transmission angle (°)", true);
+    const Y = (v) => base - v / 90 * (base - y0);
+    for (const at of [0, 30, 60, 90]) this.rule(Y(at), at);
+    const asked = this.task.asked_transmission_deg, limit = asked ?? USUAL_LIMIT;
+    this.svg.append(s("path", { class: "bm-usual", d: `M${LEFT} ${px(Y(limit))}H${this.width - RIGHT}` }));
+    this.line(inputs, values, Y, "bm-line");
+    return Y;
+  }
+  show(input, transmission) {
+    if (!this.cursor) return;
+    const { low, high } = this.generator.range, spare = SPARE * (high - low);
+    const within = input >= low - spare && input <= high + spare, { output } = this.generator.at(input);
+    this.cursor.setAttribute("visibility", within ? "visible" : "hidden");
+    this.cursor.setAttribute("transform", `translate(${px(this.X(input))} 0)`);
+    const wanted = this.generator.wantedAt(input);
+    const missed = wanted === null || output === null ? null : output - wanted;
+    const places = [output === null ? null : this.Yout(output), missed === null ? null : this.Yerr(missed), transmission === null ? null : this.Ytra(transmission)];
+    places.forEach((y, k) => {
+      this.marks[k].setAttribute("visibility", y === null || !within ? "hidden" : "inherit");
+      if (y !== null) this.marks[k].setAttribute("cy", px(y));
+    });
+  }
+};
+
+// src/burmester/web/widget/function_tables.mjs
+function generatorTable(data) {
+  const heads = [
+    "",
+    { name: "verdict", text: true },
+    { name: "type", text: true },
+    ...["ground", "input", "coupler", "output"].map((name) => `${name} link`),
+    "greatest error",
+    "of the range",
+    "rms error",
+    "least transm.",
+    { name: "why not", text: true }
+  ];
+  const rows = data.generators.map((each) => {
+    const { said } = each;
+    const values = [
+      each.id,
+      verdictOf(each),
+      each.type,
+      ...said.links.map(([, value]) => value),
+      said.max_error,
+      said.percent,
+      said.rms_error,
+      said.transmission,
+      each.defects.join("; ") || "–"
+    ];
+    return h("tr", {}, cells(values, [1, 2, 11], heads));
+  });
+  return table("All linkages, best first", heads, rows, { class: "bm-stacks" });
+}
+function pairTable(data, generator) {
+  const heads = ["pair", "input", "output wanted", "output made", "error"];
+  const rows = generator.pairs.map((pair, k) => h("tr", { "data-pair": k + 1 }, cells([String(k + 1), ...pair])));
+  return table(`Pairs of angles, and what ${generator.id} makes of them`, heads, rows, { class: "bm-pair-table" });
+}
+function generatorFacts(generator) {
+  const rows = [...generator.said.links, ...generator.said.placed, ...generator.said.figures];
+  return h("dl", { class: "bm-facts" }, rows.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value))));
+}
+
 // src/burmester/web/widget/kinematics.mjs
 function act(place, [x, y]) {
   const c = Math.cos(place.a), d = Math.sin(place.a);
@@ -267,8 +571,8 @@ function constraint(dyad, place) {
   let nx, ny, residual;
   if (dyad.kind === "RR") {
     const ax = x - dyad.fixed_pivot[0], ay = y - dyad.fixed_pivot[1];
-    const size = Math.hypot(ax, ay) || 1;
-    [nx, ny, residual] = [ax / size, ay / size, size - dyad.radius];
+    const size2 = Math.hypot(ax, ay) || 1;
+    [nx, ny, residual] = [ax / size2, ay / size2, size2 - dyad.radius];
   } else {
     [nx, ny] = normalOf(dyad);
     residual = nx * x + ny * y - dyad.line.offset;
@@ -335,6 +639,318 @@ function frameAt(values, wanted) {
   const step = values[high] - values[low];
   return low + (step > 0 ? (wanted - values[low]) / step : 0);
 }
+
+// src/burmester/web/widget/player.mjs
+var TURN_SECONDS = 7;
+var LEAST_STRETCH = 1e-6;
+var NAME_ROWS = 5;
+var NUMBER_ROWS = 2;
+var MANY_POSES = 100;
+var ROW = 13;
+var LONGEST_TICK = 18;
+var STEPS = 360;
+var Player = class {
+  static STOP = "pose";
+  // what a place to stop at is called
+  constructor(data, show, rebuild) {
+    this.data = data;
+    this.draw = { show, rebuild };
+    this.linkage = null;
+    this.way = 0;
+    this.u = 0;
+    this.heading = 1;
+    this.whole = false;
+    this.stretch = { low: 0, high: 1 };
+    this.playing = false;
+    this.remaining = null;
+    this.element = this.controls();
+  }
+  /** The way as frames; undefined where the linkage has none. */
+  get path() {
+    return this.linkage?.ways[this.way];
+  }
+  controls() {
+    const stop = this.constructor.STOP, title = stop[0].toUpperCase() + stop.slice(1);
+    const button = (name, text, label, onclick) => h("button", { type: "button", class: `bm-button ${name}`, "aria-label": label, title: label, onclick }, text);
+    this.button = button("bm-play", "", "Play", () => this.play(!this.playing));
+    this.slider = h("input", { type: "range", class: "bm-slider", min: 0, step: "any", "aria-label": "Driver", oninput: () => this.go(Number(this.slider.value)) });
+    this.box = h("input", { type: "checkbox", onchange: () => this.playWhole(this.box.checked) });
+    this.boxName = h("span", {}, "Whole branch");
+    this.stops = s("svg", { class: "bm-stops", "aria-hidden": "true" });
+    this.parts = ["", "", "", ""].map((text) => h("span", {}, text));
+    this.readout = h("output", { class: "bm-now" }, this.parts.flatMap((part, k) => k ? [" ", part] : [part]));
+    this.slider.addEventListener("keydown", (event) => {
+      const step = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 }[event.key];
+      if (!step) return;
+      event.preventDefault();
+      this.step(event.shiftKey ? 10 * step : step);
+    });
+    return h(
+      "div",
+      { class: "bm-controls" },
+      h("div", { class: "bm-track" }, this.slider, this.stops),
+      h(
+        "div",
+        { class: "bm-row" },
+        this.button,
+        button("bm-back", `◀ ${title}`, `Previous ${stop}`, () => this.toPose(-1)),
+        button("bm-next", `${title} ▶`, `Next ${stop}`, () => this.toPose(1)),
+        h("label", { class: "bm-whole", title: `Play all that the driver reaches, not only from the first ${stop} to the last` }, this.box, this.boxName)
+      ),
+      this.readout
+    );
+  }
+  /** Another linkage, on the way with most poses, at the first of them. */
+  load(linkage) {
+    this.linkage = linkage;
+    const counts = linkage.ways.map((way) => way.poses.length);
+    this.take(Math.max(0, counts.indexOf(Math.max(...counts))));
+  }
+  /** Another way, at its first pose. */
+  take(index) {
+    this.way = index;
+    this.u = this.firstStop();
+    this.draw.rebuild();
+  }
+  /** Poses on this way, in their order: the rows of their errors, with k, the pose's index. */
+  get stopsOnWay() {
+    return this.linkage.pose_errors.map((row, k) => ({ ...row, k })).filter((row) => row.way === this.way);
+  }
+  firstStop() {
+    return this.stopsOnWay[0]?.frame ?? 0;
+  }
+  /** The slider and what it runs over, for the way as it is now. */
+  rebuild() {
+    const { path, slider } = this;
+    if (!path) this.play(false);
+    for (const each of [slider, this.button]) give(each, "disabled", !path);
+    const last = path ? path.x.length - 1 : 1;
+    const frames = path ? this.stopsOnWay.map((row) => row.frame) : [];
+    const [low, high] = [frames.reduce((a, b) => Math.min(a, b), last), frames.reduce((a, b) => Math.max(a, b), 0)];
+    const apart = high - low > LEAST_STRETCH;
+    this.stretch = apart && !this.whole ? { low, high } : { low: 0, high: last };
+    give(this.box, "disabled", !apart);
+    say(this.boxName, path?.round ? "Whole turn" : "Whole branch");
+    this.heading = 1;
+    this.u = clamp(this.u, this.stretch.low, this.stretch.high);
+  }
+  /** Play all of a way, or only from its first pose to its last; so it stays for other linkages. */
+  playWhole(on) {
+    this.whole = on;
+    this.draw.rebuild();
+  }
+  /** Marks under the slider where the poses are, with as many of their names as there is room for. */
+  drawStops() {
+    const { stops, path } = this, { low, high } = this.stretch;
+    stops.replaceChildren();
+    if (!path) return;
+    const width = Math.max(60, this.slider.clientWidth), inset = 9;
+    const X = (u) => inset + (u - low) / (high - low) * (width - 2 * inset);
+    const known = this.stopsOnWay.filter((row) => this.data.poses[row.k]);
+    const rows = known.sort((a, b) => a.frame - b.frame).map((row) => ({ ...row, x: X(row.frame), pose: this.data.poses[row.k] }));
+    const named = laidOut(rows.map(({ x, pose }) => ({ x, text: shortened(poseName(pose), LONGEST_TICK) })), width, NAME_ROWS);
+    const texts = named.every(({ at }) => at >= 0) ? named : laidOut(rows.map(({ x, pose }) => ({ x, text: pose.label })), width, rows.length > MANY_POSES ? 1 : NUMBER_ROWS);
+    const deepest = Math.max(0, ...texts.map(({ at }) => at));
+    const one = (k, pose, ...parts) => s("g", { "data-pose": k + 1 }, s("title", {}, `pose ${poseName(pose)}`), ...parts);
+    rows.forEach(({ k, x, pose }, i) => stops.append(one(k, pose, s("path", { d: `M${px(x)} 0V${4 + ROW * Math.max(0, texts[i].at)}` }))));
+    rows.forEach(({ k, pose }, i) => {
+      const { at, middle, text } = texts[i];
+      if (at >= 0) stops.append(one(k, pose, s("text", { x: px(middle), y: 14 + ROW * at, "text-anchor": "middle" }, text)));
+    });
+    put(stops, "viewBox", `0 0 ${width} ${16 + ROW * deepest}`);
+    put(stops, "height", 16 + ROW * deepest);
+  }
+  play(on) {
+    if (on && !this.path) return;
+    this.remaining = null;
+    if (on === this.playing && this.isDressed) return;
+    this.isDressed = true;
+    this.playing = on;
+    put(this.readout, "aria-live", on ? "off" : "polite");
+    this.button.replaceChildren(icon(on), on ? "Pause" : "Play");
+    put(this.button, "aria-label", on ? "Pause" : "Play");
+    this.button.title = on ? "Pause (space)" : "Play (space)";
+    cancelAnimationFrame(this.tick);
+    if (!on) return;
+    let before = null;
+    const run = (now) => {
+      if (!this.playing) return;
+      if (before !== null) this.advance(Math.min(0.1, (now - before) / 1e3));
+      before = now;
+      if (this.playing) this.tick = requestAnimationFrame(run);
+    };
+    this.tick = requestAnimationFrame(run);
+  }
+  /** Play once there and back, or once round; then rest until someone asks. */
+  playOnce() {
+    if (!this.path) return;
+    const { low, high } = this.stretch;
+    this.play(true);
+    this.remaining = (this.goesRound ? 1 : 2) * (high - low);
+  }
+  /** Whether what is played ends where it begins. */
+  get goesRound() {
+    return this.path.round && this.stretch.high - this.stretch.low > this.path.x.length - 1 - LEAST_STRETCH;
+  }
+  advance(seconds) {
+    const { low, high } = this.stretch;
+    const step = seconds * (high - low) / (this.goesRound ? TURN_SECONDS : TURN_SECONDS / 2);
+    if (this.remaining !== null) {
+      this.remaining -= step;
+      if (this.remaining <= 0) {
+        this.play(false);
+        this.u = this.firstStop();
+        this.show();
+        return;
+      }
+    }
+    this.u += this.heading * step;
+    if (this.goesRound) this.u = around(this.u, high);
+    else if (this.u >= high || this.u <= low) {
+      this.heading = this.u >= high ? -1 : 1;
+      this.u = clamp(this.u, low, high);
+    }
+    this.show();
+  }
+  step(steps) {
+    if (!this.path) return;
+    const { low, high } = this.stretch;
+    const u = this.u + steps * Math.max(1e-3, (high - low) / STEPS);
+    this.go(this.goesRound ? around(u, high) : u);
+  }
+  go(u) {
+    if (!this.path) return;
+    this.play(false);
+    this.u = clamp(u, this.stretch.low, this.stretch.high);
+    this.show();
+  }
+  /** The next pose (sense 1) or the one before (-1) that the linkage reaches, on whichever way. */
+  toPose(sense) {
+    const all = this.linkage.pose_errors.map((row, k) => ({ ...row, k })).filter((row) => row.way !== null);
+    if (!all.length) return;
+    const here = this.atPose ?? (sense > 0 ? -1 : this.data.poses.length);
+    const next = sense > 0 ? all.find((row) => row.k > here) ?? all[0] : [...all].reverse().find((row) => row.k < here) ?? all[all.length - 1];
+    this.play(false);
+    if (next.way !== this.way) {
+      this.way = next.way;
+      this.u = next.frame;
+      this.draw.rebuild();
+    }
+    this.go(next.frame);
+    this.atPose = next.k;
+  }
+  /** The pose nearest to a place, the angle weighed as the errors weigh it. */
+  nearest(place) {
+    let near2 = 0, least = Infinity;
+    this.data.poses.forEach((pose, k) => {
+      const turn = place.a - radians(pose.angle_deg);
+      const away = Math.hypot(place.x - pose.x, place.y - pose.y, this.data.chart.length * (turn - 2 * Math.PI * Math.round(turn / (2 * Math.PI))));
+      if (away < least) [near2, least] = [k, away];
+    });
+    return near2;
+  }
+  /** Draw where it is; told: also with the slider and in words, which may lag behind a hand. */
+  show(told = true) {
+    const { path, linkage, data } = this;
+    if (!path) {
+      for (const part of this.parts) part.textContent = "";
+      return;
+    }
+    const place = placeAt(linkage, path, this.u, data.chart.length);
+    const drive = linear(path.drive, this.u), transmission = linear(path.transmission, this.u);
+    const near2 = this.atPose = this.nearest(place);
+    if (told) {
+      give(this.slider, "min", this.stretch.low);
+      give(this.slider, "max", this.stretch.high);
+      give(this.slider, "value", this.u);
+      this.tell(place, drive, transmission, near2);
+    }
+    this.draw.show(place, drive, transmission, near2);
+  }
+  /** The readout: driver, body, transmission angle, and the nearest pose. */
+  tell(place, drive, transmission, near2) {
+    const { data, linkage } = this;
+    const unit2 = data.unit ? ` ${data.unit}` : "", digits = decimalsOf(data);
+    const driver = linkage.led[0].kind === "PR" ? `${fixed(drive, digits)}${unit2}` : `${fixed(drive, 1)}°`;
+    const pose = data.poses[near2], row = linkage.pose_errors[near2];
+    const at = row?.at === this.path && Math.abs(row.frame - this.u) < 1e-6;
+    const away = () => `${figure(Math.hypot(place.x - pose.x, place.y - pose.y))}${unit2} from pose ${poseName(pose)}`;
+    const missed = () => `at pose ${poseName(pose)}, ${row.said.position === "exact" ? "" : "off by "}${missOf(row.said.position, row.said.turned, unit2)}`;
+    const said = !pose ? "between the poses" : at ? missed() : away();
+    const texts = [
+      `driver ${driver}`,
+      `body (${fixed(place.x, digits)}, ${fixed(place.y, digits)})${unit2}, ${fixed(((degrees(place.a) + 180) % 360 + 360) % 360 - 180, 2)}°`,
+      `transmission ${transmission === null ? "–" : `${fixed(transmission, 1)}°`}`,
+      said
+    ];
+    texts.forEach((text, k) => {
+      const whole = k + 1 < texts.length ? `${text} ·` : text;
+      if (this.parts[k].textContent !== whole) this.parts[k].textContent = whole;
+    });
+    put(this.slider, "aria-valuetext", `driver ${driver}, ${texts[3]}`);
+  }
+};
+function laidOut(texts, width, count) {
+  const ends = Array(count).fill(-99);
+  return texts.map(({ x, text }) => {
+    const size2 = 6.4 * text.length, left = clamp(x - size2 / 2, 0, Math.max(0, width - size2));
+    const at = ends.findIndex((end) => left > end + 4);
+    if (at >= 0) ends[at] = left + size2;
+    return { text, at, middle: left + size2 / 2 };
+  });
+}
+var around = (u, turn) => (u % turn + turn) % turn;
+function icon(pause) {
+  return s(
+    "svg",
+    { width: 12, height: 12, viewBox: "0 0 12 12", "aria-hidden": "true" },
+    s("path", { d: pause ? "M1 0h3.5v12H1zM7.5 0H11v12H7.5z" : "M1 0l11 6l-11 6z" })
+  );
+}
+
+// src/burmester/web/widget/generator_player.mjs
+var near = (angle, other) => angle - 360 * Math.round((angle - other) / 360);
+var GeneratorPlayer = class extends Player {
+  static STOP = "place";
+  constructor(data, show, rebuild, generator) {
+    super(data, show, rebuild);
+    this.generator = generator;
+  }
+  /** The input at a drive, in degrees. */
+  inputOf(drive) {
+    const { low, high } = this.generator.range;
+    return near(drive - this.generator.input_phase, (low + high) / 2);
+  }
+  /** The drive at an input that is played. */
+  driveOf(input) {
+    const low = linear(this.path.drive, this.stretch.low);
+    return low + input - this.inputOf(low);
+  }
+  /** The input where the linkage is; at a stop exactly its own. */
+  inputAt(drive) {
+    const stop = this.linkage.pose_errors.findIndex((row) => row.at === this.path && Math.abs(row.frame - this.u) < 1e-6);
+    return stop < 0 ? this.inputOf(drive) : this.data.poses[stop].input_deg;
+  }
+  tell(place, drive, transmission, stop) {
+    const { generator } = this, input = this.inputAt(drive);
+    const wanted = generator.wantedAt(input), { output } = generator.at(input);
+    const pose = this.data.poses[stop], row = this.linkage.pose_errors[stop];
+    const here = row?.at === this.path && Math.abs(row.frame - this.u) < 1e-6;
+    const texts = [
+      `input ${fixed(input, 2)}°`,
+      `output ${fixed(output, 3)}°${wanted === null || output === null ? "" : `, off by ${size(output - wanted)}`}`,
+      `transmission ${transmission === null ? "–" : `${fixed(transmission, 1)}°`}`,
+      here ? `at ${stopName(pose)}` : `near ${stopName(pose)}`
+    ];
+    texts.forEach((text, k) => {
+      const whole = k + 1 < texts.length ? `${text} ·` : text;
+      if (this.parts[k].textContent !== whole) this.parts[k].textContent = whole;
+    });
+    put(this.slider, "aria-valuetext", texts.slice(0, 2).join(", "));
+  }
+};
+var stopName = (pose) => /^\d+$/.test(pose.name) ? `pair ${poseName(pose)}` : poseName(pose);
+var size = (error) => Math.abs(error) < 1e-7 ? "0°" : `${figure(error)}°`;
 
 // src/burmester/web/widget/travel.mjs
 var LONGEST_STEP = 0.015;
@@ -467,6 +1083,497 @@ function hull(points) {
   return corners.length ? corners : sorted.slice(0, 1);
 }
 
+// src/burmester/web/widget/labels.mjs
+var Labels = class {
+  constructor(view) {
+    this.view = view;
+    this.taken = [];
+  }
+  block(x, y, width, height) {
+    this.taken.push([x - width / 2, y - height / 2, x + width / 2, y + height / 2]);
+  }
+  put(x, y, text, distance, attributes) {
+    const width = 7.2 * text.length + 4, height = 14;
+    let best = null;
+    for (let ring = 0; ring < 3; ring += 1) {
+      for (let k = 0; k < 16; k += 1) {
+        const angle = Math.PI / 8 * k + Math.PI / 4;
+        const away = distance + 9 * ring;
+        const cx = x + (away + width / 2 - 6) * Math.cos(angle);
+        const cy = y - away * Math.sin(angle);
+        const box = [cx - width / 2, cy - height / 2, cx + width / 2, cy + height / 2];
+        let cost = 0.02 * k + 6 * ring;
+        for (const other of this.taken) {
+          const across = Math.min(box[2], other[2]) - Math.max(box[0], other[0]);
+          const down = Math.min(box[3], other[3]) - Math.max(box[1], other[1]);
+          if (across > 0 && down > 0) cost += across * down;
+        }
+        if (box[0] < 2 || box[2] > this.view.width - 2) cost += 500;
+        if (box[1] < 2 || box[3] > this.view.height - 2) cost += 500;
+        if (!best || cost < best.cost) best = { cost, cx, cy, box };
+      }
+    }
+    this.taken.push(best.box);
+    return s(
+      "text",
+      { x: px(best.cx), y: px(best.cy + 4), "text-anchor": "middle", ...attributes },
+      text
+    );
+  }
+};
+
+// src/burmester/web/widget/outlines.mjs
+var HATCH = 9;
+var PALEST = 0.45;
+var LONGEST_NAME = 28;
+var LEAST_LINKAGE = 110;
+var MOST_PLACES = 400;
+var patterns = 0;
+var closed = (points, view, [x, y]) => `M${points.map((each) => `${px(x + view.scale * each[0])} ${px(y - view.scale * each[1])}`).join("L")}Z`;
+var bodyOutline = (data, view) => closed(data.body, view, [0, 0]);
+var placesAtPoses = (data, linkage) => data.poses.map((pose, k) => {
+  const row = linkage?.pose_errors[k], at = row && row.x !== null ? row : pose;
+  return { x: at.x, y: at.y, a: radians(at.angle_deg) };
+});
+function ghosts(data, linkage, view) {
+  const group = s("g", { class: "bm-ghosts" });
+  if (!data.body) return group;
+  const places = placesAtPoses(data, linkage), last = Math.max(1, places.length - 1);
+  places.forEach(({ x, y, a }, k) => {
+    const opacity = (PALEST + (1 - PALEST) * k / last).toFixed(3);
+    group.append(s("path", { class: "bm-ghost", d: bodyOutline(data, view), "data-pose": k + 1, opacity, transform: transform(view.X(x), view.Y(y), a) }));
+  });
+  return group;
+}
+function keepOut(data, view) {
+  const group = s("g", { class: "bm-keep-out" });
+  if (!data.keep_out.length) return group;
+  const id = `bm-hatch-${patterns += 1}`;
+  group.append(
+    s(
+      "defs",
+      {},
+      s(
+        "pattern",
+        { id, width: HATCH, height: HATCH, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" },
+        s("path", { class: "bm-hatch", d: `M0 0V${HATCH}` })
+      )
+    )
+  );
+  for (const region of data.keep_out) {
+    const d = closed(region.outline, view, [view.left, view.top]);
+    group.append(s("g", { class: "bm-region" }, s("title", {}, region.name || "keep out"), s("path", { class: "bm-region-plain", d }), s("path", { class: "bm-region-edge", d, fill: `url(#${id})` })));
+  }
+  return group;
+}
+function keepOutNames(data, view, labels) {
+  return data.keep_out.filter(({ name }) => name).map(({ name, at: [x, y] }) => {
+    const text = shortened(name, LONGEST_NAME);
+    labels.block(view.X(x), view.Y(y), 7.2 * text.length, 14);
+    return s("text", { class: "bm-region-name", x: px(view.X(x)), y: px(view.Y(y) + 4), "text-anchor": "middle" }, text);
+  });
+}
+function bodyCorners(data, linkage, places) {
+  if (!data.body) return [];
+  const some = places.filter((_, k) => k % Math.ceil(places.length / MOST_PLACES) === 0);
+  return [...placesAtPoses(data, linkage), ...some].flatMap((place) => data.body.map((corner) => act(place, corner)));
+}
+var sizeOf = ([x, y, u, v]) => Math.max(u - x, v - y);
+var including = (box, points) => points.reduce(([x, y, u, v], [a, b]) => [Math.min(x, a), Math.min(y, b), Math.max(u, a), Math.max(v, b)], box);
+function widened(box, data, linkage, places, width, all) {
+  const withBody = including(box, bodyCorners(data, linkage, places));
+  const whole = including(withBody, data.keep_out.flatMap((region) => region.outline));
+  const most = Math.max(2, width / LEAST_LINKAGE) * sizeOf(box);
+  if (all || !linkage || sizeOf(whole) <= most) return whole;
+  const inner = sizeOf(withBody) <= most ? withBody : box, reach = (most - sizeOf(inner)) / 2;
+  return whole.map((each, k) => k < 2 ? Math.max(each, inner[k] - reach) : Math.min(each, inner[k] + reach));
+}
+
+// src/burmester/web/widget/mechanism.mjs
+var BODY_AXIS = AXIS + 10;
+var LETTER = 14;
+var BLOCK_IN_SLOT = [18, 10];
+var SPARE2 = 5;
+var ARROW = 24;
+function mechanism(data, linkage, view, places) {
+  const drawn = new Mechanism(linkage);
+  drawn.shape(data, linkage, view, places);
+  return drawn;
+}
+var Mechanism = class {
+  constructor({ led }) {
+    this.kinds = kindsOf(led);
+    this.outline = s("path", { class: "bm-body-outline" });
+    this.links = s("g");
+    this.blocks = s("g");
+    this.pins = s("g");
+    this.coupler = s("g", { class: "bm-coupler" });
+    this.arrow = s("path", { class: "bm-drive-mark bm-side0" });
+    this.letter = s("text", { class: "bm-letter", "text-anchor": "middle" }, "M");
+    this.plates = [s("path", { class: "bm-plate-rim" }), s("path", { class: "bm-plate" })];
+    this.coupler.append(...this.plates);
+    this.parts = led.map((dyad, side) => new PARTS[dyad.kind](this, side));
+    this.coupler.append(s("path", { class: "bm-body-frame", d: axes(BODY_AXIS) }), s("circle", { class: "bm-origin", r: 4 }));
+    for (const part of this.parts) if (part.pin) this.coupler.append(part.pin);
+    this.group = s("g", { class: "bm-linkage" }, this.arrow, this.links, this.coupler, this.blocks, this.pins, this.letter);
+  }
+  /** Whether it can be given the dimensions of a linkage. */
+  fits({ led }) {
+    return kindsOf(led) === this.kinds;
+  }
+  /** The dimensions of a linkage in a picture; slots are as long as the places need. */
+  shape(data, linkage, view, places) {
+    this.view = view;
+    this.led = linkage.led;
+    this.hasBody = Boolean(data.body);
+    if (this.hasBody) {
+      put(this.outline, "d", bodyOutline(data, view));
+      if (!this.outline.parentNode) this.group.prepend(this.outline);
+    } else {
+      this.outline.remove();
+    }
+    const corners = [[0, 0]];
+    linkage.led.forEach((dyad, side) => {
+      if (dyad.moving_pivot) corners.push(inBody(dyad.moving_pivot, view));
+      const more = this.parts[side].shape(dyad, view, places);
+      if (more) corners.push(more);
+    });
+    const d = `M${hull(corners).map((corner) => corner.map(px).join(" ")).join("L")}Z`;
+    for (const plate of this.plates) put(plate, "d", d);
+    this.shapeArrow();
+  }
+  show(place) {
+    const { view } = this, at = transform(view.X(place.x), view.Y(place.y), place.a);
+    put(this.coupler, "transform", at);
+    if (this.hasBody) put(this.outline, "transform", at);
+    for (const part of this.parts) part.show(place);
+    const [x, y] = act(place, [LETTER / view.scale, -LETTER / view.scale]);
+    put(this.letter, "transform", `translate(${px(view.X(x))} ${px(view.Y(y) + 4)})`);
+    const [driver] = this.led;
+    if (driver.kind === "PR") put(this.arrow, "transform", `${onRail(driver, place, view)} translate(0 ${-ARROW})`);
+  }
+  /** A turning or sliding arrow at the driver, for eyes that tell no colours apart. */
+  shapeArrow() {
+    const { arrow, view } = this, [driver] = this.led;
+    if (driver.kind === "PR") put(arrow, "d", "M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6 5");
+    if (!driver.fixed_pivot) return;
+    const [x, y] = driver.fixed_pivot;
+    put(arrow, "d", "M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9");
+    put(arrow, "transform", `translate(${px(view.X(x))} ${px(view.Y(y))}) rotate(-90)`);
+  }
+};
+var kindsOf = (led) => led.map((dyad) => dyad.kind).join();
+var inBody = ([x, y], view) => [view.scale * x, -view.scale * y];
+function onRail(dyad, place, view) {
+  const [x, y] = act(place, dyad.moving_pivot), [nx, ny] = normalOf(dyad);
+  return transform(view.X(x), view.Y(y), Math.atan2(nx, -ny));
+}
+var block = (side, width, height) => s("g", { class: `bm-block bm-side${side}` }, s("rect", { x: -width / 2, y: -height / 2, width, height, rx: 2 }));
+function setPin(pin, [x, y], dyad) {
+  put(pin, "cx", px(x));
+  put(pin, "cy", px(y));
+  put(pin, "data-dyad", dyad.id);
+}
+var inGround = ([x, y], view) => [view.X(x), view.Y(y)];
+var Bar = class {
+  constructor({ links, pins }, side) {
+    this.strokes = [s("path", { class: "bm-bar" }), s("path", { class: "bm-core" })];
+    this.bar = s("g", { class: `bm-link bm-side${side}` }, this.strokes);
+    this.ground = s("circle", { class: "bm-pin bm-fixed-pin", r: 4.5 });
+    this.pin = s("circle", { class: "bm-pin", r: 4.5 });
+    links.append(this.bar);
+    pins.append(this.ground);
+  }
+  shape(dyad, view) {
+    this.dyad = dyad;
+    this.view = view;
+    for (const stroke of this.strokes) put(stroke, "d", `M0 0H${px(view.scale * dyad.radius)}`);
+    setPin(this.ground, inGround(dyad.fixed_pivot, view), dyad);
+    setPin(this.pin, inBody(dyad.moving_pivot, view), dyad);
+  }
+  show(place) {
+    const { dyad, view } = this, [cx, cy] = dyad.fixed_pivot, [x, y] = act(place, dyad.moving_pivot);
+    put(this.bar, "transform", transform(view.X(cx), view.Y(cy), Math.atan2(y - cy, x - cx)));
+  }
+};
+var BlockOnRail = class {
+  constructor({ blocks }, side) {
+    this.block = block(side, ...BLOCK);
+    this.pin = s("circle", { class: "bm-pin", r: 4.5 });
+    blocks.append(this.block);
+  }
+  shape(dyad, view) {
+    this.dyad = dyad;
+    this.view = view;
+    put(this.block, "data-dyad", dyad.id);
+    setPin(this.pin, inBody(dyad.moving_pivot, view), dyad);
+  }
+  show(place) {
+    put(this.block, "transform", onRail(this.dyad, place, this.view));
+  }
+};
+var Slot = class {
+  constructor({ blocks, pins, coupler }, side) {
+    this.strokes = ["rim", "plate", "edge"].map((name) => s("path", { class: `bm-slot-${name}` }));
+    this.strokes.push(s("path", { class: "bm-slot" }));
+    this.block = block(side, ...BLOCK_IN_SLOT);
+    this.ground = s("circle", { class: "bm-pin bm-fixed-pin", r: 4 });
+    coupler.append(...this.strokes);
+    blocks.append(this.block);
+    pins.append(this.ground);
+  }
+  /** Returns the middle of the slot, for the body's plate. */
+  shape(dyad, view, places) {
+    this.dyad = dyad;
+    this.view = view;
+    const [low, high] = places.length ? travelOf(dyad, places) : [0, 0], end = (BLOCK_IN_SLOT[0] / 2 + SPARE2) / view.scale;
+    const seen = (along) => inBody(pointOnLine(dyad, along), view);
+    const d = `M${[seen(low - end), seen(high + end)].map((each) => each.map(px).join(" ")).join("L")}`;
+    for (const stroke of this.strokes) put(stroke, "d", d);
+    for (const part of [this.strokes[3], this.block]) put(part, "data-dyad", dyad.id);
+    setPin(this.ground, inGround(dyad.fixed_pivot, view), dyad);
+    return seen((low + high) / 2);
+  }
+  show(place) {
+    const { dyad, view } = this, [nx, ny] = normalOf(dyad), [cx, cy] = dyad.fixed_pivot;
+    put(this.block, "transform", transform(view.X(cx), view.Y(cy), place.a + Math.atan2(nx, -ny)));
+  }
+};
+var Nothing = class {
+  shape() {
+  }
+  show() {
+  }
+};
+var PARTS = { RR: Bar, PR: BlockOnRail, RP: Slot, PP: Nothing };
+
+// src/burmester/web/widget/rail.mjs
+var LONGEST = 4e3;
+function railOf(dyad, places, view) {
+  const [nx, ny] = normalOf(dyad), [low, high] = travelOf(dyad, places);
+  const half = view.scale * (high - low) / 2 + BLOCK[0], edge = BLOCK[1] / 2 + 1;
+  const [x, y] = ((at) => [view.X(at[0]), view.Y(at[1])])(pointOnLine(dyad, (low + high) / 2));
+  const bodySide = places.reduce((sum, place) => sum + nx * place.x + ny * place.y - dyad.line.offset, 0);
+  const turned = Math.atan2(nx, -ny) + (bodySide > 0 ? Math.PI : 0);
+  const drawn = Math.min(half, LONGEST);
+  let hatch = "";
+  for (let k = -drawn + 4; k < drawn - 2; k += 8) hatch += `M${px(k + 4)} ${edge}l-6 7`;
+  return { x, y, half, drawn, turned, paths: [`M${px(-half)} ${edge}H${px(half)}${hatch}`, `M${px(-half)} ${-edge}H${px(half)}`] };
+}
+
+// src/burmester/web/widget/plane.mjs
+var FACTORS = [0, 1, 10, 100, 1e3, 1e4, 1e5];
+function factorFor(data, linkage) {
+  const worst = Math.max(0, ...linkage.pose_errors.map((row) => row.position ?? 0));
+  if (!(worst > 1e-9 * data.scene)) return 0;
+  const fits = FACTORS.filter((factor) => factor >= 1 && factor * worst < 0.3 * data.scene);
+  return fits.length ? fits[fits.length - 1] : 1;
+}
+var standing = (dyad, places) => dyad.fixed_pivot ?? (dyad.kind === "PR" && places.length ? pointOnLine(dyad, travelOf(dyad, places).reduce((a, b) => (a + b) / 2)) : null);
+function hasFarPivots(data, linkage, places) {
+  const isFar = farFrom(data);
+  return pivotsAt(linkage, places).some(({ at }) => isFar(at));
+}
+var Plane = class {
+  constructor(data, parent) {
+    this.data = data;
+    this.svg = s("svg", { class: "bm-plane", role: "img", tabindex: "0" });
+    this.parent = parent;
+    parent.append(this.svg);
+  }
+  /** Draw what stands still.
+   *
+   * stretch: the part of the way that is shown; factor: of the error arrows; fill: the height to
+   * fill, 0 for the picture's own; far: whether the picture is to hold pivots far from the poses.
+   */
+  build(linkage, way, stretch, { factor, fill, far }) {
+    const { data, svg } = this, path = linkage?.ways[way];
+    this.places = path ? placesOf(data, linkage, path, stretch) : [];
+    const bare = boundsOf(data, linkage, this.places, far);
+    const width = Math.max(260, this.parent.clientWidth);
+    const box = widened(bare, data, linkage, this.places, width, far);
+    this.cut = !far && widened(bare, data, linkage, this.places, width, true).some((each, k) => each !== box[k]);
+    const shape = (box[3] - box[1]) / (box[2] - box[0]);
+    const own = clamp(width * clamp(shape, 0.45, 1), 260, clamp(0.62 * window.innerHeight, 340, 680));
+    const height = Math.round(fill ? clamp(fill, own, 1.15 * width) : own);
+    const view = viewOf(box, width, height, width < 500 ? 34 : 42);
+    this.view = view;
+    this.linkage = linkage;
+    this.way = way;
+    svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    svg.setAttribute("height", height);
+    svg.dataset.scale = view.scale;
+    svg.dataset.left = view.left;
+    svg.dataset.top = view.top;
+    svg.replaceChildren();
+    svg.append(this.grid(), keepOut(data, view), ghosts(data, linkage, view));
+    if (linkage) svg.append(this.paths());
+    const labels = new Labels(view);
+    this.names = s("g", { class: "bm-names" }, keepOutNames(data, view, labels));
+    if (linkage) svg.append(this.ground(labels));
+    for (const pose of data.poses) {
+      const x = view.X(pose.x), y = view.Y(pose.y), angle = radians(pose.angle_deg);
+      const c = AXIS * Math.cos(angle), d = AXIS * Math.sin(angle);
+      labels.block(x, y, 12, 12);
+      for (const share of [0.35, 0.65, 1]) {
+        labels.block(x + share * c, y - share * d, 6, 6);
+        labels.block(x - 0.6 * share * d, y - 0.6 * share * c, 6, 6);
+      }
+    }
+    svg.append(this.poses(linkage, factor, labels));
+    this.moving = path ? mechanism(data, linkage, view, this.places) : null;
+    if (this.moving) svg.append(this.moving.group);
+    if (linkage && !far) this.farPivots(labels);
+    svg.append(this.names);
+  }
+  grid() {
+    const { view } = this, group = s("g", { class: "bm-grid", "aria-hidden": "true" });
+    const unit2 = this.data.unit ? ` ${this.data.unit}` : "";
+    const across = ticks(-view.left / view.scale, (view.width - view.left) / view.scale, view.width / 110);
+    const up = ticks((view.top - view.height) / view.scale, view.top / view.scale, view.height / 80);
+    for (const { at, text } of across) {
+      const x = px(view.X(at));
+      group.append(s("path", { d: `M${x} 0V${view.height}` }));
+      if (x > 46 && x < view.width - (unit2 ? 54 : 30)) {
+        group.append(s("text", { x, y: view.height - 6, "text-anchor": "middle" }, text));
+      }
+    }
+    for (const { at, text } of up) {
+      const y = px(view.Y(at));
+      group.append(s("path", { d: `M0 ${y}H${view.width}` }));
+      if (y > 26 && y < view.height - 24) group.append(s("text", { x: 6, y: y - 4 }, text));
+    }
+    group.append(
+      s("text", { x: 6, y: 14 }, `y${unit2}`),
+      s("text", { x: view.width - 6, y: view.height - 6, "text-anchor": "end" }, `x${unit2}`)
+    );
+    return group;
+  }
+  /** Paths of the body's origin and of its pivots: full along the stretch that is shown. */
+  paths() {
+    const { view, linkage, places } = this, group = s("g", { class: "bm-paths" });
+    linkage.ways.forEach((way, k) => {
+      const same = way.circuit === linkage.ways[this.way]?.circuit;
+      const kind = k === this.way ? "bm-beyond" : same ? "bm-same" : "bm-other";
+      const whole = placesOf(this.data, linkage, way, { low: 0, high: way.x.length - 1 });
+      const d2 = polyline(whole.map(({ x, y }) => [x, y]), view);
+      group.append(s("path", { class: `bm-curve ${kind}`, d: d2 }));
+    });
+    for (const [side, dyad] of linkage.led.entries()) {
+      if (!dyad.moving_pivot || dyad.kind === "PR") continue;
+      const d2 = polyline(places.map((place) => act(place, dyad.moving_pivot)), view);
+      group.append(s("path", { class: `bm-pivot-path bm-side${side}`, d: d2 }));
+    }
+    const d = polyline(places.map(({ x, y }) => [x, y]), view);
+    group.append(s("path", { class: "bm-curve bm-here", d }));
+    return group;
+  }
+  /** Feet of fixed pivots and rails of sliders, with the names of their dyads. */
+  ground(labels) {
+    const group = s("g", { class: "bm-grounds" });
+    this.linkage.led.forEach((dyad, side) => {
+      if (dyad.kind === "PR") this.rail(group, labels, dyad, side);
+      else if (dyad.fixed_pivot) this.fixedPivot(group, labels, dyad, side);
+    });
+    return group;
+  }
+  /** A rail as long as the travel of its block. */
+  rail(group, labels, dyad, side) {
+    if (!this.places.length) return;
+    const { x, y, drawn, turned, paths } = railOf(dyad, this.places, this.view), [nx, ny] = normalOf(dyad);
+    group.append(
+      s(
+        "g",
+        { class: `bm-rail bm-side${side}`, "data-dyad": dyad.id, transform: transform(x, y, turned) },
+        s("path", { class: "bm-ground", d: paths[0] }),
+        s("path", { class: "bm-ground bm-thin", d: paths[1] })
+      )
+    );
+    for (let k = -drawn; k <= drawn; k += 14) labels.block(x - k * ny, y - k * nx, 22, 22);
+    this.names.append(labels.put(x, y, dyad.id, 26, { class: `bm-name bm-side${side}` }));
+  }
+  fixedPivot(group, labels, dyad, side) {
+    const x = this.view.X(dyad.fixed_pivot[0]), y = this.view.Y(dyad.fixed_pivot[1]);
+    labels.block(x, y + 10, 32, 34);
+    if (!side) labels.block(x, y, 40, 40);
+    const at = foot();
+    at.setAttribute("transform", `translate(${px(x)} ${px(y)})`);
+    group.append(at);
+    this.names.append(labels.put(x, y + 4, dyad.id, 27, { class: `bm-name bm-side${side}` }));
+  }
+  /** At the edge of the picture, in their direction, the names of what stands too far away for it. */
+  farPivots(labels) {
+    const { data, view } = this, isFar = farFrom(data), digits = decimalsOf(data);
+    this.linkage.led.forEach((dyad, side) => {
+      const at = standing(dyad, this.places);
+      if (!at || !isFar(at)) return;
+      const [x, y] = [view.X(at[0]), view.Y(at[1])];
+      const cx = view.width / 2, cy = view.height / 2, size2 = Math.hypot(x - cx, y - cy);
+      const u = (x - cx) / size2, v = (y - cy) / size2;
+      const reach = Math.min((cx - 12) / Math.abs(u), (cy - 12) / Math.abs(v));
+      const ex = cx + reach * u, ey = cy + reach * v;
+      const text = `${dyad.id}: ${dyad.fixed_pivot ? "fixed pivot" : "rail"} at (${at.map((each) => fixed(each, digits)).join(", ")})`;
+      labels.block(ex, ey, 20, 20);
+      this.names.append(
+        s("path", { class: `bm-far-mark bm-side${side}`, d: "M-9 -6L3 0L-9 6", transform: transform(ex, ey, Math.atan2(-v, u)) }),
+        labels.put(ex, ey, text, 14, { class: `bm-name bm-far-name bm-side${side}` })
+      );
+    });
+  }
+  /** Wanted poses, the places that the linkage takes instead, and the errors between them, enlarged. */
+  poses(linkage, factor, labels) {
+    const { data, view } = this, group = s("g", { class: "bm-poses" });
+    const small = data.poses.length > 24 ? 0.6 : 1;
+    const arrows = this.errors(linkage, factor, labels);
+    const names = s("g", { class: "bm-pose-names" });
+    data.poses.forEach((pose, k) => {
+      const x = view.X(pose.x), y = view.Y(pose.y);
+      group.append(
+        s(
+          "g",
+          { class: "bm-wanted", transform: transform(x, y, radians(pose.angle_deg)), "data-pose": k + 1 },
+          s("path", { d: axes(AXIS * small) }),
+          s("circle", { r: 4.5 * small })
+        )
+      );
+      if (data.poses.length <= 60) names.append(labels.put(x, y, pose.label, 13, {}));
+      const row = linkage?.pose_errors[k];
+      if (!row || row.x === null) return;
+      const elsewhere = row.way === this.way ? "" : " bm-elsewhere";
+      group.append(
+        s(
+          "g",
+          { class: `bm-achieved${elsewhere}`, transform: transform(view.X(row.x), view.Y(row.y), radians(row.angle_deg)) },
+          s("path", { d: axes(0.72 * AXIS * small) }),
+          s("circle", { r: 2.2 * small })
+        )
+      );
+    });
+    group.append(arrows, names);
+    return group;
+  }
+  errors(linkage, factor, labels) {
+    const { data, view } = this, arrows = s("g", { class: "bm-errors" });
+    if (!linkage || !factor) return arrows;
+    linkage.pose_errors.forEach((row, k) => {
+      if (row.x === null) return;
+      const pose = data.poses[k], x = view.X(pose.x), y = view.Y(pose.y);
+      const dx = factor * view.scale * (row.x - pose.x), dy = -factor * view.scale * (row.y - pose.y);
+      const size2 = Math.hypot(dx, dy);
+      if (size2 < 1.5) return;
+      const head = Math.min(7, 0.5 * size2), ux = dx / size2, uy = dy / size2;
+      const tip = `${px(x + dx)} ${px(y + dy)}`;
+      const barb = (sign) => `L${px(x + dx - head * (ux - sign * 0.5 * uy))} ${px(y + dy - head * (uy + sign * 0.5 * ux))}`;
+      arrows.append(s("path", { d: `M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}` }));
+      for (let share = 0; share <= 1; share += 0.2) labels.block(x + share * dx, y + share * dy, 8, 8);
+    });
+    return arrows;
+  }
+  show(place) {
+    this.moving?.show(place);
+  }
+};
+
 // src/burmester/web/widget/words.mjs
 function storyOf(linkage) {
   const { said } = linkage;
@@ -544,52 +1651,6 @@ var Assemblies = class {
   }
 };
 
-// src/burmester/web/widget/cards.mjs
-var Cards = class {
-  constructor(data, linkages, choose) {
-    const unit2 = data.unit ? ` ${data.unit}` : "";
-    this.cards = linkages.map((each, k) => card(each, unit2, () => choose(k)));
-    this.element = h(
-      "nav",
-      { class: "bm-list", "aria-label": "Linkages, best first" },
-      h("h2", {}, `${linkages.length} linkage${linkages.length === 1 ? "" : "s"}`),
-      h("div", { class: "bm-choices" }, this.cards)
-    );
-    this.element.addEventListener("keydown", (event) => {
-      const step = { ArrowDown: 1, ArrowRight: 1, ArrowUp: -1, ArrowLeft: -1 }[event.key];
-      const at = this.cards.indexOf(document.activeElement);
-      if (!step || at < 0) return;
-      event.preventDefault();
-      this.cards[clamp(at + step, 0, this.cards.length - 1)].focus();
-    });
-  }
-  mark(index) {
-    this.cards.forEach((each, k) => each.setAttribute("aria-pressed", String(k === index)));
-  }
-};
-function card(linkage, unit2, onclick) {
-  const { said } = linkage;
-  const fact = (name, value, kind = null) => [h("dt", { class: kind }, name), h("dd", { class: kind }, value)];
-  const links = said.links ? Object.values(said.links) : [];
-  return h(
-    "button",
-    { type: "button", class: `bm-choice ${linkage.usable ? "bm-good" : "bm-bad"}`, "aria-pressed": "false", "data-linkage": linkage.id, onclick },
-    h("span", { class: "bm-choice-head" }, h("b", {}, linkage.id), " ", h("span", { class: "bm-type" }, linkage.type)),
-    h("span", { class: "bm-verdict" }, verdictOf(linkage)),
-    h(
-      "dl",
-      {},
-      fact("worst miss", missOf(said.worst, said.angle, unit2).split(" and ").map((part, k) => [k ? ", " : "", h("span", { class: "bm-whole-word" }, part)])),
-      fact("transmission", said.transmission === "-" ? "–" : said.transmission === "0°" ? "down to 0°" : `${said.transmission} or more`),
-      said.quality.extent ? fact("extent, sensitivity", [h("span", { class: "bm-whole-word" }, said.quality.extent), ", ", h("span", { class: "bm-whole-word" }, said.quality.sensitivity)], "bm-detail") : null,
-      fact("driver", `${linkage.led[0].id}${said.turns_fully ? ", turns fully" : ""}`),
-      links.length ? fact("links", links.map((each, k) => [k ? " " : "", h("span", {}, each)]), "bm-detail bm-links") : fact("dyads", linkage.dyads.map((dyad) => `${dyad.id} (${dyad.kind})`).join(" · "), "bm-detail")
-    ),
-    said.freedom ? h("span", { class: "bm-quiet" }, said.freedom) : null,
-    said.reasons.length ? h("span", { class: "bm-reason" }, said.reasons.join("; ")) : null
-  );
-}
-
 // src/burmester/web/widget/family_pairs.mjs
 var CLASSES = 7;
 var OUTSIDE = 2;
@@ -602,7 +1663,7 @@ var FamilyPairs = class {
     this.columns = this.isCurve ? this.map.fixed.length : this.map.columns;
     this.rows = this.isCurve ? this.columns : this.map.rows;
     this.starts = [];
-    (this.map.loops ?? []).reduce((start, size) => (this.starts.push(start), start + size), 0);
+    (this.map.loops ?? []).reduce((start, size2) => (this.starts.push(start), start + size2), 0);
   }
   /** The letter of a loop, where there are several. */
   letter(loop) {
@@ -632,8 +1693,8 @@ var FamilyPairs = class {
   }
   /** The name of a place along the curve: its share of its loop, after the loop's letter. */
   placeName(k) {
-    const loop = this.starts.findLastIndex((start) => start <= k), size = this.map.loops[loop];
-    return `${this.letter(loop)}${((k - this.starts[loop] + 0.5) / size).toFixed(2)}`;
+    const loop = this.starts.findLastIndex((start) => start <= k), size2 = this.map.loops[loop];
+    return `${this.letter(loop)}${((k - this.starts[loop] + 0.5) / size2).toFixed(2)}`;
   }
   /** The cell of a fixed pivot in the plane of three poses. */
   cellOf(pivot) {
@@ -675,45 +1736,6 @@ function dyadOfThree(poses, pivot) {
   return { fixed: pivot, moving: [a[0] + arm[0], a[1] + arm[1]], length: Math.hypot(...arm) };
 }
 
-// src/burmester/web/widget/labels.mjs
-var Labels = class {
-  constructor(view) {
-    this.view = view;
-    this.taken = [];
-  }
-  block(x, y, width, height) {
-    this.taken.push([x - width / 2, y - height / 2, x + width / 2, y + height / 2]);
-  }
-  put(x, y, text, distance, attributes) {
-    const width = 7.2 * text.length + 4, height = 14;
-    let best = null;
-    for (let ring = 0; ring < 3; ring += 1) {
-      for (let k = 0; k < 16; k += 1) {
-        const angle = Math.PI / 8 * k + Math.PI / 4;
-        const away = distance + 9 * ring;
-        const cx = x + (away + width / 2 - 6) * Math.cos(angle);
-        const cy = y - away * Math.sin(angle);
-        const box = [cx - width / 2, cy - height / 2, cx + width / 2, cy + height / 2];
-        let cost = 0.02 * k + 6 * ring;
-        for (const other of this.taken) {
-          const across = Math.min(box[2], other[2]) - Math.max(box[0], other[0]);
-          const down = Math.min(box[3], other[3]) - Math.max(box[1], other[1]);
-          if (across > 0 && down > 0) cost += across * down;
-        }
-        if (box[0] < 2 || box[2] > this.view.width - 2) cost += 500;
-        if (box[1] < 2 || box[3] > this.view.height - 2) cost += 500;
-        if (!best || cost < best.cost) best = { cost, cx, cy, box };
-      }
-    }
-    this.taken.push(best.box);
-    return s(
-      "text",
-      { x: px(best.cx), y: px(best.cy + 4), "text-anchor": "middle", ...attributes },
-      text
-    );
-  }
-};
-
 // src/burmester/web/widget/partner_curve.mjs
 var PartnerCurve = class {
   constructor(data, pairs) {
@@ -730,8 +1752,8 @@ var PartnerCurve = class {
     const best = map.fixed.map((_, i) => pairs.bestPartner(i));
     const poses = data.poses.map((pose) => [pose.x, pose.y]);
     const middle = [0, 1].map((k) => (Math.min(...poses.map((p) => p[k])) + Math.max(...poses.map((p) => p[k]))) / 2);
-    const near = (p) => p.every((v, k) => Math.abs(v - middle[k]) < 3 * data.scene);
-    const held = [...poses, ...map.fixed.filter((p, i) => best[i].kind < OUTSIDE && near(p)), ...pairs.pinsOf(place)];
+    const near2 = (p) => p.every((v, k) => Math.abs(v - middle[k]) < 3 * data.scene);
+    const held = [...poses, ...map.fixed.filter((p, i) => best[i].kind < OUTSIDE && near2(p)), ...pairs.pinsOf(place)];
     const low = [0, 1].map((k) => Math.min(...held.map((p) => p[k]))), high = [0, 1].map((k) => Math.max(...held.map((p) => p[k])));
     const scale = Math.min(width / (high[0] - low[0] || data.scene), height / (high[1] - low[1] || data.scene)) * 0.8;
     this.pixel = (p) => [width / 2 + (p[0] - (low[0] + high[0]) / 2) * scale, height / 2 - (p[1] - (low[1] + high[1]) / 2) * scale];
@@ -740,9 +1762,9 @@ var PartnerCurve = class {
     const inside2 = ([x, y]) => x > 0 && y > 0 && x < width && y < height;
     const beyond = (p, q) => !inside2(p) && !inside2(q) && (p[0] - width / 2) * (q[0] - width / 2) + (p[1] - height / 2) * (q[1] - height / 2) < 0;
     pairs.starts.forEach((start, loop) => {
-      const size = map.loops[loop], at = (k) => this.pixel(map.fixed[start + (k + size) % size]);
+      const size2 = map.loops[loop], at = (k) => this.pixel(map.fixed[start + (k + size2) % size2]);
       const between = (p, q) => [(p[0] + q[0]) / 2, (p[1] + q[1]) / 2];
-      for (let k = 0; k < size; k += 1) {
+      for (let k = 0; k < size2; k += 1) {
         const piece = [between(at(k - 1), at(k)), at(k), between(at(k), at(k + 1))];
         if (beyond(at(k - 1), at(k)) || beyond(at(k), at(k + 1))) continue;
         const d = `M${piece.map((p) => p.map(px).join(" ")).join("L")}`;
@@ -750,7 +1772,7 @@ var PartnerCurve = class {
         curve.append(s("path", { d, stroke: `rgb(${colour(best[start + k]).join()})` }));
       }
       for (const share of SHARES) {
-        const [x, y] = at(Math.min(size - 1, Math.round(share * size)));
+        const [x, y] = at(Math.min(size2 - 1, Math.round(share * size2)));
         if (!inside2([x, y])) continue;
         marks.append(s("circle", { class: "bm-pairs-mark", cx: px(x), cy: px(y), r: 2.2 }));
         marks.append(labels.put(x, y, `${pairs.letter(loop)}${share}`, 12, {}));
@@ -892,10 +1914,10 @@ var FamilyMap = class {
     const { margin, across, down } = this.view, out = s("g", { class: "bm-pairs-axes" });
     const { pairs } = this, left = margin.left, foot2 = margin.top + down;
     pairs.starts.forEach((start, loop) => {
-      const size = this.map.loops[loop], letter = pairs.letter(loop);
-      const shares = size / this.columns * across < 150 ? [0, 0.5] : SHARES;
+      const size2 = this.map.loops[loop], letter = pairs.letter(loop);
+      const shares = size2 / this.columns * across < 150 ? [0, 0.5] : SHARES;
       for (const share of shares) {
-        const along = (start + share * size) / this.columns * across, text = `${letter}${share}`;
+        const along = (start + share * size2) / this.columns * across, text = `${letter}${share}`;
         out.append(
           s("path", { d: `M${px(left + along)} ${foot2}v4M${left} ${px(foot2 - along)}h-4` }),
           s("text", { x: px(left + along), y: foot2 + 17, "text-anchor": "middle" }, text),
@@ -1006,41 +2028,6 @@ var FamilyMap = class {
 var dot = ([x, y], name, r) => s("circle", { class: name, cx: px(x), cy: px(y), r });
 var capital = (text) => text[0].toUpperCase() + text.slice(1);
 
-// src/burmester/web/widget/header.mjs
-var OPEN = /^R(303|31)/;
-function header(data, good) {
-  const { outcome, warnings } = data, open = OPEN.test(outcome.code);
-  const [best, ...more] = good ? data.best : [];
-  const found = [`${outcome.message[0].toUpperCase()}${outcome.message.slice(1)}. `, h("span", { class: "bm-code" }, outcome.code)];
-  const said = (text) => text && data.best.some((sentence) => sentence.slice(1).startsWith(text.slice(1)));
-  const told = [notes({ why: said(outcome.why) ? null : outcome.why, help: said(outcome.help) ? null : outcome.help }), warnings.length ? h("ul", { class: "bm-warnings", "aria-label": "Warnings" }, warnings.map(warning)) : null];
-  const count = warnings.length ? `, and ${warnings.length} warning${warnings.length === 1 ? "" : "s"}` : "";
-  return h(
-    "header",
-    { class: "bm-head" },
-    h("p", { class: "bm-overline" }, "burmester · linkage report"),
-    data.title ? h("h1", {}, data.title) : null,
-    h(
-      "p",
-      { class: `bm-outcome ${good ? "bm-good" : open ? "bm-open" : "bm-bad"}` },
-      h("span", { class: "bm-sign", "aria-hidden": "true" }, good ? "✓" : open ? "i" : "✕"),
-      h("span", {}, best ?? found)
-    ),
-    (best ? more : data.best).map((sentence) => h("p", { class: "bm-best" }, sentence)),
-    best ? h("details", { class: "bm-about" }, h("summary", {}, `How it was found${count}`), h("p", { class: "bm-found" }, found), told) : told
-  );
-}
-var warning = (each) => h(
-  "li",
-  {},
-  h("p", {}, h("b", {}, "! Warning "), h("span", { class: "bm-code" }, each.code), ` ${each.message}.`),
-  notes(each)
-);
-var notes = ({ why, help }) => [
-  why ? h("p", { class: "bm-why" }, h("b", {}, "Why: "), why, ".") : null,
-  help ? h("p", { class: "bm-why" }, h("b", {}, "What helps: "), help, ".") : null
-];
-
 // src/burmester/web/widget/vectors.mjs
 var dot2 = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 var scaled = (a, k) => [a[0] * k, a[1] * k, a[2] * k];
@@ -1063,9 +2050,9 @@ function intersections(c, o, d) {
 // src/burmester/web/widget/ray_casting.mjs
 var WIDTH = 440;
 var TURNING_SHARE = 0.35;
-function drawStill(canvas, scene, size, turning) {
-  const share = turning ? TURNING_SHARE : Math.min(1, WIDTH / size.width);
-  const width = Math.round(size.width * share), height = Math.round(size.height * share);
+function drawStill(canvas, scene, size2, turning) {
+  const share = turning ? TURNING_SHARE : Math.min(1, WIDTH / size2.width);
+  const width = Math.round(size2.width * share), height = Math.round(size2.height * share);
   canvas.width = width;
   canvas.height = height;
   if (!scene.quadrics.length) return;
@@ -1084,10 +2071,10 @@ function cast(image, { eye, ahead, right, up, reach, quadrics, paint, angles }) 
       let dx = ahead[0] + u * right[0] + v * up[0];
       let dy = ahead[1] + u * right[1] + v * up[1];
       let dz = ahead[2] + u * right[2] + v * up[2];
-      const size = 1 / Math.sqrt(dx * dx + dy * dy + dz * dz);
-      dx *= size;
-      dy *= size;
-      dz *= size;
+      const size2 = 1 / Math.sqrt(dx * dx + dy * dy + dz * dz);
+      dx *= size2;
+      dy *= size2;
+      dz *= size2;
       const x1 = (-1 - ex) / dx, x2 = (1 - ex) / dx, y1 = (-1 - ey) / dy, y2 = (1 - ey) / dy;
       const z1 = (-1 - ez) / dz, z2 = (1 - ez) / dz;
       const enter = Math.max(Math.min(x1, x2), Math.min(y1, y2), Math.min(z1, z2));
@@ -1275,7 +2262,7 @@ var Shader = class _Shader {
     gl.vertexAttribPointer(corner, 2, gl.FLOAT, false, 0, 0);
     this.places = Object.fromEntries(UNIFORMS.map((name) => [name, gl.getUniformLocation(program, name)]));
   }
-  draw(scene, size, turning) {
+  draw(scene, size2, turning) {
     const { gl, places } = this;
     gl.clearColor(0, 0, 0, 0);
     if (!scene.quadrics.length) {
@@ -1287,26 +2274,26 @@ var Shader = class _Shader {
     for (const name of ["eye", "right", "up", "ahead"]) gl.uniform3fv(places[name], scene[name]);
     gl.uniform2fv(places.reach, scene.reach);
     gl.uniform4fv(places.angles, scene.angles);
-    this.pace ??= this.measure(size);
+    this.pace ??= this.measure(size2);
     const full = Math.min(2, window.devicePixelRatio || 1), most = turning ? TURNING_MILLISECONDS : STILL_MILLISECONDS;
     const ways = turning ? [[1, 1], [0.7, 1], [0.45, 1]] : [[full, 4], [1, 4], [full, 1], [1, 1], [0.7, 1]];
-    const fits = ways.find(([dense, samples]) => dense * dense * samples * this.pace * size.width * size.height < most);
-    this.once(size, ...fits ?? ways[ways.length - 1]);
+    const fits = ways.find(([dense, samples]) => dense * dense * samples * this.pace * size2.width * size2.height < most);
+    this.once(size2, ...fits ?? ways[ways.length - 1]);
   }
   /** Milliseconds a ray takes: where graphics are slow, the picture gets fewer of them. */
-  measure(size) {
+  measure(size2) {
     const { gl } = this;
-    this.once(size, 0.12, 1);
+    this.once(size2, 0.12, 1);
     gl.finish();
     const start = performance.now();
-    this.once(size, 0.3, 1);
+    this.once(size2, 0.3, 1);
     gl.finish();
-    return (performance.now() - start) / (0.09 * size.width * size.height);
+    return (performance.now() - start) / (0.09 * size2.width * size2.height);
   }
   /** One picture: pixels of the canvas per pixel of the page along a side, rays per pixel. */
-  once(size, dense, samples) {
+  once(size2, dense, samples) {
     const { gl, canvas, places } = this;
-    const width = Math.round(size.width * dense), height = Math.round(size.height * dense);
+    const width = Math.round(size2.width * dense), height = Math.round(size2.height * dense);
     if (canvas.width !== width || canvas.height !== height) {
       canvas.width = width;
       canvas.height = height;
@@ -1323,7 +2310,7 @@ var Shader = class _Shader {
 var FOCAL_LENGTH = 2.3;
 var EYE_DISTANCE = 4.6;
 var START = { around: -0.62, above: 0.38, zoom: 1 };
-var MANY_POSES = 40;
+var MANY_POSES2 = 40;
 var inside = (point) => point.every((value) => Math.abs(value) <= 1.0001);
 var ImageSpace = class {
   constructor(data, parent, webgl) {
@@ -1506,8 +2493,8 @@ var ImageSpace = class {
   axisNames(back2) {
     const name = (point, text) => {
       const [x, y] = this.project(point), [cx, cy] = [x - this.width / 2, y - this.height / 2];
-      const size = Math.hypot(cx, cy) || 1;
-      return s("text", { class: "bm-axis", x: px(x + 14 * cx / size), y: px(y + 14 * cy / size + 4), "text-anchor": "middle" }, text);
+      const size2 = Math.hypot(cx, cy) || 1;
+      return s("text", { class: "bm-axis", x: px(x + 14 * cx / size2), y: px(y + 14 * cy / size2 + 4), "text-anchor": "middle" }, text);
     };
     const base = this.turn.above >= 0 ? -1 : 1;
     return [name([0, -back2[1], base], "Z1"), name([-back2[0], 0, base], "Z2")];
@@ -1555,7 +2542,7 @@ var ImageSpace = class {
     for (const { point, k } of shown) {
       const [x, y] = this.project(point), hidden = this.sheetsBefore(point) > 0;
       svg.append(s("circle", { class: `bm-image-point${hidden ? " bm-hidden" : ""}`, cx: px(x), cy: px(y), r: 4 }));
-      if (shown.length <= MANY_POSES) svg.append(labels.put(x, y, data.poses[k].label, 12, { class: "bm-image-name" }));
+      if (shown.length <= MANY_POSES2) svg.append(labels.put(x, y, data.poses[k].label, 12, { class: "bm-image-name" }));
     }
   }
   /** No place of the body is known. */
@@ -1659,11 +2646,11 @@ var PivotMap = class {
     const { canvas } = this, map = this.data.pivot_map;
     const dense = Math.min(2, window.devicePixelRatio || 1);
     const style = getComputedStyle(this.parent);
-    const near = rgb(style.getPropertyValue("--bm-map-near"));
+    const near2 = rgb(style.getPropertyValue("--bm-map-near"));
     const far = rgb(style.getPropertyValue("--bm-map-far"));
     const w = Math.round(width * dense), t = Math.round(height * dense);
-    if (canvas.width === w && this.paintedIn === near.join()) return;
-    this.paintedIn = near.join();
+    if (canvas.width === w && this.paintedIn === near2.join()) return;
+    this.paintedIn = near2.join();
     canvas.width = w;
     canvas.height = t;
     const context = canvas.getContext("2d"), image = context.createImageData(w, t);
@@ -1679,7 +2666,7 @@ var PivotMap = class {
       const edge = k % w && band[k - 1] !== own || k >= w && band[k - w] !== own;
       const share = own < 0 ? 1 : own / Math.max(1, this.count - 1);
       const shade = edge ? 0.84 : 1;
-      for (let c = 0; c < 3; c += 1) image.data[4 * k + c] = shade * (near[c] + share * (far[c] - near[c]));
+      for (let c = 0; c < 3; c += 1) image.data[4 * k + c] = shade * (near2[c] + share * (far[c] - near2[c]));
       image.data[4 * k + 3] = 255;
     }
     context.putImageData(image, 0, 0);
@@ -1773,734 +2760,17 @@ var PivotMap = class {
   }
 };
 
-// src/burmester/web/widget/outlines.mjs
-var HATCH = 9;
-var PALEST = 0.45;
-var LONGEST_NAME = 28;
-var LEAST_LINKAGE = 110;
-var MOST_PLACES = 400;
-var patterns = 0;
-var closed = (points, view, [x, y]) => `M${points.map((each) => `${px(x + view.scale * each[0])} ${px(y - view.scale * each[1])}`).join("L")}Z`;
-var bodyOutline = (data, view) => closed(data.body, view, [0, 0]);
-var placesAtPoses = (data, linkage) => data.poses.map((pose, k) => {
-  const row = linkage?.pose_errors[k], at = row && row.x !== null ? row : pose;
-  return { x: at.x, y: at.y, a: radians(at.angle_deg) };
-});
-function ghosts(data, linkage, view) {
-  const group = s("g", { class: "bm-ghosts" });
-  if (!data.body) return group;
-  const places = placesAtPoses(data, linkage), last = Math.max(1, places.length - 1);
-  places.forEach(({ x, y, a }, k) => {
-    const opacity = (PALEST + (1 - PALEST) * k / last).toFixed(3);
-    group.append(s("path", { class: "bm-ghost", d: bodyOutline(data, view), "data-pose": k + 1, opacity, transform: transform(view.X(x), view.Y(y), a) }));
-  });
-  return group;
-}
-function keepOut(data, view) {
-  const group = s("g", { class: "bm-keep-out" });
-  if (!data.keep_out.length) return group;
-  const id = `bm-hatch-${patterns += 1}`;
-  group.append(
-    s(
-      "defs",
-      {},
-      s(
-        "pattern",
-        { id, width: HATCH, height: HATCH, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" },
-        s("path", { class: "bm-hatch", d: `M0 0V${HATCH}` })
-      )
-    )
-  );
-  for (const region of data.keep_out) {
-    const d = closed(region.outline, view, [view.left, view.top]);
-    group.append(s("g", { class: "bm-region" }, s("title", {}, region.name || "keep out"), s("path", { class: "bm-region-plain", d }), s("path", { class: "bm-region-edge", d, fill: `url(#${id})` })));
-  }
-  return group;
-}
-function keepOutNames(data, view, labels) {
-  return data.keep_out.filter(({ name }) => name).map(({ name, at: [x, y] }) => {
-    const text = shortened(name, LONGEST_NAME);
-    labels.block(view.X(x), view.Y(y), 7.2 * text.length, 14);
-    return s("text", { class: "bm-region-name", x: px(view.X(x)), y: px(view.Y(y) + 4), "text-anchor": "middle" }, text);
-  });
-}
-function bodyCorners(data, linkage, places) {
-  if (!data.body) return [];
-  const some = places.filter((_, k) => k % Math.ceil(places.length / MOST_PLACES) === 0);
-  return [...placesAtPoses(data, linkage), ...some].flatMap((place) => data.body.map((corner) => act(place, corner)));
-}
-var sizeOf = ([x, y, u, v]) => Math.max(u - x, v - y);
-var including = (box, points) => points.reduce(([x, y, u, v], [a, b]) => [Math.min(x, a), Math.min(y, b), Math.max(u, a), Math.max(v, b)], box);
-function widened(box, data, linkage, places, width, all) {
-  const withBody = including(box, bodyCorners(data, linkage, places));
-  const whole = including(withBody, data.keep_out.flatMap((region) => region.outline));
-  const most = Math.max(2, width / LEAST_LINKAGE) * sizeOf(box);
-  if (all || !linkage || sizeOf(whole) <= most) return whole;
-  const inner = sizeOf(withBody) <= most ? withBody : box, reach = (most - sizeOf(inner)) / 2;
-  return whole.map((each, k) => k < 2 ? Math.max(each, inner[k] - reach) : Math.min(each, inner[k] + reach));
-}
-
-// src/burmester/web/widget/mechanism.mjs
-var BODY_AXIS = AXIS + 10;
-var LETTER = 14;
-var BLOCK_IN_SLOT = [18, 10];
-var SPARE = 5;
-var ARROW = 24;
-function mechanism(data, linkage, view, places) {
-  const drawn = new Mechanism(linkage);
-  drawn.shape(data, linkage, view, places);
-  return drawn;
-}
-var Mechanism = class {
-  constructor({ led }) {
-    this.kinds = kindsOf(led);
-    this.outline = s("path", { class: "bm-body-outline" });
-    this.links = s("g");
-    this.blocks = s("g");
-    this.pins = s("g");
-    this.coupler = s("g", { class: "bm-coupler" });
-    this.arrow = s("path", { class: "bm-drive-mark bm-side0" });
-    this.letter = s("text", { class: "bm-letter", "text-anchor": "middle" }, "M");
-    this.plates = [s("path", { class: "bm-plate-rim" }), s("path", { class: "bm-plate" })];
-    this.coupler.append(...this.plates);
-    this.parts = led.map((dyad, side) => new PARTS[dyad.kind](this, side));
-    this.coupler.append(s("path", { class: "bm-body-frame", d: axes(BODY_AXIS) }), s("circle", { class: "bm-origin", r: 4 }));
-    for (const part of this.parts) if (part.pin) this.coupler.append(part.pin);
-    this.group = s("g", { class: "bm-linkage" }, this.arrow, this.links, this.coupler, this.blocks, this.pins, this.letter);
-  }
-  /** Whether it can be given the dimensions of a linkage. */
-  fits({ led }) {
-    return kindsOf(led) === this.kinds;
-  }
-  /** The dimensions of a linkage in a picture; slots are as long as the places need. */
-  shape(data, linkage, view, places) {
-    this.view = view;
-    this.led = linkage.led;
-    this.hasBody = Boolean(data.body);
-    if (this.hasBody) {
-      put(this.outline, "d", bodyOutline(data, view));
-      if (!this.outline.parentNode) this.group.prepend(this.outline);
-    } else {
-      this.outline.remove();
-    }
-    const corners = [[0, 0]];
-    linkage.led.forEach((dyad, side) => {
-      if (dyad.moving_pivot) corners.push(inBody(dyad.moving_pivot, view));
-      const more = this.parts[side].shape(dyad, view, places);
-      if (more) corners.push(more);
-    });
-    const d = `M${hull(corners).map((corner) => corner.map(px).join(" ")).join("L")}Z`;
-    for (const plate of this.plates) put(plate, "d", d);
-    this.shapeArrow();
-  }
-  show(place) {
-    const { view } = this, at = transform(view.X(place.x), view.Y(place.y), place.a);
-    put(this.coupler, "transform", at);
-    if (this.hasBody) put(this.outline, "transform", at);
-    for (const part of this.parts) part.show(place);
-    const [x, y] = act(place, [LETTER / view.scale, -LETTER / view.scale]);
-    put(this.letter, "transform", `translate(${px(view.X(x))} ${px(view.Y(y) + 4)})`);
-    const [driver] = this.led;
-    if (driver.kind === "PR") put(this.arrow, "transform", `${onRail(driver, place, view)} translate(0 ${-ARROW})`);
-  }
-  /** A turning or sliding arrow at the driver, for eyes that tell no colours apart. */
-  shapeArrow() {
-    const { arrow, view } = this, [driver] = this.led;
-    if (driver.kind === "PR") put(arrow, "d", "M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6 5");
-    if (!driver.fixed_pivot) return;
-    const [x, y] = driver.fixed_pivot;
-    put(arrow, "d", "M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9");
-    put(arrow, "transform", `translate(${px(view.X(x))} ${px(view.Y(y))}) rotate(-90)`);
-  }
-};
-var kindsOf = (led) => led.map((dyad) => dyad.kind).join();
-var inBody = ([x, y], view) => [view.scale * x, -view.scale * y];
-function onRail(dyad, place, view) {
-  const [x, y] = act(place, dyad.moving_pivot), [nx, ny] = normalOf(dyad);
-  return transform(view.X(x), view.Y(y), Math.atan2(nx, -ny));
-}
-var block = (side, width, height) => s("g", { class: `bm-block bm-side${side}` }, s("rect", { x: -width / 2, y: -height / 2, width, height, rx: 2 }));
-function setPin(pin, [x, y], dyad) {
-  put(pin, "cx", px(x));
-  put(pin, "cy", px(y));
-  put(pin, "data-dyad", dyad.id);
-}
-var inGround = ([x, y], view) => [view.X(x), view.Y(y)];
-var Bar = class {
-  constructor({ links, pins }, side) {
-    this.strokes = [s("path", { class: "bm-bar" }), s("path", { class: "bm-core" })];
-    this.bar = s("g", { class: `bm-link bm-side${side}` }, this.strokes);
-    this.ground = s("circle", { class: "bm-pin bm-fixed-pin", r: 4.5 });
-    this.pin = s("circle", { class: "bm-pin", r: 4.5 });
-    links.append(this.bar);
-    pins.append(this.ground);
-  }
-  shape(dyad, view) {
-    this.dyad = dyad;
-    this.view = view;
-    for (const stroke of this.strokes) put(stroke, "d", `M0 0H${px(view.scale * dyad.radius)}`);
-    setPin(this.ground, inGround(dyad.fixed_pivot, view), dyad);
-    setPin(this.pin, inBody(dyad.moving_pivot, view), dyad);
-  }
-  show(place) {
-    const { dyad, view } = this, [cx, cy] = dyad.fixed_pivot, [x, y] = act(place, dyad.moving_pivot);
-    put(this.bar, "transform", transform(view.X(cx), view.Y(cy), Math.atan2(y - cy, x - cx)));
-  }
-};
-var BlockOnRail = class {
-  constructor({ blocks }, side) {
-    this.block = block(side, ...BLOCK);
-    this.pin = s("circle", { class: "bm-pin", r: 4.5 });
-    blocks.append(this.block);
-  }
-  shape(dyad, view) {
-    this.dyad = dyad;
-    this.view = view;
-    put(this.block, "data-dyad", dyad.id);
-    setPin(this.pin, inBody(dyad.moving_pivot, view), dyad);
-  }
-  show(place) {
-    put(this.block, "transform", onRail(this.dyad, place, this.view));
-  }
-};
-var Slot = class {
-  constructor({ blocks, pins, coupler }, side) {
-    this.strokes = ["rim", "plate", "edge"].map((name) => s("path", { class: `bm-slot-${name}` }));
-    this.strokes.push(s("path", { class: "bm-slot" }));
-    this.block = block(side, ...BLOCK_IN_SLOT);
-    this.ground = s("circle", { class: "bm-pin bm-fixed-pin", r: 4 });
-    coupler.append(...this.strokes);
-    blocks.append(this.block);
-    pins.append(this.ground);
-  }
-  /** Returns the middle of the slot, for the body's plate. */
-  shape(dyad, view, places) {
-    this.dyad = dyad;
-    this.view = view;
-    const [low, high] = places.length ? travelOf(dyad, places) : [0, 0], end = (BLOCK_IN_SLOT[0] / 2 + SPARE) / view.scale;
-    const seen = (along) => inBody(pointOnLine(dyad, along), view);
-    const d = `M${[seen(low - end), seen(high + end)].map((each) => each.map(px).join(" ")).join("L")}`;
-    for (const stroke of this.strokes) put(stroke, "d", d);
-    for (const part of [this.strokes[3], this.block]) put(part, "data-dyad", dyad.id);
-    setPin(this.ground, inGround(dyad.fixed_pivot, view), dyad);
-    return seen((low + high) / 2);
-  }
-  show(place) {
-    const { dyad, view } = this, [nx, ny] = normalOf(dyad), [cx, cy] = dyad.fixed_pivot;
-    put(this.block, "transform", transform(view.X(cx), view.Y(cy), place.a + Math.atan2(nx, -ny)));
-  }
-};
-var Nothing = class {
-  shape() {
-  }
-  show() {
-  }
-};
-var PARTS = { RR: Bar, PR: BlockOnRail, RP: Slot, PP: Nothing };
-
-// src/burmester/web/widget/rail.mjs
-var LONGEST = 4e3;
-function railOf(dyad, places, view) {
-  const [nx, ny] = normalOf(dyad), [low, high] = travelOf(dyad, places);
-  const half = view.scale * (high - low) / 2 + BLOCK[0], edge = BLOCK[1] / 2 + 1;
-  const [x, y] = ((at) => [view.X(at[0]), view.Y(at[1])])(pointOnLine(dyad, (low + high) / 2));
-  const bodySide = places.reduce((sum, place) => sum + nx * place.x + ny * place.y - dyad.line.offset, 0);
-  const turned = Math.atan2(nx, -ny) + (bodySide > 0 ? Math.PI : 0);
-  const drawn = Math.min(half, LONGEST);
-  let hatch = "";
-  for (let k = -drawn + 4; k < drawn - 2; k += 8) hatch += `M${px(k + 4)} ${edge}l-6 7`;
-  return { x, y, half, drawn, turned, paths: [`M${px(-half)} ${edge}H${px(half)}${hatch}`, `M${px(-half)} ${-edge}H${px(half)}`] };
-}
-
-// src/burmester/web/widget/plane.mjs
-var FACTORS = [0, 1, 10, 100, 1e3, 1e4, 1e5];
-function factorFor(data, linkage) {
-  const worst = Math.max(0, ...linkage.pose_errors.map((row) => row.position ?? 0));
-  if (!(worst > 1e-9 * data.scene)) return 0;
-  const fits = FACTORS.filter((factor) => factor >= 1 && factor * worst < 0.3 * data.scene);
-  return fits.length ? fits[fits.length - 1] : 1;
-}
-var standing = (dyad, places) => dyad.fixed_pivot ?? (dyad.kind === "PR" && places.length ? pointOnLine(dyad, travelOf(dyad, places).reduce((a, b) => (a + b) / 2)) : null);
-function hasFarPivots(data, linkage, places) {
-  const isFar = farFrom(data);
-  return pivotsAt(linkage, places).some(({ at }) => isFar(at));
-}
-var Plane = class {
-  constructor(data, parent) {
-    this.data = data;
-    this.svg = s("svg", { class: "bm-plane", role: "img", tabindex: "0" });
-    this.parent = parent;
-    parent.append(this.svg);
-  }
-  /** Draw what stands still.
-   *
-   * stretch: the part of the way that is shown; factor: of the error arrows; fill: the height to
-   * fill, 0 for the picture's own; far: whether the picture is to hold pivots far from the poses.
-   */
-  build(linkage, way, stretch, { factor, fill, far }) {
-    const { data, svg } = this, path = linkage?.ways[way];
-    this.places = path ? placesOf(data, linkage, path, stretch) : [];
-    const bare = boundsOf(data, linkage, this.places, far);
-    const width = Math.max(260, this.parent.clientWidth);
-    const box = widened(bare, data, linkage, this.places, width, far);
-    this.cut = !far && widened(bare, data, linkage, this.places, width, true).some((each, k) => each !== box[k]);
-    const shape = (box[3] - box[1]) / (box[2] - box[0]);
-    const own = clamp(width * clamp(shape, 0.45, 1), 260, clamp(0.62 * window.innerHeight, 340, 680));
-    const height = Math.round(fill ? clamp(fill, own, 1.15 * width) : own);
-    const view = viewOf(box, width, height, width < 500 ? 34 : 42);
-    this.view = view;
-    this.linkage = linkage;
-    this.way = way;
-    svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    svg.setAttribute("height", height);
-    svg.dataset.scale = view.scale;
-    svg.dataset.left = view.left;
-    svg.dataset.top = view.top;
-    svg.replaceChildren();
-    svg.append(this.grid(), keepOut(data, view), ghosts(data, linkage, view));
-    if (linkage) svg.append(this.paths());
-    const labels = new Labels(view);
-    this.names = s("g", { class: "bm-names" }, keepOutNames(data, view, labels));
-    if (linkage) svg.append(this.ground(labels));
-    for (const pose of data.poses) {
-      const x = view.X(pose.x), y = view.Y(pose.y), angle = radians(pose.angle_deg);
-      const c = AXIS * Math.cos(angle), d = AXIS * Math.sin(angle);
-      labels.block(x, y, 12, 12);
-      for (const share of [0.35, 0.65, 1]) {
-        labels.block(x + share * c, y - share * d, 6, 6);
-        labels.block(x - 0.6 * share * d, y - 0.6 * share * c, 6, 6);
-      }
-    }
-    svg.append(this.poses(linkage, factor, labels));
-    this.moving = path ? mechanism(data, linkage, view, this.places) : null;
-    if (this.moving) svg.append(this.moving.group);
-    if (linkage && !far) this.farPivots(labels);
-    svg.append(this.names);
-  }
-  grid() {
-    const { view } = this, group = s("g", { class: "bm-grid", "aria-hidden": "true" });
-    const unit2 = this.data.unit ? ` ${this.data.unit}` : "";
-    const across = ticks(-view.left / view.scale, (view.width - view.left) / view.scale, view.width / 110);
-    const up = ticks((view.top - view.height) / view.scale, view.top / view.scale, view.height / 80);
-    for (const { at, text } of across) {
-      const x = px(view.X(at));
-      group.append(s("path", { d: `M${x} 0V${view.height}` }));
-      if (x > 46 && x < view.width - (unit2 ? 54 : 30)) {
-        group.append(s("text", { x, y: view.height - 6, "text-anchor": "middle" }, text));
-      }
-    }
-    for (const { at, text } of up) {
-      const y = px(view.Y(at));
-      group.append(s("path", { d: `M0 ${y}H${view.width}` }));
-      if (y > 26 && y < view.height - 24) group.append(s("text", { x: 6, y: y - 4 }, text));
-    }
-    group.append(
-      s("text", { x: 6, y: 14 }, `y${unit2}`),
-      s("text", { x: view.width - 6, y: view.height - 6, "text-anchor": "end" }, `x${unit2}`)
-    );
-    return group;
-  }
-  /** Paths of the body's origin and of its pivots: full along the stretch that is shown. */
-  paths() {
-    const { view, linkage, places } = this, group = s("g", { class: "bm-paths" });
-    linkage.ways.forEach((way, k) => {
-      const same = way.circuit === linkage.ways[this.way]?.circuit;
-      const kind = k === this.way ? "bm-beyond" : same ? "bm-same" : "bm-other";
-      const whole = placesOf(this.data, linkage, way, { low: 0, high: way.x.length - 1 });
-      const d2 = polyline(whole.map(({ x, y }) => [x, y]), view);
-      group.append(s("path", { class: `bm-curve ${kind}`, d: d2 }));
-    });
-    for (const [side, dyad] of linkage.led.entries()) {
-      if (!dyad.moving_pivot || dyad.kind === "PR") continue;
-      const d2 = polyline(places.map((place) => act(place, dyad.moving_pivot)), view);
-      group.append(s("path", { class: `bm-pivot-path bm-side${side}`, d: d2 }));
-    }
-    const d = polyline(places.map(({ x, y }) => [x, y]), view);
-    group.append(s("path", { class: "bm-curve bm-here", d }));
-    return group;
-  }
-  /** Feet of fixed pivots and rails of sliders, with the names of their dyads. */
-  ground(labels) {
-    const group = s("g", { class: "bm-grounds" });
-    this.linkage.led.forEach((dyad, side) => {
-      if (dyad.kind === "PR") this.rail(group, labels, dyad, side);
-      else if (dyad.fixed_pivot) this.fixedPivot(group, labels, dyad, side);
-    });
-    return group;
-  }
-  /** A rail as long as the travel of its block. */
-  rail(group, labels, dyad, side) {
-    if (!this.places.length) return;
-    const { x, y, drawn, turned, paths } = railOf(dyad, this.places, this.view), [nx, ny] = normalOf(dyad);
-    group.append(
-      s(
-        "g",
-        { class: `bm-rail bm-side${side}`, "data-dyad": dyad.id, transform: transform(x, y, turned) },
-        s("path", { class: "bm-ground", d: paths[0] }),
-        s("path", { class: "bm-ground bm-thin", d: paths[1] })
-      )
-    );
-    for (let k = -drawn; k <= drawn; k += 14) labels.block(x - k * ny, y - k * nx, 22, 22);
-    this.names.append(labels.put(x, y, dyad.id, 26, { class: `bm-name bm-side${side}` }));
-  }
-  fixedPivot(group, labels, dyad, side) {
-    const x = this.view.X(dyad.fixed_pivot[0]), y = this.view.Y(dyad.fixed_pivot[1]);
-    labels.block(x, y + 10, 32, 34);
-    if (!side) labels.block(x, y, 40, 40);
-    const at = foot();
-    at.setAttribute("transform", `translate(${px(x)} ${px(y)})`);
-    group.append(at);
-    this.names.append(labels.put(x, y + 4, dyad.id, 27, { class: `bm-name bm-side${side}` }));
-  }
-  /** At the edge of the picture, in their direction, the names of what stands too far away for it. */
-  farPivots(labels) {
-    const { data, view } = this, isFar = farFrom(data), digits = decimalsOf(data);
-    this.linkage.led.forEach((dyad, side) => {
-      const at = standing(dyad, this.places);
-      if (!at || !isFar(at)) return;
-      const [x, y] = [view.X(at[0]), view.Y(at[1])];
-      const cx = view.width / 2, cy = view.height / 2, size = Math.hypot(x - cx, y - cy);
-      const u = (x - cx) / size, v = (y - cy) / size;
-      const reach = Math.min((cx - 12) / Math.abs(u), (cy - 12) / Math.abs(v));
-      const ex = cx + reach * u, ey = cy + reach * v;
-      const text = `${dyad.id}: ${dyad.fixed_pivot ? "fixed pivot" : "rail"} at (${at.map((each) => fixed(each, digits)).join(", ")})`;
-      labels.block(ex, ey, 20, 20);
-      this.names.append(
-        s("path", { class: `bm-far-mark bm-side${side}`, d: "M-9 -6L3 0L-9 6", transform: transform(ex, ey, Math.atan2(-v, u)) }),
-        labels.put(ex, ey, text, 14, { class: `bm-name bm-far-name bm-side${side}` })
-      );
-    });
-  }
-  /** Wanted poses, the places that the linkage takes instead, and the errors between them, enlarged. */
-  poses(linkage, factor, labels) {
-    const { data, view } = this, group = s("g", { class: "bm-poses" });
-    const small = data.poses.length > 24 ? 0.6 : 1;
-    const arrows = this.errors(linkage, factor, labels);
-    const names = s("g", { class: "bm-pose-names" });
-    data.poses.forEach((pose, k) => {
-      const x = view.X(pose.x), y = view.Y(pose.y);
-      group.append(
-        s(
-          "g",
-          { class: "bm-wanted", transform: transform(x, y, radians(pose.angle_deg)), "data-pose": k + 1 },
-          s("path", { d: axes(AXIS * small) }),
-          s("circle", { r: 4.5 * small })
-        )
-      );
-      if (data.poses.length <= 60) names.append(labels.put(x, y, pose.label, 13, {}));
-      const row = linkage?.pose_errors[k];
-      if (!row || row.x === null) return;
-      const elsewhere = row.way === this.way ? "" : " bm-elsewhere";
-      group.append(
-        s(
-          "g",
-          { class: `bm-achieved${elsewhere}`, transform: transform(view.X(row.x), view.Y(row.y), radians(row.angle_deg)) },
-          s("path", { d: axes(0.72 * AXIS * small) }),
-          s("circle", { r: 2.2 * small })
-        )
-      );
-    });
-    group.append(arrows, names);
-    return group;
-  }
-  errors(linkage, factor, labels) {
-    const { data, view } = this, arrows = s("g", { class: "bm-errors" });
-    if (!linkage || !factor) return arrows;
-    linkage.pose_errors.forEach((row, k) => {
-      if (row.x === null) return;
-      const pose = data.poses[k], x = view.X(pose.x), y = view.Y(pose.y);
-      const dx = factor * view.scale * (row.x - pose.x), dy = -factor * view.scale * (row.y - pose.y);
-      const size = Math.hypot(dx, dy);
-      if (size < 1.5) return;
-      const head = Math.min(7, 0.5 * size), ux = dx / size, uy = dy / size;
-      const tip = `${px(x + dx)} ${px(y + dy)}`;
-      const barb = (sign) => `L${px(x + dx - head * (ux - sign * 0.5 * uy))} ${px(y + dy - head * (uy + sign * 0.5 * ux))}`;
-      arrows.append(s("path", { d: `M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}` }));
-      for (let share = 0; share <= 1; share += 0.2) labels.block(x + share * dx, y + share * dy, 8, 8);
-    });
-    return arrows;
-  }
-  show(place) {
-    this.moving?.show(place);
-  }
-};
-
-// src/burmester/web/widget/player.mjs
-var TURN_SECONDS = 7;
-var LEAST_STRETCH = 1e-6;
-var NAME_ROWS = 5;
-var NUMBER_ROWS = 2;
-var MANY_POSES2 = 100;
-var ROW = 13;
-var LONGEST_TICK = 18;
-var STEPS = 360;
-var Player = class {
-  constructor(data, show, rebuild) {
-    this.data = data;
-    this.draw = { show, rebuild };
-    this.linkage = null;
-    this.way = 0;
-    this.u = 0;
-    this.heading = 1;
-    this.whole = false;
-    this.stretch = { low: 0, high: 1 };
-    this.playing = false;
-    this.remaining = null;
-    this.element = this.controls();
-  }
-  /** The way as frames; undefined where the linkage has none. */
-  get path() {
-    return this.linkage?.ways[this.way];
-  }
-  controls() {
-    const button = (name, text, label, onclick) => h("button", { type: "button", class: `bm-button ${name}`, "aria-label": label, title: label, onclick }, text);
-    this.button = button("bm-play", "", "Play", () => this.play(!this.playing));
-    this.slider = h("input", { type: "range", class: "bm-slider", min: 0, step: "any", "aria-label": "Driver", oninput: () => this.go(Number(this.slider.value)) });
-    this.box = h("input", { type: "checkbox", onchange: () => this.playWhole(this.box.checked) });
-    this.boxName = h("span", {}, "Whole branch");
-    this.stops = s("svg", { class: "bm-stops", "aria-hidden": "true" });
-    this.parts = ["", "", "", ""].map((text) => h("span", {}, text));
-    this.readout = h("output", { class: "bm-now" }, this.parts.flatMap((part, k) => k ? [" ", part] : [part]));
-    this.slider.addEventListener("keydown", (event) => {
-      const step = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 }[event.key];
-      if (!step) return;
-      event.preventDefault();
-      this.step(event.shiftKey ? 10 * step : step);
-    });
-    return h(
-      "div",
-      { class: "bm-controls" },
-      h("div", { class: "bm-track" }, this.slider, this.stops),
-      h(
-        "div",
-        { class: "bm-row" },
-        this.button,
-        button("bm-back", "◀ Pose", "Previous pose", () => this.toPose(-1)),
-        button("bm-next", "Pose ▶", "Next pose", () => this.toPose(1)),
-        h("label", { class: "bm-whole", title: "Play all that the driver reaches, not only from the first pose to the last" }, this.box, this.boxName)
-      ),
-      this.readout
-    );
-  }
-  /** Another linkage, on the way with most poses, at the first of them. */
-  load(linkage) {
-    this.linkage = linkage;
-    const counts = linkage.ways.map((way) => way.poses.length);
-    this.take(Math.max(0, counts.indexOf(Math.max(...counts))));
-  }
-  /** Another way, at its first pose. */
-  take(index) {
-    this.way = index;
-    this.u = this.firstStop();
-    this.draw.rebuild();
-  }
-  /** Poses on this way, in their order: the rows of their errors, with k, the pose's index. */
-  get stopsOnWay() {
-    return this.linkage.pose_errors.map((row, k) => ({ ...row, k })).filter((row) => row.way === this.way);
-  }
-  firstStop() {
-    return this.stopsOnWay[0]?.frame ?? 0;
-  }
-  /** The slider and what it runs over, for the way as it is now. */
-  rebuild() {
-    const { path, slider } = this;
-    if (!path) this.play(false);
-    for (const each of [slider, this.button]) give(each, "disabled", !path);
-    const last = path ? path.x.length - 1 : 1;
-    const frames = path ? this.stopsOnWay.map((row) => row.frame) : [];
-    const [low, high] = [frames.reduce((a, b) => Math.min(a, b), last), frames.reduce((a, b) => Math.max(a, b), 0)];
-    const apart = high - low > LEAST_STRETCH;
-    this.stretch = apart && !this.whole ? { low, high } : { low: 0, high: last };
-    give(this.box, "disabled", !apart);
-    say(this.boxName, path?.round ? "Whole turn" : "Whole branch");
-    this.heading = 1;
-    this.u = clamp(this.u, this.stretch.low, this.stretch.high);
-  }
-  /** Play all of a way, or only from its first pose to its last; so it stays for other linkages. */
-  playWhole(on) {
-    this.whole = on;
-    this.draw.rebuild();
-  }
-  /** Marks under the slider where the poses are, with as many of their names as there is room for. */
-  drawStops() {
-    const { stops, path } = this, { low, high } = this.stretch;
-    stops.replaceChildren();
-    if (!path) return;
-    const width = Math.max(60, this.slider.clientWidth), inset = 9;
-    const X = (u) => inset + (u - low) / (high - low) * (width - 2 * inset);
-    const known = this.stopsOnWay.filter((row) => this.data.poses[row.k]);
-    const rows = known.sort((a, b) => a.frame - b.frame).map((row) => ({ ...row, x: X(row.frame), pose: this.data.poses[row.k] }));
-    const named = laidOut(rows.map(({ x, pose }) => ({ x, text: shortened(poseName(pose), LONGEST_TICK) })), width, NAME_ROWS);
-    const texts = named.every(({ at }) => at >= 0) ? named : laidOut(rows.map(({ x, pose }) => ({ x, text: pose.label })), width, rows.length > MANY_POSES2 ? 1 : NUMBER_ROWS);
-    const deepest = Math.max(0, ...texts.map(({ at }) => at));
-    const one = (k, pose, ...parts) => s("g", { "data-pose": k + 1 }, s("title", {}, `pose ${poseName(pose)}`), ...parts);
-    rows.forEach(({ k, x, pose }, i) => stops.append(one(k, pose, s("path", { d: `M${px(x)} 0V${4 + ROW * Math.max(0, texts[i].at)}` }))));
-    rows.forEach(({ k, pose }, i) => {
-      const { at, middle, text } = texts[i];
-      if (at >= 0) stops.append(one(k, pose, s("text", { x: px(middle), y: 14 + ROW * at, "text-anchor": "middle" }, text)));
-    });
-    put(stops, "viewBox", `0 0 ${width} ${16 + ROW * deepest}`);
-    put(stops, "height", 16 + ROW * deepest);
-  }
-  play(on) {
-    if (on && !this.path) return;
-    this.remaining = null;
-    if (on === this.playing && this.isDressed) return;
-    this.isDressed = true;
-    this.playing = on;
-    put(this.readout, "aria-live", on ? "off" : "polite");
-    this.button.replaceChildren(icon(on), on ? "Pause" : "Play");
-    put(this.button, "aria-label", on ? "Pause" : "Play");
-    this.button.title = on ? "Pause (space)" : "Play (space)";
-    cancelAnimationFrame(this.tick);
-    if (!on) return;
-    let before = null;
-    const run = (now) => {
-      if (!this.playing) return;
-      if (before !== null) this.advance(Math.min(0.1, (now - before) / 1e3));
-      before = now;
-      if (this.playing) this.tick = requestAnimationFrame(run);
-    };
-    this.tick = requestAnimationFrame(run);
-  }
-  /** Play once there and back, or once round; then rest until someone asks. */
-  playOnce() {
-    if (!this.path) return;
-    const { low, high } = this.stretch;
-    this.play(true);
-    this.remaining = (this.goesRound ? 1 : 2) * (high - low);
-  }
-  /** Whether what is played ends where it begins. */
-  get goesRound() {
-    return this.path.round && this.stretch.high - this.stretch.low > this.path.x.length - 1 - LEAST_STRETCH;
-  }
-  advance(seconds) {
-    const { low, high } = this.stretch;
-    const step = seconds * (high - low) / (this.goesRound ? TURN_SECONDS : TURN_SECONDS / 2);
-    if (this.remaining !== null) {
-      this.remaining -= step;
-      if (this.remaining <= 0) {
-        this.play(false);
-        this.u = this.firstStop();
-        this.show();
-        return;
-      }
-    }
-    this.u += this.heading * step;
-    if (this.goesRound) this.u = around(this.u, high);
-    else if (this.u >= high || this.u <= low) {
-      this.heading = this.u >= high ? -1 : 1;
-      this.u = clamp(this.u, low, high);
-    }
-    this.show();
-  }
-  step(steps) {
-    if (!this.path) return;
-    const { low, high } = this.stretch;
-    const u = this.u + steps * Math.max(1e-3, (high - low) / STEPS);
-    this.go(this.goesRound ? around(u, high) : u);
-  }
-  go(u) {
-    if (!this.path) return;
-    this.play(false);
-    this.u = clamp(u, this.stretch.low, this.stretch.high);
-    this.show();
-  }
-  /** The next pose (sense 1) or the one before (-1) that the linkage reaches, on whichever way. */
-  toPose(sense) {
-    const all = this.linkage.pose_errors.map((row, k) => ({ ...row, k })).filter((row) => row.way !== null);
-    if (!all.length) return;
-    const here = this.atPose ?? (sense > 0 ? -1 : this.data.poses.length);
-    const next = sense > 0 ? all.find((row) => row.k > here) ?? all[0] : [...all].reverse().find((row) => row.k < here) ?? all[all.length - 1];
-    this.play(false);
-    if (next.way !== this.way) {
-      this.way = next.way;
-      this.u = next.frame;
-      this.draw.rebuild();
-    }
-    this.go(next.frame);
-    this.atPose = next.k;
-  }
-  /** The pose nearest to a place, the angle weighed as the errors weigh it. */
-  nearest(place) {
-    let near = 0, least = Infinity;
-    this.data.poses.forEach((pose, k) => {
-      const turn = place.a - radians(pose.angle_deg);
-      const away = Math.hypot(place.x - pose.x, place.y - pose.y, this.data.chart.length * (turn - 2 * Math.PI * Math.round(turn / (2 * Math.PI))));
-      if (away < least) [near, least] = [k, away];
-    });
-    return near;
-  }
-  /** Draw where it is; told: also with the slider and in words, which may lag behind a hand. */
-  show(told = true) {
-    const { path, linkage, data } = this;
-    if (!path) {
-      for (const part of this.parts) part.textContent = "";
-      return;
-    }
-    const place = placeAt(linkage, path, this.u, data.chart.length);
-    const drive = linear(path.drive, this.u), transmission = linear(path.transmission, this.u);
-    const near = this.atPose = this.nearest(place);
-    if (told) {
-      give(this.slider, "min", this.stretch.low);
-      give(this.slider, "max", this.stretch.high);
-      give(this.slider, "value", this.u);
-      this.tell(place, drive, transmission, near);
-    }
-    this.draw.show(place, drive, transmission, near);
-  }
-  /** The readout: driver, body, transmission angle, and the nearest pose. */
-  tell(place, drive, transmission, near) {
-    const { data, linkage } = this;
-    const unit2 = data.unit ? ` ${data.unit}` : "", digits = decimalsOf(data);
-    const driver = linkage.led[0].kind === "PR" ? `${fixed(drive, digits)}${unit2}` : `${fixed(drive, 1)}°`;
-    const pose = data.poses[near], row = linkage.pose_errors[near];
-    const at = row?.at === this.path && Math.abs(row.frame - this.u) < 1e-6;
-    const away = () => `${figure(Math.hypot(place.x - pose.x, place.y - pose.y))}${unit2} from pose ${poseName(pose)}`;
-    const missed = () => `at pose ${poseName(pose)}, ${row.said.position === "exact" ? "" : "off by "}${missOf(row.said.position, row.said.turned, unit2)}`;
-    const said = !pose ? "between the poses" : at ? missed() : away();
-    const texts = [
-      `driver ${driver}`,
-      `body (${fixed(place.x, digits)}, ${fixed(place.y, digits)})${unit2}, ${fixed(((degrees(place.a) + 180) % 360 + 360) % 360 - 180, 2)}°`,
-      `transmission ${transmission === null ? "–" : `${fixed(transmission, 1)}°`}`,
-      said
-    ];
-    texts.forEach((text, k) => {
-      const whole = k + 1 < texts.length ? `${text} ·` : text;
-      if (this.parts[k].textContent !== whole) this.parts[k].textContent = whole;
-    });
-    put(this.slider, "aria-valuetext", `driver ${driver}, ${texts[3]}`);
-  }
-};
-function laidOut(texts, width, count) {
-  const ends = Array(count).fill(-99);
-  return texts.map(({ x, text }) => {
-    const size = 6.4 * text.length, left = clamp(x - size / 2, 0, Math.max(0, width - size));
-    const at = ends.findIndex((end) => left > end + 4);
-    if (at >= 0) ends[at] = left + size;
-    return { text, at, middle: left + size / 2 };
-  });
-}
-var around = (u, turn) => (u % turn + turn) % turn;
-function icon(pause) {
-  return s(
-    "svg",
-    { width: 12, height: 12, viewBox: "0 0 12 12", "aria-hidden": "true" },
-    s("path", { d: pause ? "M1 0h3.5v12H1zM7.5 0H11v12H7.5z" : "M1 0l11 6l-11 6z" })
-  );
-}
-
 // src/burmester/web/widget/plots.mjs
-var LEFT = 62;
-var RIGHT = 14;
-var TOP = 22;
-var BOTTOM = 44;
+var LEFT2 = 62;
+var RIGHT2 = 14;
+var TOP2 = 22;
+var BOTTOM2 = 44;
 var PANEL = 84;
-var GAP = 28;
-var USUAL_LIMIT = 40;
+var GAP2 = 28;
+var USUAL_LIMIT2 = 40;
 var MANY_POSES3 = 40;
-var HEADROOM = 1.32;
-var INSET = 8;
+var HEADROOM2 = 1.32;
+var INSET2 = 8;
 var LONGEST_NAME2 = 16;
 var NAME_WIDTH = 11;
 var Plots = class {
@@ -2512,7 +2782,7 @@ var Plots = class {
     const go = (event) => {
       if (!this.way) return;
       const box = this.svg.getBoundingClientRect();
-      const at = (event.clientX - box.left - LEFT - INSET) / (this.width - LEFT - RIGHT - 2 * INSET);
+      const at = (event.clientX - box.left - LEFT2 - INSET2) / (this.width - LEFT2 - RIGHT2 - 2 * INSET2);
       scrub(frameAt(this.way.drive, this.low + clamp(at, 0, 1) * (this.high - this.low)));
     };
     this.svg.addEventListener("pointerdown", (event) => {
@@ -2533,15 +2803,15 @@ var Plots = class {
     const poses = linkage.pose_errors.map((row, k) => ({ ...row, pose: data.poses[k] })).filter((row) => row.way === index && row.pose);
     const upright = poses.some(({ pose }) => pose.label !== pose.name);
     const longest = Math.max(0, ...poses.map(({ pose }) => shortened(poseName(pose), LONGEST_NAME2).length));
-    this.top = TOP + (upright ? 6.2 * longest + 6 : 0);
-    const height = this.top + 3 * PANEL + 2 * GAP + BOTTOM;
+    this.top = TOP2 + (upright ? 6.2 * longest + 6 : 0);
+    const height = this.top + 3 * PANEL + 2 * GAP2 + BOTTOM2;
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     svg.setAttribute("height", height);
     const [driver] = linkage.led, slides = driver.kind === "PR";
     this.stretch = stretch;
     this.low = linear(way.drive, stretch.low);
     this.high = linear(way.drive, stretch.high);
-    this.X = (drive) => LEFT + INSET + (drive - this.low) / (this.high - this.low) * (width - LEFT - RIGHT - 2 * INSET);
+    this.X = (drive) => LEFT2 + INSET2 + (drive - this.low) / (this.high - this.low) * (width - LEFT2 - RIGHT2 - 2 * INSET2);
     this.across = slides ? ticks(this.low, this.high, width / 90) : angleTicks(this.low, this.high, Math.max(3, width / 70));
     const rows = poses.map((row) => ({ ...row, drive: linear(way.drive, row.frame) }));
     const unit2 = data.unit ?? "unit of the poses";
@@ -2550,7 +2820,7 @@ var Plots = class {
     const base = this.transmission(2, rows);
     if (upright) this.uprightNames(rows);
     const title = slides ? `place of ${driver.id} on its line (${unit2})` : `driver angle (${driver.id})`;
-    svg.append(s("text", { class: "bm-title", x: (LEFT + width - RIGHT) / 2, y: height - 6, "text-anchor": "middle" }, title));
+    svg.append(s("text", { class: "bm-title", x: (LEFT2 + width - RIGHT2) / 2, y: height - 6, "text-anchor": "middle" }, title));
     this.cursor = s("g", { class: "bm-cursor" }, s("path", { d: `M0 ${this.top}V${base}` }));
     this.mark = s("circle", { r: 4.5 });
     this.cursor.append(this.mark);
@@ -2558,17 +2828,17 @@ var Plots = class {
   }
   /** The errors of the poses as stems; below `rounding` they are zero. */
   errors(k, title, rows, value, rounding) {
-    const { svg, X } = this, y0 = this.top + k * (PANEL + GAP), base = y0 + PANEL;
+    const { svg, X } = this, y0 = this.top + k * (PANEL + GAP2), base = y0 + PANEL;
     const greatest = Math.max(1e-300, ...rows.map((row) => value(row) ?? 0));
     const visible = greatest > rounding;
-    const high = visible ? HEADROOM * greatest : 1;
+    const high = visible ? HEADROOM2 * greatest : 1;
     const Y = (v) => base - v / high * PANEL;
     this.panel(title, y0, base);
     if (!visible) {
-      svg.append(s("text", { class: "bm-note", x: LEFT + 8, y: y0 + PANEL / 2 }, rows.length ? "exact, up to rounding" : "no pose is on this assembly"));
+      svg.append(s("text", { class: "bm-note", x: LEFT2 + 8, y: y0 + PANEL / 2 }, rows.length ? "exact, up to rounding" : "no pose is on this assembly"));
     } else {
       for (const { at } of ticks(0, high, 3).slice(1)) this.rule(Y(at), figure(at));
-      svg.append(s("text", { class: "bm-tick", x: LEFT - 6, y: base + 4, "text-anchor": "end" }, "0"));
+      svg.append(s("text", { class: "bm-tick", x: LEFT2 - 6, y: base + 4, "text-anchor": "end" }, "0"));
     }
     const greatestThree = new Set([...rows].sort((a, b) => value(b) - value(a)).slice(0, 3));
     let last = -99;
@@ -2587,14 +2857,14 @@ var Plots = class {
   }
   /** The transmission angle along the way, and at its poses.  Returns the panel's base. */
   transmission(k, rows) {
-    const { svg, way, width, X } = this, y0 = this.top + k * (PANEL + GAP), base = y0 + PANEL;
+    const { svg, way, width, X } = this, y0 = this.top + k * (PANEL + GAP2), base = y0 + PANEL;
     const Y = this.Y = (v) => base - v / 90 * PANEL;
     this.panel("transmission angle (°)", y0, base, true);
     for (const at of [0, 30, 60, 90]) this.rule(Y(at), at);
-    const asked = this.data.asked_transmission_deg, limit = asked ?? USUAL_LIMIT;
-    svg.append(s("path", { class: "bm-usual", d: `M${LEFT} ${px(Y(limit))}H${width - RIGHT}` }));
+    const asked = this.data.asked_transmission_deg, limit = asked ?? USUAL_LIMIT2;
+    svg.append(s("path", { class: "bm-usual", d: `M${LEFT2} ${px(Y(limit))}H${width - RIGHT2}` }));
     const below = limit > 15 && (linear(way.transmission, this.stretch.high) ?? 90) > limit;
-    const limitName = s("text", { class: "bm-tick bm-halo", x: width - RIGHT - 4, y: px(Y(limit)) + (below ? 12 : -4), "text-anchor": "end" }, `${figure(limit)}°, ${asked ? "asked" : "a usual limit"}`);
+    const limitName = s("text", { class: "bm-tick bm-halo", x: width - RIGHT2 - 4, y: px(Y(limit)) + (below ? 12 : -4), "text-anchor": "end" }, `${figure(limit)}°, ${asked ? "asked" : "a usual limit"}`);
     const { low, high } = this.stretch, frames = [low];
     for (let i = Math.floor(low) + 1; i < high; i += 1) frames.push(i);
     frames.push(high);
@@ -2629,8 +2899,8 @@ var Plots = class {
   panel(title, y0, base, labelled = false) {
     const { svg, width } = this;
     svg.append(
-      s("rect", { class: "bm-panel", x: LEFT, y: y0, width: width - LEFT - RIGHT, height: base - y0 }),
-      s("text", { class: "bm-title", x: LEFT, y: y0 - 7 }, title)
+      s("rect", { class: "bm-panel", x: LEFT2, y: y0, width: width - LEFT2 - RIGHT2, height: base - y0 }),
+      s("text", { class: "bm-title", x: LEFT2, y: y0 - 7 }, title)
     );
     let last = -99;
     for (const { at, text } of this.across) {
@@ -2644,8 +2914,8 @@ var Plots = class {
   }
   rule(y, text) {
     this.svg.append(
-      s("path", { class: "bm-rule", d: `M${LEFT} ${px(y)}H${this.width - RIGHT}` }),
-      s("text", { class: "bm-tick", x: LEFT - 6, y: px(y) + 4, "text-anchor": "end" }, text)
+      s("path", { class: "bm-rule", d: `M${LEFT2} ${px(y)}H${this.width - RIGHT2}` }),
+      s("text", { class: "bm-tick", x: LEFT2 - 6, y: px(y) + 4, "text-anchor": "end" }, text)
     );
   }
   show(drive, transmission) {
@@ -2851,11 +3121,11 @@ var Report = class {
     return Math.min(beside, HIGHEST * window.innerHeight);
   }
   /** What moves, at a place of the body; near: the index of the nearest pose. */
-  show(place, drive, transmission, near) {
+  show(place, drive, transmission, near2) {
     this.plane.show(place);
     this.space.show(place);
     this.plots.show(drive, transmission);
-    const row = this.rows[near];
+    const row = this.rows[near2];
     if (row === this.current) return;
     this.current?.classList.remove("bm-current");
     row.classList.add("bm-current");
@@ -2874,10 +3144,13 @@ var Report = class {
     this.sizes.observe(root);
     unfoldForPrint(root, signal);
     if (!player) return;
-    listenToKeys(root, this.plane.svg, player, signal);
+    this.keys(signal);
     window.addEventListener("beforeprint", () => player.play(false), { signal });
     player.play(false);
     if (!window.matchMedia(REDUCED_MOTION).matches) player.playOnce();
+  }
+  keys(signal) {
+    listenToKeys(this.root, this.plane.svg, this.player, signal);
   }
   close() {
     this.ended.abort();
@@ -2888,14 +3161,154 @@ var Report = class {
   }
 };
 
+// src/burmester/web/widget/generator_view.mjs
+var MANY_PAIRS = 30;
+var GeneratorView = class extends Report {
+  constructor(task, generator, el, options) {
+    const { curve } = generator;
+    generator.wantedAt = (input) => wantedAt(curve, input);
+    generator.at = (input) => closed2(generator, input);
+    super({ ...generator.motion, task, generator }, el, options);
+  }
+  frame() {
+    const { data } = this, { generator } = data;
+    this.generator = generator;
+    this.player = new GeneratorPlayer(data, (...now) => this.show(...now), () => this.rebuild(), generator);
+    const stage = this.stage();
+    const numbers = h("div", { class: "bm-fill" }), curves = h("div", { class: "bm-fill" });
+    numbers.append(generatorFacts(generator));
+    this.curves = new ErrorCurves(data.task, generator, curves, (input) => this.goTo(input));
+    this.aside = h("div", { class: "bm-aside" }, section("numbers", "Numbers", numbers));
+    this.root.className = "bm-view";
+    this.root.append(stage, this.aside, section("curves", "Output, error and transmission", curves));
+    const pairs = pairTable(data.task, generator);
+    const many = generator.pairs.length > MANY_PAIRS;
+    this.root.append(
+      section("pair-box", "Pair by pair", many ? h("details", { class: "bm-every" }, h("summary", {}, `${generator.pairs.length} pairs`), pairs) : pairs)
+    );
+    this.rows = data.poses.map((pose) => /^\d+$/.test(pose.name) ? pairs.querySelector(`[data-pair="${pose.name}"]`) : null);
+  }
+  /** The drawing with what moves it. */
+  stage() {
+    const { data, player, generator } = this;
+    const drawing = h("div", { class: "bm-drawing" });
+    this.plane = new Plane(data, drawing);
+    const far = this.farPivots();
+    this.far.checked = true;
+    return h(
+      "section",
+      { class: "bm-card bm-stage", "aria-label": "The linkage moving" },
+      h("h2", { class: "bm-stage-title" }, `${generator.id}: ${generator.type}`),
+      h("p", { class: "bm-story" }, generator.said.story),
+      drawing,
+      player.element,
+      h("div", { class: "bm-under" }, keys(), h("div", { class: "bm-choose" }, far))
+    );
+  }
+  offerAll(linkage) {
+    const far = hasFarPivots(this.data, linkage, this.plane.places);
+    this.farLabel.hidden = !far;
+    this.farName.textContent = "Whole linkage, with far pivots";
+  }
+  choose(index) {
+    this.linkage = this.linkages[index];
+    this.player.load(this.linkage);
+  }
+  rebuild() {
+    this.player.rebuild();
+    this.draw();
+  }
+  draw() {
+    const { linkage, player, generator } = this, { way, stretch } = player;
+    this.plane.build(linkage, way, stretch, { factor: 0, fill: this.room(), far: Boolean(this.far?.checked) });
+    this.offerAll(linkage);
+    this.plane.svg.setAttribute("aria-label", `${generator.id}, a ${generator.type}. Space plays, arrow keys move the input link.`);
+    this.curves.build();
+    player.drawStops();
+    player.show();
+  }
+  goTo(input) {
+    const { player } = this;
+    if (player.path) player.go(frameAt(player.path.drive, player.driveOf(input)));
+  }
+  show(place, drive, transmission, near2) {
+    const { player } = this;
+    this.plane.show(place);
+    this.curves.show(player.inputAt(drive), transmission);
+    const row = this.rows[near2];
+    if (row === this.current) return;
+    this.current?.classList.remove("bm-current");
+    row?.classList.add("bm-current");
+    this.current = row;
+  }
+};
+function closed2({ ground, input_link: a, coupler: r, output_link: b, side, input_phase, output_phase, curve }, input) {
+  const theta = radians(input_phase + input), x = ground - a * Math.cos(theta), y = -a * Math.sin(theta);
+  const size2 = Math.hypot(x, y), opening = Math.acos((r * r - b * b - size2 * size2) / (2 * b * size2));
+  const between = degrees(Math.acos((r * r + b * b - size2 * size2) / (2 * r * b)));
+  if (Number.isNaN(opening)) return { output: null, transmission: null };
+  const output = degrees(Math.atan2(y, x) + side * opening) - output_phase;
+  const k = curve.input.reduce((best, each, i) => Math.abs(each - input) < Math.abs(curve.input[best] - input) ? i : best, 0);
+  return { output: output - 360 * Math.round((output - curve.wanted[k]) / 360), transmission: Math.min(between, 180 - between) };
+}
+function wantedAt({ input, wanted, whole }, at) {
+  for (let k2 = 0; k2 < input.length; k2 += 1) if (Math.abs(input[k2] - at) < 1e-6) return wanted[k2];
+  if (!whole || at < input[0] || at > input[input.length - 1]) return null;
+  const k = Math.max(1, input.findIndex((each) => each > at));
+  const share = (at - input[k - 1]) / (input[k] - input[k - 1]);
+  return wanted[k - 1] + share * (wanted[k] - wanted[k - 1]);
+}
+function keys() {
+  const one = (sign, text) => h("li", {}, s("svg", { width: 34, height: 20, viewBox: "-4 -13 34 20", "aria-hidden": "true", class: "bm-key" }, sign), text);
+  const link = (side) => s("g", { class: `bm-link bm-side${side}` }, s("path", { class: "bm-bar", d: "M0 -3H22" }), s("path", { class: "bm-core", d: "M0 -3H22" }));
+  return h("ul", { class: "bm-keys" }, one(link(0), "input link (filled)"), one(link(1), "output link (hollow)"));
+}
+
+// src/burmester/web/widget/function_report.mjs
+var FunctionReport = class {
+  constructor(data, el, options) {
+    this.data = data;
+    this.el = el;
+    this.options = options;
+    const root = h("div", { class: "bm" }), body = h("div", { class: "bm-body" });
+    const works = data.generators.some((each) => each.usable);
+    root.append(header(data, works, "function report"), body);
+    el.replaceChildren(root);
+    this.root = root;
+    const main = h("div", { class: "bm-main" });
+    if (data.generators.length) {
+      this.cards = new Cards2(data.generators, (index) => this.choose(index));
+      this.stand = h("div", { class: "bm-stand" });
+      main.append(this.stand);
+      body.append(this.cards.element);
+    }
+    body.append(main);
+    main.append(h("section", { class: "bm-card bm-all", "aria-label": "All linkages" }, h("h2", {}, "All linkages"), generatorTable(data)));
+    root.append(h("footer", { class: "bm-foot-notes" }, data.footnotes));
+    if (data.generators.length) this.choose(0);
+  }
+  choose(index) {
+    const anew = Boolean(this.view);
+    this.view?.close();
+    this.cards.mark(index);
+    this.view = new GeneratorView(this.data, this.data.generators[index], this.stand, this.options);
+    if (anew && this.stand.getBoundingClientRect().bottom < 0.4 * window.innerHeight) this.stand.scrollIntoView({ block: "start" });
+  }
+  close() {
+    this.view?.close();
+    this.el.replaceChildren();
+  }
+};
+
 // src/burmester/web/widget/widget.mjs
 var widget = {
   render({ model, el }) {
     const options = { webgl: model.get("webgl") ?? true };
-    let report = new Report(model.get("data"), el, options);
+    const made = (data) => new (data.generators ? FunctionReport : Report)(data, el, options);
+    let report = made(model.get("data"));
     const anew = () => {
       report.close();
-      report = new Report(model.get("data"), el, options);
+      report = made(model.get("data"));
     };
     model.on?.("change:data", anew);
     return () => {

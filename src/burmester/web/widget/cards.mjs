@@ -4,15 +4,14 @@ import { h } from "./dom.mjs";
 import { clamp } from "./numbers.mjs";
 import { missOf, verdictOf } from "./tables.mjs";
 
-/** `element` holds a card for each linkage; `choose` is called with its index, `mark` shows the choice. */
-export class Cards {
-  constructor(data, linkages, choose) {
-    const unit = data.unit ? ` ${data.unit}` : "";
-    this.cards = linkages.map((each, k) => card(each, unit, () => choose(k)));
+/** Cards of linkages: `element` holds them, `mark` shows which one is chosen. */
+export class CardList {
+  constructor(cards) {
+    this.cards = cards;
     this.element = h(
       "nav",
       { class: "bm-list", "aria-label": "Linkages, best first" },
-      h("h2", {}, `${linkages.length} linkage${linkages.length === 1 ? "" : "s"}`),
+      h("h2", {}, `${cards.length} linkage${cards.length === 1 ? "" : "s"}`),
       h("div", { class: "bm-choices" }, this.cards),
     );
     this.element.addEventListener("keydown", (event) => {
@@ -26,6 +25,14 @@ export class Cards {
 
   mark(index) {
     this.cards.forEach((each, k) => each.setAttribute("aria-pressed", String(k === index)));
+  }
+}
+
+/** A card for each linkage; `choose` is called with its index. */
+export class Cards extends CardList {
+  constructor(data, linkages, choose) {
+    const unit = data.unit ? ` ${data.unit}` : "";
+    super(linkages.map((each, k) => card(each, unit, () => choose(k))));
   }
 }
 

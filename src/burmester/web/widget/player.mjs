@@ -20,6 +20,8 @@ const STEPS = 360; // of a key along what is played
  * transmission angle there, and the index of the nearest pose; rebuild() draws another way.
  */
 export class Player {
+  static STOP = "pose"; // what a place to stop at is called
+
   constructor(data, show, rebuild) {
     this.data = data;
     this.draw = { show, rebuild };
@@ -40,6 +42,7 @@ export class Player {
   }
 
   controls() {
+    const stop = this.constructor.STOP, title = stop[0].toUpperCase() + stop.slice(1);
     const button = (name, text, label, onclick) => h("button", { type: "button", class: `bm-button ${name}`, "aria-label": label, title: label, onclick }, text);
     this.button = button("bm-play", "", "Play", () => this.play(!this.playing));
     this.slider = h("input", { type: "range", class: "bm-slider", min: 0, step: "any", "aria-label": "Driver", oninput: () => this.go(Number(this.slider.value)) });
@@ -62,9 +65,9 @@ export class Player {
         "div",
         { class: "bm-row" },
         this.button,
-        button("bm-back", "◀ Pose", "Previous pose", () => this.toPose(-1)),
-        button("bm-next", "Pose ▶", "Next pose", () => this.toPose(1)),
-        h("label", { class: "bm-whole", title: "Play all that the driver reaches, not only from the first pose to the last" }, this.box, this.boxName),
+        button("bm-back", `◀ ${title}`, `Previous ${stop}`, () => this.toPose(-1)),
+        button("bm-next", `${title} ▶`, `Next ${stop}`, () => this.toPose(1)),
+        h("label", { class: "bm-whole", title: `Play all that the driver reaches, not only from the first ${stop} to the last` }, this.box, this.boxName),
       ),
       this.readout,
     );

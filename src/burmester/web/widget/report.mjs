@@ -21,7 +21,7 @@ const HIGHEST = 0.66; // heights of the window: of the drawing, so that what mov
 const LONGEST_NAME = 5; // characters of a pose's name that a drawing has room for
 const KINDS = " RR: a link with two pins; PR: a slider on the ground; RP: a pin on the ground in a slot of the body.";
 
-const section = (name, title, ...content) =>
+export const section = (name, title, ...content) =>
   h("section", { class: `bm-card bm-${name}`, "aria-label": title }, h("h2", {}, title), ...content);
 
 export class Report {
@@ -239,10 +239,14 @@ export class Report {
     this.sizes.observe(root);
     unfoldForPrint(root, signal);
     if (!player) return;
-    listenToKeys(root, this.plane.svg, player, signal);
+    this.keys(signal);
     window.addEventListener("beforeprint", () => player.play(false), { signal });
     player.play(false);
     if (!window.matchMedia(REDUCED_MOTION).matches) player.playOnce();
+  }
+
+  keys(signal) {
+    listenToKeys(this.root, this.plane.svg, this.player, signal);
   }
 
   close() {

@@ -6,7 +6,7 @@ import { clamp, fixed } from "./numbers.mjs";
 const NONE = "–"; // what stands where there is nothing
 
 /** A table that scrolls sideways.  heads: names, or { name, text } for columns of words. */
-function table(caption, heads, rows, attributes) {
+export function table(caption, heads, rows, attributes) {
   return h(
     "div",
     { class: "bm-scroll", tabindex: "0", role: "region", "aria-label": caption },
@@ -21,7 +21,7 @@ function table(caption, heads, rows, attributes) {
 }
 
 /** The cells of a row, the first one its head; words: columns of words; heads: for tables that stack. */
-const cells = (values, words = [], heads = []) =>
+export const cells = (values, words = [], heads = []) =>
   values.map((value, k) =>
     k === 0
       ? h("th", { scope: "row" }, value)

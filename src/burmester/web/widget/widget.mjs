@@ -3,15 +3,17 @@
 // makes.  Nothing else is needed, and nothing is loaded.  Angles are radians unless a name says
 // degrees; lengths are in the task's unit; F is the ground, M the body.
 
+import { FunctionReport } from "./function_report.mjs";
 import { Report } from "./report.mjs";
 
 const widget = {
   render({ model, el }) {
     const options = { webgl: model.get("webgl") ?? true };
-    let report = new Report(model.get("data"), el, options);
+    const made = (data) => new (data.generators ? FunctionReport : Report)(data, el, options);
+    let report = made(model.get("data"));
     const anew = () => {
       report.close();
-      report = new Report(model.get("data"), el, options);
+      report = made(model.get("data"));
     };
     model.on?.("change:data", anew);
     return () => {

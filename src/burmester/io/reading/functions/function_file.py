@@ -1,8 +1,8 @@
-"""Function tasks in files: CSV with the columns input_deg and output_deg, or a [function] in TOML
-and JSON.
+"""Function tasks in files: tables with the columns input_deg and output_deg, or a [function] in
+TOML and JSON.
 
-E104 not a number                  E106 a row of the wrong length
-E107 a key that is not known       E191, E192, E194 as `function_options` says
+E101 to E108 as `pair_table` says    E109 not TOML or JSON
+E107 a key that is not known         E191, E192, E194 as `function_options` says
 """
 
 from __future__ import annotations
@@ -25,29 +25,60 @@ from burmester.io.reading.functions.function_options import (
     task_of_function,
     task_of_pairs,
 )
-from burmester.io.reading.pose_table import Source, plain_number, shown
-from burmester.io.reading.tables.columns import has_poses
+from burmester.io.reading.functions.pair_table import (
+    has_pairs,
+    header_of,
+    is_pair_parquet,
+    read_pair_parquet,
+    read_pair_text,
+    require_weights,
+)
+from burmester.io.reading.pose_table import Source, shown
 
-__all__ = ["is_function", "is_function_text", "read_function", "task_of_tree"]
+__all__ = ["is_function", "is_function_text", "read_function", "settings_of_tree", "task_of_tree"]
 
-ANGLE_COLUMNS: Final = re.compile(r"(input|output)_(deg|rad)")
-WEIGHT: Final = "weight"
+SETTINGS: Final = (
+    "minimax", "input_phase_deg", "output_phase_deg", "ground", "transmission_deg", "link_ratio",
+)  # fmt: skip
 KEYS: Final = (
-    "expression", "x", "input_deg", "output_deg", "opposite", "pairs", "spacing", "minimax",
-    "input_phase_deg", "output_phase_deg", "ground", "transmission_deg", "link_ratio",
+    "expression", "x", "input_deg", "output_deg", "opposite", "pairs", "spacing", *SETTINGS,
 )  # fmt: skip
 PAIR_KEYS: Final = ("input_deg", "output_deg", "weight")
 
 
-def is_function(data: bytes, path: str) -> bool:
+def is_function(data: bytes, path: str, sheet: str | None = None) -> bool:
     """Whether the bytes of a file are a function task, whatever is wrong with it."""
-    if is_parquet(data) or is_archive(data):
-        return False
+    if is_parquet(data):
+        return is_pair_parquet(data)
+    if is_archive(data):
+        from burmester.io.reading.tables.workbook import may_hold
+
+        if not may_hold(data, _IN_A_WORKBOOK):
+            return False
     try:
-        text, _ = decode_text(data)
+        source = _source(data, path, sheet)
     except InputError:
         return False
-    return is_function_text(text, path)
+    if source.sheet is not None:
+        return has_pairs(header_of(source.text).names)
+    return is_function_text(source.text, path)
+
+
+_IN_A_WORKBOOK: Final = re.compile(rb"(?i)(input|output)_(deg|rad)")
+
+
+def _source(data: bytes, path: str, sheet: str | None) -> Source:
+    """The text in a file, or in a sheet of a workbook."""
+    label = "<stdin>" if path == "-" else os.fspath(path)
+    if is_archive(data):
+        from burmester.io.reading.tables.workbook import read_sheet
+
+        return read_sheet(label, data, sheet)
+    if sheet is not None:
+        message = "--sheet is for .xlsx workbooks; this file has one table"
+        raise InputError("E108", message, where=label, help="leave --sheet out")
+    text, notes = decode_text(data)
+    return Source(label, text, notes)
 
 
 def is_function_text(text: str, path: str) -> bool:
@@ -57,106 +88,34 @@ def is_function_text(text: str, path: str) -> bool:
         return bool(re.search(r"(?m)^\s*\[\s*function\s*\]", text))
     if suffix == ".json" or text.lstrip().startswith(("{", "[")):
         return bool(re.match(r'\s*\{\s*"(schema"\s*:\s*"burmester\.function/|function"\s*:)', text))
-    names = _header(text)[1]
-    return any(map(ANGLE_COLUMNS.fullmatch, names)) and not has_poses(names)
+    return has_pairs(header_of(text).names)
 
 
 def read_function(
     data: bytes,
     path: str,
     settings: FunctionSettings = FunctionSettings(),  # noqa: B008  frozen
+    sheet: str | None = None,
 ) -> FunctionTask:
     """The function task in the bytes of a file.
 
     settings: of options; what the file states as well is refused (E194).
+    sheet: of a workbook, by its name or number.
     """
     label = "<stdin>" if path == "-" else os.fspath(path)
-    text, _ = decode_text(data)
-    source, suffix = Source(label, text), PurePath(path).suffix.lower()
+    suffix = PurePath(path).suffix.lower()
     try:
-        if suffix == ".toml":
+        if is_parquet(data):
+            return read_pair_parquet(label, data, settings)
+        source = _source(data, path, sheet)
+        if source.sheet is None and suffix == ".toml":
             return task_of_tree(_toml(source), settings)
-        if suffix == ".json" or text.lstrip().startswith("{"):
+        if source.sheet is None and (suffix == ".json" or source.text.lstrip().startswith("{")):
             return task_of_tree(_json(source), settings)
-        return _csv(source, settings)
+        return read_pair_text(source, settings)
     except InputError as error:
         error.where = error.where or label
         raise
-
-
-# --- CSV
-
-
-def _header(text: str) -> tuple[int, list[str], str]:
-    """The first line that is no comment: its number from 0, its cells, and the separator."""
-    for number, line in enumerate(text.split("\n")):
-        if line.strip() and not line.lstrip().startswith("#"):
-            separator = next((s for s in ";\t|," if s in line), ",")
-            return number, [c.strip().strip('"').lower() for c in line.split(separator)], separator
-    return 0, [], ","
-
-
-def _csv(source: Source, settings: FunctionSettings) -> FunctionTask:
-    first, names, separator = _header(source.text)
-    lines = source.text.split("\n")
-    starts = np.cumsum([0, *(len(line) + 1 for line in lines)]).tolist()
-    head = source.where(starts[first], len(lines[first]))
-    roles: dict[str, tuple[int, str]] = {}
-    for column, name in enumerate(names):
-        found = ANGLE_COLUMNS.fullmatch(name)
-        if found is None and name != WEIGHT and not name.startswith("#"):
-            raise InputError(
-                "E107",
-                f"the column {shown(name)} is not known here",
-                where=head,
-                help="the columns of a function are input_deg, output_deg and, if wanted, weight; "
-                f"name it `#{name}` to have it ignored",
-            )
-        role = found[1] if found else name
-        if role in roles:
-            raise InputError(
-                "E108", f"two columns for {role}", where=head, help="delete one of the two columns"
-            )
-        if not name.startswith("#"):
-            roles[role] = (column, found[2] if found else "")
-    for needed in ("input", "output"):
-        if needed not in roles:
-            raise InputError(
-                "E105",
-                f"the column of the {needed} is missing",
-                where=head,
-                help=f"add a column {needed}_deg with the angles of the {needed} link",
-            )
-    columns: dict[str, list[float]] = {role: [] for role in roles}
-    places: list[str] = []
-    for number, line in enumerate(lines[first + 1 :], start=first + 1):
-        if not line.strip() or line.lstrip().startswith("#"):
-            continue
-        cells = line.split(separator)
-        where = source.where(starts[number], len(line))
-        if len(cells) != len(names):
-            raise InputError(
-                "E106",
-                f"{len(cells)} cells where the header has {len(names)}",
-                where=where,
-                help=f"give {len(names)} cells in every row",
-            )
-        for role, (column, unit) in roles.items():
-            plain, mark = plain_number(cells[column].strip(), separator)
-            if mark is None:
-                raise InputError(
-                    "E104",
-                    f"{shown(cells[column].strip())} is not a number",
-                    where=where,
-                    help="write a number with a decimal point, such as 12.5",
-                )
-            value = float(plain)
-            columns[role].append(math.degrees(value) if unit == "rad" else value)
-        places.append(where)
-    weights = np.array(columns[WEIGHT]) if WEIGHT in columns else None
-    _require_weights(weights, head)
-    inputs, outputs = np.array(columns["input"]), np.array(columns["output"])
-    return task_of_pairs(inputs, outputs, weights, settings, where=places.__getitem__)
 
 
 # --- TOML and JSON
@@ -185,8 +144,11 @@ def _json(source: Source) -> Any:
     )
 
 
-def task_of_tree(tree: Any, settings: FunctionSettings = FunctionSettings()) -> FunctionTask:  # noqa: B008
-    """The task of the table [function], with settings of options beside it."""
+def settings_of_tree(tree: Any, *, known: Sequence[str] = SETTINGS) -> FunctionSettings:
+    """The settings of a table [function] beside its pairs; raises E107 for a key that is unknown.
+
+    known: the keys that may stand there.
+    """
     if not isinstance(tree, Mapping):
         raise InputError(
             "E105",
@@ -194,13 +156,13 @@ def task_of_tree(tree: Any, settings: FunctionSettings = FunctionSettings()) -> 
             help="`burmester new log-generator` writes a file that has one",
         )
     for key in tree:
-        if key not in KEYS:
+        if key not in known:
             raise InputError(
                 "E107",
                 f"[function] has an unknown key {shown(key)}",
-                help=f"the keys are {', '.join(KEYS)}",
+                help=f"the keys are {', '.join(known)}",
             )
-    stated = FunctionSettings(
+    return FunctionSettings(
         _number(tree, "input_phase_deg"),
         _number(tree, "output_phase_deg"),
         _number(tree, "ground") or 1.0,
@@ -208,6 +170,11 @@ def task_of_tree(tree: Any, settings: FunctionSettings = FunctionSettings()) -> 
         _number(tree, "transmission_deg"),
         _number(tree, "link_ratio"),
     )
+
+
+def task_of_tree(tree: Any, settings: FunctionSettings = FunctionSettings()) -> FunctionTask:  # noqa: B008
+    """The task of the table [function], with settings of options beside it."""
+    stated = settings_of_tree(tree, known=KEYS)
     given = {n: v for n, v in settings._asdict().items() if v != FunctionSettings()._asdict()[n]}
     merged = stated._replace(**given)
     pairs = tree.get("pairs")
@@ -259,18 +226,8 @@ def _tree_pairs(pairs: Any, settings: FunctionSettings) -> FunctionTask:
         rows.append([float(each) for each in row])
     inputs, outputs, weights = np.array(rows).T
     plain = bool((weights == 1).all())
-    _require_weights(weights, None)
+    require_weights(weights, None)
     return task_of_pairs(inputs, outputs, None if plain else weights, settings)
-
-
-def _require_weights(weights: Any, where: str | None) -> None:
-    if weights is not None and not ((weights >= 0).all() and (weights > 0).any()):
-        raise InputError(
-            "E191",
-            "a weight is below zero, or all are zero",
-            where=where,
-            help="give weights above zero, or leave them out",
-        )
 
 
 def _is_number(value: Any) -> bool:

@@ -28,7 +28,7 @@ from burmester.io.reading.pose_table import (
 )
 from burmester.wording import listed, shortened
 
-__all__ = ["read_sheet"]
+__all__ = ["may_hold", "read_sheet"]
 
 MAX_TAGS = 1_500_000  # tags of XML; 100,000 poses have 900,000, and take 12 s and 250 MB
 MAX_BYTES = 200_000_000  # bytes of XML, unpacked
@@ -78,6 +78,17 @@ def read_sheet(label: str, data: bytes, sheet: str | None) -> Source:
     return Source(
         label, SHEET_HEAD + "\n".join(lines), (*notes, *hidden), Sheet(chosen.title, merged)
     )
+
+
+def may_hold(data: bytes, text: re.Pattern[bytes]) -> bool:
+    """Whether a text that matches stands in a workbook; False where it cannot be read.
+
+    It is looked for before the cells are read, which takes seconds of many.
+    """
+    try:
+        return any(map(text.search, _sheet_parts(data).values()))
+    except InputError:
+        return False
 
 
 def _sheet_parts(data: bytes) -> dict[str, bytes]:

@@ -1,0 +1,216 @@
+"""Pairs of angles in tables: CSV, a sheet of a workbook, Parquet.
+
+E101 not readable                  E105 a column is missing
+E102 no rows                       E106 a row of the wrong length
+E103 no value                      E107 a column that is not known
+E104 not a number                  E108 a column twice
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+
+from burmester.errors import InputError
+from burmester.functions.function_task import FunctionTask
+from burmester.io.reading.functions.function_options import FunctionSettings, task_of_pairs
+from burmester.io.reading.pose_table import SHEET_HEAD, Source, no_poses, plain_number, shown
+from burmester.io.reading.tables.columns import has_poses
+from burmester.numerics.arrays import FloatArray
+
+__all__ = [
+    "ANGLE_COLUMNS",
+    "WEIGHT",
+    "has_pairs",
+    "header_of",
+    "is_pair_parquet",
+    "read_pair_parquet",
+    "read_pair_text",
+    "require_weights",
+]
+
+ANGLE_COLUMNS: Final = re.compile(r"(input|output)_(deg|rad)")
+WEIGHT: Final = "weight"
+
+
+class Header(NamedTuple):
+    """The line with the names of columns: its place from 0, its cells, and the separator."""
+
+    line: int
+    names: list[str]
+    separator: str
+
+
+class Column(NamedTuple):
+    """Where the numbers of a role stand, and the unit of angles."""
+
+    place: int
+    unit: str
+
+
+def header_of(text: str) -> Header:
+    """The first line of a table that is no comment."""
+    for number, line in enumerate(text.split("\n")):
+        if line.strip() and not line.lstrip().startswith("#") and number_of_head(text) <= number:
+            separator = next((s for s in ";\t|," if s in line), ",")
+            return Header(number, [_word(cell) for cell in line.split(separator)], separator)
+    return Header(0, [], ",")
+
+
+def number_of_head(text: str) -> int:
+    """How many lines stand before those of a table."""
+    return int(text.startswith(SHEET_HEAD))
+
+
+def has_pairs(names: Sequence[str]) -> bool:
+    """Whether columns of these names are a function's, whatever is wrong with them."""
+    return any(map(ANGLE_COLUMNS.fullmatch, names)) and not has_poses(names)
+
+
+def _word(cell: str) -> str:
+    return cell.strip().strip('"').lower()
+
+
+def _columns(names: Sequence[str], where: str | None) -> dict[str, Column]:
+    """The columns by role: input, output and perhaps weight; raises E105, E107 and E108."""
+    columns: dict[str, Column] = {}
+    for index, name in enumerate(names):
+        if name.startswith("#") or not name:
+            continue
+        found = ANGLE_COLUMNS.fullmatch(name)
+        if found is None and name != WEIGHT:
+            raise InputError(
+                "E107",
+                f"the column {shown(name)} is not known here",
+                where=where,
+                help="the columns of a function are input_deg, output_deg and, if wanted, weight; "
+                f"name it `#{name}` to have it ignored",
+            )
+        role = found[1] if found else name
+        if role in columns:
+            raise InputError(
+                "E108", f"two columns for {role}", where=where, help="delete one of the two columns"
+            )
+        columns[role] = Column(index, found[2] if found else "")
+    for needed in ("input", "output"):
+        if needed not in columns:
+            raise InputError(
+                "E105",
+                f"the column of the {needed} is missing",
+                where=where,
+                help=f"add a column {needed}_deg with the angles of the {needed} link",
+            )
+    return columns
+
+
+def read_pair_text(source: Source, settings: FunctionSettings) -> FunctionTask:
+    """The task in a text with a separator between its cells."""
+    first, names, separator = header_of(source.text)
+    lines = source.text.split("\n")
+    starts = np.cumsum([0, *(len(line) + 1 for line in lines)]).tolist()
+    head = source.where(starts[first], len(lines[first]))
+    columns = _columns(names, head)
+    numbers: dict[str, list[float]] = {role: [] for role in columns}
+    places: list[str] = []
+    for number, line in enumerate(lines[first + 1 :], start=first + 1):
+        if not line.strip() or line.lstrip().startswith("#"):
+            continue
+        cells = line.split(separator)
+        where = source.where(starts[number], len(line))
+        if len(cells) != len(names):
+            raise InputError(
+                "E106",
+                f"{len(cells)} cells where the header has {len(names)}",
+                where=where,
+                help=f"give {len(names)} cells in every row",
+            )
+        for role, (column, unit) in columns.items():
+            cell = cells[column].strip().strip('"')
+            plain, mark = plain_number(cell, separator)
+            if mark is None:
+                raise InputError(
+                    "E104",
+                    f"{shown(cell)} is not a number",
+                    where=where,
+                    help="write a number with a decimal point, such as 12.5",
+                )
+            value = float(plain)
+            numbers[role].append(math.degrees(value) if unit == "rad" else value)
+        places.append(where)
+    arrays = {role: np.array(values) for role, values in numbers.items()}
+    return _task(arrays, settings, head, places)
+
+
+def is_pair_parquet(data: bytes) -> bool:
+    """Whether Parquet has the columns of pairs; False, too, where it cannot be read."""
+    try:
+        import pyarrow
+        import pyarrow.parquet
+
+        names = pyarrow.parquet.ParquetFile(pyarrow.BufferReader(data)).schema_arrow.names
+    except Exception:  # of many kinds; it is read as poses then, and refused there
+        return False
+    return has_pairs([str(name).strip().lower() for name in names])
+
+
+def read_pair_parquet(label: str, data: bytes, settings: FunctionSettings) -> FunctionTask:
+    """The task in the bytes of a Parquet file whose columns `is_pair_parquet` knows."""
+    import pyarrow
+    import pyarrow.parquet
+
+    try:
+        table = pyarrow.parquet.read_table(pyarrow.BufferReader(data))
+    except Exception as error:  # of many kinds, for files that are damaged
+        why = str(error).partition("\n")[0][:200]
+        help = "write the file again, or save the pairs as CSV"
+        raise InputError("E101", "this Parquet file cannot be read", why=why, help=help) from None
+    names = [str(name).strip().lower() for name in table.column_names]
+    if not table.num_rows:
+        raise no_poses("the file has no rows")
+    arrays: dict[str, FloatArray] = {}
+    for role, (index, unit) in _columns(names, label).items():
+        values = _numbers(table.column(index), f"{label}: column {names[index]}")
+        if (bad := ~np.isfinite(values)).any():
+            raise InputError(
+                "E103",
+                f"row {int(bad.argmax()) + 1} has no finite number",
+                where=f"{label}: column {names[index]}",
+                help="give a number, or delete the row",
+            )
+        arrays[role] = np.degrees(values) if unit == "rad" else values
+    places = [f"{label}: row {k + 1}" for k in range(table.num_rows)]
+    return _task(arrays, settings, label, places)
+
+
+def _numbers(column: Any, where: str) -> FloatArray:
+    from pyarrow import float64, types
+
+    kind = column.type
+    if not (types.is_floating(kind) or types.is_integer(kind) or types.is_decimal(kind)):
+        message = f"the column holds {kind}, not numbers"
+        raise InputError("E104", message, where=where, help="store it as float64")
+    return np.asarray(column.cast(float64()).to_numpy(), dtype=np.float64)
+
+
+def _task(
+    arrays: dict[str, FloatArray], settings: FunctionSettings, head: str, places: list[str]
+) -> FunctionTask:
+    weights = arrays.get(WEIGHT)
+    require_weights(weights, head)
+    inputs, outputs = arrays["input"], arrays["output"]
+    return task_of_pairs(inputs, outputs, weights, settings, where=places.__getitem__)
+
+
+def require_weights(weights: FloatArray | None, where: str | None) -> None:
+    """Refuse weights below zero, and weights that are all zero: E191."""
+    if weights is not None and not ((weights >= 0).all() and (weights > 0).any()):
+        raise InputError(
+            "E191",
+            "a weight is below zero, or all are zero",
+            where=where,
+            help="give weights above zero, or leave them out",
+        )
