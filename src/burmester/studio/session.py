@@ -1,6 +1,6 @@
 """One tab: what its page asks over its websocket, and the answers.
 
-Two things go on at once: what the hand does (follow, place, curve), where only the newest of each
+Two things go on at once: what the hand does (follow, place, curve, cognates), where only the newest of each
 counts, and the whole road, which a new one replaces.  Every message has one last answer.
 """
 
@@ -25,7 +25,7 @@ __all__ = ["Session"]
 
 HAND_S = 5.0  # for one follow; whoever takes longer is stuck
 MOST_N = 2**53
-HAND = ("follow", "place", "curve")
+HAND = ("follow", "place", "curve", "cognates")
 
 
 class Session:
