@@ -1,7 +1,8 @@
 """A task as the page holds it: an object with the keys of a task file, always in one form.
 
-Points are poses whose angle is free and not stated.  Angles are in degrees and poses are tables; outlines are corners, never the name of a drawing: the
-page names no files of this machine.  What comes from the page is read by the readers of task files.
+Points are poses whose angle is free and not stated.  Angles are in degrees and poses are tables;
+outlines are corners, never the name of a drawing: the page names no files of this machine.  What
+comes from the page is read by the readers of task files.
 """
 
 from __future__ import annotations
@@ -178,7 +179,9 @@ def _poses(task: Task) -> list[dict[str, Any]]:
             pose["exact"] = True
         if stated:
             own = stated[number]
-            pose |= plain({"free": own["free"]} if usual and "free" in own else {} if usual else own)
+            pose |= plain(
+                {"free": own["free"]} if usual and "free" in own else {} if usual else own
+            )
         poses.append(pose)
     return poses
 

@@ -43,6 +43,7 @@ __all__ = ["Road"]
 
 Answer: TypeAlias = tuple[dict[str, Any], bytes]
 
+NEVER: Final = "this synthesis cannot be followed"
 KNOWN: Final = object()  # the key of what the server kept: result and report of the task
 
 
@@ -245,7 +246,8 @@ def _json(data: object) -> Answer:
 
 def _not_followed(why: str) -> Answer:
     message = {"code": "E157", "message": why, "where": None, "why": None, "help": None}
-    return {"kind": "refused"}, as_json({"messages": [message], "solve": True})
+    whole = why.startswith(NEVER)  # not only now: nothing of this synthesis can be followed
+    return {"kind": "refused"}, as_json({"messages": [message], "solve": True, "whole": whole})
 
 
 def _content(given: Any) -> tuple[bytes, str]:

@@ -1,7 +1,8 @@
 """One tab: what its page asks over its websocket, and the answers.
 
-Two things go on at once: what the hand does (follow, place, curve, cognates), where only the newest of each
-counts, and the whole road, which a new one replaces.  Every message has one last answer.
+Two things go on at once: what the hand asks for (follow, place, curve, cognates), where only
+the newest of each counts, and the whole road, which a new one replaces.  Every message has one
+last answer.
 """
 
 from __future__ import annotations

@@ -867,13 +867,13 @@ view.Y(dyad.fixed_pivot[1])];put(at,"transform",`translate(${px(x)} ${px(y)})`)}
 const{achieved,answers:{data}}=this,rows=linkage.pose_errors;const count=Math.min(rows.length,MOST_ACHIEVED),small=count>24?.6:1;while(achieved.children.length>
 count)achieved.lastChild.remove();while(achieved.children.length<count)achieved.append(s("g",{class:"bm-achieved"},s("path",{}),s("circle",{})));let arrows="";for(let k=0;k<
 count;k+=1){const row=rows[k],group=achieved.children[k];if(group.dataset.size!==String(small)){group.dataset.size=small;put(group.children[0],"d",axes(.72*AXIS*
-small));put(group.children[1],"r",2.2*small)}if(row.x===null){put(group,"display","none");continue}put(group,"display","inline");put(group,"transform",transform(
-view.X(row.x),view.Y(row.y),radians(row.angle_deg)));group.classList.toggle("bm-elsewhere",row.at!==this.playing.path);if(this.factor&&data.poses[k])arrows+=arrow(
-view,data.poses[k],row,this.factor)}put(this.arrows,"d",arrows)}};var framesOf=way=>Array.from(way.x,(x,k)=>({x,y:way.y[k],a:way.angle[k]}));var pathOf2=(way,view)=>smoothPath(
-Array.from(way.x,view.X),Array.from(way.y,view.Y),way.round);function arrow(view,pose,row,factor){const x=view.X(pose.x),y=view.Y(pose.y),by=factor*view.scale;const dx=by*
-(row.x-pose.x),dy=-by*(row.y-pose.y),size2=Math.hypot(dx,dy);if(!(size2>=LEAST_ARROW))return"";const head=Math.min(7,.5*size2),ux=dx/size2,uy=dy/size2,tip=`${px(
-x+dx)} ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(y+dy-head*(uy+sign*.5*ux))}`;return`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(
--1)}`}var FARTHEST=30;var JUMP=2;function centrodesOf(linkage,way,scene,near2){let before=null;const points=framesOf(way).map(place=>{const point2=centrodePoint(linkage.
+small));put(group.children[1],"r",2.2*small)}if(row.x===null){put(group,"display","none");continue}put(group,"display","inline");put(group.children[0],"display",
+data.poses[k]?.angle_deg===null?"none":"inline");put(group,"transform",transform(view.X(row.x),view.Y(row.y),radians(row.angle_deg)));group.classList.toggle("bm\
+-elsewhere",row.at!==this.playing.path);if(this.factor&&data.poses[k])arrows+=arrow(view,data.poses[k],row,this.factor)}put(this.arrows,"d",arrows)}};var framesOf=way=>Array.
+from(way.x,(x,k)=>({x,y:way.y[k],a:way.angle[k]}));var pathOf2=(way,view)=>smoothPath(Array.from(way.x,view.X),Array.from(way.y,view.Y),way.round);function arrow(view,pose,row,factor){
+const x=view.X(pose.x),y=view.Y(pose.y),by=factor*view.scale;const dx=by*(row.x-pose.x),dy=-by*(row.y-pose.y),size2=Math.hypot(dx,dy);if(!(size2>=LEAST_ARROW))return"";
+const head=Math.min(7,.5*size2),ux=dx/size2,uy=dy/size2,tip=`${px(x+dx)} ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(y+dy-head*(uy+sign*
+.5*ux))}`;return`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}`}var FARTHEST=30;var JUMP=2;function centrodesOf(linkage,way,scene,near2){let before=null;const points=framesOf(way).map(place=>{const point2=centrodePoint(linkage.
 led,place);const far=!point2||Math.hypot(point2.fixed[0]-near2[0],point2.fixed[1]-near2[1])>FARTHEST*scene;const cut=far||before&&Math.hypot(point2.fixed[0]-before[0],
 point2.fixed[1]-before[1])>JUMP*scene;before=far?null:point2.fixed;return{point:far?null:point2,cut}});const pieces2=key=>points.flatMap(({point:point2,cut})=>cut?
 [null,point2&&point2[key]]:[point2[key]]);return{fixed:pieces2("fixed"),moving:pieces2("moving")}}var path=(points,X,Y)=>{let d="",pen="M";for(const point2 of points){
@@ -1386,13 +1386,13 @@ const asked=this.flying.get(frame.n);if(!asked)return;const{document:document2,i
 if(this.pending&&from===this.pending.n)this.install(this.pending);this.goOn(document2);const isThere=document2===this.solvedFor&&!this.followed;if(from===this.basis&&
 !isThere){this.followed=frame;this.followedFor=document2;this.emit("followed")}if(!this.flying.size&&![this.followedFor,this.solvedFor].includes(this.document))
 this.follow()}goOn(document2){const asked=[document2,...[...this.flying.values()].map(each=>each.document)];if(!asked.includes(this.document))this.follow()}followRefused({
-n,kind,messages=[],solve=false}){const{document:document2}=this.flying.get(n);this.flying.delete(n);if(kind==="refused"&&!solve)this.say(messages);if(solve)this.
-whole=kindOf(document2);this.goOn(document2)}takePlaced(message){const{pivots}=this.placing;this.placing=null;if(this.placeWanted&&message.kind==="placed"){this.
-placed={...message,pivots};this.emit("placed")}else if(message.kind==="refused"){this.say(message.messages)}if(this.placeWanted&&this.placeWanted!==pivots)this.
-sendPlace()}takeSolving(message){const{document:document2}=this.solving,isNow=document2===this.document;if(message.kind==="progress"||message.kind==="waiting"){
-const before=`waiting for ${message.before} other${message.before===1?"":"s"}`;if(isNow)this.setState("solving",message.kind==="progress"?message.text:before);return}
-if(message.kind==="solving")return;this.solving=null;if(message.kind==="solved"){const answer={...message,document:document2};if(isNow||!this.canFollow)this.install(
-answer);else this.pending=answer}else if(message.kind==="refused"){this.say(message.messages)}else{const[said]=[message.message].flat();this.say([{tone:message.
+n,kind,messages=[],solve=false,whole=false}){const{document:document2}=this.flying.get(n);this.flying.delete(n);if(kind==="refused"&&!solve)this.say(messages);if(whole)
+this.whole=kindOf(document2);this.goOn(document2)}takePlaced(message){const{pivots}=this.placing;this.placing=null;if(this.placeWanted&&message.kind==="placed"){
+this.placed={...message,pivots};this.emit("placed")}else if(message.kind==="refused"){this.say(message.messages)}if(this.placeWanted&&this.placeWanted!==pivots)
+this.sendPlace()}takeSolving(message){const{document:document2}=this.solving,isNow=document2===this.document;if(message.kind==="progress"||message.kind==="waiti\
+ng"){const before=`waiting for ${message.before} other${message.before===1?"":"s"}`;if(isNow)this.setState("solving",message.kind==="progress"?message.text:before);
+return}if(message.kind==="solving")return;this.solving=null;if(message.kind==="solved"){const answer={...message,document:document2};if(isNow||!this.canFollow)this.
+install(answer);else this.pending=answer}else if(message.kind==="refused"){this.say(message.messages)}else{const[said]=[message.message].flat();this.say([{tone:message.
 kind,...typeof said==="string"?{message:said}:said}])}if(isNow)this.setState("resting","")}improve(linkage){const{document:document2,options}=this,n=this.connection.
 send({do:"improve",document:document2,options,linkage});this.improving=n===null?null:{n,linkage};this.emit("improved")}takeImproved(message){if(message.kind==="\
 progress"||message.kind==="waiting"||message.kind==="solving")return;this.improving=null;if(message.kind==="improved")this.improved=message;else if(message.messages)
@@ -1401,12 +1401,12 @@ this.say(message.messages);this.emit("improved")}get isEmpty(){return this.docum
 n,result,document:document2,seconds,was}){const told=Object.entries(was??{});this.renamed=new Map(told.map(([now,{id}])=>[id,now]));this.moved=new Map(told.map(
 ([now,{moved}])=>[now,moved]));if(!told.length&&document2===this.solvedFor&&!this.followed)for(const{id}of result.linkages)this.renamed.set(id,id);const carried=id=>id===
 PLACED2&&this.placed?.linkage?id:this.renamed.get(id)??null;this.isAnother=this.solvedTask!==this.task;Object.assign(this,{solved:result,solvedFor:document2,solvedTask:this.
-task,seconds,basis:n,pending:null,followed:null,followedFor:null});for(const each of this.flying.values())each.isOld=true;this.chosen=carried(this.chosen)??result.
-linkages[0]?.id??null;this.compared=carried(this.compared);this.pinned=new Set([...this.pinned].map(carried).filter(Boolean));this.messages=[];this.emit("solved",
-"chosen","pinned","messages");if(document2!==this.document)this.follow()}takeCognate(linkage,of){this.placeWanted=null;this.placed={linkage,dyads:[],pivots:[],cost:null,
-messages:[],cognateOf:of};this.chosen=PLACED2;this.emit("placed","chosen")}letCognateGo(){const{cognateOf}=this.placed;this.placed=null;if(this.chosen===PLACED2)
-this.chosen=cognateOf;this.emit("placed","chosen")}opened(){this.flying.clear();this.solving=this.placing=this.improving=null;this.setState("resting","");this.basis=
-null;this.solve()}closed(){clearTimeout(this.resting);this.flying.clear();this.solving=this.placing=this.improving=null;this.setState("offline","")}setState(state,progress=""){
+task,seconds,basis:n,whole:null,pending:null,followed:null,followedFor:null});for(const each of this.flying.values())each.isOld=true;this.chosen=carried(this.chosen)??
+result.linkages[0]?.id??null;this.compared=carried(this.compared);this.pinned=new Set([...this.pinned].map(carried).filter(Boolean));this.messages=[];this.emit(
+"solved","chosen","pinned","messages");if(document2!==this.document)this.follow()}takeCognate(linkage,of){this.placeWanted=null;this.placed={linkage,dyads:[],pivots:[],
+cost:null,messages:[],cognateOf:of};this.chosen=PLACED2;this.emit("placed","chosen")}letCognateGo(){const{cognateOf}=this.placed;this.placed=null;if(this.chosen===
+PLACED2)this.chosen=cognateOf;this.emit("placed","chosen")}opened(){this.flying.clear();this.solving=this.placing=this.improving=null;this.setState("resting","");
+this.basis=null;this.solve()}closed(){clearTimeout(this.resting);this.flying.clear();this.solving=this.placing=this.improving=null;this.setState("offline","")}setState(state,progress=""){
 if(state===this.state&&progress===this.progress)return;this.state=state;this.progress=progress;this.emit("state")}say(messages){this.messages=messages;this.emit(
 "messages")}choose(id){if(id===this.chosen)return;this.chosen=id;this.emit("chosen");if(this.state==="dragging"||this.document!==this.solvedFor)this.follow()}pin(id){
 if(!this.pinned.delete(id))this.pinned.add(id);this.emit("pinned")}compare(id){this.compared=id===this.compared?null:id;this.emit("chosen")}select(selection){if(selection?.

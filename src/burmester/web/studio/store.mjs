@@ -42,7 +42,7 @@ export class Store {
     this.pinned = new Set();
     this.compared = null;
     this.placed = null;
-    this.whole = null; // the kind of tasks that cannot be followed, as far as it is known
+    this.whole = null; // the kind of tasks to which the last answer cannot be followed, as far as it is known
     this.task = 0; // another number for another task, which is no change of this one
     this.solvedTask = 0;
     this.selection = null;
@@ -272,11 +272,11 @@ export class Store {
   }
 
   /** What cannot be followed is solved when the hand rests. */
-  followRefused({ n, kind, messages = [], solve = false }) {
+  followRefused({ n, kind, messages = [], solve = false, whole = false }) {
     const { document } = this.flying.get(n);
     this.flying.delete(n);
     if (kind === "refused" && !solve) this.say(messages);
-    if (solve) this.whole = kindOf(document);
+    if (whole) this.whole = kindOf(document);
     this.goOn(document);
   }
 
@@ -352,7 +352,7 @@ export class Store {
     if (!told.length && document === this.solvedFor && !this.followed) for (const { id } of result.linkages) this.renamed.set(id, id);
     const carried = (id) => (id === PLACED && this.placed?.linkage ? id : this.renamed.get(id) ?? null);
     this.isAnother = this.solvedTask !== this.task; // then nothing of the answer before is missing
-    Object.assign(this, { solved: result, solvedFor: document, solvedTask: this.task, seconds, basis: n, pending: null, followed: null, followedFor: null });
+    Object.assign(this, { solved: result, solvedFor: document, solvedTask: this.task, seconds, basis: n, whole: null, pending: null, followed: null, followedFor: null });
     for (const each of this.flying.values()) each.isOld = true; // it may go on from the answer before
     this.chosen = carried(this.chosen) ?? result.linkages[0]?.id ?? null;
     this.compared = carried(this.compared);
