@@ -89,7 +89,9 @@ class TaskReader:
 def read_file(name: str, data: bytes, **options: Any) -> Task:
     """The task in a file that a page sent; its name says what kind of file it is."""
     try:
-        return read_task(f"{FROM_PAGE}{name}", data=data, **options)
+        task = read_task(f"{FROM_PAGE}{name}", data=data, **options)
+        notes = [replace(each, message=each.message.replace(FROM_PAGE, "")) for each in task.notes]
+        return replace(task, notes=tuple(notes))
     except InputError as error:
         error.where = error.where and error.where.replace(FROM_PAGE, "")
         raise

@@ -83,7 +83,8 @@ class Session:
                     await self._tell(n, "cancelled", message="called off")
             if do == "solve":
                 key = self._house.key_of(given)
-                self._solving = self._house.later(self._solve(n, key, text))
+                limit_s = self._house.limit_of(given)
+                self._solving = self._house.later(self._solve(n, key, text, limit_s))
         else:
             await self._refuse(n, "this is no message of the page")
 
@@ -116,7 +117,7 @@ class Session:
         async with self._house.workers.lent() as worker:
             return await worker.ask({"do": do}, text.encode())
 
-    async def _solve(self, n: int, key: str, text: str) -> None:
+    async def _solve(self, n: int, key: str, text: str, limit_s: float) -> None:
         """The whole road, when it is this one's turn."""
         house, start = self._house, time.monotonic()
         try:
@@ -135,7 +136,9 @@ class Session:
                     body = known.report
                 else:
                     await self._tell(n, "solving", since=time.time())
-                    head, body = await house.solve(worker, key, text.encode(), self._progress(n))
+                    head, body = await house.solve(
+                        worker, key, text.encode(), self._progress(n), limit_s
+                    )
                     if head["kind"] == "failed":
                         await self._send(n, "refused", body)
                         return
@@ -144,7 +147,7 @@ class Session:
             seconds = round(time.monotonic() - start, 3)
             await self._send(n, "solved", body, key="result", seconds=seconds, was=was)
         except TimeoutError:
-            message = f"stopped after {house.limit_s:g} s, the limit"
+            message = f"stopped after {limit_s:g} s, the limit"
             await self._tell(n, "limit", message=message)
         except WorkerEndedError:
             await self._refuse(n, "the computation ended before its time; try it once more")

@@ -56,20 +56,20 @@ undo=false,actions=[]}={}){const close=button("✕",()=>this.close(kind),{"aria-
 close(kind),this.store.undo()))]:[]];const banner=h("section",{class:`bs-banner bs-${kind}`,role:ROLES[kind]??"status","data-banner":kind},h("p",{class:"bs-bann\
 er-title"},title),messages.length?h("ul",{},messages.map(sentenceOf)):null,all.length?h("div",{class:"bs-row"},all):null,kind==="offline"?null:close);this.shown.
 get(kind)?.remove();this.shown.set(kind,banner);this.element.append(banner)}close(kind){this.shown.get(kind)?.remove();this.shown.delete(kind)}messages(){const{
-store}=this,{messages}=store,[first]=messages;this.close("limit");this.close("refused");if(!first||store.document.poses.length<2)return;if(first.tone==="cancell\
-ed")this.say("note","Solving was stopped. What is shown was followed from the answer before.",[],{actions:[this.again()]});else if(first.tone==="limit")this.say(
-"limit","Solving took too long and was stopped. Nothing is lost: what is shown was followed from the answer before.",messages,{actions:[this.again()]});else this.
-say("refused","The task cannot be solved as it is.",messages)}again(){return button("Solve again",()=>{this.close("note");this.close("limit");this.store.solve()},
-{"data-do":"solve-again"})}state(){const{store}=this,solving=store.state==="solving";if(store.state==="offline")this.offline();else this.close("offline");put(this.
-status,"data-state",store.state);if(store.state==="dragging")return;const said=store.state==="offline"?"Not connected":this.summary();say(this.status,solving?`S\
-olving${store.progress?`: ${store.progress}`:"…"}`:said);if(!solving&&said)say(this.live,said)}summary(){const{solved,solvedFor,document:document2,messages}=this.
-store;if(document2.poses.length<2)return"Two poses or more make a task";if(messages.length)return"Not solved";if(!solved||solvedFor!==document2)return"";const count=solved.
-linkages.length,usable=solved.linkages.filter(each=>each.usable).length;return count?`${count} linkage${count===1?"":"s"}, ${usable} usable`:"No linkage"}offline(){
-if(this.shown.has("offline"))return;this.say("offline","The server does not answer. Nothing is lost: the task is in this page, and can still be changed and save\
-d.",[],{actions:[button("Save the task (JSON)",()=>this.files.saveWithoutServer(),{"data-do":"save-json"}),h("span",{class:"bs-hint"},"The page tries again by i\
-tself. If the server has ended, start burmester studio with that file, or drop the file on the new page.")]})}expired(){this.close("offline");this.say("expired",
-"The server was started anew. Nothing is lost: open the address that it printed in this tab, and go on here.",[],{actions:[button("Save the task (JSON)",()=>this.
-files.saveWithoutServer())]})}};var clamp=(value,low,high)=>Math.min(Math.max(value,low),high);var degrees=angle=>angle*180/Math.PI;var radians=angle=>angle*Math.PI/180;var px=value=>Math.abs(
+store}=this,{messages}=store,[first]=messages;this.close("limit");this.close("refused");if(!first||store.document.poses.length<2)return;const shown2=store.solved?.
+linkages.length?" What is shown was followed from the answer before.":"";if(first.tone==="cancelled")this.say("note",`Solving was stopped.${shown2}`,[],{actions:[
+this.again()]});else if(first.tone==="limit")this.say("limit",`Solving took too long and was stopped. Nothing of the task is lost.${shown2}`,messages,{actions:[
+this.again()]});else this.say("refused","The task cannot be solved as it is.",messages)}again(){return button("Solve again",()=>{this.close("note");this.close("\
+limit");this.store.solve()},{"data-do":"solve-again"})}state(){const{store}=this,solving=store.state==="solving";if(store.state==="offline")this.offline();else this.
+close("offline");put(this.status,"data-state",store.state);if(store.state==="dragging")return;const said=store.state==="offline"?"Not connected":this.summary();
+say(this.status,solving?`Solving${store.progress?`: ${store.progress}`:"…"}`:said);if(!solving&&said)say(this.live,said)}summary(){const{solved,solvedFor,document:document2,
+messages}=this.store;if(document2.poses.length<2)return"Two poses or more make a task";if(messages.length)return"Not solved";if(!solved||solvedFor!==document2)return"";
+const count=solved.linkages.length,usable=solved.linkages.filter(each=>each.usable).length;return count?`${count} linkage${count===1?"":"s"}, ${usable} usable`:
+"No linkage"}offline(){if(this.shown.has("offline"))return;this.say("offline","The server does not answer. Nothing is lost: the task is in this page, and can st\
+ill be changed and saved.",[],{actions:[button("Save the task (JSON)",()=>this.files.saveWithoutServer(),{"data-do":"save-json"}),h("span",{class:"bs-hint"},"Th\
+e page tries again by itself. If the server has ended, start burmester studio with that file, or drop the file on the new page.")]})}expired(){this.close("offli\
+ne");this.say("expired","The server was started anew. Nothing is lost: open the address that it printed in this tab, and go on here.",[],{actions:[button("Save \
+the task (JSON)",()=>this.files.saveWithoutServer())]})}};var clamp=(value,low,high)=>Math.min(Math.max(value,low),high);var degrees=angle=>angle*180/Math.PI;var radians=angle=>angle*Math.PI/180;var px=value=>Math.abs(
 value)<1e7?+value.toFixed(5):Math.sign(value)*1e7;function fixed(value,digits){if(value===null||value===void 0||!Number.isFinite(value))return"–";const text=value.
 toFixed(digits);return Number(text)===0?text.replace("-",""):text}function figure(value){if(value===null||!Number.isFinite(value))return"–";if(value===0)return"\
 0";if(Math.abs(value)>=99.5&&Math.abs(value)<1e6)return value.toFixed(0);const rounded=value.toExponential(1),[digits,power]=rounded.split("e");if(power>=-4&&power<
@@ -610,11 +610,12 @@ Object.assign(this,{store,scene,done,name:"path",stroke:null});this.hint="Press,
 this.stroke??=[[held.from.X,held.from.Y]];this.stroke.push([point2.X,point2.Y]);put(this.line,"d",`M${this.stroke.map(each=>each.map(px).join(" ")).join("L")}`);
 return true}release(){const{stroke}=this;this.stroke=null;put(this.line,"d","");const length=stroke?.slice(1).reduce((sum,[x,y],k)=>sum+Math.hypot(x-stroke[k][0],
 y-stroke[k][1]),0);if(length>LEAST_LENGTH)this.finish(resampled(stroke,{meets:MEETS,apart:APART,smooth:SMOOTHED}))}finish({points,closed:closed2}){const{store,scene}=this,
-{view}=scene;const there=points.map(([X,Y])=>[scene.rounded(view.x(X)),scene.rounded(view.y(Y))]);const{document:document2,options,name}=store;if(isPath(document2))
-store.edit(now=>pathDocument(now,there,closed2));else store.replace({document:pathDocument({length_unit:document2.length_unit,angle_unit:"deg",poses:[]},there,closed2),
-options,name});store.select(null);scene.use(null);this.done?.(points.length,closed2)}key(event){if(event.key==="Escape")this.scene.use(null);else if(event.key===
-"Enter")this.finish(this.oval());else return false;return true}oval(){const{width,height}=this.scene.size,size2=.2*Math.min(width,height);const points=Array.from(
-{length:OVAL},(_,k)=>2*Math.PI*k/OVAL).map(a=>[width/2+1.5*size2*Math.cos(a),height/2-size2*Math.sin(a)]);return{points,closed:true}}end(){this.line.remove()}};var PathPanel=class{constructor(store,scene){this.store=store;this.title=h("h3",{});this.closed=tick("closed: the last point leads back to the first",on=>store.
+{view}=scene;const there=points.map(([X,Y])=>[scene.rounded(view.x(X)),scene.rounded(view.y(Y))]);const{document:document2,options}=store;if(isPath(document2))store.
+replace({document:pathDocument(document2,there,closed2),options});else store.replace({document:pathDocument({length_unit:document2.length_unit,angle_unit:"deg",
+poses:[]},there,closed2),options,name:"path"});store.select(null);scene.use(null);this.done?.(points.length,closed2)}key(event){if(event.key==="Escape")this.scene.
+use(null);else if(event.key==="Enter")this.finish(this.oval());else return false;return true}oval(){const{width,height}=this.scene.size,size2=.2*Math.min(width,
+height);const points=Array.from({length:OVAL},(_,k)=>2*Math.PI*k/OVAL).map(a=>[width/2+1.5*size2*Math.cos(a),height/2-size2*Math.sin(a)]);return{points,closed:true}}end(){
+this.line.remove()}};var PathPanel=class{constructor(store,scene){this.store=store;this.title=h("h3",{});this.closed=tick("closed: the last point leads back to the first",on=>store.
 edit(document2=>setPath(document2,{closed:on})),{"data-key":"path-closed"});this.fields=["x","y"].map(key=>({key,field:new NumberField({label:`how far points ma\
 y be missed in ${key}`,options:()=>({kind:"length",unit:store.document.length_unit,optional:true,least:0}),step:()=>scene.step/10,commit:value=>store.edit(document2=>setUsual(
 document2,key,value)),attributes:{"data-key":`usual-${key}`,placeholder:"–"}})}));this.hint=h("p",{class:"bs-hint"});this.element=h("div",{class:"bs-path-pane\
@@ -1356,16 +1357,16 @@ family_map:null,outcome:{message:"Two poses or more make a task"}};var PLACED2="
 connection=connection;this.mostFlying=mostFlying;this.renamed=new Map;this.moved=new Map;this.document=document2;this.options=options;this.name=name;this.settings=
 settings;this.history=new History;this.solved=null;this.solvedFor=null;this.followed=null;this.followedFor=null;this.state="resting";this.progress="";this.chosen=
 null;this.pinned=new Set;this.compared=null;this.placed=null;this.whole=null;this.task=0;this.solvedTask=0;this.selection=null;this.messages=[];this.listeners=new Map;
-this.basis=null;this.pending=null;this.flying=new Map;this.placing=null;this.solving=null;this.improving=null;this.improved=null;connection.on("message",message=>this.
-take(message));connection.on("open",()=>this.opened());connection.on("closed",()=>this.closed())}on(names,fn){for(const name of[names].flat().join(" ").split(/\s+/)){
-if(!this.listeners.has(name))this.listeners.set(name,[]);this.listeners.get(name).push(fn)}}emit(...names){const told=new Set;for(const name of names){for(const fn of this.
-listeners.get(name)??[]){if(told.has(fn))continue;told.add(fn);fn(name)}}}edit(change,{gesture=null}={}){const next=change(this.document);if(next===this.document)
-return;this.history.record(this.version,gesture);this.document=next;this.changed()}option(name,value){this.history.record(this.version,null);const{[name]:_,...rest}=this.
-options;this.options=value===void 0?rest:{...rest,[name]:value};this.changed()}setting(name,value){this.history.record(this.version,null);this.settings=withKeys(
-this.settings,{[name]:value});this.emit("document")}rename(name){this.history.record(this.version,null);this.name=name;this.emit("document")}replace({document:document2,
-options={},name=this.name,settings=this.settings}){this.history.record(this.version,null);this.tasks=(this.tasks??0)+1;Object.assign(this,{document:document2,options,
-name,settings,selection:null,placed:null,task:this.tasks});this.changed();this.emit("selection","placed")}undo(){this.goTo(this.history.undo(this.version))}redo(){
-this.goTo(this.history.redo(this.version))}abandon(gesture){this.goTo(this.history.abandon(gesture))}get version(){return{document:this.document,options:this.options,
+this.basis=null;this.pending=null;this.flying=new Map;this.placing=null;this.solving=null;connection.on("message",message=>this.take(message));connection.on("op\
+en",()=>this.opened());connection.on("closed",()=>this.closed())}on(names,fn){for(const name of[names].flat().join(" ").split(/\s+/)){if(!this.listeners.has(name))
+this.listeners.set(name,[]);this.listeners.get(name).push(fn)}}emit(...names){const told=new Set;for(const name of names){for(const fn of this.listeners.get(name)??
+[]){if(told.has(fn))continue;told.add(fn);fn(name)}}}edit(change,{gesture=null}={}){const next=change(this.document);if(next===this.document)return;this.history.
+record(this.version,gesture);this.document=next;this.changed()}option(name,value){this.history.record(this.version,null);const{[name]:_,...rest}=this.options;this.
+options=value===void 0?rest:{...rest,[name]:value};this.changed()}setting(name,value){this.history.record(this.version,null);this.settings=withKeys(this.settings,
+{[name]:value});this.emit("document")}rename(name){this.history.record(this.version,null);this.name=name;this.emit("document")}replace({document:document2,options={},
+name=this.name,settings=this.settings}){this.history.record(this.version,null);this.tasks=(this.tasks??0)+1;Object.assign(this,{document:document2,options,name,
+settings,selection:null,placed:null,task:this.tasks});this.changed();this.emit("selection","placed")}undo(){this.goTo(this.history.undo(this.version))}redo(){this.
+goTo(this.history.redo(this.version))}abandon(gesture){this.goTo(this.history.abandon(gesture))}get version(){return{document:this.document,options:this.options,
 name:this.name,settings:this.settings,task:this.task}}goTo(version){if(!version)return;const isSame=version.document===this.document&&version.options===this.options;
 Object.assign(this,version);if(isSame)this.emit("document");else this.changed()}changed(){if(this.placed?.cognateOf)this.letCognateGo();this.follow();this.emit(
 "document");if(this.isEmpty)this.forget();if(this.state!=="offline")this.setState("dragging");this.solveAfterRest()}get shown(){return[...new Set([this.chosen,this.
@@ -1381,36 +1382,34 @@ solving.options===options){this.setState("solving","");return}const n=this.conne
 if(!this.placeWanted){this.placed=null;this.emit("placed")}else if(!this.placing){this.sendPlace()}}sendPlace(){const{document:document2,options,placeWanted:pivots}=this;
 const n=this.connection.send({do:"place",document:document2,options,pivots});this.placing=n===null?null:{n,pivots}}take(message){const{n,kind}=message;if(kind===
 "followed")this.takeFollowed(message);else if(this.flying.has(n))this.followRefused(message);else if(n===this.placing?.n)this.takePlaced(message);else if(n===this.
-improving?.n)this.takeImproved(message);else if(n===this.solving?.n||kind==="cancelled"&&this.solving&&n>this.solving.n)this.takeSolving(message)}takeFollowed(frame){
-const asked=this.flying.get(frame.n);if(!asked)return;const{document:document2,isOld}=asked,from=frame.from??(isOld?null:this.basis);this.flying.delete(frame.n);
-if(this.pending&&from===this.pending.n)this.install(this.pending);this.goOn(document2);const isThere=document2===this.solvedFor&&!this.followed;if(from===this.basis&&
-!isThere){this.followed=frame;this.followedFor=document2;this.emit("followed")}if(!this.flying.size&&![this.followedFor,this.solvedFor].includes(this.document))
-this.follow()}goOn(document2){const asked=[document2,...[...this.flying.values()].map(each=>each.document)];if(!asked.includes(this.document))this.follow()}followRefused({
-n,kind,messages=[],solve=false,whole=false}){const{document:document2}=this.flying.get(n);this.flying.delete(n);if(kind==="refused"&&!solve)this.say(messages);if(whole)
-this.whole=kindOf(document2);this.goOn(document2)}takePlaced(message){const{pivots}=this.placing;this.placing=null;if(this.placeWanted&&message.kind==="placed"){
-this.placed={...message,pivots};this.emit("placed")}else if(message.kind==="refused"){this.say(message.messages)}if(this.placeWanted&&this.placeWanted!==pivots)
-this.sendPlace()}takeSolving(message){const{document:document2}=this.solving,isNow=document2===this.document;if(message.kind==="progress"||message.kind==="waiti\
-ng"){const before=`waiting for ${message.before} other${message.before===1?"":"s"}`;if(isNow)this.setState("solving",message.kind==="progress"?message.text:before);
-return}if(message.kind==="solving")return;this.solving=null;if(message.kind==="solved"){const answer={...message,document:document2};if(isNow||!this.canFollow)this.
-install(answer);else this.pending=answer}else if(message.kind==="refused"){this.say(message.messages)}else{const[said]=[message.message].flat();this.say([{tone:message.
-kind,...typeof said==="string"?{message:said}:said}])}if(isNow)this.setState("resting","")}improve(linkage){const{document:document2,options}=this,n=this.connection.
-send({do:"improve",document:document2,options,linkage});this.improving=n===null?null:{n,linkage};this.emit("improved")}takeImproved(message){if(message.kind==="\
-progress"||message.kind==="waiting"||message.kind==="solving")return;this.improving=null;if(message.kind==="improved")this.improved=message;else if(message.messages)
-this.say(message.messages);this.emit("improved")}get isEmpty(){return this.document.poses.length<FEWEST}forget(){if(!this.solved)return;const result={...this.solved,
-...NO_ANSWER,space:{...this.solved.space,quadrics:[]}};this.install({n:null,result,document:this.document,seconds:null});if(this.placed)this.place([])}install({
-n,result,document:document2,seconds,was}){const told=Object.entries(was??{});this.renamed=new Map(told.map(([now,{id}])=>[id,now]));this.moved=new Map(told.map(
-([now,{moved}])=>[now,moved]));if(!told.length&&document2===this.solvedFor&&!this.followed)for(const{id}of result.linkages)this.renamed.set(id,id);const carried=id=>id===
-PLACED2&&this.placed?.linkage?id:this.renamed.get(id)??null;this.isAnother=this.solvedTask!==this.task;Object.assign(this,{solved:result,solvedFor:document2,solvedTask:this.
-task,seconds,basis:n,whole:null,pending:null,followed:null,followedFor:null});for(const each of this.flying.values())each.isOld=true;this.chosen=carried(this.chosen)??
-result.linkages[0]?.id??null;this.compared=carried(this.compared);this.pinned=new Set([...this.pinned].map(carried).filter(Boolean));this.messages=[];this.emit(
-"solved","chosen","pinned","messages");if(document2!==this.document)this.follow()}takeCognate(linkage,of){this.placeWanted=null;this.placed={linkage,dyads:[],pivots:[],
-cost:null,messages:[],cognateOf:of};this.chosen=PLACED2;this.emit("placed","chosen")}letCognateGo(){const{cognateOf}=this.placed;this.placed=null;if(this.chosen===
-PLACED2)this.chosen=cognateOf;this.emit("placed","chosen")}opened(){this.flying.clear();this.solving=this.placing=this.improving=null;this.setState("resting","");
-this.basis=null;this.solve()}closed(){clearTimeout(this.resting);this.flying.clear();this.solving=this.placing=this.improving=null;this.setState("offline","")}setState(state,progress=""){
-if(state===this.state&&progress===this.progress)return;this.state=state;this.progress=progress;this.emit("state")}say(messages){this.messages=messages;this.emit(
-"messages")}choose(id){if(id===this.chosen)return;this.chosen=id;this.emit("chosen");if(this.state==="dragging"||this.document!==this.solvedFor)this.follow()}pin(id){
-if(!this.pinned.delete(id))this.pinned.add(id);this.emit("pinned")}compare(id){this.compared=id===this.compared?null:id;this.emit("chosen")}select(selection){if(selection?.
-kind===this.selection?.kind&&selection?.index===this.selection?.index)return;this.selection=selection;this.emit("selection")}};var MOST4=40;var Results=class{constructor(store,answers){Object.assign(this,{store,answers,cards:new Map,wanted:{order:"rank",filter:"all",type:""},all:false});
+solving?.n||kind==="cancelled"&&this.solving&&n>this.solving.n)this.takeSolving(message)}takeFollowed(frame){const asked=this.flying.get(frame.n);if(!asked)return;
+const{document:document2,isOld}=asked,from=frame.from??(isOld?null:this.basis);this.flying.delete(frame.n);if(this.pending&&from===this.pending.n)this.install(this.
+pending);this.goOn(document2);const isThere=document2===this.solvedFor&&!this.followed;if(from===this.basis&&!isThere){this.followed=frame;this.followedFor=document2;
+this.emit("followed")}if(!this.flying.size&&![this.followedFor,this.solvedFor].includes(this.document))this.follow()}goOn(document2){const asked=[document2,...[
+...this.flying.values()].map(each=>each.document)];if(!asked.includes(this.document))this.follow()}followRefused({n,kind,messages=[],solve=false,whole=false}){const{
+document:document2}=this.flying.get(n);this.flying.delete(n);if(kind==="refused"&&!solve)this.say(messages);if(whole)this.whole=kindOf(document2);this.goOn(document2)}takePlaced(message){
+const{pivots}=this.placing;this.placing=null;if(this.placeWanted&&message.kind==="placed"){this.placed={...message,pivots};this.emit("placed")}else if(message.kind===
+"refused"){this.say(message.messages)}if(this.placeWanted&&this.placeWanted!==pivots)this.sendPlace()}takeSolving(message){const{document:document2}=this.solving,
+isNow=document2===this.document,isAnother=this.solvedTask!==this.task;if(message.kind==="progress"||message.kind==="waiting"){const before=`waiting for ${message.
+before} other${message.before===1?"":"s"}`;if(isNow)this.setState("solving",message.kind==="progress"?message.text:before);return}if(message.kind==="solving")return;
+this.solving=null;if(message.kind==="solved"){const answer={...message,document:document2};if(isNow||!this.canFollow)this.install(answer);else this.pending=answer}else if(isAnother){
+this.forget("There is no answer to this task yet")}if(message.kind==="refused"){this.say(message.messages)}else if(message.kind!=="solved"){const[said]=[message.
+message].flat();this.say([{tone:message.kind,...typeof said==="string"?{message:said}:said}])}if(isNow)this.setState("resting","")}get isEmpty(){return this.document.
+poses.length<FEWEST}forget(message=NO_ANSWER.outcome.message){if(!this.solved)return;const result={...this.solved,...NO_ANSWER,outcome:{message},space:{...this.
+solved.space,quadrics:[]}};this.install({n:null,result,document:this.document,seconds:null});if(this.placed)this.place([])}install({n,result,document:document2,
+seconds,was}){const told=Object.entries(was??{});this.renamed=new Map(told.map(([now,{id}])=>[id,now]));this.moved=new Map(told.map(([now,{moved}])=>[now,moved]));
+if(!told.length&&document2===this.solvedFor&&!this.followed)for(const{id}of result.linkages)this.renamed.set(id,id);const carried=id=>id===PLACED2&&this.placed?.
+linkage?id:this.renamed.get(id)??null;this.isAnother=this.solvedTask!==this.task;Object.assign(this,{solved:result,solvedFor:document2,solvedTask:this.task,seconds,
+basis:n,whole:null,pending:null,followed:null,followedFor:null});for(const each of this.flying.values())each.isOld=true;this.chosen=carried(this.chosen)??result.
+linkages[0]?.id??null;this.compared=carried(this.compared);this.pinned=new Set([...this.pinned].map(carried).filter(Boolean));this.messages=[];this.emit("solved",
+"chosen","pinned","messages");if(document2!==this.document)this.follow()}takeCognate(linkage,of){this.placeWanted=null;this.placed={linkage,dyads:[],pivots:[],cost:null,
+messages:[],cognateOf:of};this.chosen=PLACED2;this.emit("placed","chosen")}letCognateGo(){const{cognateOf}=this.placed;this.placed=null;if(this.chosen===PLACED2)
+this.chosen=cognateOf;this.emit("placed","chosen")}opened(){this.flying.clear();this.solving=this.placing=null;this.setState("resting","");this.basis=null;this.
+solve()}closed(){clearTimeout(this.resting);this.flying.clear();this.solving=this.placing=null;this.setState("offline","")}setState(state,progress=""){if(state===
+this.state&&progress===this.progress)return;this.state=state;this.progress=progress;this.emit("state")}say(messages){this.messages=messages;this.emit("messages")}choose(id){
+if(id===this.chosen)return;this.chosen=id;this.emit("chosen");if(this.state==="dragging"||this.document!==this.solvedFor)this.follow()}pin(id){if(!this.pinned.delete(
+id))this.pinned.add(id);this.emit("pinned")}compare(id){this.compared=id===this.compared?null:id;this.emit("chosen")}select(selection){if(selection?.kind===this.
+selection?.kind&&selection?.index===this.selection?.index)return;this.selection=selection;this.emit("selection")}};var MOST4=40;var Results=class{constructor(store,answers){Object.assign(this,{store,answers,cards:new Map,wanted:{order:"rank",filter:"all",type:""},all:false});
 const choice2=(name,entries,key)=>h("label",{},`${name} `,h("select",{"data-choice":key,onchange:event=>this.want(key,event.target.value)},entries.map(([value,text])=>h(
 "option",{value},text))));this.types=choice2("Type",[["","any"]],"type");this.title=h("h2",{},"Linkages");this.status=h("p",{class:"bs-results-status",role:"sta\
 tus"});this.doubt=h("p",{class:"bs-doubt"});this.gone=h("p",{class:"bs-gone-note"});this.list=h("div",{class:"bs-cards"});this.more=h("button",{type:"button",class:"\
@@ -1735,34 +1734,35 @@ this.drawOptions();this.drawVerdicts()}};function tell(element,sentences){give(e
 const[[shape,stated]]=Object.entries(limitsOf(document2)[k][key]);return setLimit(document2,k,{[key]:shapeOf(shape,change(shape==="point"?[stated]:stated))})}var range=(least2,most)=>least2===
 void 0&&most===void 0?void 0:{...least2===void 0?{}:{least:least2},...most===void 0?{}:{most}};function kindsOf2(kinds){const list=kinds.filter(({box})=>box.checked).
 map(({kind})=>kind);return list.length===kinds.length||!list.length?void 0:list}function typesOf(types){const list=types.filter(({box})=>box.checked).map(({type})=>type);
-return list.length?list:void 0}var EMPTY="An empty task: add poses or points here, draw a path, paste rows of a spreadsheet, drop a file, or take a template.";var POINTS2="Drag a point of the\
- curve, or draw another one.";var FIRST="Drag a pose by its point, turn it by the tip of its arrow: every linkage answers at once.";function layOut(root,store,start){
-const scene=new Scene(store),banners=new Banners(store),files=new Files(store,start,banners);banners.files=files;const body=new BodyEditor(store,scene),regions=new Regions(
-store,scene);const panel2=new TaskPanel(store,scene,regions,body,files),handles=new PoseHandles(store,scene),table3=new PoseTable(store,scene);const curve=new PathCurve(
-store,scene),path2=new PathPanel(store,scene);const player=h("div",{id:"bs-player"}),results=h("aside",{id:"bs-results","aria-label":"Linkages"}),panels=h("div",
-{id:"bs-panels"});const name=h("input",{class:"bs-text bs-task-name","aria-label":"Name of the task",autocomplete:"off",spellcheck:"false",onchange:()=>store.rename(
-name.value.trim()||"task")});const undo=button("↶",()=>store.undo(),{"data-do":"undo",title:"Undo (Ctrl+Z)","aria-label":"Undo"}),redo=button("↷",()=>store.
-redo(),{"data-do":"redo",title:"Redo (Ctrl+Shift+Z)","aria-label":"Redo"});const show=()=>{if(document.activeElement!==name)give(name,"value",store.name.replace(
-/[\r\n]+/g," "));give(undo,"disabled",!store.history.canUndo);give(redo,"disabled",!store.history.canRedo)};store.on("document",show);show();root.replaceChildren(
-h("header",{class:"bs-head"},h("h1",{},"burmester studio"),name,h("div",{class:"bs-row"},undo,redo),files.element,banners.status,banners.live),banners.element,h(
-"main",{class:"bs-main"},h("section",{class:"bs-left","aria-label":"The task"},h("div",{class:"bm-card"},h("h2",{},"Poses"),table3.element,path2.element),h("div",
-{class:"bm-card"},panel2.element,new ExportSettings(store,scene).element)),h("section",{class:"bs-stage bm-card","aria-label":"The plane"},stageBar(store,scene),
-scene.element,player),results,panels));scene.resize();addResults(store,scene,{player,results,panels});listenToKeys(store,scene,files);new Autosave(store);files.
-opened=refitWhenSolved(store,scene);return{scene,banners,files,body,regions,panel:panel2,handles,table:table3,curve,path:path2}}function stageBar(store,scene){const pose=button(
-"Add poses",()=>scene.use(scene.tool?.name==="pose"?null:new PoseTool(store,scene)),{"data-do":"add-poses","aria-pressed":"false"});const toggle=(text,name,make,data)=>button(
-text,()=>scene.use(scene.tool?.name===name?null:make()),{"data-do":data,"aria-pressed":"false"});const point2=toggle("Add points","point",()=>new PointTool(store,
-scene),"add-points");const path2=toggle("Draw a path","path",()=>new PathTool(store,scene,()=>scene.fit()),"draw-path");const stop=button("Stop solving",()=>store.
-cancel(),{"data-do":"cancel",hidden:true});const line2=h("p",{class:"bs-line"});const show=()=>{say(line2,scene.tool?.hint??(store.document.poses.length?isPath(
-store.document)?POINTS2:FIRST:EMPTY));for(const[each,name]of[[pose,"pose"],[point2,"point"],[path2,"path"]])put(each,"aria-pressed",scene.tool?.name===name)};scene.
-on("tool",show);store.on("document",show);let waiting;store.on("state",()=>{clearTimeout(waiting);if(store.state==="solving")waiting=setTimeout(()=>give(stop,"h\
-idden",false),700);else give(stop,"hidden",true)});show();return h("div",{class:"bs-bar"},h("div",{class:"bs-row"},pose,point2,path2,button("Fit",()=>scene.fitAgain(),
-{"data-do":"fit",title:"Show the poses; once more: all of the body and the regions, too (0)"}),button("+",()=>scene.zoom(1.25,scene.size.width/2,scene.size.height/
-2),{"aria-label":"Zoom in"}),button("−",()=>scene.zoom(.8,scene.size.width/2,scene.size.height/2),{"aria-label":"Zoom out"}),...keyList(),stop),line2)}function refitWhenSolved(store,scene){
-let waits=true;scene.hold(()=>(waits?[]:currentLinkage(store)?.led??[]).map(dyad=>dyad.fixed_pivot).filter(point2=>point2&&isNear(store,point2)));store.on("solv\
-ed",()=>{const refit=waits&&scene.isFitted;waits=false;if(refit)scene.fit()});return()=>{waits=true;scene.fit()}}function isNear({solved,document:{poses}},[x,y]){
-return poses.some(pose=>Math.hypot(x-pose.x,y-pose.y)<3*(solved?.scene??Infinity))}function listenToTokens(connection,banners){addEventListener("hashchange",async()=>{
-if(!location.hash)return;await connection.session();banners.close("expired");connection.open()});let asked=false;connection.on("closed",async()=>{if(asked)return;
-asked=true;try{await connection.get("/start")}catch(error){if(error instanceof Refused&&error.status===401)banners.expired()}asked=false})}async function main(){
+return list.length?list:void 0}var EMPTY="An empty task: add poses or points here, draw a path, paste rows of a spreadsheet, drop a file, or take a template.";var CURVE="Drag a point of the c\
+urve, or draw another one: the linkages are looked for anew.";var POINTS2="Drag a pose or a point: the linkages are looked for anew.";var FIRST="Drag a pose by \
+its point, turn it by the tip of its arrow: every linkage answers at once.";function layOut(root,store,start){const scene=new Scene(store),banners=new Banners(store),
+files=new Files(store,start,banners);banners.files=files;const body=new BodyEditor(store,scene),regions=new Regions(store,scene);const panel2=new TaskPanel(store,
+scene,regions,body,files),handles=new PoseHandles(store,scene),table3=new PoseTable(store,scene);const curve=new PathCurve(store,scene),path2=new PathPanel(store,
+scene);const player=h("div",{id:"bs-player"}),results=h("aside",{id:"bs-results","aria-label":"Linkages"}),panels=h("div",{id:"bs-panels"});const name=h("input",
+{class:"bs-text bs-task-name","aria-label":"Name of the task",autocomplete:"off",spellcheck:"false",onchange:()=>store.rename(name.value.trim()||"task")});const undo=button(
+"↶",()=>store.undo(),{"data-do":"undo",title:"Undo (Ctrl+Z)","aria-label":"Undo"}),redo=button("↷",()=>store.redo(),{"data-do":"redo",title:"Redo (Ctrl+Shif\
+t+Z)","aria-label":"Redo"});const show=()=>{if(document.activeElement!==name)give(name,"value",store.name.replace(/[\r\n]+/g," "));give(undo,"disabled",!store.history.
+canUndo);give(redo,"disabled",!store.history.canRedo)};store.on("document",show);show();root.replaceChildren(h("header",{class:"bs-head"},h("h1",{},"burmester s\
+tudio"),name,h("div",{class:"bs-row"},undo,redo),files.element,banners.status,banners.live),banners.element,h("main",{class:"bs-main"},h("section",{class:"bs-le\
+ft","aria-label":"The task"},h("div",{class:"bm-card"},h("h2",{},"Poses"),table3.element,path2.element),h("div",{class:"bm-card"},panel2.element,new ExportSettings(
+store,scene).element)),h("section",{class:"bs-stage bm-card","aria-label":"The plane"},stageBar(store,scene,()=>files.opened()),scene.element,player),results,panels));
+scene.resize();addResults(store,scene,{player,results,panels});listenToKeys(store,scene,files);new Autosave(store);files.opened=refitWhenSolved(store,scene);return{
+scene,banners,files,body,regions,panel:panel2,handles,table:table3,curve,path:path2}}function stageBar(store,scene,drawn){const pose=button("Add poses",()=>scene.
+use(scene.tool?.name==="pose"?null:new PoseTool(store,scene)),{"data-do":"add-poses","aria-pressed":"false"});const toggle=(text,name,make,data)=>button(text,()=>scene.
+use(scene.tool?.name===name?null:make()),{"data-do":data,"aria-pressed":"false"});const point2=toggle("Add points","point",()=>new PointTool(store,scene),"add-p\
+oints");const path2=toggle("Draw a path","path",()=>new PathTool(store,scene,drawn),"draw-path");const stop=button("Stop solving",()=>store.cancel(),{"data-do":"\
+cancel",hidden:true});const line2=h("p",{class:"bs-line"});const show=()=>{say(line2,scene.tool?.hint??(store.document.poses.length?isPath(store.document)?CURVE:
+store.document.poses.some(isPoint)?POINTS2:FIRST:EMPTY));for(const[each,name]of[[pose,"pose"],[point2,"point"],[path2,"path"]])put(each,"aria-pressed",scene.tool?.
+name===name)};scene.on("tool",show);store.on("document",show);let waiting;store.on("state",()=>{clearTimeout(waiting);if(store.state==="solving")waiting=setTimeout(
+()=>give(stop,"hidden",false),700);else give(stop,"hidden",true)});show();return h("div",{class:"bs-bar"},h("div",{class:"bs-row"},pose,point2,path2,button("Fit",
+()=>scene.fitAgain(),{"data-do":"fit",title:"Show the poses; once more: all of the body and the regions, too (0)"}),button("+",()=>scene.zoom(1.25,scene.size.width/
+2,scene.size.height/2),{"aria-label":"Zoom in"}),button("−",()=>scene.zoom(.8,scene.size.width/2,scene.size.height/2),{"aria-label":"Zoom out"}),...keyList(),
+stop),line2)}function refitWhenSolved(store,scene){let waits=true;scene.hold(()=>(waits?[]:currentLinkage(store)?.led??[]).map(dyad=>dyad.fixed_pivot).filter(point2=>point2&&
+isNear(store,point2)));store.on("solved",()=>{const refit=waits&&scene.isFitted;waits=false;if(refit)scene.fit()});return()=>{waits=true;scene.fit()}}function isNear({
+solved,document:{poses}},[x,y]){return poses.some(pose=>Math.hypot(x-pose.x,y-pose.y)<3*(solved?.scene??Infinity))}function listenToTokens(connection,banners){addEventListener(
+"hashchange",async()=>{if(!location.hash)return;await connection.session();banners.close("expired");connection.open()});let asked=false;connection.on("closed",async()=>{
+if(asked)return;asked=true;try{await connection.get("/start")}catch(error){if(error instanceof Refused&&error.status===401)banners.expired()}asked=false})}async function main(){
 const root=document.getElementById("studio"),connection=new Connection(decodeFrame);try{await connection.session();const start=await connection.get("/start"),kept=keptHere();
 const store=new Store({connection,document:start.document,options:start.options,name:start.name,...kept});const parts=layOut(root,store,start);if(start.saved&&!kept)
 offerSaved(store,parts,start.saved);listenToTokens(connection,parts.banners);document.documentElement.dataset.ready="true";connection.open()}catch(error){root.replaceChildren(

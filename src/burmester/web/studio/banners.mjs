@@ -57,8 +57,9 @@ export class Banners {
     this.close("limit");
     this.close("refused");
     if (!first || store.document.poses.length < 2) return; // the line above the plane says what to do
-    if (first.tone === "cancelled") this.say("note", "Solving was stopped. What is shown was followed from the answer before.", [], { actions: [this.again()] });
-    else if (first.tone === "limit") this.say("limit", "Solving took too long and was stopped. Nothing is lost: what is shown was followed from the answer before.", messages, { actions: [this.again()] });
+    const shown = store.solved?.linkages.length ? " What is shown was followed from the answer before." : "";
+    if (first.tone === "cancelled") this.say("note", `Solving was stopped.${shown}`, [], { actions: [this.again()] });
+    else if (first.tone === "limit") this.say("limit", `Solving took too long and was stopped. Nothing of the task is lost.${shown}`, messages, { actions: [this.again()] });
     else this.say("refused", "The task cannot be solved as it is.", messages);
   }
 

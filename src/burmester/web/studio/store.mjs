@@ -19,7 +19,7 @@ const PLACED = "placed"; // chosen: the linkage whose pivots were put down by ha
 /** What decides whether a task can be followed from another one: how many poses it has, what is free, and whether it is a path. */
 const kindOf = ({ poses, path }) => `${poses.map(({ free }) => free?.join("") ?? "-").join()} ${path ? path.closed : ""}`;
 
-/** Events: document, solved, followed, state, chosen, pinned, placed, improved, selection, messages. */
+/** Events: document, solved, followed, state, chosen, pinned, placed, selection, messages. */
 export class Store {
   /** @param {{ connection: import("./connection.mjs").Connection, document: object, options?: object, name?: string, settings?: object, mostFlying?: number }} start */
   constructor({ connection, document, options = {}, name = "task", settings = {}, mostFlying = MOST_FLYING }) {
@@ -53,8 +53,6 @@ export class Store {
     this.flying = new Map(); // the follows in flight by their numbers: { document, isOld }
     this.placing = null; // the place in flight: { n, wanted }
     this.solving = null; // the solve in flight: { n, document, options }
-    this.improving = null; // the search for better linkages in flight: { n, linkage }
-    this.improved = null; // its last answer
     connection.on("message", (message) => this.take(message));
     connection.on("open", () => this.opened());
     connection.on("closed", () => this.closed());
@@ -245,7 +243,6 @@ export class Store {
     if (kind === "followed") this.takeFollowed(message);
     else if (this.flying.has(n)) this.followRefused(message);
     else if (n === this.placing?.n) this.takePlaced(message);
-    else if (n === this.improving?.n) this.takeImproved(message);
     else if (n === this.solving?.n || (kind === "cancelled" && this.solving && n > this.solving.n)) this.takeSolving(message);
   }
 
@@ -294,7 +291,7 @@ export class Store {
 
   /** While a newer task is at hand, what an older search says is not told. */
   takeSolving(message) {
-    const { document } = this.solving, isNow = document === this.document;
+    const { document } = this.solving, isNow = document === this.document, isAnother = this.solvedTask !== this.task;
     if (message.kind === "progress" || message.kind === "waiting") {
       const before = `waiting for ${message.before} other${message.before === 1 ? "" : "s"}`;
       if (isNow) this.setState("solving", message.kind === "progress" ? message.text : before);
@@ -306,28 +303,16 @@ export class Store {
       const answer = { ...message, document };
       if (isNow || !this.canFollow) this.install(answer);
       else this.pending = answer; // a frame that goes on from it brings it
-    } else if (message.kind === "refused") {
+    } else if (isAnother) {
+      this.forget("There is no answer to this task yet");
+    }
+    if (message.kind === "refused") {
       this.say(message.messages);
-    } else {
+    } else if (message.kind !== "solved") {
       const [said] = [message.message].flat();
       this.say([{ tone: message.kind, ...(typeof said === "string" ? { message: said } : said) }]);
     }
     if (isNow) this.setState("resting", "");
-  }
-
-  /** Look for the nearest better linkages around one that is not usable. */
-  improve(linkage) {
-    const { document, options } = this, n = this.connection.send({ do: "improve", document, options, linkage });
-    this.improving = n === null ? null : { n, linkage };
-    this.emit("improved");
-  }
-
-  takeImproved(message) {
-    if (message.kind === "progress" || message.kind === "waiting" || message.kind === "solving") return;
-    this.improving = null;
-    if (message.kind === "improved") this.improved = message;
-    else if (message.messages) this.say(message.messages);
-    this.emit("improved");
   }
 
   /** Whether the task has too few poses for any linkage. */
@@ -335,10 +320,10 @@ export class Store {
     return this.document.poses.length < FEWEST;
   }
 
-  /** No linkage of an older task stays on the page of an empty one. */
-  forget() {
+  /** No linkage of an older task stays on the page of an empty one, or of another that has no answer. */
+  forget(message = NO_ANSWER.outcome.message) {
     if (!this.solved) return;
-    const result = { ...this.solved, ...NO_ANSWER, space: { ...this.solved.space, quadrics: [] } };
+    const result = { ...this.solved, ...NO_ANSWER, outcome: { message }, space: { ...this.solved.space, quadrics: [] } };
     this.install({ n: null, result, document: this.document, seconds: null });
     if (this.placed) this.place([]);
   }
@@ -379,7 +364,7 @@ export class Store {
 
   opened() {
     this.flying.clear();
-    this.solving = this.placing = this.improving = null;
+    this.solving = this.placing = null;
     this.setState("resting", "");
     this.basis = null; // the server knows nothing of what was solved before
     this.solve();
@@ -388,7 +373,7 @@ export class Store {
   closed() {
     clearTimeout(this.resting);
     this.flying.clear();
-    this.solving = this.placing = this.improving = null;
+    this.solving = this.placing = null;
     this.setState("offline", "");
   }
 

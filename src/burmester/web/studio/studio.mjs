@@ -7,7 +7,7 @@ import { Banners } from "./banners.mjs";
 import { BodyEditor } from "./body_editor.mjs";
 import { currentLinkage } from "./conditions.mjs";
 import { Connection, Refused } from "./connection.mjs";
-import { isPath } from "./document.mjs";
+import { isPath, isPoint } from "./document.mjs";
 import { ExportSettings } from "./export_settings.mjs";
 import { button } from "./fields.mjs";
 import { Files } from "./files.mjs";
@@ -24,7 +24,8 @@ import { Store } from "./store.mjs";
 import { TaskPanel } from "./task_panel.mjs";
 
 const EMPTY = "An empty task: add poses or points here, draw a path, paste rows of a spreadsheet, drop a file, or take a template.";
-const POINTS = "Drag a point of the curve, or draw another one.";
+const CURVE = "Drag a point of the curve, or draw another one: the linkages are looked for anew.";
+const POINTS = "Drag a pose or a point: the linkages are looked for anew.";
 const FIRST = "Drag a pose by its point, turn it by the tip of its arrow: every linkage answers at once.";
 
 /** The parts of the page, laid out in `root`. */
@@ -49,7 +50,7 @@ function layOut(root, store, start) {
     banners.element,
     h("main", { class: "bs-main" },
       h("section", { class: "bs-left", "aria-label": "The task" }, h("div", { class: "bm-card" }, h("h2", {}, "Poses"), table.element, path.element), h("div", { class: "bm-card" }, panel.element, new ExportSettings(store, scene).element)),
-      h("section", { class: "bs-stage bm-card", "aria-label": "The plane" }, stageBar(store, scene), scene.element, player),
+      h("section", { class: "bs-stage bm-card", "aria-label": "The plane" }, stageBar(store, scene, () => files.opened()), scene.element, player),
       results, panels),
   );
   scene.resize();
@@ -61,15 +62,15 @@ function layOut(root, store, start) {
 }
 
 /** What is done in the plane, and one line that says what can be dragged. */
-function stageBar(store, scene) {
+function stageBar(store, scene, drawn) {
   const pose = button("Add poses", () => scene.use(scene.tool?.name === "pose" ? null : new PoseTool(store, scene)), { "data-do": "add-poses", "aria-pressed": "false" });
   const toggle = (text, name, make, data) => button(text, () => scene.use(scene.tool?.name === name ? null : make()), { "data-do": data, "aria-pressed": "false" });
   const point = toggle("Add points", "point", () => new PointTool(store, scene), "add-points");
-  const path = toggle("Draw a path", "path", () => new PathTool(store, scene, () => scene.fit()), "draw-path");
+  const path = toggle("Draw a path", "path", () => new PathTool(store, scene, drawn), "draw-path");
   const stop = button("Stop solving", () => store.cancel(), { "data-do": "cancel", hidden: true });
   const line = h("p", { class: "bs-line" });
   const show = () => {
-    say(line, scene.tool?.hint ?? (store.document.poses.length ? (isPath(store.document) ? POINTS : FIRST) : EMPTY));
+    say(line, scene.tool?.hint ?? (store.document.poses.length ? (isPath(store.document) ? CURVE : store.document.poses.some(isPoint) ? POINTS : FIRST) : EMPTY));
     for (const [each, name] of [[pose, "pose"], [point, "point"], [path, "path"]]) put(each, "aria-pressed", scene.tool?.name === name);
   };
   scene.on("tool", show);
